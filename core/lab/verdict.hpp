@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "core/model/scene.hpp"
+#include "core/model/state.hpp"
+#include "core/sim/report.hpp"
+
+namespace substep {
+
+/// Watches a run against its scene's criteria: the one judge of browser, command line and tests.
+class Verdict {
+ public:
+  /// @param start report of the state that the run starts from (Simulator::observe)
+  Verdict(const Scene& scene, const State& state, const FrameReport& start);
+
+  /// Looks at one more frame. After the first failure nothing changes.
+  void add(const Scene& scene, const State& state, const FrameReport& report);
+
+  [[nodiscard]] bool holds() const { return !failed_; }
+  [[nodiscard]] double failed_at() const { return failed_at_; }  ///< [s], of a failed run
+  [[nodiscard]] bool not_finite() const { return not_finite_; }
+  /// "holds", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  bool failed_ = false;
+  bool not_finite_ = false;
+  double failed_at_ = 0.0;
+  double energy_at_start_ = 0.0;
+  Vec3 watched_start_ = Vec3::Zero();
+  std::string text_ = "holds";
+};
+
+}  // namespace substep

@@ -1,0 +1,24 @@
+#pragma once
+// FNV-1a over the bits of doubles: the state hash that must be the same natively and in the browser.
+
+#include <bit>
+#include <cstdint>
+
+namespace substep {
+
+class Hash {
+ public:
+  void add(std::uint64_t word) {
+    for (int i = 0; i < 8; ++i) {
+      value_ ^= (word >> (8 * i)) & 0xffU;
+      value_ *= 0x100000001b3ULL;
+    }
+  }
+  void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+}  // namespace substep

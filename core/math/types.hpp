@@ -1,0 +1,23 @@
+#pragma once
+// Vector types of the whole core. SI units, Y up, right-handed, double precision.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <vector>
+
+namespace substep {
+
+using Vec3 = Eigen::Vector3d;
+using Vec6 = Eigen::Matrix<double, 6, 1>;  ///< linear part first, then angular
+using Mat3 = Eigen::Matrix3d;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Quat = Eigen::Quaterniond;
+
+/// [x]: the matrix with [x] y = x cross y.
+inline Mat3 skew(const Vec3& x) {
+  Mat3 m;
+  m << 0.0, -x.z(), x.y(), x.z(), 0.0, -x.x(), -x.y(), x.x(), 0.0;
+  return m;
+}
+
+}  // namespace substep

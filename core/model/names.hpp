@@ -1,0 +1,77 @@
+#pragma once
+// The names of settings as scene files, the command line and links spell them: one table for all.
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "core/model/settings.hpp"
+
+namespace substep {
+
+template <class Enum>
+struct Named {
+  std::string_view name;
+  Enum value;
+};
+
+template <class Enum>
+struct NameTable;  // specialised below for every enum that people see
+
+template <>
+struct NameTable<SolverKind> {
+  static constexpr std::array entries{Named<SolverKind>{"pgs", SolverKind::kPgs},
+                                      Named<SolverKind>{"bpp", SolverKind::kBpp}};
+};
+template <>
+struct NameTable<Mode> {
+  static constexpr std::array entries{
+      Named<Mode>{"none", Mode::kNone}, Named<Mode>{"const", Mode::kConst},
+      Named<Mode>{"damping", Mode::kDamping}, Named<Mode>{"adaptive", Mode::kAdaptive},
+      Named<Mode>{"capped", Mode::kCapped}};
+};
+template <>
+struct NameTable<Policy> {
+  static constexpr std::array entries{Named<Policy>{"frame", Policy::kFrame},
+                                      Named<Policy>{"substep", Policy::kSubstep}};
+};
+template <>
+struct NameTable<Integrator> {
+  static constexpr std::array entries{Named<Integrator>{"euler", Integrator::kEuler},
+                                      Named<Integrator>{"leapfrog", Integrator::kLeapfrog}};
+};
+template <>
+struct NameTable<Drift> {
+  static constexpr std::array entries{Named<Drift>{"auto", Drift::kAuto},
+                                      Named<Drift>{"full", Drift::kFull},
+                                      Named<Drift>{"soft", Drift::kSoft}};
+};
+template <>
+struct NameTable<ContactStiffness> {
+  static constexpr std::array entries{
+      Named<ContactStiffness>{"paper", ContactStiffness::kPaper},
+      Named<ContactStiffness>{"exact", ContactStiffness::kExact}};
+};
+template <>
+struct NameTable<Gyroscopic> {
+  static constexpr std::array entries{Named<Gyroscopic>{"explicit", Gyroscopic::kExplicit},
+                                      Named<Gyroscopic>{"implicit", Gyroscopic::kImplicit}};
+};
+
+template <class Enum>
+constexpr std::string_view name_of(Enum value) {
+  for (const auto& entry : NameTable<Enum>::entries) {
+    if (entry.value == value) return entry.name;
+  }
+  return "?";
+}
+
+template <class Enum>
+constexpr std::optional<Enum> value_of(std::string_view name) {
+  for (const auto& entry : NameTable<Enum>::entries) {
+    if (entry.name == name) return entry.value;
+  }
+  return std::nullopt;
+}
+
+}  // namespace substep

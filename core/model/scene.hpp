@@ -1,0 +1,62 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/model/body.hpp"
+#include "core/model/effects.hpp"
+#include "core/model/joint.hpp"
+#include "core/model/settings.hpp"
+
+namespace substep {
+
+/// One law for all contacts of a scene.
+struct ContactModel {
+  double compliance = 1e-10;           // C of the normal row [m/N]
+  double friction_compliance = 1e-10;  // C of the friction rows [m/N]
+  double margin = 0.02;                // rows are made for gaps up to this [m]
+};
+
+/// When a run counts as failed, and what it is measured by.
+struct Criteria {
+  double duration = 10.0;                // how long `check` runs [s]
+  double joint_gap = 0.1;                // a larger gap of any joint fails [m]
+  std::optional<double> energy_gain;     // more energy than at the start by this fails [J]
+  std::optional<double> energy_scale;    // energy that can be exchanged: 100 % of the drift [J]
+  struct Displacement {
+    int body = 0;          // index into Scene::bodies
+    double distance = 0.1;  // [m]
+  };
+  std::optional<Displacement> displacement;  // this body moved farther than this fails
+  std::optional<int> track;                  // the body whose path counts as the motion
+  bool holds = true;  // the verdict expected with the scene's own settings
+};
+
+/// Where a view starts looking from.
+struct Camera {
+  Vec3 eye{0.0, 5.0, 20.0};    // world [m]
+  Vec3 target{0.0, 3.0, 0.0};  // world [m]
+};
+
+/// Everything that does not change while a scene runs.
+struct Scene {
+  std::string name;         // identifier: file name without .json
+  std::string title;        // for people
+  std::string group;        // "paper", "exact", "stress", "playground"
+  std::string description;  // what it is
+  std::string look_for;     // what to watch
+
+  double frame = 1.0 / 60.0;  // h, the displayed frame [s]
+  Vec3 gravity{0.0, -9.81, 0.0};  // [m/s^2]
+  Effects effects;
+  std::vector<Body> bodies;
+  std::vector<Joint> joints;
+  ContactModel contact;
+  double regularisation = 0.0;  // added to the diagonal of J M^-1 J^T whatever the step [1/kg]
+  Settings settings;            // to start with
+  Criteria criteria;
+  Camera camera;
+};
+
+}  // namespace substep

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+
+namespace substep {
+
+enum class SolverKind : std::uint8_t { kPgs, kBpp };
+/// How a step is kept stable (the stabilisation mode).
+enum class Mode : std::uint8_t { kNone, kConst, kDamping, kAdaptive, kCapped };
+/// How often the number of sub-steps is decided.
+enum class Policy : std::uint8_t { kFrame, kSubstep };
+enum class Integrator : std::uint8_t { kEuler, kLeapfrog };
+/// Law of the drift correction. kAuto is full with the direct solver and soft with PGS.
+enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
+/// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
+enum class ContactStiffness : std::uint8_t { kPaper, kExact };
+enum class Gyroscopic : std::uint8_t { kExplicit, kImplicit };
+
+/// Everything a person changes while a scene runs. The defaults are the paper's.
+struct Settings {
+  SolverKind solver = SolverKind::kBpp;
+  int iterations = 25;      // PGS sweeps per sub-step, >= 1
+  bool warm_start = false;  // PGS starts from the last sub-step's forces
+  int pivots = 20;          // block pivoting steps of BPP before its single-pivot fallback, >= 1
+
+  Mode mode = Mode::kAdaptive;
+  double alpha = 0.1;  // stability threshold of Eq. 5, in (0, 1] [-]; N goes with alpha^-1/2
+  int n = 16;          // sub-steps per frame in mode kConst, >= 1
+  int n_max = 64;      // most sub-steps per frame in mode kAdaptive, >= 1
+  int n_cap = 4;       // most sub-steps per frame in mode kCapped, damping beyond, >= 1
+  Policy policy = Policy::kFrame;
+  double memory = 0.7;  // decay of r from sub-step to sub-step in policy kSubstep, in [0, 1) [-]
+  bool probe = true;    // one solve before the first frame tells the forces that N needs
+
+  Integrator integrator = Integrator::kEuler;
+  Gyroscopic gyroscopic = Gyroscopic::kImplicit;
+  Drift drift = Drift::kAuto;
+  double drift_tau = 1.0 / 480.0;  // time constant of the soft drift law, > 0 [s]
+  ContactStiffness contact_stiffness = ContactStiffness::kPaper;
+  bool watch_stiffness = false;  // evaluate K even where the mode does not need it, for a view
+
+  friend bool operator==(const Settings&, const Settings&) = default;
+};
+
+/// kAuto resolved: the law that the solver is used with.
+inline Drift drift_law(const Settings& s) {
+  if (s.drift != Drift::kAuto) return s.drift;
+  return s.solver == SolverKind::kPgs ? Drift::kSoft : Drift::kFull;
+}
+
+}  // namespace substep

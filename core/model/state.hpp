@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math/types.hpp"
+
+namespace substep {
+
+struct Scene;
+
+/// Force of a constraint that outlives its sub-step: seeds friction bounds and warm starts.
+struct StoredForce {
+  std::uint64_t id = 0;         // of the constraint block
+  double lambda[5] = {};        // per row [N or N m]
+};
+
+/// Everything that changes while a scene runs. A copy is a snapshot: the motion goes on from it bit
+/// for bit.
+struct State {
+  std::vector<Vec3> x;  // centre of mass, world [m]
+  std::vector<Quat> q;  // q_WB, unit [-]
+  std::vector<Vec6> u;  // (velocity [m/s], angular velocity [rad/s]), world
+  std::int64_t frame = 0;
+  double time = 0.0;         // [s]
+  double dt_previous = 0.0;  // the last sub-step, 0 at the start [s]
+
+  double r = 0.0;              // largest k_i/M_ii, Eq. 9 [1/s^2]
+  std::vector<Vec6> k;         // diagonal of K per body, Eq. 4 [N/m, N m/rad], or empty
+  bool stiffness_known = false;  // false at the start: a probe is due
+  std::vector<StoredForce> forces;
+  std::vector<Vec6> u_synchronised;  // u at the time of x, for energies
+};
+
+State initial_state(const Scene& scene);
+
+/// Hash of the bits of time, poses and velocities.
+std::uint64_t state_hash(const State& state);
+
+}  // namespace substep

@@ -1,0 +1,11 @@
+# CMake toolchain of the web build: Emscripten's own, wherever it is installed, with the host's
+# header-only packages (Eigen, nlohmann-json) within reach of find_package.
+find_program(EM_CONFIG em-config REQUIRED)
+execute_process(COMMAND ${EM_CONFIG} EMSCRIPTEN_ROOT OUTPUT_VARIABLE emscripten_root
+                OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+include(${emscripten_root}/cmake/Modules/Platform/Emscripten.cmake)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
+
+# Programs of the web build run under Node.js: ctest starts them with it.
+find_program(NODE_EXECUTABLE NAMES node nodejs REQUIRED)
+set(CMAKE_CROSSCOMPILING_EMULATOR ${NODE_EXECUTABLE})

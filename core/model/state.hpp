@@ -13,6 +13,7 @@ struct Scene;
 struct StoredForce {
   std::uint64_t id = 0;         // of the constraint block
   double lambda[5] = {};        // per row [N or N m]
+  std::int8_t tight[5] = {};    // per row: active set of BPP, -1 at lo, 0 free, +1 at hi
 };
 
 /// Everything that changes while a scene runs. A copy is a snapshot: the motion goes on from it bit

@@ -1,0 +1,136 @@
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/collision/shape_pairs.hpp"
+
+namespace substep {
+
+namespace {
+
+/// A corner of the clipped incident face, in the frame of the reference box. The two lines that meet
+/// in it name it while the boxes slide: 0..3 edges of the incident face, 4..7 sides of the reference.
+struct Corner {
+  Vec3 p = Vec3::Zero();
+  unsigned in = 0;   // line that arrives, walking round the polygon
+  unsigned out = 0;  // line that leaves
+};
+
+/// A quadrilateral cut by four half-planes has at most eight corners.
+struct Polygon {
+  std::array<Corner, 8> corners;
+  std::size_t size = 0;
+  void add(const Corner& corner) {
+    if (size < corners.size()) corners[size++] = corner;
+  }
+};
+
+/// Keeps what lies at sign * p[axis] <= limit (Sutherland and Hodgman).
+Polygon clip(const Polygon& in, int axis, double sign, double limit, unsigned side) {
+  Polygon out;
+  for (std::size_t i = 0; i < in.size; ++i) {
+    const Corner& from = in.corners[i];
+    const Corner& to = in.corners[(i + 1) % in.size];
+    const double d_from = sign * from.p[axis] - limit;
+    const double d_to = sign * to.p[axis] - limit;
+    if (d_from <= 0.0) out.add(from);
+    const bool leaves = d_from < 0.0 && d_to > 0.0;
+    const bool enters = d_from > 0.0 && d_to < 0.0;
+    if (leaves || enters) {
+      const double t = d_from / (d_from - d_to);
+      const Vec3 p = from.p + t * (to.p - from.p);
+      out.add(leaves ? Corner{p, from.out, side} : Corner{p, side, from.out});
+    }
+  }
+  return out;
+}
+
+/// The best separating face of box r against box i: axis, sign and gap (largest over the faces).
+struct Face {
+  int axis = 0;
+  double sign = 1.0;
+  double gap = -std::numeric_limits<double>::infinity();
+};
+
+Face best_face(const Vec3& centre_R, const Mat3& R_RI, const Vec3& half_r, const Vec3& half_i) {
+  Face best;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double sign = centre_R[axis] < 0.0 ? -1.0 : 1.0;
+    const double reach = std::abs(R_RI(axis, 0)) * half_i[0] + std::abs(R_RI(axis, 1)) * half_i[1] +
+                         std::abs(R_RI(axis, 2)) * half_i[2];
+    const double gap = std::abs(centre_R[axis]) - half_r[axis] - reach;
+    if (gap > best.gap) best = {axis, sign, gap};
+  }
+  return best;
+}
+
+/// Points of the incident box i on the reference face of box r. Body a is i, body b is r.
+void face_points(const Placed& i, const Vec3& half_i, const Placed& r, const Vec3& half_r,
+                 const Face& face, double margin, ContactPoints& out) {
+  const Mat3 R_RI = r.R.transpose() * i.R;
+  const Vec3 centre_R = r.R.transpose() * (i.x - r.x);
+
+  // The incident face looks most against the reference normal.
+  int axis = 0;
+  for (int k = 1; k < 3; ++k) {
+    if (std::abs(R_RI(face.axis, k)) > std::abs(R_RI(face.axis, axis))) axis = k;
+  }
+  const double sign = face.sign * R_RI(face.axis, axis) > 0.0 ? -1.0 : 1.0;
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  Polygon polygon;
+  for (unsigned c = 0; c < 4; ++c) {
+    Vec3 p_I;
+    p_I[axis] = sign * half_i[axis];
+    p_I[u] = (c == 0 || c == 3) ? -half_i[u] : half_i[u];
+    p_I[v] = c < 2 ? -half_i[v] : half_i[v];
+    polygon.add({centre_R + R_RI * p_I, (c + 3) % 4, c});
+  }
+  const int s = (face.axis + 1) % 3;
+  const int t = (face.axis + 2) % 3;
+  polygon = clip(polygon, s, 1.0, half_r[s], 4);
+  polygon = clip(polygon, s, -1.0, half_r[s], 5);
+  polygon = clip(polygon, t, 1.0, half_r[t], 6);
+  polygon = clip(polygon, t, -1.0, half_r[t], 7);
+
+  const Vec3 n = face.sign * r.R.col(face.axis);
+  const unsigned faces = static_cast<unsigned>(face.axis) * 24U + static_cast<unsigned>(axis) * 4U +
+                         (face.sign > 0.0 ? 2U : 0U) + (sign > 0.0 ? 1U : 0U);
+  for (std::size_t k = 0; k < polygon.size; ++k) {
+    const Corner& corner = polygon.corners[k];
+    const double gap = face.sign * corner.p[face.axis] - half_r[face.axis];
+    if (gap > margin) continue;
+    ContactPoint point;
+    point.a = i.body;
+    point.b = r.body;
+    point.id = contact_id(i.body, r.body, faces * 64U + corner.in * 8U + corner.out);
+    point.n = n;
+    point.gap = gap;
+    point.point_a = r.R * corner.p - (i.x - r.x);
+    point.point_b = r.R * corner.p - gap * n;
+    point.field_arm = point.point_a;
+    out.push_back(point);
+  }
+}
+
+}  // namespace
+
+void box_box(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
+             ContactPoints& out) {
+  const Mat3 R_BA = b.R.transpose() * a.R;
+  const Vec3 d = a.x - b.x;
+  const Face on_b = best_face(b.R.transpose() * d, R_BA, box_b.half_extents, box_a.half_extents);
+  if (on_b.gap > margin) return;
+  const Face on_a =
+      best_face(-(a.R.transpose() * d), R_BA.transpose(), box_a.half_extents, box_b.half_extents);
+  if (on_a.gap > margin) return;
+  // b's face unless a's is clearly better: two faces that lie on each other must not take turns.
+  constexpr double kPreference = 1e-4;  // [m]
+  if (on_a.gap > on_b.gap + kPreference) {
+    face_points(b, box_b.half_extents, a, box_a.half_extents, on_a, margin, out);
+  } else {
+    face_points(a, box_a.half_extents, b, box_b.half_extents, on_b, margin, out);
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,29 @@
+#include "core/collision/shape_pairs.hpp"
+
+namespace substep {
+
+void box_plane(const Placed& a, const Box& box, const Placed& b, double margin, ContactPoints& out) {
+  const Vec3 n = b.R.col(1);
+  const Vec3 centre = a.x - b.x;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const Vec3 corner_A{(corner & 1U) != 0U ? box.half_extents.x() : -box.half_extents.x(),
+                        (corner & 2U) != 0U ? box.half_extents.y() : -box.half_extents.y(),
+                        (corner & 4U) != 0U ? box.half_extents.z() : -box.half_extents.z()};
+    const Vec3 r = a.R * corner_A;
+    const Vec3 p = centre + r;
+    const double gap = n.dot(p);
+    if (gap > margin) continue;
+    ContactPoint point;
+    point.a = a.body;
+    point.b = b.body;
+    point.id = contact_id(a.body, b.body, corner);
+    point.n = n;
+    point.gap = gap;
+    point.point_a = r;
+    point.point_b = p - gap * n;
+    point.field_arm = r;
+    out.push_back(point);
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,64 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/collision/shape_pairs.hpp"
+
+namespace substep {
+
+// A sphere is convex and so is the box: one point. The distance field of the box at the centre is
+// that of the nearest face, edge or corner; along the directions in which the centre lies outside the
+// box the field is round, along the others it is flat.
+void sphere_box(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box, double margin,
+                ContactPoints& out) {
+  const Vec3 c = b.R.transpose() * (a.x - b.x);  // centre in the box's frame
+  const Vec3 nearest = c.cwiseMax(-box.half_extents).cwiseMin(box.half_extents);
+  const Vec3 d = c - nearest;
+  const double squared = d.squaredNorm();
+  const double reach = sphere.radius + margin;
+  if (squared > reach * reach) return;
+
+  ContactPoint point;
+  Vec3 n_B = Vec3::Zero();
+  Vec3 surface_B = nearest;
+  double distance = 0.0;
+  if (squared > 0.0) {
+    distance = std::sqrt(squared);
+    n_B = d / distance;
+    Mat3 H_B = Mat3::Zero();
+    int outside = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (d[i] != 0.0) {
+        H_B(i, i) = 1.0 / distance;
+        ++outside;
+      }
+    }
+    if (outside > 1) {  // an edge or a corner
+      H_B -= n_B * n_B.transpose() / distance;
+      point.H = b.R * H_B * b.R.transpose();
+    }
+  } else {  // the centre is inside: out through the nearest face
+    int axis = 0;
+    double depth = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const double to_face = box.half_extents[i] - std::abs(c[i]);
+      if (to_face < depth) {
+        depth = to_face;
+        axis = i;
+      }
+    }
+    n_B[axis] = c[axis] < 0.0 ? -1.0 : 1.0;
+    surface_B[axis] = n_B[axis] * box.half_extents[axis];
+    distance = -depth;
+  }
+  point.a = a.body;
+  point.b = b.body;
+  point.id = contact_id(a.body, b.body, 0);
+  point.n = b.R * n_B;
+  point.gap = distance - sphere.radius;
+  point.point_a = -sphere.radius * point.n;
+  point.point_b = b.R * surface_B;
+  out.push_back(point);
+}
+
+}  // namespace substep

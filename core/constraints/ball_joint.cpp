@@ -1,0 +1,36 @@
+#include "core/constraints/ball_joint.hpp"
+
+namespace substep {
+
+// C    = x_a + r_a - x_b - r_b
+// dC/dt = v_a + omega_a x r_a - v_b - omega_b x r_b
+// J_a  = [ E  -[r_a] ],  J_b = [ -E  [r_b] ]
+// so row i has the linear part e_i and the angular part r_a x e_i.
+void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block) {
+  block.r_a = a.R * joint.anchor_a;
+  block.r_b = b.R * joint.anchor_b;
+  // Differences of centres first: near the origin or far from it, the error is the same.
+  const Vec3 phi = (a.x - b.x) + (block.r_a - block.r_b);
+  const Mat3 A = -skew(block.r_a);
+  const Mat3 B = skew(block.r_b);
+  for (int i = 0; i < 3; ++i) {
+    block.phi[i] = phi[i];
+    block.C[i] = joint.compliance;
+    for (int j = 0; j < 3; ++j) {
+      block.J_a[i][j] = i == j ? 1.0 : 0.0;
+      block.J_b[i][j] = i == j ? -1.0 : 0.0;
+      block.J_a[i][3 + j] = A(i, j);
+      block.J_b[i][3 + j] = B(i, j);
+    }
+  }
+}
+
+// The force l acts on a at r_a. Turning a by theta moves the arm by theta x r_a, so the torque
+// r_a x l changes by (theta x r_a) x l = l x (r_a x theta) = [l][r_a] theta.
+void ball_stiffness(const Block& block, StiffnessMatrix& K) {
+  const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
+  if (block.a >= 0) K.add_angular(block.a, block.a, skew(l) * skew(block.r_a));
+  if (block.b >= 0) K.add_angular(block.b, block.b, -skew(l) * skew(block.r_b));
+}
+
+}  // namespace substep

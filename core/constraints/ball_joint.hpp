@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/constraints/block.hpp"
+#include "core/constraints/stiffness_matrix.hpp"
+#include "core/model/joint.hpp"
+#include "core/model/state.hpp"
+
+namespace substep {
+
+/// World pose of one side of a joint. For kWorld: origin, no rotation.
+struct Side {
+  Vec3 x = Vec3::Zero();           // centre of mass, world [m]
+  Mat3 R = Mat3::Identity();       // R_WB
+};
+
+/// Rows 0..2: phi = x_a + r_a - x_b - r_b, world axes [m].
+void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block);
+
+/// d(J^T lambda)/dq of rows 0..2 (method: K_aa = [l][r_a], K_bb = -[l][r_b]).
+void ball_stiffness(const Block& block, StiffnessMatrix& K);
+
+}  // namespace substep

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/math/types.hpp"
+
+namespace substep {
+
+inline constexpr int kMaxRows = 5;
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// Block::tight of a row that no earlier sub-step knows.
+inline constexpr std::int8_t kUnknownSet = 2;
+
+enum class BlockKind : std::uint8_t { kBall, kHinge, kContact };
+
+/// The rows of one joint or of one contact point, on at most two moving bodies. Eq. 3 row by row:
+///   J u+ + softness * impulse = -bias,   lo <= impulse <= hi.
+/// A static body or the world is -1 and has no columns.
+struct Block {
+  BlockKind kind = BlockKind::kBall;
+  int a = -1;            // moving body, or -1
+  int b = -1;            // moving body, or -1
+  int rows = 0;          // used of kMaxRows
+  int body_a = -1;       // index into Scene::bodies, moving or not
+  int body_b = -1;       // the same, -1 for the world
+  std::uint64_t id = 0;  // the same from sub-step to sub-step
+
+  double J_a[kMaxRows][6];    // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
+  double J_b[kMaxRows][6];    // d phi / d q_b
+  double phi[kMaxRows];       // constraint error [m or rad]; a positive contact gap is open
+  double C[kMaxRows];         // compliance [m/N or rad/(N m)]
+  double bias[kMaxRows];      // drift correction [m/s or rad/s]
+  double softness[kMaxRows];  // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
+  double impulse[kMaxRows];   // dt lambda: seed in, solution out [N s or N m s]
+  double lambda[kMaxRows];    // constraint force of this sub-step [N or N m]
+  std::int8_t tight[kMaxRows];  // active set of BPP: -1 at lo, 0 free, +1 at hi
+
+  // Contact only: row 0 is the normal, rows 1 and 2 friction with bounds +-mu * impulse[0].
+  double mu = 0.0;             // [-]
+  bool was_closed = false;     // carried a force in the last sub-step
+  Vec3 n = Vec3::Zero();       // from b to a, world
+  Vec3 t1 = Vec3::Zero();      // tangents, world; filled where there is friction
+  Vec3 t2 = Vec3::Zero();
+  Vec3 rho = Vec3::Zero();     // from the centre of b to the touching point of a, gap included [m]
+  Mat3 H = Mat3::Zero();       // curvature of b's distance field at a's point [1/m]: dn = H dx
+  // All kinds: arms from the centres of mass to the point of action, world [m].
+  Vec3 r_a = Vec3::Zero();
+  Vec3 r_b = Vec3::Zero();
+  Vec3 arm_a = Vec3::Zero();   // contact: arm of a's point that follows a's rotation (0 for a sphere)
+  // Hinge: axis u fixed in a, and v1, v2 across it fixed in b, world.
+  Vec3 axis = Vec3::Zero();
+  Vec3 v1 = Vec3::Zero();
+  Vec3 v2 = Vec3::Zero();
+
+  [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
+};
+
+/// The blocks of a sub-step: cleared and refilled without giving memory back.
+class Blocks {
+ public:
+  void reserve(std::size_t n) { storage_.reserve(n); }
+  void clear() { size_ = 0; }
+  [[nodiscard]] std::size_t capacity() const { return storage_.capacity(); }
+  /// A block with undefined contents at the end.
+  Block& append() {
+    if (size_ == storage_.size()) storage_.emplace_back();
+    return storage_[size_++];
+  }
+  [[nodiscard]] std::span<Block> all() { return {storage_.data(), size_}; }
+  [[nodiscard]] std::span<const Block> all() const { return {storage_.data(), size_}; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+ private:
+  std::vector<Block> storage_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace substep

@@ -1,0 +1,119 @@
+#include "core/constraints/contact.hpp"
+
+#include <cmath>
+
+namespace substep {
+
+namespace {
+
+void set_row(Block& block, int row, const Vec3& direction) {
+  const Vec3 A = block.r_a.cross(direction);
+  const Vec3 B = block.r_b.cross(direction);
+  for (int j = 0; j < 3; ++j) {
+    block.J_a[row][j] = direction[j];
+    block.J_b[row][j] = -direction[j];
+    block.J_a[row][3 + j] = A[j];
+    block.J_b[row][3 + j] = -B[j];
+  }
+}
+
+}  // namespace
+
+// C     = D(p) - radius, with n = grad D
+// dC/dt = n . (v_a + omega_a x r_a - v_b - omega_b x r_b)
+// The parts of r_a and r_b along n drop out of the cross products, so any point between the surfaces
+// serves. Both bodies take the one halfway: then friction is one force at one point, and angular
+// momentum is conserved.
+void contact_row(const ContactPoint& point, const ContactModel& model, const Vec3& x_a,
+                 const Vec3& x_b, Block& block) {
+  block.kind = BlockKind::kContact;
+  block.id = point.id;
+  block.body_a = point.a;
+  block.body_b = point.b;
+  block.rows = 1;
+  block.n = point.n;
+  const Vec3 b_from_a = x_b - x_a;
+  block.r_a = 0.5 * (point.point_a + (b_from_a + point.point_b));
+  block.r_b = 0.5 * (point.point_b + (point.point_a - b_from_a));
+  block.arm_a = point.field_arm;
+  block.rho = (x_a - x_b) + point.field_arm;
+  block.H = point.H;
+  block.mu = 0.0;
+  block.phi[0] = point.gap;
+  block.C[0] = model.compliance;
+  set_row(block, 0, point.n);
+}
+
+void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block& block) {
+  // x unless the normal is nearly along it: a fixed preference, not a comparison that rounding decides.
+  const Vec3 x = R_WB.col(0);
+  const Vec3 helper = std::abs(block.n.dot(x)) < 0.8 ? x : Vec3(R_WB.col(2));
+  block.t1 = (helper - block.n * block.n.dot(helper)).normalized();
+  block.t2 = block.n.cross(block.t1);
+  block.mu = mu;
+  block.rows = 3;
+  for (int row = 1; row < 3; ++row) {
+    block.phi[row] = 0.0;  // where it slid, it stays
+    block.C[row] = model.friction_compliance;
+    set_row(block, row, row == 1 ? block.t1 : block.t2);
+  }
+}
+
+void contact_stiffness_paper(const Block& block, StiffnessMatrix& K) {
+  Vec3 l = block.lambda[0] * block.n;
+  if (block.rows == 3) l += block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
+  if (block.a >= 0) K.add_angular(block.a, block.a, skew(l) * skew(block.r_a));
+  if (block.b >= 0) K.add_angular(block.b, block.b, -skew(l) * skew(block.r_b));
+}
+
+// The force on a is l n at p = x_a + r (r = arm_a, turning with a), that on b is -l n with the torque
+// -l rho x n about x_b, rho = p - x_b. The normal turns with b and with p in b's distance field:
+//   dn = theta_b x n + H (dp - theta_b x rho),   dp = dx_a - dx_b + theta_a x r
+// Written with matrices: dn = N_b theta_b + H (dx_a - dx_b - [r] theta_a), N_b = H [rho] - [n].
+// Then  d(l n)            = l dn
+//       d(l r x n)        = l ([n][r] theta_a + [r] dn)
+//       d(-l rho x n)     = l ([n](dx_a - dx_b - [r] theta_a) - [rho] dn).
+// For a face H = 0 and the blocks are those of a point on a plate; for two spheres N_b = 0 and only
+// l H remains.
+void contact_stiffness_exact(const Block& block, StiffnessMatrix& K) {
+  const double l = block.lambda[0];
+  if (l == 0.0) return;
+  const Mat3 n = skew(block.n);
+  const Mat3 r = skew(block.arm_a);
+  const Mat3 rho = skew(block.rho);
+  const Mat3& H = block.H;
+  const Mat3 N_b = H * rho - n;
+  const Mat3 Hr = H * r;
+
+  // dn by the displacement of each body: linear, angular.
+  Eigen::Matrix<double, 3, 6> dn_a;
+  Eigen::Matrix<double, 3, 6> dn_b;
+  dn_a << H, -Hr;
+  dn_b << -H, N_b;
+
+  Eigen::Matrix<double, 3, 6> torque_a_by_a = r * dn_a;
+  torque_a_by_a.rightCols<3>() += n * r;
+  Eigen::Matrix<double, 3, 6> torque_b_by_a = -rho * dn_a;
+  torque_b_by_a.leftCols<3>() += n;
+  torque_b_by_a.rightCols<3>() -= n * r;
+  Eigen::Matrix<double, 3, 6> torque_b_by_b = -rho * dn_b;
+  torque_b_by_b.leftCols<3>() -= n;
+
+  Mat6 block_K;
+  if (block.a >= 0) {
+    block_K << l * dn_a, l * torque_a_by_a;
+    K.add(block.a, block.a, block_K);
+  }
+  if (block.b >= 0) {
+    block_K << -l * dn_b, l * torque_b_by_b;
+    K.add(block.b, block.b, block_K);
+  }
+  if (block.a >= 0 && block.b >= 0) {
+    block_K << l * dn_b, l * (r * dn_b);
+    K.add(block.a, block.b, block_K);
+    block_K << -l * dn_a, l * torque_b_by_a;
+    K.add(block.b, block.a, block_K);
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/collision/contact_point.hpp"
+#include "core/constraints/block.hpp"
+#include "core/constraints/stiffness_matrix.hpp"
+#include "core/model/scene.hpp"
+#include "core/model/state.hpp"
+
+namespace substep {
+
+/// Row 0: phi = gap along n, n from b to a [m].
+void contact_row(const ContactPoint& point, const ContactModel& model, const Vec3& x_a,
+                 const Vec3& x_b, Block& block);
+
+/// Rows 1 and 2: no sliding along t1, t2. The tangents come from an axis of body b, so that turning
+/// the scene turns the answer.
+/// @param R_WB rotation of body b
+void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block& block);
+
+/// The paper's block: the contact as a ball-and-socket joint that carries l = lambda_n n + friction.
+/// It is not the derivative of the contact force (it stiffens a sphere's spin); it steers N only.
+void contact_stiffness_paper(const Block& block, StiffnessMatrix& K);
+
+/// The true derivative of the normal force and its torques.
+void contact_stiffness_exact(const Block& block, StiffnessMatrix& K);
+
+}  // namespace substep

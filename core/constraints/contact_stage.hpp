@@ -1,0 +1,33 @@
+#pragma once
+
+#include <span>
+
+#include "core/collision/detector.hpp"
+#include "core/constraints/block.hpp"
+#include "core/constraints/contact.hpp"
+
+namespace substep {
+
+/// Finds the contacts of a scene and appends a normal row for each.
+class ContactStage {
+ public:
+  explicit ContactStage(const Scene& scene) : detector_(scene) {}
+  void detect_and_append(const Scene& scene, const State& state, std::span<const Mat3> R_WB, Blocks& blocks);
+  /// Largest overlap at a state, >= 0 [m].
+  double penetration(const Scene& scene, const State& state, std::span<const Mat3> R_WB);
+
+ private:
+  Detector detector_;
+};
+
+/// Adds two friction rows to every contact of two bodies that both have friction.
+class FrictionStage {
+ public:
+  explicit FrictionStage(const Scene& scene);
+  void append(const Scene& scene, std::span<const Mat3> R_WB, Blocks& blocks) const;
+
+ private:
+  std::vector<double> sqrt_mu_;  // per body: mu of a pair is the geometric mean
+};
+
+}  // namespace substep

@@ -1,0 +1,55 @@
+#include "core/constraints/hinge_joint.hpp"
+
+#include <cmath>
+
+namespace substep {
+
+void across(const Vec3& axis, Vec3& v1, Vec3& v2) {
+  const Vec3 helper = std::abs(axis.x()) < 0.8 ? Vec3::UnitX() : Vec3::UnitY();
+  v1 = axis.cross(helper).normalized();
+  v2 = axis.cross(v1);
+}
+
+// C     = u . v                        u turns with a, v with b
+// dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)
+void hinge_rows(const HingeJoint& joint, const Vec3& v1_B, const Vec3& v2_B, const Side& a,
+                const Side& b, Block& block) {
+  ball_rows(joint, a, b, block);
+  block.axis = a.R * joint.axis_a;
+  block.v1 = b.R * v1_B;
+  block.v2 = b.R * v2_B;
+  for (int k = 0; k < 2; ++k) {
+    const Vec3& v = k == 0 ? block.v1 : block.v2;
+    const Vec3 J = block.axis.cross(v);
+    const int row = 3 + k;
+    block.phi[row] = block.axis.dot(v);
+    block.C[row] = joint.angular_compliance;
+    for (int j = 0; j < 3; ++j) {
+      block.J_a[row][j] = 0.0;
+      block.J_b[row][j] = 0.0;
+      block.J_a[row][3 + j] = J[j];
+      block.J_b[row][3 + j] = -J[j];
+    }
+  }
+}
+
+// Torque on a: l u x v. Turning a: l (theta x u) x v = l [v][u] theta. Turning b:
+// l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite.
+void hinge_stiffness(const Block& block, StiffnessMatrix& K) {
+  ball_stiffness(block, K);
+  const Mat3 U = skew(block.axis);
+  for (int k = 0; k < 2; ++k) {
+    const double l = block.lambda[3 + k];
+    const Mat3 V = skew(k == 0 ? block.v1 : block.v2);
+    const Mat3 VU = l * (V * U);
+    const Mat3 UV = l * (U * V);
+    if (block.a >= 0) K.add_angular(block.a, block.a, VU);
+    if (block.b >= 0) K.add_angular(block.b, block.b, UV);
+    if (block.a >= 0 && block.b >= 0) {
+      K.add_angular(block.a, block.b, -UV);
+      K.add_angular(block.b, block.a, -VU);
+    }
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/math/types.hpp"
+
+namespace substep {
+
+/// The assembled geometric stiffness K = d(J^T lambda)/dq (Eq. 1) in 6 x 6 blocks, world axes:
+/// rows are forces on a body, columns displacements of a body. Blocks of one pair of bodies are
+/// summed before any norm is taken.
+class StiffnessMatrix {
+ public:
+  void reserve(std::size_t bodies, std::size_t pairs);
+  /// Zero, for this many bodies.
+  void clear(std::size_t bodies);
+  /// Adds to the angular-angular part. @param block [N m/rad]
+  void add_angular(int row, int col, const Mat3& block) { at(row, col).bottomRightCorner<3, 3>() += block; }
+  /// Adds a whole block. @param block [N/m, N/rad; N, N m/rad]
+  void add(int row, int col, const Mat6& block) { at(row, col) += block; }
+
+  /// K_d (Eq. 4): the 2-norm of every column, the angular columns along the principal axes.
+  /// @param R_WB rotation per body  @param k out, 6 per body [N/m, N m/rad], >= 0
+  void column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const;
+
+  /// The block of one pair, zero where there is none.
+  [[nodiscard]] Mat6 block(int row, int col) const;
+
+ private:
+  struct Entry {
+    int row = 0;
+    int next = -1;  // next entry of the same column
+    Mat6 K;
+  };
+  Mat6& at(int row, int col);
+
+  std::vector<Mat6> diagonal_;
+  std::vector<int> first_;      // per column body: its first off-diagonal entry, or -1
+  std::vector<Entry> entries_;
+};
+
+}  // namespace substep

@@ -1,0 +1,54 @@
+#include "core/lab/verdict.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace substep {
+
+namespace {
+
+/// "what 0.13 m > 0.1 m"
+std::string exceeds(const char* what, double value, double limit, const char* unit) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s %.4g %s > %.4g %s", what, value, unit, limit, unit);
+  return text;
+}
+
+}  // namespace
+
+Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& start)
+    : energy_at_start_(start.energy) {
+  if (scene.criteria.displacement) {
+    watched_start_ = state.x[static_cast<std::size_t>(scene.criteria.displacement->body)];
+  }
+}
+
+void Verdict::add(const Scene& scene, const State& state, const FrameReport& report) {
+  if (failed_) return;
+  const Criteria& criteria = scene.criteria;
+  std::string why;
+  if (report.status == StepStatus::kNotFinite) {
+    not_finite_ = true;
+    why = "not finite (" + scene.bodies[static_cast<std::size_t>(report.failed_body)].name + ")";
+  } else if (report.joint_gap > criteria.joint_gap) {
+    why = exceeds("joint gap", report.joint_gap, criteria.joint_gap, "m") + " (" +
+          base(scene.joints[static_cast<std::size_t>(report.joint_gap_joint)]).name + ")";
+  } else if (criteria.energy_gain && report.energy - energy_at_start_ > *criteria.energy_gain) {
+    why = exceeds("energy gain", report.energy - energy_at_start_, *criteria.energy_gain, "J");
+  } else if (criteria.displacement) {
+    const auto body = static_cast<std::size_t>(criteria.displacement->body);
+    const double moved = (state.x[body] - watched_start_).norm();
+    if (moved > criteria.displacement->distance) {
+      why = exceeds("moved", moved, criteria.displacement->distance, "m") + " (" +
+            scene.bodies[body].name + ")";
+    }
+  }
+  if (why.empty()) return;
+  failed_ = true;
+  failed_at_ = report.time;
+  char when[40];
+  std::snprintf(when, sizeof when, "fails at %.3f s: ", failed_at_);
+  text_ = when + why;
+}
+
+}  // namespace substep

@@ -1,0 +1,19 @@
+#include "core/sim/energy.hpp"
+
+namespace substep {
+
+Energies energies_of(const Scene& scene, const State& state) {
+  Energies sum;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;
+    const Vec6& u = state.u_synchronised[i];
+    const Vec3 omega_B = state.q[i].conjugate() * Vec3(u.tail<3>());
+    sum.kinetic += 0.5 * body.mass * u.head<3>().squaredNorm() +
+                   0.5 * omega_B.dot(body.inertia.cwiseProduct(omega_B));
+    if (scene.effects.gravity) sum.potential -= body.mass * scene.gravity.dot(state.x[i]);
+  }
+  return sum;
+}
+
+}  // namespace substep

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "core/model/scene.hpp"
+#include "core/model/state.hpp"
+
+namespace substep {
+
+struct Energies {
+  double kinetic = 0.0;    // [J]
+  double potential = 0.0;  // of gravity, zero at the world's origin; 0 without gravity [J]
+};
+
+/// Of the moving bodies, from the velocities that belong to the time of the poses.
+Energies energies_of(const Scene& scene, const State& state);
+
+}  // namespace substep

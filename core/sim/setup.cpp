@@ -1,0 +1,143 @@
+// Building a simulator, and everything around a frame.
+
+#include <algorithm>
+
+#include "core/sim/energy.hpp"
+#include "core/sim/simulator_impl.hpp"
+
+namespace substep {
+
+Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
+    : scene(std::move(scene_in)), settings(scene->settings), state(initial_state(*scene)) {
+  const Effects& effects = scene->effects;
+  if (effects.joints) joints = std::make_unique<JointStage>(*scene);
+  if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
+  if (effects.friction) friction = std::make_unique<FrictionStage>(*scene);
+  solver = make_solver(settings.solver);
+
+  // Room for the contacts to come: a sub-step must not allocate when bodies touch.
+  const std::size_t n = scene->bodies.size();
+  const std::size_t n_blocks = (joints ? scene->joints.size() : 0) + (contact ? 4 * n + 16 : 0);
+  blocks.reserve(n_blocks);
+  solver->reserve(n, n_blocks);
+  state.forces.reserve(n_blocks);
+  state.k.reserve(n);
+  R_WB.resize(n);
+  inverse_mass.resize(n);
+  u_start.resize(n);
+  u_before.resize(n);
+}
+
+bool Simulator::Impl::probe_due() const {
+  const bool reads_stiffness = settings.mode == Mode::kDamping || settings.mode == Mode::kAdaptive ||
+                               settings.mode == Mode::kCapped;
+  return settings.probe && reads_stiffness && !state.stiffness_known;
+}
+
+// One solve of a whole frame with the errors zeroed: its forces, not its motion, are kept.
+void Simulator::Impl::probe(FrameReport& report) {
+  const double h = scene->frame;
+  const Settings chosen = settings;
+  settings.mode = Mode::kNone;  // Mt = M: there is no k to damp by yet
+  begin_substep(report);
+  append_rows(report);
+  external_forces(h, report);
+  impulse_time = h;
+  solve(h, true, report);
+  settings = chosen;
+  if (finite(report)) {
+    evaluate_stiffness(report);
+    state.r = bound.r;
+  }
+  std::copy(u_start.begin(), u_start.end(), state.u.begin());
+  state.stiffness_known = true;
+  report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will
+  report.n_substeps = 0;
+  report.stages.probe = true;
+}
+
+void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& report) {
+  report.n_wanted = clock_of_frame.n_wanted();
+  report.capped = clock_of_frame.capped();
+  if (report.status == StepStatus::kOk) {
+    state.r = clock_of_frame.r();
+    state.stiffness_known = true;
+    ++state.frame;
+    state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
+  }
+  report.stages.joints = joints != nullptr;
+  report.stages.contact = contact != nullptr;
+  report.stages.friction = friction != nullptr;
+  report.work.residual = lcp_residual({blocks.all(), inverse_mass, state.u});
+  for (const Block& block : blocks.all()) {
+    if (block.is_contact()) {
+      ++report.contact_rows;
+      report.friction_rows += block.rows - 1;
+    } else {
+      report.joint_rows += block.rows;
+    }
+  }
+  observe(report);
+  const StageTimes& t = report.times;
+  report.times.total =
+      t.joints + t.contact + t.friction + t.mass + t.solve + t.stiffness + t.integrate;
+  if (report.status != StepStatus::kOk) stopped = report;
+}
+
+void Simulator::Impl::observe(FrameReport& report) {
+  report.frame = state.frame;
+  report.time = state.time;
+  report.dt_stable = stable_step(settings.alpha, state.r);
+  if (!state.k.empty()) {
+    const StiffnessBound who = StiffnessStage::bound(*scene, state.k);
+    report.leader = {who.body, who.dof, who.k, who.mass, who.r};
+  }
+  const Energies energies = energies_of(*scene, state);
+  report.kinetic = energies.kinetic;
+  report.potential = energies.potential;
+  report.energy = energies.kinetic + energies.potential;
+  for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
+  if (joints) {
+    const JointErrors errors = joints->errors(*scene, state, R_WB);
+    report.constraint_error = errors.sum;
+    report.joint_gap = errors.gap;
+    report.joint_gap_joint = errors.joint;
+  }
+  if (contact) report.penetration = contact->penetration(*scene, state, R_WB);
+}
+
+Simulator::Simulator(std::shared_ptr<const Scene> scene) : impl_(std::make_unique<Impl>(std::move(scene))) {}
+Simulator::~Simulator() = default;
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+
+FrameReport Simulator::observe() const {
+  FrameReport report;
+  report.status = impl_->stopped.status;
+  report.failed_body = impl_->stopped.failed_body;
+  impl_->observe(report);
+  return report;
+}
+
+void Simulator::reset() { set_state(initial_state(*impl_->scene)); }
+
+const Scene& Simulator::scene() const { return *impl_->scene; }
+const State& Simulator::state() const { return impl_->state; }
+
+void Simulator::set_state(State state) {
+  impl_->state = std::move(state);
+  impl_->state.forces.reserve(impl_->blocks.capacity());
+  impl_->stopped = FrameReport{};
+}
+
+const Settings& Simulator::settings() const { return impl_->settings; }
+
+void Simulator::set_settings(const Settings& settings) {
+  const bool other_solver = settings.solver != impl_->settings.solver;
+  impl_->settings = settings;
+  if (!other_solver) return;
+  impl_->solver = make_solver(settings.solver);
+  impl_->solver->reserve(impl_->scene->bodies.size(), impl_->blocks.capacity());
+}
+
+}  // namespace substep

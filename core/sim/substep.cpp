@@ -1,0 +1,177 @@
+// The parts of a sub-step.
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/drift.hpp"
+#include "core/stepping/effective_mass.hpp"
+#include "core/stepping/gyroscopic.hpp"
+#include "core/stepping/integrate.hpp"
+
+namespace substep {
+
+namespace {
+
+bool damps(Mode mode) { return mode == Mode::kDamping || mode == Mode::kCapped; }
+
+}  // namespace
+
+void Simulator::Impl::begin_substep(FrameReport& report) {
+  for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
+  std::copy(state.u.begin(), state.u.end(), u_start.begin());
+  ++report.n_substeps;
+}
+
+void Simulator::Impl::append_rows(FrameReport& report) {
+  blocks.clear();
+  clock = StageClock();
+  if (joints) {
+    joints->append(*scene, state, R_WB, blocks);
+    clock.lap(report.times.joints);
+  }
+  if (contact) {
+    contact->detect_and_append(*scene, state, R_WB, blocks);
+    clock.lap(report.times.contact);
+  }
+  if (friction) {
+    friction->append(*scene, R_WB, blocks);
+    clock.lap(report.times.friction);
+  }
+}
+
+void Simulator::Impl::external_forces(double dt, FrameReport& report) {
+  impulse_time = force_time(settings.integrator, state.dt_previous, dt);
+  if (scene->effects.gyroscopic) {
+    for (std::size_t i = 0; i < scene->bodies.size(); ++i) {
+      const Vec3& I = scene->bodies[i].inertia;
+      if (scene->bodies[i].is_static || (I[0] == I[1] && I[1] == I[2])) continue;
+      const Vec3 omega_B = R_WB[i].transpose() * state.u[i].tail<3>();
+      state.u[i].tail<3>() =
+          R_WB[i] * (settings.gyroscopic == Gyroscopic::kImplicit
+                         ? gyroscopic_implicit(I, omega_B, state.dt_previous, dt)
+                         : gyroscopic_explicit(I, omega_B, impulse_time));
+    }
+    report.stages.gyroscopic = true;
+  }
+  std::copy(state.u.begin(), state.u.end(), u_before.begin());
+  if (scene->effects.gravity) {
+    for (std::size_t i = 0; i < scene->bodies.size(); ++i) {
+      if (!scene->bodies[i].is_static) state.u[i].head<3>() += impulse_time * scene->gravity;
+    }
+    report.stages.gravity = true;
+  }
+  if (damps(settings.mode)) {
+    damped_inverse_mass(*scene, R_WB, state.k, settings.alpha, dt, inverse_mass, state.u);
+    report.stages.damping = true;
+  } else {
+    substep::inverse_mass(*scene, R_WB, inverse_mass);
+  }
+  clock.lap(report.times.mass);
+}
+
+void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
+  const std::span<Block> rows = blocks.all();
+  if (probing) {
+    set_probe_bias(rows, dt);
+  } else {
+    set_drift_bias(rows, drift_law(settings), settings.drift_tau, dt);
+  }
+  const double per_dt2 = 1.0 / (dt * dt);
+  for (Block& block : rows) {
+    for (int row = 0; row < block.rows; ++row) {
+      block.softness[row] = block.C[row] * per_dt2 + scene->regularisation;
+    }
+  }
+  seed_forces();
+  const System system{rows, inverse_mass, state.u};
+  const SolveReport solved = solver->solve(system, settings);
+  smooth = true;
+  for (Block& block : rows) {
+    if (block.is_contact() && !block.was_closed && block.impulse[0] > 0.0) smooth = false;
+    for (int row = 0; row < block.rows; ++row) block.lambda[row] = block.impulse[row] / impulse_time;
+  }
+  store_forces();
+
+  SolverWork& work = report.work;
+  ++work.solves;
+  work.iterations += solved.iterations;
+  work.row_updates += solved.row_updates;
+  work.pivots += solved.pivots;
+  work.passes += solved.passes;
+  work.factorisations += solved.factorisations;
+  if (solved.status == SolveStatus::kUnsolved) ++work.unsolved;
+  clock.lap(report.times.solve);
+}
+
+bool Simulator::Impl::finite(FrameReport& report) {
+  for (std::size_t i = 0; i < state.u.size(); ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < 6; ++j) sum += state.u[i][j] * state.u[i][j];
+    if (std::isfinite(sum)) continue;
+    report.status = StepStatus::kNotFinite;
+    report.failed_body = static_cast<int>(i);
+    std::copy(u_start.begin(), u_start.end(), state.u.begin());
+    return false;
+  }
+  return true;
+}
+
+void Simulator::Impl::evaluate_stiffness(FrameReport& report) {
+  if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
+  stiffness->evaluate(blocks.all(), settings.contact_stiffness, R_WB, state.k);
+  bound = StiffnessStage::bound(*scene, state.k);
+  report.stages.stiffness = true;
+  clock.lap(report.times.stiffness);
+}
+
+void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
+  const double dt_previous = state.dt_previous;
+  integrate(*scene, dt, state);
+  // u stands half a sub-step behind the new poses. Half a sub-step of the accelerations just found
+  // brings it up to them; an impact is no acceleration, so nothing is added then.
+  const double before = settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
+  const double ahead = smooth ? dt / (before + dt) : 0.0;
+  for (std::size_t i = 0; i < state.u.size(); ++i) {
+    state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
+  }
+  report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
+  report.dt_max = std::max(report.dt_max, dt);
+  clock.lap(report.times.integrate);
+}
+
+void Simulator::Impl::seed_forces() {
+  std::size_t next = 0;  // blocks mostly come in the order of the last sub-step
+  const std::size_t known = state.forces.size();
+  for (Block& block : blocks.all()) {
+    std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
+    std::fill(block.tight, block.tight + kMaxRows, block.is_contact() ? kUnknownSet : std::int8_t{0});
+    block.was_closed = false;
+    for (std::size_t tried = 0; tried < known; ++tried) {
+      const StoredForce& force = state.forces[(next + tried) % known];
+      if (force.id != block.id) continue;
+      for (int row = 0; row < block.rows; ++row) {
+        block.impulse[row] = force.lambda[row] * impulse_time;
+        block.tight[row] = force.tight[row];
+      }
+      block.was_closed = force.lambda[0] > 0.0;
+      next = (next + tried + 1) % known;
+      break;
+    }
+  }
+}
+
+void Simulator::Impl::store_forces() {
+  state.forces.clear();
+  for (const Block& block : blocks.all()) {
+    if (!block.is_contact() && !settings.warm_start) continue;
+    StoredForce& force = state.forces.emplace_back();
+    force.id = block.id;
+    for (int row = 0; row < block.rows; ++row) {
+      force.lambda[row] = block.lambda[row];
+      force.tight[row] = block.tight[row];
+    }
+  }
+}
+
+}  // namespace substep

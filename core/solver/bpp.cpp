@@ -1,0 +1,174 @@
+#include "core/solver/bpp.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace substep {
+
+namespace {
+
+constexpr double kTolerance = 1e-10;  // on bounds and complementarity, times 1 + |impulse|
+constexpr int kPasses = 4;            // refreshes of the friction bounds, the first included
+constexpr int kSinglePivotsPerRow = 10;  // Murty's rule is finite; this bounds its time
+
+double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
+
+}  // namespace
+
+void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
+  ldlt_.reserve(bodies, blocks);
+  u_star_.reserve(bodies);
+  friction_bound_.reserve(blocks);
+}
+
+SolveReport Bpp::solve(const System& system, const Settings& settings) {
+  SolveReport report;
+  u_star_.assign(system.u.begin(), system.u.end());
+  ldlt_.begin(system);
+  start_active_set(system);
+
+  int boxed_rows = 0;
+  for (const Block& block : system.blocks) boxed_rows += block.is_contact() ? block.rows : 0;
+  if (boxed_rows == 0) {
+    solve_active_set(system, report);
+    return report;
+  }
+  const int limit = settings.pivots + kSinglePivotsPerRow * boxed_rows;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    ++report.passes;
+    set_friction_bounds(system.blocks);
+    for (int step = 0;; ++step) {
+      solve_active_set(system, report);
+      if (step >= limit) {
+        report.status = SolveStatus::kUnsolved;
+        break;
+      }
+      if (pivot(system, step >= settings.pivots) == 0) break;
+      ++report.pivots;
+    }
+    if (bounds_settled(system.blocks)) break;
+  }
+  return report;
+}
+
+// A row that was tight in the last sub-step starts tight. A new contact starts free if the bodies
+// would reach each other within the step.
+void Bpp::start_active_set(const System& system) {
+  friction_bound_.assign(system.blocks.size(), 0.0);
+  for (Block& block : system.blocks) {
+    if (!block.is_contact()) {
+      std::fill(block.tight, block.tight + block.rows, std::int8_t{0});
+      continue;
+    }
+    if (block.tight[0] == kUnknownSet) {
+      const bool reaches = row_speed(block, 0, system.u) + block.bias[0] < 0.0;
+      std::fill(block.tight, block.tight + block.rows, static_cast<std::int8_t>(reaches ? 0 : -1));
+    }
+  }
+}
+
+void Bpp::set_friction_bounds(std::span<Block> blocks) {
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Block& block = blocks[i];
+    if (block.rows != 3 || !block.is_contact()) continue;
+    friction_bound_[i] = block.mu * std::max(0.0, block.impulse[0]);
+    if (friction_bound_[i] > 0.0) continue;
+    for (int row = 1; row < 3; ++row) {  // no room to be free in
+      if (block.tight[row] == 0) block.tight[row] = -1;
+    }
+  }
+}
+
+bool Bpp::bounds_settled(std::span<const Block> blocks) const {
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = blocks[i];
+    if (block.rows != 3 || !block.is_contact()) continue;
+    const double bound = block.mu * std::max(0.0, block.impulse[0]);
+    const double room = tolerance(bound);
+    for (int row = 1; row < 3; ++row) {
+      if (block.tight[row] == 0 && std::abs(block.impulse[row]) > bound + room) return false;
+      if (block.tight[row] != 0 && std::abs(bound - friction_bound_[i]) > room) return false;
+    }
+  }
+  return true;
+}
+
+void Bpp::apply(const System& system, bool tight_rows) {
+  for (const Block& block : system.blocks) {
+    if (tight_rows && !block.is_contact()) continue;
+    double part[kMaxRows];
+    bool any = false;
+    for (int row = 0; row < block.rows; ++row) {
+      part[row] = (block.tight[row] != 0) == tight_rows ? block.impulse[row] : 0.0;
+      any = any || part[row] != 0.0;
+    }
+    if (any) apply_impulse(block, part, system.inverse_mass, system.u);
+  }
+}
+
+void Bpp::solve_active_set(const System& system, SolveReport& report) {
+  // Tight impulses first: they are known, and what they do to u is all that the others see of them.
+  std::copy(u_star_.begin(), u_star_.end(), system.u.begin());
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    Block& block = system.blocks[i];
+    for (int row = 0; row < block.rows; ++row) {
+      if (block.tight[row] != 0) block.impulse[row] = row == 0 ? 0.0 : block.tight[row] * friction_bound_[i];
+    }
+  }
+  apply(system, true);
+
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    const Block& block = system.blocks[i];
+    double* rhs = ldlt_.row(i);
+    for (int row = 0; row < block.rows; ++row) {
+      rhs[row] = -block.bias[row] - row_speed(block, row, system.u);
+    }
+  }
+  ldlt_.factor_contacts(system.blocks);
+  ++report.factorisations;
+  ldlt_.solve(system.blocks);
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    Block& block = system.blocks[i];
+    const double* x = ldlt_.row(i);
+    for (int row = 0; row < block.rows; ++row) {
+      if (block.tight[row] == 0) block.impulse[row] = x[row];
+    }
+  }
+  apply(system, false);
+}
+
+int Bpp::pivot(const System& system, bool one_only) {
+  int wrong = 0;
+  std::int8_t* last = nullptr;
+  std::int8_t last_set = 0;
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    Block& block = system.blocks[i];
+    if (!block.is_contact()) continue;
+    for (int row = 0; row < block.rows; ++row) {
+      const double hi = row == 0 ? kUnbounded : friction_bound_[i];
+      const double lo = row == 0 ? 0.0 : -hi;
+      if (hi == lo) continue;
+      const double x = block.impulse[row];
+      std::int8_t set = block.tight[row];
+      if (set == 0) {
+        if (x < lo - tolerance(x)) set = -1;
+        if (x > hi + tolerance(x)) set = 1;
+      } else {
+        const double w = row_speed(block, row, system.u) + block.softness[row] * x + block.bias[row];
+        if (set < 0 ? w < -tolerance(x) : w > tolerance(x)) set = 0;
+      }
+      if (set == block.tight[row]) continue;
+      ++wrong;
+      if (one_only) {
+        last = &block.tight[row];
+        last_set = set;
+      } else {
+        block.tight[row] = set;
+      }
+    }
+  }
+  if (last != nullptr) *last = last_set;
+  return wrong;
+}
+
+}  // namespace substep

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "core/solver/block_ldlt.hpp"
+#include "core/solver/solver.hpp"
+
+namespace substep {
+
+/// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. The impulses of tight
+/// rows sit at their bounds, the others solve the linear system; every row on the wrong side changes
+/// its set at once, for Settings::pivots steps; after that one row at a time (the last one, Murty's
+/// rule), which cannot cycle. Friction bounds are fixed while it pivots, seeded with the impulses
+/// given, and refreshed outside, at most four times.
+class Bpp final : public Solver {
+ public:
+  void reserve(std::size_t bodies, std::size_t blocks) override;
+  SolveReport solve(const System& system, const Settings& settings) override;
+
+ private:
+  void start_active_set(const System& system);
+  void set_friction_bounds(std::span<Block> blocks);
+  /// True if the friction bounds that follow from the solution leave it a solution.
+  [[nodiscard]] bool bounds_settled(std::span<const Block> blocks) const;
+  void solve_active_set(const System& system, SolveReport& report);
+  /// Moves rows on the wrong side to their right set. @param one_only only the last such row
+  /// @return how many rows there were
+  int pivot(const System& system, bool one_only);
+  void apply(const System& system, bool tight_rows);
+
+  BlockLdlt ldlt_;
+  std::vector<Vec6> u_star_;
+  std::vector<double> friction_bound_;  // per block [N s]
+};
+
+}  // namespace substep

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "core/model/settings.hpp"
+#include "core/solver/system.hpp"
+
+namespace substep {
+
+/// Solves one sub-step (Eq. 3). Scratch is kept inside: no allocation once sizes have been seen.
+/// A solver is given blocks, bodies and Mt^-1, never J Mt^-1 J^T: whether to form that matrix, and in
+/// which order to eliminate, is its own affair.
+class Solver {
+ public:
+  virtual ~Solver() = default;
+  /// Room for scenes of this size, so that the first contacts do not allocate either.
+  virtual void reserve(std::size_t bodies, std::size_t blocks) = 0;
+  virtual SolveReport solve(const System& system, const Settings& settings) = 0;
+};
+
+std::unique_ptr<Solver> make_solver(SolverKind kind);
+
+}  // namespace substep

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/constraints/block.hpp"
+#include "core/math/types.hpp"
+
+namespace substep {
+
+/// Mt^-1 of one body: Eq. 3 with Mt = M, M + dt B (Eq. 6), or any other symmetric choice per body.
+struct InverseMass {
+  double linear = 0.0;           // [1/kg]
+  Mat3 angular = Mat3::Zero();   // world axes [1/(kg m^2)], symmetric
+};
+
+/// What a solver is given: find impulses and u+ = u* + Mt^-1 J^T impulse with
+///   w = J u+ + softness * impulse + bias,
+///   w = 0 where lo < impulse < hi,  w >= 0 at lo,  w <= 0 at hi.
+/// Joint rows are unbounded; a contact's normal has [0, inf); its friction rows +-mu * normal impulse.
+struct System {
+  std::span<Block> blocks;                 // impulse: seed in, solution out
+  std::span<const InverseMass> inverse_mass;  // per body
+  std::span<Vec6> u;                       // per body: u* in, u+ out [m/s, rad/s]
+};
+
+enum class SolveStatus : std::uint8_t {
+  kSolved,    // BPP: complementary to its tolerance. PGS: its iterations are done
+  kUnsolved,  // BPP: the bound of pivots was reached
+};
+
+struct SolveReport {
+  SolveStatus status = SolveStatus::kSolved;
+  int iterations = 0;            // PGS
+  std::int64_t row_updates = 0;  // PGS
+  int pivots = 0;                // BPP: changes of the active set
+  int passes = 0;                // BPP: refreshes of the friction bounds, the first included
+  int factorisations = 0;        // BPP
+};
+
+/// Relative speed of a row at the velocities u: J u.
+inline double row_speed(const Block& block, int row, std::span<const Vec6> u) {
+  double speed = 0.0;
+  if (block.a >= 0) {
+    const Vec6& ua = u[static_cast<std::size_t>(block.a)];
+    for (int j = 0; j < 6; ++j) speed += block.J_a[row][j] * ua[j];
+  }
+  if (block.b >= 0) {
+    const Vec6& ub = u[static_cast<std::size_t>(block.b)];
+    for (int j = 0; j < 6; ++j) speed += block.J_b[row][j] * ub[j];
+  }
+  return speed;
+}
+
+/// u += Mt^-1 J^T impulse for all rows of a block.
+void apply_impulse(const Block& block, const double* impulse, std::span<const InverseMass> inverse_mass,
+                   std::span<Vec6> u);
+
+/// Largest violation of bounds [N s] and complementarity [m/s] of a solved system.
+double lcp_residual(const System& system);
+
+}  // namespace substep

@@ -1,0 +1,20 @@
+#include "core/stepping/integrate.hpp"
+
+namespace substep {
+
+void integrate(const Scene& scene, double dt, State& state) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].is_static) continue;
+    state.x[i] += dt * state.u[i].head<3>();
+    const Vec3 half = 0.5 * dt * state.u[i].tail<3>();
+    const Quat& q = state.q[i];
+    // (1, half) * q, world axes.
+    const Vec3 v = q.vec();
+    const Vec3 turned = v + q.w() * half + half.cross(v);
+    state.q[i] = Quat(q.w() - half.dot(v), turned.x(), turned.y(), turned.z()).normalized();
+  }
+  state.dt_previous = dt;
+  state.time += dt;
+}
+
+}  // namespace substep

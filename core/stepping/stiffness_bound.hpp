@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+
+#include "core/constraints/block.hpp"
+#include "core/constraints/stiffness_matrix.hpp"
+#include "core/model/scene.hpp"
+#include "core/model/state.hpp"
+
+namespace substep {
+
+/// The degree of freedom with the largest k_i / M_ii.
+struct StiffnessBound {
+  double r = 0.0;     // k / mass, Eq. 9 [1/s^2]
+  int body = -1;      // -1 where K is zero
+  int dof = 0;        // 0..2 along world x, y, z; 3..5 about the principal axes
+  double k = 0.0;     // [N/m or N m/rad]
+  double mass = 0.0;  // M_ii [kg or kg m^2]
+};
+
+/// K from the forces and arms of a sub-step (Eq. 1), and its diagonal (Eq. 4).
+class StiffnessStage {
+ public:
+  explicit StiffnessStage(const Scene& scene);
+  /// @param blocks with lambda and the geometry it belongs to
+  /// @param k out, per body: linear [N/m], then angular about the principal axes [N m/rad]
+  void evaluate(std::span<const Block> blocks, ContactStiffness form, std::span<const Mat3> R_WB,
+                std::vector<Vec6>& k);
+  /// r = max k_i / M_ii over the moving bodies (Eq. 9).
+  [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const Vec6> k);
+  [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
+
+ private:
+  StiffnessMatrix K_;
+};
+
+}  // namespace substep

@@ -1,0 +1,73 @@
+#include "core/stepping/substep_clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace substep {
+
+double stable_step(double alpha, double r) {
+  return r > 0.0 ? 2.0 * std::sqrt(alpha / r) : std::numeric_limits<double>::infinity();
+}
+
+int wanted_substeps(double h, double dt_max) {
+  constexpr double kMost = 1e9;  // an impulsive force can ask for more than an int holds
+  const double n = std::ceil(h / dt_max);
+  return n >= 1.0 ? static_cast<int>(std::min(n, kMost)) : 1;
+}
+
+SubstepClock::SubstepClock(const Settings& settings, double h, double r)
+    : settings_(settings), h_(h), rest_(h), r_(r) {
+  decide();
+}
+
+void SubstepClock::decide() {
+  switch (settings_.mode) {
+    case Mode::kNone:
+    case Mode::kDamping:
+      left_ = 1;
+      break;
+    case Mode::kConst:
+      left_ = settings_.n;
+      break;
+    case Mode::kAdaptive:
+    case Mode::kCapped: {
+      limit_ = settings_.mode == Mode::kCapped ? settings_.n_cap : settings_.n_max;
+      const double dt_max = stable_step(settings_.alpha, r_);
+      const int wanted = wanted_substeps(h_, dt_max);
+      n_wanted_ = std::max(n_wanted_, wanted);
+      capped_ = capped_ || wanted > limit_;
+      left_ = wanted_substeps(rest_, std::max(dt_max, h_ / limit_));
+      break;
+    }
+  }
+  dt_ = rest_ / left_;
+}
+
+bool SubstepClock::needs_stiffness() const {
+  switch (settings_.mode) {
+    case Mode::kNone:
+    case Mode::kConst:
+      return settings_.watch_stiffness && left_ == 1;
+    case Mode::kDamping:
+    case Mode::kCapped:
+      return true;
+    case Mode::kAdaptive:
+      return left_ == 1 || settings_.policy == Policy::kSubstep;
+  }
+  return false;
+}
+
+void SubstepClock::advance(double r) {
+  const bool decides_again =
+      settings_.policy == Policy::kSubstep &&
+      (settings_.mode == Mode::kAdaptive || settings_.mode == Mode::kCapped);
+  if (needs_stiffness()) r_ = decides_again ? std::max(r, settings_.memory * r_) : r;
+  if (--left_ == 0) return;
+  if (decides_again) {
+    rest_ -= dt_;
+    decide();
+  }
+}
+
+}  // namespace substep

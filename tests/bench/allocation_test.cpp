@@ -1,0 +1,50 @@
+// Counting is exact, so what the benchmarks show as 0 allocations is a test.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "tests/bench/allocations.hpp"
+#include "tests/bench/cases.hpp"
+
+namespace {
+
+using namespace substep;
+
+TEST(Allocations, AreCounted) {
+  const std::int64_t before = bench::allocations();
+  const auto one = std::make_unique<double>(1.0);
+  EXPECT_EQ(bench::allocations() - before, *one);
+}
+
+class Stepping : public testing::TestWithParam<std::tuple<bench::Case, Mode>> {};
+
+TEST_P(Stepping, AllocatesNothingAfterTheFirstFrame) {
+  const auto& [c, mode] = GetParam();
+  bench::Loop loop(SUBSTEP_SOURCE_DIR "/scenes", c, mode);
+  loop.step();
+  const std::int64_t before = loop.allocated();
+  int first_frame = -1;
+  for (int frame = 1; frame < bench::Loop::kFrames; ++frame) {
+    const FrameReport report = loop.step();
+    ASSERT_EQ(report.status, StepStatus::kOk);
+    if (first_frame < 0 && loop.allocated() != before) first_frame = frame;
+  }
+  EXPECT_EQ(loop.allocated() - before, 0) << "the first one in frame " << first_frame;
+}
+
+INSTANTIATE_TEST_SUITE_P(ScenesAndSolvers, Stepping,
+                         testing::Combine(testing::ValuesIn(bench::kCases),
+                                          testing::Values(Mode::kConst, Mode::kAdaptive)),
+                         [](const auto& instance) {
+                           std::string name = bench::name_of_case(std::get<0>(instance.param));
+                           std::replace(name.begin(), name.end(), '/', '_');
+                           return name + (std::get<1>(instance.param) == Mode::kConst
+                                              ? "_const"
+                                              : "_adaptive");
+                         });
+
+}  // namespace

@@ -1,0 +1,21 @@
+#pragma once
+// The names of effects as scene files spell them, in the order in which files list them.
+
+#include <array>
+#include <string_view>
+
+#include "core/model/effects.hpp"
+
+namespace substep {
+
+struct NamedEffect {
+  std::string_view name;
+  bool Effects::*member;
+};
+
+inline constexpr std::array kEffectNames{
+    NamedEffect{"gravity", &Effects::gravity}, NamedEffect{"gyroscopic", &Effects::gyroscopic},
+    NamedEffect{"joints", &Effects::joints}, NamedEffect{"contact", &Effects::contact},
+    NamedEffect{"friction", &Effects::friction}};
+
+}  // namespace substep

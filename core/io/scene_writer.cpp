@@ -1,0 +1,191 @@
+#include "core/io/scene_writer.hpp"
+
+#include <cstddef>
+
+#include "core/io/effect_names.hpp"
+#include "core/io/json.hpp"
+#include "core/io/number_text.hpp"
+#include "core/io/setting_fields.hpp"
+
+namespace substep {
+namespace {
+
+Json vector_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+
+Json shape_json(const Shape& shape) {
+  Json json;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    json["type"] = "sphere";
+    json["radius"] = sphere->radius;
+  } else if (const auto* box = std::get_if<Box>(&shape)) {
+    json["type"] = "box";
+    json["size"] = vector_json(2.0 * box->half_extents);
+  } else {
+    json["type"] = "plane";
+  }
+  return json;
+}
+
+Json body_json(const Body& body) {
+  Json json;
+  json["name"] = body.name;
+  if (body.is_static) json["static"] = true;
+  json["shape"] = shape_json(body.shape);
+  if (!body.is_static) {
+    json["mass"] = body.mass;
+    if (body.inertia != solid_inertia(body.shape, body.mass)) {
+      json["inertia"] = vector_json(body.inertia);
+    }
+  }
+  json["position"] = vector_json(body.position);
+  const Quat& q = body.orientation;
+  if (q.coeffs() != Quat::Identity().coeffs()) {
+    json["orientation"] = Json::array({q.w(), q.x(), q.y(), q.z()});
+  }
+  if (body.velocity != Vec3::Zero()) json["velocity"] = vector_json(body.velocity);
+  if (body.angular_velocity != Vec3::Zero()) {
+    json["angular_velocity"] = vector_json(body.angular_velocity);
+  }
+  if (body.friction != 0.0) json["friction"] = body.friction;
+  if (body.collision_group >= 0) json["collision_group"] = body.collision_group;
+  if (!body.collides) json["collides"] = false;
+  return json;
+}
+
+Json joint_json(const Scene& scene, const Joint& joint) {
+  const auto name_of_body = [&](int index) {
+    return index == kWorld ? std::string("world")
+                           : scene.bodies[static_cast<std::size_t>(index)].name;
+  };
+  const JointBase& j = base(joint);
+  const auto* hinge = std::get_if<HingeJoint>(&joint);
+  Json json;
+  json["name"] = j.name;
+  json["type"] = hinge ? "hinge" : "ball";
+  json["a"] = name_of_body(j.a);
+  json["b"] = name_of_body(j.b);
+  json["anchor_a"] = vector_json(j.anchor_a);
+  json["anchor_b"] = vector_json(j.anchor_b);
+  if (hinge) {
+    json["axis_a"] = vector_json(hinge->axis_a);
+    json["axis_b"] = vector_json(hinge->axis_b);
+  }
+  json["compliance"] = j.compliance;
+  if (hinge) json["angular_compliance"] = hinge->angular_compliance;
+  return json;
+}
+
+Json settings_json(const Settings& settings) {
+  Json json;
+  for (const SettingField& field : setting_fields()) {
+    Json& value = json[std::string(field.name)];
+    if (const auto* flag = std::get_if<FlagSetting>(&field.member)) {
+      value = settings.*flag->member;
+    } else if (const auto* count = std::get_if<CountSetting>(&field.member)) {
+      value = settings.*count->member;
+    } else if (const auto* number = std::get_if<NumberSetting>(&field.member)) {
+      value = settings.*number->member;
+    } else {
+      value = setting_text(field, settings);
+    }
+  }
+  return json;
+}
+
+Json criteria_json(const Scene& scene) {
+  const auto name_of_body = [&](int index) {
+    return scene.bodies[static_cast<std::size_t>(index)].name;
+  };
+  const Criteria& c = scene.criteria;
+  Json json;
+  json["duration"] = c.duration;
+  json["joint_gap"] = c.joint_gap;
+  if (c.energy_gain) json["energy_gain"] = *c.energy_gain;
+  if (c.energy_scale) json["energy_scale"] = *c.energy_scale;
+  if (c.displacement) {
+    json["displacement"] = {{"body", name_of_body(c.displacement->body)},
+                            {"distance", c.displacement->distance}};
+  }
+  if (c.track) json["track"] = name_of_body(*c.track);
+  json["expected"] = c.holds ? "holds" : "fails";
+  return json;
+}
+
+Json scene_json(const Scene& scene) {
+  Json json;
+  json["format"] = "substep-scene";
+  json["version"] = 1;
+  json["name"] = scene.name;
+  json["title"] = scene.title;
+  json["group"] = scene.group;
+  json["description"] = scene.description;
+  json["look_for"] = scene.look_for;
+  json["camera"] = {{"eye", vector_json(scene.camera.eye)},
+                    {"target", vector_json(scene.camera.target)}};
+  json["frame"] = scene.frame;
+  Json& effects = json["effects"] = Json::array();
+  for (const NamedEffect& effect : kEffectNames) {
+    if (scene.effects.*effect.member) effects.push_back(effect.name);
+  }
+  if (scene.effects.gravity) json["gravity"] = vector_json(scene.gravity);
+  if (scene.effects.contact) {
+    json["contact"] = {{"compliance", scene.contact.compliance},
+                       {"friction_compliance", scene.contact.friction_compliance},
+                       {"margin", scene.contact.margin}};
+  }
+  if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
+  json["settings"] = settings_json(scene.settings);
+  json["criteria"] = criteria_json(scene);
+  Json& bodies = json["bodies"] = Json::array();
+  for (const Body& body : scene.bodies) bodies.push_back(body_json(body));
+  if (!scene.joints.empty()) {
+    Json& joints = json["joints"] = Json::array();
+    for (const Joint& joint : scene.joints) joints.push_back(joint_json(scene, joint));
+  }
+  return json;
+}
+
+/// Lists of plain values, and objects of one or two entries that hold no object, read best on a
+/// line.
+bool on_one_line(const Json& json) {
+  if (json.is_object() && json.size() > 2) return false;
+  for (const Json& item : json) {
+    if (item.is_object() || (json.is_array() && item.is_array())) return false;
+  }
+  return true;
+}
+
+void print(const Json& json, const std::string& indent, std::string& out) {
+  if (const auto* number = json.get_ptr<const double*>()) {
+    out += number_text(*number);
+    return;
+  }
+  if (!json.is_structured()) {
+    out += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return;
+  }
+  const bool one_line = on_one_line(json);
+  const std::string inner = indent + "  ";
+  const char* separator = "";
+  out += json.is_object() ? '{' : '[';
+  for (const auto& item : json.items()) {
+    out += separator;
+    separator = one_line ? ", " : ",";
+    if (!one_line) out += "\n" + inner;
+    if (json.is_object()) out += Json(item.key()).dump() + ": ";
+    print(item.value(), inner, out);
+  }
+  if (!one_line) out += "\n" + indent;
+  out += json.is_object() ? '}' : ']';
+}
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  std::string out;
+  print(scene_json(scene), "", out);
+  out += '\n';
+  return out;
+}
+
+}  // namespace substep

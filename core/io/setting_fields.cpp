@@ -1,0 +1,142 @@
+#include "core/io/setting_fields.hpp"
+
+#include <array>
+
+#include "core/io/number_text.hpp"
+#include "core/model/names.hpp"
+
+namespace substep {
+namespace {
+
+template <class... Cases>
+struct Match : Cases... {
+  using Cases::operator()...;
+};
+template <class... Cases>
+Match(Cases...) -> Match<Cases...>;
+
+using S = Settings;
+
+constexpr std::array kFields{
+    SettingField{"solver", "bpp solves each step exactly, pgs iterates (Eq. 3)",
+                 ChoiceSetting<SolverKind>{&S::solver}},
+    SettingField{"iterations", "sweeps of pgs per sub-step",
+                 CountSetting{&S::iterations, 1, 100000}},
+    SettingField{"warm_start", "pgs starts from the forces of the last sub-step",
+                 FlagSetting{&S::warm_start}},
+    SettingField{"pivots", "block pivots of bpp before it goes one by one",
+                 CountSetting{&S::pivots, 1, 1000}},
+    SettingField{"mode", "how a step is kept stable", ChoiceSetting<Mode>{&S::mode}},
+    SettingField{"alpha", "stability threshold (Eq. 5); sub-steps go with alpha^-1/2 (Eq. 10)",
+                 NumberSetting{&S::alpha, 0.0, 1.0, true, false, "-"}},
+    SettingField{"n", "sub-steps per frame in mode const", CountSetting{&S::n, 1, 10000}},
+    SettingField{"n_max", "most sub-steps per frame in mode adaptive",
+                 CountSetting{&S::n_max, 1, 10000}},
+    SettingField{"n_cap", "most sub-steps per frame in mode capped, damping beyond",
+                 CountSetting{&S::n_cap, 1, 10000}},
+    SettingField{"policy", "sub-steps are decided once per frame or after every sub-step (Eq. 11)",
+                 ChoiceSetting<Policy>{&S::policy}},
+    SettingField{"memory", "how much of r stays from sub-step to sub-step in policy substep",
+                 NumberSetting{&S::memory, 0.0, 1.0, false, true, "-"}},
+    SettingField{"probe", "one solve before the first frame finds the forces that Eq. 9 needs",
+                 FlagSetting{&S::probe}},
+    SettingField{"integrator", "time integration", ChoiceSetting<Integrator>{&S::integrator}},
+    SettingField{"gyroscopic", "how the gyroscopic torque is integrated",
+                 ChoiceSetting<Gyroscopic>{&S::gyroscopic}},
+    SettingField{"drift", "law of the drift correction; auto is full with bpp and soft with pgs",
+                 ChoiceSetting<Drift>{&S::drift}},
+    SettingField{"tau", "time constant of the soft drift law",
+                 NumberSetting{&S::drift_tau, 1e-6, 10.0, false, false, "s"}},
+    SettingField{"contact_stiffness", "contact block in K (Eq. 1): the paper's or the derivative",
+                 ChoiceSetting<ContactStiffness>{&S::contact_stiffness}},
+    SettingField{"watch_stiffness", "evaluate K even where the mode does not need it",
+                 FlagSetting{&S::watch_stiffness}},
+};
+
+template <class Enum>
+std::string list_names() {
+  constexpr auto& entries = NameTable<Enum>::entries;
+  std::string list;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (i > 0) list += i + 1 == entries.size() ? " or " : ", ";
+    list += entries[i].name;
+  }
+  return list;
+}
+
+bool within(const NumberSetting& f, double value) {
+  return (f.open_below ? value > f.least : value >= f.least) &&
+         (f.open_above ? value < f.most : value <= f.most);
+}
+
+}  // namespace
+
+std::span<const SettingField> setting_fields() { return kFields; }
+
+const SettingField* find_setting(std::string_view name) {
+  for (const SettingField& field : kFields) {
+    if (field.name == name) return &field;
+  }
+  return nullptr;
+}
+
+std::string allowed_values(const SettingField& field) {
+  return std::visit(
+      Match{[](const FlagSetting&) -> std::string { return "true or false"; },
+            [](const CountSetting& f) {
+              return "a whole number from " + std::to_string(f.least) + " to " +
+                     std::to_string(f.most);
+            },
+            [](const NumberSetting& f) {
+              return (f.open_below ? "> " : ">= ") + number_text(f.least) +
+                     (f.open_above ? " and < " : " and <= ") + number_text(f.most) +
+                     (f.unit == "-" ? "" : " (" + std::string(f.unit) + ")");
+            },
+            []<class Enum>(const ChoiceSetting<Enum>&) { return list_names<Enum>(); }},
+      field.member);
+}
+
+std::string setting_text(const SettingField& field, const Settings& settings) {
+  return std::visit(Match{[&](const FlagSetting& f) -> std::string {
+                            return settings.*f.member ? "true" : "false";
+                          },
+                          [&](const CountSetting& f) { return std::to_string(settings.*f.member); },
+                          [&](const NumberSetting& f) { return number_text(settings.*f.member); },
+                          [&]<class Enum>(const ChoiceSetting<Enum>& f) {
+                            return std::string(name_of(settings.*f.member));
+                          }},
+                    field.member);
+}
+
+std::optional<std::string> set_setting(const SettingField& field, std::string_view text,
+                                       Settings& settings) {
+  const bool ok = std::visit(Match{[&](const FlagSetting& f) {
+                                     if (text == "true") return settings.*f.member = true;
+                                     if (text == "false") return !(settings.*f.member = false);
+                                     return false;
+                                   },
+                                   [&](const CountSetting& f) {
+                                     const auto value = parse_integer(text);
+                                     if (!value || *value < f.least || *value > f.most)
+                                       return false;
+                                     settings.*f.member = static_cast<int>(*value);
+                                     return true;
+                                   },
+                                   [&](const NumberSetting& f) {
+                                     const auto value = parse_number(text);
+                                     if (!value || !within(f, *value)) return false;
+                                     settings.*f.member = *value;
+                                     return true;
+                                   },
+                                   [&]<class Enum>(const ChoiceSetting<Enum>& f) {
+                                     const auto value = value_of<Enum>(text);
+                                     if (!value) return false;
+                                     settings.*f.member = *value;
+                                     return true;
+                                   }},
+                             field.member);
+  if (ok) return std::nullopt;
+  return std::string(text) + " is not " + allowed_values(field);
+}
+
+}  // namespace substep

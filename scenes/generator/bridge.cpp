@@ -1,0 +1,173 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "scenes/generator/parts.hpp"
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::scenes {
+namespace {
+
+constexpr int kPlanks = 20;
+constexpr double kPitch = 0.5;       // distance of a plank's two pivots [m]
+constexpr double kLength = 0.48;     // of a plank along the bridge [m]
+constexpr double kThickness = 0.06;  // [m]
+constexpr double kLeftHeight = 5.5;  // of the left end [m]
+constexpr double kDrop = -1.0;       // of the right end against the left one [m]
+constexpr double kRadius = 0.5;      // of the ball [m]
+constexpr double kMu = 0.8;          // Coulomb coefficient of every pair [-]
+
+/// Slopes of the planks of the hanging bridge.
+///
+/// A rigid plank hangs still when the forces T = (H, V) of its two pivots and its weight W balance.
+/// Forces: H is the same at every pivot, V grows by W from one to the next. Moments about its
+/// centre, with both arms +-r along the plank: r x (T_left + T_right) = 0. So the plank points
+/// along T_left + T_right, and its slope is (V_left + V_right)/(2 H): linear in the plank's index,
+///   t_i = middle + growth (i - (n - 1)/2),   growth = W/H.
+/// The two unknowns stand for the force of an end. They follow from where the other end is:
+///   sum pitch / sqrt(1 + t_i^2) = span,   sum pitch t_i / sqrt(1 + t_i^2) = drop,
+/// two equations that Newton's method solves from the shallow chain's answer.
+std::array<double, kPlanks> hanging_slopes(double span) {
+  const double length = kPlanks * kPitch;
+  const auto place = [](int i) { return i - 0.5 * (kPlanks - 1); };
+  // Shallow: cos = 1 - t^2/2, so the mean of t^2 is 2 (1 - span/length), and the mean of t is
+  // drop/span. The mean of place^2 is (n^2 - 1)/12.
+  double middle = kDrop / span;
+  double growth =
+      std::sqrt((2.0 * (1.0 - span / length) - middle * middle) * 12.0 / (kPlanks * kPlanks - 1));
+  for (int step = 0; step < 20; ++step) {
+    double f_x = -span, f_y = -kDrop;                   // by how much the right end is off [m]
+    double x_m = 0.0, x_g = 0.0, y_m = 0.0, y_g = 0.0;  // derivatives by middle and growth
+    for (int i = 0; i < kPlanks; ++i) {
+      const double t = middle + growth * place(i);
+      const double c = 1.0 / std::sqrt(1.0 + t * t);
+      f_x += kPitch * c;
+      f_y += kPitch * t * c;
+      x_m -= kPitch * t * c * c * c;
+      x_g -= kPitch * t * c * c * c * place(i);
+      y_m += kPitch * c * c * c;
+      y_g += kPitch * c * c * c * place(i);
+    }
+    const double determinant = x_m * y_g - x_g * y_m;
+    middle -= (f_x * y_g - x_g * f_y) / determinant;
+    growth -= (x_m * f_y - f_x * y_m) / determinant;
+  }
+  std::array<double, kPlanks> slopes{};
+  for (int i = 0; i < kPlanks; ++i) {
+    slopes[static_cast<std::size_t>(i)] = middle + growth * place(i);
+  }
+  return slopes;
+}
+
+/// The lowest height at which a ball with its centre at x still touches the plank from above, and
+/// the normal there; a height of -infinity where the plank is out of its reach.
+struct Rest {
+  double y = -std::numeric_limits<double>::infinity();  // of the ball's centre [m]
+  Vec3 normal = Vec3::UnitY();                          // from the plank to the ball
+};
+
+Rest rest_on(const Body& plank, double x) {
+  const Vec3 along = plank.orientation * Vec3::UnitX();
+  const Vec3 up = plank.orientation * Vec3::UnitY();
+  // On the top face: the centre is half a thickness and a radius above the plank's middle plane.
+  const Vec3 middle = plank.position + up * (0.5 * kThickness + kRadius);
+  const double u = (x - middle.x()) / along.x();
+  if (std::abs(u) <= 0.5 * kLength) return {middle.y() + u * along.y(), up};
+  // On the edge of the top face that is nearer.
+  const Vec3 edge =
+      world_point(plank, {u < 0.0 ? -0.5 * kLength : 0.5 * kLength, 0.5 * kThickness, 0.0});
+  const double dx = x - edge.x();
+  if (std::abs(dx) >= kRadius) return {};
+  const double dy = std::sqrt(kRadius * kRadius - dx * dx);
+  return {edge.y() + dy, Vec3{dx / kRadius, dy / kRadius, 0.0}};
+}
+
+void add_planks(double span, Scene& scene) {
+  const Vec3 left{-0.5 * span, kLeftHeight, 0.0};
+  const Vec3 right{0.5 * span, kLeftHeight + kDrop, 0.0};
+  Vec3 pivot = left;
+  for (const double slope : hanging_slopes(span)) {
+    const double c = 1.0 / std::sqrt(1.0 + slope * slope);
+    const Vec3 along{c, slope * c, 0.0};
+    Body plank = solid("plank_" + std::to_string(scene.bodies.size() - 1),
+                       box(kLength, kThickness, 2.0), 1.0, pivot + along * (0.5 * kPitch));
+    plank.orientation = turn_about_z(along.x(), along.y());
+    plank.friction = kMu;
+    plank.collision_group = 0;
+    scene.bodies.push_back(plank);
+    pivot += along * kPitch;
+  }
+
+  // Two ball joints in every gap, planks being bodies 1 to 20 after the floor.
+  const auto join = [&](int gap, int a, int b, double end_a, const Vec3& end_b) {
+    for (const double z : {-0.9, 0.9}) {
+      BallJoint joint;
+      joint.name = "pivot_" + std::to_string(gap) + (z < 0.0 ? "_back" : "_front");
+      joint.a = a;
+      joint.b = b;
+      joint.anchor_a = {end_a, 0.0, z};
+      joint.anchor_b = end_b + Vec3{0.0, 0.0, z};
+      joint.compliance = 1e-8;
+      scene.joints.emplace_back(joint);
+    }
+  };
+  const double end = 0.5 * kPitch;
+  join(0, 1, kWorld, -end, left);
+  for (int i = 1; i < kPlanks; ++i) join(i, i + 1, i, -end, {end, 0.0, 0.0});
+  join(kPlanks, kPlanks, kWorld, end, right);
+}
+
+void add_ball(const BridgeOptions& options, Scene& scene) {
+  Rest rest;
+  for (const Body& plank : scene.bodies) {
+    if (plank.is_static) continue;
+    const Rest here = rest_on(plank, options.ball_x);
+    if (here.y > rest.y) rest = here;
+  }
+  Body ball = solid("ball", Sphere{kRadius}, 1000.0, {options.ball_x, rest.y, 0.0});
+  ball.velocity = options.ball_speed * Vec3{rest.normal.y(), -rest.normal.x(), 0.0};
+  // Rolling: the touching point stands still, v + omega x (-radius n) = 0. Along +x that is about
+  // -z.
+  ball.angular_velocity = {0.0, 0.0, -options.ball_speed / kRadius};
+  ball.friction = kMu;
+  scene.criteria.track = static_cast<int>(scene.bodies.size());
+  scene.bodies.push_back(ball);
+}
+
+}  // namespace
+
+Scene bridge(const BridgeOptions& options) {
+  Scene scene;
+  scene.name = "bridge";
+  scene.title = "Bridge";
+  scene.group = "paper";
+  scene.description = "A ball of 1000 kg rolls over a hanging bridge of 20 planks of 1 kg each.";
+  scene.look_for =
+      "Sub-steps rise while the ball loads the planks and fall once it has left, a little after "
+      "2 s. Without them the bridge tears in half a second.";
+  scene.effects = {.gravity = true, .joints = true, .contact = true, .friction = true};
+  scene.contact.compliance = 1e-7;
+  scene.contact.friction_compliance = 1e-10;
+  scene.criteria.duration = 6.0;
+  scene.camera.eye = {0.0, 6.5, 14.5};
+  scene.camera.target = {0.0, 3.2, 0.0};
+  scene.bodies.push_back(floor_plane());
+  scene.bodies.back().friction = kMu;
+  add_planks(options.span, scene);
+  add_ball(options, scene);
+  return scene;
+}
+
+std::vector<BridgeOptions> bridge_starts() {
+  std::vector<BridgeOptions> starts;
+  for (const double span : {9.9, 9.85}) {
+    starts.push_back({-4.3, 2.5, span});
+    starts.push_back({-4.2, 3.0, span});
+    starts.push_back({-4.1, 3.5, span});
+    starts.push_back({-4.0, 4.0, span});
+  }
+  return starts;
+}
+
+}  // namespace substep::scenes

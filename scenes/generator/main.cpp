@@ -1,0 +1,32 @@
+// Writes the scene files: generate_scenes --out DIR
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "core/io/scene_writer.hpp"
+#include "scenes/generator/scenes.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 3 || std::string_view(argv[1]) != "--out") {
+    std::fputs(
+        "usage: generate_scenes --out DIR\n"
+        "Writes every shipped scene to DIR/NAME.json. Ropes and other variants:\n"
+        "substep scenes --generate rope --links 100\n",
+        stderr);
+    return 2;
+  }
+  const std::filesystem::path folder = argv[2];
+  for (const substep::Scene& scene : substep::scenes::shipped()) {
+    const std::filesystem::path path = folder / (scene.name + ".json");
+    std::ofstream file(path, std::ios::binary);
+    file << substep::write_scene(scene);
+    if (!file.flush()) {
+      std::fprintf(stderr, "cannot write %s\n", path.string().c_str());
+      return 1;
+    }
+    std::printf("%s\n", path.string().c_str());
+  }
+  return 0;
+}

@@ -1,0 +1,39 @@
+#include "scenes/generator/parts.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace substep::scenes {
+
+Body solid(std::string name, const Shape& shape, double mass, const Vec3& position) {
+  Body body;
+  body.name = std::move(name);
+  body.shape = shape;
+  body.mass = mass;
+  body.inertia = solid_inertia(shape, mass);
+  body.position = position;
+  return body;
+}
+
+Box box(double x, double y, double z) { return Box{{0.5 * x, 0.5 * y, 0.5 * z}}; }
+
+Body floor_plane(double height) {
+  Body body;
+  body.name = "floor";
+  body.shape = Plane{};
+  body.is_static = true;
+  body.position = {0.0, height, 0.0};
+  return body;
+}
+
+Quat turn_about_z(double c, double s) {
+  // cos(a/2) = sqrt((1 + cos a)/2), sin(a/2) = sin a / (2 cos(a/2)).
+  const double half_cosine = std::sqrt(0.5 * (1.0 + c));
+  return {half_cosine, 0.0, 0.0, s / (2.0 * half_cosine)};
+}
+
+Vec3 world_point(const Body& body, const Vec3& local) {
+  return body.position + body.orientation * local;
+}
+
+}  // namespace substep::scenes

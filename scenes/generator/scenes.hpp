@@ -1,0 +1,80 @@
+#pragma once
+// Every scene that the project ships, as code. The values are those of scenes.md in the design; the
+// scene files beside this folder are written from here. Nothing beyond sqrt is used, so that every
+// compiler writes the same bytes.
+
+#include <vector>
+
+#include "core/model/scene.hpp"
+
+namespace substep::scenes {
+
+/// An angle by its sine and cosine, so that no libm is needed.
+struct Angle {
+  double sine;    // [-]
+  double cosine;  // [-]
+};
+inline constexpr Angle kSixtyDegrees{0.86602540378443865, 0.5};
+
+/// Links on hinges with a heavy box at the end, held out at an angle and let go.
+struct RopeOptions {
+  int n = 25;                   // links, >= 1
+  double link_length = 0.4;     // [m]
+  double end_mass = 1000.0;     // of the box, 1 kg for a link [kg]
+  double compliance = 1e-12;    // of all joint rows [m/N, rad/(N m)]
+  Angle angle = kSixtyDegrees;  // from straight down
+};
+Scene rope_of_n(const RopeOptions& options = {});
+
+/// The rope of 25 links with its anchor at (0, 12, 0), over a floor that is only drawn.
+struct SwingingBoxOptions {
+  Angle angle = kSixtyDegrees;  // from straight down
+  double compliance = 1e-12;    // of all joint rows; the tests of order use 0 [m/N, rad/(N m)]
+};
+Scene swinging_box(const SwingingBoxOptions& options = {});
+
+/// A heavy ball rolls over hanging planks.
+struct BridgeOptions {
+  double ball_x = -4.2;     // where the ball starts [m]
+  double ball_speed = 3.0;  // along the plank under it [m/s]
+  double span = 9.9;        // horizontal distance of the two ends [m]; they differ by 1 m in height
+};
+Scene bridge(const BridgeOptions& options = {});
+/// The 8 starts of the survival counts.
+std::vector<BridgeOptions> bridge_starts();
+
+/// Layers of four light balls and a plate under a very heavy box.
+struct HeavyStackOptions {
+  int layers = 5;
+  double top_mass = 10000.0;  // [kg]
+  double alpha = 0.1;         // of the scene's settings [-]
+  bool stress = false;        // diagonal regularisation and a start jitter of the balls
+  double compliance = 1e-12;  // of the contacts [m/N]
+};
+Scene heavy_stack(const HeavyStackOptions& options = {});
+Scene heavy_stack_tall();
+Scene heavy_stack_stress();
+Scene heavy_stack_stress_tall();
+
+/// A rod on a hinge: the physical pendulum, released at rest from the angle with sine 3/5.
+Scene pendulum();
+/// A free asymmetric body that turns about its middle axis and keeps tipping over (Dzhanibekov).
+Scene spinning_top();
+
+/// A box on a slope.
+struct SlopeOptions {
+  // A Pythagorean triple: the slope falls `fall` over `run`, and `length` is exact.
+  double fall = 5.0;
+  double run = 12.0;
+  double length = 13.0;
+  double friction = 0.3;  // mu; the box slips when it is below fall/run [-]
+};
+Scene sliding_box(const SlopeOptions& options = {});
+
+/// One ball falls 20 m towards nothing.
+Scene free_fall();
+
+/// All of the files of this folder.
+std::vector<Scene> shipped();
+
+}  // namespace substep::scenes

@@ -1,0 +1,13 @@
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::scenes {
+
+std::vector<Scene> shipped() {
+  return {swinging_box(),       bridge(),
+          heavy_stack(),        heavy_stack_tall(),
+          heavy_stack_stress(), heavy_stack_stress_tall(),
+          pendulum(),           spinning_top(),
+          sliding_box(),        free_fall()};
+}
+
+}  // namespace substep::scenes

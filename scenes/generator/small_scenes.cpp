@@ -1,0 +1,107 @@
+// Small scenes with an answer in closed form.
+
+#include "scenes/generator/parts.hpp"
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::scenes {
+
+Scene pendulum() {
+  Scene scene;
+  scene.name = "pendulum";
+  scene.title = "Pendulum";
+  scene.group = "exact";
+  scene.description =
+      "A rod of 1 m on a hinge, let go 36.87 degrees from straight down (sine 3/5).";
+  scene.look_for = "The period is 1.681 s and the swing keeps its height.";
+  scene.effects = {.gravity = true, .joints = true};
+  scene.camera.eye = {0.0, 1.5, 3.2};
+  scene.camera.target = {0.0, 1.4, 0.0};
+  scene.criteria.track = 0;
+
+  const Vec3 pivot{0.0, 2.0, 0.0};
+  const Vec3 down{0.6, -0.8, 0.0};
+  Body rod = solid("rod", box(1.0, 0.05, 0.05), 1.0, pivot + 0.5 * down);
+  rod.orientation = turn_about_z(down.x(), down.y());
+  scene.bodies.push_back(rod);
+
+  HingeJoint hinge;
+  hinge.name = "hinge";
+  hinge.a = 0;
+  hinge.anchor_a = {-0.5, 0.0, 0.0};
+  hinge.anchor_b = pivot;
+  hinge.compliance = 1e-12;
+  hinge.angular_compliance = 1e-12;
+  scene.joints.emplace_back(hinge);
+  return scene;
+}
+
+Scene spinning_top() {
+  Scene scene;
+  scene.name = "spinning_top";
+  scene.title = "Spinning top";
+  scene.group = "exact";
+  scene.description =
+      "A free block turns about its middle axis, without gravity: the Dzhanibekov effect.";
+  scene.look_for = "It tips over again and again, while energy and angular momentum stay.";
+  scene.effects = {.gyroscopic = true};
+  scene.criteria.track = 0;
+  scene.criteria.duration = 20.0;
+  scene.camera.eye = {1.4, 1.9, 2.4};
+  scene.camera.target = {0.0, 1.0, 0.0};
+  Body top = solid("block", box(1.0, 0.6, 0.2), 12.0, {0.0, 1.0, 0.0});
+  top.angular_velocity = {0.0, 6.0, 0.05};
+  scene.bodies.push_back(top);
+  return scene;
+}
+
+Scene sliding_box(const SlopeOptions& options) {
+  const double sine = options.fall / options.length;
+  const double cosine = options.run / options.length;
+  const Vec3 along{cosine, -sine, 0.0};
+  const Vec3 normal{sine, cosine, 0.0};
+  const Vec3 middle{0.0, 1.0, 0.0};
+  const double edge = 0.5;
+
+  Scene scene;
+  scene.name = "sliding_box";
+  scene.title = "Sliding box";
+  scene.group = "exact";
+  scene.description = "A box on a slope of 5 in 12 with a friction coefficient of 0.3.";
+  scene.look_for =
+      "It slips at 1.056 m/s^2. Above a coefficient of 5/12 it would stay where it is.";
+  scene.effects = {.gravity = true, .contact = true, .friction = true};
+  scene.criteria.duration = 2.0;
+  scene.criteria.track = 1;
+  scene.camera.eye = {0.0, 2.2, 6.0};
+  scene.camera.target = {0.0, 1.2, 0.0};
+
+  Body slope = floor_plane();
+  slope.name = "slope";
+  slope.position = middle;
+  slope.orientation = turn_about_z(cosine, -sine);
+  slope.friction = options.friction;
+  Body box_on_it =
+      solid("box", box(edge, edge, edge), 1.0, middle - 1.5 * along + 0.5 * edge * normal);
+  box_on_it.orientation = slope.orientation;
+  box_on_it.friction = options.friction;
+  scene.bodies = {slope, box_on_it};
+  return scene;
+}
+
+Scene free_fall() {
+  Scene scene;
+  scene.name = "free_fall";
+  scene.title = "Free fall";
+  scene.group = "exact";
+  scene.description = "One ball, let go 20 m up.";
+  scene.look_for = "It has fallen 19.62 m after 2 s, and one sub-step a frame is enough.";
+  scene.effects = {.gravity = true};
+  scene.criteria.duration = 2.0;
+  scene.criteria.track = 0;
+  scene.camera.eye = {0.0, 11.0, 26.0};
+  scene.camera.target = {0.0, 10.0, 0.0};
+  scene.bodies.push_back(solid("ball", Sphere{0.5}, 1.0, {0.0, 20.0, 0.0}));
+  return scene;
+}
+
+}  // namespace substep::scenes

@@ -1,0 +1,257 @@
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+Scene pair_of(const Body& a, const Body& b) {
+  Scene scene;
+  scene.effects.contact = true;
+  scene.contact.margin = 1.0;  // the formulas do not care how far the surfaces are apart
+  scene.bodies = {a, b};
+  return scene;
+}
+
+void expect_formulas(const Scene& scene, Random& random) {
+  const State state = initial_state(scene);
+  const Rows rows = contact_rows(scene);
+  expect_gradient(scene, state, rows);
+  expect_stiffness(scene, state, rows, random);
+}
+
+TEST(SphereSphere, GradientAndStiffnessMatchFiniteDifferences) {
+  Random random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = pair_of(moving(Sphere{0.4}), moving(Sphere{0.3}));
+    scene.bodies[1].position = random_vector(random).normalized() * uniform(random, 0.5, 1.2);
+    scene.bodies[1].orientation = random_rotation(random);
+    expect_formulas(scene, random);
+  }
+}
+
+TEST(SpherePlane, GradientAndStiffnessMatchFiniteDifferences) {
+  Random random(2);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = pair_of(moving(Sphere{0.4}), fixed(Plane{}));
+    scene.bodies[1].orientation = random_rotation(random);
+    scene.bodies[0].position = random_vector(random) * 0.3;
+    expect_formulas(scene, random);
+  }
+}
+
+// Over a face, an edge and a corner of a box that turns: three different distance fields.
+TEST(SphereBox, GradientAndStiffnessMatchFiniteDifferences) {
+  Random random(3);
+  for (int outside = 1; outside <= 3; ++outside) {
+    for (int trial = 0; trial < 20; ++trial) {
+      Scene scene = pair_of(moving(Sphere{0.3}), moving(Box{Vec3{0.5, 0.4, 0.6}}, 3.0));
+      Vec3 centre_B{0.1, -0.05, 0.2};
+      for (int axis = 0; axis < outside; ++axis) {
+        const double side = trial % 2 == 0 ? 1.0 : -1.0;
+        centre_B[axis] = side * (std::get<Box>(scene.bodies[1].shape).half_extents[axis] +
+                                 uniform(random, 0.1, 0.3));
+      }
+      scene.bodies[1].orientation = random_rotation(random);
+      scene.bodies[1].position = random_vector(random);
+      scene.bodies[0].position = scene.bodies[1].position + scene.bodies[1].orientation * centre_B;
+      expect_formulas(scene, random);
+    }
+  }
+}
+
+TEST(SphereBox, ACentreInsideLeavesThroughTheNearestFace) {
+  Scene scene = pair_of(moving(Sphere{0.1}), moving(Box{Vec3{0.5, 0.5, 0.5}}));
+  scene.bodies[0].position = {0.1, 0.45, -0.2};
+  Blocks blocks;
+  contact_rows(scene)(initial_state(scene), blocks);
+  ASSERT_EQ(blocks.size(), 1U);
+  EXPECT_EQ(blocks.all()[0].n, Vec3(0.0, 1.0, 0.0));
+  EXPECT_NEAR(blocks.all()[0].phi[0], -0.15, 1e-15);
+}
+
+TEST(BoxPlane, GradientAndStiffnessMatchFiniteDifferences) {
+  Random random(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = pair_of(moving(Box{Vec3{0.5, 0.2, 0.3}}, 2.0), fixed(Plane{}));
+    scene.contact.margin = 5.0;  // all eight corners
+    scene.bodies[0].position = random_vector(random);
+    scene.bodies[0].orientation = random_rotation(random);
+    scene.bodies[1].orientation = random_rotation(random);
+    expect_formulas(scene, random);
+  }
+}
+
+// A small box whose corners all lie over the face of a large one: corner points, not cut ones.
+TEST(BoxBox, GradientAndStiffnessMatchFiniteDifferencesOnAFace) {
+  Random random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = pair_of(moving(Box{Vec3{0.2, 0.1, 0.15}}, 2.0), moving(Box{Vec3{2.0, 0.5, 2.0}}, 5.0));
+    const Quat tilt(Eigen::AngleAxisd(0.05, random_vector(random).normalized()));
+    scene.bodies[1].orientation = random_rotation(random);
+    scene.bodies[1].position = random_vector(random);
+    scene.bodies[0].orientation = scene.bodies[1].orientation * tilt;
+    scene.bodies[0].position =
+        scene.bodies[1].position + scene.bodies[1].orientation * Vec3(0.3, 0.62, -0.4);
+    expect_formulas(scene, random);
+  }
+}
+
+TEST(BoxBox, AFaceOnAFaceHasFourPointsInEveryArrangement) {
+  Random random(6);
+  for (int trial = 0; trial < 60; ++trial) {
+    Scene scene = pair_of(moving(Box{Vec3{0.3, 0.4, 0.5}}), moving(Box{Vec3{0.35, 0.45, 0.55}}));
+    const int axis = trial % 3;
+    const double side = trial % 2 == 0 ? 1.0 : -1.0;
+    Vec3 offset{0.02, -0.03, 0.01};
+    offset[axis] = side * (std::get<Box>(scene.bodies[0].shape).half_extents[axis] +
+                           std::get<Box>(scene.bodies[1].shape).half_extents[axis] - 0.001);
+    scene.contact.margin = 0.02;
+    scene.bodies[1].orientation = random_rotation(random);
+    scene.bodies[0].orientation = scene.bodies[1].orientation;
+    scene.bodies[0].position = scene.bodies[1].orientation * offset;
+    Blocks blocks;
+    contact_rows(scene)(initial_state(scene), blocks);
+    ASSERT_EQ(blocks.size(), 4U);
+    Vec3 n = Vec3::Zero();
+    n[axis] = side;
+    for (const Block& block : blocks.all()) {
+      EXPECT_NEAR(block.phi[0], -0.001, 1e-12);
+      EXPECT_LT((block.n * (block.a == 0 ? 1.0 : -1.0) - scene.bodies[1].orientation * n).norm(), 1e-12);
+    }
+  }
+}
+
+TEST(BoxBox, FeaturesKeepTheirIdsWhileABoxSlides) {
+  Scene scene = pair_of(moving(Box{Vec3{0.5, 0.5, 0.5}}), moving(Box{Vec3{1.0, 0.5, 1.0}}));
+  scene.contact.margin = 0.02;
+  const Rows rows = contact_rows(scene);
+  std::vector<std::uint64_t> before;
+  for (int step = 0; step <= 40; ++step) {
+    scene.bodies[0].position = {0.55 + 0.01 * step, 1.0, 0.2};  // half of it stands out
+    Blocks blocks;
+    rows(initial_state(scene), blocks);
+    std::vector<std::uint64_t> ids;
+    for (const Block& block : blocks.all()) ids.push_back(block.id);
+    ASSERT_EQ(ids.size(), 4U);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      for (std::size_t j = i + 1; j < ids.size(); ++j) EXPECT_NE(ids[i], ids[j]);
+    }
+    if (step > 0) {
+      EXPECT_EQ(ids, before);
+    }
+    before = ids;
+  }
+}
+
+TEST(Contact, ApartByMoreThanTheMarginThereIsNoRow) {
+  for (const double gap : {0.019, 0.021}) {
+    Scene scene = pair_of(moving(Sphere{0.5}), fixed(Plane{}));
+    scene.contact.margin = 0.02;
+    scene.bodies[0].position.y() = 0.5 + gap;
+    Blocks blocks;
+    contact_rows(scene)(initial_state(scene), blocks);
+    EXPECT_EQ(blocks.size(), gap < 0.02 ? 1U : 0U);
+  }
+}
+
+TEST(Contact, TheSphereTurnsNothingInTheExactFormButInThePapersItDoes) {
+  Scene scene = pair_of(moving(Sphere{0.5}), fixed(Plane{}));
+  scene.bodies[0].position.y() = 0.5;
+  const State state = initial_state(scene);
+  Blocks blocks;
+  contact_rows(scene)(state, blocks);
+  blocks.all()[0].lambda[0] = 10.0;
+  StiffnessStage stage(scene);
+  std::vector<Vec6> k;
+  stage.evaluate(blocks.all(), ContactStiffness::kExact, rotations(state), k);
+  EXPECT_EQ(k[0], Vec6::Zero());
+  stage.evaluate(blocks.all(), ContactStiffness::kPaper, rotations(state), k);
+  Vec6 expected;
+  expected << 0.0, 0.0, 0.0, 5.0, 0.0, 5.0;  // [l][r] with l = 10 y, r = -0.5 y
+  EXPECT_LT((k[0] - expected).norm(), 1e-14);
+}
+
+TEST(Friction, RowsAreTheRelativeSpeedAtTheContact) {
+  Random random(7);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = pair_of(moving(Sphere{0.4}), moving(Box{Vec3{0.5, 0.5, 0.5}}));
+    scene.effects.friction = true;
+    scene.bodies[0].friction = 0.5;
+    scene.bodies[1].friction = 0.8;
+    scene.bodies[1].orientation = random_rotation(random);
+    scene.bodies[0].position = scene.bodies[1].orientation * Vec3(0.1, 0.9, 0.2);
+    State state = initial_state(scene);
+    for (Vec6& u : state.u) u << random_vector(random), random_vector(random);
+    Blocks blocks;
+    contact_rows(scene)(state, blocks);
+    FrictionStage(scene).append(scene, rotations(state), blocks);
+    ASSERT_EQ(blocks.size(), 1U);
+    const Block& block = blocks.all()[0];
+    ASSERT_EQ(block.rows, 3);
+    EXPECT_NEAR(block.mu, std::sqrt(0.4), 1e-15);
+    EXPECT_LT(std::abs(block.n.dot(block.t1)) + std::abs(block.n.dot(block.t2)) +
+                  std::abs(block.t1.dot(block.t2)),
+              1e-14);
+    const Vec3 p_a = state.u[0].head<3>() + Vec3(state.u[0].tail<3>()).cross(block.r_a);
+    const Vec3 p_b = state.u[1].head<3>() + Vec3(state.u[1].tail<3>()).cross(block.r_b);
+    EXPECT_NEAR(row_speed(block, 1, state.u), block.t1.dot(p_a - p_b), 1e-14);
+    EXPECT_NEAR(row_speed(block, 2, state.u), block.t2.dot(p_a - p_b), 1e-14);
+    EXPECT_LT((state.x[0] + block.r_a - state.x[1] - block.r_b).norm(), 1e-15);
+  }
+}
+
+TEST(Detector, BodiesOfOneGroupAndJoinedBodiesDoNotTouch) {
+  Scene scene = pair_of(moving(Sphere{0.5}), moving(Sphere{0.5}));
+  scene.bodies[1].position.x() = 0.9;
+  const auto points = [](const Scene& s) {
+    Blocks blocks;
+    contact_rows(s)(initial_state(s), blocks);
+    return blocks.size();
+  };
+  EXPECT_EQ(points(scene), 1U);
+  Scene grouped = scene;
+  grouped.bodies[0].collision_group = grouped.bodies[1].collision_group = 3;
+  EXPECT_EQ(points(grouped), 0U);
+  Scene joined = scene;
+  BallJoint joint;
+  joint.a = 1;
+  joint.b = 0;
+  joined.joints.push_back(joint);
+  EXPECT_EQ(points(joined), 0U);
+  Scene ghost = scene;
+  ghost.bodies[0].collides = false;
+  EXPECT_EQ(points(ghost), 0U);
+}
+
+TEST(Detector, FindsWhatEveryPairTestedAloneFinds) {
+  Random random(8);
+  for (int trial = 0; trial < 50; ++trial) {
+    Scene scene;
+    scene.effects.contact = true;
+    for (int i = 0; i < 30; ++i) {
+      Body body = i % 2 == 0 ? moving(Sphere{0.3}) : moving(Box{Vec3{0.2, 0.3, 0.1}});
+      body.position = 1.5 * random_vector(random);
+      body.orientation = random_rotation(random);
+      scene.bodies.push_back(body);
+    }
+    const State state = initial_state(scene);
+    Blocks all;
+    contact_rows(scene)(state, all);
+    std::size_t alone = 0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      for (std::size_t j = i + 1; j < scene.bodies.size(); ++j) {
+        const Scene two = [&] {
+          Scene s = pair_of(scene.bodies[i], scene.bodies[j]);
+          s.contact.margin = scene.contact.margin;
+          return s;
+        }();
+        Blocks blocks;
+        contact_rows(two)(initial_state(two), blocks);
+        alone += blocks.size();
+      }
+    }
+    EXPECT_EQ(all.size(), alone);
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

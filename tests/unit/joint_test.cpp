@@ -1,0 +1,88 @@
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+/// Two boxes anywhere, joined anywhere, with an error: the formulas hold off the constraint too.
+template <class JointType>
+Scene joined(Random& random, bool to_world) {
+  Scene scene;
+  scene.effects.joints = true;
+  for (int i = 0; i < (to_world ? 1 : 2); ++i) {
+    Body body = moving(Box{Vec3{0.3, 0.2, 0.5}}, 2.0);
+    body.position = random_vector(random);
+    body.orientation = random_rotation(random);
+    scene.bodies.push_back(body);
+  }
+  JointType joint;
+  joint.a = 0;
+  joint.b = to_world ? kWorld : 1;
+  joint.anchor_a = random_vector(random);
+  joint.anchor_b = random_vector(random);
+  if constexpr (std::is_same_v<JointType, HingeJoint>) {
+    joint.axis_a = random_vector(random).normalized();
+    joint.axis_b = random_vector(random).normalized();
+  }
+  scene.joints.push_back(joint);
+  return scene;
+}
+
+template <class JointType>
+void gradient_and_stiffness() {
+  Random random(1);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Scene scene = joined<JointType>(random, trial % 4 == 0);
+    const State state = initial_state(scene);
+    const Rows rows = joint_rows(scene);
+    expect_gradient(scene, state, rows);
+    expect_stiffness(scene, state, rows, random);
+  }
+}
+
+TEST(BallJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<BallJoint>(); }
+TEST(HingeJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<HingeJoint>(); }
+
+TEST(HingeJoint, VectorsAcrossTheAxisAreOrthonormal) {
+  Random random(2);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vec3 axis = random_vector(random).normalized();
+    Vec3 v1;
+    Vec3 v2;
+    across(axis, v1, v2);
+    Mat3 R;
+    R << axis, v1, v2;
+    EXPECT_LT((R.transpose() * R - Mat3::Identity()).norm(), 1e-14);
+    EXPECT_NEAR(R.determinant(), 1.0, 1e-14);
+  }
+}
+
+TEST(HingeJoint, TurningAboutTheAxisIsNoError) {
+  Scene scene;
+  scene.bodies.push_back(moving(Box{}));
+  HingeJoint hinge;
+  hinge.axis_a = hinge.axis_b = Vec3{2.0, 1.0, -1.0}.normalized();
+  scene.joints.push_back(hinge);
+  State state = initial_state(scene);
+  state.q[0] = Quat(Eigen::AngleAxisd(1.2, hinge.axis_a));
+  EXPECT_LT(JointStage(scene).errors(scene, state, rotations(state)).sum, 1e-15);
+}
+
+TEST(JointStage, ErrorsAreTheSumAndTheLargestGap) {
+  Scene scene;
+  scene.bodies = {moving(Sphere{}), moving(Sphere{})};
+  BallJoint joint;
+  joint.b = kWorld;
+  joint.anchor_b = {0.3, -0.4, 0.0};
+  scene.joints.push_back(joint);
+  joint.a = 1;
+  joint.anchor_b = {0.0, 0.0, 0.1};
+  scene.joints.push_back(joint);
+  const State state = initial_state(scene);
+  const JointErrors errors = JointStage(scene).errors(scene, state, rotations(state));
+  EXPECT_DOUBLE_EQ(errors.sum, 0.8);
+  EXPECT_DOUBLE_EQ(errors.gap, 0.5);
+  EXPECT_EQ(errors.joint, 0);
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -3,25 +3,16 @@
 #include <memory>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "core/io/problem.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
 
-/// One thing wrong with outside data.
-struct Problem {
-  std::string pointer;  // JSON pointer to the place, "" for the whole document
-  std::string message;  // value and allowed range: "-1 is not > 0 (kg)"
-};
-
-/// "/bodies/3/mass: -1 is not > 0 (kg)"
-std::string to_string(const Problem& problem);
-
 /// Either a scene, or every problem of the text at once.
 struct SceneResult {
   std::shared_ptr<const Scene> scene;  // null where there are problems
-  std::vector<Problem> problems;
+  Problems problems;
 };
 
 /// Reads a scene of format version 1 (scenes/scene.schema.json). Never throws.

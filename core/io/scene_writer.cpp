@@ -129,9 +129,10 @@ Json scene_json(const Scene& scene) {
   }
   if (scene.effects.gravity) json["gravity"] = vector_json(scene.gravity);
   if (scene.effects.contact) {
-    json["contact"] = {{"compliance", scene.contact.compliance},
-                       {"friction_compliance", scene.contact.friction_compliance},
-                       {"margin", scene.contact.margin}};
+    Json& contact = json["contact"];
+    contact["compliance"] = scene.contact.compliance;
+    if (scene.effects.friction) contact["friction_compliance"] = scene.contact.friction_compliance;
+    contact["margin"] = scene.contact.margin;
   }
   if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
   json["settings"] = settings_json(scene.settings);

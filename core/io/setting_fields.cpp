@@ -28,7 +28,7 @@ constexpr std::array kFields{
                  CountSetting{&S::pivots, 1, 1000}},
     SettingField{"mode", "how a step is kept stable", ChoiceSetting<Mode>{&S::mode}},
     SettingField{"alpha", "stability threshold (Eq. 5); sub-steps go with alpha^-1/2 (Eq. 10)",
-                 NumberSetting{&S::alpha, 0.0, 1.0, true, false, "-"}},
+                 NumberSetting{&S::alpha, positive(1.0, "-")}},
     SettingField{"n", "sub-steps per frame in mode const", CountSetting{&S::n, 1, 10000}},
     SettingField{"n_max", "most sub-steps per frame in mode adaptive",
                  CountSetting{&S::n_max, 1, 10000}},
@@ -37,7 +37,7 @@ constexpr std::array kFields{
     SettingField{"policy", "sub-steps are decided once per frame or after every sub-step (Eq. 11)",
                  ChoiceSetting<Policy>{&S::policy}},
     SettingField{"memory", "how much of r stays from sub-step to sub-step in policy substep",
-                 NumberSetting{&S::memory, 0.0, 1.0, false, true, "-"}},
+                 NumberSetting{&S::memory, {0.0, 1.0, false, true, "-"}}},
     SettingField{"probe", "one solve before the first frame finds the forces that Eq. 9 needs",
                  FlagSetting{&S::probe}},
     SettingField{"integrator", "time integration", ChoiceSetting<Integrator>{&S::integrator}},
@@ -46,7 +46,7 @@ constexpr std::array kFields{
     SettingField{"drift", "law of the drift correction; auto is full with bpp and soft with pgs",
                  ChoiceSetting<Drift>{&S::drift}},
     SettingField{"tau", "time constant of the soft drift law",
-                 NumberSetting{&S::drift_tau, 1e-6, 10.0, false, false, "s"}},
+                 NumberSetting{&S::drift_tau, {1e-6, 10.0, false, false, "s"}}},
     SettingField{"contact_stiffness", "contact block in K (Eq. 1): the paper's or the derivative",
                  ChoiceSetting<ContactStiffness>{&S::contact_stiffness}},
     SettingField{"watch_stiffness", "evaluate K even where the mode does not need it",
@@ -62,11 +62,6 @@ std::string list_names() {
     list += entries[i].name;
   }
   return list;
-}
-
-bool within(const NumberSetting& f, double value) {
-  return (f.open_below ? value > f.least : value >= f.least) &&
-         (f.open_above ? value < f.most : value <= f.most);
 }
 
 }  // namespace
@@ -87,11 +82,7 @@ std::string allowed_values(const SettingField& field) {
               return "a whole number from " + std::to_string(f.least) + " to " +
                      std::to_string(f.most);
             },
-            [](const NumberSetting& f) {
-              return (f.open_below ? "> " : ">= ") + number_text(f.least) +
-                     (f.open_above ? " and < " : " and <= ") + number_text(f.most) +
-                     (f.unit == "-" ? "" : " (" + std::string(f.unit) + ")");
-            },
+            [](const NumberSetting& f) { return f.range.text(); },
             []<class Enum>(const ChoiceSetting<Enum>&) { return list_names<Enum>(); }},
       field.member);
 }
@@ -124,7 +115,7 @@ std::optional<std::string> set_setting(const SettingField& field, std::string_vi
                                    },
                                    [&](const NumberSetting& f) {
                                      const auto value = parse_number(text);
-                                     if (!value || !within(f, *value)) return false;
+                                     if (!value || !f.range.contains(*value)) return false;
                                      settings.*f.member = *value;
                                      return true;
                                    },

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <variant>
 
+#include "core/io/range.hpp"
 #include "core/model/settings.hpp"
 
 namespace substep {
@@ -22,11 +23,7 @@ struct CountSetting {
 };
 struct NumberSetting {
   double Settings::*member;
-  double least;           // allowed [unit]
-  double most;            // allowed unless open_above [unit]
-  bool open_below;        // least itself is not allowed
-  bool open_above;        // most itself is not allowed
-  std::string_view unit;  // "s", "-"
+  Range range;
 };
 template <class Enum>
 struct ChoiceSetting {

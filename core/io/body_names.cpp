@@ -1,0 +1,40 @@
+#include "core/io/body_names.hpp"
+
+#include "core/io/body_reader.hpp"
+
+namespace substep {
+
+BodyNames::BodyNames(const std::vector<Body>& bodies, Problems& problems) : bodies_(bodies) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const std::string& name = bodies[i].name;
+    const std::string pointer = pointer_to(pointer_to("/bodies", i), "name");
+    if (name.empty()) continue;  // told when it was read
+    if (name == kWorldName) {
+      problems.push_back({pointer, "\"world\" is not a name for a body: it is the fixed world"});
+      continue;
+    }
+    const auto [first, is_new] = index_.emplace(name, static_cast<int>(i));
+    if (!is_new) {
+      problems.push_back({pointer, value_text(name) + " is the name of /bodies/" +
+                                       std::to_string(first->second) + " already"});
+    }
+  }
+}
+
+std::optional<int> BodyNames::read(ObjectReader& in, std::string_view key,
+                                   Presence presence) const {
+  std::string name;
+  if (!in.text(key, kMaxNameSize, name, presence)) return std::nullopt;
+  if (name == kWorldName) return kWorld;
+  if (const auto found = index_.find(name); found != index_.end()) return found->second;
+  std::vector<std::string_view> names;
+  for (const auto& entry : index_) names.push_back(entry.first);
+  in.problem(key, "no body is named " + value_text(name) + did_you_mean(name, names));
+  return std::nullopt;
+}
+
+bool BodyNames::is_static(int body) const {
+  return bodies_[static_cast<std::size_t>(body)].is_static;
+}
+
+}  // namespace substep

@@ -1,0 +1,115 @@
+#include "core/io/body_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/io/object_reader.hpp"
+#include "core/io/scene_limits.hpp"
+
+namespace substep {
+namespace {
+
+Shape read_shape(const Json& json, const std::string& pointer, bool is_static, Problems& problems) {
+  ObjectReader in(json, pointer, problems);
+  Shape shape;
+  std::string type;
+  if (!in.text("type", kMaxNameSize, type, kRequired)) return shape;
+  if (type == "sphere") {
+    Sphere sphere;
+    in.number("radius", kSizeRange, sphere.radius, kRequired);
+    shape = sphere;
+  } else if (type == "box") {
+    Vec3 size = Vec3::Ones();
+    in.vector("size", kSizeRange, size, kRequired);
+    shape = Box{0.5 * size};
+  } else if (type == "plane") {
+    if (!is_static) in.problem("type", "a plane cannot move: its body needs \"static\": true");
+    shape = Plane{};
+  } else {
+    in.problem("type", value_text(type) + " is not sphere, box or plane");
+    return shape;
+  }
+  in.finish();
+  return shape;
+}
+
+/// A quaternion is taken as it is written: not normalised, so that a file keeps its bits.
+void read_orientation(ObjectReader& in, Quat& target) {
+  double q[4] = {1.0, 0.0, 0.0, 0.0};
+  if (!in.numbers("orientation", symmetric(2.0, "-"), q, 4, kOptional)) return;
+  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
+  if (!kUnitLength.contains(length)) {
+    std::string message =
+        "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance);
+    if (length > kUnitTolerance) {
+      message += "; at length 1 it is [";
+      for (int i = 0; i < 4; ++i) message += (i > 0 ? ", " : "") + number_text(q[i] / length);
+      message += "]";
+    }
+    in.problem("orientation", message);
+    return;
+  }
+  target = Quat(q[0], q[1], q[2], q[3]);
+}
+
+void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
+  const bool has_mass = in.number("mass", kMassRange, body.mass, kRequired);
+  const bool given = in.vector("inertia", kInertiaRange, body.inertia, kOptional);
+  if (!given) {
+    if (!has_mass || problems_of_shape > 0) return;
+    body.inertia = solid_inertia(body.shape, body.mass);
+    if (!(body.inertia.minCoeff() > 0.0) && !std::holds_alternative<Plane>(body.shape)) {
+      in.problem("inertia", "mass and shape are so small that their inertia is 0");
+    }
+    return;
+  }
+  const Vec3& moments = body.inertia;
+  const double largest = moments.maxCoeff();
+  // A flat body reaches equality: leave room for rounding.
+  if (largest > (moments.sum() - largest) * (1.0 + 1e-9)) {
+    in.problem("inertia", "no body has these moments: " + number_text(largest) +
+                              " is not <= the sum of the other two, " +
+                              number_text(moments.sum() - largest) + " (kg m^2)");
+  }
+}
+
+void refuse(ObjectReader& in, std::string_view key, const std::string& why) {
+  if (in.member(key, kOptional)) in.problem(key, why);
+}
+
+}  // namespace
+
+Body read_body(const Json& json, const std::string& pointer, Problems& problems) {
+  Body body;
+  ObjectReader in(json, pointer, problems);
+  if (!in.is_object()) return body;
+  in.text("name", kMaxNameSize, body.name, kRequired);
+  in.flag("static", body.is_static, kOptional);
+  const std::size_t problems_before = problems.size();
+  if (const Json* shape = in.member("shape", kRequired)) {
+    body.shape = read_shape(*shape, in.pointer("shape"), body.is_static, problems);
+  }
+  const std::size_t problems_of_shape = problems.size() - problems_before;
+  if (body.is_static) {
+    refuse(in, "mass", "a static body has no mass");
+    refuse(in, "inertia", "a static body has no inertia");
+  } else {
+    read_mass(in, problems_of_shape, body);
+  }
+  in.vector("position", kPositionRange, body.position, kRequired);
+  read_orientation(in, body.orientation);
+  if (body.is_static) {
+    refuse(in, "velocity", "a static body never moves");
+    refuse(in, "angular_velocity", "a static body never moves");
+  } else {
+    in.vector("velocity", kVelocityRange, body.velocity, kOptional);
+    in.vector("angular_velocity", kAngularVelocityRange, body.angular_velocity, kOptional);
+  }
+  in.number("friction", kFrictionRange, body.friction, kOptional);
+  in.integer("collision_group", 0, kMaxCollisionGroup, body.collision_group, kOptional);
+  in.flag("collides", body.collides, kOptional);
+  in.finish();
+  return body;
+}
+
+}  // namespace substep

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "core/io/json.hpp"
+#include "core/io/problem.hpp"
+#include "core/model/body.hpp"
+
+namespace substep {
+
+inline constexpr std::size_t kMaxNameSize = 100;  // [bytes]
+
+/// One entry of "bodies". @return the body; where problems were added, as far as it could be read
+Body read_body(const Json& json, const std::string& pointer, Problems& problems);
+
+}  // namespace substep

@@ -1,0 +1,29 @@
+#include "core/io/effects_of.hpp"
+
+#include <algorithm>
+
+namespace substep {
+
+Effects effects_of(const Scene& scene) {
+  const auto any = [&](auto condition) {
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(), condition);
+  };
+  const auto colliding = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                       [](const Body& body) { return body.collides; });
+  Effects effects;
+  effects.gravity = scene.gravity != Vec3::Zero();
+  // A body with three equal moments feels no gyroscopic torque.
+  effects.gyroscopic = any([](const Body& body) {
+    return !body.is_static &&
+           (body.inertia.x() != body.inertia.y() || body.inertia.y() != body.inertia.z());
+  });
+  effects.joints = !scene.joints.empty();
+  effects.contact =
+      colliding > 1 && any([](const Body& body) { return !body.is_static && body.collides; });
+  effects.friction = effects.contact && any([](const Body& body) {
+                       return !body.is_static && body.collides && body.friction > 0.0;
+                     });
+  return effects;
+}
+
+}  // namespace substep

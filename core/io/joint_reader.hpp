@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "core/io/body_names.hpp"
+#include "core/io/json.hpp"
+#include "core/io/problem.hpp"
+#include "core/model/joint.hpp"
+
+namespace substep {
+
+/// One entry of "joints". @return the joint; where problems were added, as far as it could be read
+Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& bodies,
+                 Problems& problems);
+
+}  // namespace substep

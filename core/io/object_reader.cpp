@@ -1,0 +1,185 @@
+#include "core/io/object_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace substep {
+namespace {
+
+/// Letters to insert, delete or replace (Levenshtein).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+}  // namespace
+
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates) {
+  constexpr std::size_t kLongest = 64;  // longer words are no slips
+  if (word.size() > kLongest) return "";
+  std::string_view best;
+  std::size_t best_distance = std::min<std::size_t>(2, word.size() / 2) + 1;
+  for (const std::string_view candidate : candidates) {
+    if (candidate.size() > word.size() + 2 || word.size() > candidate.size() + 2) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best = candidate;
+      best_distance = distance;
+    }
+  }
+  return best.empty() ? "" : " (did you mean \"" + std::string(best) + "\"?)";
+}
+
+std::string one_of(const std::vector<std::string_view>& names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
+    list += names[i];
+  }
+  return list;
+}
+
+ObjectReader::ObjectReader(const Json& json, std::string pointer, Problems& problems)
+    : pointer_(std::move(pointer)), problems_(problems) {
+  if (json.is_object()) {
+    json_ = &json;
+  } else {
+    problem("", value_text(json) + " is not an object");
+  }
+}
+
+std::string ObjectReader::pointer(std::string_view key) const {
+  return key.empty() ? pointer_ : pointer_to(pointer_, key);
+}
+
+void ObjectReader::problem(std::string_view key, std::string message) {
+  problems_.push_back({pointer(key), std::move(message)});
+}
+
+void ObjectReader::item_problem(std::string_view key, std::size_t item, std::string message) {
+  problems_.push_back({pointer_to(pointer(key), item), std::move(message)});
+}
+
+const Json* ObjectReader::member(std::string_view key, Presence presence) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  if (!json_) return nullptr;
+  const auto found = json_->find(std::string(key));
+  if (found != json_->end()) return &*found;
+  if (presence == kRequired) problem(key, "missing");
+  return nullptr;
+}
+
+bool ObjectReader::one_number(const Json& value, const std::string& pointer, const Range& range,
+                              double& target) {
+  if (!value.is_number()) {
+    problems_.push_back({pointer, value_text(value) + " is not a number" + range.unit_text()});
+    return false;
+  }
+  const auto x = value.get<double>();
+  if (!range.contains(x)) {
+    problems_.push_back({pointer, value_text(value) + " is not " + range.violated_by(x)});
+    return false;
+  }
+  target = x;
+  return true;
+}
+
+bool ObjectReader::number(std::string_view key, const Range& range, double& target,
+                          Presence presence) {
+  const Json* value = member(key, presence);
+  return value && one_number(*value, pointer(key), range, target);
+}
+
+bool ObjectReader::integer(std::string_view key, int least, int most, int& target,
+                           Presence presence) {
+  const Json* value = member(key, presence);
+  if (!value) return false;
+  const double x = value->is_number() ? value->get<double>() : std::nan("");
+  if (!(x >= least && x <= most) || x != std::floor(x)) {
+    problem(key, value_text(*value) + " is not a whole number from " + std::to_string(least) +
+                     " to " + std::to_string(most));
+    return false;
+  }
+  target = static_cast<int>(x);
+  return true;
+}
+
+bool ObjectReader::flag(std::string_view key, bool& target, Presence presence) {
+  const Json* value = member(key, presence);
+  if (!value) return false;
+  if (!value->is_boolean()) {
+    problem(key, value_text(*value) + " is not true or false");
+    return false;
+  }
+  target = value->get<bool>();
+  return true;
+}
+
+bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& target,
+                        Presence presence) {
+  const Json* value = member(key, presence);
+  if (!value) return false;
+  const auto* words = value->get_ptr<const std::string*>();
+  if (!words) {
+    problem(key, value_text(*value) + " is not a text");
+    return false;
+  }
+  const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
+  if (words->size() > longest) {
+    problem(key, std::to_string(words->size()) + " bytes are not <= " + std::to_string(longest));
+  } else if (presence == kRequired && words->empty()) {
+    problem(key, "\"\" is empty");
+  } else if (std::any_of(words->begin(), words->end(), is_control)) {
+    problem(key, value_text(*value) + " has a control character");
+  } else {
+    target = *words;
+    return true;
+  }
+  return false;
+}
+
+bool ObjectReader::numbers(std::string_view key, const Range& range, double* target,
+                           std::size_t size, Presence presence) {
+  const Json* value = member(key, presence);
+  if (!value) return false;
+  if (!value->is_array() || value->size() != size) {
+    problem(key, value_text(*value) + " is not a list of " + std::to_string(size) + " numbers" +
+                     range.unit_text());
+    return false;
+  }
+  std::vector<double> read(size);
+  bool ok = true;
+  for (std::size_t i = 0; i < size; ++i) {
+    ok = one_number((*value)[i], pointer_to(pointer(key), i), range, read[i]) && ok;
+  }
+  if (ok) std::copy(read.begin(), read.end(), target);
+  return ok;
+}
+
+bool ObjectReader::vector(std::string_view key, const Range& range, Vec3& target,
+                          Presence presence) {
+  return numbers(key, range, target.data(), 3, presence);
+}
+
+void ObjectReader::finish() {
+  if (!json_) return;
+  for (const auto& item : json_->items()) {
+    if (std::find(known_.begin(), known_.end(), item.key()) != known_.end()) continue;
+    std::string guess = did_you_mean(item.key(), known_);
+    if (guess.empty()) guess = " (known here: " + one_of(known_) + ")";
+    problem(item.key(), "unknown key" + guess);
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,67 @@
+#pragma once
+// Reads the members of one JSON object, and notes all that is wrong with them.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/io/json.hpp"
+#include "core/io/json_text.hpp"
+#include "core/io/problem.hpp"
+#include "core/io/range.hpp"
+#include "core/math/types.hpp"
+
+namespace substep {
+
+enum class Presence { kRequired, kOptional };
+inline constexpr Presence kRequired = Presence::kRequired;
+inline constexpr Presence kOptional = Presence::kOptional;
+
+/// Every member that is read is known to the object; finish() reports the others. A member that is
+/// missing or wrong leaves its target as it was. Each function tells whether it set its target.
+class ObjectReader {
+ public:
+  /// Notes a problem where json is no object; the reader then has no members.
+  ObjectReader(const Json& json, std::string pointer, Problems& problems);
+
+  bool number(std::string_view key, const Range& range, double& target, Presence presence);
+  bool integer(std::string_view key, int least, int most, int& target, Presence presence);
+  bool flag(std::string_view key, bool& target, Presence presence);
+  /// @param longest allowed [bytes]; control characters are not allowed
+  bool text(std::string_view key, std::size_t longest, std::string& target, Presence presence);
+  /// Three numbers, each in the range.
+  bool vector(std::string_view key, const Range& range, Vec3& target, Presence presence);
+  /// `size` numbers, each in the range.
+  bool numbers(std::string_view key, const Range& range, double* target, std::size_t size,
+               Presence presence);
+  /// The member as it is, or null.
+  const Json* member(std::string_view key, Presence presence);
+
+  /// A problem of one member, or of the object itself where key is "".
+  void problem(std::string_view key, std::string message);
+  /// A problem of one item of a list.
+  void item_problem(std::string_view key, std::size_t item, std::string message);
+  /// Notes members that nothing has read, with a guess at what was meant.
+  void finish();
+
+  [[nodiscard]] bool is_object() const { return json_ != nullptr; }
+  [[nodiscard]] std::string pointer(std::string_view key) const;
+
+ private:
+  bool one_number(const Json& value, const std::string& pointer, const Range& range,
+                  double& target);
+
+  const Json* json_ = nullptr;
+  std::string pointer_;
+  Problems& problems_;
+  std::vector<std::string_view> known_;
+};
+
+/// The candidate that is at most a few letters away: `did you mean "mass"?` in brackets, or
+/// nothing.
+std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
+
+/// "ball, box or plane"
+std::string one_of(const std::vector<std::string_view>& names);
+
+}  // namespace substep

@@ -1,0 +1,19 @@
+#pragma once
+// What is wrong with outside data, place by place.
+
+#include <string>
+#include <vector>
+
+namespace substep {
+
+/// One thing wrong with outside data.
+struct Problem {
+  std::string pointer;  // JSON pointer to the place, "" for the whole document
+  std::string message;  // value and allowed range: "-1 is not > 0 (kg)"
+};
+using Problems = std::vector<Problem>;
+
+/// "/bodies/3/mass: -1 is not > 0 (kg)"
+std::string to_string(const Problem& problem);
+
+}  // namespace substep

@@ -1,0 +1,56 @@
+#pragma once
+// Allowed ranges of numbers, and how to say that one is left.
+
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "core/io/number_text.hpp"
+
+namespace substep {
+
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();  // [unit]
+  double most = std::numeric_limits<double>::infinity();    // [unit]
+  bool open_below = false;                                  // least itself is not allowed
+  bool open_above = false;                                  // most itself is not allowed
+  std::string_view unit = "-";
+
+  [[nodiscard]] bool above_least(double x) const { return open_below ? x > least : x >= least; }
+  [[nodiscard]] bool below_most(double x) const { return open_above ? x < most : x <= most; }
+  [[nodiscard]] bool contains(double x) const { return above_least(x) && below_most(x); }
+
+  /// "> 0 (kg)" or "<= 1e12 (kg)": the bound that x is on the wrong side of.
+  [[nodiscard]] std::string violated_by(double x) const {
+    return (above_least(x) ? upper() : lower()) + unit_text();
+  }
+  /// "> 0 and <= 1e12 (kg)"
+  [[nodiscard]] std::string text() const { return lower() + " and " + upper() + unit_text(); }
+  /// " (kg)", or nothing for a number without a unit.
+  [[nodiscard]] std::string unit_text() const {
+    return unit == "-" ? "" : " (" + std::string(unit) + ")";
+  }
+
+ private:
+  [[nodiscard]] std::string lower() const {
+    return (open_below ? "> " : ">= ") + number_text(least);
+  }
+  [[nodiscard]] std::string upper() const {
+    return (open_above ? "< " : "<= ") + number_text(most);
+  }
+};
+
+/// > 0 and <= most
+constexpr Range positive(double most, std::string_view unit) {
+  return {0.0, most, true, false, unit};
+}
+/// >= 0 and <= most
+constexpr Range not_negative(double most, std::string_view unit) {
+  return {0.0, most, false, false, unit};
+}
+/// >= -most and <= most
+constexpr Range symmetric(double most, std::string_view unit) {
+  return {-most, most, false, false, unit};
+}
+
+}  // namespace substep

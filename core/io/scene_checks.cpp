@@ -1,0 +1,102 @@
+#include "core/io/scene_checks.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "core/io/json_text.hpp"
+#include "core/io/number_text.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kMaxAxisAngleSine = 0.1;  // between the axes of a hinge at the start [-]
+
+/// The pose of one side of a joint.
+struct Pose {
+  Vec3 x = Vec3::Zero();
+  Quat q = Quat::Identity();
+};
+
+Pose pose(const Scene& scene, int body) {
+  if (body == kWorld) return {};
+  const Body& b = scene.bodies[static_cast<std::size_t>(body)];
+  return {b.position, b.orientation};
+}
+
+bool is_sound(const Scene& scene, const SoundParts& sound, std::size_t joint) {
+  if (!sound.joints[joint]) return false;
+  const JointBase& j = base(scene.joints[joint]);
+  return sound.bodies[static_cast<std::size_t>(j.a)] &&
+         (j.b == kWorld || sound.bodies[static_cast<std::size_t>(j.b)]);
+}
+
+/// The two bodies of a joint, lower first; all that does not move is kWorld.
+std::pair<int, int> sides(const Scene& scene, const JointBase& joint) {
+  int b = joint.b;
+  if (b != kWorld && scene.bodies[static_cast<std::size_t>(b)].is_static) b = kWorld;
+  return std::minmax(joint.a, b);
+}
+
+}  // namespace
+
+void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems) {
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    if (!is_sound(scene, sound, i)) continue;
+    const JointBase& j = base(scene.joints[i]);
+    const Pose a = pose(scene, j.a);
+    const Pose b = pose(scene, j.b);
+    const double gap = (a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b).norm();
+    if (gap > scene.criteria.joint_gap) {
+      problems.push_back({pointer_to("/joints", i),
+                          "the anchors start " + number_text(gap) + " apart, which is not <= " +
+                              number_text(scene.criteria.joint_gap) + " (m)"});
+    }
+    if (const auto* hinge = std::get_if<HingeJoint>(&scene.joints[i])) {
+      const Vec3 u = a.q * hinge->axis_a;
+      const Vec3 v = b.q * hinge->axis_b;
+      const double sine = u.cross(v).norm();
+      if (u.dot(v) <= 0.0 || sine > kMaxAxisAngleSine) {
+        problems.push_back(
+            {pointer_to("/joints", i), "the axes start at an angle with sine " + number_text(sine) +
+                                           (u.dot(v) < 0.0 ? " in opposite directions" : "") +
+                                           ", which is not <= " + number_text(kMaxAxisAngleSine)});
+      }
+    }
+  }
+}
+
+void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems& problems) {
+  if (scene.regularisation > 0.0) return;                    // it does what compliance does
+  using First = std::map<std::pair<int, int>, std::size_t>;  // the first stiff joint of two bodies
+  First stiff;
+  First stiff_turning;
+  const auto note = [&](First& first, std::size_t joint, const char* key, const char* unit) {
+    const JointBase& j = base(scene.joints[joint]);
+    const auto [other, is_new] = first.emplace(sides(scene, j), joint);
+    if (is_new) return;
+    const std::string& name = base(scene.joints[other->second]).name;
+    problems.push_back({pointer_to(pointer_to("/joints", joint), key),
+                        "0 here and in \"" + name + "\" between the same bodies: \"" + name +
+                            "\" and \"" + j.name +
+                            "\" hold the same twice, so one of them must be > 0 (" + unit + ")"});
+  };
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    if (!is_sound(scene, sound, i)) continue;
+    if (base(scene.joints[i]).compliance == 0.0) note(stiff, i, "compliance", "m/N");
+    const auto* hinge = std::get_if<HingeJoint>(&scene.joints[i]);
+    if (hinge && hinge->angular_compliance == 0.0) {
+      note(stiff_turning, i, "angular_compliance", "rad/(N m)");
+    }
+  }
+  if (scene.effects.contact && scene.contact.compliance == 0.0) {
+    problems.push_back({"/contact/compliance",
+                        "0 is not > 0 (m/N): a box that lies on its face has redundant contacts"});
+  }
+  if (scene.effects.friction && scene.contact.friction_compliance == 0.0) {
+    problems.push_back({"/contact/friction_compliance",
+                        "0 is not > 0 (m/N): a box that lies on its face has redundant contacts"});
+  }
+}
+
+}  // namespace substep

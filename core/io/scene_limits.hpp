@@ -1,0 +1,36 @@
+#pragma once
+// What a scene file may hold. The bounds are far beyond any sensible scene: they catch slips of the
+// keyboard and keep squares and quotients within the range of numbers.
+
+#include <cstddef>
+
+#include "core/io/range.hpp"
+
+namespace substep {
+
+inline constexpr std::size_t kMaxBodies = 20000;
+inline constexpr std::size_t kMaxJoints = 20000;
+inline constexpr std::size_t kMaxProblems = 1000;  // told of one file
+inline constexpr int kMaxCollisionGroup = 1'000'000;
+
+inline constexpr double kUnitTolerance = 1e-6;  // of the length of axes and quaternions [-]
+inline constexpr Range kUnitLength{1.0 - kUnitTolerance, 1.0 + kUnitTolerance};
+
+inline constexpr Range kSizeRange = positive(1e6, "m");
+inline constexpr Range kMassRange = positive(1e12, "kg");
+inline constexpr Range kInertiaRange = positive(1e24, "kg m^2");
+inline constexpr Range kPositionRange = symmetric(1e6, "m");
+inline constexpr Range kVelocityRange = symmetric(1e5, "m/s");
+inline constexpr Range kAngularVelocityRange = symmetric(1e5, "rad/s");
+inline constexpr Range kFrictionRange = not_negative(100.0, "-");
+inline constexpr Range kComplianceRange = not_negative(1e3, "m/N");
+inline constexpr Range kAngularComplianceRange = not_negative(1e3, "rad/(N m)");
+inline constexpr Range kRegularisationRange = not_negative(1e3, "1/kg");
+inline constexpr Range kMarginRange = not_negative(10.0, "m");
+inline constexpr Range kGravityRange = symmetric(1e4, "m/s^2");
+inline constexpr Range kFrameRange{1e-5, 1.0, false, false, "s"};
+inline constexpr Range kDurationRange = positive(86400.0, "s");
+inline constexpr Range kDistanceRange = positive(1e6, "m");
+inline constexpr Range kEnergyRange = positive(1e24, "J");
+
+}  // namespace substep

@@ -1,0 +1,310 @@
+#include "core/io/scene_reader.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+#include <utility>
+
+#include "core/io/body_names.hpp"
+#include "core/io/body_reader.hpp"
+#include "core/io/effect_names.hpp"
+#include "core/io/effects_of.hpp"
+#include "core/io/joint_reader.hpp"
+#include "core/io/object_reader.hpp"
+#include "core/io/scene_checks.hpp"
+#include "core/io/scene_limits.hpp"
+#include "core/io/setting_fields.hpp"
+
+namespace substep {
+namespace {
+
+constexpr std::size_t kMaxTitle = 200;   // [bytes]
+constexpr std::size_t kMaxProse = 2000;  // [bytes]
+
+/// Whether this is a scene of a version that can be read at all. If not, nothing else is worth
+/// telling.
+bool read_version(ObjectReader& in, Problems& problems) {
+  const std::size_t before = problems.size();
+  std::string format;
+  if (in.text("format", kMaxProse, format, kRequired) && format != "substep-scene") {
+    in.problem("format", value_text(format) + " is not \"substep-scene\"");
+  }
+  if (const Json* version = in.member("version", kRequired); version && *version != 1) {
+    in.problem("version", value_text(*version) + " is not 1, the only version that is known");
+  }
+  return problems.size() == before;
+}
+
+void read_about(ObjectReader& in, Scene& scene) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+  if (in.text("name", kMaxNameSize, scene.name, kRequired) &&
+      scene.name.find_first_not_of(kLetters) != std::string::npos) {
+    in.problem("name", value_text(scene.name) + " is not made of a-z, 0-9, _ and - only");
+  }
+  in.text("title", kMaxTitle, scene.title, kRequired);
+  in.text("group", kMaxTitle, scene.group, kOptional);
+  in.text("description", kMaxProse, scene.description, kOptional);
+  in.text("look_for", kMaxProse, scene.look_for, kOptional);
+}
+
+void read_camera(ObjectReader& parent, Scene& scene, Problems& problems) {
+  const Json* json = parent.member("camera", kOptional);
+  if (!json) return;
+  ObjectReader in(*json, parent.pointer("camera"), problems);
+  const bool eye = in.vector("eye", kPositionRange, scene.camera.eye, kRequired);
+  const bool target = in.vector("target", kPositionRange, scene.camera.target, kRequired);
+  if (eye && target && scene.camera.eye == scene.camera.target) {
+    in.problem("target", "the same point as eye");
+  }
+  in.finish();
+}
+
+void read_contact(ObjectReader& parent, Scene& scene, Problems& problems) {
+  const Json* json = parent.member("contact", kOptional);
+  if (!json) return;
+  ObjectReader in(*json, parent.pointer("contact"), problems);
+  in.number("compliance", kComplianceRange, scene.contact.compliance, kOptional);
+  in.number("friction_compliance", kComplianceRange, scene.contact.friction_compliance, kOptional);
+  in.number("margin", kMarginRange, scene.contact.margin, kOptional);
+  in.finish();
+}
+
+/// A value as set_setting takes it, or nothing where its kind is wrong.
+std::optional<std::string> setting_value(const SettingField& field, const Json& value) {
+  if (std::holds_alternative<FlagSetting>(field.member)) {
+    if (!value.is_boolean()) return std::nullopt;
+    return value.get<bool>() ? "true" : "false";
+  }
+  if (std::holds_alternative<CountSetting>(field.member) ||
+      std::holds_alternative<NumberSetting>(field.member)) {
+    if (!value.is_number()) return std::nullopt;
+    return number_text(value.get<double>());
+  }
+  if (const auto* name = value.get_ptr<const std::string*>()) return *name;
+  return std::nullopt;
+}
+
+void read_settings(ObjectReader& parent, Scene& scene, Problems& problems) {
+  const Json* json = parent.member("settings", kOptional);
+  if (!json) return;
+  ObjectReader in(*json, parent.pointer("settings"), problems);
+  for (const SettingField& field : setting_fields()) {
+    const Json* value = in.member(field.name, kOptional);
+    if (!value) continue;
+    const auto text = setting_value(field, *value);
+    if (!text || set_setting(field, *text, scene.settings)) {
+      in.problem(field.name, value_text(*value) + " is not " + allowed_values(field));
+    }
+  }
+  in.finish();
+}
+
+void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, Problems& problems) {
+  const Json* json = parent.member("criteria", kOptional);
+  if (!json) return;
+  ObjectReader in(*json, parent.pointer("criteria"), problems);
+  Criteria& criteria = scene.criteria;
+  double value = 0.0;
+  in.number("duration", kDurationRange, criteria.duration, kOptional);
+  in.number("joint_gap", kDistanceRange, criteria.joint_gap, kOptional);
+  if (in.number("energy_gain", kEnergyRange, value, kOptional)) criteria.energy_gain = value;
+  if (in.number("energy_scale", kEnergyRange, value, kOptional)) criteria.energy_scale = value;
+  const auto read_body_name = [&](ObjectReader& reader, std::string_view key, Presence presence) {
+    auto body = names.read(reader, key, presence);
+    if (body == kWorld) {
+      reader.problem(key, "\"world\" is not a body");
+      body.reset();
+    }
+    return body;
+  };
+  if (const Json* moved = in.member("displacement", kOptional)) {
+    ObjectReader part(*moved, in.pointer("displacement"), problems);
+    Criteria::Displacement displacement;
+    const auto body = read_body_name(part, "body", kRequired);
+    part.number("distance", kDistanceRange, displacement.distance, kRequired);
+    part.finish();
+    displacement.body = body.value_or(0);
+    criteria.displacement = displacement;
+  }
+  criteria.track = read_body_name(in, "track", kOptional);
+  std::string expected = "holds";
+  if (in.text("expected", kMaxNameSize, expected, kOptional)) {
+    if (expected != "holds" && expected != "fails") {
+      in.problem("expected", value_text(expected) + " is not holds or fails");
+    }
+    criteria.holds = expected == "holds";
+  }
+  in.finish();
+}
+
+/// The items of a list, or nothing where it is missing, no list or too long.
+const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, Presence presence) {
+  const Json* list = in.member(key, presence);
+  if (!list) return nullptr;
+  if (!list->is_array()) {
+    in.problem(key, value_text(*list) + " is not a list");
+    return nullptr;
+  }
+  if (list->size() > most) {
+    in.problem(key, std::to_string(list->size()) + " are not <= " + std::to_string(most));
+    return nullptr;
+  }
+  return list;
+}
+
+void read_bodies(ObjectReader& in, Scene& scene, SoundParts& sound, Problems& problems) {
+  const Json* list = read_list(in, "bodies", kMaxBodies, kRequired);
+  if (!list) return;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::size_t before = problems.size();
+    scene.bodies.push_back(read_body((*list)[i], pointer_to("/bodies", i), problems));
+    sound.bodies.push_back(problems.size() == before);
+  }
+  const auto moves = [](const Body& body) { return !body.is_static; };
+  if (std::none_of(scene.bodies.begin(), scene.bodies.end(), moves)) {
+    in.problem("bodies", "no body moves");
+  }
+}
+
+void read_joints(ObjectReader& in, const BodyNames& names, Scene& scene, SoundParts& sound,
+                 Problems& problems) {
+  const Json* list = read_list(in, "joints", kMaxJoints, kOptional);
+  if (!list) return;
+  std::map<std::string, std::size_t> first;
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const std::string pointer = pointer_to("/joints", i);
+    const std::size_t before = problems.size();
+    scene.joints.push_back(read_joint((*list)[i], pointer, names, problems));
+    sound.joints.push_back(problems.size() == before);
+    const std::string& name = base(scene.joints.back()).name;
+    const auto [other, is_new] = first.emplace(name, i);
+    if (!is_new && !name.empty()) {
+      problems.push_back(
+          {pointer_to(pointer, "name"), value_text(name) + " is the name of /joints/" +
+                                            std::to_string(other->second) + " already"});
+    }
+  }
+}
+
+/// The list as it is written. @return whether there is one
+bool read_effects(ObjectReader& in, Scene& scene) {
+  const Json* list = read_list(in, "effects", 100, kOptional);
+  if (!list) return in.member("effects", kOptional) != nullptr;
+  std::vector<std::string_view> names;
+  for (const NamedEffect& effect : kEffectNames) names.push_back(effect.name);
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Json& name = (*list)[i];
+    const auto found = std::find_if(kEffectNames.begin(), kEffectNames.end(),
+                                    [&](const NamedEffect& effect) { return name == effect.name; });
+    if (found == kEffectNames.end()) {
+      in.item_problem("effects", i, value_text(name) + " is not " + one_of(names));
+    } else if (scene.effects.*found->member) {
+      in.item_problem("effects", i, value_text(name) + " stands twice");
+    } else {
+      scene.effects.*found->member = true;
+    }
+  }
+  return true;
+}
+
+/// A listed scene must list all that its content needs.
+void check_effects(ObjectReader& in, const Scene& scene) {
+  const Effects& listed = scene.effects;
+  const auto missing = [&](std::string_view effect, const std::string& why) {
+    std::string message = value_text(effect);
+    message += " is missing, and ";
+    message += why;
+    in.problem("effects", message);
+  };
+  if (!listed.gravity && in.member("gravity", kOptional)) missing("gravity", "/gravity is given");
+  if (!listed.joints && !scene.joints.empty()) {
+    missing("joints", "/joints has " + std::to_string(scene.joints.size()));
+  }
+  if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");
+  if (!listed.contact && listed.friction) missing("contact", "\"friction\" needs it");
+  if (!listed.contact || listed.friction) return;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static || !body.collides || body.friction == 0.0) continue;
+    missing("friction",
+            pointer_to(pointer_to("/bodies", i), "friction") + " is " + number_text(body.friction));
+    return;
+  }
+}
+
+void read_all(const Json& json, Scene& scene, Problems& problems) {
+  ObjectReader in(json, "", problems);
+  if (!in.is_object() || !read_version(in, problems)) return;
+  read_about(in, scene);
+  read_camera(in, scene, problems);
+  in.number("frame", kFrameRange, scene.frame, kOptional);
+  const bool listed = read_effects(in, scene);
+  in.vector("gravity", kGravityRange, scene.gravity, kOptional);
+  read_contact(in, scene, problems);
+  in.number("regularisation", kRegularisationRange, scene.regularisation, kOptional);
+  read_settings(in, scene, problems);
+  SoundParts sound;
+  read_bodies(in, scene, sound, problems);
+  const BodyNames names(scene.bodies, problems);
+  read_criteria(in, names, scene, problems);
+  read_joints(in, names, scene, sound, problems);
+  in.finish();
+
+  if (listed) {
+    check_effects(in, scene);
+  } else {
+    scene.effects = effects_of(scene);
+  }
+  check_joint_starts(scene, sound, problems);
+  check_redundant_rows(scene, sound, problems);
+}
+
+}  // namespace
+
+std::string to_string(const Problem& problem) {
+  return problem.pointer.empty() ? problem.message : problem.pointer + ": " + problem.message;
+}
+
+SceneResult read_scene(std::string_view text) {
+  SceneResult result;
+  Problems& problems = result.problems;
+  const std::optional<Json> json = parse_json(text, problems);
+  if (!json) return result;
+  std::set<std::string> told;
+  for (const Problem& problem : problems) told.insert(problem.pointer);
+
+  auto scene = std::make_shared<Scene>();
+  Problems found;
+  read_all(*json, *scene, found);
+  for (Problem& problem : found) {
+    // Where the text itself was wrong, what stands there in its place is wrong again.
+    if (!told.contains(problem.pointer)) problems.push_back(std::move(problem));
+  }
+  if (problems.size() > kMaxProblems) {
+    const std::size_t more = problems.size() - kMaxProblems;
+    problems.resize(kMaxProblems);
+    problems.push_back({"", "and " + std::to_string(more) + " more problems"});
+  }
+  if (problems.empty()) result.scene = std::move(scene);
+  return result;
+}
+
+SceneResult read_scene_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  if (file) {
+    // One byte more than allowed, so that read_scene sees that there is too much.
+    text.resize(kMaxTextSize + 1);
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.eof()) {
+    if (text.size() > kMaxTextSize) return read_scene(text);
+    return {nullptr, {{"", "cannot read " + path + ": " + std::strerror(errno)}}};
+  }
+  return read_scene(text);
+}
+
+}  // namespace substep

@@ -1,0 +1,351 @@
+// One suite for every solver, against an oracle that enumerates active sets.
+
+#include "core/solver/solver.hpp"
+
+#include <Eigen/LU>
+#include <optional>
+
+#include "core/solver/bpp.hpp"
+#include "core/solver/elimination_order.hpp"
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+/// A random system: a few bodies, joint blocks and contact blocks between them.
+struct Problem {
+  std::vector<Block> blocks;
+  std::vector<InverseMass> inverse_mass;
+  std::vector<Vec6> u;
+  [[nodiscard]] System system() { return {blocks, inverse_mass, u}; }
+};
+
+struct ProblemSize {
+  int bodies = 3;
+  int joints = 2;
+  int contacts = 2;
+  double mu = 0.0;
+};
+
+Problem random_problem(Random& random, const ProblemSize& size) {
+  Problem problem;
+  for (int i = 0; i < size.bodies; ++i) {
+    InverseMass mass;
+    mass.linear = uniform(random, 0.2, 2.0);
+    const Mat3 R = random_rotation(random).toRotationMatrix();
+    const Vec3 d{uniform(random, 0.5, 5.0), uniform(random, 0.5, 5.0), uniform(random, 0.5, 5.0)};
+    const Mat3 W = R * d.asDiagonal() * R.transpose();
+    mass.angular = 0.5 * (W + W.transpose());
+    problem.inverse_mass.push_back(mass);
+    Vec6 u;
+    u << random_vector(random), random_vector(random);
+    problem.u.push_back(u);
+  }
+  for (int i = 0; i < size.joints + size.contacts; ++i) {
+    Block block;
+    const bool contact = i >= size.joints;
+    block.kind = contact ? BlockKind::kContact : (i % 2 == 0 ? BlockKind::kBall : BlockKind::kHinge);
+    block.rows = contact ? (size.mu > 0.0 ? 3 : 1) : (i % 2 == 0 ? 3 : 5);
+    block.mu = contact ? size.mu : 0.0;
+    block.a = static_cast<int>(random() % static_cast<unsigned>(size.bodies));
+    block.b = static_cast<int>(random() % static_cast<unsigned>(size.bodies + 1)) - 1;
+    if (block.a == block.b) block.b = -1;
+    if (i % 5 == 4 && block.b >= 0) block.a = -1;  // only b moves
+    block.id = static_cast<std::uint64_t>(i);
+    for (int row = 0; row < kMaxRows; ++row) {
+      for (int j = 0; j < 6; ++j) {
+        block.J_a[row][j] = uniform(random);
+        block.J_b[row][j] = uniform(random);
+      }
+      block.softness[row] = uniform(random, 0.01, 0.2);
+      block.bias[row] = uniform(random);
+      block.impulse[row] = 0.0;
+      block.tight[row] = contact ? kUnknownSet : std::int8_t{0};
+    }
+    problem.blocks.push_back(block);
+  }
+  return problem;
+}
+
+/// The same system as dense matrices: A x + q = w.
+struct Dense {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd q;
+  struct Row {
+    std::size_t block;
+    int row;
+  };
+  std::vector<Row> rows;
+};
+
+Dense dense(Problem problem) {
+  Dense out;
+  for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
+    for (int row = 0; row < problem.blocks[i].rows; ++row) out.rows.push_back({i, row});
+  }
+  const auto n = static_cast<Eigen::Index>(out.rows.size());
+  out.A = Eigen::MatrixXd::Zero(n, n);
+  out.q = Eigen::VectorXd::Zero(n);
+  const std::vector<Vec6> u = problem.u;
+  for (Eigen::Index c = 0; c < n; ++c) {
+    const Dense::Row col = out.rows[static_cast<std::size_t>(c)];
+    double unit[kMaxRows] = {};
+    unit[col.row] = 1.0;
+    for (Vec6& v : problem.u) v.setZero();
+    apply_impulse(problem.blocks[col.block], unit, problem.inverse_mass, problem.u);
+    for (Eigen::Index r = 0; r < n; ++r) {
+      const Dense::Row row = out.rows[static_cast<std::size_t>(r)];
+      out.A(r, c) = row_speed(problem.blocks[row.block], row.row, problem.u);
+    }
+    const Block& block = problem.blocks[col.block];
+    out.A(c, c) += block.softness[col.row];
+    out.q[c] = row_speed(block, col.row, u) + block.bias[col.row];
+  }
+  return out;
+}
+
+/// Every solution of the boxed problem, found by trying all active sets. With friction a tight row is
+/// the equation x_t = +-mu x_n.
+std::vector<Eigen::VectorXd> enumerate(const Problem& problem) {
+  const Dense d = dense(problem);
+  const auto n = d.q.size();
+  std::vector<Eigen::Index> boxed;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (problem.blocks[d.rows[static_cast<std::size_t>(i)].block].is_contact()) boxed.push_back(i);
+  }
+  int sets = 1;
+  for (std::size_t i = 0; i < boxed.size(); ++i) sets *= 3;
+  std::vector<Eigen::VectorXd> solutions;
+  for (int code = 0; code < sets; ++code) {
+    Eigen::MatrixXd M = d.A;
+    Eigen::VectorXd rhs = -d.q;
+    std::vector<int> set(static_cast<std::size_t>(n), 0);
+    int rest = code;
+    for (const Eigen::Index i : boxed) {
+      const Dense::Row row = d.rows[static_cast<std::size_t>(i)];
+      const int state = rest % 3 - 1;
+      rest /= 3;
+      set[static_cast<std::size_t>(i)] = state;
+      if (state == 0) continue;
+      M.row(i).setZero();
+      M(i, i) = 1.0;
+      rhs[i] = 0.0;
+      if (row.row > 0) M(i, i - row.row) = -state * problem.blocks[row.block].mu;
+    }
+    const Eigen::VectorXd x = M.partialPivLu().solve(rhs);
+    const Eigen::VectorXd w = d.A * x + d.q;
+    bool valid = x.allFinite();
+    constexpr double kSlack = 1e-9;
+    for (const Eigen::Index i : boxed) {
+      const Dense::Row row = d.rows[static_cast<std::size_t>(i)];
+      const int state = set[static_cast<std::size_t>(i)];
+      const double hi = row.row == 0 ? kUnbounded : problem.blocks[row.block].mu * std::max(0.0, x[i - row.row]);
+      const double lo = row.row == 0 ? 0.0 : -hi;
+      if (row.row == 0 && state > 0) valid = false;  // no upper bound to sit at
+      if (state == 0 && (x[i] < lo - kSlack || x[i] > hi + kSlack)) valid = false;
+      if (hi > lo && state < 0 && w[i] < -kSlack) valid = false;
+      if (hi > lo && state > 0 && w[i] > kSlack) valid = false;
+    }
+    if (valid) solutions.push_back(x);
+  }
+  return solutions;
+}
+
+Eigen::VectorXd impulses(const Problem& problem) {
+  std::vector<double> x;
+  for (const Block& block : problem.blocks) {
+    for (int row = 0; row < block.rows; ++row) x.push_back(block.impulse[row]);
+  }
+  return Eigen::Map<Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+Settings settings_for(SolverKind kind) {
+  Settings settings;
+  settings.solver = kind;
+  settings.iterations = 4000;  // Gauss-Seidel until it has converged
+  return settings;
+}
+
+class EverySolver : public testing::TestWithParam<SolverKind> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::Values(SolverKind::kPgs, SolverKind::kBpp),
+                         [](const auto& solver) {
+                           return solver.param == SolverKind::kPgs ? std::string("Pgs") : std::string("Bpp");
+                         });
+
+TEST_P(EverySolver, MatchesTheEnumeratedSolutionWithoutFriction) {
+  Random random(11);
+  const auto solver = make_solver(GetParam());
+  for (int trial = 0; trial < 1500; ++trial) {
+    Problem problem = random_problem(random, {3, trial % 3, 1 + trial % 5, 0.0});
+    const auto solutions = enumerate(problem);
+    ASSERT_FALSE(solutions.empty());
+    const SolveReport report = solver->solve(problem.system(), settings_for(GetParam()));
+    EXPECT_EQ(report.status, SolveStatus::kSolved);
+    EXPECT_LT((impulses(problem) - solutions.front()).norm(), 1e-7) << "trial " << trial;
+    EXPECT_LT(lcp_residual(problem.system()), 1e-8);
+  }
+}
+
+TEST_P(EverySolver, MatchesAnEnumeratedSolutionWithFriction) {
+  Random random(12);
+  const auto solver = make_solver(GetParam());
+  int settled = 0;
+  constexpr int kTrials = 400;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    Problem problem = random_problem(random, {3, trial % 3, 1 + trial % 2, 0.4});
+    const auto solutions = enumerate(problem);
+    // The bounds move with the solution: BPP refreshes them four times a call, so it is called until
+    // they have settled, as it is from one sub-step to the next.
+    const std::vector<Vec6> u = problem.u;
+    for (int call = 0; call < 20; ++call) {
+      problem.u = u;
+      solver->solve(problem.system(), settings_for(GetParam()));
+    }
+    const double residual = lcp_residual(problem.system());
+    if (residual > 1e-7) continue;  // box friction need not have a solution, nor only one
+    ++settled;
+    double nearest = kUnbounded;
+    for (const auto& x : solutions) nearest = std::min(nearest, (impulses(problem) - x).norm());
+    EXPECT_LT(nearest, 1e-6) << "trial " << trial;
+  }
+  EXPECT_GT(settled, kTrials * 95 / 100);
+}
+
+TEST_P(EverySolver, JointsAloneAreALinearSystem) {
+  Random random(13);
+  const auto solver = make_solver(GetParam());
+  for (int trial = 0; trial < 200; ++trial) {
+    Problem problem = random_problem(random, {6, 4, 0, 0.0});
+    const Dense d = dense(problem);
+    solver->solve(problem.system(), settings_for(GetParam()));
+    EXPECT_LT((impulses(problem) - d.A.ldlt().solve(-d.q)).norm(), 1e-7);
+  }
+}
+
+TEST_P(EverySolver, VelocitiesAreThoseOfTheImpulses) {
+  Random random(14);
+  const auto solver = make_solver(GetParam());
+  for (int trial = 0; trial < 200; ++trial) {
+    Problem problem = random_problem(random, {5, 3, 4, trial % 2 == 0 ? 0.0 : 0.5});
+    std::vector<Vec6> expected = problem.u;
+    solver->solve(problem.system(), settings_for(GetParam()));
+    for (const Block& block : problem.blocks) {
+      apply_impulse(block, block.impulse, problem.inverse_mass, expected);
+    }
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LT((problem.u[i] - expected[i]).norm(), 1e-9);
+  }
+}
+
+TEST_P(EverySolver, WhatABlockDoesNotUseDoesNotMatter) {
+  Random random(15);
+  const auto solver = make_solver(GetParam());
+  for (int trial = 0; trial < 50; ++trial) {
+    Problem clean = random_problem(random, {4, 3, 3, 0.5});
+    Problem poisoned = clean;
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (Block& block : poisoned.blocks) {
+      for (int row = 0; row < kMaxRows; ++row) {
+        for (int j = 0; j < 6; ++j) {
+          if (block.a < 0 || row >= block.rows) block.J_a[row][j] = nan;
+          if (block.b < 0 || row >= block.rows) block.J_b[row][j] = nan;
+        }
+        if (row >= block.rows) block.bias[row] = block.softness[row] = block.impulse[row] = nan;
+        block.phi[row] = block.C[row] = block.lambda[row] = nan;
+      }
+      block.r_a = block.r_b = block.n = Vec3::Constant(nan);
+    }
+    solver->solve(clean.system(), settings_for(GetParam()));
+    solver->solve(poisoned.system(), settings_for(GetParam()));
+    EXPECT_EQ(impulses(clean), impulses(poisoned));
+    for (std::size_t i = 0; i < clean.u.size(); ++i) EXPECT_EQ(clean.u[i], poisoned.u[i]);
+  }
+}
+
+TEST_P(EverySolver, NoBlocksLeaveTheVelocitiesAlone) {
+  Random random(16);
+  Problem problem = random_problem(random, {3, 0, 0, 0.0});
+  const std::vector<Vec6> u = problem.u;
+  make_solver(GetParam())->solve(problem.system(), settings_for(GetParam()));
+  for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(u[i], problem.u[i]);
+}
+
+TEST(Solvers, AgreeWithEachOtherOnLargerProblems) {
+  Random random(17);
+  const auto pgs = make_solver(SolverKind::kPgs);
+  const auto bpp = make_solver(SolverKind::kBpp);
+  for (int trial = 0; trial < 50; ++trial) {
+    Problem a = random_problem(random, {12, 8, 16, 0.0});
+    Problem b = a;
+    pgs->solve(a.system(), settings_for(SolverKind::kPgs));
+    bpp->solve(b.system(), settings_for(SolverKind::kBpp));
+    EXPECT_LT((impulses(a) - impulses(b)).norm(), 1e-6);
+  }
+}
+
+// Where the active set starts from must not change what comes out, to the last bit.
+TEST(Bpp, ForgetsWhereItStarted) {
+  Random random(18);
+  Bpp solver;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Problem problem = random_problem(random, {4, 2, 6, 0.0});
+    std::optional<Eigen::VectorXd> first;
+    for (const std::int8_t start : {kUnknownSet, std::int8_t{0}, std::int8_t{-1}}) {
+      Problem copy = problem;
+      for (Block& block : copy.blocks) {
+        if (block.is_contact()) block.tight[0] = start;
+      }
+      solver.solve(copy.system(), settings_for(SolverKind::kBpp));
+      if (!first) first = impulses(copy);
+      EXPECT_EQ(*first, impulses(copy));
+    }
+  }
+}
+
+TEST(Bpp, OneRowAtATimeAlsoArrives) {
+  Random random(19);
+  Bpp solver;
+  Settings settings = settings_for(SolverKind::kBpp);
+  settings.pivots = 0;  // the fallback from the first step
+  for (int trial = 0; trial < 300; ++trial) {
+    Problem problem = random_problem(random, {4, 2, 8, 0.0});
+    const SolveReport report = solver.solve(problem.system(), settings);
+    EXPECT_EQ(report.status, SolveStatus::kSolved);
+    EXPECT_LT(lcp_residual(problem.system()), 1e-8);
+  }
+}
+
+TEST(Bpp, EveryRowTightIsAnAnswer) {
+  Random random(20);
+  Problem problem = random_problem(random, {3, 0, 3, 0.5});
+  for (Block& block : problem.blocks) block.bias[0] = 100.0;  // all fly apart
+  const std::vector<Vec6> u = problem.u;
+  Bpp solver;
+  solver.solve(problem.system(), settings_for(SolverKind::kBpp));
+  EXPECT_EQ(impulses(problem).norm(), 0.0);
+  for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(u[i], problem.u[i]);
+}
+
+TEST(EliminationOrder, AChainHasNoFillAndContactsComeLast) {
+  std::vector<Block> blocks(30);
+  for (int i = 0; i < 30; ++i) {
+    Block& block = blocks[static_cast<std::size_t>(i)];
+    block.kind = i % 10 == 5 ? BlockKind::kContact : BlockKind::kBall;
+    block.rows = i % 10 == 5 ? 1 : 3;
+    block.a = i;
+    block.b = i - 1;
+  }
+  EliminationOrder order;
+  EXPECT_TRUE(order.update(blocks, 30));
+  EXPECT_FALSE(order.update(blocks, 30));
+  EXPECT_EQ(order.joints(), 27U);
+  for (std::size_t k = 0; k < order.order().size(); ++k) {
+    const int block = order.order()[k];
+    EXPECT_EQ(blocks[static_cast<std::size_t>(block)].is_contact(), k >= order.joints());
+    EXPECT_LE(order.coupled(block).size(), 2U);
+  }
+  blocks.pop_back();
+  EXPECT_TRUE(order.update(blocks, 30));
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -1,0 +1,209 @@
+#include "app/app.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "app/link.hpp"
+#include "app/ui/panels.hpp"
+#include "core/io/setting_fields.hpp"
+
+namespace substep {
+namespace {
+
+constexpr std::array<double, 7> kSpeeds{0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0};
+
+void change_speed(Session& session, int by) {
+  const auto now = std::lower_bound(kSpeeds.begin(), kSpeeds.end(), session.speed() - 1e-9);
+  const auto i = std::clamp<std::ptrdiff_t>((now - kSpeeds.begin()) + by, 0,
+                                            static_cast<std::ptrdiff_t>(kSpeeds.size()) - 1);
+  session.set_speed(kSpeeds[static_cast<std::size_t>(i)]);
+}
+
+// Keys by the character that they type, so that they are where the keyboard's layout has them.
+void handle_key(App& app, ImWchar c) {
+  Settings s = app.session.settings();
+  switch (c) {
+    case ' ':
+      // The control that the keyboard is on takes the space bar.
+      if (!ImGui::GetIO().NavVisible) app.session.toggle();
+      break;
+    case '.':
+      app.session.pause();
+      app.session.step();
+      break;
+    case 'r':
+    case 'R':
+      app.reset();
+      break;
+    case 'f':
+    case 'F':
+      app.view.frame_all(app.session);
+      break;
+    case 'h':
+    case 'H':
+      app.desk.panels = !app.desk.panels;
+      break;
+    case 't':
+    case 'T':
+      app.desk.dark = !app.desk.dark;
+      break;
+    case '[':
+      change_speed(app.session, -1);
+      break;
+    case ']':
+      change_speed(app.session, 1);
+      break;
+    case '?':
+      app.desk.help = !app.desk.help;
+      break;
+    case '1':
+    case '2':
+    case '3':
+    case '4':
+    case '5':
+      s.mode = static_cast<Mode>(c - '1');
+      app.change(s);
+      break;
+    default:
+      break;
+  }
+}
+
+void handle_keys(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper) return;
+  const ImVector<ImWchar> typed = io.InputQueueCharacters;
+  for (const ImWchar c : typed) handle_key(app, c);
+}
+
+// Fonts and colours follow the window that the app finds itself in.
+void update_look(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const float ratio = std::clamp(io.DisplayFramebufferScale.x, 0.5F, 4.0F);
+  bool changed = false;
+  if (std::abs(ratio - app.pixel_ratio) > 1e-3F) {
+    app.look.fonts = ui::build_fonts(ratio);
+    if (app.pixel_ratio != 0.0F) app.renderer->fonts_changed();
+    app.pixel_ratio = ratio;
+    changed = true;
+  }
+  const ui::Theme& theme = app.desk.dark ? ui::dark_theme() : ui::light_theme();
+  const bool touch = io.DisplaySize.x < 900.0F;
+  const float row = touch ? 32.0F : 26.0F;
+  if (changed || app.look.theme != &theme || app.look.m.row != row) {
+    app.look.theme = &theme;
+    app.look.m.row = row;
+    ui::apply_style(app.look);
+  }
+}
+
+}  // namespace
+
+App::App(Library shipped, std::unique_ptr<Renderer> draws)
+    : library(std::move(shipped)),
+      session(library.scenes().front()),
+      renderer(std::move(draws)) {
+  run(library.scenes().front());
+}
+
+void App::run(std::shared_ptr<const Scene> scene) {
+  ++run_count;
+  session.load(std::move(scene));
+  change(session.settings());
+  desk.substeps_range = desk.energy_range = desk.error_range = {};
+}
+
+bool App::open(std::string_view name) {
+  auto scene = library.find(name);
+  if (scene) run(std::move(scene));
+  return scene != nullptr || session.scene().name == name;
+}
+
+bool App::open_text(std::string_view json, const std::string& from) {
+  SceneResult result = read_scene(json);
+  if (!result.scene) {
+    trouble = {from + " was not loaded", std::move(result.problems)};
+    return false;
+  }
+  trouble = {};
+  library.add(result.scene);
+  run(result.scene);
+  session.play();
+  return true;
+}
+
+void App::reset() {
+  ++run_count;
+  session.reset();
+  desk.substeps_range = desk.energy_range = desk.error_range = {};
+}
+
+void App::change(const Settings& settings) {
+  Settings s = settings;
+  s.watch_stiffness = desk.view.tint;
+  session.set_settings(s);
+}
+
+std::string App::set(std::string_view key, std::string_view value) {
+  if (key == "scene") {
+    return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
+  }
+  const SettingField* field = find_setting(key);
+  if (field == nullptr) return "is not a setting";
+  Settings s = session.settings();
+  if (const auto problem = set_setting(*field, value, s)) return *problem;
+  change(s);
+  return "";
+}
+
+void App::open_link(std::string_view fragment) {
+  std::vector<Problem> problems;
+  // The scene first: it brings settings of its own, which the others then change.
+  auto parts = parse_link(fragment);
+  std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
+  for (const LinkPart& part : parts) {
+    const std::string problem = set(part.key, part.value);
+    if (!problem.empty()) problems.push_back({part.key, problem});
+  }
+  if (!problems.empty()) trouble = {"The link could not be followed in full", std::move(problems)};
+}
+
+std::string App::link() const { return make_link(session.scene(), session.settings()); }
+
+void frame(App& app, double wall_dt) {
+  app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
+  app.session.advance(wall_dt);
+
+  update_look(app);
+  app.renderer->begin_frame();
+  ImGui::NewFrame();
+  handle_keys(app);
+  app.desk.time.hover = app.desk.time.hover_next;
+  app.desk.time.hover_next.reset();
+  if (app.session.settings().watch_stiffness != app.desk.view.tint) {
+    app.change(app.session.settings());
+  }
+  app.view.follow(app.session);
+  app.view.camera.update(wall_dt, app.desk.reduced_motion);
+  ui::draw_window(app);
+
+  const ImGuiIO& io = ImGui::GetIO();
+  app.view.build(app.session, app.desk.view, app.look.theme->view, app.view_rect,
+                 static_cast<double>(io.DisplaySize.x), static_cast<double>(io.DisplaySize.y), app.picture);
+  ImGui::Render();
+  const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
+  const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
+  app.renderer->draw(app.picture, *ImGui::GetDrawData(), width, height);
+
+  if (app.host.link_changed) {
+    std::string link = app.link();
+    if (link != app.last_link) {
+      app.last_link = std::move(link);
+      app.host.link_changed(app.last_link);
+    }
+  }
+}
+
+}  // namespace substep

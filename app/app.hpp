@@ -1,0 +1,93 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/library.hpp"
+#include "app/render/renderer.hpp"
+#include "app/render/scene_view.hpp"
+#include "app/session.hpp"
+#include "app/ui/look.hpp"
+#include "app/ui/plot.hpp"
+#include "core/io/scene_reader.hpp"
+
+namespace substep {
+
+/// What a shell can do for the application. Each may be empty.
+struct Host {
+  std::function<void(const std::string& fragment)> link_changed;  // keeps the address up to date
+};
+
+/// What went wrong with outside data: shown in a panel until it is closed.
+struct Trouble {
+  std::string title;  // "my_scene.json was not loaded"
+  std::vector<Problem> problems;
+};
+
+/// Which of the phone's panels is open.
+enum class Tab : unsigned char { kControls, kPlots, kWhy };
+
+/// Everything that a person changes about the window and not about the run.
+struct Desk {
+  bool dark = true;
+  bool panels = true;  // off: nothing but the picture
+  bool help = false;
+  bool reduced_motion = false;
+  Tab tab = Tab::kControls;
+  ViewOptions view;
+  ui::TimeAxis time;
+  ui::PlotRange substeps_range;
+  ui::PlotRange energy_range;
+  ui::PlotRange error_range;
+  int dismissed_failure = 0;  // of which run the failure was put aside
+};
+
+/// The application: one scene running, the view of it, and the panels around it. The same in the
+/// native window, in the page and in tests; the shell owns the window, its events and the clock.
+struct App {
+  /// @param library not empty; its first scene runs
+  App(Library library, std::unique_ptr<Renderer> renderer);
+
+  /// Runs a shipped scene. @return false where there is none of that name
+  bool open(std::string_view name);
+  /// Runs a scene given as text. Where it has problems they are shown and the old one goes on.
+  /// @param from what people call it: a file's name
+  bool open_text(std::string_view json, const std::string& from);
+  void run(std::shared_ptr<const Scene> scene);
+  /// Changes a part of the experiment: "scene", "solver", "alpha", ... as links spell them.
+  /// @return what is wrong with it, or ""
+  std::string set(std::string_view key, std::string_view value);
+  /// The experiment that a link describes; what cannot be read is shown and the rest holds.
+  void open_link(std::string_view fragment);
+  [[nodiscard]] std::string link() const;
+  void reset();
+  /// New settings for the run, live.
+  void change(const Settings& settings);
+
+  Library library;
+  Session session;
+  SceneView view;
+  Desk desk;
+  Host host;
+  std::unique_ptr<Renderer> renderer;
+  Trouble trouble;  // none where the title is empty
+  int run_count = 0;  // resets and loads
+
+  // Kept by frame().
+  ui::Look look;
+  float pixel_ratio = 0.0F;  // that the fonts were made for
+  double frame_time = 1.0 / 60.0;  // smoothed [s]
+  ViewRect view_rect;
+  Picture picture;
+  std::string last_link;
+};
+
+/// One frame on the screen: lets the time pass, builds the panels, draws. The shell has told Dear
+/// ImGui the display's size, its pixel ratio and the events.
+/// @param wall_dt time since the last call [s]
+void frame(App& app, double wall_dt);
+
+}  // namespace substep

@@ -1,0 +1,21 @@
+#pragma once
+// The subcommands of the command line, one file each.
+
+#include <CLI/CLI.hpp>
+
+namespace substep::cli {
+
+// What the program ends with.
+inline constexpr int kOk = 0;
+inline constexpr int kUnexpectedVerdict = 1;
+inline constexpr int kBadInput = 2;
+inline constexpr int kNotFinite = 3;
+
+// Each adds its subcommand. The result is the exit code of the one that ran.
+void add_run(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+void add_hash(CLI::App& app, int& exit_code);
+void add_scenes(CLI::App& app, int& exit_code);
+void add_generate(CLI::App& app, int& exit_code);
+
+}  // namespace substep::cli

@@ -1,0 +1,51 @@
+#include <cinttypes>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/length_flags.hpp"
+#include "app/cli/scene_source.hpp"
+#include "app/cli/settings_flags.hpp"
+#include "core/sim/simulator.hpp"
+
+namespace substep::cli {
+namespace {
+
+struct Options {
+  std::string scene;
+  LengthFlags length;
+  SettingsFlags settings;
+};
+
+int hash(const Options& options) {
+  const auto scene = load_scene(options.scene);
+  if (!scene) return kBadInput;
+  Simulator simulator(scene);
+  simulator.set_settings(options.settings.applied_to(scene->settings));
+  const std::int64_t frames = options.length.count(*scene);
+  for (std::int64_t i = 0; i < frames; ++i) {
+    const FrameReport report = simulator.step();
+    if (report.status == StepStatus::kOk) continue;
+    std::fprintf(stderr, "the state stopped being finite at %.3f s\n", report.time);
+    return kNotFinite;
+  }
+  std::printf("%016" PRIx64 "\n", state_hash(simulator.state()));
+  return kOk;
+}
+
+}  // namespace
+
+void add_hash(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "hash", "Print the hash of a scene's state after a run: the same on every platform");
+  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
+      ->required();
+  options->length.add_to(*command);
+  options->settings.add_to(*command);
+  command->footer("Example:\n  substep hash bridge --frames 600 --mode const --n 16");
+  command->callback([options, &exit_code] { exit_code = hash(*options); });
+}
+
+}  // namespace substep::cli

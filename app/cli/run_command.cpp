@@ -1,0 +1,149 @@
+#include <chrono>
+#include <cinttypes>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/length_flags.hpp"
+#include "app/cli/output.hpp"
+#include "app/cli/run_report.hpp"
+#include "app/cli/scene_source.hpp"
+#include "app/cli/settings_flags.hpp"
+#include "core/io/frame_columns.hpp"
+#include "core/io/json.hpp"
+#include "core/lab/verdict.hpp"
+#include "core/sim/simulator.hpp"
+
+namespace substep::cli {
+namespace {
+
+struct Options {
+  std::string scene;
+  std::string csv;
+  std::string json;
+  bool quiet = false;
+  LengthFlags length;
+  SettingsFlags settings;
+};
+
+/// A line on the terminal that is rewritten in place, at most ten times a second.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool shown) : shown_(shown) {}
+  void update(const RunReport& report, std::int64_t frames) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;
+    last_ = now;
+    written_ = true;
+    std::fprintf(stderr, "\r\x1b[K%s", report.progress(frames).c_str());
+  }
+  void clear() const {
+    if (written_) std::fputs("\r\x1b[K", stderr);
+  }
+
+ private:
+  bool shown_;
+  bool written_ = false;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::string json_text(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string json_head(const Scene& scene, const Settings& settings) {
+  std::string text = "{\n  \"scene\": " + json_text(scene.name) + ",\n  \"settings\": {";
+  const char* separator = "";
+  for (const SettingField& field : setting_fields()) {
+    const bool is_name =
+        setting_text(field, settings).find_first_not_of("0123456789.e-") != std::string::npos &&
+        !std::holds_alternative<FlagSetting>(field.member);
+    text += separator + json_text(std::string(field.name)) + ": ";
+    text += is_name ? json_text(setting_text(field, settings)) : setting_text(field, settings);
+    separator = ", ";
+  }
+  return text + "},\n  \"frames\": [";
+}
+
+std::string json_tail(const Verdict& verdict, const State& state) {
+  char hash[32];
+  std::snprintf(hash, sizeof hash, "%016" PRIx64, state_hash(state));
+  return std::string("\n  ],\n  \"hash\": \"") + hash +
+         "\",\n  \"holds\": " + (verdict.holds() ? "true" : "false") +
+         ",\n  \"verdict\": " + json_text(verdict.text()) + "\n}\n";
+}
+
+int run(const Options& options) {
+  const auto scene = load_scene(options.scene);
+  Output csv;
+  Output json;
+  if (!scene || !csv.open(options.csv) || !json.open(options.json)) return kBadInput;
+
+  Simulator simulator(scene);
+  simulator.set_settings(options.settings.applied_to(scene->settings));
+  const FrameReport start = simulator.observe();
+  Verdict verdict(*scene, simulator.state(), start);
+  RunReport report(*scene, start);
+  ProgressLine progress(!options.quiet && stderr_is_terminal());
+  const auto columns = frame_columns(*scene);
+  if (csv.is_open()) csv.write(csv_header(columns));
+  if (json.is_open()) json.write(json_head(*scene, simulator.settings()));
+
+  const std::int64_t frames = options.length.count(*scene);
+  const char* separator = "\n    ";
+  for (std::int64_t i = 0; i < frames && !verdict.not_finite(); ++i) {
+    const FrameReport frame = simulator.step();
+    verdict.add(*scene, simulator.state(), frame);
+    report.add(frame);
+    progress.update(report, frames);
+    const FrameView view{*scene, frame, simulator.state()};
+    if (csv.is_open()) csv.write(csv_line(columns, view));
+    if (json.is_open()) {
+      json.write(separator + json_line(columns, view));
+      separator = ",\n    ";
+    }
+  }
+  progress.clear();
+  if (json.is_open()) json.write(json_tail(verdict, simulator.state()));
+  if (!csv.close() || !json.close()) return kBadInput;
+
+  // Where a result takes standard output, words for people go to stderr.
+  std::FILE* words = options.csv == "-" || options.json == "-" ? stderr : stdout;
+  if (!options.quiet) {
+    std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
+                 settings_line(simulator.settings()).c_str(),
+                 report.summary(state_hash(simulator.state())).c_str());
+  }
+  std::fprintf(words, "%s\n", verdict.text().c_str());
+  return verdict.not_finite() ? kNotFinite : kOk;
+}
+
+}  // namespace
+
+void add_run(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("run", "Run a scene and tell whether it holds");
+  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
+      ->required();
+  options->length.add_to(*command);
+  command->add_option("--csv", options->csv, "write one line per frame to this file, - for stdout");
+  command->add_option("--json", options->json, "the same as JSON, with settings and verdict");
+  command->add_flag("--quiet", options->quiet, "print the verdict only");
+  options->settings.add_to(*command);
+  command->footer(
+      "The last line is the verdict by the scene's own criteria: `holds`, or `fails at 0.352 s: "
+      "...`,\n"
+      "which is a result, not an error.\n"
+      "Examples:\n"
+      "  substep run swinging_box --mode const --n 6\n"
+      "  substep run bridge --solver pgs --iterations 50 --seconds 3 --csv -");
+  command->callback([options, &exit_code] {
+    if (options->csv == "-" && options->json == "-") {
+      throw CLI::ValidationError("--json", "standard output is taken by --csv");
+    }
+    exit_code = run(*options);
+  });
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,92 @@
+#include "app/cli/run_report.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+#include "core/io/number_text.hpp"
+#include "core/model/names.hpp"
+
+namespace substep::cli {
+namespace {
+
+/// printf into a string.
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[200];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+}  // namespace
+
+RunReport::RunReport(const Scene& scene, const FrameReport& start)
+    : scene_(scene), energy_at_start_(start.energy), last_(start) {}
+
+void RunReport::add(const FrameReport& report) {
+  last_ = report;
+  substeps_.push_back(report.n_substeps);
+  total_substeps_ += report.n_substeps;
+  capped_frames_ += report.capped ? 1 : 0;
+  joint_gap_ = std::max(joint_gap_, report.joint_gap);
+  penetration_ = std::max(penetration_, report.penetration);
+  computing_ += report.times.total;
+}
+
+std::string RunReport::energy_text() const {
+  const double change = last_.energy - energy_at_start_;
+  if (!scene_.criteria.energy_scale) return format("%+.4g J", change);
+  return format("%+.3g %% of %.4g J", 100.0 * change / *scene_.criteria.energy_scale,
+                *scene_.criteria.energy_scale);
+}
+
+std::string RunReport::progress(std::int64_t frames) const {
+  const double done =
+      frames > 0 ? 100.0 * static_cast<double>(last_.frame) / static_cast<double>(frames) : 100.0;
+  std::string line = format("%3.0f %%  %7.2f s  %3d sub-steps", done, last_.time, last_.n_substeps);
+  line += "  energy " + energy_text();
+  if (scene_.effects.joints) line += format("  gap %.2g m", last_.joint_gap);
+  return line;
+}
+
+std::string RunReport::summary(std::uint64_t state_hash) const {
+  std::string text;
+  text += format("time         %.3f s in %" PRId64 " frames\n", last_.time, last_.frame);
+  if (!substeps_.empty()) {
+    std::vector<int> sorted = substeps_;
+    std::sort(sorted.begin(), sorted.end());
+    text += format("sub-steps    %" PRId64 "; %d / %d / %d a frame (least, median, most)\n",
+                   total_substeps_, sorted.front(), sorted[sorted.size() / 2], sorted.back());
+  }
+  if (capped_frames_ > 0) text += format("capped       %" PRId64 " frames\n", capped_frames_);
+  text += "energy       " + energy_text() + "\n";
+  if (scene_.effects.joints) text += format("joint gap    %.3g m at most\n", joint_gap_);
+  if (scene_.effects.contact) text += format("penetration  %.3g m at most\n", penetration_);
+  if (total_substeps_ > 0) {
+    text += format("computing    %.3f s; %.3f ms a frame, %.1f us a sub-step\n", computing_,
+                   1e3 * computing_ / static_cast<double>(substeps_.size()),
+                   1e6 * computing_ / static_cast<double>(total_substeps_));
+  }
+  text += format("state hash   %016" PRIx64 "\n", state_hash);
+  return text;
+}
+
+std::string settings_line(const Settings& s) {
+  std::string line(name_of(s.solver));
+  if (s.solver == SolverKind::kPgs) line += " " + std::to_string(s.iterations);
+  line += ", ";
+  line += name_of(s.mode);
+  if (s.mode == Mode::kConst) line += " " + std::to_string(s.n);
+  if (s.mode == Mode::kCapped) line += " at " + std::to_string(s.n_cap);
+  if (s.mode != Mode::kNone && s.mode != Mode::kConst) line += ", alpha " + number_text(s.alpha);
+  if (s.mode == Mode::kAdaptive || s.mode == Mode::kCapped) {
+    line += s.policy == Policy::kFrame ? ", decided per frame" : ", decided per sub-step";
+  }
+  line += ", ";
+  line += name_of(s.integrator);
+  line += ", drift ";
+  line += name_of(drift_law(s));
+  return line;
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/model/scene.hpp"
+#include "core/sim/report.hpp"
+
+namespace substep::cli {
+
+/// Gathers what people want to know of a run as it goes.
+class RunReport {
+ public:
+  RunReport(const Scene& scene, const FrameReport& start);
+
+  void add(const FrameReport& report);
+
+  /// One short line on how far the run is, for a terminal.
+  [[nodiscard]] std::string progress(std::int64_t frames) const;
+  /// A few lines on the whole run, each ended by a line feed.
+  [[nodiscard]] std::string summary(std::uint64_t state_hash) const;
+
+ private:
+  [[nodiscard]] std::string energy_text() const;
+
+  const Scene& scene_;
+  double energy_at_start_;  // [J]
+  FrameReport last_;
+  std::vector<int> substeps_;  // per frame
+  std::int64_t total_substeps_ = 0;
+  std::int64_t capped_frames_ = 0;
+  double joint_gap_ = 0.0;    // largest so far [m]
+  double penetration_ = 0.0;  // largest so far [m]
+  double computing_ = 0.0;    // [s]
+};
+
+/// "bpp, adaptive, alpha 0.1, per frame, euler": the settings that matter in the mode.
+std::string settings_line(const Settings& settings);
+
+}  // namespace substep::cli

@@ -1,0 +1,57 @@
+#include "app/cli/scene_source.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <iterator>
+
+#include "core/io/object_reader.hpp"
+#include "core/io/scene_reader.hpp"
+
+namespace substep::cli {
+
+std::string scenes_folder() {
+  const char* folder = std::getenv("SUBSTEP_SCENES");
+  return folder && *folder ? folder : SUBSTEP_SCENES_FOLDER;
+}
+
+std::vector<std::string> shipped_names() {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(scenes_folder(), error)) {
+    const std::filesystem::path& path = entry.path();
+    // scene.schema.json lies beside the scenes.
+    if (path.extension() != ".json" || path.stem().has_extension()) continue;
+    names.push_back(path.stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
+  SceneResult result;
+  std::string place = name_or_path;
+  if (name_or_path == "-") {
+    place = "standard input";
+    result = read_scene(std::string(std::istreambuf_iterator<char>(std::cin), {}));
+  } else {
+    const std::vector<std::string> names = shipped_names();
+    if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
+      place = (std::filesystem::path(scenes_folder()) / (name_or_path + ".json")).string();
+    } else if (!std::filesystem::exists(name_or_path)) {
+      const std::vector<std::string_view> candidates(names.begin(), names.end());
+      std::fprintf(stderr, "%s: no such scene or file%s; `substep scenes` lists the scenes\n",
+                   name_or_path.c_str(), did_you_mean(name_or_path, candidates).c_str());
+      return nullptr;
+    }
+    result = read_scene_file(place);
+  }
+  for (const Problem& problem : result.problems) {
+    std::fprintf(stderr, "%s: %s\n", place.c_str(), to_string(problem).c_str());
+  }
+  return result.scene;
+}
+
+}  // namespace substep::cli

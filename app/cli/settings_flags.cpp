@@ -1,0 +1,45 @@
+#include "app/cli/settings_flags.hpp"
+
+#include <algorithm>
+
+namespace substep::cli {
+
+void SettingsFlags::add_to(CLI::App& command) {
+  constexpr const char* kGroup = "Settings (left out: as the scene has them)";
+  for (const SettingField& field : setting_fields()) {
+    std::string name(field.name);
+    std::replace(name.begin(), name.end(), '_', '-');
+    const std::string help(field.help);
+    if (std::holds_alternative<FlagSetting>(field.member)) {
+      command
+          .add_flag_function(
+              "--" + name + ",!--no-" + name,
+              [this, &field](std::int64_t count) { take(field, count > 0 ? "true" : "false"); },
+              help)
+          ->group(kGroup);
+    } else {
+      command
+          .add_option_function<std::string>(
+              "--" + name, [this, &field](const std::string& text) { take(field, text); }, help)
+          ->type_name(allowed_values(field))
+          ->group(kGroup);
+    }
+  }
+}
+
+void SettingsFlags::take(const SettingField& field, const std::string& text) {
+  Settings scratch;
+  if (const auto problem = set_setting(field, text, scratch)) {
+    std::string flag = "--" + std::string(field.name);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    throw CLI::ValidationError(flag, *problem);
+  }
+  given_.emplace_back(&field, text);
+}
+
+Settings SettingsFlags::applied_to(Settings settings) const {
+  for (const auto& [field, text] : given_) set_setting(*field, text, settings);
+  return settings;
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/io/setting_fields.hpp"
+
+namespace substep::cli {
+
+/// Every setting as a flag; what is not given stays as the scene has it.
+class SettingsFlags {
+ public:
+  /// Adds the flags. This object must outlive the parse.
+  void add_to(CLI::App& command);
+
+  /// The settings with the flags that were given.
+  [[nodiscard]] Settings applied_to(Settings settings) const;
+
+ private:
+  void take(const SettingField& field, const std::string& text);
+
+  std::vector<std::pair<const SettingField*, std::string>> given_;
+};
+
+}  // namespace substep::cli

@@ -1,0 +1,93 @@
+#include "app/format.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace substep {
+namespace {
+
+std::string print(double value, int digits) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+  return text.data();
+}
+
+std::string real_minus(std::string text) {
+  if (text.starts_with('-')) text.replace(0, 1, "−");
+  return text;
+}
+
+std::string superscript(int value) {
+  static constexpr std::array<const char*, 10> kDigits{"⁰", "¹", "²", "³", "⁴",
+                                                       "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text = value < 0 ? "⁻" : "";
+  for (const char c : std::to_string(std::abs(value))) {
+    text += kDigits[static_cast<std::size_t>(c - '0')];
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string fixed(double value, int digits) {
+  std::string text = print(value, digits);
+  if (text.starts_with('-') && text.find_first_of("123456789") == std::string::npos) {
+    text.erase(0, 1);
+  }
+  return real_minus(text);
+}
+
+std::string power_of_ten(int exponent) {
+  return exponent == 0 ? "1" : exponent == 1 ? "10" : "10" + superscript(exponent);
+}
+
+std::string grouped(double value) {
+  std::string text = print(std::abs(value), 0);
+  for (auto i = static_cast<int>(text.size()) - 3; i > 0; i -= 3) {
+    text.insert(static_cast<std::size_t>(i), ",");
+  }
+  return (value <= -0.5 ? "−" : "") + text;
+}
+
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return std::isnan(value) ? "not a number" : value < 0 ? "−∞" : "∞";
+  const double size = std::abs(value);
+  if (size == 0.0) return "0";
+  const int exponent = static_cast<int>(std::floor(std::log10(size)));
+  if (exponent >= 5 || exponent < -3) {
+    const double mantissa = value / std::pow(10.0, exponent);
+    return fixed(mantissa, 2) + "×10" + superscript(exponent);
+  }
+  return exponent >= 3 ? grouped(value) : fixed(value, 2 - exponent);
+}
+
+Unit unit_for(double scale) {
+  static constexpr std::array<Unit, 7> kUnits{
+      {{"µ", 1e-6}, {"m", 1e-3}, {"", 1.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}}};
+  Unit best = kUnits[0];
+  for (const Unit& unit : kUnits) {
+    if (scale >= unit.factor) best = unit;
+  }
+  return best;
+}
+
+std::string percent(double share) {
+  const double value = 100.0 * share;
+  const int digits = std::abs(value) < 0.095 ? 3 : std::abs(value) < 9.95 ? 2 : 1;
+  const std::string text = fixed(value, digits);
+  return (value > 0.0 ? "+" : "") + text + " %";
+}
+
+std::string duration(double seconds) {
+  if (seconds < 0.9995e-3) return fixed(1e6 * seconds, seconds < 1e-4 ? 1 : 0) + " µs";
+  return fixed(1e3 * seconds, seconds < 1e-2 ? 2 : 1) + " ms";
+}
+
+std::string hex(unsigned long long value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%016llx", value);
+  return text.data();
+}
+
+}  // namespace substep

@@ -1,0 +1,29 @@
+#pragma once
+// Numbers as people read them. Minus signs are real ones, and powers of ten stand high.
+
+#include <string>
+
+namespace substep {
+
+/// Three significant digits: "0.852", "12.3", "5,520", "5.52×10⁵".
+std::string short_number(double value);
+/// "1,000"
+std::string grouped(double value);
+/// With one of J, kJ, MJ, ...: the unit that keeps `scale` between 1 and 1,000.
+struct Unit {
+  const char* prefix = "";
+  double factor = 1.0;  // value of one unit
+};
+Unit unit_for(double scale);
+/// Fixed digits after the point, with a real minus and no minus zero.
+std::string fixed(double value, int digits);
+/// "+0.01 %", "−20.3 %"
+std::string percent(double share);
+/// "0.85 ms", "12.3 µs"
+std::string duration(double seconds);
+/// "10⁻⁶"
+std::string power_of_ten(int exponent);
+/// Sixteen hexadecimal digits.
+std::string hex(unsigned long long value);
+
+}  // namespace substep

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/io/scene_reader.hpp"
+#include "core/model/scene.hpp"
+
+namespace substep {
+
+/// The shipped scenes: every *.json of one folder that reads without problems, in the order that
+/// the picker shows them.
+class Library {
+ public:
+  Library() = default;
+  explicit Library(const std::string& folder);
+
+  [[nodiscard]] const std::vector<std::shared_ptr<const Scene>>& scenes() const { return scenes_; }
+  [[nodiscard]] std::shared_ptr<const Scene> find(std::string_view name) const;
+  /// Adds a person's own scene, or puts it in the place of an older one of the same name.
+  void add(std::shared_ptr<const Scene> scene);
+
+ private:
+  void sort();
+  std::vector<std::shared_ptr<const Scene>> scenes_;
+};
+
+/// What the picker calls a group of scenes: "From the paper" for "paper".
+std::string group_title(std::string_view group);
+
+}  // namespace substep

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/math/types.hpp"
+#include "core/model/scene.hpp"
+
+namespace substep {
+
+/// The part of the window that shows the scene, in logical pixels from the top left corner. The
+/// picture fills the window; what matters in it is kept inside this rectangle.
+struct ViewRect {
+  float x = 0.0F;
+  float y = 0.0F;
+  float width = 1.0F;
+  float height = 1.0F;
+};
+
+/// A ball that holds something.
+struct Bounds {
+  Vec3 centre = Vec3::Zero();
+  double radius = 1.0;
+};
+
+/// Orbits a point. What the person asks for is a goal; the camera eases to it.
+class OrbitCamera {
+ public:
+  static constexpr double kFieldOfView = 0.61;  // vertical, over the view rectangle [rad]
+
+  /// Jumps to where the scene wants to be looked at from.
+  /// @param half_width what must be seen to either side of the target, however narrow the view [m]
+  void place(const Camera& camera, double half_width);
+  [[nodiscard]] static Vec3 right_of(const Camera& camera);
+  /// Moves so that the ball fills the view, seen from where it is now.
+  void frame(const Bounds& bounds);
+  void orbit(double yaw, double pitch);          ///< [rad]
+  void pan(double right, double up, const ViewRect& view);  ///< by logical pixels
+  void zoom(double factor);                      ///< > 1 goes closer
+  /// @param dt wall time [s]; @param jump arrives at once (reduced motion)
+  void update(double dt, bool jump);
+
+  [[nodiscard]] Vec3 eye(const ViewRect& view) const;
+  [[nodiscard]] Vec3 target() const { return now_.target; }
+  /// World to clip space of a window, the target in the middle of the view rectangle.
+  [[nodiscard]] Eigen::Matrix4d view_projection(const ViewRect& view, double window_width,
+                                                double window_height) const;
+
+ private:
+  struct Pose {
+    Vec3 target = Vec3::Zero();
+    double yaw = 0.0;    // about +y, 0 looks along -z [rad]
+    double pitch = 0.2;  // above the horizon [rad]
+    double distance = 20.0;
+  };
+  [[nodiscard]] static Vec3 backward(const Pose& pose);
+  /// Farther away where the view is narrower than what is to be seen.
+  [[nodiscard]] double fit(const ViewRect& view) const;
+  Pose now_;
+  Pose goal_;
+  double aspect_ = 1.0;  // width over height of what is to be seen
+};
+
+}  // namespace substep

@@ -1,0 +1,202 @@
+#include "app/render/gl_objects.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "app/render/picture.hpp"
+
+namespace substep::gl {
+namespace {
+
+// Where a field lies, as glVertexAttribPointer wants it.
+const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
+
+GLuint compile(GLenum kind, const std::string& source, std::string& error) {
+  const GLuint shader = glCreateShader(kind);
+  const char* text = source.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  GLint ok = 0;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+  if (ok == 0) {
+    std::array<char, 1024> log{};
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    error += log.data();
+  }
+  return shader;
+}
+
+}  // namespace
+
+Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+Program& Program::operator=(Program&& other) noexcept {
+  std::swap(id_, other.id_);
+  return *this;
+}
+Program::~Program() {
+  if (id_ != 0) glDeleteProgram(id_);
+}
+
+bool Program::build(const std::string& vertex, const std::string& fragment, std::string& error) {
+  const GLuint v = compile(GL_VERTEX_SHADER, vertex, error);
+  const GLuint f = compile(GL_FRAGMENT_SHADER, fragment, error);
+  id_ = glCreateProgram();
+  glAttachShader(id_, v);
+  glAttachShader(id_, f);
+  glLinkProgram(id_);
+  glDeleteShader(v);
+  glDeleteShader(f);
+  GLint ok = 0;
+  glGetProgramiv(id_, GL_LINK_STATUS, &ok);
+  if (ok == 0) {
+    std::array<char, 1024> log{};
+    glGetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    error += log.data();
+  }
+  return ok != 0;
+}
+
+void Program::set(const char* name, int value) const {
+  glUniform1i(glGetUniformLocation(id_, name), value);
+}
+void Program::set(const char* name, float value) const {
+  glUniform1f(glGetUniformLocation(id_, name), value);
+}
+void Program::set2(const char* name, float x, float y) const {
+  glUniform2f(glGetUniformLocation(id_, name), x, y);
+}
+void Program::set3(const char* name, const float* xyz) const {
+  glUniform3fv(glGetUniformLocation(id_, name), 1, xyz);
+}
+void Program::set4(const char* name, const float* xyzw) const {
+  glUniform4fv(glGetUniformLocation(id_, name), 1, xyzw);
+}
+void Program::set_matrix(const char* name, const float* column_major) const {
+  glUniformMatrix4fv(glGetUniformLocation(id_, name), 1, GL_FALSE, column_major);
+}
+
+void StreamBuffer::upload(const void* data, std::size_t bytes) const {
+  bind();
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+}
+
+RoundedBox::RoundedBox(int segments, const StreamBuffer& instances) {
+  // Every face is a grid. Each of its halves turns from the face's normal (slope 0) to the edge,
+  // where the neighbouring face takes over (slope 1); between the two middle lines lies the flat.
+  struct Vertex {
+    std::array<float, 3> corner;
+    std::array<float, 3> normal;
+  };
+  std::vector<Vertex> vertices;
+  std::vector<std::uint16_t> indices;
+  const int lines = 2 * (segments + 1);
+  const auto slope = [&](int line) {
+    const int step = line <= segments ? line - segments : line - segments - 1;
+    return std::tan(static_cast<float>(step) / static_cast<float>(segments) * 0.785398163F);
+  };
+  const auto side = [&](int line) { return line <= segments ? -1.0F : 1.0F; };
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const float sign : {-1.0F, 1.0F}) {
+      const auto base = static_cast<int>(vertices.size());
+      const std::size_t u = (axis + 1) % 3;
+      const std::size_t v = (axis + 2) % 3;
+      for (int i = 0; i < lines; ++i) {
+        for (int j = 0; j < lines; ++j) {
+          Vertex vertex{};
+          vertex.corner[axis] = sign;
+          vertex.corner[u] = side(i);
+          vertex.corner[v] = side(j);
+          const float a = slope(i);
+          const float b = slope(j);
+          const float length = std::sqrt(1.0F + a * a + b * b);
+          vertex.normal[axis] = sign / length;
+          vertex.normal[u] = a / length;
+          vertex.normal[v] = b / length;
+          vertices.push_back(vertex);
+        }
+      }
+      for (int i = 0; i + 1 < lines; ++i) {
+        for (int j = 0; j + 1 < lines; ++j) {
+          const int p = base + i * lines + j;
+          const std::array<int, 6> quad =
+              sign > 0.0F ? std::array<int, 6>{p, p + lines, p + 1, p + 1, p + lines, p + lines + 1}
+                          : std::array<int, 6>{p, p + 1, p + lines, p + 1, p + lines + 1, p + lines};
+          for (const int index : quad) indices.push_back(static_cast<std::uint16_t>(index));
+        }
+      }
+    }
+  }
+  index_count_ = static_cast<int>(indices.size());
+
+  glGenVertexArrays(1, &array_);
+  glBindVertexArray(array_);
+  glGenBuffers(1, &vertices_);
+  glBindBuffer(GL_ARRAY_BUFFER, vertices_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
+               vertices.data(), GL_STATIC_DRAW);
+  glGenBuffers(1, &indices_);
+  glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+               static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)), indices.data(),
+               GL_STATIC_DRAW);
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, corner)));
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, normal)));
+  instances.bind();
+  constexpr GLsizei kStride = sizeof(Instance);
+  glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, position)));
+  glVertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, orientation)));
+  glVertexAttribPointer(4, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, half_extents)));
+  glVertexAttribPointer(5, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, color)));
+  for (GLuint i = 0; i < 6; ++i) {
+    glEnableVertexAttribArray(i);
+    glVertexAttribDivisor(i, i < 2 ? 0 : 1);
+  }
+  glBindVertexArray(0);
+}
+
+RoundedBox::~RoundedBox() {
+  glDeleteVertexArrays(1, &array_);
+  glDeleteBuffers(1, &vertices_);
+  glDeleteBuffers(1, &indices_);
+}
+
+void RoundedBox::draw(int instances) const {
+  glBindVertexArray(array_);
+  glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_SHORT, nullptr, instances);
+}
+
+ShadowMap::ShadowMap(int size) : size_(size) {
+  glGenTextures(1, &texture_);
+  bind_texture();
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+  glGenFramebuffers(1, &frame_buffer_);
+  bind_target();
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture_, 0);
+  constexpr GLenum kNone = GL_NONE;
+  glDrawBuffers(1, &kNone);
+  glReadBuffer(GL_NONE);
+  complete_ = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+ShadowMap::~ShadowMap() {
+  glDeleteFramebuffers(1, &frame_buffer_);
+  glDeleteTextures(1, &texture_);
+}
+
+void ShadowMap::bind_texture() const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+}
+
+}  // namespace substep::gl

@@ -1,0 +1,88 @@
+#pragma once
+// The few OpenGL objects that the renderer needs, each freed with its owner.
+
+// <epoxy/gl.h> natively, <GLES3/gl3.h> on the web: the build says which.
+#include SUBSTEP_GL_HEADER
+
+#include <string>
+#include <vector>
+
+namespace substep::gl {
+
+/// A vertex and a fragment shader linked together.
+class Program {
+ public:
+  Program() = default;
+  Program(Program&& other) noexcept;
+  Program& operator=(Program&& other) noexcept;
+  ~Program();
+
+  /// Compiles and links. @return false with the compiler's words added to `error`
+  bool build(const std::string& vertex, const std::string& fragment, std::string& error);
+  void use() const { glUseProgram(id_); }
+  void set(const char* name, int value) const;
+  void set(const char* name, float value) const;
+  void set2(const char* name, float x, float y) const;
+  void set3(const char* name, const float* xyz) const;
+  void set4(const char* name, const float* xyzw) const;
+  void set_matrix(const char* name, const float* column_major) const;
+
+ private:
+  GLuint id_ = 0;
+};
+
+/// A buffer that is written anew every frame.
+class StreamBuffer {
+ public:
+  StreamBuffer() { glGenBuffers(1, &id_); }
+  ~StreamBuffer() { glDeleteBuffers(1, &id_); }
+  StreamBuffer(const StreamBuffer&) = delete;
+  StreamBuffer& operator=(const StreamBuffer&) = delete;
+
+  void bind() const { glBindBuffer(GL_ARRAY_BUFFER, id_); }
+  void upload(const void* data, std::size_t bytes) const;
+
+ private:
+  GLuint id_ = 0;
+};
+
+/// The unit box with rounded edges: at full rounding it is a ball.
+class RoundedBox {
+ public:
+  /// @param segments per quarter of a turn and half edge
+  /// @param instances where the per-instance attributes come from (struct Instance)
+  RoundedBox(int segments, const StreamBuffer& instances);
+  ~RoundedBox();
+  RoundedBox(const RoundedBox&) = delete;
+  RoundedBox& operator=(const RoundedBox&) = delete;
+
+  void draw(int instances) const;
+
+ private:
+  GLuint array_ = 0;
+  GLuint vertices_ = 0;
+  GLuint indices_ = 0;
+  int index_count_ = 0;
+};
+
+/// A depth texture to draw the light's view into.
+class ShadowMap {
+ public:
+  explicit ShadowMap(int size);
+  ~ShadowMap();
+  ShadowMap(const ShadowMap&) = delete;
+  ShadowMap& operator=(const ShadowMap&) = delete;
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] bool complete() const { return complete_; }
+  void bind_target() const { glBindFramebuffer(GL_FRAMEBUFFER, frame_buffer_); }
+  void bind_texture() const;
+
+ private:
+  int size_ = 0;
+  GLuint texture_ = 0;
+  GLuint frame_buffer_ = 0;
+  bool complete_ = false;
+};
+
+}  // namespace substep::gl

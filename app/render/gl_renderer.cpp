@@ -1,0 +1,227 @@
+#include "app/render/gl_renderer.hpp"
+
+#include <imgui.h>
+#include <imgui_impl_opengl3.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "app/render/gl_objects.hpp"
+#include "app/render/shaders.hpp"
+
+namespace substep {
+namespace {
+
+using Eigen::Matrix4f;
+using Eigen::Vector3f;
+
+Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
+
+class GlRenderer final : public Renderer {
+ public:
+  ~GlRenderer() override { ImGui_ImplOpenGL3_Shutdown(); }
+
+  bool build(std::string& error);
+  void begin_frame() override { ImGui_ImplOpenGL3_NewFrame(); }
+  void draw(const Picture& picture, const ImDrawData& panels, int width, int height) override;
+  void fonts_changed() override { ImGui_ImplOpenGL3_DestroyFontsTexture(); }
+
+ private:
+  // World to the light's clip space: a box around the focus, seen from far along the light.
+  static Matrix4f light_matrix(const Picture& picture);
+  void draw_shadows(const Picture& picture, const Matrix4f& light);
+  void draw_bodies(const Picture& picture, const Matrix4f& light);
+  void draw_ground(const Picture& picture, const Matrix4f& light);
+  void draw_ribbons(const Picture& picture);
+
+  gl::StreamBuffer box_instances_;
+  gl::StreamBuffer ball_instances_;
+  gl::StreamBuffer ribbon_vertices_;
+  gl::RoundedBox box_{3, box_instances_};
+  gl::RoundedBox ball_{12, ball_instances_};
+  gl::ShadowMap shadow_map_{2048};
+  gl::Program background_;
+  gl::Program body_;
+  gl::Program shadow_;
+  gl::Program ground_;
+  gl::Program ribbon_;
+  GLuint empty_array_ = 0;
+  GLuint ribbon_array_ = 0;
+};
+
+bool GlRenderer::build(std::string& error) {
+  if (!ImGui_ImplOpenGL3_Init(nullptr)) {
+    error = "Dear ImGui's OpenGL back end did not start";
+    return false;
+  }
+  const std::string header = glsl::kHeader;
+  const std::string receiving = header + glsl::kShadowFunction;
+  bool ok = background_.build(header + glsl::kBackgroundVertex, header + glsl::kBackgroundFragment,
+                              error);
+  ok &= body_.build(header + glsl::kBodyVertex, receiving + glsl::kBodyFragment, error);
+  ok &= shadow_.build(header + glsl::kBodyVertex, header + glsl::kShadowFragment, error);
+  ok &= ground_.build(header + glsl::kGroundVertex, receiving + glsl::kGroundFragment, error);
+  ok &= ribbon_.build(header + glsl::kRibbonVertex, header + glsl::kRibbonFragment, error);
+  if (!shadow_map_.complete()) {
+    error += "the frame buffer for shadows is not complete";
+    ok = false;
+  }
+  glGenVertexArrays(1, &empty_array_);
+  glGenVertexArrays(1, &ribbon_array_);
+  glBindVertexArray(ribbon_array_);
+  ribbon_vertices_.bind();
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(RibbonVertex), nullptr);
+  glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(RibbonVertex),
+                        reinterpret_cast<const void*>(offsetof(RibbonVertex, color)));
+  glEnableVertexAttribArray(0);
+  glEnableVertexAttribArray(1);
+  glBindVertexArray(0);
+  return ok;
+}
+
+Matrix4f GlRenderer::light_matrix(const Picture& picture) {
+  const Vector3f back = vector(picture.to_light).normalized();
+  const Vector3f x = Vector3f::UnitZ().cross(back).normalized();
+  const Vector3f y = back.cross(x);
+  const float radius = std::max(picture.focus_radius, 0.1F);
+  // The middle moves by whole texels, or edges of shadows would crawl.
+  const float texel = 2.0F * radius / 2048.0F;
+  const Vector3f focus = vector(picture.focus);
+  const auto snap = [texel](float v) { return std::floor(v / texel) * texel; };
+  Matrix4f m = Matrix4f::Identity();
+  m.block<1, 3>(0, 0) = x.transpose() / radius;
+  m.block<1, 3>(1, 0) = y.transpose() / radius;
+  m.block<1, 3>(2, 0) = -back.transpose() / (3.0F * radius);
+  m(0, 3) = -snap(x.dot(focus)) / radius;
+  m(1, 3) = -snap(y.dot(focus)) / radius;
+  m(2, 3) = back.dot(focus) / (3.0F * radius);
+  return m;
+}
+
+void GlRenderer::draw_shadows(const Picture& picture, const Matrix4f& light) {
+  shadow_map_.bind_target();
+  glViewport(0, 0, shadow_map_.size(), shadow_map_.size());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5F, 4.0F);
+  shadow_.use();
+  shadow_.set_matrix("view_projection", light.data());
+  shadow_.set_matrix("world_to_shadow", light.data());
+  box_.draw(static_cast<int>(picture.boxes.size()));
+  ball_.draw(static_cast<int>(picture.balls.size()));
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void GlRenderer::draw_bodies(const Picture& picture, const Matrix4f& light) {
+  const auto linear = [](const Color& c) {
+    return std::array<float, 3>{std::pow(c.r, 2.2F), std::pow(c.g, 2.2F), std::pow(c.b, 2.2F)};
+  };
+  // The sky lights from above, the floor from below, both with the room's own tint.
+  std::array<float, 3> sky = linear(picture.background_top);
+  std::array<float, 3> below = linear(picture.background_bottom);
+  for (std::size_t i = 0; i < 3; ++i) {
+    sky[i] = 0.82F + 0.35F * sky[i];
+    below[i] = 0.34F + 0.35F * below[i];
+  }
+  body_.use();
+  body_.set_matrix("view_projection", picture.view_projection.data());
+  body_.set_matrix("world_to_shadow", light.data());
+  body_.set("shadow_map", 0);
+  body_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  body_.set3("eye", picture.eye.data());
+  body_.set3("to_light", picture.to_light.data());
+  body_.set("ambient", picture.ambient);
+  body_.set3("sky", sky.data());
+  body_.set3("floor_light", below.data());
+  box_.draw(static_cast<int>(picture.boxes.size()));
+  ball_.draw(static_cast<int>(picture.balls.size()));
+}
+
+void GlRenderer::draw_ground(const Picture& picture, const Matrix4f& light) {
+  const Ground& ground = picture.ground;
+  if (!ground.visible) return;
+  // The quad is centred below the focus and the grid stays where it is in the world.
+  const Vector3f normal = vector(ground.normal).normalized();
+  const Vector3f u = vector(ground.along).normalized();
+  const Vector3f v = normal.cross(u);
+  const Vector3f to_focus = vector(picture.focus) - vector(ground.origin);
+  const float along_u = to_focus.dot(u);
+  const float along_v = to_focus.dot(v);
+  const Vector3f centre = vector(ground.origin) + along_u * u + along_v * v;
+  ground_.use();
+  ground_.set_matrix("view_projection", picture.view_projection.data());
+  ground_.set_matrix("world_to_shadow", light.data());
+  ground_.set("shadow_map", 0);
+  ground_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  ground_.set3("origin", centre.data());
+  ground_.set3("axis_u", u.data());
+  ground_.set3("axis_v", v.data());
+  ground_.set2("offset", along_u, along_v);
+  ground_.set("fade", ground.fade);
+  ground_.set("cell", ground.cell);
+  ground_.set("shadow", picture.shadow);
+  ground_.set("surface", 0.05F);
+  ground_.set4("grid", &picture.grid.r);
+  glBindVertexArray(empty_array_);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void GlRenderer::draw_ribbons(const Picture& picture) {
+  if (picture.ribbons.empty()) return;
+  ribbon_vertices_.upload(picture.ribbons.data(), picture.ribbons.size() * sizeof(RibbonVertex));
+  ribbon_.use();
+  ribbon_.set_matrix("view_projection", picture.view_projection.data());
+  glBindVertexArray(ribbon_array_);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(picture.ribbons.size()));
+}
+
+void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int width, int height) {
+  const Matrix4f light = light_matrix(picture);
+  box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
+  ball_instances_.upload(picture.balls.data(), picture.balls.size() * sizeof(Instance));
+
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_CULL_FACE);
+  draw_shadows(picture, light);
+  shadow_map_.bind_texture();
+
+  glViewport(0, 0, width, height);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glDisable(GL_DEPTH_TEST);
+  background_.use();
+  background_.set3("top", &picture.background_top.r);
+  background_.set3("bottom", &picture.background_bottom.r);
+  glBindVertexArray(empty_array_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+
+  glEnable(GL_DEPTH_TEST);
+  draw_bodies(picture, light);
+
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  draw_ground(picture, light);
+  draw_ribbons(picture);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(0);
+
+  // Dear ImGui only reads the lists that it is given.
+  ImGui_ImplOpenGL3_RenderDrawData(const_cast<ImDrawData*>(&panels));
+}
+
+}  // namespace
+
+std::unique_ptr<Renderer> make_gl_renderer(std::string& error) {
+  auto renderer = std::make_unique<GlRenderer>();
+  if (!renderer->build(error)) return nullptr;
+  return renderer;
+}
+
+}  // namespace substep

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/render/renderer.hpp"
+
+namespace substep {
+
+/// A renderer for the OpenGL 3.3 or WebGL 2 context that is current now.
+/// @param error says why there is none, where null comes back
+std::unique_ptr<Renderer> make_gl_renderer(std::string& error);
+
+}  // namespace substep

@@ -1,0 +1,62 @@
+#pragma once
+// What there is to draw, as plain values: made from a scene and its state, drawn by a Renderer.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace substep {
+
+/// Colour as a person would give it: sRGB and coverage, each 0..1.
+struct Color {
+  float r = 0.0F;
+  float g = 0.0F;
+  float b = 0.0F;
+  float a = 1.0F;
+};
+
+/// One box or ball: sixteen floats, as the graphics card reads them.
+struct Instance {
+  std::array<float, 3> position{};        // [m]
+  float rounding = 0.0F;                  // radius of a box's edges [m]
+  std::array<float, 4> orientation{};     // quaternion x y z w
+  std::array<float, 3> half_extents{};    // of a box; radius, three times, of a ball [m]
+  float pattern = 0.0F;                   // 1: quartered, so that turning is seen
+  Color color;
+};
+
+/// One corner of a ribbon that faces the camera.
+struct RibbonVertex {
+  std::array<float, 3> position{};
+  Color color;
+};
+
+/// An endless floor: a grid that fades into the distance, and the shadows that fall on it.
+struct Ground {
+  bool visible = true;
+  std::array<float, 3> origin{};           // [m]
+  std::array<float, 3> normal{0, 1, 0};
+  std::array<float, 3> along{1, 0, 0};     // one of the grid's directions
+  float cell = 1.0F;                       // [m]
+  float fade = 30.0F;                      // where it has gone, from `focus` [m]
+};
+
+struct Picture {
+  Eigen::Matrix4f view_projection = Eigen::Matrix4f::Identity();
+  std::array<float, 3> eye{};
+  std::array<float, 3> focus{};    // what the shadows are sharpest around [m]
+  float focus_radius = 10.0F;      // [m]
+  std::array<float, 3> to_light{0.4F, 0.9F, 0.3F};  // unit
+  Color background_top;
+  Color background_bottom;
+  Color grid;
+  float ambient = 0.4F;  // light from everywhere, of 1
+  float shadow = 0.5F;   // how dark a shadow on the ground is
+  std::vector<Instance> boxes;
+  std::vector<Instance> balls;
+  std::vector<RibbonVertex> ribbons;  // triangles
+  Ground ground;
+};
+
+}  // namespace substep

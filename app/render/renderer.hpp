@@ -1,0 +1,22 @@
+#pragma once
+
+#include "app/render/picture.hpp"
+
+struct ImDrawData;
+
+namespace substep {
+
+/// Draws a picture and the panels over it. The window system belongs to the shell.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+
+  /// Before the panels are built: makes ready what Dear ImGui needs.
+  virtual void begin_frame() = 0;
+  /// @param width, height of the frame buffer [pixel]
+  virtual void draw(const Picture& picture, const ImDrawData& panels, int width, int height) = 0;
+  /// The font atlas was rebuilt, for another pixel ratio.
+  virtual void fonts_changed() = 0;
+};
+
+}  // namespace substep

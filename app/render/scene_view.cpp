@@ -1,0 +1,270 @@
+#include "app/render/scene_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace substep {
+namespace {
+
+constexpr std::size_t kTrailFrames = 150;
+
+std::array<float, 3> floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Color mix(const Color& a, const Color& b, double t) {
+  const auto f = static_cast<float>(t);
+  return {a.r + f * (b.r - a.r), a.g + f * (b.g - a.g), a.b + f * (b.b - a.b), 1.0F};
+}
+
+bool is_plane(const Body& body) { return std::holds_alternative<Plane>(body.shape); }
+
+double radius(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.norm();
+  return 0.0;
+}
+
+double thickness(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.minCoeff();
+  return std::numeric_limits<double>::infinity();
+}
+
+Instance instance(const Vec3& x, const Quat& q, const Color& color) {
+  Instance i;
+  i.position = floats(x);
+  i.orientation = {static_cast<float>(q.x()), static_cast<float>(q.y()),
+                   static_cast<float>(q.z()), static_cast<float>(q.w())};
+  i.color = color;
+  return i;
+}
+
+void add_box(Picture& out, const Vec3& x, const Quat& q, const Vec3& half, double rounding,
+             const Color& color) {
+  Instance i = instance(x, q, color);
+  i.half_extents = floats(half);
+  i.rounding = static_cast<float>(rounding);
+  out.boxes.push_back(i);
+}
+
+void add_ball(Picture& out, const Vec3& x, const Quat& q, double r, bool pattern,
+              const Color& color) {
+  Instance i = instance(x, q, color);
+  i.half_extents = floats(Vec3::Constant(r));
+  i.rounding = static_cast<float>(r);
+  i.pattern = pattern ? 1.0F : 0.0F;
+  out.balls.push_back(i);
+}
+
+// A ball around the centres of the moving bodies and what is fixed to them.
+Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) {
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = -low;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (is_plane(body)) continue;
+    // What flew away from a scene that exploded is not worth looking at.
+    if (limit != nullptr && (poses.x[i] - limit->centre).norm() > 3.0 * limit->radius) continue;
+    const Vec3 r = Vec3::Constant(radius(body.shape));
+    low = low.cwiseMin(poses.x[i] - r);
+    high = high.cwiseMax(poses.x[i] + r);
+  }
+  for (const Joint& joint : scene.joints) {
+    if (base(joint).b != kWorld) continue;
+    low = low.cwiseMin(base(joint).anchor_b);
+    high = high.cwiseMax(base(joint).anchor_b);
+  }
+  if (!(low.x() <= high.x())) return limit != nullptr ? *limit : Bounds{};
+  return {0.5 * (low + high), std::max(0.05, 0.5 * (high - low).norm())};
+}
+
+// How far the bodies reach to either side of where the camera looks at the start: what swings
+// comes to the other side as well.
+double half_width(const Scene& scene, const Poses& poses) {
+  const Vec3 right = OrbitCamera::right_of(scene.camera);
+  double reach = 0.0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (is_plane(scene.bodies[i])) continue;
+    const double offset = std::abs(right.dot(poses.x[i] - scene.camera.target));
+    reach = std::max(reach, offset + radius(scene.bodies[i].shape));
+  }
+  return 1.04 * reach;
+}
+
+}  // namespace
+
+std::vector<double> stiffness_shares(const Scene& scene, const State& state) {
+  std::vector<double> shares;
+  if (state.k.size() != scene.bodies.size()) return shares;
+  shares.resize(scene.bodies.size(), 0.0);
+  double most = 0.0;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;
+    const double linear = state.k[i].head<3>().maxCoeff() / body.mass;
+    const double angular = state.k[i].tail<3>().cwiseQuotient(body.inertia).maxCoeff();
+    shares[i] = std::max({0.0, linear, angular});
+    most = std::max(most, shares[i]);
+  }
+  if (!(most > 0.0)) return {};
+  for (double& share : shares) share /= most;
+  return shares;
+}
+
+void SceneView::follow(const Session& session) {
+  if (session.generation() != generation_) {
+    generation_ = session.generation();
+    camera.place(session.scene().camera, half_width(session.scene(), session.poses()));
+    home_ = ball_around(session.scene(), session.poses(), nullptr);
+    lowest_ = home_.centre.y() - home_.radius;
+    trail_.clear();
+    frame_ = -1;
+  }
+  const std::int64_t frame = session.state().frame;
+  if (frame < frame_) trail_.clear();
+  const auto& tracked = session.scene().criteria.track;
+  if (frame != frame_ && tracked) {
+    trail_.push_back(session.state().x[static_cast<std::size_t>(*tracked)]);
+    if (trail_.size() > kTrailFrames) trail_.pop_front();
+  }
+  frame_ = frame;
+}
+
+Bounds SceneView::bounds(const Session& session) const {
+  return ball_around(session.scene(), session.poses(), &home_);
+}
+
+void SceneView::frame_all(const Session& session) { camera.frame(bounds(session)); }
+
+void SceneView::build(const Session& session, const ViewOptions& options,
+                      const ViewPalette& palette, const ViewRect& view, double window_width,
+                      double window_height, Picture& out) const {
+  out.boxes.clear();
+  out.balls.clear();
+  out.ribbons.clear();
+  out.view_projection = camera.view_projection(view, window_width, window_height).cast<float>();
+  out.eye = floats(camera.eye(view));
+  out.background_top = palette.background_top;
+  out.background_bottom = palette.background_bottom;
+  out.grid = palette.grid;
+  out.ambient = palette.ambient;
+  out.shadow = palette.shadow;
+  const Vec3 light = Vec3(0.42, 0.74, 0.52).normalized();
+  out.to_light = floats(light);
+
+  add_bodies(session, options, palette, out);
+  add_joints(session, options, palette, out);
+  if (options.trail) {
+    const double pixel = 2.0 * std::tan(0.5 * OrbitCamera::kFieldOfView) /
+                         std::max(1.0, static_cast<double>(view.height));
+    add_trail(palette, camera.eye(view), pixel, out);
+  }
+  place_ground(session, out);
+
+  // Shadows fall from the bodies down to the floor: both must be within the light's view.
+  const Bounds around = bounds(session);
+  const double floor = static_cast<double>(out.ground.origin[1]);
+  const double bottom = std::min(floor, around.centre.y() - around.radius);
+  const double drop = std::max(0.0, around.centre.y() - bottom);
+  Vec3 focus = around.centre;
+  focus.y() -= 0.5 * drop;
+  focus -= Vec3(light.x(), 0.0, light.z()) * 0.5 * drop / light.y();
+  out.focus = floats(focus);
+  out.focus_radius = static_cast<float>(around.radius + 0.35 * drop);
+}
+
+void SceneView::add_bodies(const Session& session, const ViewOptions& options,
+                           const ViewPalette& palette, Picture& out) const {
+  const Scene& scene = session.scene();
+  const Poses& poses = session.poses();
+  std::vector<double> shares;
+  if (options.tint) shares = stiffness_shares(scene, session.state());
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    Color color = body.is_static ? palette.fixture : palette.body;
+    if (!shares.empty() && !body.is_static) {
+      // Two decades of k/M over the scale.
+      const double t = std::clamp(1.0 + 0.5 * std::log10(std::max(shares[i], 1e-9)), 0.0, 1.0);
+      color = t < 0.5 ? mix(palette.stiff_low, palette.stiff_mid, 2.0 * t)
+                      : mix(palette.stiff_mid, palette.stiff_high, 2.0 * t - 1.0);
+    }
+    if (const auto* box = std::get_if<Box>(&body.shape)) {
+      const double rounding = std::min(0.3 * box->half_extents.minCoeff(),
+                                       0.01 + 0.05 * box->half_extents.maxCoeff());
+      add_box(out, poses.x[i], poses.q[i], box->half_extents, rounding, color);
+    } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
+      add_ball(out, poses.x[i], poses.q[i], sphere->radius, true, color);
+    }
+  }
+}
+
+void SceneView::add_joints(const Session& session, const ViewOptions& options,
+                           const ViewPalette& palette, Picture& out) const {
+  const Scene& scene = session.scene();
+  const Poses& poses = session.poses();
+  const double bracket = std::clamp(0.018 * home_.radius, 0.04, 0.4);
+  for (const Joint& joint : scene.joints) {
+    const JointBase& j = base(joint);
+    const auto a = static_cast<std::size_t>(j.a);
+    double thin = thickness(scene.bodies[a].shape);
+    if (j.b == kWorld) {
+      add_box(out, j.anchor_b + Vec3(0.0, 0.6 * bracket, 0.0), Quat::Identity(),
+              bracket * Vec3(2.2, 0.6, 2.2), 0.2 * bracket, palette.fixture);
+    } else {
+      thin = std::min(thin, thickness(scene.bodies[static_cast<std::size_t>(j.b)].shape));
+    }
+    if (!options.joints) continue;
+    const double r = 1.25 * std::min(thin, 0.25 * home_.radius);
+    const Vec3 x = poses.x[a] + poses.q[a] * j.anchor_a;
+    if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
+      const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * hinge->axis_a);
+      add_box(out, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
+    } else {
+      add_ball(out, x, poses.q[a], r, false, palette.joint);
+    }
+  }
+}
+
+void SceneView::add_trail(const ViewPalette& palette, const Vec3& eye, double pixel,
+                          Picture& out) const {
+  if (trail_.size() < 2) return;
+  const auto corner = [&](std::size_t i, double side) {
+    const Vec3 ahead = trail_[std::min(i + 1, trail_.size() - 1)] - trail_[i > 0 ? i - 1 : 0];
+    const Vec3 to_eye = eye - trail_[i];
+    Vec3 across = ahead.cross(to_eye);
+    if (across.norm() > 1e-12) across *= pixel * to_eye.norm() / across.norm();
+    RibbonVertex v;
+    v.position = floats(trail_[i] + side * across);
+    v.color = palette.trail;
+    v.color.a *= static_cast<float>(i) / static_cast<float>(trail_.size() - 1);
+    return v;
+  };
+  for (std::size_t i = 0; i + 1 < trail_.size(); ++i) {
+    const RibbonVertex a = corner(i, -1.0);
+    const RibbonVertex b = corner(i, 1.0);
+    const RibbonVertex c = corner(i + 1, -1.0);
+    const RibbonVertex d = corner(i + 1, 1.0);
+    out.ribbons.insert(out.ribbons.end(), {a, b, c, c, b, d});
+  }
+}
+
+void SceneView::place_ground(const Session& session, Picture& out) const {
+  const Scene& scene = session.scene();
+  out.ground = {};
+  // Most scenes stand above y = 0; where nothing says where the floor is, it lies below them.
+  const double floor = lowest_ > -0.6 * home_.radius ? 0.0 : lowest_ - 0.3 * home_.radius;
+  out.ground.origin = {0.0F, static_cast<float>(floor), 0.0F};
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (!is_plane(scene.bodies[i])) continue;
+    out.ground.origin = floats(scene.bodies[i].position);
+    out.ground.normal = floats(scene.bodies[i].orientation * Vec3::UnitY());
+    out.ground.along = floats(scene.bodies[i].orientation * Vec3::UnitX());
+    break;
+  }
+  out.ground.fade = static_cast<float>(std::clamp(5.0 * home_.radius, 12.0, 400.0));
+  out.ground.cell = home_.radius > 40.0 ? 10.0F : 1.0F;
+}
+
+}  // namespace substep

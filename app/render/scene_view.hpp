@@ -1,0 +1,67 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "app/render/camera.hpp"
+#include "app/render/picture.hpp"
+#include "app/session.hpp"
+
+namespace substep {
+
+/// What the person wants drawn beside the bodies.
+struct ViewOptions {
+  bool tint = true;    // bodies by k/M: who asks for small steps
+  bool joints = true;  // pins of joints
+  bool trail = true;   // path of the tracked body
+  bool labels = true;  // masses
+};
+
+/// Colours and light of the view.
+struct ViewPalette {
+  Color background_top;
+  Color background_bottom;
+  Color grid;
+  Color body;
+  Color fixture;  // what does not move
+  Color joint;
+  Color trail;
+  Color stiff_low;  // tint of k/M a hundredth of the largest and below
+  Color stiff_mid;
+  Color stiff_high;  // tint of the body that sets N
+  float ambient = 0.5F;
+  float shadow = 0.5F;
+};
+
+/// What each body asks for: its largest k/M over that of the whole scene, 0..1. Empty where K is
+/// not known.
+std::vector<double> stiffness_shares(const Scene& scene, const State& state);
+
+/// Looks at a session: keeps the camera and the trail, and makes the picture.
+class SceneView {
+ public:
+  OrbitCamera camera;
+
+  /// The camera's place and the trail start anew with a new scene, the trail with a reset.
+  void follow(const Session& session);
+  void frame_all(const Session& session);
+  void build(const Session& session, const ViewOptions& options, const ViewPalette& palette,
+             const ViewRect& view, double window_width, double window_height, Picture& out) const;
+
+ private:
+  void add_bodies(const Session& session, const ViewOptions& options, const ViewPalette& palette,
+                  Picture& out) const;
+  void add_joints(const Session& session, const ViewOptions& options, const ViewPalette& palette,
+                  Picture& out) const;
+  void add_trail(const ViewPalette& palette, const Vec3& eye, double pixel, Picture& out) const;
+  void place_ground(const Session& session, Picture& out) const;
+  [[nodiscard]] Bounds bounds(const Session& session) const;
+
+  Bounds home_;  // of the scene at its start
+  double lowest_ = 0.0;  // of the bodies at the start [m]
+  int generation_ = -1;
+  std::int64_t frame_ = -1;
+  std::deque<Vec3> trail_;
+};
+
+}  // namespace substep

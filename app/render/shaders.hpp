@@ -1,0 +1,191 @@
+#pragma once
+// GLSL for OpenGL 3.3 and WebGL 2 alike; only the first lines differ.
+
+namespace substep::glsl {
+
+#ifdef __EMSCRIPTEN__
+inline constexpr const char* kHeader =
+    "#version 300 es\nprecision highp float;\nprecision highp sampler2DShadow;\n";
+#else
+inline constexpr const char* kHeader = "#version 330 core\n";
+#endif
+
+/// Boxes with rounded edges and balls. A corner of the unit box is moved in by the rounding and out
+/// again along the vertex normal, so that edges stay equally round however long the box is.
+inline constexpr const char* kBodyVertex = R"(
+layout(location = 0) in vec3 corner;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 position_rounding;
+layout(location = 3) in vec4 orientation;
+layout(location = 4) in vec4 half_extents_pattern;
+layout(location = 5) in vec4 color;
+uniform mat4 view_projection;
+uniform mat4 world_to_shadow;
+out vec3 v_position;
+out vec3 v_normal;
+out vec3 v_local;
+out vec4 v_shadow;
+out vec4 v_color;
+out float v_pattern;
+vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+void main() {
+  vec3 half_extents = half_extents_pattern.xyz;
+  float rounding = position_rounding.w;
+  vec3 local = corner * (half_extents - rounding) + normal * rounding;
+  v_position = position_rounding.xyz + rotate(orientation, local);
+  v_normal = rotate(orientation, normal);
+  v_local = local / half_extents;
+  v_color = color;
+  v_pattern = half_extents_pattern.w;
+  v_shadow = world_to_shadow * vec4(v_position + 0.02 * v_normal, 1.0);
+  gl_Position = view_projection * vec4(v_position, 1.0);
+}
+)";
+
+/// Shared by what receives shadows: how much of the light arrives, softened over nine samples that
+/// the hardware filters once more.
+inline constexpr const char* kShadowFunction = R"(
+uniform sampler2DShadow shadow_map;
+uniform float shadow_texel;
+float lit(vec4 p, float softness) {
+  vec3 q = p.xyz * 0.5 + 0.5;
+  if (any(greaterThan(abs(q - 0.5), vec3(0.498)))) return 1.0;
+  float sum = 0.0;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      sum += texture(shadow_map, vec3(q.xy + vec2(i, j) * shadow_texel * softness, q.z));
+    }
+  }
+  vec2 edge = smoothstep(vec2(0.5), vec2(0.4), abs(q.xy - 0.5));
+  return mix(1.0, sum / 9.0, edge.x * edge.y);
+}
+)";
+
+inline constexpr const char* kBodyFragment = R"(
+in vec3 v_position;
+in vec3 v_normal;
+in vec3 v_local;
+in vec4 v_shadow;
+in vec4 v_color;
+in float v_pattern;
+uniform vec3 eye;
+uniform vec3 to_light;
+uniform float ambient;
+uniform vec3 sky;
+uniform vec3 floor_light;
+out vec4 out_color;
+void main() {
+  vec3 n = normalize(v_normal);
+  vec3 to_eye = normalize(eye - v_position);
+  vec3 base = pow(v_color.rgb, vec3(2.2));
+  if (v_pattern > 0.5) {
+    vec2 width = fwidth(v_local.xy) + 1e-5;
+    vec2 side = clamp(v_local.xy / width, -1.0, 1.0);
+    base *= mix(0.52, 1.0, 0.5 + 0.5 * side.x * side.y);
+  }
+  float facing = max(0.0, dot(n, to_light));
+  float light = facing > 0.0 ? facing * lit(v_shadow, 1.2) : 0.0;
+  vec3 around = mix(floor_light, sky, 0.5 + 0.5 * n.y) * ambient;
+  vec3 half_way = normalize(to_light + to_eye);
+  float shine = pow(max(0.0, dot(n, half_way)), 48.0) * 0.22 * light;
+  float rim = pow(1.0 - max(0.0, dot(n, to_eye)), 4.0) * 0.18;
+  vec3 c = base * (around + vec3(1.0, 0.97, 0.92) * light) + shine + rim * sky * ambient;
+  out_color = vec4(pow(c / (1.0 + 0.12 * c), vec3(1.0 / 2.2)), 1.0);
+}
+)";
+
+inline constexpr const char* kShadowFragment = R"(
+void main() {}
+)";
+
+inline constexpr const char* kBackgroundVertex = R"(
+out float v_height;
+void main() {
+  vec2 p = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  v_height = 0.5 + 0.5 * p.y;
+  gl_Position = vec4(p, 0.0, 1.0);
+}
+)";
+
+/// A gradient, with noise below one level so that it shows no bands.
+inline constexpr const char* kBackgroundFragment = R"(
+in float v_height;
+uniform vec3 top;
+uniform vec3 bottom;
+out vec4 out_color;
+void main() {
+  float noise = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233))) * 43758.5453) - 0.5;
+  out_color = vec4(mix(bottom, top, smoothstep(0.0, 1.0, v_height)) + noise / 255.0, 1.0);
+}
+)";
+
+inline constexpr const char* kGroundVertex = R"(
+uniform mat4 view_projection;
+uniform mat4 world_to_shadow;
+uniform vec3 origin;
+uniform vec3 axis_u;
+uniform vec3 axis_v;
+uniform float fade;
+out vec2 v_uv;
+out vec4 v_shadow;
+void main() {
+  vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1);
+  v_uv = corner * fade;
+  vec3 p = origin + v_uv.x * axis_u + v_uv.y * axis_v;
+  v_shadow = world_to_shadow * vec4(p, 1.0);
+  gl_Position = view_projection * vec4(p, 1.0);
+}
+)";
+
+/// Lines one pixel wide at every cell and stronger ones at every fifth; each kind goes before it
+/// gets denser than the pixels.
+inline constexpr const char* kGroundFragment = R"(
+in vec2 v_uv;
+in vec4 v_shadow;
+uniform vec2 offset;
+uniform float cell;
+uniform float fade;
+uniform vec4 grid;
+uniform float shadow;
+uniform float surface;
+out vec4 out_color;
+float lines(vec2 p) {
+  vec2 w = fwidth(p);
+  vec2 d = abs(fract(p - 0.5) - 0.5) / max(w, vec2(1e-6));
+  vec2 line = 1.0 - smoothstep(0.5, 1.5, d);
+  line *= 1.0 - smoothstep(0.15, 0.5, w);
+  return max(line.x, line.y);
+}
+void main() {
+  float far = smoothstep(1.0, 0.25, length(v_uv) / fade);
+  if (far <= 0.0) discard;
+  vec2 p = (v_uv + offset) / cell;
+  float strength = max(0.45 * lines(p), lines(p / 5.0));
+  float dark = (1.0 - lit(v_shadow, 2.2)) * shadow;
+  float line = strength * grid.a * (1.0 - 0.6 * dark);
+  // Line over shadow over a breath of surface, as one premultiplied colour.
+  float under = dark + surface * (1.0 - dark);
+  vec3 c = grid.rgb * line + grid.rgb * surface * (1.0 - dark) * (1.0 - line);
+  float a = line + under * (1.0 - line);
+  out_color = vec4(c, a) * far;
+}
+)";
+
+inline constexpr const char* kRibbonVertex = R"(
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec4 color;
+uniform mat4 view_projection;
+out vec4 v_color;
+void main() {
+  v_color = color;
+  gl_Position = view_projection * vec4(position, 1.0);
+}
+)";
+
+inline constexpr const char* kRibbonFragment = R"(
+in vec4 v_color;
+out vec4 out_color;
+void main() { out_color = vec4(v_color.rgb * v_color.a, v_color.a); }
+)";
+
+}  // namespace substep::glsl

@@ -1,0 +1,121 @@
+#include <array>
+#include <cmath>
+
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kTurn = 6.28318531F;
+
+void draw_reset(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+  // Most of a circle, with the arrow where it ends.
+  const float r = 0.34F * s;
+  const float from = -0.08F * kTurn;
+  draw.PathArcTo(c, r, from, from + 0.78F * kTurn, 24);
+  draw.PathStroke(color, 0, 0.11F * s);
+  const ImVec2 tip(c.x + r * std::cos(from), c.y + r * std::sin(from));
+  draw.AddTriangleFilled({tip.x - 0.26F * s, tip.y - 0.02F * s}, {tip.x + 0.1F * s, tip.y + 0.1F * s},
+                         {tip.x + 0.06F * s, tip.y - 0.28F * s}, color);
+}
+
+void draw_moon(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+  const float r = 0.38F * s;
+  draw.PathArcTo(c, r, -0.05F * kTurn, 0.55F * kTurn, 24);
+  draw.PathArcTo({c.x + 0.5F * r, c.y - 0.42F * r}, 0.86F * r, 0.47F * kTurn, 0.05F * kTurn, 24);
+  draw.PathStroke(color, ImDrawFlags_Closed, 0.1F * s);
+}
+
+void draw_sun(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+  draw.AddCircleFilled(c, 0.2F * s, color, 16);
+  for (int i = 0; i < 8; ++i) {
+    const float a = kTurn * static_cast<float>(i) / 8.0F;
+    const ImVec2 d(std::cos(a), std::sin(a));
+    draw.AddLine({c.x + 0.31F * s * d.x, c.y + 0.31F * s * d.y},
+                 {c.x + 0.44F * s * d.x, c.y + 0.44F * s * d.y}, color, 0.1F * s);
+  }
+}
+
+void draw_corners(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+  const float r = 0.36F * s;
+  for (const float x : {-1.0F, 1.0F}) {
+    for (const float y : {-1.0F, 1.0F}) {
+      const std::array<ImVec2, 3> points{{{c.x + x * r, c.y + y * 0.45F * r},
+                                          {c.x + x * r, c.y + y * r},
+                                          {c.x + x * 0.45F * r, c.y + y * r}}};
+      draw.AddPolyline(points.data(), 3, color, 0, 0.1F * s);
+    }
+  }
+}
+
+}  // namespace
+
+void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
+  const float line = 0.12F * s;
+  switch (icon) {
+    case Icon::kPlay:
+      draw.AddTriangleFilled({c.x - 0.26F * s, c.y - 0.38F * s}, {c.x + 0.4F * s, c.y},
+                             {c.x - 0.26F * s, c.y + 0.38F * s}, color);
+      break;
+    case Icon::kPause:
+      draw.AddRectFilled({c.x - 0.32F * s, c.y - 0.36F * s}, {c.x - 0.09F * s, c.y + 0.36F * s},
+                         color, 0.05F * s);
+      draw.AddRectFilled({c.x + 0.09F * s, c.y - 0.36F * s}, {c.x + 0.32F * s, c.y + 0.36F * s},
+                         color, 0.05F * s);
+      break;
+    case Icon::kStep:
+      draw.AddTriangleFilled({c.x - 0.34F * s, c.y - 0.34F * s}, {c.x + 0.2F * s, c.y},
+                             {c.x - 0.34F * s, c.y + 0.34F * s}, color);
+      draw.AddRectFilled({c.x + 0.22F * s, c.y - 0.34F * s}, {c.x + 0.36F * s, c.y + 0.34F * s},
+                         color, 0.04F * s);
+      break;
+    case Icon::kReset:
+      draw_reset(draw, c, s, color);
+      break;
+    case Icon::kHelp: {
+      ImFont* font = ImGui::GetFont();
+      const ImVec2 size = text_size(font, "?");
+      draw_text(draw, font, {c.x - 0.5F * size.x, c.y - 0.5F * size.y}, color, "?");
+      break;
+    }
+    case Icon::kSun:
+      draw_sun(draw, c, s, color);
+      break;
+    case Icon::kMoon:
+      draw_moon(draw, c, s, color);
+      break;
+    case Icon::kChevron: {
+      const std::array<ImVec2, 3> points{{{c.x - 0.24F * s, c.y - 0.12F * s},
+                                          {c.x, c.y + 0.14F * s},
+                                          {c.x + 0.24F * s, c.y - 0.12F * s}}};
+      draw.AddPolyline(points.data(), 3, color, 0, line);
+      break;
+    }
+    case Icon::kCheck: {
+      const std::array<ImVec2, 3> points{{{c.x - 0.28F * s, c.y + 0.01F * s},
+                                          {c.x - 0.07F * s, c.y + 0.22F * s},
+                                          {c.x + 0.29F * s, c.y - 0.2F * s}}};
+      draw.AddPolyline(points.data(), 3, color, 0, line);
+      break;
+    }
+    case Icon::kCross:
+      draw.AddLine({c.x - 0.24F * s, c.y - 0.24F * s}, {c.x + 0.24F * s, c.y + 0.24F * s}, color,
+                   line);
+      draw.AddLine({c.x - 0.24F * s, c.y + 0.24F * s}, {c.x + 0.24F * s, c.y - 0.24F * s}, color,
+                   line);
+      break;
+    case Icon::kFrame:
+      draw_corners(draw, c, s, color);
+      break;
+    case Icon::kPanels:
+      draw.AddRect({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x + 0.42F * s, c.y + 0.34F * s}, color,
+                   0.1F * s, 0, 0.09F * s);
+      draw.AddRectFilled({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x - 0.1F * s, c.y + 0.34F * s}, color,
+                         0.1F * s);
+      break;
+    case Icon::kNone:
+      break;
+  }
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,301 @@
+// What is written over the picture.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/model/names.hpp"
+
+namespace substep::ui {
+namespace {
+
+// Text over the picture keeps its contrast on any body: a soft halo of the background around it.
+void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
+               const char* text) {
+  const Color& b = look.theme->view.background_top;
+  const ImU32 halo = ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, 0.55F});
+  for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)}) {
+    draw_text(draw, font, {at.x + d.x, at.y + d.y}, halo, text);
+  }
+  draw_text(draw, font, at, color, text);
+}
+
+std::string method_line(const Settings& s) {
+  std::string line(name_of(s.mode));
+  switch (s.mode) {
+    case Mode::kNone:
+      line = "no sub-steps";
+      break;
+    case Mode::kConst:
+      line = "constant N " + std::to_string(s.n);
+      break;
+    case Mode::kDamping:
+      line = "adaptive damping, α " + short_number(s.alpha);
+      break;
+    case Mode::kAdaptive:
+      line = "adaptive sub-steps, α " + short_number(s.alpha);
+      break;
+    case Mode::kCapped:
+      line = "N up to " + std::to_string(s.n_cap) + ", then damping";
+      break;
+  }
+  line += s.solver == SolverKind::kBpp ? "  ·  BPP" : "  ·  PGS " + std::to_string(s.iterations);
+  line += s.integrator == Integrator::kEuler ? "  ·  Euler" : "  ·  leapfrog";
+  return line;
+}
+
+// World to the screen. @return false behind the eye
+bool project(const App& app, const Vec3& x, ImVec2& out) {
+  const Eigen::Vector4f p =
+      app.picture.view_projection *
+      Eigen::Vector4f(static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z()), 1.0F);
+  if (p.w() <= 0.0F) return false;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  out = {(0.5F + 0.5F * p.x() / p.w()) * size.x, (0.5F - 0.5F * p.y() / p.w()) * size.y};
+  return true;
+}
+
+// A card in the middle of the picture. Closes with a click on its cross.
+bool begin_card(App& app, const char* id, float width, float centre_y, float pivot_y) {
+  const ViewRect& v = app.view_rect;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  width = std::min(width, display.x - 24.0F);
+  const float x = std::clamp(v.x + 0.5F * v.width, 12.0F + 0.5F * width, display.x - 12.0F - 0.5F * width);
+  ImGui::SetNextWindowPos({x, centre_y}, ImGuiCond_Always, {0.5F, pivot_y});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, display.y - 96.0F});
+  return ImGui::Begin(id, nullptr,
+                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  float x = at.x;
+  if (icon != Icon::kNone) {
+    draw_icon(*ImGui::GetWindowDrawList(), icon, {x + 8.0F, at.y + 10.0F}, 16.0F, mark);
+    x += 24.0F;
+  }
+  const std::string shown = fitted(look.fonts.medium, title, width - (x - at.x) - 28.0F);
+  draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {x, at.y + 2.0F}, look.theme->text,
+            shown.c_str());
+  ImGui::Dummy({width, 20.0F});
+}
+
+bool card_closed(const Look& look) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 corner(ImGui::GetWindowPos().x + ImGui::GetWindowSize().x - 38.0F,
+                      ImGui::GetWindowPos().y + 12.0F);
+  ImGui::SetCursorScreenPos(corner);
+  const bool closed =
+      button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 26.0F, 26.0F, "Close (Esc)");
+  ImGui::SetCursorScreenPos(at);
+  return closed;
+}
+
+}  // namespace
+
+void caption(App& app, bool phone) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const ViewRect& v = app.view_rect;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const float pad = phone ? 12.0F : 16.0F;
+  const FrameReport& report = app.session.report();
+  const std::string n = std::to_string(report.n_substeps);
+  const ImVec2 n_size = text_size(look.fonts.large, n.c_str());
+  const float room = v.width - 2.0F * pad - std::max(n_size.x, 80.0F) - 16.0F;
+  const ImVec2 at(v.x + pad, v.y + pad);
+  draw_over(look, draw, look.fonts.title, at, t.text,
+            fitted(look.fonts.title, app.session.scene().title, room).c_str());
+  draw_over(look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
+            fitted(look.fonts.regular, method_line(app.session.settings()), room).c_str());
+  if (report.n_substeps == 0) return;
+  const float right = v.x + v.width - pad;
+  draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n.c_str());
+  const char* unit = report.n_substeps == 1 ? "step a frame" : "sub-steps";
+  const float unit_width = text_size(look.fonts.regular, unit).x;
+  draw_over(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim, unit);
+}
+
+void body_labels(App& app) {
+  if (!app.desk.view.labels) return;
+  const Look& look = app.look;
+  const Scene& scene = app.session.scene();
+  const Poses& poses = app.session.poses();
+  double lightest = 0.0;
+  for (const Body& body : scene.bodies) {
+    if (!body.is_static && (lightest == 0.0 || body.mass < lightest)) lightest = body.mass;
+  }
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const ViewRect& v = app.view_rect;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static || body.mass < 20.0 * lightest) continue;
+    ImVec2 p;
+    if (!project(app, poses.x[i], p)) continue;
+    const std::string text = grouped(body.mass) + " kg";
+    const ImVec2 size = text_size(look.fonts.small, text.c_str());
+    // Below the body as it is seen: its corners' lowest point.
+    float low = p.y;
+    if (const auto* box = std::get_if<Box>(&body.shape)) {
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                        (corner & 4) != 0 ? 1 : -1);
+        ImVec2 c;
+        if (project(app, poses.x[i] + poses.q[i] * box->half_extents.cwiseProduct(sign), c)) {
+          low = std::max(low, c.y);
+        }
+      }
+    } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
+      ImVec2 c;
+      if (project(app, poses.x[i] - Vec3(0.0, sphere->radius, 0.0), c)) low = c.y;
+    }
+    const ImVec2 at(p.x - 0.5F * size.x, low + 6.0F);
+    if (at.x < v.x || at.x + size.x > v.x + v.width || at.y + size.y > v.y + v.height) continue;
+    draw_over(look, draw, look.fonts.small, at, look.theme->dim, text.c_str());
+  }
+}
+
+void tint_scale(App& app) {
+  if (!app.desk.view.tint) return;
+  if (stiffness_shares(app.session.scene(), app.session.state()).empty()) return;
+  const Look& look = app.look;
+  const ViewPalette& palette = look.theme->view;
+  const ViewRect& v = app.view_rect;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const ImVec2 at(v.x + 16.0F, v.y + v.height - 28.0F);
+  const auto ink = [](const Color& c) {
+    return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0F});
+  };
+  constexpr float kHalf = 48.0F;
+  const ImU32 low = ink(palette.stiff_low);
+  const ImU32 mid = ink(palette.stiff_mid);
+  const ImU32 high = ink(palette.stiff_high);
+  draw.AddRectFilledMultiColor(at, {at.x + kHalf, at.y + 6.0F}, low, mid, mid, low);
+  draw.AddRectFilledMultiColor({at.x + kHalf, at.y}, {at.x + 2 * kHalf, at.y + 6.0F}, mid, high, high, mid);
+  draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->dim,
+            "k/M: orange asks for small steps");
+}
+
+void failure_card(App& app) {
+  const Verdict& verdict = app.session.verdict();
+  if (verdict.holds() || app.desk.dismissed_failure == app.run_count) return;
+  const Look& look = app.look;
+  const bool stopped = app.session.stopped();
+  const ViewRect& v = app.view_rect;
+  if (begin_card(app, "##failure", 380.0F, v.y + 76.0F, 0.0F)) {
+    card_title(look, look.theme->orange, Icon::kCross,
+               stopped ? "The run stopped at " + fixed(app.session.state().time, 2) + " s"
+                       : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
+    const FrameReport& report = app.session.report();
+    std::string what = verdict.text();
+    if (const std::size_t colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
+    if (stopped) {
+      what = "A velocity";
+      if (report.failed_body >= 0) {
+        what += " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
+      }
+      what += " is no longer a finite number. What you see is the last state that was.";
+    }
+    label(look.fonts.small, look.theme->dim, what.c_str());
+    const Mode mode = app.session.settings().mode;
+    const char* advice = mode == Mode::kAdaptive
+                             ? "A smaller alpha, or a higher limit on N, would help."
+                             : "More sub-steps would help: adaptive finds how many.";
+    label(look.fonts.small, look.theme->dim, advice);
+    ImGui::Dummy({1.0F, 0.0F});
+    if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPrimary, 0.0F, 28.0F, "Back to the start (R)")) {
+      app.reset();
+    }
+    if (mode != Mode::kAdaptive) {
+      ImGui::SameLine();
+      if (button(look, "adaptive", Icon::kNone, "Reset, adaptive", ButtonKind::kPlain, 0.0F, 28.0F,
+                 "The same scene with adaptive sub-steps")) {
+        Settings s = app.session.settings();
+        s.mode = Mode::kAdaptive;
+        app.change(s);
+        app.reset();
+      }
+    }
+    if (card_closed(look)) app.desk.dismissed_failure = app.run_count;
+  }
+  ImGui::End();
+}
+
+void trouble_card(App& app) {
+  if (app.trouble.title.empty()) return;
+  const Look& look = app.look;
+  const ViewRect& v = app.view_rect;
+  bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+  ImGui::SetNextWindowFocus();
+  if (begin_card(app, "##trouble", 520.0F, v.y + 0.5F * v.height, 0.5F)) {
+    card_title(look, look.theme->orange, Icon::kCross, app.trouble.title);
+    const std::size_t count = app.trouble.problems.size();
+    const std::string note = (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
+                             std::string("The scene that runs was kept.");
+    label(look.fonts.small, look.theme->dim, note.c_str());
+    ImGui::Dummy({1.0F, 0.0F});
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {1e4F, display.y - 260.0F});
+    if (ImGui::BeginChild("list", {0, 0}, ImGuiChildFlags_AutoResizeY)) {
+      for (const Problem& problem : app.trouble.problems) {
+        label(look.fonts.medium, look.theme->text,
+              problem.pointer.empty() ? "whole file" : problem.pointer.c_str());
+        ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6.0F);
+        label(look.fonts.small, look.theme->dim, problem.message.c_str());
+      }
+    }
+    ImGui::EndChild();
+    close |= card_closed(look);
+  }
+  ImGui::End();
+  if (close) app.trouble = {};
+}
+
+void help_card(App& app) {
+  if (!app.desk.help) return;
+  struct Key {
+    const char* key;
+    const char* what;
+  };
+  static constexpr std::array<Key, 17> kKeys{{{"Space", "play, pause"},
+                                              {".", "one frame"},
+                                              {"R", "back to the start"},
+                                              {"[  ]", "slower, faster"},
+                                              {"1 … 5", "none, const, damping, adaptive, capped"},
+                                              {"F", "show everything"},
+                                              {"H", "panels on or off"},
+                                              {"T", "light or dark"},
+                                              {"?", "this list"},
+                                              {"", ""},
+                                              {"drag", "turn the view"},
+                                              {"right drag, Shift drag", "move the view"},
+                                              {"wheel, pinch", "closer, farther"},
+                                              {"wheel on a plot", "more or less time"},
+                                              {"Ctrl click on a slider", "type the value"},
+                                              {"Tab, arrows", "controls by keyboard"},
+                                              {"drop a file", "run your own scene"}}};
+  const Look& look = app.look;
+  const ViewRect& v = app.view_rect;
+  bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+  if (begin_card(app, "##help", 420.0F, v.y + 0.5F * v.height, 0.5F)) {
+    card_title(look, 0, Icon::kNone, "Keys and gestures");
+    for (const Key& key : kKeys) {
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, at, look.theme->text, key.key);
+      draw_text(*ImGui::GetWindowDrawList(), look.fonts.regular, {at.x + 168.0F, at.y}, look.theme->dim,
+                key.what);
+      ImGui::Dummy({1.0F, *key.key != '\0' ? 14.0F : 2.0F});
+    }
+    close |= card_closed(look);
+  }
+  ImGui::End();
+  if (close) app.desk.help = false;
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,31 @@
+#pragma once
+// What the window consists of. Each function fills the current Dear ImGui window.
+
+#include "app/app.hpp"
+
+namespace substep::ui {
+
+/// All of the window for this frame; sets app.view_rect.
+void draw_window(App& app);
+
+void controls(App& app);
+/// @param height that the plots share; 0 takes what they need at least
+void plots(App& app, float height);
+void why(App& app);
+void timing(App& app);
+/// @param phone two rows, larger targets
+void transport(App& app, bool phone);
+
+/// Over the picture: what runs, N, the scale of the tint, masses, and what went wrong.
+void caption(App& app, bool phone);
+void body_labels(App& app);
+void tint_scale(App& app);
+void failure_card(App& app);
+void trouble_card(App& app);
+void help_card(App& app);
+
+/// Heights that the right panel's fixed parts need.
+float why_height();
+float timing_height(const App& app);
+
+}  // namespace substep::ui

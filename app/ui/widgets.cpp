@@ -1,0 +1,400 @@
+#include "app/ui/widgets.hpp"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace substep::ui {
+namespace {
+
+constexpr float kNameWidth = 76.0F;  // of the names at the left of rows
+
+ImVec2 snapped(ImVec2 p) {
+  const float ratio = std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
+  return {std::round(p.x * ratio) / ratio, std::round(p.y * ratio) / ratio};
+}
+
+float available_width() { return ImGui::GetContentRegionAvail().x; }
+
+// A ring around what the keyboard is on.
+void draw_focus(const Look& look, ImDrawList& draw, const ImRect& box) {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.NavId == g.LastItemData.ID && !g.NavDisableHighlight) {
+    draw.AddRect({box.Min.x - 2, box.Min.y - 2}, {box.Max.x + 2, box.Max.y + 2},
+                 look.theme->accent_hover, look.m.radius + 2, 0, 2.0F);
+  }
+}
+
+// Name at the left of a row, value at the right; between them what remains for the control.
+ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float y = origin.y + 0.5F * (look.m.row - text_size(look.fonts.regular, name).y);
+  draw_text(draw, look.fonts.regular, {origin.x, y}, look.theme->dim, name);
+  return {origin.x + kNameWidth, origin.y, origin.x + width, origin.y + look.m.row};
+}
+
+template <class T>
+bool slider_row(const Look& look, const char* name, T& value, T least, T most, bool logarithmic,
+                ImGuiDataType type, const char* format, const char* tip) {
+  constexpr float kValueWidth = 48.0F;
+  ImGuiWindow* window = ImGui::GetCurrentWindow();
+  if (window->SkipItems) return false;
+  const ImGuiID id = window->GetID(name);
+  const ImVec2 origin = window->DC.CursorPos;
+  const float width = available_width();
+  const ImRect all(origin, {origin.x + width, origin.y + look.m.row});
+  ImRect frame = row_frame(look, name, origin, width);
+  const float value_x = frame.Max.x - kValueWidth;
+  frame.Max.x = value_x - 8.0F;
+  ImGui::ItemSize(all);
+  if (!ImGui::ItemAdd(all, id, &all, ImGuiItemFlags_Inputable)) return false;
+
+  const bool hovered = ImGui::ItemHoverable(all, id, ImGuiItemFlags_None);
+  const ImGuiIO& io = ImGui::GetIO();
+  bool typing = ImGui::TempInputIsActive(id);
+  if (!typing) {
+    const bool clicked = hovered && ImGui::IsMouseClicked(0, id);
+    ImGuiContext& g = *ImGui::GetCurrentContext();
+    if (clicked || g.NavActivateId == id) {
+      if (clicked) ImGui::SetKeyOwner(ImGuiKey_MouseLeft, id);
+      const bool on_value = io.MousePos.x >= value_x;
+      if ((clicked && (io.KeyCtrl || on_value)) ||
+          (g.NavActivateId == id && (g.NavActivateFlags & ImGuiActivateFlags_PreferInput) != 0)) {
+        typing = true;
+      } else {
+        ImGui::SetActiveID(id, window);
+        ImGui::SetFocusID(id, window);
+        ImGui::FocusWindow(window);
+        g.ActiveIdUsingNavDirMask |= (1U << ImGuiDir_Left) | (1U << ImGuiDir_Right);
+      }
+    }
+  }
+  ImDrawList& draw = *window->DrawList;
+  if (typing) {
+    const ImRect box(value_x - 16.0F, frame.Min.y, all.Max.x, frame.Max.y);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
+                        {6.0F, 0.5F * (look.m.row - ImGui::GetFontSize())});
+    const bool typed = ImGui::TempInputScalar(box, id, name, type, &value, format, &least, &most);
+    ImGui::PopStyleVar();
+    return typed;
+  }
+  ImRect grab;
+  const float radius = 7.0F;
+  ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 2.0F * radius);
+  const bool changed = ImGui::SliderBehavior(
+      frame, id, type, &value, &least, &most, format,
+      logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None, &grab);
+  ImGui::PopStyleVar();
+  if (changed) ImGui::MarkItemEdited(id);
+
+  const Theme& t = *look.theme;
+  const float y = std::round(0.5F * (frame.Min.y + frame.Max.y));
+  const float x = std::clamp(grab.GetCenter().x, frame.Min.x + radius, frame.Max.x - radius);
+  const bool active = ImGui::GetActiveID() == id;
+  draw.AddRectFilled({frame.Min.x, y - 2}, {frame.Max.x, y + 2}, t.track, 2.0F);
+  draw.AddRectFilled({frame.Min.x, y - 2}, {x, y + 2}, t.accent, 2.0F);
+  if (active || hovered) draw.AddCircleFilled({x, y}, radius + 4, fade(t.accent, 0.25F));
+  draw.AddCircleFilled({x, y}, radius, t.dark ? t.text : IM_COL32_WHITE);
+  if (!t.dark) draw.AddCircle({x, y}, radius, t.accent, 0, 1.5F);
+
+  std::array<char, 64> text{};
+  ImGui::DataTypeFormatString(text.data(), static_cast<int>(text.size()), type, &value, format);
+  const ImVec2 size = text_size(look.fonts.medium, text.data());
+  draw_text(draw, look.fonts.medium, {all.Max.x - size.x, origin.y + 0.5F * (look.m.row - size.y)},
+            t.text, text.data());
+  draw_focus(look, draw, all);
+  if (!active) tooltip(look, name, tip);
+  return changed;
+}
+
+}  // namespace
+
+void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const char* text,
+               const char* end) {
+  const float size = font->FontSize * ImGui::GetIO().FontGlobalScale;
+  draw.AddText(font, size, snapped(at), color, text, end);
+}
+
+ImVec2 text_size(ImFont* font, const char* text, float wrap) {
+  const float size = font->FontSize * ImGui::GetIO().FontGlobalScale;
+  return font->CalcTextSizeA(size, 1e6F, wrap, text);
+}
+
+std::string fitted(ImFont* font, const std::string& text, float width) {
+  if (text_size(font, text.c_str()).x <= width) return text;
+  std::string cut = text;
+  while (!cut.empty()) {
+    // A whole character at a time: continuation bytes go with their first one.
+    while (cut.size() > 1 && (static_cast<unsigned char>(cut.back()) & 0xc0U) == 0x80U) {
+      cut.pop_back();
+    }
+    cut.pop_back();
+    while (!cut.empty() && cut.back() == ' ') cut.pop_back();
+    if (text_size(font, (cut + "…").c_str()).x <= width) return cut + "…";
+  }
+  return "…";
+}
+
+void label(ImFont* font, ImU32 color, const char* text) {
+  ImGui::PushFont(font);
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::PushTextWrapPos(0.0F);
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+void space(float height) {
+  // A Dummy brings the item spacing with it.
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + height - ImGui::GetStyle().ItemSpacing.y);
+}
+
+void section(const Look& look, const char* title, const char* value, ImU32 value_color) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = available_width();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  constexpr float kHeight = 16.0F;
+  std::string caps(title);
+  for (char& c : caps) {
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  // Capitals read better a little apart.
+  float x = origin.x;
+  const float y = origin.y + 1.0F;
+  for (const char* p = caps.c_str(); *p != '\0';) {
+    const char* end = p + 1;
+    while ((static_cast<unsigned char>(*end) & 0xc0U) == 0x80U) ++end;
+    draw_text(draw, look.fonts.caps, {x, y}, look.theme->dim, p, end);
+    x += text_size(look.fonts.caps, std::string(p, end).c_str()).x + 0.6F;
+    p = end;
+  }
+  if (value != nullptr && *value != '\0') {
+    const std::string text = fitted(look.fonts.small, value, origin.x + width - x - 8.0F);
+    const ImVec2 size = text_size(look.fonts.small, text.c_str());
+    draw_text(draw, look.fonts.small, {origin.x + width - size.x, origin.y},
+              value_color != 0 ? value_color : look.theme->text, text.c_str());
+  }
+  ImGui::Dummy({width, kHeight});
+}
+
+void tooltip(const Look& look, const char* title, const char* text) {
+  if (text == nullptr || *text == '\0') return;
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_NoSharedDelay)) return;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
+  if (ImGui::BeginTooltip()) {
+    ImGui::PushTextWrapPos(300.0F);
+    if (title != nullptr && *title != '\0') {
+      ImGui::PushFont(look.fonts.medium);
+      ImGui::TextUnformatted(title);
+      ImGui::PopFont();
+    }
+    ImGui::PushStyleColor(ImGuiCol_Text, look.theme->dim);
+    ImGui::TextUnformatted(text);
+    ImGui::PopStyleColor();
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+  ImGui::PopStyleVar(2);
+}
+
+bool segmented(const Look& look, const char* id, std::span<const Choice> choices, int& current,
+               float width) {
+  const Theme& t = *look.theme;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float height = look.m.row;
+  draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, t.well, look.m.radius);
+
+  // Room beyond the words is shared out evenly; where there is little, the words are set smaller.
+  const auto words_in = [&](ImFont* f) {
+    float sum = 0.0F;
+    for (const Choice& choice : choices) sum += text_size(f, choice.name).x;
+    return sum;
+  };
+  const float comfortable = width - 18.0F * static_cast<float>(choices.size());
+  ImFont* font = words_in(look.fonts.medium) > comfortable ? look.fonts.small_medium : look.fonts.medium;
+  const float words = words_in(font);
+  const float extra = (width - words) / static_cast<float>(choices.size());
+  bool changed = false;
+  float x = origin.x;
+  ImGui::PushID(id);
+  for (int i = 0; i < static_cast<int>(choices.size()); ++i) {
+    const Choice& choice = choices[static_cast<std::size_t>(i)];
+    const ImVec2 size = text_size(font, choice.name);
+    const float right = x + size.x + extra;
+    const ImRect box({std::round(x), origin.y}, {std::round(right), origin.y + height});
+    ImGui::SetCursorScreenPos(box.Min);
+    ImGui::PushID(i);
+    const bool pressed = ImGui::InvisibleButton("choice", box.GetSize());
+    const bool hovered = ImGui::IsItemHovered();
+    ImGui::PopID();
+    if (pressed && i != current) {
+      current = i;
+      changed = true;
+    }
+    const bool on = i == current;
+    if (on) {
+      draw.AddRectFilled({box.Min.x + 2, box.Min.y + 2}, {box.Max.x - 2, box.Max.y - 2}, t.accent,
+                         look.m.radius - 2);
+    } else if (hovered) {
+      draw.AddRectFilled({box.Min.x + 2, box.Min.y + 2}, {box.Max.x - 2, box.Max.y - 2}, t.control,
+                         look.m.radius - 2);
+    }
+    draw_text(draw, font,
+              {x + 0.5F * (right - x - size.x), origin.y + 0.5F * (height - size.y)},
+              on ? t.on_accent : hovered ? t.text : t.dim, choice.name);
+    draw_focus(look, draw, box);
+    tooltip(look, choice.name, choice.tip);
+    x = right;
+  }
+  ImGui::PopID();
+  ImGui::SetCursorScreenPos(origin);
+  ImGui::Dummy({width, height});
+  return changed;
+}
+
+bool segmented_row(const Look& look, const char* name, std::span<const Choice> choices,
+                   int& current, const char* tip) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = available_width();
+  const ImRect frame = row_frame(look, name, origin, width);
+  ImGui::Dummy({kNameWidth - 8.0F, look.m.row});
+  tooltip(look, name, tip);
+  ImGui::SetCursorScreenPos(frame.Min);
+  return segmented(look, name, choices, current, frame.GetWidth());
+}
+
+bool slider(const Look& look, const char* name, double& value, double least, double most,
+            bool logarithmic, const char* format, const char* tip) {
+  return slider_row(look, name, value, least, most, logarithmic, ImGuiDataType_Double, format, tip);
+}
+bool slider(const Look& look, const char* name, int& value, int least, int most, bool logarithmic,
+            const char* tip) {
+  return slider_row(look, name, value, least, most, logarithmic, ImGuiDataType_S32, "%d", tip);
+}
+
+bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip) {
+  const Theme& t = *look.theme;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton(name, {width, look.m.row});
+  const bool hovered = ImGui::IsItemHovered();
+  if (pressed) value = !value;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  constexpr float kSize = 16.0F;
+  const ImVec2 at(origin.x, origin.y + 0.5F * (look.m.row - kSize));
+  const ImVec2 to(at.x + kSize, at.y + kSize);
+  if (value) {
+    draw.AddRectFilled(at, to, hovered ? t.accent_hover : t.accent, 4.0F);
+    draw_icon(draw, Icon::kCheck, {at.x + 0.5F * kSize, at.y + 0.5F * kSize}, kSize, t.on_accent);
+  } else {
+    draw.AddRectFilled(at, to, t.well, 4.0F);
+    draw.AddRect(at, to, hovered ? t.dim : t.faint, 4.0F);
+  }
+  const ImVec2 size = text_size(look.fonts.regular, name);
+  draw_text(draw, look.fonts.regular, {to.x + 8.0F, origin.y + 0.5F * (look.m.row - size.y)},
+            t.text, name);
+  draw_focus(look, draw, {origin, {origin.x + width, origin.y + look.m.row}});
+  tooltip(look, name, tip);
+  return pressed;
+}
+
+bool button(const Look& look, const char* id, Icon icon, const char* text, ButtonKind kind,
+            float width, float height, const char* tip) {
+  const Theme& t = *look.theme;
+  const ImVec2 size = *text != '\0' ? text_size(look.fonts.medium, text) : ImVec2(0, 0);
+  const float icon_width = icon == Icon::kNone ? 0.0F : 16.0F;
+  const float between = icon_width > 0.0F && size.x > 0.0F ? 6.0F : 0.0F;
+  const float content = icon_width + between + size.x;
+  if (width <= 0.0F) width = size.x > 0.0F ? content + 24.0F : height;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton(id, {width, height});
+  const bool hovered = ImGui::IsItemHovered();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImRect box(origin, {origin.x + width, origin.y + height});
+  ImU32 ink = kind == ButtonKind::kPrimary ? t.on_accent : t.text;
+  if (kind == ButtonKind::kPrimary) {
+    draw.AddRectFilled(box.Min, box.Max, hovered ? t.accent_hover : t.accent, look.m.radius);
+  } else if (kind == ButtonKind::kPlain || hovered) {
+    draw.AddRectFilled(box.Min, box.Max, hovered ? t.control_hover : t.control, look.m.radius);
+  } else {
+    ink = t.dim;
+  }
+  const float x = origin.x + 0.5F * (width - content);
+  const float y = origin.y + 0.5F * height;
+  if (icon != Icon::kNone) draw_icon(draw, icon, {x + 8.0F, y}, 16.0F, ink);
+  if (size.x > 0.0F) {
+    draw_text(draw, look.fonts.medium, {x + icon_width + between, y - 0.5F * size.y}, ink, text);
+  }
+  draw_focus(look, draw, box);
+  tooltip(look, "", tip);
+  return pressed;
+}
+
+bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
+                 const char* tip, const std::function<void()>& menu) {
+  const Theme& t = *look.theme;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  ImGui::PushID(id);
+  const bool pressed = ImGui::InvisibleButton("open", {width, height});
+  const bool hovered = ImGui::IsItemHovered();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImRect box(origin, {origin.x + width, origin.y + height});
+  draw.AddRectFilled(box.Min, box.Max, hovered ? t.control_hover : t.control, look.m.radius);
+  const std::string shown = fitted(look.fonts.medium, text, width - 40.0F);
+  const float line = text_size(look.fonts.medium, shown.c_str()).y;
+  draw_text(draw, look.fonts.medium, {origin.x + 12.0F, origin.y + 0.5F * (height - line)}, t.text,
+            shown.c_str());
+  draw_icon(draw, Icon::kChevron, {box.Max.x - 16.0F, origin.y + 0.5F * height}, 16.0F, t.dim);
+  draw_focus(look, draw, box);
+  tooltip(look, "", tip);
+  if (pressed) ImGui::OpenPopup("menu");
+
+  // Opens to where there is room, never over its button.
+  const float below = ImGui::GetIO().DisplaySize.y - box.Max.y - 16.0F;
+  const float above = box.Min.y - 16.0F;
+  const bool up = below < 240.0F && above > below;
+  ImGui::SetNextWindowPos({box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F}, ImGuiCond_Always,
+                          {0.0F, up ? 1.0F : 0.0F});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {400.0F, std::max(120.0F, up ? above : below)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
+  const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);
+  if (open) {
+    menu();
+    ImGui::EndPopup();
+  }
+  ImGui::PopStyleVar(2);
+  ImGui::PopID();
+  return open;
+}
+
+bool menu_item(const Look& look, const char* text, const char* note, bool current) {
+  const Theme& t = *look.theme;
+  const ImVec2 size = text_size(look.fonts.regular, text);
+  const ImVec2 note_size = *note != '\0' ? text_size(look.fonts.small, note) : ImVec2(0, 0);
+  const float needed = 28.0F + size.x + (note_size.x > 0.0F ? note_size.x + 24.0F : 0.0F) + 8.0F;
+  const float width = std::max(needed, available_width());
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float height = look.m.row + 2.0F;
+  const bool pressed = ImGui::InvisibleButton(text, {width, height});
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (ImGui::IsItemHovered() || ImGui::IsItemFocused()) {
+    draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, t.control, look.m.radius);
+  }
+  const float middle = origin.y + 0.5F * height;
+  if (current) draw_icon(draw, Icon::kCheck, {origin.x + 14.0F, middle}, 16.0F, t.accent_hover);
+  draw_text(draw, look.fonts.regular, {origin.x + 28.0F, middle - 0.5F * size.y}, t.text, text);
+  if (note_size.x > 0.0F) {
+    draw_text(draw, look.fonts.small,
+              {origin.x + width - 8.0F - note_size.x, middle - 0.5F * note_size.y}, t.dim, note);
+  }
+  if (pressed) ImGui::CloseCurrentPopup();
+  return pressed;
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,176 @@
+// Where everything lies: panels around the picture, or below it on a phone.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                    ImGuiWindowFlags_NoCollapse |
+                                    ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr float kBar = 56.0F;  // height of the transport bar
+
+struct Rect {
+  float x = 0.0F;
+  float y = 0.0F;
+  float width = 0.0F;
+  float height = 0.0F;
+};
+
+bool begin_panel(const char* id, const Rect& r, ImGuiWindowFlags flags = 0) {
+  ImGui::SetNextWindowPos({std::round(r.x), std::round(r.y)});
+  ImGui::SetNextWindowSize({std::round(r.width), std::round(r.height)});
+  return ImGui::Begin(id, nullptr, kFixed | flags);
+}
+
+// A finger scrolls a panel by dragging it where there is no control.
+void scroll_by_drag() {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && !ImGui::IsAnyItemActive() &&
+      ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) {
+    ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
+  }
+}
+
+// The picture itself: turned, moved and zoomed by mouse, trackpad and fingers.
+void view_input(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  ImGui::SetNextWindowPos({0.0F, 0.0F});
+  ImGui::SetNextWindowSize(io.DisplaySize);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
+  ImGui::Begin("##view", nullptr,
+               kFixed | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollWithMouse |
+                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav);
+  ImGui::PopStyleVar();
+  ImGui::InvisibleButton("picture", io.DisplaySize,
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  OrbitCamera& camera = app.view.camera;
+  if (ImGui::IsItemActive()) {
+    const ImVec2 d = io.MouseDelta;
+    const bool pan = io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Right) ||
+                     ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+    if (pan) {
+      camera.pan(static_cast<double>(d.x), static_cast<double>(d.y), app.view_rect);
+    } else {
+      camera.orbit(-0.007 * static_cast<double>(d.x), 0.007 * static_cast<double>(d.y));
+    }
+  }
+  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0F) {
+    camera.zoom(std::pow(1.12, static_cast<double>(io.MouseWheel)));
+  }
+  ImGui::End();
+}
+
+void desktop(App& app, ImVec2 display) {
+  const float margin = app.look.m.margin;
+  const float pad = app.look.m.pad;
+  const bool wide = display.x >= 1500.0F;
+  const float left_width = wide ? 300.0F : 276.0F;
+  const float right_width = std::clamp(std::round(0.235F * display.x), 288.0F, 460.0F);
+  const float panel_height = display.y - kBar - 3.0F * margin;
+  const Rect left{margin, margin, left_width, panel_height};
+  const Rect right{display.x - margin - right_width, margin, right_width, panel_height};
+  const Rect bar{margin, display.y - margin - kBar, display.x - 2.0F * margin, kBar};
+  app.view_rect = app.desk.panels
+                      ? ViewRect{left.x + left.width, 0.0F, right.x - left.x - left.width,
+                                 bar.y - margin + margin}
+                      : ViewRect{0.0F, 0.0F, display.x, bar.y};
+  if (app.desk.panels) {
+    if (begin_panel("##controls", left)) {
+      controls(app);
+      scroll_by_drag();
+    }
+    ImGui::End();
+    if (begin_panel("##plots", right)) {
+      const float fixed = why_height() + timing_height(app) + 2.0F * app.look.m.section;
+      plots(app, panel_height - 2.0F * pad - fixed);
+      space(app.look.m.section);
+      why(app);
+      space(app.look.m.section);
+      timing(app);
+      scroll_by_drag();
+    }
+    ImGui::End();
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 12.0F});
+  if (begin_panel("##transport", bar, ImGuiWindowFlags_NoScrollbar)) transport(app, false);
+  ImGui::End();
+  ImGui::PopStyleVar();
+}
+
+// View on top (or at the left, when lying), controls in tabs below (or at the right).
+void phone(App& app, ImVec2 display) {
+  const bool lying = display.x > display.y;
+  const float side = lying ? std::min(360.0F, 0.5F * display.x) : display.x;
+  const float top = lying ? 0.0F : std::round(0.44F * display.y);
+  app.view_rect = lying ? ViewRect{0.0F, 0.0F, display.x - side, display.y}
+                        : ViewRect{0.0F, 0.0F, display.x, top};
+  if (!app.desk.panels) {
+    const float bar = 92.0F;
+    app.view_rect = {0.0F, 0.0F, display.x, display.y - bar};
+  }
+  const Rect panel = app.desk.panels
+                         ? Rect{display.x - side, top, side, display.y - top}
+                         : Rect{0.0F, app.view_rect.height, display.x, display.y - app.view_rect.height};
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 12.0F});
+  if (begin_panel("##phone", panel, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
+    const ImVec2 origin = ImGui::GetCursorScreenPos();
+    transport(app, true);
+    ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
+    if (app.desk.panels) {
+      static constexpr std::array<Choice, 3> kTabs{{{"Controls", ""}, {"Plots", ""}, {"Why this N", ""}}};
+      int tab = static_cast<int>(app.desk.tab);
+      segmented(app.look, "tabs", kTabs, tab, ImGui::GetContentRegionAvail().x);
+      app.desk.tab = static_cast<Tab>(tab);
+      ImGui::Dummy({1.0F, 0.0F});
+      if (ImGui::BeginChild("content", {0, 0})) {
+        switch (app.desk.tab) {
+          case Tab::kControls:
+            controls(app);
+            break;
+          case Tab::kPlots:
+            plots(app, ImGui::GetContentRegionAvail().y - 4.0F);
+            break;
+          case Tab::kWhy:
+            why(app);
+            space(app.look.m.section);
+            timing(app);
+            break;
+        }
+        scroll_by_drag();
+      }
+      ImGui::EndChild();
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+}  // namespace
+
+void draw_window(App& app) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const bool small = display.x < 900.0F || display.y < 480.0F;
+  view_input(app);
+  if (small) {
+    phone(app, display);
+  } else {
+    desktop(app, display);
+  }
+  caption(app, small);
+  body_labels(app);
+  if (!small) tint_scale(app);
+  failure_card(app);
+  trouble_card(app);
+  help_card(app);
+}
+
+}  // namespace substep::ui

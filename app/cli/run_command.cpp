@@ -56,11 +56,9 @@ std::string json_head(const Scene& scene, const Settings& settings) {
   std::string text = "{\n  \"scene\": " + json_text(scene.name) + ",\n  \"settings\": {";
   const char* separator = "";
   for (const SettingField& field : setting_fields()) {
-    const bool is_name =
-        setting_text(field, settings).find_first_not_of("0123456789.e-") != std::string::npos &&
-        !std::holds_alternative<FlagSetting>(field.member);
+    const std::string value = setting_text(field, settings);
     text += separator + json_text(std::string(field.name)) + ": ";
-    text += is_name ? json_text(setting_text(field, settings)) : setting_text(field, settings);
+    text += is_choice(field) ? json_text(value) : value;
     separator = ", ";
   }
   return text + "},\n  \"frames\": [";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cinttypes>
+#include <cstdarg>
 #include <cstdio>
 
 #include "core/io/number_text.hpp"
@@ -11,10 +12,12 @@ namespace substep::cli {
 namespace {
 
 /// printf into a string.
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
   char text[200];
-  std::snprintf(text, sizeof text, pattern, values...);
+  std::va_list values;
+  va_start(values, pattern);
+  std::vsnprintf(text, sizeof text, pattern, values);
+  va_end(values);
   return text;
 }
 
@@ -35,8 +38,8 @@ void RunReport::add(const FrameReport& report) {
 
 std::string RunReport::energy_text() const {
   const double change = last_.energy - energy_at_start_;
-  if (!scene_.criteria.energy_scale) return format("%+.4g J", change);
-  return format("%+.3g %% of %.4g J", 100.0 * change / *scene_.criteria.energy_scale,
+  if (!scene_.criteria.energy_scale) return format("%+.6g J", change);
+  return format("%+.3g %% of %g J", 100.0 * change / *scene_.criteria.energy_scale,
                 *scene_.criteria.energy_scale);
 }
 
@@ -45,7 +48,7 @@ std::string RunReport::progress(std::int64_t frames) const {
       frames > 0 ? 100.0 * static_cast<double>(last_.frame) / static_cast<double>(frames) : 100.0;
   std::string line = format("%3.0f %%  %7.2f s  %3d sub-steps", done, last_.time, last_.n_substeps);
   line += "  energy " + energy_text();
-  if (scene_.effects.joints) line += format("  gap %.2g m", last_.joint_gap);
+  if (scene_.effects.joints) line += format("  gap %.1e m", last_.joint_gap);
   return line;
 }
 
@@ -60,8 +63,8 @@ std::string RunReport::summary(std::uint64_t state_hash) const {
   }
   if (capped_frames_ > 0) text += format("capped       %" PRId64 " frames\n", capped_frames_);
   text += "energy       " + energy_text() + "\n";
-  if (scene_.effects.joints) text += format("joint gap    %.3g m at most\n", joint_gap_);
-  if (scene_.effects.contact) text += format("penetration  %.3g m at most\n", penetration_);
+  if (scene_.effects.joints) text += format("joint gap    %.2e m at most\n", joint_gap_);
+  if (scene_.effects.contact) text += format("penetration  %.2e m at most\n", penetration_);
   if (total_substeps_ > 0) {
     text += format("computing    %.3f s; %.3f ms a frame, %.1f us a sub-step\n", computing_,
                    1e3 * computing_ / static_cast<double>(substeps_.size()),

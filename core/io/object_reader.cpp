@@ -31,6 +31,7 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
   std::string_view best;
   std::size_t best_distance = std::min<std::size_t>(2, word.size() / 2) + 1;
   for (const std::string_view candidate : candidates) {
+    if (word.size() > 2 && candidate.starts_with(word)) best = candidate;
     if (candidate.size() > word.size() + 2 || word.size() > candidate.size() + 2) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < best_distance) {

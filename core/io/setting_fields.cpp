@@ -87,6 +87,12 @@ std::string allowed_values(const SettingField& field) {
       field.member);
 }
 
+bool is_choice(const SettingField& field) {
+  return !std::holds_alternative<FlagSetting>(field.member) &&
+         !std::holds_alternative<CountSetting>(field.member) &&
+         !std::holds_alternative<NumberSetting>(field.member);
+}
+
 std::string setting_text(const SettingField& field, const Settings& settings) {
   return std::visit(Match{[&](const FlagSetting& f) -> std::string {
                             return settings.*f.member ? "true" : "false";

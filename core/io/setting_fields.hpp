@@ -49,6 +49,9 @@ const SettingField* find_setting(std::string_view name);
 /// What is allowed, for people: "pgs or bpp", "a whole number from 1 to 100000", "> 0 and <= 1".
 std::string allowed_values(const SettingField& field);
 
+/// Whether its values are names, not numbers or true and false.
+bool is_choice(const SettingField& field);
+
 /// The field's value as text: what set_setting takes. Numbers lose nothing.
 std::string setting_text(const SettingField& field, const Settings& settings);
 

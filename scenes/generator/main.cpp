@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
     std::fputs(
         "usage: generate_scenes --out DIR\n"
         "Writes every shipped scene to DIR/NAME.json. Ropes and other variants:\n"
-        "substep scenes --generate rope --links 100\n",
+        "substep generate rope --links 100\n",
         stderr);
     return 2;
   }

@@ -1,0 +1,154 @@
+#include "core/io/frame_columns.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/io/json.hpp"
+#include "core/io/number_text.hpp"
+
+namespace substep {
+namespace {
+
+std::string number(double x) {
+  if (std::isfinite(x)) return number_text(x);
+  return std::isnan(x) ? "nan" : x > 0.0 ? "inf" : "-inf";
+}
+std::string number(std::int64_t x) { return std::to_string(x); }
+std::string number(int x) { return std::to_string(x); }
+std::string number(bool x) { return x ? "1" : "0"; }
+
+/// Centre of the body whose path counts as the motion, along one axis [m].
+template <int kAxis>
+std::string tracked(const FrameView& f) {
+  if (!f.scene.criteria.track) return "nan";
+  return number(f.state.x[static_cast<std::size_t>(*f.scene.criteria.track)][kAxis]);
+}
+
+std::string leader(const FrameView& f) {
+  const int body = f.report.leader.body;
+  return body < 0 ? "" : f.scene.bodies[static_cast<std::size_t>(body)].name;
+}
+
+const std::vector<FrameColumn>& all_columns() {
+  static const std::vector<FrameColumn> columns{
+      {"frame", "frames done [-]", nullptr,
+       [](const FrameView& f) { return number(f.report.frame); }},
+      {"time", "at the end of the frame [s]", nullptr,
+       [](const FrameView& f) { return number(f.report.time); }},
+      {"substeps", "sub-steps N of this frame [-]", nullptr,
+       [](const FrameView& f) { return number(f.report.n_substeps); }},
+      {"substeps_wanted", "N by Eq. 11, before the cap [-]", nullptr,
+       [](const FrameView& f) { return number(f.report.n_wanted); }},
+      {"capped", "1 where the cap cut N [-]", nullptr,
+       [](const FrameView& f) { return number(f.report.capped); }},
+      {"dt_min", "shortest sub-step [s]", nullptr,
+       [](const FrameView& f) { return number(f.report.dt_min); }},
+      {"dt_max", "longest sub-step [s]", nullptr,
+       [](const FrameView& f) { return number(f.report.dt_max); }},
+      {"dt_stable", "2 sqrt(alpha/r), Eq. 10 [s]", nullptr,
+       [](const FrameView& f) { return number(f.report.dt_stable); }},
+      {"r", "largest k/M, Eq. 9 [1/s^2]", nullptr,
+       [](const FrameView& f) { return number(f.report.leader.r); }},
+      {"leader", "the body that sets r", nullptr, leader, false},
+      {"leader_dof", "its degree of freedom: 0-2 along x, y, z, 3-5 about its principal axes [-]",
+       nullptr, [](const FrameView& f) { return number(f.report.leader.dof); }},
+      {"kinetic", "kinetic energy [J]", nullptr,
+       [](const FrameView& f) { return number(f.report.kinetic); }},
+      {"potential", "potential energy [J]", &Effects::gravity,
+       [](const FrameView& f) { return number(f.report.potential); }},
+      {"energy", "kinetic and potential energy [J]", nullptr,
+       [](const FrameView& f) { return number(f.report.energy); }},
+      {"constraint_error", "sum of the errors of all joint rows [m, rad]", &Effects::joints,
+       [](const FrameView& f) { return number(f.report.constraint_error); }},
+      {"joint_gap", "largest gap of a joint [m]", &Effects::joints,
+       [](const FrameView& f) { return number(f.report.joint_gap); }},
+      {"joint_rows", "rows of joints [-]", &Effects::joints,
+       [](const FrameView& f) { return number(f.report.joint_rows); }},
+      {"penetration", "deepest overlap [m]", &Effects::contact,
+       [](const FrameView& f) { return number(f.report.penetration); }},
+      {"contact_rows", "normal rows [-]", &Effects::contact,
+       [](const FrameView& f) { return number(f.report.contact_rows); }},
+      {"friction_rows", "friction rows [-]", &Effects::friction,
+       [](const FrameView& f) { return number(f.report.friction_rows); }},
+      {"iterations", "sweeps of PGS [-]", nullptr,
+       [](const FrameView& f) { return number(f.report.work.iterations); }},
+      {"pivots", "changes of the active set of BPP [-]", nullptr,
+       [](const FrameView& f) { return number(f.report.work.pivots); }},
+      {"unsolved", "solves of BPP given up [-]", nullptr,
+       [](const FrameView& f) { return number(f.report.work.unsolved); }},
+      {"residual", "largest violation of bounds and complementarity [N s, m/s]", nullptr,
+       [](const FrameView& f) { return number(f.report.work.residual); }},
+      {"x", "the tracked body's centre [m]", nullptr, tracked<0>},
+      {"y", "the tracked body's centre [m]", nullptr, tracked<1>},
+      {"z", "the tracked body's centre [m]", nullptr, tracked<2>},
+      {"ms", "computing time of the frame [ms]", nullptr,
+       [](const FrameView& f) { return number(1e3 * f.report.times.total); }},
+  };
+  return columns;
+}
+
+bool is_tracked_position(const FrameColumn& c) {
+  return c.name == "x" || c.name == "y" || c.name == "z";
+}
+
+}  // namespace
+
+std::vector<FrameColumn> frame_columns(const Scene& scene) {
+  std::vector<FrameColumn> columns;
+  for (const FrameColumn& column : all_columns()) {
+    if (column.effect && !(scene.effects.*column.effect)) continue;
+    if (is_tracked_position(column) && !scene.criteria.track) continue;
+    columns.push_back(column);
+  }
+  return columns;
+}
+
+std::string csv_header(const std::vector<FrameColumn>& columns) {
+  std::string line;
+  for (const FrameColumn& column : columns) {
+    if (!line.empty()) line += ',';
+    line += column.name;
+  }
+  return line + '\n';
+}
+
+std::string csv_line(const std::vector<FrameColumn>& columns, const FrameView& frame) {
+  std::string line;
+  const char* separator = "";
+  for (const FrameColumn& column : columns) {
+    line += separator;
+    separator = ",";
+    std::string text = column.text(frame);
+    if (!column.is_number && text.find_first_of(",\"\r\n") != std::string::npos) {
+      for (std::size_t i = text.find('"'); i != std::string::npos; i = text.find('"', i + 2)) {
+        text.insert(i, 1, '"');
+      }
+      text = '"' + text + '"';
+    }
+    line += text;
+  }
+  return line + '\n';
+}
+
+std::string json_line(const std::vector<FrameColumn>& columns, const FrameView& frame) {
+  std::string line = "{";
+  const char* separator = "";
+  for (const FrameColumn& column : columns) {
+    line += separator;
+    separator = ", ";
+    line += '"';
+    line += column.name;
+    line += "\": ";
+    const std::string text = column.text(frame);
+    if (!column.is_number) {
+      line +=
+          text.empty() ? "null" : Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    } else {
+      const bool finite = text.find_first_of("in") == std::string::npos;  // "inf", "nan"
+      line += finite ? text : "null";
+    }
+  }
+  return line + '}';
+}
+
+}  // namespace substep

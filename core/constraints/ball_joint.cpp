@@ -7,6 +7,7 @@ namespace substep {
 // J_a  = [ E  -[r_a] ],  J_b = [ -E  [r_b] ]
 // so row i has the linear part e_i and the angular part r_a x e_i.
 void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block) {
+  block.pinned = true;
   block.r_a = a.R * joint.anchor_a;
   block.r_b = b.R * joint.anchor_b;
   // Differences of centres first: near the origin or far from it, the error is the same.

@@ -6,26 +6,78 @@ namespace substep {
 
 namespace {
 
-/// W = Mt^-1 J^T, transposed: one row of W per row of J.
-void weigh(const double (&J)[kMaxRows][6], int rows, const InverseMass& mass, double (&W)[kMaxRows][6]) {
+/// W = Mt^-1 J^T: 6 x rows.
+void weigh(const double (&J)[kMaxRows][6], int rows, const InverseMass& mass, double (&W)[6][kMaxRows]) {
   for (int r = 0; r < rows; ++r) {
     for (int i = 0; i < 3; ++i) {
-      W[r][i] = mass.linear * J[r][i];
-      W[r][3 + i] = mass.angular(i, 0) * J[r][3] + mass.angular(i, 1) * J[r][4] + mass.angular(i, 2) * J[r][5];
+      W[i][r] = mass.linear * J[r][i];
+      W[3 + i][r] = mass.angular(i, 0) * J[r][3] + mass.angular(i, 1) * J[r][4] + mass.angular(i, 2) * J[r][5];
     }
   }
 }
 
-/// out += J W^T, out row-major with `cols` columns.
-void add_product(const double (&J)[kMaxRows][6], int rows, const double (&W)[kMaxRows][6], int cols,
-                 double* out) {
-  for (int r = 0; r < rows; ++r) {
-    const double* j = J[r];
-    for (int c = 0; c < cols; ++c) {
-      const double* w = W[c];
-      out[r * cols + c] +=
-          (j[0] * w[0] + j[1] * w[1] + j[2] * w[2]) + (j[3] * w[3] + j[4] * w[4] + j[5] * w[5]);
+/// out += J W, rows x cols, from the component `First` on. The innermost loop runs along a row of W
+/// and of out, so that compilers can take two columns at a time without touching the order of a sum.
+template <int Rows, int Cols, int First>
+void add_product(const double (&J)[kMaxRows][6], const double (&W)[6][kMaxRows], double* out) {
+  for (int r = 0; r < Rows; ++r) {
+    double sum[kMaxRows];
+    for (int c = 0; c < Cols; ++c) sum[c] = out[r * Cols + c];
+    for (int j = First; j < 6; ++j) {
+      for (int c = 0; c < Cols; ++c) sum[c] += J[r][j] * W[j][c];
     }
+    for (int c = 0; c < Cols; ++c) out[r * Cols + c] = sum[c];
+  }
+}
+
+template <int Rows, int First>
+void add_product(const double (&J)[kMaxRows][6], const double (&W)[6][kMaxRows], int cols, double* out) {
+  switch (cols) {
+    case 1: return add_product<Rows, 1, First>(J, W, out);
+    case 2: return add_product<Rows, 2, First>(J, W, out);
+    case 3: return add_product<Rows, 3, First>(J, W, out);
+    case 4: return add_product<Rows, 4, First>(J, W, out);
+    default: return add_product<Rows, 5, First>(J, W, out);
+  }
+}
+
+template <int First>
+void add_product(const double (&J)[kMaxRows][6], int rows, const double (&W)[6][kMaxRows], int cols,
+                 double* out) {
+  switch (rows) {
+    case 1: return add_product<1, First>(J, W, cols, out);
+    case 2: return add_product<2, First>(J, W, cols, out);
+    case 3: return add_product<3, First>(J, W, cols, out);
+    case 4: return add_product<4, First>(J, W, cols, out);
+    default: return add_product<5, First>(J, W, cols, out);
+  }
+}
+
+/// What two blocks share through one body: out += J_row Mt^-1 J_col^T. Between two pinned blocks the
+/// linear part is +-E/m and is written down instead of multiplied out.
+void couple(const Block& row, bool row_is_a, const Block& col, bool col_is_a, const double (&W)[6][kMaxRows],
+            const InverseMass& mass, double* out) {
+  const auto& J = row_is_a ? row.J_a : row.J_b;
+  if (row.pinned && col.pinned) {
+    const double by_mass = row_is_a == col_is_a ? mass.linear : -mass.linear;
+    for (int i = 0; i < 3; ++i) out[i * col.rows + i] += by_mass;
+    add_product<3>(J, row.rows, W, col.rows, out);
+  } else {
+    add_product<0>(J, row.rows, W, col.rows, out);
+  }
+}
+
+/// out -= Z Y, Z a panel's rows x K, Y a panel's K x cols with `stride` between its rows.
+template <int K, int Cols>
+void subtract_product(const double* Z, int rows, const double* Y, std::size_t stride, double* out) {
+  for (int r = 0; r < rows; ++r) {
+    double sum[kMaxRows];
+    for (int c = 0; c < Cols; ++c) sum[c] = Z[r * K] * Y[c];
+    for (int k = 1; k < K; ++k) {
+      const double* y = Y + static_cast<std::size_t>(k) * stride;
+      for (int c = 0; c < Cols; ++c) sum[c] += Z[r * K + k] * y[c];
+    }
+    for (int c = 0; c < Cols; ++c) out[r * Cols + c] -= sum[c];
   }
 }
 
@@ -133,20 +185,23 @@ void BlockLdlt::form(const System& system) {
     double* D = values_.data() + diagonals_[i];
     for (int r = 0; r < block.rows; ++r) D[r * block.rows + r] = block.softness[r];
     if (block.a >= 0) {
-      weigh(block.J_a, block.rows, system.inverse_mass[static_cast<std::size_t>(block.a)], W.a);
-      add_product(block.J_a, block.rows, W.a, block.rows, D);
+      const InverseMass& mass = system.inverse_mass[static_cast<std::size_t>(block.a)];
+      weigh(block.J_a, block.rows, mass, W.a);
+      couple(block, true, block, true, W.a, mass, D);
     }
     if (block.b >= 0) {
-      weigh(block.J_b, block.rows, system.inverse_mass[static_cast<std::size_t>(block.b)], W.b);
-      add_product(block.J_b, block.rows, W.b, block.rows, D);
+      const InverseMass& mass = system.inverse_mass[static_cast<std::size_t>(block.b)];
+      weigh(block.J_b, block.rows, mass, W.b);
+      couple(block, false, block, false, W.b, mass, D);
     }
   }
   for (const Product& product : products_) {
     const Block& row = blocks[static_cast<std::size_t>(product.row_block)];
     const Block& col = blocks[static_cast<std::size_t>(product.col_block)];
     const Weighted& W = weighted_[static_cast<std::size_t>(product.col_block)];
-    add_product(product.row_is_a ? row.J_a : row.J_b, row.rows, product.col_is_a ? W.a : W.b, col.rows,
-                values_.data() + product.at);
+    const int body = product.col_is_a ? col.a : col.b;
+    couple(row, product.row_is_a, col, product.col_is_a, product.col_is_a ? W.a : W.b,
+           system.inverse_mass[static_cast<std::size_t>(body)], values_.data() + product.at);
   }
 }
 
@@ -227,76 +282,98 @@ void BlockLdlt::eliminate(const Node& node) {
   const Coupled* coupled = coupled_.data() + node.first_coupled;
   const Coupled& last = coupled[node.n_coupled - 1];
   const std::size_t height = last.offset + static_cast<std::size_t>(last.rows);
+  // Y is kept transposed, K x height, so that the innermost loop below runs along memory.
   double* Y = scratch_.data();
   for (std::size_t r = K; r < height; ++r) {
     double* x = D + r * K;
-    double* y = Y + r * K;
+    double y[kMaxRows];
     for (int k = 0; k < K; ++k) {
-      double s = x[k];
-      for (int m = 0; m < k; ++m) s -= y[m] * D[k * K + m];
-      y[k] = s;
+      y[k] = x[k];
+      for (int m = 0; m < k; ++m) y[k] -= y[m] * D[k * K + m];
+      Y[static_cast<std::size_t>(k) * height + r] = y[k];
+      x[k] = y[k] * D[k * K + k];
     }
-    for (int k = 0; k < K; ++k) x[k] = y[k] * D[k * K + k];
   }
   const std::size_t* update = updates_.data() + node.first_update;
   for (std::size_t s = 0; s < node.n_coupled; ++s) {
-    const double* Y_s = Y + coupled[s].offset * K;
+    const double* Y_s = Y + coupled[s].offset;
     for (std::size_t t = s; t < node.n_coupled; ++t) {
       double* out = values_.data() + *update++;
       const double* Z_t = D + coupled[t].offset * K;
-      for (int r = 0; r < coupled[t].rows; ++r) {
-        for (int c = 0; c < coupled[s].rows; ++c) {
-          double sum = Z_t[r * K] * Y_s[c * K];
-          for (int k = 1; k < K; ++k) sum += Z_t[r * K + k] * Y_s[c * K + k];
-          out[r * coupled[s].rows + c] -= sum;
-        }
+      const int rows = coupled[t].rows;
+      switch (coupled[s].rows) {
+        case 1: subtract_product<K, 1>(Z_t, rows, Y_s, height, out); break;
+        case 2: subtract_product<K, 2>(Z_t, rows, Y_s, height, out); break;
+        case 3: subtract_product<K, 3>(Z_t, rows, Y_s, height, out); break;
+        case 4: subtract_product<K, 4>(Z_t, rows, Y_s, height, out); break;
+        default: subtract_product<K, 5>(Z_t, rows, Y_s, height, out); break;
       }
     }
+  }
+}
+
+template <int K>
+void BlockLdlt::forward(const Node& node) {
+  const double* D = values_.data() + node.panel;
+  double* b = x_.data() + node.x;
+  for (int k = 1; k < K; ++k) {
+    for (int m = 0; m < k; ++m) b[k] -= D[k * K + m] * b[m];
+  }
+  for (std::size_t c = 0; c < node.n_coupled; ++c) {
+    const Coupled& coupled = coupled_[node.first_coupled + c];
+    const double* Z = D + coupled.offset * K;
+    double* x = x_.data() + nodes_[static_cast<std::size_t>(coupled.node)].x;
+    for (int r = 0; r < coupled.rows; ++r) {
+      double sum = Z[r * K] * b[0];
+      for (int k = 1; k < K; ++k) sum += Z[r * K + k] * b[k];
+      x[r] -= sum;
+    }
+  }
+}
+
+template <int K>
+void BlockLdlt::backward(const Node& node) {
+  const double* D = values_.data() + node.panel;
+  double* b = x_.data() + node.x;
+  for (int k = 0; k < K; ++k) b[k] *= D[k * K + k];
+  for (std::size_t c = 0; c < node.n_coupled; ++c) {
+    const Coupled& coupled = coupled_[node.first_coupled + c];
+    const double* Z = D + coupled.offset * K;
+    const double* x = x_.data() + nodes_[static_cast<std::size_t>(coupled.node)].x;
+    for (int r = 0; r < coupled.rows; ++r) {
+      for (int k = 0; k < K; ++k) b[k] -= Z[r * K + k] * x[r];
+    }
+  }
+  for (int k = K - 2; k >= 0; --k) {
+    for (int m = k + 1; m < K; ++m) b[k] -= D[m * K + k] * b[m];
   }
 }
 
 void BlockLdlt::solve(std::span<const Block> blocks) {
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
     const Node& node = nodes_[p];
-    const double* D = values_.data() + node.panel;
-    double* b = x_.data() + node.x;
-    const int K = node.rows;
     if (p >= order_.joints()) {
       const Block& block = blocks[static_cast<std::size_t>(node.block)];
-      for (int k = 0; k < K; ++k) {
-        if (block.tight[k] != 0) b[k] = 0.0;
+      for (int k = 0; k < node.rows; ++k) {
+        if (block.tight[k] != 0) x_[node.x + static_cast<std::size_t>(k)] = 0.0;
       }
     }
-    for (int k = 1; k < K; ++k) {
-      for (int m = 0; m < k; ++m) b[k] -= D[k * K + m] * b[m];
-    }
-    for (std::size_t c = 0; c < node.n_coupled; ++c) {
-      const Coupled& coupled = coupled_[node.first_coupled + c];
-      const double* Z = D + coupled.offset * static_cast<std::size_t>(K);
-      double* x = x_.data() + nodes_[static_cast<std::size_t>(coupled.node)].x;
-      for (int r = 0; r < coupled.rows; ++r) {
-        double sum = 0.0;
-        for (int k = 0; k < K; ++k) sum += Z[r * K + k] * b[k];
-        x[r] -= sum;
-      }
+    switch (node.rows) {
+      case 1: forward<1>(node); break;
+      case 2: forward<2>(node); break;
+      case 3: forward<3>(node); break;
+      case 4: forward<4>(node); break;
+      default: forward<5>(node); break;
     }
   }
   for (std::size_t p = nodes_.size(); p-- > 0;) {
     const Node& node = nodes_[p];
-    const double* D = values_.data() + node.panel;
-    double* b = x_.data() + node.x;
-    const int K = node.rows;
-    for (int k = 0; k < K; ++k) b[k] *= D[k * K + k];
-    for (std::size_t c = 0; c < node.n_coupled; ++c) {
-      const Coupled& coupled = coupled_[node.first_coupled + c];
-      const double* Z = D + coupled.offset * static_cast<std::size_t>(K);
-      const double* x = x_.data() + nodes_[static_cast<std::size_t>(coupled.node)].x;
-      for (int r = 0; r < coupled.rows; ++r) {
-        for (int k = 0; k < K; ++k) b[k] -= Z[r * K + k] * x[r];
-      }
-    }
-    for (int k = K - 2; k >= 0; --k) {
-      for (int m = k + 1; m < K; ++m) b[k] -= D[m * K + k] * b[m];
+    switch (node.rows) {
+      case 1: backward<1>(node); break;
+      case 2: backward<2>(node); break;
+      case 3: backward<3>(node); break;
+      case 4: backward<4>(node); break;
+      default: backward<5>(node); break;
     }
   }
 }

@@ -51,10 +51,10 @@ class BlockLdlt {
     bool row_is_a, col_is_a;  // which side of each block is the shared body
     std::size_t at;           // into values_
   };
-  /// J and Mt^-1 J^T of a block, side by side.
+  /// Mt^-1 J^T of a block, for its two bodies.
   struct Weighted {
-    double a[kMaxRows][6];
-    double b[kMaxRows][6];
+    double a[6][kMaxRows];
+    double b[6][kMaxRows];
   };
 
   void lay_out(std::span<const Block> blocks);
@@ -62,6 +62,10 @@ class BlockLdlt {
   template <int K>
   void eliminate(const Node& node);
   void eliminate(std::size_t from, std::size_t to);
+  template <int K>
+  void forward(const Node& node);
+  template <int K>
+  void backward(const Node& node);
 
   EliminationOrder order_;
   std::vector<Node> nodes_;

@@ -25,6 +25,7 @@ SolveReport Bpp::solve(const System& system, const Settings& settings) {
   SolveReport report;
   u_star_.assign(system.u.begin(), system.u.end());
   ldlt_.begin(system);
+  factor_valid_ = false;
   start_active_set(system);
 
   int boxed_rows = 0;
@@ -61,7 +62,9 @@ void Bpp::start_active_set(const System& system) {
       continue;
     }
     if (block.tight[0] == kUnknownSet) {
-      const bool reaches = row_speed(block, 0, system.u) + block.bias[0] < 0.0;
+      double speed[kMaxRows];
+      row_speeds(block, system.u, speed);
+      const bool reaches = speed[0] + block.bias[0] < 0.0;
       std::fill(block.tight, block.tight + block.rows, static_cast<std::int8_t>(reaches ? 0 : -1));
     }
   }
@@ -74,7 +77,9 @@ void Bpp::set_friction_bounds(std::span<Block> blocks) {
     friction_bound_[i] = block.mu * std::max(0.0, block.impulse[0]);
     if (friction_bound_[i] > 0.0) continue;
     for (int row = 1; row < 3; ++row) {  // no room to be free in
-      if (block.tight[row] == 0) block.tight[row] = -1;
+      if (block.tight[row] != 0) continue;
+      block.tight[row] = -1;
+      factor_valid_ = false;
     }
   }
 }
@@ -96,6 +101,10 @@ bool Bpp::bounds_settled(std::span<const Block> blocks) const {
 void Bpp::apply(const System& system, bool tight_rows) {
   for (const Block& block : system.blocks) {
     if (tight_rows && !block.is_contact()) continue;
+    if (!tight_rows && !block.is_contact()) {  // a joint has no tight rows
+      apply_impulse(block, block.impulse, system.inverse_mass, system.u);
+      continue;
+    }
     double part[kMaxRows];
     bool any = false;
     for (int row = 0; row < block.rows; ++row) {
@@ -111,6 +120,7 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
   std::copy(u_star_.begin(), u_star_.end(), system.u.begin());
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
+    if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
       if (block.tight[row] != 0) block.impulse[row] = row == 0 ? 0.0 : block.tight[row] * friction_bound_[i];
     }
@@ -120,12 +130,14 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     const Block& block = system.blocks[i];
     double* rhs = ldlt_.row(i);
-    for (int row = 0; row < block.rows; ++row) {
-      rhs[row] = -block.bias[row] - row_speed(block, row, system.u);
-    }
+    row_speeds(block, system.u, rhs);
+    for (int row = 0; row < block.rows; ++row) rhs[row] = -block.bias[row] - rhs[row];
   }
-  ldlt_.factor_contacts(system.blocks);
-  ++report.factorisations;
+  if (!factor_valid_) {
+    ldlt_.factor_contacts(system.blocks);
+    ++report.factorisations;
+    factor_valid_ = true;
+  }
   ldlt_.solve(system.blocks);
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
@@ -144,6 +156,8 @@ int Bpp::pivot(const System& system, bool one_only) {
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
     if (!block.is_contact()) continue;
+    double speed[kMaxRows];
+    row_speeds(block, system.u, speed);
     for (int row = 0; row < block.rows; ++row) {
       const double hi = row == 0 ? kUnbounded : friction_bound_[i];
       const double lo = row == 0 ? 0.0 : -hi;
@@ -154,11 +168,12 @@ int Bpp::pivot(const System& system, bool one_only) {
         if (x < lo - tolerance(x)) set = -1;
         if (x > hi + tolerance(x)) set = 1;
       } else {
-        const double w = row_speed(block, row, system.u) + block.softness[row] * x + block.bias[row];
+        const double w = speed[row] + block.softness[row] * x + block.bias[row];
         if (set < 0 ? w < -tolerance(x) : w > tolerance(x)) set = 0;
       }
       if (set == block.tight[row]) continue;
       ++wrong;
+      factor_valid_ = factor_valid_ && set != 0 && block.tight[row] != 0;
       if (one_only) {
         last = &block.tight[row];
         last_set = set;

@@ -29,6 +29,7 @@ class Bpp final : public Solver {
   void apply(const System& system, bool tight_rows);
 
   BlockLdlt ldlt_;
+  bool factor_valid_ = false;  // the contacts' factor belongs to the present active set
   std::vector<Vec6> u_star_;
   std::vector<double> friction_bound_;  // per block [N s]
 };

@@ -15,13 +15,27 @@ class Pgs final : public Solver {
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
-  /// Mt^-1 J^T of a row and 1/(J Mt^-1 J^T + softness).
-  struct Row {
-    double W_a[6];
-    double W_b[6];
-    double inverse_diagonal;
+  /// What an iteration reads of a block, packed in the order of the visits.
+  struct Visit {
+    double J_a[kMaxRows][6];
+    double J_b[kMaxRows][6];
+    double coupling[kMaxRows][kMaxRows];  // J_i Mt^-1 J_j^T within the block, j < i
+    double inverse_diagonal[kMaxRows];    // 1/(J_i Mt^-1 J_i^T + softness_i)
+    double bias[kMaxRows];
+    double softness[kMaxRows];
+    double impulse[kMaxRows];
+    double mu;
+    int a;
+    int b;
+    int rows;
+    bool contact;
+    bool pinned;
   };
-  std::vector<Row> rows_;
+
+  template <int Rows, bool Pinned>
+  static void visit(Visit& block, const System& system);
+
+  std::vector<Visit> visits_;
 };
 
 }  // namespace substep

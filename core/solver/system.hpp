@@ -38,19 +38,9 @@ struct SolveReport {
   int factorisations = 0;        // BPP
 };
 
-/// Relative speed of a row at the velocities u: J u.
-inline double row_speed(const Block& block, int row, std::span<const Vec6> u) {
-  double speed = 0.0;
-  if (block.a >= 0) {
-    const Vec6& ua = u[static_cast<std::size_t>(block.a)];
-    for (int j = 0; j < 6; ++j) speed += block.J_a[row][j] * ua[j];
-  }
-  if (block.b >= 0) {
-    const Vec6& ub = u[static_cast<std::size_t>(block.b)];
-    for (int j = 0; j < 6; ++j) speed += block.J_b[row][j] * ub[j];
-  }
-  return speed;
-}
+/// J u of all rows of a block: the relative speeds that it is about.
+/// @param speed out, one per row [m/s or rad/s]
+void row_speeds(const Block& block, std::span<const Vec6> u, double* speed);
 
 /// u += Mt^-1 J^T impulse for all rows of a block.
 void apply_impulse(const Block& block, const double* impulse, std::span<const InverseMass> inverse_mass,

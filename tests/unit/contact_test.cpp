@@ -193,8 +193,8 @@ TEST(Friction, RowsAreTheRelativeSpeedAtTheContact) {
               1e-14);
     const Vec3 p_a = state.u[0].head<3>() + Vec3(state.u[0].tail<3>()).cross(block.r_a);
     const Vec3 p_b = state.u[1].head<3>() + Vec3(state.u[1].tail<3>()).cross(block.r_b);
-    EXPECT_NEAR(row_speed(block, 1, state.u), block.t1.dot(p_a - p_b), 1e-14);
-    EXPECT_NEAR(row_speed(block, 2, state.u), block.t2.dot(p_a - p_b), 1e-14);
+    EXPECT_NEAR(speed_of(block, 1, state.u), block.t1.dot(p_a - p_b), 1e-14);
+    EXPECT_NEAR(speed_of(block, 2, state.u), block.t2.dot(p_a - p_b), 1e-14);
     EXPECT_LT((state.x[0] + block.r_a - state.x[1] - block.r_b).norm(), 1e-15);
   }
 }

@@ -47,6 +47,7 @@ Problem random_problem(Random& random, const ProblemSize& size) {
     block.kind = contact ? BlockKind::kContact : (i % 2 == 0 ? BlockKind::kBall : BlockKind::kHinge);
     block.rows = contact ? (size.mu > 0.0 ? 3 : 1) : (i % 2 == 0 ? 3 : 5);
     block.mu = contact ? size.mu : 0.0;
+    block.pinned = !contact && i % 4 < 2;  // solvers may use it: half of the joints
     block.a = static_cast<int>(random() % static_cast<unsigned>(size.bodies));
     block.b = static_cast<int>(random() % static_cast<unsigned>(size.bodies + 1)) - 1;
     if (block.a == block.b) block.b = -1;
@@ -56,6 +57,10 @@ Problem random_problem(Random& random, const ProblemSize& size) {
       for (int j = 0; j < 6; ++j) {
         block.J_a[row][j] = uniform(random);
         block.J_b[row][j] = uniform(random);
+        if (block.pinned && j < 3) {
+          block.J_a[row][j] = row == j ? 1.0 : 0.0;
+          block.J_b[row][j] = row == j ? -1.0 : 0.0;
+        }
       }
       block.softness[row] = uniform(random, 0.01, 0.2);
       block.bias[row] = uniform(random);
@@ -95,11 +100,11 @@ Dense dense(Problem problem) {
     apply_impulse(problem.blocks[col.block], unit, problem.inverse_mass, problem.u);
     for (Eigen::Index r = 0; r < n; ++r) {
       const Dense::Row row = out.rows[static_cast<std::size_t>(r)];
-      out.A(r, c) = row_speed(problem.blocks[row.block], row.row, problem.u);
+      out.A(r, c) = speed_of(problem.blocks[row.block], row.row, problem.u);
     }
     const Block& block = problem.blocks[col.block];
     out.A(c, c) += block.softness[col.row];
-    out.q[c] = row_speed(block, col.row, u) + block.bias[col.row];
+    out.q[c] = speed_of(block, col.row, u) + block.bias[col.row];
   }
   return out;
 }

@@ -94,6 +94,13 @@ inline Vec6 force_on(const Blocks& blocks, int body) {
   return force;
 }
 
+/// One row of J u.
+inline double speed_of(const Block& block, int row, std::span<const Vec6> u) {
+  double speeds[kMaxRows];
+  row_speeds(block, u, speeds);
+  return speeds[row];
+}
+
 constexpr double kStep = 1e-6;      // of the central differences [m or rad]
 constexpr double kTolerance = 3e-8;  // rounding 1e-16/1e-6 plus truncation 1e-12, on terms of order 10
 

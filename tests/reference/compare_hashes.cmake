@@ -1,4 +1,5 @@
 # Runs PROGRAM on SCENES and compares its lines with those of GOLDEN.
+cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND ${PROGRAM} ${SCENES} OUTPUT_VARIABLE output RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ended with ${result}")

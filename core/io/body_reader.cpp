@@ -63,13 +63,14 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
     }
     return;
   }
-  const Vec3& moments = body.inertia;
-  const double largest = moments.maxCoeff();
+  Vec3 moments = body.inertia;
+  std::sort(moments.data(), moments.data() + 3);
+  const double sum = moments[0] + moments[1];
   // A flat body reaches equality: leave room for rounding.
-  if (largest > (moments.sum() - largest) * (1.0 + 1e-9)) {
-    in.problem("inertia", "no body has these moments: " + number_text(largest) +
-                              " is not <= the sum of the other two, " +
-                              number_text(moments.sum() - largest) + " (kg m^2)");
+  if (moments[2] > sum * (1.0 + 1e-9)) {
+    in.problem("inertia", "no body has these moments: " + number_text(moments[2]) +
+                              " is not <= the sum of the other two, " + number_text(sum) +
+                              " (kg m^2)");
   }
 }
 

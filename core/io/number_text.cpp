@@ -25,6 +25,14 @@ std::string number_text(double value) {
     if (shortest[e + 1] == '+') shortest.erase(e + 1, 1);
     const std::size_t first = shortest.find_first_of("0123456789", e);
     shortest.erase(first, shortest.find_first_not_of('0', first) - first);
+  } else if (shortest.find('.') == std::string::npos) {
+    // "1000000" to "1e6".
+    const std::size_t zeros = shortest.size() - 1 - shortest.find_last_not_of('0');
+    if (zeros > 5) {
+      shortest.resize(shortest.size() - zeros);
+      shortest += 'e';
+      shortest += std::to_string(zeros);
+    }
   }
   return shortest;
 }

@@ -80,7 +80,7 @@ std::optional<std::string> setting_value(const SettingField& field, const Json& 
   if (std::holds_alternative<CountSetting>(field.member) ||
       std::holds_alternative<NumberSetting>(field.member)) {
     if (!value.is_number()) return std::nullopt;
-    return number_text(value.get<double>());
+    return value.is_number_integer() ? value.dump() : number_text(value.get<double>());
   }
   if (const auto* name = value.get_ptr<const std::string*>()) return *name;
   return std::nullopt;

@@ -1,0 +1,111 @@
+#pragma once
+// All that a scene holds as two flat lists, to compare scenes bit for bit.
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/model/scene.hpp"
+
+namespace substep::test {
+
+struct SceneBits {
+  std::vector<std::string> words;
+  std::vector<std::uint64_t> numbers;
+
+  friend bool operator==(const SceneBits&, const SceneBits&) = default;
+};
+
+class SceneBitsWriter {
+ public:
+  void add(const std::string& word) { bits_.words.push_back(word); }
+  void add(double x) { bits_.numbers.push_back(std::bit_cast<std::uint64_t>(x)); }
+  void add(int i) { bits_.numbers.push_back(static_cast<std::uint64_t>(i)); }
+  void add(bool b) { bits_.numbers.push_back(b ? 1U : 0U); }
+  void add(const Vec3& v) {
+    for (int i = 0; i < 3; ++i) add(v[i]);
+  }
+  void add(const Quat& q) {
+    for (int i = 0; i < 4; ++i) add(q.coeffs()[i]);
+  }
+  template <class T>
+  void add(const std::optional<T>& x) {
+    add(x.has_value());
+    if (x) add(*x);
+  }
+  void add(const Criteria::Displacement& d) {
+    add(d.body);
+    add(d.distance);
+  }
+  void add(const Shape& shape) {
+    add(static_cast<int>(shape.index()));
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) add(sphere->radius);
+    if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
+  }
+  void add(const Effects& e) {
+    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction}) add(b);
+  }
+  void add(const Body& b) {
+    add(b.name);
+    add(b.shape);
+    add(b.is_static);
+    add(b.mass);
+    add(b.inertia);
+    add(b.position);
+    add(b.orientation);
+    add(b.velocity);
+    add(b.angular_velocity);
+    add(b.friction);
+    add(b.collision_group);
+    add(b.collides);
+  }
+  void add(const Joint& joint) {
+    const JointBase& j = base(joint);
+    add(static_cast<int>(joint.index()));
+    add(j.name);
+    add(j.a);
+    add(j.b);
+    add(j.anchor_a);
+    add(j.anchor_b);
+    add(j.compliance);
+    if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
+      add(hinge->axis_a);
+      add(hinge->axis_b);
+      add(hinge->angular_compliance);
+    }
+  }
+  SceneBits take() { return std::move(bits_); }
+
+ private:
+  SceneBits bits_;
+};
+
+/// Settings are left out: they compare by ==.
+inline SceneBits bits_of(const Scene& s) {
+  SceneBitsWriter out;
+  for (const std::string* word : {&s.name, &s.title, &s.group, &s.description, &s.look_for}) {
+    out.add(*word);
+  }
+  out.add(s.frame);
+  out.add(s.gravity);
+  out.add(s.effects);
+  for (const Body& body : s.bodies) out.add(body);
+  for (const Joint& joint : s.joints) out.add(joint);
+  out.add(s.contact.compliance);
+  out.add(s.contact.friction_compliance);
+  out.add(s.contact.margin);
+  out.add(s.regularisation);
+  out.add(s.criteria.duration);
+  out.add(s.criteria.joint_gap);
+  out.add(s.criteria.energy_gain);
+  out.add(s.criteria.energy_scale);
+  out.add(s.criteria.displacement);
+  out.add(s.criteria.track);
+  out.add(s.criteria.holds);
+  out.add(s.camera.eye);
+  out.add(s.camera.target);
+  return out.take();
+}
+
+}  // namespace substep::test

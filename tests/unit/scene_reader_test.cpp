@@ -1,0 +1,162 @@
+// What the reader of scene files takes, refuses and derives, beyond single faults.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/io/json_text.hpp"
+#include "core/io/scene_limits.hpp"
+#include "core/io/scene_reader.hpp"
+#include "tests/unit/scene_text.hpp"
+
+namespace substep {
+namespace {
+
+using test::kGood;
+using test::List;
+using test::problems_of;
+using test::with;
+
+TEST(SceneReader, TakesTheGoodScene) { EXPECT_EQ(problems_of(kGood), List{}); }
+
+TEST(SceneReader, TellsAllProblemsAtOnce) {
+  std::string text = with(R"("mass": 2)", R"("mass": -2)");
+  text = with(R"("radius": 0.5)", R"("radius": 1e999)", text);
+  text = with(R"("alpha": 0.1)", R"("alpha": 7, "alpha": 8)", text);
+  text = with(R"("type": "plane")", R"("type": "disc")", text);
+  text = with(R"("a": "ball")", R"("a": "bal")", text);
+  text = with(R"("track": "arm")", R"("trakc": "arm")", text);
+  EXPECT_EQ(problems_of(text),
+            (List{"/bodies/2/shape/radius: 1e999 is beyond the range of numbers (1.8e308)",
+                  "/settings/alpha: the key stands twice in this object",
+                  "/bodies/0/shape/type: \"disc\" is not sphere, box or plane",
+                  "/bodies/1/mass: -2 is not > 0 (kg)",
+                  "/criteria/trakc: unknown key (did you mean \"track\"?)",
+                  "/joints/1/a: no body is named \"bal\" (did you mean \"ball\"?)"}));
+}
+
+TEST(SceneReader, NamesLineAndColumnOfASyntaxError) {
+  const List problems = problems_of("{\n  \"format\": \"substep-scene\",\n  \"version\" 1\n}");
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].find("line 3, column 13: syntax error"), 0U) << problems[0];
+}
+
+TEST(SceneReader, NamesLineAndColumnOfNaN) {
+  const List problems = problems_of(with("\"mass\": 2", "\"mass\": NaN"));
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(problems[0].find("line 14, column "), 0U) << problems[0];
+  EXPECT_NE(problems[0].find("invalid literal"), std::string::npos) << problems[0];
+}
+
+TEST(SceneReader, RefusesTextsThatAreNoScenes) {
+  const auto only = [](const std::string& text) {
+    const List problems = problems_of(text);
+    return problems.size() == 1 ? problems[0] : std::to_string(problems.size()) + " problems";
+  };
+  EXPECT_EQ(only(""), "the file is empty");
+  EXPECT_EQ(only(" \n\t"), "the file is empty");
+  EXPECT_EQ(only("[1, 2]"), "[1,2] is not an object");
+  EXPECT_EQ(only("3"), "3 is not an object");
+  EXPECT_EQ(only(std::string("\x7f"
+                             "ELF\0\0",
+                             6)),
+            "line 1, column 5: a zero byte: this is not a text file");
+  EXPECT_EQ(only(kGood + "}").find("line 25, column 2: syntax error"), 0U) << only(kGood + "}");
+  EXPECT_EQ(only(kGood.substr(0, 300)).find("line 10, column "), 0U) << only(kGood.substr(0, 300));
+  const std::string bad_utf8 = only(with("Good",
+                                         "Go\xff"
+                                         "d"));
+  EXPECT_NE(bad_utf8.find("ill-formed UTF-8"), std::string::npos) << bad_utf8;
+  EXPECT_EQ(only(std::string(100, '[')),
+            "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0: nested deeper than 16 levels");
+  EXPECT_EQ(only(std::string(kMaxTextSize + 1, ' ')),
+            "33554433 bytes are not <= 33554432 (32 MiB)");
+}
+
+TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
+  std::string bodies;
+  for (std::size_t i = 0; i <= kMaxBodies; ++i) bodies += i == 0 ? "0" : ",0";
+  const List problems = problems_of(
+      R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
+      bodies + "]}");
+  EXPECT_EQ(problems, List{"/bodies: 20001 are not <= 20000"});
+}
+
+TEST(SceneReader, CutsALongListOfProblems) {
+  std::string bodies;
+  for (std::size_t i = 0; i < kMaxBodies; ++i) bodies += i == 0 ? "0" : ",0";
+  const List problems = problems_of(
+      R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
+      bodies + "]}");
+  ASSERT_EQ(problems.size(), kMaxProblems + 1);
+  EXPECT_EQ(problems.back(), "and 19000 more problems");
+}
+
+TEST(SceneReader, NeedsABodyThatMoves) {
+  EXPECT_EQ(problems_of(R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A",
+                            "bodies": []})"),
+            List{"/bodies: no body moves"});
+}
+
+TEST(SceneReader, TellsThatAFileCannotBeRead) {
+  for (const char* path : {"/no/such/scene.json", "/"}) {
+    const SceneResult result = read_scene_file(path);
+    EXPECT_EQ(result.scene, nullptr);
+    ASSERT_EQ(result.problems.size(), 1U);
+    EXPECT_EQ(result.problems[0].message.find("cannot read " + std::string(path) + ": "), 0U)
+        << result.problems[0].message;
+  }
+}
+
+TEST(SceneReader, NeverCrashesOnADamagedFile) {
+  // Every byte in turn is lost, and every byte is turned into a few that mean something in JSON.
+  for (std::size_t i = 0; i < kGood.size(); ++i) {
+    read_scene(kGood.substr(0, i));
+    std::string text = kGood;
+    for (const char c : {'"', '{', ']', '-', '9', 'e', '\\'}) {
+      text[i] = c;
+      const SceneResult result = read_scene(text);
+      EXPECT_EQ(result.scene == nullptr, !result.problems.empty());
+    }
+  }
+}
+
+TEST(SceneReader, TakesRedundantStiffJointsUnderRegularisation) {
+  const std::string text = with(R"("frame": 0.01)", R"("regularisation": 1e-6)",
+                                with(R"("compliance": 1e-9)", R"("compliance": 0)"));
+  EXPECT_EQ(problems_of(text), List{});
+}
+
+TEST(SceneReader, DerivesEffectsThatAreNotListed) {
+  const std::string unlisted =
+      with(R"("effects": ["gravity", "joints", "contact", "friction"],)", "");
+  const auto scene = read_scene(unlisted).scene;
+  ASSERT_NE(scene, nullptr);
+  EXPECT_EQ(
+      scene->effects,
+      (Effects{
+          .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true}));
+  const auto ball =
+      read_scene(R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A",
+      "gravity": [0, 0, 0], "bodies": [{"name": "ball", "shape": {"type": "sphere", "radius": 1},
+      "mass": 1, "position": [0, 0, 0], "friction": 1}]})")
+          .scene;
+  ASSERT_NE(ball, nullptr);
+  EXPECT_EQ(ball->effects, Effects{});
+}
+
+TEST(SceneReader, LeavesOrientationsAsTheyAreWritten) {
+  const auto scene = read_scene(with("[1, 0, 0, 0]", "[0.9999995, 0, 0, 0]")).scene;
+  ASSERT_NE(scene, nullptr);
+  EXPECT_EQ(scene->bodies[1].orientation.w(), 0.9999995);
+}
+
+TEST(SceneReader, TakesTheInertiaOfTheShapeWhereNoneIsGiven) {
+  const auto scene = read_scene(kGood).scene;
+  ASSERT_NE(scene, nullptr);
+  EXPECT_EQ(scene->bodies[1].inertia, Vec3(0.1, 0.2, 0.2));
+  EXPECT_EQ(scene->bodies[2].inertia, solid_inertia(Sphere{0.5}, 1.0));
+}
+
+}  // namespace
+}  // namespace substep

@@ -29,7 +29,7 @@ struct Settings {
   int n_max = 64;      // most sub-steps per frame in mode kAdaptive, >= 1
   int n_cap = 4;       // most sub-steps per frame in mode kCapped, damping beyond, >= 1
   Policy policy = Policy::kFrame;
-  double memory = 0.7;  // decay of r from sub-step to sub-step in policy kSubstep, in [0, 1) [-]
+  double memory = 0.9;  // decay of r from sub-step to sub-step in policy kSubstep, in [0, 1) [-]
   bool probe = true;    // one solve before the first frame tells the forces that N needs
 
   Integrator integrator = Integrator::kEuler;

@@ -7,6 +7,7 @@
 
 #include "app/link.hpp"
 #include "app/ui/panels.hpp"
+#include "core/io/number_text.hpp"
 #include "core/io/setting_fields.hpp"
 
 namespace substep {
@@ -19,6 +20,16 @@ void change_speed(Session& session, int by) {
   const auto i = std::clamp<std::ptrdiff_t>((now - kSpeeds.begin()) + by, 0,
                                             static_cast<std::ptrdiff_t>(kSpeeds.size()) - 1);
   session.set_speed(kSpeeds[static_cast<std::size_t>(i)]);
+}
+
+// One of two words. @return what is wrong, or ""
+std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
+  if (value != words[0] && value != words[1]) {
+    return "'" + std::string(value) + "' is not " + std::string(words[0]) + " or " +
+           std::string(words[1]);
+  }
+  on = value == words[1];
+  return "";
 }
 
 // Keys by the character that they type, so that they are where the keyboard's layout has them.
@@ -150,6 +161,16 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "scene") {
     return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
   }
+  // What belongs to the window: taken from links and scripts, never written into links.
+  if (key == "speed") {
+    const auto speed = parse_number(value);
+    if (!speed || *speed < 0.01 || *speed > 16.0) return "is not a number from 0.01 to 16";
+    session.set_speed(*speed);
+    return "";
+  }
+  if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
+  if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
+  if (key == "tint") return choose(value, {"off", "on"}, desk.view.tint);
   const SettingField* field = find_setting(key);
   if (field == nullptr) return "is not a setting";
   Settings s = session.settings();

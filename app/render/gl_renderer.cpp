@@ -16,6 +16,8 @@ namespace {
 using Eigen::Matrix4f;
 using Eigen::Vector3f;
 
+constexpr int kShadowSize = 1536;
+
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
 class GlRenderer final : public Renderer {
@@ -39,8 +41,8 @@ class GlRenderer final : public Renderer {
   gl::StreamBuffer ball_instances_;
   gl::StreamBuffer ribbon_vertices_;
   gl::RoundedBox box_{3, box_instances_};
-  gl::RoundedBox ball_{12, ball_instances_};
-  gl::ShadowMap shadow_map_{2048};
+  gl::RoundedBox ball_{8, ball_instances_};
+  gl::ShadowMap shadow_map_{kShadowSize};
   gl::Program background_;
   gl::Program body_;
   gl::Program shadow_;
@@ -86,7 +88,7 @@ Matrix4f GlRenderer::light_matrix(const Picture& picture) {
   const Vector3f y = back.cross(x);
   const float radius = std::max(picture.focus_radius, 0.1F);
   // The middle moves by whole texels, or edges of shadows would crawl.
-  const float texel = 2.0F * radius / 2048.0F;
+  const float texel = 2.0F * radius / static_cast<float>(kShadowSize);
   const Vector3f focus = vector(picture.focus);
   const auto snap = [texel](float v) { return std::floor(v / texel) * texel; };
   Matrix4f m = Matrix4f::Identity();

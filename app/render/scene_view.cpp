@@ -222,7 +222,8 @@ void SceneView::add_joints(const Session& session, const ViewOptions& options,
       const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * hinge->axis_a);
       add_box(out, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
     } else {
-      add_ball(out, x, poses.q[a], r, false, palette.joint);
+      // A box round all over: there are many of them, and they are small.
+      add_box(out, x, poses.q[a], Vec3::Constant(r), r, palette.joint);
     }
   }
 }

@@ -1,0 +1,94 @@
+// Mouse, fingers, wheel and keys of the canvas, handed on to the application.
+
+/** @param wasm what runtime.mjs start() gave */
+export function listen(canvas, wasm) {
+  const fingers = new Map(); // pointer id -> where it is
+  let pressed = false; // whether the application believes in a finger down
+
+  const place = (event) => {
+    const box = canvas.getBoundingClientRect();
+    return { x: event.clientX - box.left, y: event.clientY - box.top };
+  };
+  const buttonOf = (event) => [0, 2, 1][event.button] ?? 0;
+  const spread = () => {
+    const [a, b] = [...fingers.values()];
+    return { x: (a.x + b.x) / 2, y: (a.y + b.y) / 2, distance: Math.hypot(a.x - b.x, a.y - b.y) };
+  };
+
+  canvas.addEventListener("pointerdown", (event) => {
+    canvas.focus({ preventScroll: true });
+    canvas.setPointerCapture(event.pointerId);
+    const at = place(event);
+    if (event.pointerType !== "touch") {
+      wasm.pointer(at.x, at.y, 0);
+      wasm.button(buttonOf(event), 1, 0);
+    } else {
+      fingers.set(event.pointerId, at);
+      if (fingers.size === 1) {
+        wasm.pointer(at.x, at.y, 1);
+        wasm.button(0, 1, 1);
+        pressed = true;
+      } else if (pressed) {
+        wasm.button(0, 0, 1); // the second finger makes it a pinch
+        pressed = false;
+      }
+    }
+    event.preventDefault();
+  });
+
+  canvas.addEventListener("pointermove", (event) => {
+    const at = place(event);
+    if (event.pointerType !== "touch") {
+      wasm.pointer(at.x, at.y, 0);
+    } else if (fingers.has(event.pointerId)) {
+      const before = fingers.size === 2 ? spread() : null;
+      fingers.set(event.pointerId, at);
+      if (fingers.size === 1) wasm.pointer(at.x, at.y, 1);
+      if (before) {
+        const now = spread();
+        const factor = now.distance / Math.max(1, before.distance);
+        wasm.pinch(factor, now.x - before.x, now.y - before.y);
+      }
+    }
+  });
+
+  const lift = (event) => {
+    if (event.pointerType !== "touch") {
+      wasm.button(buttonOf(event), 0, 0);
+      return;
+    }
+    fingers.delete(event.pointerId);
+    if (pressed && fingers.size === 0) {
+      wasm.button(0, 0, 1);
+      pressed = false;
+    }
+    if (fingers.size === 0) wasm.pointerGone();
+  };
+  canvas.addEventListener("pointerup", lift);
+  canvas.addEventListener("pointercancel", lift);
+  canvas.addEventListener("pointerleave", (event) => {
+    if (event.pointerType !== "touch" && event.buttons === 0) wasm.pointerGone();
+  });
+  canvas.addEventListener("contextmenu", (event) => event.preventDefault());
+
+  canvas.addEventListener("wheel", (event) => {
+    // Lines or pages to pixels; a notch is about 100 of them, and one of ours.
+    const scale = [1, 33, 400][event.deltaMode] / 100;
+    wasm.wheel(-event.deltaX * scale, -event.deltaY * scale * (event.ctrlKey ? 4 : 1));
+    event.preventDefault();
+  }, { passive: false });
+
+  const key = (event, down) => {
+    const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    if (name === "Tab") return; // leaves the canvas, as everywhere on a page
+    const plain = !event.ctrlKey && !event.metaKey && !event.altKey;
+    const taken = wasm.key(name, down, event.ctrlKey, event.shiftKey, event.altKey, event.metaKey);
+    if (down && plain && event.key.length === 1) wasm.text(event.key);
+    if (plain && (taken || event.key === "/" || event.key === "'")) event.preventDefault();
+  };
+  canvas.addEventListener("keydown", (event) => key(event, 1));
+  canvas.addEventListener("keyup", (event) => key(event, 0));
+  canvas.addEventListener("focus", () => wasm.focus(1));
+  canvas.addEventListener("blur", () => wasm.focus(0));
+  window.addEventListener("blur", () => wasm.focus(0));
+}

@@ -1,0 +1,20 @@
+#pragma once
+// The one application of this module: made by substep_start, used by everything that is exported.
+
+#include <memory>
+
+#include "app/app.hpp"
+#include "app/ui/context.hpp"
+
+namespace substep::web {
+
+struct Instance {
+  ui::Context context;
+  std::unique_ptr<App> app;
+  std::string new_link;  // to be written into the address, or ""
+};
+
+/// Null before substep_start.
+extern std::unique_ptr<Instance> instance;
+
+}  // namespace substep::web

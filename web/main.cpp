@@ -1,0 +1,88 @@
+// The application in a page: what web/runtime.mjs calls to start it and to let it draw.
+
+#include <emscripten.h>
+#include <emscripten/html5.h>
+#include <imgui.h>
+
+#include <cstdio>
+#include <string>
+
+#include "app/render/gl_renderer.hpp"
+#include "web/instance.hpp"
+
+namespace substep::web {
+
+std::unique_ptr<Instance> instance;
+
+namespace {
+EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
+}  // namespace
+
+}  // namespace substep::web
+
+using substep::web::instance;
+
+extern "C" {
+
+/// Opens the canvas and runs the first scene. @return "" or why it cannot
+EMSCRIPTEN_KEEPALIVE const char* substep_start(const char* canvas) {
+  static std::string error;
+  EmscriptenWebGLContextAttributes attributes;
+  emscripten_webgl_init_context_attributes(&attributes);
+  attributes.majorVersion = 2;
+  attributes.alpha = EM_FALSE;
+  attributes.antialias = EM_TRUE;
+  substep::web::context = emscripten_webgl_create_context(canvas, &attributes);
+  if (substep::web::context <= 0) return "WebGL 2 is not available";
+  emscripten_webgl_make_context_current(substep::web::context);
+  instance = std::make_unique<substep::web::Instance>();
+  auto renderer = substep::make_gl_renderer(error);
+  if (!renderer) return error.c_str();
+  substep::Library library("/scenes");
+  if (library.scenes().empty()) return "no scenes came with the page";
+  instance->app = std::make_unique<substep::App>(std::move(library), std::move(renderer));
+  instance->app->host.link_changed = [](const std::string& link) { instance->new_link = link; };
+  return "";
+}
+
+/// Every object of the lost context is gone: make them again.
+EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
+  static std::string error;
+  error.clear();
+  emscripten_webgl_make_context_current(substep::web::context);
+  instance->app->renderer.reset();
+  auto renderer = substep::make_gl_renderer(error);
+  if (!renderer) return error.c_str();
+  instance->app->renderer = std::move(renderer);
+  return "";
+}
+
+/// The canvas in CSS pixels, and its pixels per CSS pixel.
+EMSCRIPTEN_KEEPALIVE void substep_resize(float width, float height, float ratio) {
+  ImGuiIO& io = ImGui::GetIO();
+  io.DisplaySize = {width, height};
+  io.DisplayFramebufferScale = {ratio, ratio};
+}
+
+/// Draws one frame. @param dt wall time since the last one [s]
+EMSCRIPTEN_KEEPALIVE void substep_frame(double dt) {
+  ImGui::GetIO().DeltaTime = static_cast<float>(dt > 1e-4 ? dt : 1e-4);
+  substep::frame(*instance->app, dt);
+}
+
+/// The mouse cursor wanted: 0 arrow, 1 hand, 2 text.
+EMSCRIPTEN_KEEPALIVE int substep_cursor() {
+  return ImGui::GetMouseCursor() == ImGuiMouseCursor_TextInput ? 2 : 0;
+}
+
+/// The link where it changed since the last call, else "".
+EMSCRIPTEN_KEEPALIVE const char* substep_take_link() {
+  static std::string link;
+  link = std::move(instance->new_link);
+  instance->new_link.clear();
+  return link.c_str();
+}
+
+}  // extern "C"
+
+int main() { return 0; }

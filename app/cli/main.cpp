@@ -1,6 +1,29 @@
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include "app/cli/commands.hpp"
+#include "core/io/object_reader.hpp"
+
+namespace {
+
+/// Whether the first word is a command or a flag. If not, it says what would be: the library would
+/// only say that a command is missing.
+bool knows_command(const CLI::App& app, const std::string& word) {
+  std::vector<std::string_view> names;
+  const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
+  for (const CLI::App* command : commands) {
+    if (command->get_name() == word) return true;
+    names.push_back(command->get_name());
+  }
+  if (word.empty() || word.front() == '-') return true;
+  std::fprintf(stderr, "%s is not %s%s\nRun with --help for more information.\n", word.c_str(),
+               substep::one_of(names).c_str(), substep::did_you_mean(word, names).c_str());
+  return false;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using namespace substep::cli;
@@ -25,6 +48,7 @@ int main(int argc, char** argv) {
   add_hash(app, exit_code);
   add_scenes(app, exit_code);
   add_generate(app, exit_code);
+  if (argc > 1 && !knows_command(app, argv[1])) return kBadInput;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

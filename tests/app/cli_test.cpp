@@ -1,0 +1,311 @@
+// The command line, run as a program.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/io/json.hpp"
+#include "core/io/number_text.hpp"
+#include "core/io/scene_reader.hpp"
+#include "core/sim/simulator.hpp"
+
+namespace substep {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A folder of the running test's own.
+fs::path folder() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  fs::path path = fs::path(testing::TempDir()) / "substep_cli" / test->name();
+  fs::create_directories(path);
+  return path;
+}
+
+/// Runs `substep ARGUMENTS`, through a shell.
+Outcome substep(const std::string& arguments, const std::string& before = "") {
+  const fs::path out = folder() / "out";
+  const fs::path err = folder() / "err";
+  const std::string command = before + " \"" SUBSTEP_PROGRAM "\" " + arguments + " >\"" +
+                              out.string() + "\" 2>\"" + err.string() + "\"";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> cells;
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+TEST(CommandLine, RunEndsWithTheVerdict) {
+  const Outcome holds = substep("run pendulum --seconds 1");
+  EXPECT_EQ(holds.exit_code, 0) << holds.err;
+  EXPECT_EQ(lines_of(holds.out).back(), "holds");
+  EXPECT_EQ(holds.err, "") << "progress is for terminals only";
+
+  const Outcome fails = substep("run swinging_box --mode none --seconds 1");
+  EXPECT_EQ(fails.exit_code, 0) << "a run that fails is a result";
+  EXPECT_EQ(lines_of(fails.out).back().find("fails at 0.3"), 0U) << fails.out;
+}
+
+TEST(CommandLine, RunSaysWhatWasSimulated) {
+  const Outcome run =
+      substep("run swinging_box --frames 6 --solver pgs --iterations 7 --mode capped --n-cap 3");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(lines_of(run.out).front(),
+            "swinging_box: pgs 7, capped at 3, alpha 0.1, decided per frame, euler, drift soft");
+  EXPECT_NE(run.out.find("in 6 frames"), std::string::npos);
+}
+
+TEST(CommandLine, CsvHasTheColumnsOfTheScenesEffects) {
+  const auto header = [](const std::string& scene) {
+    return lines_of(substep("run " + scene + " --frames 1 --csv -").out).front();
+  };
+  EXPECT_EQ(
+      header("swinging_box"),
+      "frame,time,substeps,substeps_wanted,capped,dt_min,dt_max,dt_stable,r,leader,leader_dof,"
+      "kinetic,potential,energy,constraint_error,joint_gap,joint_rows,iterations,pivots,"
+      "unsolved,residual,x,y,z,ms");
+  EXPECT_EQ(
+      header("spinning_top"),
+      "frame,time,substeps,substeps_wanted,capped,dt_min,dt_max,dt_stable,r,leader,leader_dof,"
+      "kinetic,energy,iterations,pivots,unsolved,residual,x,y,z,ms");
+  EXPECT_EQ(
+      header("heavy_stack"),
+      "frame,time,substeps,substeps_wanted,capped,dt_min,dt_max,dt_stable,r,leader,leader_dof,"
+      "kinetic,potential,energy,penetration,contact_rows,iterations,pivots,unsolved,residual,"
+      "x,y,z,ms");
+  EXPECT_NE(header("bridge").find("contact_rows,friction_rows,"), std::string::npos);
+}
+
+TEST(CommandLine, CsvHasEveryFrameInFullPrecision) {
+  const fs::path csv = folder() / "run.csv";
+  const Outcome run = substep("run swinging_box --frames 5 --csv \"" + csv.string() + "\"");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::vector<std::string> lines = lines_of(text_of(csv));
+  ASSERT_EQ(lines.size(), 6U);
+  const std::vector<std::string> names = cells_of(lines[0]);
+  const auto column = [&](const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json").scene;
+  ASSERT_NE(scene, nullptr);
+  Simulator simulator(scene);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const FrameReport report = simulator.step();
+    const std::vector<std::string> cells = cells_of(lines[i]);
+    ASSERT_EQ(cells.size(), names.size());
+    EXPECT_EQ(cells[column("frame")], std::to_string(i));
+    EXPECT_EQ(cells[column("substeps")], std::to_string(report.n_substeps));
+    EXPECT_EQ(parse_number(cells[column("energy")]), report.energy);
+    EXPECT_EQ(parse_number(cells[column("x")]), simulator.state().x.back().x());
+  }
+}
+
+TEST(CommandLine, CsvOnStandardOutputIsAlone) {
+  const Outcome run = substep("run free_fall --frames 2 --csv -");
+  EXPECT_EQ(lines_of(run.out).size(), 3U) << run.out;
+  EXPECT_EQ(lines_of(run.err).back(), "holds");
+}
+
+TEST(CommandLine, JsonHasSettingsFramesAndVerdict) {
+  const Outcome run = substep("run free_fall --frames 3 --mode const --n 2 --no-probe --json -");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << run.out;
+  EXPECT_EQ(json["scene"], "free_fall");
+  EXPECT_EQ(json["settings"]["mode"], "const");
+  EXPECT_EQ(json["settings"]["n"], 2);
+  EXPECT_EQ(json["settings"]["probe"], false);
+  EXPECT_EQ(json["frames"].size(), 3U);
+  EXPECT_EQ(json["frames"][2]["substeps"], 2);
+  EXPECT_TRUE(json["frames"][0]["dt_stable"].is_null());
+  EXPECT_EQ(json["holds"], true);
+  EXPECT_EQ(json["verdict"], "holds");
+  EXPECT_EQ(json["hash"].get<std::string>().size(), 16U);
+}
+
+TEST(CommandLine, EverySettingIsAFlag) {
+  const Outcome run = substep(
+      "run free_fall --frames 1 --json - --solver pgs --iterations 3 --warm-start --pivots 4 "
+      "--mode "
+      "capped --alpha 0.2 --n 5 --n-max 6 --n-cap 7 --policy substep --memory 0.5 --no-probe "
+      "--integrator leapfrog --gyroscopic explicit --drift full --tau 0.01 --contact-stiffness "
+      "exact "
+      "--watch-stiffness");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json expected = Json::parse(
+      R"({"solver": "pgs", "iterations": 3, "warm_start": true, "pivots": 4, "mode": "capped",
+          "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "policy": "substep", "memory": 0.5,
+          "probe": false, "integrator": "leapfrog", "gyroscopic": "explicit", "drift": "full",
+          "tau": 0.01, "contact_stiffness": "exact", "watch_stiffness": true})");
+  EXPECT_EQ(Json::parse(run.out, nullptr, false)["settings"], expected);
+}
+
+TEST(CommandLine, HashIsThatOfTheState) {
+  const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/bridge.json").scene;
+  ASSERT_NE(scene, nullptr);
+  Simulator simulator(scene);
+  Settings settings = scene->settings;
+  settings.mode = Mode::kConst;
+  simulator.set_settings(settings);
+  for (int i = 0; i < 20; ++i) simulator.step();
+  std::array<char, 32> hash{};
+  std::snprintf(hash.data(), hash.size(), "%016llx\n",
+                static_cast<unsigned long long>(state_hash(simulator.state())));
+  EXPECT_EQ(substep("hash bridge --frames 20 --mode const --n 16").out, hash.data());
+  EXPECT_NE(substep("hash bridge --frames 20 --mode const --n 15").out, hash.data());
+}
+
+struct BadCall {
+  const char* kind;
+  std::string arguments;
+  std::string message;  // somewhere on stderr
+};
+void PrintTo(const BadCall& call, std::ostream* out) { *out << call.kind; }
+
+class BadCommandLine : public testing::TestWithParam<BadCall> {};
+
+TEST_P(BadCommandLine, EndsWithTwoAndSaysWhatIsAllowed) {
+  const Outcome run = substep(GetParam().arguments);
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_NE(run.err.find(GetParam().message), std::string::npos) << run.err;
+  EXPECT_EQ(run.out, "");
+}
+
+std::string kind_of(const testing::TestParamInfo<BadCall>& call) { return call.param.kind; }
+
+INSTANTIATE_TEST_SUITE_P(
+    Calls, BadCommandLine,
+    testing::Values(
+        BadCall{"AlphaBeyondRange", "run bridge --alpha 3", "--alpha: 3 is not > 0 and <= 1"},
+        BadCall{"AlphaNoNumber", "run bridge --alpha much", "--alpha: much is not > 0 and <= 1"},
+        BadCall{"CountZero", "run bridge --n-max 0",
+                "--n-max: 0 is not a whole number from 1 to 10000"},
+        BadCall{"SolverOfNoKind", "run bridge --solver xpbd", "--solver: xpbd is not pgs or bpp"},
+        BadCall{"ModeOfNoKind", "hash bridge --mode fast",
+                "--mode: fast is not none, const, damping, adaptive or capped"},
+        BadCall{"NegativeSeconds", "run bridge --seconds -1", "not in range"},
+        BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
+        BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
+        BadCall{"UnknownCommand", "chek",
+                "chek is not run, check, hash, scenes or generate (did you mean \"check\"?)"},
+        BadCall{"NoCommand", "", "subcommand"}, BadCall{"NoScene", "run", "scene is required"},
+        BadCall{"NoSceneToCheck", "check", "scene or --all is required"},
+        BadCall{"TwoResultsOnStandardOutput", "run bridge --csv - --json -", "taken by --csv"},
+        BadCall{"UnknownScene", "run brigde",
+                "brigde: no such scene or file (did you mean \"bridge\"?)"},
+        BadCall{"SceneIsAFolder", "run /", "/: cannot read /: "},
+        BadCall{"CsvInNoFolder", "run bridge --frames 1 --csv /no/such/folder/a.csv",
+                "/no/such/folder/a.csv: No such file or directory"},
+        BadCall{"AngleBeyondRange", "generate rope --angle 100", "not in range"}),
+    kind_of);
+
+TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
+  const fs::path path = folder() / "bad.json";
+  std::string text = text_of(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json");
+  text.replace(text.find("\"mass\": 1"), 9, "\"mass\": -1");
+  text.replace(text.find("\"type\": \"hinge\""), 15, "\"type\": \"hnige\"");
+  std::ofstream(path) << text;
+  const Outcome run = substep("run \"" + path.string() + "\"");
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: -1 is not > 0 (kg)\n" + path.string() +
+                         ": /joints/0/type: \"hnige\" is not ball or hinge\n");
+}
+
+TEST(CommandLine, CheckComparesWithTheExpectedVerdict) {
+  EXPECT_EQ(substep("check pendulum free_fall").exit_code, 0);
+  const fs::path path = folder() / "fails.json";
+  std::string text = text_of(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json");
+  text.replace(text.find("\"mode\": \"adaptive\""), 18, "\"mode\": \"none\"");
+  std::ofstream(path) << text;
+  const Outcome unexpected = substep("check pendulum \"" + path.string() + "\"");
+  EXPECT_EQ(unexpected.exit_code, 1);
+  EXPECT_NE(unexpected.out.find(", expected: holds"), std::string::npos) << unexpected.out;
+
+  text.replace(text.find("\"expected\": \"holds\""), 19, "\"expected\": \"fails\"");
+  std::ofstream(path) << text;
+  const Outcome expected = substep("check --json \"" + path.string() + "\"");
+  EXPECT_EQ(expected.exit_code, 0);
+  const Json json = Json::parse(expected.out, nullptr, false);
+  EXPECT_EQ(json[0]["ok"], true);
+  EXPECT_EQ(json[0]["expected"], "fails");
+  EXPECT_EQ(substep("check no_such_scene pendulum").exit_code, 2);
+}
+
+TEST(CommandLine, ListsTheShippedScenes) {
+  const Outcome table = substep("scenes");
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_EQ(lines_of(table.out).size(), 11U) << table.out;
+  const Json json = Json::parse(substep("scenes --json").out, nullptr, false);
+  ASSERT_EQ(json.size(), 10U);
+  EXPECT_EQ(json[0]["name"], "bridge");
+  EXPECT_EQ(json[0]["bodies"], 22);
+}
+
+TEST(CommandLine, TakesScenesFromTheFolderInTheEnvironment) {
+  std::ofstream(folder() / "mine.json") << text_of(SUBSTEP_SOURCE_DIR "/scenes/free_fall.json");
+  const Outcome run =
+      substep("run mine --frames 1", "SUBSTEP_SCENES=\"" + folder().string() + "\"");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST(CommandLine, GeneratesTheShippedFiles) {
+  for (const char* name : {"swinging_box", "bridge", "heavy_stack", "sliding_box"}) {
+    EXPECT_TRUE(substep("generate " + std::string(name)).out ==
+                text_of(SUBSTEP_SOURCE_DIR "/scenes/" + std::string(name) + ".json"))
+        << name;
+  }
+}
+
+TEST(CommandLine, RunsAGeneratedRopeFromStandardInput) {
+  const fs::path path = folder() / "rope.json";
+  ASSERT_EQ(
+      substep("generate rope --links 40 --angle 30 --out \"" + path.string() + "\"").exit_code, 0);
+  const Outcome run = substep("run - --frames 10", "cat \"" + path.string() + "\" |");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.out.find("rope_of_40: "), 0U) << run.out;
+  EXPECT_EQ(lines_of(run.out).back(), "holds");
+}
+
+TEST(CommandLine, HelpHasExamples) {
+  for (const char* command : {"", "run", "check", "hash", "generate"}) {
+    const Outcome run = substep(std::string(command) + " --help");
+    EXPECT_EQ(run.exit_code, 0);
+    EXPECT_NE(run.out.find("Example"), std::string::npos) << command;
+  }
+  EXPECT_EQ(substep("--version").exit_code, 0);
+}
+
+}  // namespace
+}  // namespace substep

@@ -15,6 +15,11 @@ namespace {
 
 bool damps(Mode mode) { return mode == Mode::kDamping || mode == Mode::kCapped; }
 
+bool has_gyroscopic_torque(const Body& body) {
+  const Vec3& I = body.inertia;
+  return !body.is_static && !(I[0] == I[1] && I[1] == I[2]);
+}
+
 }  // namespace
 
 void Simulator::Impl::begin_substep(FrameReport& report) {
@@ -44,8 +49,8 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   impulse_time = force_time(settings.integrator, state.dt_previous, dt);
   if (scene->effects.gyroscopic) {
     for (std::size_t i = 0; i < scene->bodies.size(); ++i) {
+      if (!has_gyroscopic_torque(scene->bodies[i])) continue;
       const Vec3& I = scene->bodies[i].inertia;
-      if (scene->bodies[i].is_static || (I[0] == I[1] && I[1] == I[2])) continue;
       const Vec3 omega_B = R_WB[i].transpose() * state.u[i].tail<3>();
       state.u[i].tail<3>() =
           R_WB[i] * (settings.gyroscopic == Gyroscopic::kImplicit
@@ -134,6 +139,12 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   const double ahead = smooth ? dt / (before + dt) : 0.0;
   for (std::size_t i = 0; i < state.u.size(); ++i) {
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
+    if (scene->effects.gyroscopic && has_gyroscopic_torque(scene->bodies[i])) {
+      // u_before already has this torque up to the middle of the sub-step: half a sub-step is left.
+      const Vec3 omega_B = state.q[i].conjugate() * Vec3(state.u[i].tail<3>());
+      const Vec3 later = gyroscopic_explicit(scene->bodies[i].inertia, omega_B, 0.5 * dt);
+      state.u_synchronised[i].tail<3>() += state.q[i] * (later - omega_B);
+    }
   }
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
   report.dt_max = std::max(report.dt_max, dt);

@@ -1,0 +1,187 @@
+// Small scenes against their answers in closed form.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/constraints/contact_stage.hpp"
+#include "scenes/generator/scenes.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep::test {
+namespace {
+
+constexpr double kGravity = 9.81;  // [m/s^2]
+
+Settings constant(int n, Integrator integrator) {
+  Settings settings;
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  settings.integrator = integrator;
+  return settings;
+}
+
+/// Period of a pendulum of length l, let go from rest: 2 pi sqrt(l/g) / agm(1, cos(angle/2)).
+double pendulum_period(double length, double cos_angle) {
+  double a = 1.0;
+  double b = std::sqrt(0.5 * (1.0 + cos_angle));
+  for (int i = 0; i < 8; ++i) {
+    const double mean = 0.5 * (a + b);
+    b = std::sqrt(a * b);
+    a = mean;
+  }
+  return 2.0 * std::numbers::pi * std::sqrt(length / kGravity) / a;
+}
+
+/// Mean time between downward crossings of x = 0, interpolated between frames. [s]
+double measured_period(Integrator integrator, int n) {
+  const Outcome r = run(scenes::pendulum(), constant(n, integrator), 20.0);
+  std::vector<double> crossings;
+  for (std::size_t i = 1; i < r.track.size(); ++i) {
+    const double before = r.track[i - 1].x();
+    const double after = r.track[i].x();
+    if (before > 0.0 && after <= 0.0) {
+      crossings.push_back((static_cast<double>(i - 1) + before / (before - after)) / 60.0);
+    }
+  }
+  return (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1);
+}
+
+TEST(Pendulum, SwingsWithThePeriodOfTheEllipticIntegral) {
+  // A rod of length 1 about its end: I/(m d) with d = 0.5, box inertia about the hinge's axis.
+  const double inertia = (1.0 + 0.05 * 0.05) / 12.0 + 0.25;
+  const double exact = pendulum_period(inertia / 0.5, 0.8);
+  EXPECT_NEAR(exact, 1.682, 5e-4) << "what the scene says of itself";
+  const double interpolation = 1e-4;  // of a sine sampled at 60 Hz, averaged over eleven periods [s]
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+    EXPECT_NEAR(measured_period(integrator, 16), exact, interpolation);
+  }
+  // Of second order in both: Euler is leapfrog with the start half a sub-step off.
+  const double coarse = std::abs(measured_period(Integrator::kLeapfrog, 1) - exact);
+  EXPECT_LT(coarse, 2e-3);
+}
+
+TEST(FreeFall, LeapfrogIsExactAndEulerFallsHalfAStepAhead) {
+  const double seconds = 2.0;
+  const double exact = 20.0 - 0.5 * kGravity * seconds * seconds;
+  for (const int n : {1, 4}) {
+    const Outcome leapfrog = run(scenes::free_fall(), constant(n, Integrator::kLeapfrog), seconds);
+    EXPECT_NEAR(leapfrog.track.back().y(), exact, 1e-12);
+    EXPECT_NEAR(leapfrog.energy_end, leapfrog.energy_start, 1e-10);
+    const Outcome euler = run(scenes::free_fall(), constant(n, Integrator::kEuler), seconds);
+    const double ahead = 0.5 * kGravity * seconds / (60.0 * n);
+    EXPECT_NEAR(euler.track.back().y(), exact - ahead, 1e-12);
+  }
+}
+
+TEST(FreeFall, NothingAsksForSubsteps) {
+  const Outcome r = run(scenes::free_fall(), Settings{}, 1.0);
+  EXPECT_EQ(r.n_max(), 1);
+}
+
+// u stands at the middle of the last sub-step: angular momentum and energy are those of the momentum
+// at its end, p = I w + dt/2 (I w) x w.
+TEST(SpinningTop, KeepsEnergyAndAngularMomentumFor60SecondsAtOneSubstep) {
+  const Scene scene = scenes::spinning_top();
+  const Vec3 I = scene.bodies[0].inertia;
+  const auto momentum = [&](const State& state) {
+    const Vec3 w = state.q[0].conjugate() * Vec3(state.u[0].tail<3>());
+    return Vec3(I.cwiseProduct(w) + 0.5 * state.dt_previous * I.cwiseProduct(w).cross(w));
+  };
+  const State start = initial_state(scene);
+  const Vec3 L = start.q[0] * momentum(start);
+  const double energy = 0.5 * momentum(start).dot(momentum(start).cwiseQuotient(I));
+  double least = 1.0;
+  const Outcome r = run(scene, constant(1, Integrator::kEuler), 60.0,
+                        [&](const Simulator& simulator, const FrameReport& report) {
+                          const State& state = simulator.state();
+                          const Vec3 p = momentum(state);
+                          EXPECT_LT((state.q[0] * p - L).norm(), 1e-10 * L.norm());
+                          EXPECT_NEAR(0.5 * p.dot(p.cwiseQuotient(I)), energy, 1e-10 * energy);
+                          EXPECT_NEAR(report.kinetic, energy, 1e-9 * energy);
+                          least = std::min(least, (state.q[0] * Vec3::UnitY()).y());
+                        });
+  EXPECT_LT(least, -0.9) << "it tips over";
+}
+
+TEST(SpinningTop, TheExplicitTorqueGainsEnergy) {
+  Settings settings = constant(1, Integrator::kEuler);
+  settings.gyroscopic = Gyroscopic::kExplicit;
+  const Outcome r = run(scenes::spinning_top(), settings, 10.0);
+  EXPECT_GT(r.energy_end, 1.2 * r.energy_start);
+}
+
+/// How far the box has gone down the slope after a time, with friction mu. [m]
+double slid(double mu, double seconds, SolverKind solver) {
+  scenes::SlopeOptions slope;
+  slope.friction = mu;
+  Settings settings = constant(4, Integrator::kEuler);
+  settings.solver = solver;
+  settings.iterations = 200;
+  const Outcome r = run(scenes::sliding_box(slope), settings, seconds);
+  return (r.track.back() - r.track.front()).norm();
+}
+
+TEST(SlidingBox, SticksAboveTheTangentOfTheSlopeAndSlipsBelow) {
+  const double tangent = 5.0 / 12.0;
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    EXPECT_LT(slid(1.001 * tangent, 2.0, solver), 1e-6);
+    EXPECT_GT(slid(0.999 * tangent, 2.0, solver), 1e-3);
+  }
+}
+
+TEST(SlidingBox, SlipsWithTheAccelerationOfCoulomb) {
+  const double mu = 0.3;
+  const double seconds = 1.5;
+  const double acceleration = kGravity * (5.0 / 13.0 - mu * 12.0 / 13.0);
+  // Euler is half a sub-step ahead, as in free fall.
+  const double exact = 0.5 * acceleration * seconds * (seconds + 1.0 / 240.0);
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    EXPECT_NEAR(slid(mu, seconds, solver), exact, 1e-3 * exact);
+  }
+}
+
+// At rest the normal row carries the weight: gap = -C lambda, exactly, whatever the step.
+TEST(RestingBall, SinksByComplianceTimesWeight) {
+  Scene scene;
+  scene.effects = {.gravity = true, .contact = true};
+  scene.contact.compliance = 1e-5;
+  Body floor;
+  floor.shape = Plane{};
+  floor.is_static = true;
+  Body ball;
+  ball.shape = Sphere{0.5};
+  ball.mass = 3.0;
+  ball.inertia = solid_inertia(ball.shape, ball.mass);
+  ball.position.y() = 0.5;
+  scene.bodies = {floor, ball};
+  scene.criteria.track = 1;
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    for (const int n : {1, 16}) {
+      Settings settings = constant(n, Integrator::kEuler);
+      settings.solver = solver;
+      settings.drift = Drift::kFull;
+      const Outcome r = run(scene, settings, 2.0);
+      EXPECT_NEAR(r.track.back().y(), 0.5 - 1e-5 * 3.0 * kGravity, 1e-12);
+    }
+  }
+}
+
+TEST(RollingBall, RollsWithoutSlippingDownASlope) {
+  scenes::SlopeOptions slope;
+  slope.friction = 0.5;
+  Scene scene = scenes::sliding_box(slope);
+  scene.bodies[1].shape = Sphere{0.25};
+  scene.bodies[1].inertia = solid_inertia(scene.bodies[1].shape, 1.0);
+  const double seconds = 1.0;
+  const Outcome r = run(scene, constant(16, Integrator::kLeapfrog), seconds);
+  const double acceleration = kGravity * (5.0 / 13.0) / 1.4;  // I = 2/5 m r^2
+  const double exact = 0.5 * acceleration * seconds * seconds;
+  EXPECT_NEAR((r.track.back() - r.track.front()).norm(), exact, 1e-3 * exact);
+  const double spin = r.end.u[1].tail<3>().norm() * 0.25;
+  EXPECT_NEAR(spin, r.end.u[1].head<3>().norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -62,6 +62,14 @@ std::string short_number(double value) {
   return exponent >= 3 ? grouped(value) : fixed(value, 2 - exponent);
 }
 
+std::string plain_number(double value) {
+  std::string text = short_number(value);
+  if (text.find('.') == std::string::npos || text.find("×") != std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
 Unit unit_for(double scale) {
   static constexpr std::array<Unit, 7> kUnits{
       {{"µ", 1e-6}, {"m", 1e-3}, {"", 1.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}}};

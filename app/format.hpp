@@ -7,6 +7,8 @@ namespace substep {
 
 /// Three significant digits: "0.852", "12.3", "5,520", "5.52×10⁵".
 std::string short_number(double value);
+/// Three significant digits without zeros at the end: "0.1", "0.025".
+std::string plain_number(double value);
 /// "1,000"
 std::string grouped(double value);
 /// With one of J, kJ, MJ, ...: the unit that keeps `scale` between 1 and 1,000.

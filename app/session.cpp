@@ -5,6 +5,11 @@
 #include <utility>
 
 namespace substep {
+namespace {
+
+constexpr std::size_t kTrailFrames = 150;
+
+}  // namespace
 
 Session::Session(std::shared_ptr<const Scene> scene) { load(std::move(scene)); }
 
@@ -26,8 +31,31 @@ void Session::restart() {
   history_.start(report_, scene_->frame);
   previous_ = {state().x, state().q};
   poses_ = previous_;
+  trail_.clear();
+  extend_trail();
+  times_ = {};
   accumulator_ = 0.0;
   pace_ = 1.0;
+}
+
+void Session::extend_trail() {
+  if (!scene_->criteria.track) return;
+  trail_.push_back(state().x[static_cast<std::size_t>(*scene_->criteria.track)]);
+  if (trail_.size() > kTrailFrames) trail_.pop_front();
+}
+
+void Session::smooth_times() {
+  const auto settle = [first = times_.total == 0.0](double& mean, double now) {
+    mean += (first ? 1.0 : 0.03) * (now - mean);
+  };
+  settle(times_.joints, report_.times.joints);
+  settle(times_.contact, report_.times.contact);
+  settle(times_.friction, report_.times.friction);
+  settle(times_.mass, report_.times.mass);
+  settle(times_.solve, report_.times.solve);
+  settle(times_.stiffness, report_.times.stiffness);
+  settle(times_.integrate, report_.times.integrate);
+  settle(times_.total, report_.times.total);
 }
 
 void Session::take_frame() {
@@ -38,6 +66,8 @@ void Session::take_frame() {
     pause();
   } else {
     history_.add(report_);
+    extend_trail();
+    smooth_times();
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <vector>
 
@@ -60,11 +61,17 @@ class Session {
   /// Poses at the accumulated wall time, between the last two frames: motion stays smooth at any
   /// speed and any refresh rate. Those of the state itself when paused.
   [[nodiscard]] const Poses& poses() const { return poses_; }
+  /// Where the tracked body was in the last frames, oldest first; empty where none is tracked.
+  [[nodiscard]] const std::deque<Vec3>& trail() const { return trail_; }
+  /// Wall times by stage, smoothed over about half a second: a browser's clock is coarse.
+  [[nodiscard]] const StageTimes& times() const { return times_; }
 
  private:
   void restart();
   void take_frame();
   void update_poses();
+  void extend_trail();
+  void smooth_times();
 
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<Simulator> simulator_;
@@ -73,6 +80,8 @@ class Session {
   History history_;
   Poses previous_;
   Poses poses_;
+  std::deque<Vec3> trail_;
+  StageTimes times_;
   double accumulator_ = 0.0;  // wall time not yet simulated, times speed [s]
   double speed_ = 1.0;
   double pace_ = 1.0;

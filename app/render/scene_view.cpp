@@ -7,8 +7,6 @@
 namespace substep {
 namespace {
 
-constexpr std::size_t kTrailFrames = 150;
-
 std::array<float, 3> floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
@@ -119,17 +117,7 @@ void SceneView::follow(const Session& session) {
     camera.place(session.scene().camera, half_width(session.scene(), session.poses()));
     home_ = ball_around(session.scene(), session.poses(), nullptr);
     lowest_ = home_.centre.y() - home_.radius;
-    trail_.clear();
-    frame_ = -1;
   }
-  const std::int64_t frame = session.state().frame;
-  if (frame < frame_) trail_.clear();
-  const auto& tracked = session.scene().criteria.track;
-  if (frame != frame_ && tracked) {
-    trail_.push_back(session.state().x[static_cast<std::size_t>(*tracked)]);
-    if (trail_.size() > kTrailFrames) trail_.pop_front();
-  }
-  frame_ = frame;
 }
 
 Bounds SceneView::bounds(const Session& session) const {
@@ -159,7 +147,7 @@ void SceneView::build(const Session& session, const ViewOptions& options,
   if (options.trail) {
     const double pixel = 2.0 * std::tan(0.5 * OrbitCamera::kFieldOfView) /
                          std::max(1.0, static_cast<double>(view.height));
-    add_trail(palette, camera.eye(view), pixel, out);
+    add_trail(session.trail(), palette.trail, camera.eye(view), pixel, out);
   }
   place_ground(session, out);
 
@@ -185,8 +173,7 @@ void SceneView::add_bodies(const Session& session, const ViewOptions& options,
     const Body& body = scene.bodies[i];
     Color color = body.is_static ? palette.fixture : palette.body;
     if (!shares.empty() && !body.is_static) {
-      // Two decades of k/M over the scale.
-      const double t = std::clamp(1.0 + 0.5 * std::log10(std::max(shares[i], 1e-9)), 0.0, 1.0);
+      const double t = shares[i];
       color = t < 0.5 ? mix(palette.stiff_low, palette.stiff_mid, 2.0 * t)
                       : mix(palette.stiff_mid, palette.stiff_high, 2.0 * t - 1.0);
     }
@@ -228,21 +215,21 @@ void SceneView::add_joints(const Session& session, const ViewOptions& options,
   }
 }
 
-void SceneView::add_trail(const ViewPalette& palette, const Vec3& eye, double pixel,
-                          Picture& out) const {
-  if (trail_.size() < 2) return;
+void SceneView::add_trail(const std::deque<Vec3>& trail, const Color& color, const Vec3& eye,
+                          double pixel, Picture& out) {
+  if (trail.size() < 2) return;
   const auto corner = [&](std::size_t i, double side) {
-    const Vec3 ahead = trail_[std::min(i + 1, trail_.size() - 1)] - trail_[i > 0 ? i - 1 : 0];
-    const Vec3 to_eye = eye - trail_[i];
+    const Vec3 ahead = trail[std::min(i + 1, trail.size() - 1)] - trail[i > 0 ? i - 1 : 0];
+    const Vec3 to_eye = eye - trail[i];
     Vec3 across = ahead.cross(to_eye);
     if (across.norm() > 1e-12) across *= pixel * to_eye.norm() / across.norm();
     RibbonVertex v;
-    v.position = floats(trail_[i] + side * across);
-    v.color = palette.trail;
-    v.color.a *= static_cast<float>(i) / static_cast<float>(trail_.size() - 1);
+    v.position = floats(trail[i] + side * across);
+    v.color = color;
+    v.color.a *= static_cast<float>(i) / static_cast<float>(trail.size() - 1);
     return v;
   };
-  for (std::size_t i = 0; i + 1 < trail_.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < trail.size(); ++i) {
     const RibbonVertex a = corner(i, -1.0);
     const RibbonVertex b = corner(i, 1.0);
     const RibbonVertex c = corner(i + 1, -1.0);

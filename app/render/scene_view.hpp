@@ -1,6 +1,5 @@
 #pragma once
 
-#include <deque>
 #include <vector>
 
 #include "app/render/camera.hpp"
@@ -26,8 +25,8 @@ struct ViewPalette {
   Color fixture;  // what does not move
   Color joint;
   Color trail;
-  Color stiff_low;  // tint of k/M a hundredth of the largest and below
-  Color stiff_mid;
+  Color stiff_low;   // tint where k/M is 0
+  Color stiff_mid;   // where it is half of the largest
   Color stiff_high;  // tint of the body that sets N
   float ambient = 0.5F;
   float shadow = 0.5F;
@@ -37,12 +36,12 @@ struct ViewPalette {
 /// not known.
 std::vector<double> stiffness_shares(const Scene& scene, const State& state);
 
-/// Looks at a session: keeps the camera and the trail, and makes the picture.
+/// Looks at a session: keeps the camera and makes the picture.
 class SceneView {
  public:
   OrbitCamera camera;
 
-  /// The camera's place and the trail start anew with a new scene, the trail with a reset.
+  /// The camera starts anew with a new scene.
   void follow(const Session& session);
   void frame_all(const Session& session);
   void build(const Session& session, const ViewOptions& options, const ViewPalette& palette,
@@ -53,15 +52,14 @@ class SceneView {
                   Picture& out) const;
   void add_joints(const Session& session, const ViewOptions& options, const ViewPalette& palette,
                   Picture& out) const;
-  void add_trail(const ViewPalette& palette, const Vec3& eye, double pixel, Picture& out) const;
+  static void add_trail(const std::deque<Vec3>& trail, const Color& color, const Vec3& eye,
+                        double pixel, Picture& out);
   void place_ground(const Session& session, Picture& out) const;
   [[nodiscard]] Bounds bounds(const Session& session) const;
 
   Bounds home_;  // of the scene at its start
   double lowest_ = 0.0;  // of the bodies at the start [m]
   int generation_ = -1;
-  std::int64_t frame_ = -1;
-  std::deque<Vec3> trail_;
 };
 
 }  // namespace substep

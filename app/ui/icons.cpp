@@ -9,20 +9,30 @@ namespace {
 constexpr float kTurn = 6.28318531F;
 
 void draw_reset(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
-  // Most of a circle, with the arrow where it ends.
-  const float r = 0.34F * s;
-  const float from = -0.08F * kTurn;
-  draw.PathArcTo(c, r, from, from + 0.78F * kTurn, 24);
-  draw.PathStroke(color, 0, 0.11F * s);
-  const ImVec2 tip(c.x + r * std::cos(from), c.y + r * std::sin(from));
-  draw.AddTriangleFilled({tip.x - 0.26F * s, tip.y - 0.02F * s}, {tip.x + 0.1F * s, tip.y + 0.1F * s},
-                         {tip.x + 0.06F * s, tip.y - 0.28F * s}, color);
+  // Most of a circle, and an arrow head where it began.
+  const float r = 0.36F * s;
+  const float line = 0.115F * s;
+  draw.PathArcTo({c.x + 0.04F * s, c.y}, r, 0.43F * kTurn, -0.36F * kTurn, 28);
+  draw.PathStroke(color, 0, line);
+  const ImVec2 corner(c.x - 0.42F * s, c.y - 0.1F * s);
+  const std::array<ImVec2, 3> head{{{corner.x, corner.y - 0.28F * s},
+                                    corner,
+                                    {corner.x + 0.28F * s, corner.y}}};
+  draw.AddPolyline(head.data(), 3, color, 0, line);
 }
 
 void draw_moon(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+  // A disc less another one up to its right: two arcs between the points where the circles meet.
   const float r = 0.38F * s;
-  draw.PathArcTo(c, r, -0.05F * kTurn, 0.55F * kTurn, 24);
-  draw.PathArcTo({c.x + 0.5F * r, c.y - 0.42F * r}, 0.86F * r, 0.47F * kTurn, 0.05F * kTurn, 24);
+  const float cut = 0.85F * r;
+  const float apart = 0.62F * r;
+  const float along = (apart * apart + r * r - cut * cut) / (2.0F * apart);
+  const float towards = -0.125F * kTurn;
+  const float outer = std::acos(along / r);
+  const float inner = std::acos((along - apart) / cut);
+  draw.PathArcTo(c, r, towards + outer, towards + kTurn - outer, 24);
+  draw.PathArcTo({c.x + apart * std::cos(towards), c.y + apart * std::sin(towards)}, cut,
+                 towards + kTurn - inner, towards + inner, 24);
   draw.PathStroke(color, ImDrawFlags_Closed, 0.1F * s);
 }
 

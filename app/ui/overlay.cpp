@@ -34,10 +34,10 @@ std::string method_line(const Settings& s) {
       line = "constant N " + std::to_string(s.n);
       break;
     case Mode::kDamping:
-      line = "adaptive damping, α " + short_number(s.alpha);
+      line = "adaptive damping, α " + plain_number(s.alpha);
       break;
     case Mode::kAdaptive:
-      line = "adaptive sub-steps, α " + short_number(s.alpha);
+      line = "adaptive sub-steps, α " + plain_number(s.alpha);
       break;
     case Mode::kCapped:
       line = "N up to " + std::to_string(s.n_cap) + ", then damping";
@@ -140,8 +140,10 @@ void body_labels(App& app) {
     if (!project(app, poses.x[i], p)) continue;
     const std::string text = grouped(body.mass) + " kg";
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
-    // Below the body as it is seen: its corners' lowest point.
+    // Below the body as it is seen where it hangs, above it where it stands on others.
+    const bool below = scene.effects.joints && !scene.effects.contact;
     float low = p.y;
+    float high = p.y;
     if (const auto* box = std::get_if<Box>(&body.shape)) {
       for (int corner = 0; corner < 8; ++corner) {
         const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
@@ -149,13 +151,15 @@ void body_labels(App& app) {
         ImVec2 c;
         if (project(app, poses.x[i] + poses.q[i] * box->half_extents.cwiseProduct(sign), c)) {
           low = std::max(low, c.y);
+          high = std::min(high, c.y);
         }
       }
     } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       ImVec2 c;
       if (project(app, poses.x[i] - Vec3(0.0, sphere->radius, 0.0), c)) low = c.y;
+      if (project(app, poses.x[i] + Vec3(0.0, sphere->radius, 0.0), c)) high = c.y;
     }
-    const ImVec2 at(p.x - 0.5F * size.x, low + 6.0F);
+    const ImVec2 at(p.x - 0.5F * size.x, below ? low + 6.0F : high - 8.0F - size.y);
     if (at.x < v.x || at.x + size.x > v.x + v.width || at.y + size.y > v.y + v.height) continue;
     draw_over(look, draw, look.fonts.small, at, look.theme->dim, text.c_str());
   }

@@ -100,7 +100,9 @@ void find_range(const PlotSpec& spec, const Slice& slice, PlotRange& range) {
   settle(range.high, high, high > range.high);
 }
 
-void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
+// Lines at round values, or the words for them: the words go over the series.
+void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw,
+               bool words) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.28F : 0.4F);
   const double lines = static_cast<double>(f.max.y - f.min.y) / 32.0;
   double step = f.logarithmic ? std::max(1.0, std::ceil((f.high - f.low) / std::max(lines, 2.0)))
@@ -115,12 +117,21 @@ void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
     if (v > f.high) break;
     const float y =
         std::round(f.max.y - static_cast<float>((v - f.low) / (f.high - f.low)) * (f.max.y - f.min.y));
-    draw.AddLine({f.min.x, y}, {f.max.x, y}, line);
+    if (!words) {
+      draw.AddLine({f.min.x, y}, {f.max.x, y}, line);
+      continue;
+    }
     const std::string text = f.logarithmic ? power_of_ten(static_cast<int>(std::lround(v)))
                                            : fixed(v / spec.factor, digits);
-    if (y - 15.0F < f.min.y || y > f.max.y - 1.0F) continue;  // no room above the line
-    draw_text(draw, look.fonts.small, {f.min.x + 6.0F, y - 15.0F}, fade(look.theme->dim, 0.85F),
-              text.c_str());
+    const float top = y - 15.0F < f.min.y ? y + 1.0F : y - 15.0F;
+    if (y > f.max.y - 2.0F || y < f.min.y) continue;
+    for (const float dx : {-1.0F, 0.0F, 1.0F}) {
+      for (const float dy : {-1.0F, 1.0F}) {
+        draw_text(draw, look.fonts.small, {f.min.x + 6.0F + dx, top + dy},
+                  fade(look.theme->well, 0.8F), text.c_str());
+      }
+    }
+    draw_text(draw, look.fonts.small, {f.min.x + 6.0F, top}, look.theme->dim, text.c_str());
   }
 }
 
@@ -191,6 +202,9 @@ void draw_series(const Series& series, const Slice& slice, const History& histor
   const float held = f.x(history.end_time());  // a stepped series ends here
   std::vector<ImVec2> points;
   points.reserve(4 * columns.size());
+  // Soft edges between the slices of a filled series would show as stripes.
+  const ImDrawListFlags flags = draw.Flags;
+  draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Column& c = columns[i];
     if (series.steps && i > 0) points.push_back({c.x, columns[i - 1].last});
@@ -206,6 +220,7 @@ void draw_series(const Series& series, const Slice& slice, const History& histor
                          fade(series.color, 0.14F));
     }
   }
+  draw.Flags = flags;
   if (series.steps) points.push_back({held, columns.back().last});
   if (series.dashed) {
     // Dashes by distance along the line.
@@ -254,8 +269,9 @@ void plot(const Look& look, const PlotSpec& spec, const History& history, ImVec2
   draw.AddRectFilled(f.min, f.max, look.theme->well, 4.0F);
   draw_time(look, spec, f, draw);
   draw.PushClipRect(f.min, f.max, true);
-  draw_grid(look, spec, f, draw);
+  draw_grid(look, spec, f, draw, false);
   for (const Series& series : spec.series) draw_series(series, slice, history, f, draw);
+  draw_grid(look, spec, f, draw, true);
   for (const Level& level : spec.levels) {
     const float y = std::round(f.y(level.value)) + 0.5F;
     draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color, 1.0F);

@@ -131,7 +131,7 @@ std::string degree_of_freedom(const Scene& scene, const StiffnessLeader& leader)
   return body.name + (leader.dof < 3 ? ", along " : ", rotation about ") + kAxes[axis];
 }
 
-// One column per body in the order of the scene, two decades of k/M high.
+// One column per body in the order of the scene, as high as its k/M is of the largest.
 void body_columns(App& app, float height) {
   const Look& look = app.look;
   const Scene& scene = app.session.scene();
@@ -153,7 +153,7 @@ void body_columns(App& app, float height) {
   const float gap = pitch >= 4.0F ? std::min(2.0F, 0.25F * pitch) : 0.0F;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const double share = shares[moving[i]];
-    const double tall = std::clamp(1.0 + 0.5 * std::log10(std::max(share, 1e-9)), 0.03, 1.0);
+    const double tall = std::max(share, 0.03);
     const float x = origin.x + 4.0F + pitch * static_cast<float>(i);
     const float top = origin.y + height - 4.0F - static_cast<float>(tall) * (height - 8.0F);
     const bool leads = static_cast<int>(moving[i]) == leader;
@@ -164,7 +164,7 @@ void body_columns(App& app, float height) {
   const float at = (ImGui::GetIO().MousePos.x - origin.x - 4.0F) / pitch;
   const auto i = static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(moving.size() - 1)));
   const Body& body = scene.bodies[moving[i]];
-  const std::string text = "k/M is " + short_number(shares[moving[i]]) + " of the largest. Columns: two decades.";
+  const std::string text = "k/M is " + fixed(100.0 * shares[moving[i]], 1) + " % of the largest.";
   tooltip(look, body.name.c_str(), text.c_str());
 }
 
@@ -176,7 +176,7 @@ struct Stage {
 
 std::vector<Stage> stages(const App& app) {
   const Theme& t = *app.look.theme;
-  const StageTimes& times = app.session.report().times;
+  const StageTimes& times = app.session.times();
   const Effects& effects = app.session.scene().effects;
   std::vector<Stage> list{{"solve", times.solve, t.blue}};
   if (effects.joints) list.push_back({"joints", times.joints, t.teal});
@@ -194,7 +194,7 @@ std::vector<Stage> stages(const App& app) {
 float why_height() { return kHeading + 24.0F + 20.0F + 48.0F; }
 
 float timing_height(const App& app) {
-  const std::size_t rows = (stages(app).size() + 2) / 3;
+  const std::size_t rows = (stages(app).size() + 1) / 2;
   return kHeading + 20.0F + 20.0F * static_cast<float>(rows);
 }
 
@@ -246,7 +246,7 @@ void timing(App& app) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const std::vector<Stage> list = stages(app);
-  const double total = app.session.report().times.total;
+  const double total = app.session.times().total;
   section(look, "Time per frame", total > 0.0 ? duration(total).c_str() : "");
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -261,23 +261,23 @@ void timing(App& app) {
     }
     x += w;
   }
-  // Three to a row: name at the left, time at the right of its third.
-  const float third = (width + 16.0F) / 3.0F;
+  // Two to a row: name at the left, time at the right of its half.
+  const float half = 0.5F * (width + 24.0F);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const float left = origin.x + third * static_cast<float>(i % 3);
-    const float y = origin.y + 20.0F + 20.0F * static_cast<float>(i / 3);
+    const float left = origin.x + half * static_cast<float>(i % 2);
+    const float y = origin.y + 20.0F + 20.0F * static_cast<float>(i / 2);
     draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
     draw_text(draw, look.fonts.small, {left + 12.0F, y}, t.dim, list[i].name);
     if (total > 0.0) {
-      const std::string value = fixed(1e6 * list[i].seconds, list[i].seconds < 1e-5 ? 1 : 0);
+      const std::string value = duration(list[i].seconds);
       const float w = text_size(look.fonts.small, value.c_str()).x;
-      draw_text(draw, look.fonts.small, {left + third - 16.0F - w, y}, t.text, value.c_str());
+      draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, t.text, value.c_str());
     }
   }
   ImGui::Dummy({width, timing_height(app) - kHeading});
   tooltip(look, "Time per frame",
-          "Wall time of the last frame by stage, in microseconds. A stage that the scene does not "
-          "call for does not exist.");
+          "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
+          "does not call for does not exist.");
 }
 
 }  // namespace substep::ui

@@ -83,7 +83,10 @@ void desktop(App& app, ImVec2 display) {
                                  bar.y - margin + margin}
                       : ViewRect{0.0F, 0.0F, display.x, bar.y};
   if (app.desk.panels) {
-    if (begin_panel("##controls", left)) {
+    // As tall as what is in it.
+    ImGui::SetNextWindowPos({left.x, left.y});
+    ImGui::SetNextWindowSizeConstraints({left.width, 0.0F}, {left.width, left.height});
+    if (ImGui::Begin("##controls", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
       controls(app);
       scroll_by_drag();
     }
@@ -120,6 +123,7 @@ void phone(App& app, ImVec2 display) {
                          ? Rect{display.x - side, top, side, display.y - top}
                          : Rect{0.0F, app.view_rect.height, display.x, display.y - app.view_rect.height};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 12.0F});
   if (begin_panel("##phone", panel, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
@@ -151,7 +155,7 @@ void phone(App& app, ImVec2 display) {
     }
   }
   ImGui::End();
-  ImGui::PopStyleVar(2);
+  ImGui::PopStyleVar(3);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #pragma once
 // FNV-1a over the bits of doubles: the state hash that must be the same natively and in the browser.
 
-#include <bit>
 #include <cstdint>
+#include <cstring>
 
 namespace substep {
 
@@ -14,7 +14,11 @@ class Hash {
       value_ *= 0x100000001b3ULL;
     }
   }
-  void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
+  void add(double x) {
+    std::uint64_t bits = 0;  // Emscripten 3.1's library has no std::bit_cast
+    std::memcpy(&bits, &x, sizeof bits);
+    add(bits);
+  }
   [[nodiscard]] std::uint64_t value() const { return value_; }
 
  private:

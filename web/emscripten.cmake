@@ -9,3 +9,9 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE BOTH)
 # Programs of the web build run under Node.js: ctest starts them with it.
 find_program(NODE_EXECUTABLE NAMES node nodejs REQUIRED)
 set(CMAKE_CROSSCOMPILING_EMULATOR ${NODE_EXECUTABLE})
+
+# Linking asks Node.js for acorn. A Node.js that is not Debian's own does not look where Debian put it.
+if(EXISTS /usr/share/nodejs/acorn)
+  set_property(GLOBAL PROPERTY RULE_LAUNCH_LINK
+    "${CMAKE_COMMAND} -E env NODE_PATH=/usr/share/nodejs:$ENV{NODE_PATH}")
+endif()

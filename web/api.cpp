@@ -85,6 +85,8 @@ EMSCRIPTEN_KEEPALIVE void substep_play(int on) {
   }
 }
 
+EMSCRIPTEN_KEEPALIVE int substep_playing() { return app().session.playing() ? 1 : 0; }
+
 EMSCRIPTEN_KEEPALIVE void substep_reset() { app().reset(); }
 
 EMSCRIPTEN_KEEPALIVE void substep_open_link(const char* fragment) { app().open_link(fragment); }

@@ -1,7 +1,10 @@
 // Mouse, fingers, wheel and keys of the canvas, handed on to the application.
 
-/** @param wasm what runtime.mjs start() gave */
-export function listen(canvas, wasm) {
+/**
+ * @param wasm what runtime.mjs start() gave
+ * @param {() => void} wake called with every event: something is to be drawn again
+ */
+export function listen(canvas, wasm, wake) {
   const fingers = new Map(); // pointer id -> where it is
   let pressed = false; // whether the application believes in a finger down
 
@@ -16,7 +19,6 @@ export function listen(canvas, wasm) {
   };
 
   canvas.addEventListener("pointerdown", (event) => {
-    canvas.focus({ preventScroll: true });
     canvas.setPointerCapture(event.pointerId);
     const at = place(event);
     if (event.pointerType !== "touch") {
@@ -33,7 +35,6 @@ export function listen(canvas, wasm) {
         pressed = false;
       }
     }
-    event.preventDefault();
   });
 
   canvas.addEventListener("pointermove", (event) => {
@@ -91,4 +92,8 @@ export function listen(canvas, wasm) {
   canvas.addEventListener("focus", () => wasm.focus(1));
   canvas.addEventListener("blur", () => wasm.focus(0));
   window.addEventListener("blur", () => wasm.focus(0));
+  for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel", "pointerleave",
+    "wheel", "keydown", "keyup", "focus", "blur"]) {
+    canvas.addEventListener(type, wake, { passive: true });
+  }
 }

@@ -45,12 +45,14 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(const char* canvas) {
   return "";
 }
 
-/// Every object of the lost context is gone: make them again.
+/// Every object of the context is gone. They are let go of while it is lost: later their names
+/// would be those of a context that never had them.
+EMSCRIPTEN_KEEPALIVE void substep_context_lost() { instance->app->renderer.reset(); }
+
 EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
   static std::string error;
   error.clear();
   emscripten_webgl_make_context_current(substep::web::context);
-  instance->app->renderer.reset();
   auto renderer = substep::make_gl_renderer(error);
   if (!renderer) return error.c_str();
   instance->app->renderer = std::move(renderer);

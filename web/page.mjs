@@ -20,17 +20,19 @@ function missing() {
   return "";
 }
 
-/** The drawing buffer has as many pixels as the screen shows. */
+/** The drawing buffer has as many pixels as the screen shows. @returns whether it changed */
 function fit(wasm) {
   const ratio = window.devicePixelRatio || 1;
   const box = canvas.getBoundingClientRect();
   const width = Math.max(1, Math.round(box.width * ratio));
   const height = Math.max(1, Math.round(box.height * ratio));
-  if (canvas.width !== width || canvas.height !== height) {
+  const changed = canvas.width !== width || canvas.height !== height;
+  if (changed) {
     canvas.width = width;
     canvas.height = height;
   }
   wasm.resize(width / ratio, height / ratio, ratio);
+  return changed;
 }
 
 /** What the canvas shows, for those who do not see it. Told at most once a second. */
@@ -59,9 +61,10 @@ function makeTwin(report) {
   };
 }
 
-function makeApi(wasm) {
+/** @param wake called with every call that may change what is to be seen */
+function makeApi(wasm, wake) {
   const parse = (text) => JSON.parse(text);
-  return {
+  const calls = {
     /** A shipped scene's name, a scene as JSON text, or as an object. */
     load: (scene, from = "the scene") =>
       parse(wasm.load(typeof scene === "string" ? scene : JSON.stringify(scene), from)),
@@ -75,6 +78,15 @@ function makeApi(wasm) {
     reset: () => wasm.reset(),
     play: () => wasm.play(1),
     pause: () => wasm.play(0),
+  };
+  for (const [name, call] of Object.entries(calls)) {
+    calls[name] = (...args) => {
+      wake();
+      return call(...args);
+    };
+  }
+  return {
+    ...calls,
     report: () => parse(wasm.report()),
     hash: () => wasm.hash(),
     scenes: () => parse(wasm.scenes()),
@@ -96,7 +108,13 @@ async function main() {
     return;
   }
   const wasm = await start(canvas, (share) => { bar.value = share; });
-  const api = makeApi(wasm);
+
+  // A run that rests and a page that nobody touches need no drawing: pictures are drawn while it
+  // plays and for a while after every event, until all that moves has come to rest.
+  let awakeUntil = 0;
+  const wake = () => { awakeUntil = performance.now() + 1500; };
+  wake();
+  const api = makeApi(wasm, wake);
 
   wasm.reducedMotion(matchMedia("(prefers-reduced-motion: reduce)").matches ? 1 : 0);
   if (matchMedia("(prefers-color-scheme: light)").matches) api.set({ theme: "light" });
@@ -104,11 +122,14 @@ async function main() {
   let fragment = location.hash;
   if (fragment.length > 1) wasm.openLink(fragment.slice(1));
   window.addEventListener("hashchange", () => {
-    if (location.hash !== fragment) wasm.openLink(location.hash.slice(1));
+    if (location.hash !== fragment) {
+      wasm.openLink(location.hash.slice(1));
+      wake();
+    }
     fragment = location.hash;
   });
 
-  listen(canvas, wasm);
+  listen(canvas, wasm, wake);
   window.addEventListener("dragover", (event) => event.preventDefault());
   window.addEventListener("drop", (event) => {
     event.preventDefault();
@@ -119,6 +140,7 @@ async function main() {
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
     lost = true;
+    wasm.contextLost();
     say("The graphics context was lost", "The system took the graphics away, perhaps to save " +
       "memory. The picture comes back by itself when it is given again; the run waits.");
   });
@@ -130,6 +152,7 @@ async function main() {
     }
     lost = false;
     overlay.hidden = true;
+    wake();
   });
 
   const tellTwin = makeTwin(api.report);
@@ -140,7 +163,8 @@ async function main() {
     const dt = Math.max(0, (now - before) / 1000);
     before = now;
     if (lost) return;
-    fit(wasm);
+    if (fit(wasm)) wake();
+    if (!wasm.playing() && now > awakeUntil) return;
     wasm.frame(dt);
     canvas.style.cursor = wasm.cursor() === 2 ? "text" : "default";
     const link = wasm.takeLink();

@@ -52,6 +52,7 @@ export async function start(canvas, progress) {
   const number = "number";
   const wasm = {
     start: call("start", text, [text]),
+    contextLost: call("context_lost", null),
     contextRestored: call("context_restored", text),
     resize: call("resize", null, [number, number, number]),
     frame: call("frame", null, [number]),
@@ -72,6 +73,7 @@ export async function start(canvas, progress) {
     play: call("play", null, [number]),
     reset: call("reset", null),
     openLink: call("open_link", null, [text]),
+    playing: call("playing", number),
     hash: call("hash", text),
     report: call("report", text),
     scenes: call("scenes", text),

@@ -158,8 +158,10 @@ void section(const Look& look, const char* title, const char* value, ImU32 value
   const float width = available_width();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   constexpr float kHeight = 16.0F;
+  // Not the unit after the comma: a kilojoule is no kelvin joule, a millijoule no megajoule.
   std::string caps(title);
   for (char& c : caps) {
+    if (c == ',') break;
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   }
   // Capitals read better a little apart.

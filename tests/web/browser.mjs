@@ -1,0 +1,130 @@
+// What the browser tests and the screenshots share: a server, a browser, a page that must not
+// complain, and pictures as numbers.
+import { existsSync } from "node:fs";
+import { mkdir, mkdtemp, rm, symlink, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+import { PNG } from "pngjs";
+import { serve } from "../../web/serve.mjs";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+
+/** The folder of the built page: the first argument, SUBSTEP_WEB_DIST, or where ./dev builds it. */
+export function distFolder() {
+  const folder = resolve(process.argv[2] ?? process.env.SUBSTEP_WEB_DIST ?? join(root, "build/web/dist"));
+  if (!existsSync(join(folder, "substep.wasm"))) {
+    console.error(`There is no built page in ${folder}: ./dev web makes it.`);
+    process.exit(2);
+  }
+  return folder;
+}
+
+export const screenshots = process.env.SUBSTEP_SCREENSHOTS ?? join(root, "build/artefacts/screenshots");
+
+function chromiumPath() {
+  const candidates = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser",
+    "/usr/bin/google-chrome"];
+  const found = candidates.find((path) => path && existsSync(path));
+  if (!found) throw new Error("no Chromium: set CHROMIUM to its path");
+  return found;
+}
+
+/** A browser with a software renderer, and a server of the page below a sub-path. */
+export async function open() {
+  const folder = await mkdtemp(join(tmpdir(), "substep-web-"));
+  await mkdir(join(folder, "some"));
+  await symlink(distFolder(), join(folder, "some/path"));
+  const server = await serve(folder, 0);
+  const browser = await chromium.launch({
+    executablePath: chromiumPath(),
+    args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run",
+      "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  });
+  return {
+    browser,
+    address: `http://127.0.0.1:${server.address().port}/some/path/`,
+    async close() {
+      await browser.close();
+      server.close();
+      await rm(folder, { recursive: true });
+    },
+  };
+}
+
+/**
+ * A page with the application running in it.
+ * @param options {width, height, ratio, fragment, light, touch, before}; before is a script that
+ *   runs ahead of the page's own, and then nothing is waited for
+ * @returns the page; page.complaints lists what it logged as warning or error
+ */
+export async function openPage(session, options = {}) {
+  const context = await session.browser.newContext({
+    viewport: { width: options.width ?? 1280, height: options.height ?? 720 },
+    deviceScaleFactor: options.ratio ?? 1,
+    colorScheme: options.light ? "light" : "dark",
+    hasTouch: options.touch ?? false,
+  });
+  const page = await context.newPage();
+  page.complaints = [];
+  page.on("console", (message) => {
+    // SwiftShader talks about its own speed.
+    if (["warning", "error"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) {
+      page.complaints.push(`${message.type()}: ${message.text()}`);
+    }
+  });
+  page.on("pageerror", (error) => page.complaints.push(`exception: ${error.message}`));
+  page.on("requestfailed", (request) => page.complaints.push(`failed: ${request.url()}`));
+  page.on("response", (response) => {
+    if (response.status() >= 400) page.complaints.push(`${response.status()}: ${response.url()}`);
+  });
+  if (options.before) await page.addInitScript(options.before);
+  await page.goto(`${session.address}${options.fragment ? `#${options.fragment}` : ""}`);
+  if (!options.before) await page.waitForFunction(() => window.substep, null, { timeout: 60000 });
+  return page;
+}
+
+/** Waits until the page has drawn what it was told. */
+export const drawn = (page) => page.evaluate(() => new Promise((done) => {
+  requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)));
+}));
+
+/** A picture of the page or of a part of it, decoded. @param clip {x, y, width, height} */
+export async function picture(page, clip) {
+  return PNG.sync.read(await page.screenshot(clip ? { clip } : {}));
+}
+
+/** Keeps a picture of the page among the build's artefacts. */
+export async function save(page, name) {
+  await mkdir(screenshots, { recursive: true });
+  const path = join(screenshots, `${name}.png`);
+  await writeFile(path, await page.screenshot());
+  return path;
+}
+
+/** Variance of the brightness: 0 for a blank picture. */
+export function variance(png) {
+  let sum = 0;
+  let squares = 0;
+  const count = png.width * png.height;
+  for (let i = 0; i < 4 * count; i += 4) {
+    const v = 0.2126 * png.data[i] + 0.7152 * png.data[i + 1] + 0.0722 * png.data[i + 2];
+    sum += v;
+    squares += v * v;
+  }
+  return squares / count - (sum / count) ** 2;
+}
+
+/** Share of the pixels in which two pictures differ visibly. */
+export function difference(a, b) {
+  let changed = 0;
+  const count = a.width * a.height;
+  for (let i = 0; i < 4 * count; i += 4) {
+    const d = Math.max(Math.abs(a.data[i] - b.data[i]), Math.abs(a.data[i + 1] - b.data[i + 1]),
+      Math.abs(a.data[i + 2] - b.data[i + 2]));
+    if (d > 12) ++changed;
+  }
+  return changed / count;
+}

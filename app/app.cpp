@@ -113,9 +113,7 @@ void update_look(App& app) {
 }  // namespace
 
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
-    : library(std::move(shipped)),
-      session(library.scenes().front()),
-      renderer(std::move(draws)) {
+    : library(std::move(shipped)), session(library.scenes().front()), renderer(std::move(draws)) {
   run(library.scenes().front());
 }
 
@@ -212,7 +210,8 @@ void frame(App& app, double wall_dt) {
 
   const ImGuiIO& io = ImGui::GetIO();
   app.view.build(app.session, app.desk.view, app.look.theme->view, app.view_rect,
-                 static_cast<double>(io.DisplaySize.x), static_cast<double>(io.DisplaySize.y), app.picture);
+                 static_cast<double>(io.DisplaySize.x), static_cast<double>(io.DisplaySize.y),
+                 app.picture);
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));

@@ -73,12 +73,12 @@ struct App {
   Desk desk;
   Host host;
   std::unique_ptr<Renderer> renderer;
-  Trouble trouble;  // none where the title is empty
+  Trouble trouble;    // none where the title is empty
   int run_count = 0;  // resets and loads
 
   // Kept by frame().
   ui::Look look;
-  float pixel_ratio = 0.0F;  // that the fonts were made for
+  float pixel_ratio = 0.0F;        // that the fonts were made for
   double frame_time = 1.0 / 60.0;  // smoothed [s]
   ViewRect view_rect;
   Picture picture;

@@ -11,13 +11,13 @@ namespace substep {
 
 /// What the plots show, one number a frame.
 enum class Channel : std::uint8_t {
-  kSubsteps,     // N taken [-]
-  kLimit,        // N at alpha = 1: fewer than this is unstable [-], 0 where K is not known
-  kKinetic,      // [J]
+  kSubsteps,      // N taken [-]
+  kLimit,         // N at alpha = 1: fewer than this is unstable [-], 0 where K is not known
+  kKinetic,       // [J]
   kEnergyChange,  // total energy minus that at the start [J]
-  kJointError,   // sum over joints of the 1-norm of phi [m, rad]
-  kPenetration,  // largest overlap of a contact [m]
-  kTime,         // wall time of the frame [ms]
+  kJointError,    // sum over joints of the 1-norm of phi [m, rad]
+  kPenetration,   // largest overlap of a contact [m]
+  kTime,          // wall time of the frame [ms]
   kCount
 };
 
@@ -35,7 +35,9 @@ class History {
   }
   [[nodiscard]] std::size_t size() const { return channels_[0].size(); }
   /// Time at the end of the frame of sample i [s]; the samples lie one frame apart.
-  [[nodiscard]] double time(std::size_t i) const { return first_time_ + static_cast<double>(i) * frame_; }
+  [[nodiscard]] double time(std::size_t i) const {
+    return first_time_ + static_cast<double>(i) * frame_;
+  }
   [[nodiscard]] double end_time() const { return size() == 0 ? start_time_ : time(size() - 1); }
   [[nodiscard]] double frame() const { return frame_; }
 

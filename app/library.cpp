@@ -22,8 +22,8 @@ constexpr std::array<Group, 5> kGroups{{{"paper", "From the paper"},
 constexpr std::array<std::string_view, 3> kFirst{"swinging_box", "bridge", "heavy_stack"};
 
 std::size_t group_rank(std::string_view group) {
-  const auto found = std::find_if(kGroups.begin(), kGroups.end(),
-                                  [&](const Group& g) { return g.name == group; });
+  const auto found =
+      std::find_if(kGroups.begin(), kGroups.end(), [&](const Group& g) { return g.name == group; });
   return static_cast<std::size_t>(found - kGroups.begin());
 }
 

@@ -27,7 +27,8 @@ const char* keep(const json& value) {
 
 json outcome(const std::vector<Problem>& problems) {
   json list = json::array();
-  for (const Problem& p : problems) list.push_back({{"pointer", p.pointer}, {"message", p.message}});
+  for (const Problem& p : problems)
+    list.push_back({{"pointer", p.pointer}, {"message", p.message}});
   return {{"ok", problems.empty()}, {"problems", std::move(list)}};
 }
 

@@ -88,9 +88,7 @@ EMSCRIPTEN_KEEPALIVE void substep_text(const char* utf8) {
 }
 
 /// No key and no button stays down while nobody looks.
-EMSCRIPTEN_KEEPALIVE void substep_focus(int focused) {
-  ImGui::GetIO().AddFocusEvent(focused != 0);
-}
+EMSCRIPTEN_KEEPALIVE void substep_focus(int focused) { ImGui::GetIO().AddFocusEvent(focused != 0); }
 
 EMSCRIPTEN_KEEPALIVE void substep_reduced_motion(int on) {
   instance->app->desk.reduced_motion = on != 0;

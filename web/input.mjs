@@ -87,6 +87,14 @@ export function listen(canvas, wasm, wake) {
     if (down && plain && event.key.length === 1) wasm.text(event.key);
     if (plain && (taken || event.key === "/" || event.key === "'")) event.preventDefault();
   };
+  // A ring around the page shows where the keyboard is, for those who came with Tab.
+  let tab = false;
+  window.addEventListener("keydown", (event) => { tab = event.key === "Tab"; }, true);
+  window.addEventListener("pointerdown", () => {
+    tab = false;
+    delete canvas.dataset.keyboard;
+  }, true);
+  canvas.addEventListener("focus", () => { if (tab) canvas.dataset.keyboard = ""; });
   canvas.addEventListener("keydown", (event) => key(event, 1));
   canvas.addEventListener("keyup", (event) => key(event, 0));
   canvas.addEventListener("focus", () => wasm.focus(1));

@@ -217,9 +217,12 @@ Bytes font_file(const stbtt_fontinfo& font, const Bytes& source) {
   put(maxp, 0x00005000, 4);
   put(maxp, count, 2);
 
-  const std::vector<std::pair<std::string_view, Bytes>> tables{
-      {"CFF ", cff_table(charstrings)}, {"cmap", cmap_table(glyphs)}, {"head", from(font.head, 54)},
-      {"hhea", hhea},                   {"hmtx", hmtx},               {"maxp", maxp}};
+  const std::vector<std::pair<std::string_view, Bytes>> tables{{"CFF ", cff_table(charstrings)},
+                                                               {"cmap", cmap_table(glyphs)},
+                                                               {"head", from(font.head, 54)},
+                                                               {"hhea", hhea},
+                                                               {"hmtx", hmtx},
+                                                               {"maxp", maxp}};
   Bytes out{'O', 'T', 'T', 'O'};
   put(out, static_cast<std::uint32_t>(tables.size()), 2);
   for (int i = 0; i < 3; ++i) put(out, 0, 2);  // search hints that nobody reads here
@@ -254,8 +257,8 @@ int main(int argc, char** argv) {
   }
   const Bytes file = font_file(font, source);
   std::ofstream out(argv[3]);
-  out << "// Made by embed_font from " << std::string_view(argv[1]).substr(
-             std::string_view(argv[1]).rfind('/') + 1)
+  out << "// Made by embed_font from "
+      << std::string_view(argv[1]).substr(std::string_view(argv[1]).rfind('/') + 1)
       << ".\n#include \"app/fonts/fonts.hpp\"\n\nnamespace substep {\n"
       << "const unsigned int " << argv[2] << "_size = " << file.size() << ";\n"
       << "const unsigned char " << argv[2] << "[] = {";

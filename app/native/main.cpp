@@ -143,9 +143,9 @@ int run(const Options& options) {
   Window window;
   window.scale = options.scale;
   const double size_scale = std::max(1.0, options.scale);
-  window.handle = glfwCreateWindow(static_cast<int>(options.width * size_scale),
-                                   static_cast<int>(options.height * size_scale), "substep", nullptr,
-                                   nullptr);
+  window.handle =
+      glfwCreateWindow(static_cast<int>(options.width * size_scale),
+                       static_cast<int>(options.height * size_scale), "substep", nullptr, nullptr);
   if (window.handle == nullptr) {
     std::fputs("substep: no window with OpenGL 3.3 could be opened\n", stderr);
     glfwTerminate();
@@ -229,19 +229,22 @@ int main(int argc, char** argv) {
     std::replace(flag.begin(), flag.end(), '_', '-');
     const std::string key(field.name);
     cli.add_option_function<std::string>(
-        "--" + flag, [key, &options](const std::string& v) { options.settings.push_back(key + "=" + v); },
+        "--" + flag,
+        [key, &options](const std::string& v) { options.settings.push_back(key + "=" + v); },
         std::string(field.help));
   }
   cli.add_flag("--light", options.light, "start in the light theme");
   cli.add_flag("--bare", options.bare, "start with the panels hidden");
   cli.add_option("--screenshot", options.screenshot, "write a PNG after --frames frames and leave");
-  cli.add_option("--frames", options.frames, "frames before the screenshot")->check(CLI::Range(1, 100000));
+  cli.add_option("--frames", options.frames, "frames before the screenshot")
+      ->check(CLI::Range(1, 100000));
   std::string size = "1280x800";
   cli.add_option("--size", size, "of the window, WxH in logical pixels");
   cli.add_option("--scale", options.scale, "pixels per logical pixel")->check(CLI::Range(0.5, 4.0));
   CLI11_PARSE(cli, argc, argv);
   if (std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
-      options.width < 200 || options.height < 200 || options.width > 8192 || options.height > 8192) {
+      options.width < 200 || options.height < 200 || options.width > 8192 ||
+      options.height > 8192) {
     std::fprintf(stderr, "substep: --size %s is not WxH\n", size.c_str());
     return 2;
   }

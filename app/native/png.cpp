@@ -65,7 +65,8 @@ Bytes stored(const Bytes& raw) {
 
 }  // namespace
 
-bool write_png(const std::string& path, int width, int height, const std::vector<std::uint8_t>& rgb) {
+bool write_png(const std::string& path, int width, int height,
+               const std::vector<std::uint8_t>& rgb) {
   Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   Bytes header;
   put32(header, static_cast<std::uint32_t>(width));

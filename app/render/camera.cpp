@@ -6,8 +6,8 @@
 namespace substep {
 namespace {
 
-constexpr double kNear = 0.02;           // of the distance
-constexpr double kFar = 60.0;            // of the distance
+constexpr double kNear = 0.02;  // of the distance
+constexpr double kFar = 60.0;   // of the distance
 
 }  // namespace
 

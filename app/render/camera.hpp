@@ -33,9 +33,9 @@ class OrbitCamera {
   [[nodiscard]] static Vec3 right_of(const Camera& camera);
   /// Moves so that the ball fills the view, seen from where it is now.
   void frame(const Bounds& bounds);
-  void orbit(double yaw, double pitch);          ///< [rad]
+  void orbit(double yaw, double pitch);                     ///< [rad]
   void pan(double right, double up, const ViewRect& view);  ///< by logical pixels
-  void zoom(double factor);                      ///< > 1 goes closer
+  void zoom(double factor);                                 ///< > 1 goes closer
   /// @param dt wall time [s]; @param jump arrives at once (reduced motion)
   void update(double dt, bool jump);
 

@@ -122,8 +122,9 @@ RoundedBox::RoundedBox(int segments, const StreamBuffer& instances) {
         for (int j = 0; j + 1 < lines; ++j) {
           const int p = base + i * lines + j;
           const std::array<int, 6> quad =
-              sign > 0.0F ? std::array<int, 6>{p, p + lines, p + 1, p + 1, p + lines, p + lines + 1}
-                          : std::array<int, 6>{p, p + 1, p + lines, p + 1, p + lines + 1, p + lines};
+              sign > 0.0F
+                  ? std::array<int, 6>{p, p + lines, p + 1, p + 1, p + lines, p + lines + 1}
+                  : std::array<int, 6>{p, p + 1, p + lines, p + 1, p + lines + 1, p + lines};
           for (const int index : quad) indices.push_back(static_cast<std::uint16_t>(index));
         }
       }

@@ -18,11 +18,11 @@ struct Color {
 
 /// One box or ball: sixteen floats, as the graphics card reads them.
 struct Instance {
-  std::array<float, 3> position{};        // [m]
-  float rounding = 0.0F;                  // radius of a box's edges [m]
-  std::array<float, 4> orientation{};     // quaternion x y z w
-  std::array<float, 3> half_extents{};    // of a box; radius, three times, of a ball [m]
-  float pattern = 0.0F;                   // 1: quartered, so that turning is seen
+  std::array<float, 3> position{};      // [m]
+  float rounding = 0.0F;                // radius of a box's edges [m]
+  std::array<float, 4> orientation{};   // quaternion x y z w
+  std::array<float, 3> half_extents{};  // of a box; radius, three times, of a ball [m]
+  float pattern = 0.0F;                 // 1: quartered, so that turning is seen
   Color color;
 };
 
@@ -35,18 +35,18 @@ struct RibbonVertex {
 /// An endless floor: a grid that fades into the distance, and the shadows that fall on it.
 struct Ground {
   bool visible = true;
-  std::array<float, 3> origin{};           // [m]
+  std::array<float, 3> origin{};  // [m]
   std::array<float, 3> normal{0, 1, 0};
-  std::array<float, 3> along{1, 0, 0};     // one of the grid's directions
-  float cell = 1.0F;                       // [m]
-  float fade = 30.0F;                      // where it has gone, from `focus` [m]
+  std::array<float, 3> along{1, 0, 0};  // one of the grid's directions
+  float cell = 1.0F;                    // [m]
+  float fade = 30.0F;                   // where it has gone, from `focus` [m]
 };
 
 struct Picture {
   Eigen::Matrix4f view_projection = Eigen::Matrix4f::Identity();
   std::array<float, 3> eye{};
-  std::array<float, 3> focus{};    // what the shadows are sharpest around [m]
-  float focus_radius = 10.0F;      // [m]
+  std::array<float, 3> focus{};                     // what the shadows are sharpest around [m]
+  float focus_radius = 10.0F;                       // [m]
   std::array<float, 3> to_light{0.4F, 0.9F, 0.3F};  // unit
   Color background_top;
   Color background_bottom;

@@ -33,8 +33,8 @@ double thickness(const Shape& shape) {
 Instance instance(const Vec3& x, const Quat& q, const Color& color) {
   Instance i;
   i.position = floats(x);
-  i.orientation = {static_cast<float>(q.x()), static_cast<float>(q.y()),
-                   static_cast<float>(q.z()), static_cast<float>(q.w())};
+  i.orientation = {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()),
+                   static_cast<float>(q.w())};
   i.color = color;
   return i;
 }
@@ -178,8 +178,8 @@ void SceneView::add_bodies(const Session& session, const ViewOptions& options,
                       : mix(palette.stiff_mid, palette.stiff_high, 2.0 * t - 1.0);
     }
     if (const auto* box = std::get_if<Box>(&body.shape)) {
-      const double rounding = std::min(0.3 * box->half_extents.minCoeff(),
-                                       0.01 + 0.05 * box->half_extents.maxCoeff());
+      const double rounding =
+          std::min(0.3 * box->half_extents.minCoeff(), 0.01 + 0.05 * box->half_extents.maxCoeff());
       add_box(out, poses.x[i], poses.q[i], box->half_extents, rounding, color);
     } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       add_ball(out, poses.x[i], poses.q[i], sphere->radius, true, color);

@@ -57,7 +57,7 @@ class SceneView {
   void place_ground(const Session& session, Picture& out) const;
   [[nodiscard]] Bounds bounds(const Session& session) const;
 
-  Bounds home_;  // of the scene at its start
+  Bounds home_;          // of the scene at its start
   double lowest_ = 0.0;  // of the bodies at the start [m]
   int generation_ = -1;
 };

@@ -14,15 +14,19 @@ namespace {
 
 constexpr std::array<Choice, 5> kModes{
     {{"none", "One step per frame and nothing against instability: N = 1."},
-     {"const", "The same number of sub-steps in every frame, chosen by you: dt = h/N "
-               "(Macklin et al. 2019). Every frame pays for the worst one."},
-     {"damping", "One step per frame; rotations that are too stiff for it are damped implicitly: "
-                 "b = max(0, (h² k − 4 α M)/h), Eq. 6 (Andrews et al. 2017)."},
-     {"adaptive", "As many sub-steps as the stiffest degree of freedom needs: "
-                  "r = max k/M (Eq. 9), dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up "
-                  "(Eq. 11)."},
-     {"capped", "Adaptive up to a cap, damping for what is left over: the combination that the "
-                "paper leaves for future work."}}};
+     {"const",
+      "The same number of sub-steps in every frame, chosen by you: dt = h/N "
+      "(Macklin et al. 2019). Every frame pays for the worst one."},
+     {"damping",
+      "One step per frame; rotations that are too stiff for it are damped implicitly: "
+      "b = max(0, (h² k − 4 α M)/h), Eq. 6 (Andrews et al. 2017)."},
+     {"adaptive",
+      "As many sub-steps as the stiffest degree of freedom needs: "
+      "r = max k/M (Eq. 9), dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up "
+      "(Eq. 11)."},
+     {"capped",
+      "Adaptive up to a cap, damping for what is left over: the combination that the "
+      "paper leaves for future work."}}};
 
 constexpr std::array<const char*, 5> kModeLines{
     "One step a frame, unprotected.", "The same N in every frame.",
@@ -41,8 +45,9 @@ constexpr std::array<Choice, 2> kPolicies{
 constexpr std::array<Choice, 3> kDrifts{
     {{"auto", "Full with BPP, soft with PGS."},
      {"full", "The whole error is taken back in one step: bias phi/dt."},
-     {"soft", "The error decays with a time constant of its own: bias phi dt/tau², so that a "
-              "change of dt brings no energy in."}}};
+     {"soft",
+      "The error decays with a time constant of its own: bias phi dt/tau², so that a "
+      "change of dt brings no energy in."}}};
 
 template <class Enum, std::size_t N>
 bool choose(const Look& look, const char* name, const std::array<Choice, N>& choices, Enum& value,

@@ -15,9 +15,8 @@ void draw_reset(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
   draw.PathArcTo({c.x + 0.04F * s, c.y}, r, 0.43F * kTurn, -0.36F * kTurn, 28);
   draw.PathStroke(color, 0, line);
   const ImVec2 corner(c.x - 0.42F * s, c.y - 0.1F * s);
-  const std::array<ImVec2, 3> head{{{corner.x, corner.y - 0.28F * s},
-                                    corner,
-                                    {corner.x + 0.28F * s, corner.y}}};
+  const std::array<ImVec2, 3> head{
+      {{corner.x, corner.y - 0.28F * s}, corner, {corner.x + 0.28F * s, corner.y}}};
   draw.AddPolyline(head.data(), 3, color, 0, line);
 }
 
@@ -120,8 +119,8 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
     case Icon::kPanels:
       draw.AddRect({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x + 0.42F * s, c.y + 0.34F * s}, color,
                    0.1F * s, 0, 0.09F * s);
-      draw.AddRectFilled({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x - 0.1F * s, c.y + 0.34F * s}, color,
-                         0.1F * s);
+      draw.AddRectFilled({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x - 0.1F * s, c.y + 0.34F * s},
+                         color, 0.1F * s);
       break;
     case Icon::kNone:
       break;

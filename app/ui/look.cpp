@@ -23,6 +23,7 @@ Theme make_dark() {
   t.dark = true;
   t.panel = rgb(0x181c24, 240);
   t.panel_border = rgb(0x2b313d);
+  t.raised = rgb(0x222835, 250);
   t.well = rgb(0x0f1218);
   t.control = rgb(0x272d39);
   t.control_hover = rgb(0x323a49);
@@ -59,6 +60,7 @@ Theme make_light() {
   t.dark = false;
   t.panel = rgb(0xffffff, 242);
   t.panel_border = rgb(0xd5dbe4);
+  t.raised = rgb(0xffffff, 252);
   t.well = rgb(0xf1f3f7);
   t.control = rgb(0xe6eaf0);
   t.control_hover = rgb(0xd9dfe8);
@@ -161,13 +163,14 @@ void apply_style(const Look& look) {
   c[ImGuiCol_TextDisabled] = to_vec4(t.dim);
   c[ImGuiCol_WindowBg] = to_vec4(t.panel);
   c[ImGuiCol_ChildBg] = {0, 0, 0, 0};
-  c[ImGuiCol_PopupBg] = to_vec4(fade(t.panel, 1.1F));
+  c[ImGuiCol_PopupBg] = to_vec4(t.raised);
   c[ImGuiCol_Border] = to_vec4(t.panel_border);
   c[ImGuiCol_FrameBg] = to_vec4(t.well);
   c[ImGuiCol_ScrollbarBg] = {0, 0, 0, 0};
   c[ImGuiCol_ScrollbarGrab] = to_vec4(t.track);
   c[ImGuiCol_ScrollbarGrabHovered] = to_vec4(t.faint);
   c[ImGuiCol_ScrollbarGrabActive] = to_vec4(t.faint);
+  c[ImGuiCol_ModalWindowDimBg] = {0.0F, 0.0F, 0.0F, 0.3F};
   c[ImGuiCol_Header] = to_vec4(t.control);
   c[ImGuiCol_HeaderHovered] = to_vec4(t.control);
   c[ImGuiCol_HeaderActive] = to_vec4(t.control_hover);

@@ -1,5 +1,6 @@
 #pragma once
-// How the application looks: colours, fonts and measures. Lengths are logical pixels on a grid of 4.
+// How the application looks: colours, fonts and measures. Lengths are logical pixels on a grid
+// of 4.
 
 #include <imgui.h>
 
@@ -11,13 +12,14 @@ struct Theme {
   bool dark = true;
   ImU32 panel = 0;
   ImU32 panel_border = 0;
-  ImU32 well = 0;           // what holds plots and segments
-  ImU32 control = 0;        // buttons at rest
+  ImU32 raised = 0;   // menus, tooltips and cards: over panels
+  ImU32 well = 0;     // what holds plots and segments
+  ImU32 control = 0;  // buttons at rest
   ImU32 control_hover = 0;
-  ImU32 track = 0;          // of sliders
+  ImU32 track = 0;  // of sliders
   ImU32 text = 0;
-  ImU32 dim = 0;            // second voice, readable still (WCAG AA on the panel)
-  ImU32 faint = 0;          // grid lines, switched-off things
+  ImU32 dim = 0;    // second voice, readable still (WCAG AA on the panel)
+  ImU32 faint = 0;  // grid lines, switched-off things
   ImU32 accent = 0;
   ImU32 accent_hover = 0;
   ImU32 on_accent = 0;
@@ -39,13 +41,13 @@ struct Fonts {
   ImFont* small = nullptr;
   ImFont* medium = nullptr;
   ImFont* small_medium = nullptr;
-  ImFont* caps = nullptr;   // headings of sections
+  ImFont* caps = nullptr;  // headings of sections
   ImFont* title = nullptr;
   ImFont* large = nullptr;  // the one number that matters
 };
 
 struct Metrics {
-  float row = 26.0F;      // height of a control
+  float row = 26.0F;  // height of a control
   float gap = 8.0F;
   float section = 16.0F;  // between sections
   float pad = 16.0F;      // inside a panel

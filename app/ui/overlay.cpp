@@ -50,9 +50,9 @@ std::string method_line(const Settings& s) {
 
 // World to the screen. @return false behind the eye
 bool project(const App& app, const Vec3& x, ImVec2& out) {
-  const Eigen::Vector4f p =
-      app.picture.view_projection *
-      Eigen::Vector4f(static_cast<float>(x.x()), static_cast<float>(x.y()), static_cast<float>(x.z()), 1.0F);
+  const Eigen::Vector4f p = app.picture.view_projection *
+                            Eigen::Vector4f(static_cast<float>(x.x()), static_cast<float>(x.y()),
+                                            static_cast<float>(x.z()), 1.0F);
   if (p.w() <= 0.0F) return false;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   out = {(0.5F + 0.5F * p.x() / p.w()) * size.x, (0.5F - 0.5F * p.y() / p.w()) * size.y};
@@ -64,12 +64,17 @@ bool begin_card(App& app, const char* id, float width, float centre_y, float piv
   const ViewRect& v = app.view_rect;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   width = std::min(width, display.x - 24.0F);
-  const float x = std::clamp(v.x + 0.5F * v.width, 12.0F + 0.5F * width, display.x - 12.0F - 0.5F * width);
+  const float x =
+      std::clamp(v.x + 0.5F * v.width, 12.0F + 0.5F * width, display.x - 12.0F - 0.5F * width);
   ImGui::SetNextWindowPos({x, centre_y}, ImGuiCond_Always, {0.5F, pivot_y});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, display.y - 96.0F});
-  return ImGui::Begin(id, nullptr,
-                      ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
-                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, app.look.theme->raised);
+  const bool open =
+      ImGui::Begin(id, nullptr,
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::PopStyleColor();
+  return open;
 }
 
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title) {
@@ -181,7 +186,9 @@ void tint_scale(App& app) {
   const ImU32 mid = ink(palette.stiff_mid);
   const ImU32 high = ink(palette.stiff_high);
   draw.AddRectFilledMultiColor(at, {at.x + kHalf, at.y + 6.0F}, low, mid, mid, low);
-  draw.AddRectFilledMultiColor({at.x + kHalf, at.y}, {at.x + 2 * kHalf, at.y + 6.0F}, mid, high, high, mid);
+  draw.AddRectFilledMultiColor({at.x + kHalf, at.y}, {at.x + 2 * kHalf, at.y + 6.0F}, mid, high,
+                               high, mid);
+  draw.AddRect(at, {at.x + 2 * kHalf, at.y + 6.0F}, fade(look.theme->faint, 0.6F));
   draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->dim,
             "k/M: orange asks for small steps");
 }
@@ -198,11 +205,13 @@ void failure_card(App& app) {
                        : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
     const FrameReport& report = app.session.report();
     std::string what = verdict.text();
-    if (const std::size_t colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
+    if (const std::size_t colon = what.find(": "); colon != std::string::npos)
+      what.erase(0, colon + 2);
     if (stopped) {
       what = "A velocity";
       if (report.failed_body >= 0) {
-        what += " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
+        what +=
+            " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
       }
       what += " is no longer a finite number. What you see is the last state that was.";
     }
@@ -213,7 +222,8 @@ void failure_card(App& app) {
                              : "More sub-steps would help: adaptive finds how many.";
     label(look.fonts.small, look.theme->dim, advice);
     ImGui::Dummy({1.0F, 0.0F});
-    if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPrimary, 0.0F, 28.0F, "Back to the start (R)")) {
+    if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPrimary, 0.0F, 28.0F,
+               "Back to the start (R)")) {
       app.reset();
     }
     if (mode != Mode::kAdaptive) {
@@ -240,8 +250,9 @@ void trouble_card(App& app) {
   if (begin_card(app, "##trouble", 520.0F, v.y + 0.5F * v.height, 0.5F)) {
     card_title(look, look.theme->orange, Icon::kCross, app.trouble.title);
     const std::size_t count = app.trouble.problems.size();
-    const std::string note = (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
-                             std::string("The scene that runs was kept.");
+    const std::string note =
+        (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
+        std::string("The scene that runs was kept.");
     label(look.fonts.small, look.theme->dim, note.c_str());
     ImGui::Dummy({1.0F, 0.0F});
     const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -292,8 +303,8 @@ void help_card(App& app) {
     for (const Key& key : kKeys) {
       const ImVec2 at = ImGui::GetCursorScreenPos();
       draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, at, look.theme->text, key.key);
-      draw_text(*ImGui::GetWindowDrawList(), look.fonts.regular, {at.x + 168.0F, at.y}, look.theme->dim,
-                key.what);
+      draw_text(*ImGui::GetWindowDrawList(), look.fonts.regular, {at.x + 168.0F, at.y},
+                look.theme->dim, key.what);
       ImGui::Dummy({1.0F, *key.key != '\0' ? 14.0F : 2.0F});
     }
     close |= card_closed(look);

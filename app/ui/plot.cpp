@@ -110,13 +110,13 @@ void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
                                                         static_cast<int>(std::max(lines, 2.0)));
   if (!f.logarithmic && spec.id == std::string_view("substeps")) step = std::max(step, 1.0);
   const double first = std::ceil(f.low / step - 1e-9) * step;
-  const int digits = std::clamp(static_cast<int>(-std::floor(std::log10(step / spec.factor) + 1e-9)),
-                                0, 6);
+  const int digits =
+      std::clamp(static_cast<int>(-std::floor(std::log10(step / spec.factor) + 1e-9)), 0, 6);
   for (int i = 0; i < 12; ++i) {
     const double v = first + i * step;
     if (v > f.high) break;
-    const float y =
-        std::round(f.max.y - static_cast<float>((v - f.low) / (f.high - f.low)) * (f.max.y - f.min.y));
+    const float y = std::round(f.max.y - static_cast<float>((v - f.low) / (f.high - f.low)) *
+                                             (f.max.y - f.min.y));
     if (!words) {
       draw.AddLine({f.min.x, y}, {f.max.x, y}, line);
       continue;
@@ -137,7 +137,7 @@ void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
 
 void draw_time(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.16F : 0.25F);
-  const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 56.0F));
+  const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 44.0F));
   const int digits = step < 0.1 ? 2 : step < 1.0 ? 1 : 0;
   for (double t = std::ceil(f.t0 / step) * step; t <= f.t1; t += step) {
     const float x = std::round(f.x(t));
@@ -165,7 +165,8 @@ std::vector<Column> columns_of(const Series& series, const Slice& slice, const H
   std::vector<Column> columns;
   const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
   const double samples = (f.t1 - f.t0) / history.frame();
-  const float width = samples > 4.0 * static_cast<double>((f.max.x - f.min.x) / pixel) ? pixel : 0.0F;
+  const float width =
+      samples > 4.0 * static_cast<double>((f.max.x - f.min.x) / pixel) ? pixel : 0.0F;
   for (std::size_t i = slice.first; i < std::min(slice.last, series.values.size()); ++i) {
     const auto value = static_cast<double>(series.values[i]);
     if (!std::isfinite(value) || (f.logarithmic && value <= 0.0)) continue;
@@ -227,7 +228,8 @@ void draw_series(const Series& series, const Slice& slice, const History& histor
     float on = 0.0F;
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       const float length = std::hypot(points[i + 1].x - points[i].x, points[i + 1].y - points[i].y);
-      if (std::fmod(on, 7.0F) < 4.0F) draw.AddLine(points[i], points[i + 1], series.color, series.width);
+      if (std::fmod(on, 7.0F) < 4.0F)
+        draw.AddLine(points[i], points[i + 1], series.color, series.width);
       on += length;
     }
     return;
@@ -298,8 +300,8 @@ void plot(const Look& look, const PlotSpec& spec, const History& history, ImVec2
         f.t0 + (f.t1 - f.t0) * static_cast<double>((io.MousePos.x - f.min.x) / (f.max.x - f.min.x));
     axis.hover_next = t;
     if (io.MouseWheel != 0.0F) {
-      axis.span = std::clamp(axis.span * std::pow(0.85, static_cast<double>(io.MouseWheel)), 1.0,
-                             600.0);
+      axis.span =
+          std::clamp(axis.span * std::pow(0.85, static_cast<double>(io.MouseWheel)), 1.0, 600.0);
     }
     ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
   }

@@ -47,10 +47,10 @@ struct PlotSpec {
   std::vector<Series> series;
   std::vector<Level> levels;
   bool logarithmic = false;
-  bool from_zero = false;     // the axis starts at 0
-  double least_span = 1.0;    // smallest range shown, in units of the values
-  double factor = 1.0;        // value of one unit of the labels
-  bool time_labels = false;   // seconds along the bottom
+  bool from_zero = false;    // the axis starts at 0
+  double least_span = 1.0;   // smallest range shown, in units of the values
+  double factor = 1.0;       // value of one unit of the labels
+  bool time_labels = false;  // seconds along the bottom
 };
 
 /// Draws series over time with one vertical line per pixel column at most, from the least to the

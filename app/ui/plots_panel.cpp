@@ -30,8 +30,8 @@ void substeps_plot(App& app, float height) {
   const History& h = app.session.history();
   const Settings& s = app.session.settings();
   const double n = shown_value(h[Channel::kSubsteps], h, app.desk.time);
-  section(look, "Sub-steps per frame",
-          std::isfinite(n) ? ("N = " + fixed(n, 0)).c_str() : "", t.blue);
+  section(look, "Sub-steps per frame", std::isfinite(n) ? ("N = " + fixed(n, 0)).c_str() : "",
+          t.blue);
 
   PlotSpec spec;
   spec.id = "substeps";
@@ -48,7 +48,9 @@ void substeps_plot(App& app, float height) {
   const auto taken = h[Channel::kSubsteps];
   const std::size_t recent = taken.size() - std::min<std::size_t>(taken.size(), 600);
   const float most =
-      taken.empty() ? 0.0F : *std::max_element(taken.begin() + static_cast<std::ptrdiff_t>(recent), taken.end());
+      taken.empty()
+          ? 0.0F
+          : *std::max_element(taken.begin() + static_cast<std::ptrdiff_t>(recent), taken.end());
   if (cap > 0 && most >= 0.7F * static_cast<float>(cap)) {
     spec.levels.push_back({static_cast<double>(cap), "cap " + std::to_string(cap), t.orange});
   }
@@ -77,8 +79,9 @@ void energy_plot(App& app, float height) {
   const double whole = exchanged.value_or(scale);
   std::string total = "total";
   if (std::isfinite(now) && whole > 0.0) {
-    total += " " + (std::abs(now) > 99.0 * whole ? short_number(now / unit.factor) + " " + unit.prefix + "J"
-                                                 : percent(now / whole));
+    total += " " + (std::abs(now) > 99.0 * whole
+                        ? short_number(now / unit.factor) + " " + unit.prefix + "J"
+                        : percent(now / whole));
   }
   const float x = legend(look, right, origin.y, t.orange, total);
   legend(look, x, origin.y, t.teal, "kinetic");
@@ -104,7 +107,7 @@ void error_plot(App& app, float height) {
   const Effects& effects = app.session.scene().effects;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   float right = origin.x + ImGui::GetContentRegionAvail().x;
-  section(look, "Constraint error, m");
+  section(look, "Error, m");
   PlotSpec spec;
   spec.id = "error";
   spec.logarithmic = true;
@@ -162,7 +165,8 @@ void body_columns(App& app, float height) {
   }
   if (!hovered) return;
   const float at = (ImGui::GetIO().MousePos.x - origin.x - 4.0F) / pitch;
-  const auto i = static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(moving.size() - 1)));
+  const auto i =
+      static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(moving.size() - 1)));
   const Body& body = scene.bodies[moving[i]];
   const std::string text = "k/M is " + fixed(100.0 * shares[moving[i]], 1) + " % of the largest.";
   tooltip(look, body.name.c_str(), text.c_str());
@@ -202,7 +206,7 @@ void plots(App& app, float height) {
   // Two tall plots, and one less tall with the labels of the time axis.
   const float gap = app.look.m.section;
   const float rest = height - 3.0F * kHeading - 2.0F * gap - 18.0F;
-  const float unit = std::max(rest / 3.0F, 72.0F);
+  const float unit = std::max(rest / 3.0F, 56.0F);
   substeps_plot(app, std::floor(unit));
   space(gap);
   energy_plot(app, std::floor(unit));
@@ -217,8 +221,9 @@ void why(App& app) {
   const StiffnessLeader& leader = report.leader;
   const bool capped = report.capped;
   const std::string note = capped ? "wanted " + std::to_string(report.n_wanted) + ", capped"
-                           : std::isfinite(report.dt_stable) ? "dt max " + duration(report.dt_stable)
-                                                             : "";
+                           : std::isfinite(report.dt_stable)
+                               ? "dt max " + duration(report.dt_stable)
+                               : "";
   section(look, "Why this N", note.c_str(), capped ? t.orange : t.text);
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -275,9 +280,10 @@ void timing(App& app) {
     }
   }
   ImGui::Dummy({width, timing_height(app) - kHeading});
-  tooltip(look, "Time per frame",
-          "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
-          "does not call for does not exist.");
+  tooltip(
+      look, "Time per frame",
+      "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
+      "does not call for does not exist.");
 }
 
 }  // namespace substep::ui

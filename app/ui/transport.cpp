@@ -39,8 +39,7 @@ void play_buttons(App& app, float height) {
     app.session.toggle();
   }
   ImGui::SameLine(0.0F, 8.0F);
-  if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 40.0F, height,
-             "One frame (.)")) {
+  if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 40.0F, height, "One frame (.)")) {
     app.session.pause();
     app.session.step();
   }
@@ -71,7 +70,8 @@ float verdict_chip(App& app, ImVec2 at, float height, float room) {
   const float width = size.x + 40.0F;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float top = at.y + 0.5F * (height - 28.0F);
-  draw.AddRectFilled({at.x, top}, {at.x + width, top + 28.0F}, fade(color, t.dark ? 0.14F : 0.1F), 14.0F);
+  draw.AddRectFilled({at.x, top}, {at.x + width, top + 28.0F}, fade(color, t.dark ? 0.14F : 0.1F),
+                     14.0F);
   draw_icon(draw, verdict.holds() ? Icon::kCheck : Icon::kCross, {at.x + 17.0F, top + 14.0F}, 16.0F,
             color);
   draw_text(draw, look.fonts.medium, {at.x + 28.0F, top + 0.5F * (28.0F - size.y)}, color,
@@ -136,21 +136,22 @@ void transport(App& app, bool phone) {
     const float y = bar.y + kHeight + 8.0F;
     const float chip = verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, width - time_size.x - 16.0F);
     (void)chip;
-    draw_text(draw, look.fonts.medium, {bar.x + width - time_size.x, y + 4.0F}, t.text, time.c_str());
+    draw_text(draw, look.fonts.medium, {bar.x + width - time_size.x, y + 4.0F}, t.text,
+              time.c_str());
     return;
   }
   const float time_width = std::max(64.0F, time_size.x);
   draw_text(draw, look.fonts.medium,
-            {after_buttons + time_width - time_size.x, bar.y + 0.5F * (kHeight - time_size.y)}, t.text,
-            time.c_str());
+            {after_buttons + time_width - time_size.x, bar.y + 0.5F * (kHeight - time_size.y)},
+            t.text, time.c_str());
   const float chip_x = after_buttons + time_width + 16.0F;
 
   float right = icon_buttons(app, bar.x + width, bar, kHeight);
   const std::string fps = fixed(1.0 / std::max(1e-3, app.frame_time), 0) + " fps";
   right = status(look, right, bar, kHeight, fps, 40.0F, "Pictures drawn a second");
   if (app.session.playing() && app.session.pace() < 0.9) {
-    right = status(look, right, bar, kHeight, fixed(100.0 * app.session.pace(), 0) + " % speed", 0.0F,
-                   "The simulation takes longer than the time it shows");
+    right = status(look, right, bar, kHeight, fixed(100.0 * app.session.pace(), 0) + " % speed",
+                   0.0F, "The simulation takes longer than the time it shows");
   }
   if (right - chip_x > 320.0F) {
     right = status(look, right, bar, kHeight, "hash " + hex(app.session.hash()), 0.0F,

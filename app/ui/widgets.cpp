@@ -185,7 +185,8 @@ void section(const Look& look, const char* title, const char* value, ImU32 value
 
 void tooltip(const Look& look, const char* title, const char* text) {
   if (text == nullptr || *text == '\0') return;
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_NoSharedDelay)) return;
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_NoSharedDelay))
+    return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
   if (ImGui::BeginTooltip()) {
@@ -219,7 +220,8 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
     return sum;
   };
   const float comfortable = width - 18.0F * static_cast<float>(choices.size());
-  ImFont* font = words_in(look.fonts.medium) > comfortable ? look.fonts.small_medium : look.fonts.medium;
+  ImFont* font =
+      words_in(look.fonts.medium) > comfortable ? look.fonts.small_medium : look.fonts.medium;
   const float words = words_in(font);
   const float extra = (width - words) / static_cast<float>(choices.size());
   bool changed = false;
@@ -247,9 +249,11 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
       draw.AddRectFilled({box.Min.x + 2, box.Min.y + 2}, {box.Max.x - 2, box.Max.y - 2}, t.control,
                          look.m.radius - 2);
     }
-    draw_text(draw, font,
-              {x + 0.5F * (right - x - size.x), origin.y + 0.5F * (height - size.y)},
-              on ? t.on_accent : hovered ? t.text : t.dim, choice.name);
+    draw_text(draw, font, {x + 0.5F * (right - x - size.x), origin.y + 0.5F * (height - size.y)},
+              on        ? t.on_accent
+              : hovered ? t.text
+                        : t.dim,
+              choice.name);
     draw_focus(look, draw, box);
     tooltip(look, choice.name, choice.tip);
     x = right;
@@ -362,7 +366,8 @@ bool menu_button(const Look& look, const char* id, const char* text, float width
   const bool up = below < 240.0F && above > below;
   ImGui::SetNextWindowPos({box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F}, ImGuiCond_Always,
                           {0.0F, up ? 1.0F : 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {400.0F, std::max(120.0F, up ? above : below)});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F},
+                                      {400.0F, std::max(120.0F, up ? above : below)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
   const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);

@@ -49,7 +49,19 @@ bool slider(const Look& look, const char* name, int& value, int least, int most,
 bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip);
 
 enum class Icon : unsigned char {
-  kPlay, kPause, kStep, kReset, kHelp, kSun, kMoon, kChevron, kCheck, kCross, kFrame, kPanels, kNone
+  kPlay,
+  kPause,
+  kStep,
+  kReset,
+  kHelp,
+  kSun,
+  kMoon,
+  kChevron,
+  kCheck,
+  kCross,
+  kFrame,
+  kPanels,
+  kNone
 };
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);
 

@@ -78,10 +78,9 @@ void desktop(App& app, ImVec2 display) {
   const Rect left{margin, margin, left_width, panel_height};
   const Rect right{display.x - margin - right_width, margin, right_width, panel_height};
   const Rect bar{margin, display.y - margin - kBar, display.x - 2.0F * margin, kBar};
-  app.view_rect = app.desk.panels
-                      ? ViewRect{left.x + left.width, 0.0F, right.x - left.x - left.width,
-                                 bar.y - margin + margin}
-                      : ViewRect{0.0F, 0.0F, display.x, bar.y};
+  app.view_rect = app.desk.panels ? ViewRect{left.x + left.width, 0.0F,
+                                             right.x - left.x - left.width, bar.y - margin + margin}
+                                  : ViewRect{0.0F, 0.0F, display.x, bar.y};
   if (app.desk.panels) {
     // As tall as what is in it.
     ImGui::SetNextWindowPos({left.x, left.y});
@@ -119,18 +118,20 @@ void phone(App& app, ImVec2 display) {
     const float bar = 92.0F;
     app.view_rect = {0.0F, 0.0F, display.x, display.y - bar};
   }
-  const Rect panel = app.desk.panels
-                         ? Rect{display.x - side, top, side, display.y - top}
-                         : Rect{0.0F, app.view_rect.height, display.x, display.y - app.view_rect.height};
+  const Rect panel = app.desk.panels ? Rect{display.x - side, top, side, display.y - top}
+                                     : Rect{0.0F, app.view_rect.height, display.x,
+                                            display.y - app.view_rect.height};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 12.0F});
-  if (begin_panel("##phone", panel, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
+  if (begin_panel("##phone", panel,
+                  ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     transport(app, true);
     ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
     if (app.desk.panels) {
-      static constexpr std::array<Choice, 3> kTabs{{{"Controls", ""}, {"Plots", ""}, {"Why this N", ""}}};
+      static constexpr std::array<Choice, 3> kTabs{
+          {{"Controls", ""}, {"Plots", ""}, {"Why this N", ""}}};
       int tab = static_cast<int>(app.desk.tab);
       segmented(app.look, "tabs", kTabs, tab, ImGui::GetContentRegionAvail().x);
       app.desk.tab = static_cast<Tab>(tab);

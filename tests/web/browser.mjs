@@ -88,7 +88,7 @@ export async function openPage(session, options = {}) {
 
 /** Waits until the page has drawn what it was told. */
 export const drawn = (page) => page.evaluate(() => new Promise((done) => {
-  requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done)));
+  requestAnimationFrame(() => requestAnimationFrame(done));
 }));
 
 /** A picture of the page or of a part of it, decoded. @param clip {x, y, width, height} */
@@ -96,12 +96,17 @@ export async function picture(page, clip) {
   return PNG.sync.read(await page.screenshot(clip ? { clip } : {}));
 }
 
-/** Keeps a picture of the page among the build's artefacts. */
-export async function save(page, name) {
+/** Keeps a picture of the page, a new one or one taken already, among the build's artefacts. */
+export async function save(page, name, png) {
   await mkdir(screenshots, { recursive: true });
-  const path = join(screenshots, `${name}.png`);
-  await writeFile(path, await page.screenshot());
-  return path;
+  await writeFile(join(screenshots, `${name}.png`), png ? PNG.sync.write(png) : await page.screenshot());
+}
+
+/** A part of a picture. @param box {x, y, width, height} */
+export function part(png, box) {
+  const out = new PNG({ width: box.width, height: box.height });
+  PNG.bitblt(png, out, box.x, box.y, box.width, box.height, 0, 0);
+  return out;
 }
 
 /** Variance of the brightness: 0 for a blank picture. */

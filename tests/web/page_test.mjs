@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { difference, drawn, open, openPage, picture, save, variance } from "./browser.mjs";
+import { difference, drawn, open, openPage, part, picture, save, variance } from "./browser.mjs";
 
 const scenes = ["swinging_box", "bridge", "heavy_stack"];
 const modes = ["none", "const", "damping", "adaptive", "capped"];
@@ -15,6 +15,7 @@ const plots = { x: 980, y: 50, width: 280, height: 330 };
 
 let session;
 let page; // the one that most tests share
+let last; // its picture at the end of a test
 
 const api = (name, ...args) =>
   page.evaluate(([n, a]) => window.substep[n](...a), [name, args]);
@@ -41,7 +42,8 @@ test("runs in real time and the plots move", async () => {
   // A software renderer draws few pictures, and each lets at most 0.1 s pass.
   assert.ok(report.time > start + 0.5, `only ${report.time - start} s in 5 s`);
   assert.ok(report.playing);
-  assert.ok(difference(first, await picture(page, plots)) > 0.01);
+  last = await picture(page);
+  assert.ok(difference(first, part(last, plots)) > 0.01);
   quiet();
 });
 
@@ -58,19 +60,19 @@ for (const scene of scenes) {
     test(`runs ${scene} for 5 s in mode ${mode}`, async () => {
       await api("pause");
       assert.deepEqual((await api("set", { scene, mode })).problems, []);
-      await drawn(page);
-      const still = await picture(page, plots);
       const report = await api("step", 300);
       await drawn(page);
+      const now = await picture(page);
       assert.equal(report.scene, scene);
       assert.equal(report.mode, mode);
       // Some fail, as the paper says; what has not failed has come to 5 s.
       assert.ok(report.stopped || Math.abs(report.time - 5) < 1e-9, `${report.time} s`);
       if (mode === "adaptive") assert.equal(report.verdict, "holds");
       assert.ok(report.substeps >= 1);
-      assert.ok(difference(still, await picture(page, plots)) > 0.005, "the plots did not move");
-      assert.ok(variance(await picture(page, view)) > somethingSeen, "the picture is blank");
-      if (mode === "adaptive" || mode === "none") await save(page, `${scene}-${mode}`);
+      assert.ok(difference(part(last, plots), part(now, plots)) > 0.005, "the plots did not move");
+      assert.ok(variance(part(now, view)) > somethingSeen, "the picture is blank");
+      if (mode === "adaptive" || mode === "none") await save(page, `${scene}-${mode}`, now);
+      last = now;
       quiet();
     });
   }
@@ -111,9 +113,9 @@ test("picks a scene from the menu", async () => {
   await page.mouse.click(150, 67);
   await drawn(page);
   await save(page, "scene-menu");
-  await page.mouse.click(150, 132); // the second of the first group
+  await page.mouse.click(150, 160); // the second of the first group
   await drawn(page);
-  assert.notEqual((await api("report")).scene, "swinging_box");
+  assert.equal((await api("report")).scene, "bridge");
   quiet();
 });
 

@@ -52,6 +52,7 @@ void Simulator::Impl::probe(FrameReport& report) {
   std::copy(u_start.begin(), u_start.end(), state.u.begin());
   state.stiffness_known = true;
   report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will
+  report.failed_body = -1;
   report.n_substeps = 0;
   report.stages.probe = true;
 }
@@ -61,7 +62,7 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
   report.capped = clock_of_frame.capped();
   if (report.status == StepStatus::kOk) {
     state.r = clock_of_frame.r();
-    state.stiffness_known = true;
+    state.stiffness_known = report.stages.stiffness;
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
   }

@@ -91,6 +91,19 @@ TEST(Report, TheProbeRunsOnTheFirstFrameOnly) {
   EXPECT_EQ(first_frame(scenes::swinging_box(), without).n_substeps, 1) << "no force is known yet";
 }
 
+TEST(Report, TheProbeRunsAgainWhenAModeThatReadsStiffnessIsSwitchedOn) {
+  Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
+  Settings settings;
+  settings.mode = Mode::kConst;
+  simulator.set_settings(settings);
+  for (int i = 0; i < 30; ++i) EXPECT_FALSE(simulator.step().stages.probe);
+  settings.mode = Mode::kAdaptive;
+  simulator.set_settings(settings);
+  const FrameReport first = simulator.step();
+  EXPECT_TRUE(first.stages.probe);
+  EXPECT_GE(first.n_substeps, 10);
+}
+
 // Two rigid joints on one pair of bodies: a singular system, not a number.
 TEST(Failure, StopsAtTheLastFiniteStateAndSaysWho) {
   Scene scene = scenes::swinging_box({scenes::kSixtyDegrees, 0.0});

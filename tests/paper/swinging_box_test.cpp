@@ -17,7 +17,7 @@ constexpr double kExchanged = 51500.0;  // energy that goes back and forth: 100 
 /// Centre of the heavy box in the exact motion, 60 Hz, 10 s.
 const std::vector<Vec3>& reference() {
   static const std::vector<Vec3> rows = [] {
-    std::ifstream file(std::string(SUBSTEP_SOURCE_DIR) + "/tests/reference/reference_swinging_box.csv");
+    std::ifstream file(SUBSTEP_SOURCE_DIR "/tests/reference/reference_swinging_box.csv");
     std::vector<Vec3> out;
     std::string line;
     std::getline(file, line);

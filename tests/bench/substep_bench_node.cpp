@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: substep_bench FOLDER_OF_SCENES\n");
     return 2;
   }
-  std::printf("%-22s %14s %12s\n", "WebAssembly", "per_substep", "allocations");
+  std::printf("%-22s %14s %12s\n", "Benchmark", "per_substep", "allocations");
   for (const bench::Case& c : bench::kCases) {
     bench::Loop loop(argv[1], c, Mode::kConst);
     for (int i = 0; i < 60; ++i) loop.step();  // scratch has its size, the code is compiled

@@ -108,10 +108,11 @@ void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
   double step = f.logarithmic ? std::max(1.0, std::ceil((f.high - f.low) / std::max(lines, 2.0)))
                               : spec.factor * nice_step((f.high - f.low) / spec.factor,
                                                         static_cast<int>(std::max(lines, 2.0)));
-  if (!f.logarithmic && spec.id == std::string_view("substeps")) step = std::max(step, 1.0);
+  if (spec.counts) step = std::max(step, 1.0);
   const double first = std::ceil(f.low / step - 1e-9) * step;
   const int digits =
       std::clamp(static_cast<int>(-std::floor(std::log10(step / spec.factor) + 1e-9)), 0, 6);
+  float above = f.max.y + 15.0F;  // top of the words below
   for (int i = 0; i < 12; ++i) {
     const double v = first + i * step;
     if (v > f.high) break;
@@ -124,7 +125,8 @@ void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
     const std::string text = f.logarithmic ? power_of_ten(static_cast<int>(std::lround(v)))
                                            : fixed(v / spec.factor, digits);
     const float top = y - 15.0F < f.min.y ? y + 1.0F : y - 15.0F;
-    if (y > f.max.y - 2.0F || y < f.min.y) continue;
+    if (y > f.max.y - 2.0F || y < f.min.y || top + 13.0F > above) continue;
+    above = top;
     for (const float dx : {-1.0F, 0.0F, 1.0F}) {
       for (const float dy : {-1.0F, 1.0F}) {
         draw_text(draw, look.fonts.small, {f.min.x + 6.0F + dx, top + dy},

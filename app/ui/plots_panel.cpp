@@ -36,6 +36,7 @@ void substeps_plot(App& app, float height) {
   PlotSpec spec;
   spec.id = "substeps";
   spec.from_zero = true;
+  spec.counts = true;
   spec.least_span = 4.0;
   const auto limit = h[Channel::kLimit];
   const bool has_limit = std::any_of(limit.begin(), limit.end(), [](float v) { return v > 0.0F; });

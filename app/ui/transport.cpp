@@ -147,8 +147,11 @@ void transport(App& app, bool phone) {
   const float chip_x = after_buttons + time_width + 16.0F;
 
   float right = icon_buttons(app, bar.x + width, bar, kHeight);
-  const std::string fps = fixed(1.0 / std::max(1e-3, app.frame_time), 0) + " fps";
-  right = status(look, right, bar, kHeight, fps, 40.0F, "Pictures drawn a second");
+  // A run that rests is drawn only when something changes: a rate would say nothing.
+  if (app.session.playing()) {
+    const std::string fps = fixed(1.0 / std::max(1e-3, app.frame_time), 0) + " fps";
+    right = status(look, right, bar, kHeight, fps, 40.0F, "Pictures drawn a second");
+  }
   if (app.session.playing() && app.session.pace() < 0.9) {
     right = status(look, right, bar, kHeight, fixed(100.0 * app.session.pace(), 0) + " % speed",
                    0.0F, "The simulation takes longer than the time it shows");

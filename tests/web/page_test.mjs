@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { difference, drawn, open, openPage, part, picture, save, variance } from "./browser.mjs";
+import { drawn, open, openPage, picture, save } from "./browser.mjs";
+import { difference, part, variance } from "./pixels.mjs";
 
 const scenes = ["swinging_box", "bridge", "heavy_stack"];
 const modes = ["none", "const", "damping", "adaptive", "capped"];

@@ -1,0 +1,71 @@
+#pragma once
+// The application in a test: a display of a given size, no window, no pixels.
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/app.hpp"
+#include "app/render/null_renderer.hpp"
+#include "app/ui/context.hpp"
+
+namespace substep {
+
+inline constexpr double kFrame = 1.0 / 60.0;
+
+inline Library shipped() { return Library(std::string(SUBSTEP_SOURCE_DIR) + "/scenes"); }
+
+inline std::shared_ptr<const Scene> shipped(const std::string& name) {
+  auto scene = shipped().find(name);
+  EXPECT_NE(scene, nullptr) << name;
+  return scene;
+}
+
+class Headless {
+ public:
+  explicit Headless(float width = 1280.0F, float height = 720.0F, float ratio = 1.0F) {
+    resize(width, height, ratio);
+    auto null_renderer = std::make_unique<NullRenderer>();
+    renderer = null_renderer.get();
+    app = std::make_unique<App>(shipped(), std::move(null_renderer));
+    frames(3);
+  }
+
+  void resize(float width, float height, float ratio) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {width, height};
+    io.DisplayFramebufferScale = {ratio, ratio};
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  }
+  void frames(int count) {
+    for (int i = 0; i < count; ++i) {
+      ImGui::GetIO().DeltaTime = static_cast<float>(kFrame);
+      frame(*app, kFrame);
+    }
+  }
+  void click(float x, float y) {
+    ImGuiIO& io = ImGui::GetIO();
+    io.AddMousePosEvent(x, y);
+    frames(1);
+    io.AddMouseButtonEvent(0, true);
+    frames(1);
+    io.AddMouseButtonEvent(0, false);
+    frames(2);
+  }
+  void type(const char* text) {
+    ImGui::GetIO().AddInputCharactersUTF8(text);
+    frames(2);
+  }
+
+ private:
+  ui::Context context_;
+
+ public:
+  NullRenderer* renderer = nullptr;
+  std::unique_ptr<App> app;
+};
+
+}  // namespace substep

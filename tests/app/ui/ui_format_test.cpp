@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "app/format.hpp"
+
+namespace substep {
+namespace {
+
+TEST(Format, ShortNumbersHaveThreeDigits) {
+  EXPECT_EQ(short_number(0.0), "0");
+  EXPECT_EQ(short_number(0.852), "0.852");
+  EXPECT_EQ(short_number(12.34), "12.3");
+  EXPECT_EQ(short_number(7954.0), "7,954");
+  EXPECT_EQ(short_number(552000.0), "5.52×10⁵");
+  EXPECT_EQ(short_number(-4.39e-6), "−4.39×10⁻⁶");
+  EXPECT_EQ(short_number(std::numeric_limits<double>::infinity()), "∞");
+  EXPECT_EQ(short_number(std::nan("")), "not a number");
+}
+
+TEST(Format, PlainNumbersEndInNoZeros) {
+  EXPECT_EQ(plain_number(0.1), "0.1");
+  EXPECT_EQ(plain_number(0.025), "0.025");
+  EXPECT_EQ(plain_number(1.0), "1");
+}
+
+TEST(Format, ThousandsAreGrouped) {
+  EXPECT_EQ(grouped(1000.0), "1,000");
+  EXPECT_EQ(grouped(20000.0), "20,000");
+  EXPECT_EQ(grouped(-1234567.0), "−1,234,567");
+  EXPECT_EQ(grouped(12.0), "12");
+}
+
+TEST(Format, NoMinusZero) {
+  EXPECT_EQ(fixed(-0.001, 2), "0.00");
+  EXPECT_EQ(fixed(-0.01, 2), "−0.01");
+}
+
+TEST(Format, UnitKeepsTheScaleBelowAThousand) {
+  EXPECT_STREQ(unit_for(51500.0).prefix, "k");
+  EXPECT_STREQ(unit_for(0.02).prefix, "m");
+  EXPECT_STREQ(unit_for(5.0).prefix, "");
+}
+
+TEST(Format, DurationPicksItsUnit) {
+  EXPECT_EQ(duration(844e-6), "844 µs");
+  EXPECT_EQ(duration(1.5e-3), "1.50 ms");
+}
+
+}  // namespace
+}  // namespace substep

@@ -1,0 +1,190 @@
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "tests/app/ui/ui_fixture.hpp"
+
+namespace substep {
+namespace {
+
+struct Display {
+  float width;
+  float height;
+  float ratio;
+};
+constexpr std::array<Display, 7> kDisplays{{{1280, 720, 1.0F},
+                                            {1280, 720, 1.5F},
+                                            {1920, 1080, 2.0F},
+                                            {900, 600, 1.0F},
+                                            {390, 844, 2.0F},
+                                            {844, 390, 2.0F},
+                                            {320, 568, 1.0F}}};
+
+// Windows that are open now, the picture's own and what belongs to another window left out.
+std::vector<const ImGuiWindow*> open_windows() {
+  std::vector<const ImGuiWindow*> windows;
+  for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
+    const bool child = (w->Flags & ImGuiWindowFlags_ChildWindow) != 0;
+    if (!w->WasActive || w->Hidden || child || std::string(w->Name) == "##view" ||
+        std::string(w->Name).starts_with("Debug")) {
+      continue;
+    }
+    windows.push_back(w);
+  }
+  return windows;
+}
+
+TEST(Window, EverySceneInEveryModeDrawsItsPicture) {
+  Headless h;
+  ASSERT_GE(h.app->library.scenes().size(), 10U);
+  for (const auto& scene : h.app->library.scenes()) {
+    h.app->run(scene);
+    h.app->session.play();
+    for (const char* mode : {"none", "const", "damping", "adaptive", "capped"}) {
+      ASSERT_EQ(h.app->set("mode", mode), "");
+      h.frames(8);
+      const Picture& p = h.renderer->picture;
+      EXPECT_GT(p.boxes.size() + p.balls.size(), 0U) << scene->name;
+      EXPECT_TRUE(p.view_projection.allFinite()) << scene->name;
+    }
+    EXPECT_GT(h.app->session.state().frame, 20) << scene->name;
+  }
+}
+
+TEST(Window, PanelsDoNotOverlapAndStayOnTheDisplay) {
+  for (const Display& d : kDisplays) {
+    Headless h(d.width, d.height, d.ratio);
+    for (const bool dark : {true, false}) {
+      h.app->desk.dark = dark;
+      for (const auto& scene : h.app->library.scenes()) {
+        h.app->run(scene);
+        h.frames(3);
+        const auto windows = open_windows();
+        ASSERT_FALSE(windows.empty());
+        for (std::size_t i = 0; i < windows.size(); ++i) {
+          const ImRect a = windows[i]->Rect();
+          EXPECT_GE(a.Min.x, 0.0F) << windows[i]->Name;
+          EXPECT_GE(a.Min.y, 0.0F) << windows[i]->Name;
+          EXPECT_LE(a.Max.x, d.width) << windows[i]->Name;
+          EXPECT_LE(a.Max.y, d.height) << windows[i]->Name;
+          for (std::size_t j = i + 1; j < windows.size(); ++j) {
+            EXPECT_FALSE(a.Overlaps(windows[j]->Rect()))
+                << windows[i]->Name << " and " << windows[j]->Name << " at " << d.width << "x"
+                << d.height;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Window, PanelsOfTheDesktopNeedNoScrolling) {
+  Headless h(1280, 720);
+  for (const auto& scene : h.app->library.scenes()) {
+    h.app->run(scene);
+    h.frames(3);
+    for (const ImGuiWindow* w : open_windows()) {
+      EXPECT_EQ(w->ScrollMax.y, 0.0F) << w->Name << " in " << scene->name;
+    }
+  }
+}
+
+TEST(Window, FontsFollowThePixelRatio) {
+  Headless h(1280, 720, 1.0F);
+  const float before = h.app->look.fonts.regular->FontSize;
+  h.resize(1280, 720, 2.0F);
+  h.frames(2);
+  EXPECT_FLOAT_EQ(h.app->look.fonts.regular->FontSize, 2.0F * before);
+  EXPECT_FLOAT_EQ(ImGui::GetIO().FontGlobalScale, 0.5F);
+  EXPECT_EQ(h.renderer->fonts, 1);
+}
+
+TEST(Window, EveryCharacterShownHasAGlyph) {
+  Headless h;
+  const ImFont* font = h.app->look.fonts.regular;
+  for (const ImWchar c : {u'α', u'√', u'×', u'·', u'²', u'⁻', u'⁶', u'−', u'…', u'µ', u'∞', u'ü'}) {
+    EXPECT_NE(font->FindGlyphNoFallback(c), nullptr) << static_cast<int>(c);
+  }
+  EXPECT_FLOAT_EQ(font->FindGlyph('1')->AdvanceX, font->FindGlyph('8')->AdvanceX);
+}
+
+TEST(Keys, DriveTheRun) {
+  Headless h;
+  EXPECT_FALSE(h.app->session.playing());
+  h.type(" ");
+  EXPECT_TRUE(h.app->session.playing());
+  h.frames(10);
+  h.type(" ");
+  EXPECT_FALSE(h.app->session.playing());
+  const auto frame = h.app->session.state().frame;
+  EXPECT_GT(frame, 0);
+  h.type(".");
+  EXPECT_EQ(h.app->session.state().frame, frame + 1);
+  h.type("r");
+  EXPECT_EQ(h.app->session.state().frame, 0);
+  h.type("3");
+  EXPECT_EQ(h.app->session.settings().mode, Mode::kDamping);
+  h.type("?");
+  EXPECT_TRUE(h.app->desk.help);
+  h.type("t");
+  EXPECT_FALSE(h.app->desk.dark);
+  h.type("]");
+  EXPECT_EQ(h.app->session.speed(), 2.0);
+  h.type("h");
+  EXPECT_FALSE(h.app->desk.panels);
+}
+
+TEST(Pointer, ChoosesAModeAndTurnsTheView) {
+  Headless h;
+  h.click(136.0F, 200.0F);  // "damping"
+  EXPECT_EQ(h.app->session.settings().mode, Mode::kDamping);
+
+  const Vec3 eye = h.app->view.camera.eye(h.app->view_rect);
+  ImGuiIO& io = ImGui::GetIO();
+  io.AddMousePosEvent(620.0F, 300.0F);
+  h.frames(1);
+  io.AddMouseButtonEvent(0, true);
+  h.frames(1);
+  io.AddMousePosEvent(720.0F, 300.0F);
+  h.frames(1);
+  io.AddMouseButtonEvent(0, false);
+  h.frames(30);
+  EXPECT_GT((h.app->view.camera.eye(h.app->view_rect) - eye).norm(), 1.0);
+}
+
+TEST(Trouble, BrokenSceneIsShownAndTheRunningOneKept) {
+  Headless h;
+  h.app->open("bridge");
+  h.app->session.step();
+  const std::uint64_t hash = h.app->session.hash();
+  EXPECT_FALSE(
+      h.app->open_text(R"({"format": "substep-scene", "version": 1, "bodies": 3})", "bad.json"));
+  EXPECT_EQ(h.app->trouble.title, "bad.json was not loaded");
+  EXPECT_GE(h.app->trouble.problems.size(), 2U);
+  h.frames(3);
+  EXPECT_EQ(h.app->session.scene().name, "bridge");
+  EXPECT_EQ(h.app->session.hash(), hash);
+  ImGui::GetIO().AddKeyEvent(ImGuiKey_Escape, true);
+  h.frames(2);
+  EXPECT_TRUE(h.app->trouble.title.empty());
+}
+
+TEST(Trouble, ManyAndLongProblemsStayOnTheDisplay) {
+  Headless h(390, 844, 2.0F);
+  h.app->trouble.title = std::string(200, 'x') + " was not loaded";
+  for (int i = 0; i < 300; ++i) {
+    h.app->trouble.problems.push_back({"/bodies/" + std::to_string(i), std::string(400, 'y')});
+  }
+  h.frames(4);
+  for (const ImGuiWindow* w : open_windows()) {
+    EXPECT_LE(w->Rect().Max.y, 844.0F) << w->Name;
+    EXPECT_LE(w->Rect().Max.x, 390.0F) << w->Name;
+  }
+}
+
+}  // namespace
+}  // namespace substep

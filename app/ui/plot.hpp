@@ -48,6 +48,7 @@ struct PlotSpec {
   std::vector<Level> levels;
   bool logarithmic = false;
   bool from_zero = false;    // the axis starts at 0
+  bool counts = false;       // whole numbers: no lines between them
   double least_span = 1.0;   // smallest range shown, in units of the values
   double factor = 1.0;       // value of one unit of the labels
   bool time_labels = false;  // seconds along the bottom

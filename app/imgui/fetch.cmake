@@ -100,7 +100,8 @@ function(substep_fetch_imgui out)
   endif()
 
   # Builds of one checkout (release, web, ...) share what they fetch.
-  if(PROJECT_BINARY_DIR MATCHES "^${PROJECT_SOURCE_DIR}/build/")
+  string(FIND ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/build/ at)
+  if(at EQUAL 0)
     set(deps ${PROJECT_SOURCE_DIR}/build/deps)
   else()
     set(deps ${PROJECT_BINARY_DIR}/deps)

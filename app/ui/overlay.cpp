@@ -220,7 +220,7 @@ void failure_card(App& app) {
     const char* advice = mode == Mode::kAdaptive
                              ? "A smaller alpha, or a higher limit on N, would help."
                              : "More sub-steps would help: adaptive finds how many.";
-    label(look.fonts.small, look.theme->dim, advice);
+    if (v.height > 400.0F) label(look.fonts.small, look.theme->dim, advice);
     ImGui::Dummy({1.0F, 0.0F});
     if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPrimary, 0.0F, 28.0F,
                "Back to the start (R)")) {

@@ -32,6 +32,9 @@ void substeps_plot(App& app, float height) {
   const double n = shown_value(h[Channel::kSubsteps], h, app.desk.time);
   section(look, "Sub-steps per frame", std::isfinite(n) ? ("N = " + fixed(n, 0)).c_str() : "",
           t.blue);
+  tooltip(look, "Sub-steps per frame",
+          "Blue: the N taken in each frame (Eq. 11). Dashed: the least N that is stable, h √r / 2, "
+          "which is N at alpha = 1. Below that line the scene gains energy.");
 
   PlotSpec spec;
   spec.id = "substeps";
@@ -57,9 +60,6 @@ void substeps_plot(App& app, float height) {
   }
   plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height}, app.desk.time,
        app.desk.substeps_range);
-  tooltip(look, "Sub-steps per frame",
-          "Blue: the N taken in each frame (Eq. 11). Dashed: the least N that is stable, h √r / 2, "
-          "which is N at alpha = 1. Below that line the scene gains energy.");
 }
 
 void energy_plot(App& app, float height) {
@@ -76,6 +76,9 @@ void energy_plot(App& app, float height) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float right = origin.x + ImGui::GetContentRegionAvail().x;
   section(look, (std::string("Energy, ") + unit.prefix + "J").c_str());
+  tooltip(look, "Energy",
+          "Kinetic energy, and how much the total has changed since the start: none, ideally. "
+          "The percentage is of the energy that the motion exchanges.");
   const double now = shown_value(change, h, app.desk.time);
   const double whole = exchanged.value_or(scale);
   std::string total = "total";
@@ -96,9 +99,6 @@ void energy_plot(App& app, float height) {
   spec.series.push_back({change, t.orange, false, false, false, 1.5F});
   plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height}, app.desk.time,
        app.desk.energy_range);
-  tooltip(look, "Energy",
-          "Kinetic energy, and how much the total has changed since the start: none, ideally. "
-          "The percentage is of the energy that the motion exchanges.");
 }
 
 void error_plot(App& app, float height) {
@@ -109,6 +109,9 @@ void error_plot(App& app, float height) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   float right = origin.x + ImGui::GetContentRegionAvail().x;
   section(look, "Error, m");
+  tooltip(look, "Constraint error",
+          "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact. "
+          "On a logarithmic scale.");
   PlotSpec spec;
   spec.id = "error";
   spec.logarithmic = true;
@@ -123,9 +126,6 @@ void error_plot(App& app, float height) {
   if (effects.joints) add(Channel::kJointError, "joints", t.purple);
   plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height}, app.desk.time,
        app.desk.error_range);
-  tooltip(look, "Constraint error",
-          "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact. "
-          "On a logarithmic scale.");
 }
 
 std::string degree_of_freedom(const Scene& scene, const StiffnessLeader& leader) {

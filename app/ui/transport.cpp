@@ -60,7 +60,7 @@ void play_buttons(App& app, float height) {
 }
 
 // Verdict with its sign: a tick or a cross says it as well as the colour does.
-float verdict_chip(App& app, ImVec2 at, float height, float room) {
+void verdict_chip(App& app, ImVec2 at, float height, float room) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const Verdict& verdict = app.session.verdict();
@@ -81,7 +81,6 @@ float verdict_chip(App& app, ImVec2 at, float height, float room) {
   tooltip(look, verdict.text().c_str(),
           "Judged by the criteria in the scene's file: the largest joint gap, energy gained, "
           "a body displaced, numbers that are not finite.");
-  return width;
 }
 
 // Text right-aligned at `right`. @return where it starts
@@ -99,9 +98,11 @@ float status(const Look& look, float right, ImVec2 bar, float height, const std:
   return right - width - 16.0F;
 }
 
-float icon_buttons(App& app, float right, ImVec2 bar, float height) {
+// As many as there is room for, the most useful at the right.
+float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) {
   const Look& look = app.look;
   const auto add = [&](const char* id, Icon icon, const char* tip) {
+    if (right - height < left) return false;
     right -= height;
     ImGui::SetCursorScreenPos({right, bar.y});
     return button(look, id, icon, "", ButtonKind::kGhost, height, height, tip);
@@ -131,11 +132,9 @@ void transport(App& app, bool phone) {
   const ImVec2 time_size = text_size(look.fonts.medium, time.c_str());
 
   if (phone) {
-    const float right = icon_buttons(app, bar.x + width, bar, kHeight);
-    (void)right;
+    icon_buttons(app, after_buttons - 12.0F, bar.x + width, bar, kHeight);
     const float y = bar.y + kHeight + 8.0F;
-    const float chip = verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, width - time_size.x - 16.0F);
-    (void)chip;
+    verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, width - time_size.x - 16.0F);
     draw_text(draw, look.fonts.medium, {bar.x + width - time_size.x, y + 4.0F}, t.text,
               time.c_str());
     return;
@@ -146,7 +145,7 @@ void transport(App& app, bool phone) {
             t.text, time.c_str());
   const float chip_x = after_buttons + time_width + 16.0F;
 
-  float right = icon_buttons(app, bar.x + width, bar, kHeight);
+  float right = icon_buttons(app, after_buttons - 12.0F, bar.x + width, bar, kHeight);
   // A run that rests is drawn only when something changes: a rate would say nothing.
   if (app.session.playing()) {
     const std::string fps = fixed(1.0 / std::max(1e-3, app.frame_time), 0) + " fps";

@@ -110,7 +110,7 @@ void desktop(App& app, ImVec2 display) {
 // View on top (or at the left, when lying), controls in tabs below (or at the right).
 void phone(App& app, ImVec2 display) {
   const bool lying = display.x > display.y;
-  const float side = lying ? std::min(360.0F, 0.5F * display.x) : display.x;
+  const float side = lying ? std::min(392.0F, 0.5F * display.x) : display.x;
   const float top = lying ? 0.0F : std::round(0.44F * display.y);
   app.view_rect = lying ? ViewRect{0.0F, 0.0F, display.x - side, display.y}
                         : ViewRect{0.0F, 0.0F, display.x, top};

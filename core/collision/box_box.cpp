@@ -8,8 +8,9 @@ namespace substep {
 
 namespace {
 
-/// A corner of the clipped incident face, in the frame of the reference box. The two lines that meet
-/// in it name it while the boxes slide: 0..3 edges of the incident face, 4..7 sides of the reference.
+/// A corner of the clipped incident face, in the frame of the reference box. The two lines that
+/// meet in it name it while the boxes slide: 0..3 edges of the incident face, 4..7 sides of the
+/// reference.
 struct Corner {
   Vec3 p = Vec3::Zero();
   unsigned in = 0;   // line that arrives, walking round the polygon
@@ -25,17 +26,20 @@ struct Polygon {
   }
 };
 
-/// Keeps what lies at sign * p[axis] <= limit (Sutherland and Hodgman).
+/// Keeps what lies at sign * p[axis] <= limit (Sutherland and Hodgman). What lies on the limit, up
+/// to rounding, is kept and is no crossing: flush faces have four corners, whatever the last bit
+/// says.
 Polygon clip(const Polygon& in, int axis, double sign, double limit, unsigned side) {
   Polygon out;
+  const double on = 1e-9 * (1.0 + limit);  // [m]
   for (std::size_t i = 0; i < in.size; ++i) {
     const Corner& from = in.corners[i];
     const Corner& to = in.corners[(i + 1) % in.size];
     const double d_from = sign * from.p[axis] - limit;
     const double d_to = sign * to.p[axis] - limit;
-    if (d_from <= 0.0) out.add(from);
-    const bool leaves = d_from < 0.0 && d_to > 0.0;
-    const bool enters = d_from > 0.0 && d_to < 0.0;
+    if (d_from <= on) out.add(from);
+    const bool leaves = d_from < -on && d_to > on;
+    const bool enters = d_from > on && d_to < -on;
     if (leaves || enters) {
       const double t = d_from / (d_from - d_to);
       const Vec3 p = from.p + t * (to.p - from.p);

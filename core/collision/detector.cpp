@@ -14,7 +14,8 @@ Vec3 bounding_half_extents(const Shape& shape, const Mat3& R) {
 
 void touch_plane(const Placed& a, const Shape& shape, const Placed& plane, double margin,
                  ContactPoints& out) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) sphere_plane(a, *sphere, plane, margin, out);
+  if (const auto* sphere = std::get_if<Sphere>(&shape))
+    sphere_plane(a, *sphere, plane, margin, out);
   if (const auto* box = std::get_if<Box>(&shape)) box_plane(a, *box, plane, margin, out);
 }
 
@@ -81,14 +82,16 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& 
   // Sweep along x. Ties in the order do not matter: the pairs are sorted below.
   for (const int body : solids_) {
     const auto k = static_cast<std::size_t>(body);
-    reach_[k] = bounding_half_extents(scene.bodies[k].shape, R_WB[k]) + Vec3::Constant(0.5 * margin);
+    reach_[k] =
+        bounding_half_extents(scene.bodies[k].shape, R_WB[k]) + Vec3::Constant(0.5 * margin);
     intervals_.push_back({state.x[k].x() - reach_[k].x(), state.x[k].x() + reach_[k].x(), body});
   }
   std::sort(intervals_.begin(), intervals_.end(), [](const Interval& p, const Interval& q) {
     return p.lo != q.lo ? p.lo < q.lo : p.body < q.body;
   });
   for (std::size_t p = 0; p < intervals_.size(); ++p) {
-    for (std::size_t q = p + 1; q < intervals_.size() && intervals_[q].lo <= intervals_[p].hi; ++q) {
+    for (std::size_t q = p + 1; q < intervals_.size() && intervals_[q].lo <= intervals_[p].hi;
+         ++q) {
       const int i = std::min(intervals_[p].body, intervals_[q].body);
       const int j = std::max(intervals_[p].body, intervals_[q].body);
       const auto ki = static_cast<std::size_t>(i);
@@ -99,20 +102,20 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& 
       if (may_touch(scene, i, j)) pairs_.push_back({i, j});
     }
   }
-  std::sort(pairs_.begin(), pairs_.end(), [](const Pair& p, const Pair& q) {
-    return p.i != q.i ? p.i < q.i : p.j < q.j;
-  });
+  std::sort(pairs_.begin(), pairs_.end(),
+            [](const Pair& p, const Pair& q) { return p.i != q.i ? p.i < q.i : p.j < q.j; });
 
   for (const int plane : planes_) {
     for (const int body : solids_) {
       if (!may_touch(scene, body, plane)) continue;
-      touch_plane(placed(body), scene.bodies[static_cast<std::size_t>(body)].shape, placed(plane), margin,
-                  points_);
+      touch_plane(placed(body), scene.bodies[static_cast<std::size_t>(body)].shape, placed(plane),
+                  margin, points_);
     }
   }
   for (const Pair& pair : pairs_) {
-    touch_solids(placed(pair.i), scene.bodies[static_cast<std::size_t>(pair.i)].shape, placed(pair.j),
-                 scene.bodies[static_cast<std::size_t>(pair.j)].shape, margin, points_);
+    touch_solids(placed(pair.i), scene.bodies[static_cast<std::size_t>(pair.i)].shape,
+                 placed(pair.j), scene.bodies[static_cast<std::size_t>(pair.j)].shape, margin,
+                 points_);
   }
   return points_;
 }

@@ -10,25 +10,25 @@ namespace substep {
 
 /// A shape at its place.
 struct Placed {
-  int body = 0;                 // index into Scene::bodies
-  Vec3 x = Vec3::Zero();        // centre, world [m]
-  Mat3 R = Mat3::Identity();    // R_WB
+  int body = 0;               // index into Scene::bodies
+  Vec3 x = Vec3::Zero();      // centre, world [m]
+  Mat3 R = Mat3::Identity();  // R_WB
 };
 
 using ContactPoints = std::vector<ContactPoint>;
 
 /// Names a contact: the two bodies and the features that touch (below 2^20).
 inline std::uint64_t contact_id(int a, int b, std::uint64_t feature) {
-  return (1ULL << 63U) | (static_cast<std::uint64_t>(a) << 42U) | (static_cast<std::uint64_t>(b) << 20U) |
-         feature;
+  return (1ULL << 63U) | (static_cast<std::uint64_t>(a) << 42U) |
+         (static_cast<std::uint64_t>(b) << 20U) | feature;
 }
 
 void sphere_plane(const Placed& a, const Sphere& sphere, const Placed& b, double margin,
                   ContactPoints& out);
 void sphere_sphere(const Placed& a, const Sphere& sphere_a, const Placed& b, const Sphere& sphere_b,
                    double margin, ContactPoints& out);
-void sphere_box(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box, double margin,
-                ContactPoints& out);
+void sphere_box(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box,
+                double margin, ContactPoints& out);
 /// One point per corner; the feature is the corner.
 void box_plane(const Placed& a, const Box& box, const Placed& b, double margin, ContactPoints& out);
 /// Face against face: the corners of the incident face clipped by the sides of the reference face.

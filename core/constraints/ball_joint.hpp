@@ -9,8 +9,8 @@ namespace substep {
 
 /// World pose of one side of a joint. For kWorld: origin, no rotation.
 struct Side {
-  Vec3 x = Vec3::Zero();           // centre of mass, world [m]
-  Mat3 R = Mat3::Identity();       // R_WB
+  Vec3 x = Vec3::Zero();      // centre of mass, world [m]
+  Mat3 R = Mat3::Identity();  // R_WB
 };
 
 /// Rows 0..2: phi = x_a + r_a - x_b - r_b, world axes [m].

@@ -21,9 +21,9 @@ void set_row(Block& block, int row, const Vec3& direction) {
 
 // C     = D(p) - radius, with n = grad D
 // dC/dt = n . (v_a + omega_a x r_a - v_b - omega_b x r_b)
-// The parts of r_a and r_b along n drop out of the cross products, so any point between the surfaces
-// serves. Both bodies take the one halfway: then friction is one force at one point, and angular
-// momentum is conserved.
+// The parts of r_a and r_b along n drop out of the cross products, so any point between the
+// surfaces serves. Both bodies take the one halfway: then friction is one force at one point, and
+// angular momentum is conserved.
 void contact_row(const ContactPoint& point, const ContactModel& model, const Vec3& x_a,
                  const Vec3& x_b, Block& block) {
   block.kind = BlockKind::kContact;
@@ -46,7 +46,8 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
 }
 
 void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block& block) {
-  // x unless the normal is nearly along it: a fixed preference, not a comparison that rounding decides.
+  // x unless the normal is nearly along it: a fixed preference, not a comparison that rounding
+  // decides.
   const Vec3 x = R_WB.col(0);
   const Vec3 helper = std::abs(block.n.dot(x)) < 0.8 ? x : Vec3(R_WB.col(2));
   block.t1 = (helper - block.n * block.n.dot(helper)).normalized();
@@ -67,8 +68,9 @@ void contact_stiffness_paper(const Block& block, StiffnessMatrix& K) {
   if (block.b >= 0) K.add_angular(block.b, block.b, -skew(l) * skew(block.r_b));
 }
 
-// The force on a is l n at p = x_a + r (r = arm_a, turning with a), that on b is -l n with the torque
-// -l rho x n about x_b, rho = p - x_b. The normal turns with b and with p in b's distance field:
+// The force on a is l n at p = x_a + r (r = arm_a, turning with a), that on b is -l n with the
+// torque -l rho x n about x_b, rho = p - x_b. The normal turns with b and with p in b's distance
+// field:
 //   dn = theta_b x n + H (dp - theta_b x rho),   dp = dx_a - dx_b + theta_a x r
 // Written with matrices: dn = N_b theta_b + H (dx_a - dx_b - [r] theta_a), N_b = H [rho] - [n].
 // Then  d(l n)            = l dn

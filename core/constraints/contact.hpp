@@ -17,8 +17,9 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
 /// @param R_WB rotation of body b
 void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block& block);
 
-/// The paper's block: the contact as a ball-and-socket joint that carries l = lambda_n n + friction.
-/// It is not the derivative of the contact force (it stiffens a sphere's spin); it steers N only.
+/// The paper's block: the contact as a ball-and-socket joint that carries l = lambda_n n +
+/// friction. It is not the derivative of the contact force (it stiffens a sphere's spin); it steers
+/// N only.
 void contact_stiffness_paper(const Block& block, StiffnessMatrix& K);
 
 /// The true derivative of the normal force and its torques.

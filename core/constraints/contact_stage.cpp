@@ -5,8 +5,8 @@
 
 namespace substep {
 
-void ContactStage::detect_and_append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
-                                     Blocks& blocks) {
+void ContactStage::detect_and_append(const Scene& scene, const State& state,
+                                     std::span<const Mat3> R_WB, Blocks& blocks) {
   for (const ContactPoint& point : detector_.detect(scene, state, R_WB)) {
     const auto a = static_cast<std::size_t>(point.a);
     const auto b = static_cast<std::size_t>(point.b);
@@ -17,7 +17,8 @@ void ContactStage::detect_and_append(const Scene& scene, const State& state, std
   }
 }
 
-double ContactStage::penetration(const Scene& scene, const State& state, std::span<const Mat3> R_WB) {
+double ContactStage::penetration(const Scene& scene, const State& state,
+                                 std::span<const Mat3> R_WB) {
   double deepest = 0.0;
   for (const ContactPoint& point : detector_.detect(scene, state, R_WB)) {
     deepest = std::max(deepest, -point.gap);

@@ -44,7 +44,8 @@ void JointStage::fill(const Scene& scene, const State& state, std::span<const Ma
 
 void JointStage::append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
                         Blocks& blocks) const {
-  for (std::size_t i = 0; i < scene.joints.size(); ++i) fill(scene, state, R_WB, i, blocks.append());
+  for (std::size_t i = 0; i < scene.joints.size(); ++i)
+    fill(scene, state, R_WB, i, blocks.append());
 }
 
 JointErrors JointStage::errors(const Scene& scene, const State& state,

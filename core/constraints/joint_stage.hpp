@@ -12,16 +12,17 @@ namespace substep {
 
 /// Errors of all joints at a state.
 struct JointErrors {
-  double sum = 0.0;   // 1-norms of phi over all joints [m, rad]
-  double gap = 0.0;   // largest distance of two anchors [m]
-  int joint = -1;     // whose it is
+  double sum = 0.0;  // 1-norms of phi over all joints [m, rad]
+  double gap = 0.0;  // largest distance of two anchors [m]
+  int joint = -1;    // whose it is
 };
 
 /// phi and J of every joint of a scene, in file order.
 class JointStage {
  public:
   explicit JointStage(const Scene& scene);
-  void append(const Scene& scene, const State& state, std::span<const Mat3> R_WB, Blocks& blocks) const;
+  void append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+              Blocks& blocks) const;
   [[nodiscard]] JointErrors errors(const Scene& scene, const State& state,
                                    std::span<const Mat3> R_WB) const;
   [[nodiscard]] int rows() const { return rows_; }

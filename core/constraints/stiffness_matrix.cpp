@@ -41,10 +41,11 @@ Mat6 StiffnessMatrix::block(int row, int col) const {
 void StiffnessMatrix::column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const {
   // A norm does not change with the axes of the rows, so only the columns are turned.
   const auto add_squares = [](const Mat6& K, const Mat3& R, Vec6& sum) {
+    const Eigen::Matrix<double, 6, 3> linear = K.leftCols<3>() * R;
     const Eigen::Matrix<double, 6, 3> angular = K.rightCols<3>() * R;
     for (int c = 0; c < 3; ++c) {
       for (int i = 0; i < 6; ++i) {
-        sum[c] += K(i, c) * K(i, c);
+        sum[c] += linear(i, c) * linear(i, c);
         sum[3 + c] += angular(i, c) * angular(i, c);
       }
     }

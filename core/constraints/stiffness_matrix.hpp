@@ -16,11 +16,13 @@ class StiffnessMatrix {
   /// Zero, for this many bodies.
   void clear(std::size_t bodies);
   /// Adds to the angular-angular part. @param block [N m/rad]
-  void add_angular(int row, int col, const Mat3& block) { at(row, col).bottomRightCorner<3, 3>() += block; }
+  void add_angular(int row, int col, const Mat3& block) {
+    at(row, col).bottomRightCorner<3, 3>() += block;
+  }
   /// Adds a whole block. @param block [N/m, N/rad; N, N m/rad]
   void add(int row, int col, const Mat6& block) { at(row, col) += block; }
 
-  /// K_d (Eq. 4): the 2-norm of every column, the angular columns along the principal axes.
+  /// K_d (Eq. 4): the 2-norm of every column, columns taken along the body's principal axes.
   /// @param R_WB rotation per body  @param k out, 6 per body [N/m, N m/rad], >= 0
   void column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const;
 
@@ -36,7 +38,7 @@ class StiffnessMatrix {
   Mat6& at(int row, int col);
 
   std::vector<Mat6> diagonal_;
-  std::vector<int> first_;      // per column body: its first off-diagonal entry, or -1
+  std::vector<int> first_;  // per column body: its first off-diagonal entry, or -1
   std::vector<Entry> entries_;
 };
 

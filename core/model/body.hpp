@@ -11,16 +11,17 @@ namespace substep {
 struct Body {
   std::string name;
   Shape shape = Sphere{};
-  bool is_static = false;            // a static body never moves and has no mass
-  double mass = 1.0;                 // [kg], > 0 for a moving body
-  Vec3 inertia = Vec3::Zero();       // principal moments [kg m^2], > 0 for a moving body
-  Vec3 position = Vec3::Zero();      // centre of mass, world [m]
-  Quat orientation = Quat::Identity();  // q_WB, unit [-]
-  Vec3 velocity = Vec3::Zero();         // world [m/s]
+  bool is_static = false;                // a static body never moves and has no mass
+  double mass = 1.0;                     // [kg], > 0 for a moving body
+  Vec3 inertia = Vec3::Zero();           // principal moments [kg m^2], > 0 for a moving body
+  Vec3 position = Vec3::Zero();          // centre of mass, world [m]
+  Quat orientation = Quat::Identity();   // q_WB, unit [-]
+  Vec3 velocity = Vec3::Zero();          // world [m/s]
   Vec3 angular_velocity = Vec3::Zero();  // world [rad/s]
   double friction = 0.0;                 // Coulomb coefficient [-]; a pair uses sqrt(mu_a mu_b)
-  int collision_group = -1;  // bodies of one group >= 0 do not collide with each other; -1: no group
-  bool collides = true;      // false: never touches anything
+  int collision_group =
+      -1;                // bodies of one group >= 0 do not collide with each other; -1: no group
+  bool collides = true;  // false: never touches anything
 };
 
 }  // namespace substep

@@ -12,11 +12,11 @@ inline constexpr int kWorld = -1;  ///< as a joint's body b: fixed in the world
 /// What every joint has. Body a moves; body b may be moving, static, or kWorld.
 struct JointBase {
   std::string name;
-  int a = 0;                       // index into Scene::bodies
-  int b = kWorld;                  // index into Scene::bodies, or kWorld
-  Vec3 anchor_a = Vec3::Zero();    // in the frame of a [m]
-  Vec3 anchor_b = Vec3::Zero();    // in the frame of b, or in the world for kWorld [m]
-  double compliance = 0.0;         // C of the three positional rows [m/N], >= 0
+  int a = 0;                     // index into Scene::bodies
+  int b = kWorld;                // index into Scene::bodies, or kWorld
+  Vec3 anchor_a = Vec3::Zero();  // in the frame of a [m]
+  Vec3 anchor_b = Vec3::Zero();  // in the frame of b, or in the world for kWorld [m]
+  double compliance = 0.0;       // C of the three positional rows [m/N], >= 0
 };
 
 /// The two anchors coincide: 3 rows.

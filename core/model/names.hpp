@@ -48,9 +48,8 @@ struct NameTable<Drift> {
 };
 template <>
 struct NameTable<ContactStiffness> {
-  static constexpr std::array entries{
-      Named<ContactStiffness>{"paper", ContactStiffness::kPaper},
-      Named<ContactStiffness>{"exact", ContactStiffness::kExact}};
+  static constexpr std::array entries{Named<ContactStiffness>{"paper", ContactStiffness::kPaper},
+                                      Named<ContactStiffness>{"exact", ContactStiffness::kExact}};
 };
 template <>
 struct NameTable<Gyroscopic> {

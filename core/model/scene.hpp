@@ -20,17 +20,17 @@ struct ContactModel {
 
 /// When a run counts as failed, and what it is measured by.
 struct Criteria {
-  double duration = 10.0;                // how long `check` runs [s]
-  double joint_gap = 0.1;                // a larger gap of any joint fails [m]
-  std::optional<double> energy_gain;     // more energy than at the start by this fails [J]
-  std::optional<double> energy_scale;    // energy that can be exchanged: 100 % of the drift [J]
+  double duration = 10.0;              // how long `check` runs [s]
+  double joint_gap = 0.1;              // a larger gap of any joint fails [m]
+  std::optional<double> energy_gain;   // more energy than at the start by this fails [J]
+  std::optional<double> energy_scale;  // energy that can be exchanged: 100 % of the drift [J]
   struct Displacement {
-    int body = 0;          // index into Scene::bodies
+    int body = 0;           // index into Scene::bodies
     double distance = 0.1;  // [m]
   };
   std::optional<Displacement> displacement;  // this body moved farther than this fails
   std::optional<int> track;                  // the body whose path counts as the motion
-  bool holds = true;  // the verdict expected with the scene's own settings
+  bool holds = true;                         // the verdict expected with the scene's own settings
 };
 
 /// Where a view starts looking from.
@@ -47,7 +47,7 @@ struct Scene {
   std::string description;  // what it is
   std::string look_for;     // what to watch
 
-  double frame = 1.0 / 60.0;  // h, the displayed frame [s]
+  double frame = 1.0 / 60.0;      // h, the displayed frame [s]
   Vec3 gravity{0.0, -9.81, 0.0};  // [m/s^2]
   Effects effects;
   std::vector<Body> bodies;

@@ -21,7 +21,8 @@ struct Plane {};
 
 using Shape = std::variant<Sphere, Box, Plane>;
 
-/// Principal moments of a solid shape about its centre [kg m^2], in the body's axes. A plane has none.
+/// Principal moments of a solid shape about its centre [kg m^2], in the body's axes. A plane has
+/// none.
 Vec3 solid_inertia(const Shape& shape, double mass);
 
 }  // namespace substep

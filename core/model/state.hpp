@@ -11,9 +11,9 @@ struct Scene;
 
 /// Force of a constraint that outlives its sub-step: seeds friction bounds and warm starts.
 struct StoredForce {
-  std::uint64_t id = 0;         // of the constraint block
-  double lambda[5] = {};        // per row [N or N m]
-  std::int8_t tight[5] = {};    // per row: active set of BPP, -1 at lo, 0 free, +1 at hi
+  std::uint64_t id = 0;       // of the constraint block
+  double lambda[5] = {};      // per row [N or N m]
+  std::int8_t tight[5] = {};  // per row: active set of BPP, -1 at lo, 0 free, +1 at hi
 };
 
 /// Everything that changes while a scene runs. A copy is a snapshot: the motion goes on from it bit
@@ -26,8 +26,8 @@ struct State {
   double time = 0.0;         // [s]
   double dt_previous = 0.0;  // the last sub-step, 0 at the start [s]
 
-  double r = 0.0;              // largest k_i/M_ii, Eq. 9 [1/s^2]
-  std::vector<Vec6> k;         // diagonal of K per body, Eq. 4 [N/m, N m/rad], or empty
+  double r = 0.0;                // largest k_i/M_ii, Eq. 9 [1/s^2]
+  std::vector<Vec6> k;           // diagonal of K per body, Eq. 4 [N/m, N m/rad], or empty
   bool stiffness_known = false;  // r and k are of the last frame; where not, a probe is due
   std::vector<StoredForce> forces;
   std::vector<Vec6> u_synchronised;  // u at the time of x, for energies

@@ -8,16 +8,18 @@ namespace substep {
 /// How a frame ended.
 enum class StepStatus : std::uint8_t {
   kOk,
-  kNotFinite,  // a velocity left the range of numbers; the state is that of the last finite sub-step
+  kNotFinite,  // a velocity left the range of numbers; the state is that of the last finite
+               // sub-step
 };
 
-/// The body and degree of freedom that set r, or body = -1 where K is zero or not evaluated.
+/// The body and degree of freedom with the largest k/M at the end of a frame: what the next frame's
+/// N goes by. body = -1 where K is zero or was not evaluated in the frame.
 struct StiffnessLeader {
   int body = -1;
-  int dof = 0;          // 0..2 linear along world x, y, z; 3..5 about the body's principal axes
-  double k = 0.0;       // K_d,i [N/m or N m/rad]
-  double mass = 0.0;    // M_ii [kg or kg m^2]
-  double r = 0.0;       // k / mass [1/s^2]
+  int dof = 0;        // 0..2 along, 3..5 about the body's principal axes
+  double k = 0.0;     // K_d,i [N/m or N m/rad]
+  double mass = 0.0;  // M_ii [kg or kg m^2]
+  double r = 0.0;     // k / mass [1/s^2]
 };
 
 /// What the solver did, summed over the sub-steps of a frame.
@@ -28,8 +30,10 @@ struct SolverWork {
   std::int64_t pivots = 0;       // BPP: changes of the active set
   std::int64_t passes = 0;       // BPP: refreshes of the friction bounds, the first included
   std::int64_t factorisations = 0;
-  std::int64_t unsolved = 0;     // BPP: solves that ended on the bound of steps
-  double residual = 0.0;         // largest violation of bounds and complementarity [N s or m/s]
+  std::int64_t unsettled = 0;  // BPP: solves whose friction bounds still moved after four passes
+  std::int64_t unsolved = 0;   // BPP: solves that ended on the bound of pivots
+  double residual = 0.0;       // of the last sub-step: largest violation of bounds [N s] and
+                               // complementarity [m/s]
 };
 
 /// Wall time by stage [s]. A stage that the scene does not call for stays 0.
@@ -58,22 +62,23 @@ struct StagesRun {
 
 /// All that a frame tells. Plots, CSV, verdicts and scripts read only this.
 struct FrameReport {
-  std::int64_t frame = 0;    // frames done
-  double time = 0.0;         // [s], at the end of the frame
+  std::int64_t frame = 0;  // frames done
+  double time = 0.0;       // [s], at the end of the frame
   StepStatus status = StepStatus::kOk;
-  int failed_body = -1;      // where the first number that is not finite appeared
+  int failed_body = -1;  // where the first number that is not finite appeared
 
-  int n_substeps = 0;        // taken in this frame
-  int n_wanted = 1;          // by Eq. 11 before the cap
-  bool capped = false;       // n_wanted was more than allowed
-  double dt_min = 0.0;       // shortest sub-step [s]
-  double dt_max = 0.0;       // longest sub-step [s]
-  double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10 [s]
-  StiffnessLeader leader;    // who set r
+  int n_substeps = 0;                                          // taken in this frame
+  int n_wanted = 1;                                            // by Eq. 11 before the cap
+  bool capped = false;                                         // n_wanted was more than allowed
+  double dt_min = 0.0;                                         // shortest sub-step [s]
+  double dt_max = 0.0;                                         // longest sub-step [s]
+  double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10, at the
+                                                               // end of the frame [s]
+  StiffnessLeader leader;                                      // who set r
 
-  double kinetic = 0.0;         // synchronised with the positions [J]
-  double potential = 0.0;       // of gravity [J]
-  double energy = 0.0;          // kinetic + potential [J]
+  double kinetic = 0.0;           // synchronised with the positions [J]
+  double potential = 0.0;         // of gravity [J]
+  double energy = 0.0;            // kinetic + potential [J]
   double constraint_error = 0.0;  // sum over joints of the 1-norm of phi [m, rad]
   double joint_gap = 0.0;         // largest distance between the anchors of a joint [m]
   int joint_gap_joint = -1;       // index of that joint

@@ -1,6 +1,7 @@
 // Building a simulator, and everything around a frame.
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
@@ -29,8 +30,8 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
 }
 
 bool Simulator::Impl::probe_due() const {
-  const bool reads_stiffness = settings.mode == Mode::kDamping || settings.mode == Mode::kAdaptive ||
-                               settings.mode == Mode::kCapped;
+  const bool reads_stiffness = settings.mode == Mode::kDamping ||
+                               settings.mode == Mode::kAdaptive || settings.mode == Mode::kCapped;
   return settings.probe && reads_stiffness && !state.stiffness_known;
 }
 
@@ -38,11 +39,11 @@ bool Simulator::Impl::probe_due() const {
 void Simulator::Impl::probe(FrameReport& report) {
   const double h = scene->frame;
   const Settings chosen = settings;
-  settings.mode = Mode::kNone;  // Mt = M: there is no k to damp by yet
+  settings.mode = Mode::kNone;               // Mt = M: there is no k to damp by yet
+  settings.integrator = Integrator::kEuler;  // forces act for the whole of h
   begin_substep(report);
   append_rows(report);
   external_forces(h, report);
-  impulse_time = h;
   solve(h, true, report);
   settings = chosen;
   if (finite(report)) {
@@ -63,6 +64,10 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
   if (report.status == StepStatus::kOk) {
     state.r = clock_of_frame.r();
     state.stiffness_known = report.stages.stiffness;
+    if (!state.stiffness_known) {  // an old K must not be taken for this frame's
+      state.k.clear();
+      state.r = 0.0;
+    }
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
   }
@@ -79,9 +84,6 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
     }
   }
   observe(report);
-  const StageTimes& t = report.times;
-  report.times.total =
-      t.joints + t.contact + t.friction + t.mass + t.solve + t.stiffness + t.integrate;
   if (report.status != StepStatus::kOk) stopped = report;
 }
 
@@ -107,7 +109,8 @@ void Simulator::Impl::observe(FrameReport& report) {
   if (contact) report.penetration = contact->penetration(*scene, state, R_WB);
 }
 
-Simulator::Simulator(std::shared_ptr<const Scene> scene) : impl_(std::make_unique<Impl>(std::move(scene))) {}
+Simulator::Simulator(std::shared_ptr<const Scene> scene)
+    : impl_(std::make_unique<Impl>(std::move(scene))) {}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
@@ -126,6 +129,8 @@ const Scene& Simulator::scene() const { return *impl_->scene; }
 const State& Simulator::state() const { return impl_->state; }
 
 void Simulator::set_state(State state) {
+  assert(state.x.size() == impl_->scene->bodies.size() &&
+         "a state goes on in the scene it is from");
   impl_->state = std::move(state);
   impl_->state.forces.reserve(impl_->blocks.capacity());
   impl_->stopped = FrameReport{};

@@ -17,10 +17,12 @@ class Simulator {
   Simulator& operator=(Simulator&&) noexcept;
 
   /// One displayed frame of length scene().frame: Algorithm 1 of the paper. Never throws. After a
-  /// status other than kOk the state is that of the last finite sub-step and further calls do nothing.
+  /// status other than kOk the state is that of the last finite sub-step and further calls do
+  /// nothing.
   FrameReport step();
 
-  /// Energies, errors and rows of the current state, without stepping.
+  /// Energies and errors of the current state, without stepping. Rows and work are a frame's: 0
+  /// here.
   [[nodiscard]] FrameReport observe() const;
 
   /// Back to the scene's start. Settings stay.

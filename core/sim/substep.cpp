@@ -23,6 +23,7 @@ bool has_gyroscopic_torque(const Body& body) {
 }  // namespace
 
 void Simulator::Impl::begin_substep(FrameReport& report) {
+  clock = StageClock();
   for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
   std::copy(state.u.begin(), state.u.end(), u_start.begin());
   ++report.n_substeps;
@@ -30,7 +31,6 @@ void Simulator::Impl::begin_substep(FrameReport& report) {
 
 void Simulator::Impl::append_rows(FrameReport& report) {
   blocks.clear();
-  clock = StageClock();
   if (joints) {
     joints->append(*scene, state, R_WB, blocks);
     clock.lap(report.times.joints);
@@ -52,10 +52,9 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
       if (!has_gyroscopic_torque(scene->bodies[i])) continue;
       const Vec3& I = scene->bodies[i].inertia;
       const Vec3 omega_B = R_WB[i].transpose() * state.u[i].tail<3>();
-      state.u[i].tail<3>() =
-          R_WB[i] * (settings.gyroscopic == Gyroscopic::kImplicit
-                         ? gyroscopic_implicit(I, omega_B, state.dt_previous, dt)
-                         : gyroscopic_explicit(I, omega_B, impulse_time));
+      state.u[i].tail<3>() = R_WB[i] * (settings.gyroscopic == Gyroscopic::kImplicit
+                                            ? gyroscopic_implicit(I, omega_B, state.dt_previous, dt)
+                                            : gyroscopic_explicit(I, omega_B, impulse_time));
     }
     report.stages.gyroscopic = true;
   }
@@ -94,9 +93,9 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   smooth = true;
   for (Block& block : rows) {
     if (block.is_contact() && !block.was_closed && block.impulse[0] > 0.0) smooth = false;
-    for (int row = 0; row < block.rows; ++row) block.lambda[row] = block.impulse[row] / impulse_time;
+    for (int row = 0; row < block.rows; ++row)
+      block.lambda[row] = block.impulse[row] / impulse_time;
   }
-  store_forces();
 
   SolverWork& work = report.work;
   ++work.solves;
@@ -106,6 +105,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   work.passes += solved.passes;
   work.factorisations += solved.factorisations;
   if (solved.status == SolveStatus::kUnsolved) ++work.unsolved;
+  if (solved.status == SolveStatus::kUnsettled) ++work.unsettled;
   clock.lap(report.times.solve);
 }
 
@@ -119,6 +119,7 @@ bool Simulator::Impl::finite(FrameReport& report) {
     std::copy(u_start.begin(), u_start.end(), state.u.begin());
     return false;
   }
+  store_forces();
   return true;
 }
 
@@ -135,7 +136,8 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   integrate(*scene, dt, state);
   // u stands half a sub-step behind the new poses. Half a sub-step of the accelerations just found
   // brings it up to them; an impact is no acceleration, so nothing is added then.
-  const double before = settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
+  const double before =
+      settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
   const double ahead = smooth ? dt / (before + dt) : 0.0;
   for (std::size_t i = 0; i < state.u.size(); ++i) {
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
@@ -156,8 +158,10 @@ void Simulator::Impl::seed_forces() {
   const std::size_t known = state.forces.size();
   for (Block& block : blocks.all()) {
     std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
-    std::fill(block.tight, block.tight + kMaxRows, block.is_contact() ? kUnknownSet : std::int8_t{0});
+    std::fill(block.tight, block.tight + kMaxRows,
+              block.is_contact() ? kUnknownSet : std::int8_t{0});
     block.was_closed = false;
+    if (!block.is_contact() && !settings.warm_start) continue;  // not stored
     for (std::size_t tried = 0; tried < known; ++tried) {
       const StoredForce& force = state.forces[(next + tried) % known];
       if (force.id != block.id) continue;

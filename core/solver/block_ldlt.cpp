@@ -1,23 +1,27 @@
 #include "core/solver/block_ldlt.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace substep {
 
 namespace {
 
 /// W = Mt^-1 J^T: 6 x rows.
-void weigh(const double (&J)[kMaxRows][6], int rows, const InverseMass& mass, double (&W)[6][kMaxRows]) {
+void weigh(const double (&J)[kMaxRows][6], int rows, const InverseMass& mass,
+           double (&W)[6][kMaxRows]) {
   for (int r = 0; r < rows; ++r) {
     for (int i = 0; i < 3; ++i) {
       W[i][r] = mass.linear * J[r][i];
-      W[3 + i][r] = mass.angular(i, 0) * J[r][3] + mass.angular(i, 1) * J[r][4] + mass.angular(i, 2) * J[r][5];
+      W[3 + i][r] = mass.angular(i, 0) * J[r][3] + mass.angular(i, 1) * J[r][4] +
+                    mass.angular(i, 2) * J[r][5];
     }
   }
 }
 
 /// out += J W, rows x cols, from the component `First` on. The innermost loop runs along a row of W
-/// and of out, so that compilers can take two columns at a time without touching the order of a sum.
+/// and of out, so that compilers can take two columns at a time without touching the order of a
+/// sum.
 template <int Rows, int Cols, int First>
 void add_product(const double (&J)[kMaxRows][6], const double (&W)[6][kMaxRows], double* out) {
   for (int r = 0; r < Rows; ++r) {
@@ -31,13 +35,19 @@ void add_product(const double (&J)[kMaxRows][6], const double (&W)[6][kMaxRows],
 }
 
 template <int Rows, int First>
-void add_product(const double (&J)[kMaxRows][6], const double (&W)[6][kMaxRows], int cols, double* out) {
+void add_product(const double (&J)[kMaxRows][6], const double (&W)[6][kMaxRows], int cols,
+                 double* out) {
   switch (cols) {
-    case 1: return add_product<Rows, 1, First>(J, W, out);
-    case 2: return add_product<Rows, 2, First>(J, W, out);
-    case 3: return add_product<Rows, 3, First>(J, W, out);
-    case 4: return add_product<Rows, 4, First>(J, W, out);
-    default: return add_product<Rows, 5, First>(J, W, out);
+    case 1:
+      return add_product<Rows, 1, First>(J, W, out);
+    case 2:
+      return add_product<Rows, 2, First>(J, W, out);
+    case 3:
+      return add_product<Rows, 3, First>(J, W, out);
+    case 4:
+      return add_product<Rows, 4, First>(J, W, out);
+    default:
+      return add_product<Rows, 5, First>(J, W, out);
   }
 }
 
@@ -45,18 +55,23 @@ template <int First>
 void add_product(const double (&J)[kMaxRows][6], int rows, const double (&W)[6][kMaxRows], int cols,
                  double* out) {
   switch (rows) {
-    case 1: return add_product<1, First>(J, W, cols, out);
-    case 2: return add_product<2, First>(J, W, cols, out);
-    case 3: return add_product<3, First>(J, W, cols, out);
-    case 4: return add_product<4, First>(J, W, cols, out);
-    default: return add_product<5, First>(J, W, cols, out);
+    case 1:
+      return add_product<1, First>(J, W, cols, out);
+    case 2:
+      return add_product<2, First>(J, W, cols, out);
+    case 3:
+      return add_product<3, First>(J, W, cols, out);
+    case 4:
+      return add_product<4, First>(J, W, cols, out);
+    default:
+      return add_product<5, First>(J, W, cols, out);
   }
 }
 
-/// What two blocks share through one body: out += J_row Mt^-1 J_col^T. Between two pinned blocks the
-/// linear part is +-E/m and is written down instead of multiplied out.
-void couple(const Block& row, bool row_is_a, const Block& col, bool col_is_a, const double (&W)[6][kMaxRows],
-            const InverseMass& mass, double* out) {
+/// What two blocks share through one body: out += J_row Mt^-1 J_col^T. Between two pinned blocks
+/// the linear part is +-E/m and is written down instead of multiplied out.
+void couple(const Block& row, bool row_is_a, const Block& col, bool col_is_a,
+            const double (&W)[6][kMaxRows], const InverseMass& mass, double* out) {
   const auto& J = row_is_a ? row.J_a : row.J_b;
   if (row.pinned && col.pinned) {
     const double by_mass = row_is_a == col_is_a ? mass.linear : -mass.linear;
@@ -159,7 +174,8 @@ void BlockLdlt::lay_out(std::span<const Block> blocks) {
     diagonals_[i] = nodes_[static_cast<std::size_t>(at_i)].panel;
     for (const int body : {blocks[i].a, blocks[i].b}) {
       if (body < 0) continue;
-      if (on_body_.size() <= static_cast<std::size_t>(body)) on_body_.resize(static_cast<std::size_t>(body) + 1);
+      if (on_body_.size() <= static_cast<std::size_t>(body))
+        on_body_.resize(static_cast<std::size_t>(body) + 1);
       auto& list = on_body_[static_cast<std::size_t>(body)];
       for (const int other : list) {
         const int at_other = order_.position(other);
@@ -209,17 +225,20 @@ void BlockLdlt::begin(const System& system) {
   if (order_.update(system.blocks, system.u.size())) lay_out(system.blocks);
   form(system);
   eliminate(0, order_.joints());
-  std::copy(values_.begin() + static_cast<std::ptrdiff_t>(contacts_at_), values_.end(), contacts_.begin());
+  std::copy(values_.begin() + static_cast<std::ptrdiff_t>(contacts_at_), values_.end(),
+            contacts_.begin());
 }
 
 void BlockLdlt::factor_contacts(std::span<const Block> blocks) {
-  std::copy(contacts_.begin(), contacts_.end(), values_.begin() + static_cast<std::ptrdiff_t>(contacts_at_));
+  std::copy(contacts_.begin(), contacts_.end(),
+            values_.begin() + static_cast<std::ptrdiff_t>(contacts_at_));
   for (std::size_t p = order_.joints(); p < nodes_.size(); ++p) {
     const Node& node = nodes_[p];
     double* panel = values_.data() + node.panel;
     const auto cols = static_cast<std::size_t>(node.rows);
     const auto clear_tight_rows = [&](int of_node, std::size_t offset) {
-      const Block& block = blocks[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(of_node)].block)];
+      const Block& block =
+          blocks[static_cast<std::size_t>(nodes_[static_cast<std::size_t>(of_node)].block)];
       for (int r = 0; r < block.rows; ++r) {
         if (block.tight[r] == 0) continue;
         double* row = panel + (offset + static_cast<std::size_t>(r)) * cols;
@@ -248,11 +267,21 @@ void BlockLdlt::eliminate(std::size_t from, std::size_t to) {
   for (std::size_t p = from; p < to; ++p) {
     const Node& node = nodes_[p];
     switch (node.rows) {
-      case 1: eliminate<1>(node); break;
-      case 2: eliminate<2>(node); break;
-      case 3: eliminate<3>(node); break;
-      case 4: eliminate<4>(node); break;
-      default: eliminate<5>(node); break;
+      case 1:
+        eliminate<1>(node);
+        break;
+      case 2:
+        eliminate<2>(node);
+        break;
+      case 3:
+        eliminate<3>(node);
+        break;
+      case 4:
+        eliminate<4>(node);
+        break;
+      default:
+        eliminate<5>(node);
+        break;
     }
   }
 }
@@ -270,7 +299,8 @@ void BlockLdlt::eliminate(const Node& node) {
       v[m] = D[j * K + m] / D[m * K + m];  // L_jm d_m
       d -= D[j * K + m] * v[m];
     }
-    D[j * K + j] = 1.0 / d;
+    // A zero pivot: redundant rows without compliance. What follows is not a number, and is caught.
+    D[j * K + j] = d != 0.0 ? 1.0 / d : std::numeric_limits<double>::quiet_NaN();
     for (int i = j + 1; i < K; ++i) {
       double s = D[i * K + j];
       for (int m = 0; m < j; ++m) s -= D[i * K + m] * v[m];
@@ -302,11 +332,21 @@ void BlockLdlt::eliminate(const Node& node) {
       const double* Z_t = D + coupled[t].offset * K;
       const int rows = coupled[t].rows;
       switch (coupled[s].rows) {
-        case 1: subtract_product<K, 1>(Z_t, rows, Y_s, height, out); break;
-        case 2: subtract_product<K, 2>(Z_t, rows, Y_s, height, out); break;
-        case 3: subtract_product<K, 3>(Z_t, rows, Y_s, height, out); break;
-        case 4: subtract_product<K, 4>(Z_t, rows, Y_s, height, out); break;
-        default: subtract_product<K, 5>(Z_t, rows, Y_s, height, out); break;
+        case 1:
+          subtract_product<K, 1>(Z_t, rows, Y_s, height, out);
+          break;
+        case 2:
+          subtract_product<K, 2>(Z_t, rows, Y_s, height, out);
+          break;
+        case 3:
+          subtract_product<K, 3>(Z_t, rows, Y_s, height, out);
+          break;
+        case 4:
+          subtract_product<K, 4>(Z_t, rows, Y_s, height, out);
+          break;
+        default:
+          subtract_product<K, 5>(Z_t, rows, Y_s, height, out);
+          break;
       }
     }
   }
@@ -359,21 +399,41 @@ void BlockLdlt::solve(std::span<const Block> blocks) {
       }
     }
     switch (node.rows) {
-      case 1: forward<1>(node); break;
-      case 2: forward<2>(node); break;
-      case 3: forward<3>(node); break;
-      case 4: forward<4>(node); break;
-      default: forward<5>(node); break;
+      case 1:
+        forward<1>(node);
+        break;
+      case 2:
+        forward<2>(node);
+        break;
+      case 3:
+        forward<3>(node);
+        break;
+      case 4:
+        forward<4>(node);
+        break;
+      default:
+        forward<5>(node);
+        break;
     }
   }
   for (std::size_t p = nodes_.size(); p-- > 0;) {
     const Node& node = nodes_[p];
     switch (node.rows) {
-      case 1: backward<1>(node); break;
-      case 2: backward<2>(node); break;
-      case 3: backward<3>(node); break;
-      case 4: backward<4>(node); break;
-      default: backward<5>(node); break;
+      case 1:
+        backward<1>(node);
+        break;
+      case 2:
+        backward<2>(node);
+        break;
+      case 3:
+        backward<3>(node);
+        break;
+      case 4:
+        backward<4>(node);
+        break;
+      default:
+        backward<5>(node);
+        break;
     }
   }
 }

@@ -12,8 +12,8 @@ namespace substep {
 /// order. Only blocks that share a body, and those that fill in, are stored.
 ///
 /// Rows of contacts can be *tight*: their impulse is given, so their row and column leave A. The
-/// joints come first and are factored once per sub-step; what they leave for the contacts, the Schur
-/// complement, is kept and factored anew for every active set.
+/// joints come first and are factored once per sub-step; what they leave for the contacts, the
+/// Schur complement, is kept and factored anew for every active set.
 class BlockLdlt {
  public:
   void reserve(std::size_t bodies, std::size_t blocks);
@@ -29,16 +29,16 @@ class BlockLdlt {
   void solve(std::span<const Block> blocks);
 
  private:
-  /// A block in the order of elimination. Its panel holds the columns of the block from the diagonal
-  /// down: rows x rows for itself, then the rows of every coupled block; row-major.
+  /// A block in the order of elimination. Its panel holds the columns of the block from the
+  /// diagonal down: rows x rows for itself, then the rows of every coupled block; row-major.
   struct Node {
     int block = 0;
     int rows = 0;
-    std::size_t panel = 0;         // into values_
-    std::size_t x = 0;             // into x_
+    std::size_t panel = 0;          // into values_
+    std::size_t x = 0;              // into x_
     std::size_t first_coupled = 0;  // into coupled_
     std::size_t n_coupled = 0;
-    std::size_t first_update = 0;   // into updates_
+    std::size_t first_update = 0;  // into updates_
   };
   struct Coupled {
     int node = 0;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTolerance = 1e-10;  // on bounds and complementarity, times 1 + |impulse|
 constexpr int kPasses = 4;            // refreshes of the friction bounds, the first included
-constexpr int kSinglePivotsPerRow = 10;  // Murty's rule is finite; this bounds its time
+constexpr int kSinglePivots = 50;     // per solve: Murty's rule is finite; this bounds its time
 
 double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
 
@@ -19,6 +19,7 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   ldlt_.reserve(bodies, blocks);
   u_star_.reserve(bodies);
   friction_bound_.reserve(blocks);
+  gauss_seidel_.reserve(bodies, blocks);
 }
 
 SolveReport Bpp::solve(const System& system, const Settings& settings) {
@@ -34,22 +35,49 @@ SolveReport Bpp::solve(const System& system, const Settings& settings) {
     solve_active_set(system, report);
     return report;
   }
-  const int limit = settings.pivots + kSinglePivotsPerRow * boxed_rows;
+  int single_pivots = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     ++report.passes;
     set_friction_bounds(system.blocks);
     for (int step = 0;; ++step) {
       solve_active_set(system, report);
-      if (step >= limit) {
-        report.status = SolveStatus::kUnsolved;
-        break;
-      }
-      if (pivot(system, step >= settings.pivots) == 0) break;
+      const bool one_only = step >= settings.pivots;
+      if (pivot(system, one_only) == 0) break;
       ++report.pivots;
+      if (!one_only || ++single_pivots <= kSinglePivots) continue;
+      go_on_with_gauss_seidel(system, settings);
+      report.status = SolveStatus::kUnsolved;
+      return report;
     }
-    if (bounds_settled(system.blocks)) break;
+    if (bounds_settled(system.blocks)) return report;
   }
+  report.status = SolveStatus::kUnsettled;
   return report;
+}
+
+void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings) {
+  std::copy(u_star_.begin(), u_star_.end(), system.u.begin());
+  for (Block& block : system.blocks) {
+    if (!block.is_contact()) continue;
+    block.impulse[0] = std::max(0.0, block.impulse[0]);
+    const double bound = block.mu * block.impulse[0];
+    for (int row = 1; row < block.rows; ++row) {
+      block.impulse[row] = std::min(bound, std::max(-bound, block.impulse[row]));
+    }
+  }
+  Settings warm = settings;
+  warm.warm_start = true;
+  gauss_seidel_.solve(system, warm);
+  for (Block& block : system.blocks) {
+    if (!block.is_contact()) continue;
+    const double bound = block.mu * block.impulse[0];
+    block.tight[0] = block.impulse[0] > 0.0 ? std::int8_t{0} : std::int8_t{-1};
+    for (int row = 1; row < block.rows; ++row) {
+      block.tight[row] = block.impulse[row] >= bound    ? std::int8_t{1}
+                         : block.impulse[row] <= -bound ? std::int8_t{-1}
+                                                        : std::int8_t{0};
+    }
+  }
 }
 
 // A row that was tight in the last sub-step starts tight. A new contact starts free if the bodies
@@ -122,7 +150,8 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
     Block& block = system.blocks[i];
     if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
-      if (block.tight[row] != 0) block.impulse[row] = row == 0 ? 0.0 : block.tight[row] * friction_bound_[i];
+      if (block.tight[row] != 0)
+        block.impulse[row] = row == 0 ? 0.0 : block.tight[row] * friction_bound_[i];
     }
   }
   apply(system, true);

@@ -3,15 +3,17 @@
 #include <vector>
 
 #include "core/solver/block_ldlt.hpp"
+#include "core/solver/pgs.hpp"
 #include "core/solver/solver.hpp"
 
 namespace substep {
 
-/// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. The impulses of tight
-/// rows sit at their bounds, the others solve the linear system; every row on the wrong side changes
-/// its set at once, for Settings::pivots steps; after that one row at a time (the last one, Murty's
-/// rule), which cannot cycle. Friction bounds are fixed while it pivots, seeded with the impulses
-/// given, and refreshed outside, at most four times.
+/// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. The impulses of
+/// tight rows sit at their bounds, the others solve the linear system; every row on the wrong side
+/// changes its set at once, for Settings::pivots steps; after that one row at a time (the last one,
+/// Murty's rule), which cannot cycle but can take long: past a bound Gauss-Seidel goes on from
+/// there. Friction bounds are fixed while it pivots, seeded with the impulses given, and refreshed
+/// outside, at most four times.
 class Bpp final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
@@ -27,8 +29,11 @@ class Bpp final : public Solver {
   /// @return how many rows there were
   int pivot(const System& system, bool one_only);
   void apply(const System& system, bool tight_rows);
+  /// From the impulses as they stand, clamped to their bounds.
+  void go_on_with_gauss_seidel(const System& system, const Settings& settings);
 
   BlockLdlt ldlt_;
+  Pgs gauss_seidel_;
   bool factor_valid_ = false;  // the contacts' factor belongs to the present active set
   std::vector<Vec6> u_star_;
   std::vector<double> friction_bound_;  // per block [N s]

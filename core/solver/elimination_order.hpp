@@ -38,8 +38,9 @@ class EliminationOrder {
   };
   void connect(int block, int other);
 
-  std::vector<Key> keys_;                // the graph that the order belongs to
-  std::vector<std::vector<int>> graph_;  // per block, sorted; shrinks to `coupled` while eliminating
+  std::vector<Key> keys_;  // the graph that the order belongs to
+  std::vector<std::vector<int>>
+      graph_;  // per block, sorted; shrinks to `coupled` while eliminating
   std::vector<std::vector<int>> on_body_;
   std::vector<int> order_;
   std::vector<int> position_;

@@ -28,7 +28,8 @@ void add_speeds(const double (&J)[6][Padded], double sign, const Vec6& u, double
 
 /// u += Mt^-1 J^T change.
 template <int Rows, bool Pinned>
-void kick(const double (&W)[kMaxRows][6], double signed_mass, const double (&change)[kMaxRows], Vec6& u) {
+void kick(const double (&W)[kMaxRows][6], double signed_mass, const double (&change)[kMaxRows],
+          Vec6& u) {
   constexpr int kFirst = Pinned ? 3 : 0;
   if constexpr (Pinned) {
     for (int j = 0; j < 3; ++j) u[j] += signed_mass * change[j];
@@ -59,8 +60,9 @@ void Pgs::pack(const System& system, bool warm_start) {
     for (int i = 0; i < block.rows; ++i) {
       std::fill(visit.coupling[i], visit.coupling[i] + kMaxRows, 0.0);
     }
-    const auto side = [&](const double (&J)[kMaxRows][6], int body, double (&by_component)[6][Visit::kPadded],
-                          double (&W)[kMaxRows][6], double& mass) {
+    const auto side = [&](const double(&J)[kMaxRows][6], int body,
+                          double(&by_component)[6][Visit::kPadded], double(&W)[kMaxRows][6],
+                          double& mass) {
       if (body < 0) return;
       const InverseMass& inverse = system.inverse_mass[static_cast<std::size_t>(body)];
       mass = inverse.linear;
@@ -101,9 +103,12 @@ void Pgs::pack(const System& system, bool warm_start) {
 template <int Rows, bool Pinned>
 void Pgs::visit(Visit& block, std::span<Vec6> u) {
   double w[Visit::kPadded];
-  for (std::size_t i = 0; i < Visit::kPadded; ++i) w[i] = block.bias[i] + block.softness[i] * block.impulse[i];
-  if (block.a >= 0) add_speeds<Rows, Pinned>(block.J_a, 1.0, u[static_cast<std::size_t>(block.a)], w);
-  if (block.b >= 0) add_speeds<Rows, Pinned>(block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], w);
+  for (std::size_t i = 0; i < Visit::kPadded; ++i)
+    w[i] = block.bias[i] + block.softness[i] * block.impulse[i];
+  if (block.a >= 0)
+    add_speeds<Rows, Pinned>(block.J_a, 1.0, u[static_cast<std::size_t>(block.a)], w);
+  if (block.b >= 0)
+    add_speeds<Rows, Pinned>(block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], w);
   double change[kMaxRows];
   for (int i = 0; i < Rows; ++i) {
     for (int j = 0; j < i; ++j) w[i] += block.coupling[i][j] * change[j];
@@ -131,11 +136,21 @@ SolveReport Pgs::solve(const System& system, const Settings& settings) {
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     for (Visit& block : visits_) {
       switch (block.rows) {
-        case 1: visit<1, false>(block, system.u); break;
-        case 2: visit<2, false>(block, system.u); break;
-        case 3: block.pinned ? visit<3, true>(block, system.u) : visit<3, false>(block, system.u); break;
-        case 4: visit<4, false>(block, system.u); break;
-        default: block.pinned ? visit<5, true>(block, system.u) : visit<5, false>(block, system.u); break;
+        case 1:
+          visit<1, false>(block, system.u);
+          break;
+        case 2:
+          visit<2, false>(block, system.u);
+          break;
+        case 3:
+          block.pinned ? visit<3, true>(block, system.u) : visit<3, false>(block, system.u);
+          break;
+        case 4:
+          visit<4, false>(block, system.u);
+          break;
+        default:
+          block.pinned ? visit<5, true>(block, system.u) : visit<5, false>(block, system.u);
+          break;
       }
     }
   }

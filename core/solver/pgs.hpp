@@ -15,8 +15,8 @@ class Pgs final : public Solver {
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
-  /// What an iteration reads of a block, packed in the order of the visits. J is kept by component, so
-  /// that the speeds of all rows are found side by side; rows beyond `rows` are zero.
+  /// What an iteration reads of a block, packed in the order of the visits. J is kept by component,
+  /// so that the speeds of all rows are found side by side; rows beyond `rows` are zero.
   struct Visit {
     static constexpr std::size_t kPadded = kMaxRows + 1;  // an even number: two rows at a time
     double J_a[6][kPadded];

@@ -9,8 +9,8 @@
 namespace substep {
 
 /// Solves one sub-step (Eq. 3). Scratch is kept inside: no allocation once sizes have been seen.
-/// A solver is given blocks, bodies and Mt^-1, never J Mt^-1 J^T: whether to form that matrix, and in
-/// which order to eliminate, is its own affair.
+/// A solver is given blocks, bodies and Mt^-1, never J Mt^-1 J^T: whether to form that matrix, and
+/// in which order to eliminate, is its own affair.
 class Solver {
  public:
   virtual ~Solver() = default;

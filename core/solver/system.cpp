@@ -53,8 +53,8 @@ void row_speeds(const Block& block, std::span<const Vec6> u, double* speed) {
   if (block.b >= 0) add_speeds(block, block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], speed);
 }
 
-void apply_impulse(const Block& block, const double* impulse, std::span<const InverseMass> inverse_mass,
-                   std::span<Vec6> u) {
+void apply_impulse(const Block& block, const double* impulse,
+                   std::span<const InverseMass> inverse_mass, std::span<Vec6> u) {
   double f[6];
   if (block.a >= 0) {
     const auto a = static_cast<std::size_t>(block.a);

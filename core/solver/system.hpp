@@ -10,23 +10,25 @@ namespace substep {
 
 /// Mt^-1 of one body: Eq. 3 with Mt = M, M + dt B (Eq. 6), or any other symmetric choice per body.
 struct InverseMass {
-  double linear = 0.0;           // [1/kg]
-  Mat3 angular = Mat3::Zero();   // world axes [1/(kg m^2)], symmetric
+  double linear = 0.0;          // [1/kg]
+  Mat3 angular = Mat3::Zero();  // world axes [1/(kg m^2)], symmetric
 };
 
 /// What a solver is given: find impulses and u+ = u* + Mt^-1 J^T impulse with
 ///   w = J u+ + softness * impulse + bias,
 ///   w = 0 where lo < impulse < hi,  w >= 0 at lo,  w <= 0 at hi.
-/// Joint rows are unbounded; a contact's normal has [0, inf); its friction rows +-mu * normal impulse.
+/// Joint rows are unbounded; a contact's normal has [0, inf); its friction rows +-mu * normal
+/// impulse.
 struct System {
-  std::span<Block> blocks;                 // impulse: seed in, solution out
+  std::span<Block> blocks;                    // impulse: seed in, solution out
   std::span<const InverseMass> inverse_mass;  // per body
-  std::span<Vec6> u;                       // per body: u* in, u+ out [m/s, rad/s]
+  std::span<Vec6> u;                          // per body: u* in, u+ out [m/s, rad/s]
 };
 
 enum class SolveStatus : std::uint8_t {
-  kSolved,    // BPP: complementary to its tolerance. PGS: its iterations are done
-  kUnsolved,  // BPP: the bound of pivots was reached
+  kSolved,     // BPP: complementary to its tolerance. PGS: its iterations are done
+  kUnsettled,  // BPP: complementary for friction bounds that still move; the next sub-step goes on
+  kUnsolved,   // BPP: the bound of pivots was reached; Gauss-Seidel took over
 };
 
 struct SolveReport {
@@ -43,8 +45,8 @@ struct SolveReport {
 void row_speeds(const Block& block, std::span<const Vec6> u, double* speed);
 
 /// u += Mt^-1 J^T impulse for all rows of a block.
-void apply_impulse(const Block& block, const double* impulse, std::span<const InverseMass> inverse_mass,
-                   std::span<Vec6> u);
+void apply_impulse(const Block& block, const double* impulse,
+                   std::span<const InverseMass> inverse_mass, std::span<Vec6> u);
 
 /// Largest violation of bounds [N s] and complementarity [m/s] of a solved system.
 double lcp_residual(const System& system);

@@ -39,7 +39,8 @@ void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::vector<In
 }
 
 void damped_inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::span<const Vec6> k,
-                         double alpha, double dt, std::vector<InverseMass>& out, std::span<Vec6> u) {
+                         double alpha, double dt, std::vector<InverseMass>& out,
+                         std::span<Vec6> u) {
   inverse_mass(scene, R_WB, out);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];

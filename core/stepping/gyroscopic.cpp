@@ -3,9 +3,10 @@
 namespace substep {
 
 // Newton on F(w) = I w - dt/2 (I w) x w - p.
-// dF = I - dt/2 ([I w] - [w] I), since d((I w) x w) = (I dw) x w + (I w) x dw = (-[w] I + [I w]) dw.
+// dF = I - dt/2 ([I w] - [w] I), since d((I w) x w) = (I dw) x w + (I w) x dw = (-[w] I + [I w])
+// dw.
 Vec3 gyroscopic_implicit(const Vec3& I, const Vec3& w, double dt_before, double dt) {
-  constexpr int kIterations = 8;      // quadratic: three or four are enough below a radian a step
+  constexpr int kIterations = 8;       // quadratic: three or four are enough below a radian a step
   constexpr double kRelative = 1e-30;  // of |p|^2
   const Vec3 p = I.cwiseProduct(w) + 0.5 * dt_before * I.cwiseProduct(w).cross(w);
   Vec3 next = w;

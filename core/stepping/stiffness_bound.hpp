@@ -13,7 +13,7 @@ namespace substep {
 struct StiffnessBound {
   double r = 0.0;     // k / mass, Eq. 9 [1/s^2]
   int body = -1;      // -1 where K is zero
-  int dof = 0;        // 0..2 along world x, y, z; 3..5 about the principal axes
+  int dof = 0;        // 0..2 along, 3..5 about the principal axes
   double k = 0.0;     // [N/m or N m/rad]
   double mass = 0.0;  // M_ii [kg or kg m^2]
 };

@@ -1,6 +1,7 @@
 #include "core/stepping/substep_clock.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -18,6 +19,7 @@ int wanted_substeps(double h, double dt_max) {
 
 SubstepClock::SubstepClock(const Settings& settings, double h, double r)
     : settings_(settings), h_(h), rest_(h), r_(r) {
+  assert(settings.n >= 1 && settings.n_max >= 1 && settings.n_cap >= 1 && "a frame has a sub-step");
   decide();
 }
 
@@ -37,7 +39,8 @@ void SubstepClock::decide() {
       const int wanted = wanted_substeps(h_, dt_max);
       n_wanted_ = std::max(n_wanted_, wanted);
       capped_ = capped_ || wanted > limit_;
-      left_ = wanted_substeps(rest_, std::max(dt_max, h_ / limit_));
+      // Rounding must not take the quotient of the cap one too high.
+      left_ = std::min(wanted_substeps(rest_, dt_max), limit_ - taken_);
       break;
     }
   }
@@ -59,10 +62,10 @@ bool SubstepClock::needs_stiffness() const {
 }
 
 void SubstepClock::advance(double r) {
-  const bool decides_again =
-      settings_.policy == Policy::kSubstep &&
-      (settings_.mode == Mode::kAdaptive || settings_.mode == Mode::kCapped);
+  const bool decides_again = settings_.policy == Policy::kSubstep &&
+                             (settings_.mode == Mode::kAdaptive || settings_.mode == Mode::kCapped);
   if (needs_stiffness()) r_ = decides_again ? std::max(r, settings_.memory * r_) : r;
+  ++taken_;
   if (--left_ == 0) return;
   if (decides_again) {
     rest_ -= dt_;

@@ -38,11 +38,12 @@ class SubstepClock {
 
   Settings settings_;
   double h_;
-  double rest_;         // not yet dealt out [s]
+  double rest_;  // not yet dealt out [s]
   double r_;
   double dt_ = 0.0;
-  int limit_ = 1;       // most sub-steps per frame
-  int left_ = 1;        // sub-steps in rest_ at the present decision
+  int limit_ = 1;  // most sub-steps per frame
+  int left_ = 1;   // sub-steps in rest_ at the present decision
+  int taken_ = 0;  // sub-steps of this frame
   int n_wanted_ = 1;
   bool capped_ = false;
 };

@@ -1,5 +1,6 @@
-// Section 4.1.2: a ball of 1000 kg rolls over planks of 1 kg. Eight starts; a run survives if no joint
-// gap passes 0.1 m in 6 s. The motion is chaotic, so single runs differ and counts are what is tested.
+// Section 4.1.2: a ball of 1000 kg rolls over planks of 1 kg. Eight starts; a run survives if no
+// joint gap passes 0.1 m in 6 s. The motion is chaotic, so single runs differ and counts are what
+// is tested.
 
 #include <gtest/gtest.h>
 
@@ -17,19 +18,22 @@ struct Crossing {
   double left_at = -1.0;  // [s], -1 if the ball did not leave
 };
 
-Crossing cross(const scenes::BridgeOptions& start, const Settings& settings, double seconds = kSeconds) {
+Crossing cross(const scenes::BridgeOptions& start, const Settings& settings,
+               double seconds = kSeconds) {
   Crossing out;
   const Scene scene = scenes::bridge(start);
   const auto ball = static_cast<std::size_t>(*scene.criteria.track);
-  out.run = run(scene, settings, seconds, [&](const Simulator& simulator, const FrameReport& report) {
-    if (out.left_at < 0.0 && simulator.state().x[ball].x() > kEnd) out.left_at = report.time;
-  });
+  out.run =
+      run(scene, settings, seconds, [&](const Simulator& simulator, const FrameReport& report) {
+        if (out.left_at < 0.0 && simulator.state().x[ball].x() > kEnd) out.left_at = report.time;
+      });
   return out;
 }
 
 int survivors(const Settings& settings) {
   int count = 0;
-  for (const auto& start : scenes::bridge_starts()) count += cross(start, settings).run.holds ? 1 : 0;
+  for (const auto& start : scenes::bridge_starts())
+    count += cross(start, settings).run.holds ? 1 : 0;
   return count;
 }
 
@@ -54,8 +58,8 @@ TEST(Bridge, DampingAndCappedSurviveAllStarts) {
   EXPECT_EQ(survivors(with(SolverKind::kBpp, Mode::kCapped)), 8);
 }
 
-// At 8 the gaps come near the threshold (up to 0.09 m): start positions moved by a nanometre give 5 to
-// 8 survivors. At 6 it is over, at 10 there is room.
+// At 8 the gaps come near the threshold (up to 0.09 m): start positions moved by a nanometre give 5
+// to 8 survivors. At 6 it is over, at 10 there is room.
 TEST(Bridge, ConstantStepsNeedAboutTen) {
   EXPECT_LE(survivors(with(SolverKind::kBpp, Mode::kConst, 6)), 3);
   EXPECT_GE(survivors(with(SolverKind::kBpp, Mode::kConst, 8)), 5);
@@ -99,7 +103,8 @@ TEST(Bridge, SubstepsRiseUnderTheBallAndFallOnceItHasLeft) {
   const auto left = static_cast<std::size_t>(c.left_at * 60.0);
   for (std::size_t first = 0; first + kWindow <= c.run.n.size(); first += kWindow) {
     double mean = 0.0;
-    for (std::size_t i = first; i < first + kWindow; ++i) mean += c.run.n[i] / static_cast<double>(kWindow);
+    for (std::size_t i = first; i < first + kWindow; ++i)
+      mean += c.run.n[i] / static_cast<double>(kWindow);
     if (first + kWindow <= left) {
       EXPECT_GE(mean, 11.0) << first;
       EXPECT_LE(mean, 32.0) << first;
@@ -116,8 +121,9 @@ TEST(BridgePgs, OnlySubstepsWithTheSoftDriftLawSurvive) {
   EXPECT_EQ(survivors(with(SolverKind::kPgs, Mode::kAdaptive)), 8);
 }
 
-// The prototype lost all eight starts with the full law. Here they survive, but the law feeds energy
-// in: after the ball has left the planks shake at the cap of 64 sub-steps where the soft law needs 5.
+// The prototype lost all eight starts with the full law. Here they survive, but the law feeds
+// energy in: after the ball has left the planks shake at the cap of 64 sub-steps where the soft law
+// needs 5.
 TEST(BridgePgs, TheFullDriftLawKeepsShakingAfterTheBallHasLeft) {
   Settings settings = with(SolverKind::kPgs, Mode::kAdaptive);
   std::int64_t soft = 0;

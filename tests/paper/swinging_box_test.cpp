@@ -59,7 +59,8 @@ Outcome swing(const Settings& settings, double seconds, double compliance = 1e-1
 
 TEST(SwingingBox, TheReferenceIsThere) { ASSERT_EQ(reference().size(), 601U); }
 
-// Which link lets go first, and when exactly, rounding decides; that they do, and in this order, not.
+// Which link lets go first, and when exactly, rounding decides; that they do, and in this order,
+// not.
 TEST(SwingingBox, FewerThanSevenSubstepsFailTheFewerTheSooner) {
   double before = 0.0;
   for (const int n : {1, 2, 4, 5, 6}) {
@@ -101,8 +102,8 @@ TEST(SwingingBox, AdaptiveTakesTenToTwentySubstepsMostAtTheBottom) {
   EXPECT_LT(height_at_most - lowest, 0.15 * rise) << "the forces are greatest at the bottom";
 }
 
-// N = ceil(h/2 sqrt(r/alpha)): the paper's text says that halving alpha doubles N, its Eq. 10 that it
-// takes sqrt 2 as many.
+// N = ceil(h/2 sqrt(r/alpha)): the paper's text says that halving alpha doubles N, its Eq. 10 that
+// it takes sqrt 2 as many.
 TEST(SwingingBox, HalvingAlphaMultipliesSubstepsBySqrt2) {
   Settings settings;
   double before = 0.0;
@@ -228,9 +229,10 @@ TEST(SwingingBoxPgs, DampingAtOneSubstepIsNotEnough) {
 }
 
 TEST(SwingingBoxPgs, AdaptiveHoldsWithTheSoftDriftLaw) {
-  const std::array<scenes::Angle, 3> angles{
-      scenes::Angle{0.5, std::sqrt(3.0) / 2.0}, scenes::kSixtyDegrees,
-      scenes::Angle{(std::sqrt(6.0) + std::sqrt(2.0)) / 4.0, (std::sqrt(6.0) - std::sqrt(2.0)) / 4.0}};
+  const std::array<scenes::Angle, 3> angles{scenes::Angle{0.5, std::sqrt(3.0) / 2.0},
+                                            scenes::kSixtyDegrees,
+                                            scenes::Angle{(std::sqrt(6.0) + std::sqrt(2.0)) / 4.0,
+                                                          (std::sqrt(6.0) - std::sqrt(2.0)) / 4.0}};
   for (const scenes::Angle& angle : angles) {
     const Outcome r = run(scenes::swinging_box({angle, 1e-12}), pgs(), 10.0);
     EXPECT_TRUE(r.holds) << angle.sine << " " << r.verdict;

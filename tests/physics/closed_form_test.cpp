@@ -53,7 +53,8 @@ TEST(Pendulum, SwingsWithThePeriodOfTheEllipticIntegral) {
   const double inertia = (1.0 + 0.05 * 0.05) / 12.0 + 0.25;
   const double exact = pendulum_period(inertia / 0.5, 0.8);
   EXPECT_NEAR(exact, 1.682, 5e-4) << "what the scene says of itself";
-  const double interpolation = 1e-4;  // of a sine sampled at 60 Hz, averaged over eleven periods [s]
+  const double interpolation =
+      1e-4;  // of a sine sampled at 60 Hz, averaged over eleven periods [s]
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     EXPECT_NEAR(measured_period(integrator, 16), exact, interpolation);
   }
@@ -80,8 +81,8 @@ TEST(FreeFall, NothingAsksForSubsteps) {
   EXPECT_EQ(r.n_max(), 1);
 }
 
-// u stands at the middle of the last sub-step: angular momentum and energy are those of the momentum
-// at its end, p = I w + dt/2 (I w) x w.
+// u stands at the middle of the last sub-step: angular momentum and energy are those of the
+// momentum at its end, p = I w + dt/2 (I w) x w.
 TEST(SpinningTop, KeepsEnergyAndAngularMomentumFor60SecondsAtOneSubstep) {
   const Scene scene = scenes::spinning_top();
   const Vec3 I = scene.bodies[0].inertia;

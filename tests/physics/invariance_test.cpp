@@ -64,7 +64,8 @@ TEST(Invariance, TurnedWithGravitySubstepsAndMotionAreTheSame) {
     const Quat R(Eigen::AngleAxisd(1.1, axis.normalized()));
     for (const Case& c : cases()) {
       const Outcome here = run(c.scene, c.scene.settings, c.seconds);
-      const Outcome turned = run(transformed(c.scene, R, Vec3::Zero()), c.scene.settings, c.seconds);
+      const Outcome turned =
+          run(transformed(c.scene, R, Vec3::Zero()), c.scene.settings, c.seconds);
       expect_same(c, here, turned, R, Vec3::Zero());
     }
   }
@@ -90,7 +91,8 @@ TEST(Invariance, TheOrderOfBodiesAndJointsDoesNotMatterToTheDirectSolver) {
 }
 
 TEST(Invariance, ASnapshotGoesOnBitForBit) {
-  for (const Scene& scene : {scenes::swinging_box(), scenes::bridge(), scenes::heavy_stack_stress()}) {
+  for (const Scene& scene :
+       {scenes::swinging_box(), scenes::bridge(), scenes::heavy_stack_stress()}) {
     for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
       for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
         const auto shared = std::make_shared<const Scene>(scene);
@@ -188,8 +190,8 @@ TEST(Invariance, AFreeChainKeepsItsMomentum) {
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
     EXPECT_LT(worst(solver, 8).linear.norm(), 1e-12);
   }
-  // The forces of a joint act at two points phi apart (second order), and the gyroscopic torque of a
-  // sub-step does not yet know the joint impulses of that sub-step (first order, and small).
+  // The forces of a joint act at two points phi apart (second order), and the gyroscopic torque of
+  // a sub-step does not yet know the joint impulses of that sub-step (first order, and small).
   const double eight = worst(SolverKind::kBpp, 8).angular.norm();
   const double sixteen = worst(SolverKind::kBpp, 16).angular.norm();
   EXPECT_LT(eight, 2e-5);

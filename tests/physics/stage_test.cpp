@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "scenes/generator/scenes.hpp"
@@ -91,6 +92,26 @@ TEST(Report, TheProbeRunsOnTheFirstFrameOnly) {
   EXPECT_EQ(first_frame(scenes::swinging_box(), without).n_substeps, 1) << "no force is known yet";
 }
 
+TEST(Report, TheFirstNDoesNotDependOnTheIntegrator) {
+  Settings leapfrog;
+  leapfrog.integrator = Integrator::kLeapfrog;
+  for (const Scene& scene :
+       {scenes::swinging_box(), scenes::bridge(), scenes::heavy_stack_stress()}) {
+    EXPECT_EQ(first_frame(scene).n_substeps, first_frame(scene, leapfrog).n_substeps) << scene.name;
+  }
+}
+
+TEST(Report, WithoutStiffnessNobodySetR) {
+  Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
+  EXPECT_GE(simulator.step().leader.body, 0);
+  Settings settings;
+  settings.mode = Mode::kConst;
+  simulator.set_settings(settings);
+  const FrameReport report = simulator.step();
+  EXPECT_EQ(report.leader.body, -1);
+  EXPECT_TRUE(std::isinf(report.dt_stable));
+}
+
 TEST(Report, TheProbeRunsAgainWhenAModeThatReadsStiffnessIsSwitchedOn) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   Settings settings;
@@ -124,21 +145,70 @@ TEST(Failure, StopsAtTheLastFiniteStateAndSaysWho) {
   EXPECT_EQ(simulator.observe().status, StepStatus::kOk);
 }
 
-// Complementarity of every frame's last solve, in scenes with and without friction.
-TEST(Solves, AreComplementary) {
-  EXPECT_LT(run(scenes::swinging_box(), Settings{}, 5.0).residual, 1e-9);
-  const Outcome stack = run(scenes::heavy_stack_stress(), Settings{}, 5.0);
-  EXPECT_LT(stack.residual, 1e-9);
-  EXPECT_EQ(stack.unsolved, 0);
-  // Friction bounds are refreshed four times a sub-step at most and go on settling in the next one:
-  // the typical frame is settled, an impact need not be.
-  std::vector<double> residuals;
-  const Outcome bridge =
-      run(scenes::bridge(), Settings{}, 3.0, [&](const Simulator&, const FrameReport& report) {
-        residuals.push_back(report.work.residual);
-      });
-  EXPECT_EQ(bridge.unsolved, 0);
-  EXPECT_LT(Outcome::median(residuals), 1e-6);
+/// The scene with a frame as short as a sub-step: then every solve is the last of a frame, whose
+/// residual is reported.
+Scene with_short_frames(Scene scene) {
+  scene.frame /= 16.0;
+  scene.settings.mode = Mode::kNone;
+  return scene;
+}
+
+TEST(Solves, AreAllComplementary) {
+  for (const Scene& scene : {scenes::swinging_box(), scenes::heavy_stack_stress()}) {
+    const Scene shorter = with_short_frames(scene);
+    const Outcome r = run(shorter, shorter.settings, 4.0);
+    EXPECT_LT(r.residual, 1e-9) << scene.name;
+    EXPECT_EQ(r.unsolved, 0) << scene.name;
+  }
+  // Friction bounds are refreshed four times a sub-step at most and go on settling in the next one.
+  const Scene bridge = with_short_frames(scenes::bridge());
+  int solves = 0;
+  std::vector<double> unsettled;  // their residuals
+  run(bridge, bridge.settings, 3.0, [&](const Simulator&, const FrameReport& report) {
+    ++solves;
+    EXPECT_EQ(report.work.unsolved, 0);
+    if (report.work.unsettled > 0) {
+      unsettled.push_back(report.work.residual);
+    } else {
+      EXPECT_LT(report.work.residual, 1e-7);
+    }
+  });
+  EXPECT_LT(unsettled.size(), static_cast<std::size_t>(solves / 3));
+  EXPECT_LT(Outcome::median(unsettled), 1e-4);
+}
+
+// A wall of bricks has many more points than it needs: pivoting one row at a time could take for
+// ever.
+TEST(Solves, TakeBoundedWorkOnAWallThatIsHit) {
+  Scene scene;
+  scene.effects = {.gravity = true, .contact = true, .friction = true};
+  const auto add = [&](const Shape& shape, double mass, const Vec3& position) {
+    Body body;
+    body.name = "body" + std::to_string(scene.bodies.size());
+    body.shape = shape;
+    body.mass = mass;
+    body.inertia = solid_inertia(shape, mass);
+    body.position = position;
+    body.friction = 0.5;
+    scene.bodies.push_back(body);
+  };
+  add(Plane{}, 0.0, Vec3::Zero());
+  scene.bodies[0].is_static = true;
+  for (int layer = 0; layer < 6; ++layer) {
+    for (int i = 0; i < 4; ++i) {
+      add(Box{Vec3{0.2, 0.1, 0.1}}, 1.0, Vec3(0.4 * i + 0.2 * (layer % 2), 0.1 + 0.2 * layer, 0.0));
+    }
+  }
+  add(Sphere{0.3}, 50.0, Vec3(0.7, 0.7, 1.0));
+  scene.bodies.back().velocity.z() = -10.0;
+  Settings settings;
+  settings.mode = Mode::kNone;
+  constexpr std::int64_t kMost =
+      4 * (20 + 1) + 50 + 1;  // four passes of block pivots, and the single ones
+  run(scene, settings, 0.5, [&](const Simulator&, const FrameReport& report) {
+    ASSERT_EQ(report.status, StepStatus::kOk);
+    EXPECT_LE(report.work.factorisations, kMost);
+  });
 }
 
 TEST(Modes, MayChangeWhileTheSceneRuns) {
@@ -150,6 +220,8 @@ TEST(Modes, MayChangeWhileTheSceneRuns) {
     settings.integrator = turn % 3 == 0 ? Integrator::kLeapfrog : Integrator::kEuler;
     settings.policy = turn % 5 == 0 ? Policy::kSubstep : Policy::kFrame;
     settings.alpha = 0.05 + 0.01 * (turn % 7);
+    constexpr std::array kModes{Mode::kAdaptive, Mode::kConst, Mode::kAdaptive, Mode::kCapped};
+    settings.mode = kModes[static_cast<std::size_t>(turn % 4)];
     simulator.set_settings(settings);
     const FrameReport report = simulator.step();
     ASSERT_EQ(report.status, StepStatus::kOk);

@@ -13,15 +13,15 @@ namespace substep::test {
 
 struct Outcome {
   bool holds = true;
-  double failed_at = 0.0;               // [s]
+  double failed_at = 0.0;  // [s]
   std::string verdict;
-  std::vector<int> n;                   // sub-steps of every frame
-  std::vector<Vec3> track;              // of the scene's tracked body, from the start on [m]
+  std::vector<int> n;                    // sub-steps of every frame
+  std::vector<Vec3> track;               // of the scene's tracked body, from the start on [m]
   std::vector<double> constraint_error;  // of every frame
-  double joint_gap = 0.0;               // largest [m]
-  double energy_start = 0.0;            // [J]
-  double energy_end = 0.0;              // [J]
-  double residual = 0.0;                // largest of the last sub-steps of all frames
+  double joint_gap = 0.0;                // largest [m]
+  double energy_start = 0.0;             // [J]
+  double energy_end = 0.0;               // [J]
+  double residual = 0.0;                 // largest of the last sub-steps of all frames
   std::int64_t unsolved = 0;
   State end;
 
@@ -35,8 +35,8 @@ struct Outcome {
   [[nodiscard]] int n_median() const { return median(n); }
   template <class T>
   static T median(std::vector<T> values) {
-    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                     values.end());
+    std::nth_element(values.begin(),
+                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
     return values[values.size() / 2];
   }
 };
@@ -45,7 +45,7 @@ using EveryFrame = std::function<void(const Simulator&, const FrameReport&)>;
 
 /// Runs until the time is over or, unless told to go on, until the verdict falls.
 inline Outcome run(const Scene& scene, const Settings& settings, double seconds,
-               const EveryFrame& every_frame = {}, bool stop_when_failed = true) {
+                   const EveryFrame& every_frame = {}, bool stop_when_failed = true) {
   const auto shared = std::make_shared<const Scene>(scene);
   Simulator simulator(shared);
   simulator.set_settings(settings);

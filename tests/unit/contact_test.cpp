@@ -84,7 +84,8 @@ TEST(BoxPlane, GradientAndStiffnessMatchFiniteDifferences) {
 TEST(BoxBox, GradientAndStiffnessMatchFiniteDifferencesOnAFace) {
   Random random(5);
   for (int trial = 0; trial < 20; ++trial) {
-    Scene scene = pair_of(moving(Box{Vec3{0.2, 0.1, 0.15}}, 2.0), moving(Box{Vec3{2.0, 0.5, 2.0}}, 5.0));
+    Scene scene =
+        pair_of(moving(Box{Vec3{0.2, 0.1, 0.15}}, 2.0), moving(Box{Vec3{2.0, 0.5, 2.0}}, 5.0));
     const Quat tilt(Eigen::AngleAxisd(0.05, random_vector(random).normalized()));
     scene.bodies[1].orientation = random_rotation(random);
     scene.bodies[1].position = random_vector(random);
@@ -115,7 +116,8 @@ TEST(BoxBox, AFaceOnAFaceHasFourPointsInEveryArrangement) {
     n[axis] = side;
     for (const Block& block : blocks.all()) {
       EXPECT_NEAR(block.phi[0], -0.001, 1e-12);
-      EXPECT_LT((block.n * (block.a == 0 ? 1.0 : -1.0) - scene.bodies[1].orientation * n).norm(), 1e-12);
+      EXPECT_LT((block.n * (block.a == 0 ? 1.0 : -1.0) - scene.bodies[1].orientation * n).norm(),
+                1e-12);
     }
   }
 }
@@ -139,6 +141,26 @@ TEST(BoxBox, FeaturesKeepTheirIdsWhileABoxSlides) {
       EXPECT_EQ(ids, before);
     }
     before = ids;
+  }
+}
+
+// Equal boxes exactly above each other: rounding must not add corners nor rename them.
+TEST(BoxBox, FlushFacesHaveTheSameFourPointsWhateverTheLastBit) {
+  std::vector<std::uint64_t> first;
+  for (const double yaw : {0.0, 1e-15, -1e-15}) {
+    for (const double shift : {0.0, 1e-16, -1e-16}) {
+      Scene scene = pair_of(moving(Box{Vec3{0.5, 0.5, 0.5}}), moving(Box{Vec3{0.5, 0.5, 0.5}}));
+      scene.contact.margin = 0.02;
+      scene.bodies[0].position = {shift, 1.0, -shift};
+      scene.bodies[0].orientation = Quat(1.0, 0.0, 0.5 * yaw, 0.0);
+      Blocks blocks;
+      contact_rows(scene)(initial_state(scene), blocks);
+      std::vector<std::uint64_t> ids;
+      for (const Block& block : blocks.all()) ids.push_back(block.id);
+      EXPECT_EQ(ids.size(), 4U) << yaw << " " << shift;
+      if (first.empty()) first = ids;
+      EXPECT_EQ(ids, first) << yaw << " " << shift;
+    }
   }
 }
 

@@ -40,7 +40,9 @@ void gradient_and_stiffness() {
 }
 
 TEST(BallJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<BallJoint>(); }
-TEST(HingeJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<HingeJoint>(); }
+TEST(HingeJoint, GradientAndStiffnessMatchFiniteDifferences) {
+  gradient_and_stiffness<HingeJoint>();
+}
 
 TEST(HingeJoint, VectorsAcrossTheAxisAreOrthonormal) {
   Random random(2);

@@ -44,7 +44,8 @@ Problem random_problem(Random& random, const ProblemSize& size) {
   for (int i = 0; i < size.joints + size.contacts; ++i) {
     Block block;
     const bool contact = i >= size.joints;
-    block.kind = contact ? BlockKind::kContact : (i % 2 == 0 ? BlockKind::kBall : BlockKind::kHinge);
+    block.kind =
+        contact ? BlockKind::kContact : (i % 2 == 0 ? BlockKind::kBall : BlockKind::kHinge);
     block.rows = contact ? (size.mu > 0.0 ? 3 : 1) : (i % 2 == 0 ? 3 : 5);
     block.mu = contact ? size.mu : 0.0;
     block.pinned = !contact && i % 4 < 2;  // solvers may use it: half of the joints
@@ -109,8 +110,8 @@ Dense dense(Problem problem) {
   return out;
 }
 
-/// Every solution of the boxed problem, found by trying all active sets. With friction a tight row is
-/// the equation x_t = +-mu x_n.
+/// Every solution of the boxed problem, found by trying all active sets. With friction a tight row
+/// is the equation x_t = +-mu x_n.
 std::vector<Eigen::VectorXd> enumerate(const Problem& problem) {
   const Dense d = dense(problem);
   const auto n = d.q.size();
@@ -144,7 +145,8 @@ std::vector<Eigen::VectorXd> enumerate(const Problem& problem) {
     for (const Eigen::Index i : boxed) {
       const Dense::Row row = d.rows[static_cast<std::size_t>(i)];
       const int state = set[static_cast<std::size_t>(i)];
-      const double hi = row.row == 0 ? kUnbounded : problem.blocks[row.block].mu * std::max(0.0, x[i - row.row]);
+      const double hi =
+          row.row == 0 ? kUnbounded : problem.blocks[row.block].mu * std::max(0.0, x[i - row.row]);
       const double lo = row.row == 0 ? 0.0 : -hi;
       if (row.row == 0 && state > 0) valid = false;  // no upper bound to sit at
       if (state == 0 && (x[i] < lo - kSlack || x[i] > hi + kSlack)) valid = false;
@@ -174,7 +176,8 @@ Settings settings_for(SolverKind kind) {
 class EverySolver : public testing::TestWithParam<SolverKind> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver, testing::Values(SolverKind::kPgs, SolverKind::kBpp),
                          [](const auto& solver) {
-                           return solver.param == SolverKind::kPgs ? std::string("Pgs") : std::string("Bpp");
+                           return solver.param == SolverKind::kPgs ? std::string("Pgs")
+                                                                   : std::string("Bpp");
                          });
 
 TEST_P(EverySolver, MatchesTheEnumeratedSolutionWithoutFriction) {
@@ -199,8 +202,8 @@ TEST_P(EverySolver, MatchesAnEnumeratedSolutionWithFriction) {
   for (int trial = 0; trial < kTrials; ++trial) {
     Problem problem = random_problem(random, {3, trial % 3, 1 + trial % 2, 0.4});
     const auto solutions = enumerate(problem);
-    // The bounds move with the solution: BPP refreshes them four times a call, so it is called until
-    // they have settled, as it is from one sub-step to the next.
+    // The bounds move with the solution: BPP refreshes them four times a call, so it is called
+    // until they have settled, as it is from one sub-step to the next.
     const std::vector<Vec6> u = problem.u;
     for (int call = 0; call < 20; ++call) {
       problem.u = u;
@@ -237,7 +240,8 @@ TEST_P(EverySolver, VelocitiesAreThoseOfTheImpulses) {
     for (const Block& block : problem.blocks) {
       apply_impulse(block, block.impulse, problem.inverse_mass, expected);
     }
-    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_LT((problem.u[i] - expected[i]).norm(), 1e-9);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      EXPECT_LT((problem.u[i] - expected[i]).norm(), 1e-9);
   }
 }
 

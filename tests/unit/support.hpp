@@ -101,10 +101,12 @@ inline double speed_of(const Block& block, int row, std::span<const Vec6> u) {
   return speeds[row];
 }
 
-constexpr double kStep = 1e-6;      // of the central differences [m or rad]
-constexpr double kTolerance = 3e-8;  // rounding 1e-16/1e-6 plus truncation 1e-12, on terms of order 10
+constexpr double kStep = 1e-6;  // of the central differences [m or rad]
+constexpr double kTolerance =
+    3e-8;  // rounding 1e-16/1e-6 plus truncation 1e-12, on terms of order 10
 
-/// J against central differences of phi, for every row and every degree of freedom of the moving bodies.
+/// J against central differences of phi, for every row and every degree of freedom of the moving
+/// bodies.
 inline void expect_gradient(const Scene& scene, const State& state, const Rows& rows) {
   Blocks at;
   Blocks plus;
@@ -134,7 +136,8 @@ inline void expect_gradient(const Scene& scene, const State& state, const Rows& 
 }
 
 /// K against central differences of J^T lambda with lambda held.
-inline void expect_stiffness(const Scene& scene, const State& state, const Rows& rows, Random& random) {
+inline void expect_stiffness(const Scene& scene, const State& state, const Rows& rows,
+                             Random& random) {
   Blocks at;
   rows(state, at);
   ASSERT_GT(at.size(), 0U);
@@ -165,7 +168,8 @@ inline void expect_stiffness(const Scene& scene, const State& state, const Rows&
         const Vec6 slope = (force_on(plus, row) - force_on(minus, row)) / (2.0 * kStep);
         const Vec6 K = stage.matrix().block(row, col).col(dof);
         for (int j = 0; j < 6; ++j) {
-          EXPECT_NEAR(K[j], slope[j], kTolerance) << "K(" << row << "," << col << ") " << j << "," << dof;
+          EXPECT_NEAR(K[j], slope[j], kTolerance)
+              << "K(" << row << "," << col << ") " << j << "," << dof;
         }
       }
     }

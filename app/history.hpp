@@ -24,7 +24,7 @@ enum class Channel : std::uint8_t {
 /// The last minutes of a run, one sample a frame, oldest first and contiguous.
 class History {
  public:
-  static constexpr std::size_t kCapacity = 60 * 600;  // ten minutes at 60 frames a second
+  static constexpr std::size_t kCapacity = std::size_t{60} * 600;  // ten minutes at 60 frames a second
 
   /// @param frame length of a frame [s]
   void start(const FrameReport& report, double frame);

@@ -10,11 +10,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/app.hpp"
@@ -97,7 +99,7 @@ bool save_screenshot(const std::string& path, int width, int height) {
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, bottom_up.data());
   std::vector<std::uint8_t> rgb;
-  const auto row = static_cast<std::ptrdiff_t>(3 * width);
+  const std::ptrdiff_t row = std::ptrdiff_t{3} * width;
   for (std::ptrdiff_t y = height - 1; y >= 0; --y) {
     rgb.insert(rgb.end(), bottom_up.begin() + y * row, bottom_up.begin() + (y + 1) * row);
   }
@@ -110,7 +112,7 @@ std::string apply(const Options& options, App& app) {
     SceneResult result = read_scene_file(options.scene);
     if (!result.scene) {
       std::string all;
-      for (const Problem& problem : result.problems) all += to_string(problem) + "\n";
+      for (const Problem& problem : result.problems) all.append(to_string(problem)).append("\n");
       return options.scene + ":\n" + all;
     }
     app.run(result.scene);
@@ -215,22 +217,23 @@ int run(const Options& options) {
   return status;
 }
 
-}  // namespace
-}  // namespace substep
-
-int main(int argc, char** argv) {
-  substep::Options options;
+int start(int argc, char** argv) {
+  Options options;
   CLI::App cli{"substep: a laboratory for stable constrained rigid bodies"};
   cli.add_option("--scene", options.scene, "name of a shipped scene, or a scene file");
   cli.add_option("--scenes", options.scenes, "folder of the shipped scenes")->capture_default_str();
   cli.add_option("--set", options.settings, "a setting, as --set alpha=0.2");
-  for (const substep::SettingField& field : substep::setting_fields()) {
+  for (const SettingField& field : setting_fields()) {
     std::string flag(field.name);
     std::replace(flag.begin(), flag.end(), '_', '-');
     const std::string key(field.name);
     cli.add_option_function<std::string>(
         "--" + flag,
-        [key, &options](const std::string& v) { options.settings.push_back(key + "=" + v); },
+        [key, &options](const std::string& v) {
+          std::string pair = key;
+          pair.append("=").append(v);
+          options.settings.push_back(std::move(pair));
+        },
         std::string(field.help));
   }
   cli.add_flag("--light", options.light, "start in the light theme");
@@ -248,5 +251,17 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "substep: --size %s is not WxH\n", size.c_str());
     return 2;
   }
-  return substep::run(options);
+  return run(options);
+}
+
+}  // namespace
+}  // namespace substep
+
+int main(int argc, char** argv) {
+  try {
+    return substep::start(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "substep: %s\n", error.what());
+    return 3;
+  }
 }

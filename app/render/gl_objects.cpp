@@ -11,9 +11,6 @@
 namespace substep::gl {
 namespace {
 
-// Where a field lies, as glVertexAttribPointer wants it.
-const void* at(std::size_t offset) { return reinterpret_cast<const void*>(offset); }
-
 GLuint compile(GLenum kind, const std::string& source, std::string& error) {
   const GLuint shader = glCreateShader(kind);
   const char* text = source.c_str();

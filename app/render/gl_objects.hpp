@@ -4,10 +4,17 @@
 // <epoxy/gl.h> natively, <GLES3/gl3.h> on the web: the build says which.
 #include SUBSTEP_GL_HEADER
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace substep::gl {
+
+/// Where a field lies, as glVertexAttribPointer wants it.
+inline const void* at(std::size_t offset) {
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets as pointers
+  return reinterpret_cast<const void*>(offset);
+}
 
 /// A vertex and a fragment shader linked together.
 class Program {

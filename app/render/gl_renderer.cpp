@@ -75,7 +75,7 @@ bool GlRenderer::build(std::string& error) {
   ribbon_vertices_.bind();
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(RibbonVertex), nullptr);
   glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(RibbonVertex),
-                        reinterpret_cast<const void*>(offsetof(RibbonVertex, color)));
+                        gl::at(offsetof(RibbonVertex, color)));
   glEnableVertexAttribArray(0);
   glEnableVertexAttribArray(1);
   glBindVertexArray(0);

@@ -141,7 +141,9 @@ void draw_time(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.16F : 0.25F);
   const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 44.0F));
   const int digits = step < 0.1 ? 2 : step < 1.0 ? 1 : 0;
-  for (double t = std::ceil(f.t0 / step) * step; t <= f.t1; t += step) {
+  const double first = std::ceil(f.t0 / step) * step;
+  for (int i = 0; first + i * step <= f.t1; ++i) {
+    const double t = first + i * step;
     const float x = std::round(f.x(t));
     draw.AddLine({x, f.min.y}, {x, f.max.y}, line);
     if (!spec.time_labels || t < 0.5 * step) continue;
@@ -192,7 +194,9 @@ std::vector<Column> columns_of(const Series& series, const Slice& slice, const H
 void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width) {
   constexpr float kOn = 5.0F;
   constexpr float kOff = 4.0F;
-  for (float x = a.x; x < b.x; x += kOn + kOff) {
+  const int count = static_cast<int>((b.x - a.x) / (kOn + kOff)) + 1;
+  for (int i = 0; i < count; ++i) {
+    const float x = a.x + static_cast<float>(i) * (kOn + kOff);
     draw.AddLine({x, a.y}, {std::min(x + kOn, b.x), b.y}, color, width);
   }
 }
@@ -210,12 +214,12 @@ void draw_series(const Series& series, const Slice& slice, const History& histor
   draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Column& c = columns[i];
-    if (series.steps && i > 0) points.push_back({c.x, columns[i - 1].last});
+    if (series.steps && i > 0) points.emplace_back(c.x, columns[i - 1].last);
     if (c.samples > 1) {  // many samples in the column: down and up, ending at the last
-      points.push_back({c.x, c.low});
-      points.push_back({c.x, c.high});
+      points.emplace_back(c.x, c.low);
+      points.emplace_back(c.x, c.high);
     }
-    points.push_back({c.x, c.last});
+    points.emplace_back(c.x, c.last);
     if (series.filled) {
       const float right = i + 1 < columns.size() ? columns[i + 1].x : series.steps ? held : c.x;
       const float right_y = i + 1 < columns.size() && !series.steps ? columns[i + 1].last : c.last;
@@ -224,7 +228,7 @@ void draw_series(const Series& series, const Slice& slice, const History& histor
     }
   }
   draw.Flags = flags;
-  if (series.steps) points.push_back({held, columns.back().last});
+  if (series.steps) points.emplace_back(held, columns.back().last);
   if (series.dashed) {
     // Dashes by distance along the line.
     float on = 0.0F;

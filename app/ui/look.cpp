@@ -25,8 +25,8 @@ Theme make_dark() {
   t.panel_border = rgb(0x2b313d);
   t.raised = rgb(0x222835, 250);
   t.well = rgb(0x0f1218);
-  t.control = rgb(0x272d39);
-  t.control_hover = rgb(0x323a49);
+  t.control = rgb(0x2c3341);
+  t.control_hover = rgb(0x394253);
   t.track = rgb(0x303847);
   t.text = rgb(0xe8ecf2);
   t.dim = rgb(0x9aa4b3);

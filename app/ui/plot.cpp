@@ -123,7 +123,8 @@ void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
       continue;
     }
     const std::string text = f.logarithmic ? power_of_ten(static_cast<int>(std::lround(v)))
-                                           : fixed(v / spec.factor, digits);
+                             : std::abs(v) >= 1e5 * spec.factor ? short_number(v / spec.factor)
+                                                                : fixed(v / spec.factor, digits);
     const float top = y - 15.0F < f.min.y ? y + 1.0F : y - 15.0F;
     if (y > f.max.y - 2.0F || y < f.min.y || top + 13.0F > above) continue;
     above = top;

@@ -12,7 +12,8 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kHeading = 24.0F;  // a section's heading with the gap below it
+constexpr float kTimeLabels = 18.0F;  // below the last plot
+constexpr float kHeading = 24.0F;     // a section's heading with the gap below it
 
 // A coloured dot with its name and value, right-aligned at `right`. @return where it starts
 float legend(const Look& look, float right, float y, ImU32 color, const std::string& text) {
@@ -62,7 +63,7 @@ void substeps_plot(App& app, float height) {
        app.desk.substeps_range);
 }
 
-void energy_plot(App& app, float height) {
+void energy_plot(App& app, float height, bool last) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const History& h = app.session.history();
@@ -92,13 +93,14 @@ void energy_plot(App& app, float height) {
 
   PlotSpec spec;
   spec.id = "energy";
+  spec.time_labels = last;
   spec.from_zero = true;
   spec.factor = unit.factor;
   spec.least_span = unit.factor;
   spec.series.push_back({kinetic, t.teal, false, true, false, 1.5F});
   spec.series.push_back({change, t.orange, false, false, false, 1.5F});
-  plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height}, app.desk.time,
-       app.desk.energy_range);
+  plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height + (last ? kTimeLabels : 0.0F)},
+       app.desk.time, app.desk.energy_range);
 }
 
 void error_plot(App& app, float height) {
@@ -124,7 +126,7 @@ void error_plot(App& app, float height) {
   };
   if (effects.contact) add(Channel::kPenetration, "overlap", t.amber);
   if (effects.joints) add(Channel::kJointError, "joints", t.purple);
-  plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height}, app.desk.time,
+  plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height + kTimeLabels}, app.desk.time,
        app.desk.error_range);
 }
 
@@ -204,15 +206,20 @@ float timing_height(const App& app) {
 }
 
 void plots(App& app, float height) {
-  // Two tall plots, and one less tall with the labels of the time axis.
+  // All of one height, the last with the labels of the time axis below it. A scene with nothing to
+  // violate has no plot of errors.
+  const Effects& effects = app.session.scene().effects;
+  const bool errors = effects.joints || effects.contact;
+  const float count = errors ? 3.0F : 2.0F;
   const float gap = app.look.m.section;
-  const float rest = height - 3.0F * kHeading - 2.0F * gap - 18.0F;
-  const float unit = std::max(rest / 3.0F, 56.0F);
-  substeps_plot(app, std::floor(unit));
+  const float rest = height - count * kHeading - (count - 1.0F) * gap - kTimeLabels;
+  const float unit = std::floor(std::max(rest / count, 56.0F));
+  substeps_plot(app, unit);
   space(gap);
-  energy_plot(app, std::floor(unit));
+  energy_plot(app, unit, !errors);
+  if (!errors) return;
   space(gap);
-  error_plot(app, std::floor(unit) + 18.0F);
+  error_plot(app, unit);
 }
 
 void why(App& app) {

@@ -156,6 +156,28 @@ TEST(Pointer, ChoosesAModeAndTurnsTheView) {
   EXPECT_GT((h.app->view.camera.eye(h.app->view_rect) - eye).norm(), 1.0);
 }
 
+TEST(Failure, RunThatIsNoLongerFinitePausesAndResets) {
+  Headless h;
+  // An explicit gyroscopic torque at this speed gains energy without bound.
+  Scene wild = *h.app->library.find("spinning_top");
+  for (Body& body : wild.bodies) body.angular_velocity = {300.0, 2000.0, 100.0};
+  wild.settings.gyroscopic = Gyroscopic::kExplicit;
+  wild.settings.mode = Mode::kNone;
+  h.app->run(std::make_shared<const Scene>(wild));
+  h.app->session.play();
+  h.frames(120);
+  ASSERT_TRUE(h.app->session.stopped());
+  EXPECT_FALSE(h.app->session.playing());
+  EXPECT_TRUE(h.app->session.verdict().not_finite());
+  for (const Vec3& x : h.app->session.state().x) EXPECT_TRUE(x.allFinite());
+  h.type(" ");
+  EXPECT_FALSE(h.app->session.playing());
+  h.type("r");
+  EXPECT_FALSE(h.app->session.stopped());
+  h.type(" ");
+  EXPECT_TRUE(h.app->session.playing());
+}
+
 TEST(Trouble, BrokenSceneIsShownAndTheRunningOneKept) {
   Headless h;
   h.app->open("bridge");

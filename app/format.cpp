@@ -1,5 +1,6 @@
 #include "app/format.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -50,17 +51,24 @@ std::string grouped(double value) {
   return (value <= -0.5 ? "−" : "") + text;
 }
 
-std::string short_number(double value) {
+namespace {
+
+std::string with_digits(double value, int digits) {
   if (!std::isfinite(value)) return std::isnan(value) ? "not a number" : value < 0 ? "−∞" : "∞";
   const double size = std::abs(value);
   if (size == 0.0) return "0";
   const int exponent = static_cast<int>(std::floor(std::log10(size)));
   if (exponent >= 5 || exponent < -3) {
     const double mantissa = value / std::pow(10.0, exponent);
-    return fixed(mantissa, 2) + "×10" + superscript(exponent);
+    return fixed(mantissa, digits - 1) + "×10" + superscript(exponent);
   }
-  return exponent >= 3 ? grouped(value) : fixed(value, 2 - exponent);
+  return exponent >= 3 ? grouped(value) : fixed(value, std::max(0, digits - 1 - exponent));
 }
+
+}  // namespace
+
+std::string short_number(double value) { return with_digits(value, 3); }
+std::string coarse_number(double value) { return with_digits(value, 2); }
 
 std::string plain_number(double value) {
   std::string text = short_number(value);
@@ -82,6 +90,7 @@ Unit unit_for(double scale) {
 
 std::string percent(double share) {
   const double value = 100.0 * share;
+  if (std::abs(value) < 5e-4) return "0 %";
   const int digits = std::abs(value) < 0.095 ? 3 : std::abs(value) < 9.95 ? 2 : 1;
   const std::string text = fixed(value, digits);
   return (value > 0.0 ? "+" : "") + text + " %";

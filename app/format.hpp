@@ -7,6 +7,8 @@ namespace substep {
 
 /// Three significant digits: "0.852", "12.3", "5,520", "5.52×10⁵".
 std::string short_number(double value);
+/// Two significant digits, for where room is scarce: "0.0042", "4.4×10⁻⁶".
+std::string coarse_number(double value);
 /// Three significant digits without zeros at the end: "0.1", "0.025".
 std::string plain_number(double value);
 /// "1,000"

@@ -165,7 +165,10 @@ void body_labels(App& app) {
       if (project(app, poses.x[i] + Vec3(0.0, sphere->radius, 0.0), c)) high = c.y;
     }
     const ImVec2 at(p.x - 0.5F * size.x, below ? low + 6.0F : high - 8.0F - size.y);
-    if (at.x < v.x || at.x + size.x > v.x + v.width || at.y + size.y > v.y + v.height) continue;
+    constexpr float kCaption = 68.0F;  // the lines above are the caption's
+    if (at.y < v.y + kCaption || at.x < v.x || at.x + size.x > v.x + v.width ||
+        at.y + size.y > v.y + v.height)
+      continue;
     draw_over(look, draw, look.fonts.small, at, look.theme->dim, text.c_str());
   }
 }
@@ -282,7 +285,7 @@ void help_card(App& app) {
                                               {".", "one frame"},
                                               {"R", "back to the start"},
                                               {"[  ]", "slower, faster"},
-                                              {"1 … 5", "none, const, damping, adaptive, capped"},
+                                              {"1 … 5", "the five ways to keep it stable"},
                                               {"F", "show everything"},
                                               {"H", "panels on or off"},
                                               {"T", "light or dark"},

@@ -163,30 +163,36 @@ struct Column {
   float high = 0.0F;
   float last = 0.0F;
   int samples = 1;
+  bool gap = false;  // nothing to draw between the one before and this one
 };
 
 std::vector<Column> columns_of(const Series& series, const Slice& slice, const History& history,
                                const Frame& f) {
   std::vector<Column> columns;
+  bool gap = false;
   const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
   const double samples = (f.t1 - f.t0) / history.frame();
   const float width =
       samples > 4.0 * static_cast<double>((f.max.x - f.min.x) / pixel) ? pixel : 0.0F;
   for (std::size_t i = slice.first; i < std::min(slice.last, series.values.size()); ++i) {
     const auto value = static_cast<double>(series.values[i]);
-    if (!std::isfinite(value) || (f.logarithmic && value <= 0.0)) continue;
+    if (!std::isfinite(value) || (f.logarithmic && value <= 0.0)) {
+      gap = true;
+      continue;
+    }
     // A stepped series holds from the start of its frame.
     const double time = history.time(i) - (series.steps ? history.frame() : 0.0);
     const float x = f.x(time);
     const float y = f.y(value);
-    if (!columns.empty() && x < columns.back().x + width) {
+    if (!gap && !columns.empty() && x < columns.back().x + width) {
       Column& c = columns.back();
       c.low = std::min(c.low, y);
       c.high = std::max(c.high, y);
       c.last = y;
       ++c.samples;
     } else {
-      columns.push_back({x, y, y, y, 1});
+      columns.push_back({x, y, y, y, 1, gap});
+      gap = false;
     }
   }
   return columns;
@@ -202,47 +208,79 @@ void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width)
   }
 }
 
-void draw_series(const Series& series, const Slice& slice, const History& history, const Frame& f,
+// Dashes by distance along the line, whatever its points are.
+void draw_dashes(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 color, float width) {
+  constexpr float kOn = 4.0F;
+  constexpr float kPeriod = 7.0F;
+  float along = 0.0F;  // where in the period the segment starts
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const ImVec2 a = points[i];
+    const ImVec2 d(points[i + 1].x - a.x, points[i + 1].y - a.y);
+    const float length = std::hypot(d.x, d.y);
+    float at = 0.0F;
+    while (at < length) {
+      const bool on = along < kOn;
+      const float to = std::min(length, at + (on ? kOn : kPeriod) - along);
+      if (on) {
+        draw.AddLine({a.x + d.x * at / length, a.y + d.y * at / length},
+                     {a.x + d.x * to / length, a.y + d.y * to / length}, color, width);
+      }
+      along += to - at + 1e-4F;
+      if (along >= kPeriod) along = 0.0F;
+      at = to + 1e-4F;
+    }
+  }
+}
+
+void draw_line(const Series& series, std::vector<ImVec2>& points, ImDrawList& draw) {
+  if (series.dashed) {
+    draw_dashes(draw, points, series.color, series.width);
+  } else {
+    draw.AddPolyline(points.data(), static_cast<int>(points.size()), series.color, 0, series.width);
+  }
+  points.clear();
+}
+
+// Down to zero, slice by slice. Soft edges between the slices would show as stripes.
+void fill_series(const Series& series, const std::vector<Column>& columns, float zero, float end,
                  ImDrawList& draw) {
-  const std::vector<Column> columns = columns_of(series, slice, history, f);
-  if (columns.empty()) return;
-  const float zero = std::clamp(f.y(0.0), f.min.y, f.max.y);
-  const float held = f.x(history.end_time());  // a stepped series ends here
-  std::vector<ImVec2> points;
-  points.reserve(4 * columns.size());
-  // Soft edges between the slices of a filled series would show as stripes.
   const ImDrawListFlags flags = draw.Flags;
   draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Column& c = columns[i];
-    if (series.steps && i > 0) points.emplace_back(c.x, columns[i - 1].last);
+    const bool more = i + 1 < columns.size();
+    const float right = more ? columns[i + 1].x : series.steps ? end : c.x;
+    const float right_y = more && !series.steps ? columns[i + 1].last : c.last;
+    draw.AddQuadFilled({c.x, c.last}, {right, right_y}, {right, zero}, {c.x, zero},
+                       fade(series.color, 0.14F));
+  }
+  draw.Flags = flags;
+}
+
+void draw_series(const Series& series, const Slice& slice, const History& history, const Frame& f,
+                 ImDrawList& draw) {
+  const std::vector<Column> columns = columns_of(series, slice, history, f);
+  if (columns.empty()) return;
+  const float end = f.x(history.end_time());  // a stepped series holds until here
+  if (series.filled) {
+    fill_series(series, columns, std::clamp(f.y(0.0), f.min.y, f.max.y), end, draw);
+  }
+  std::vector<ImVec2> points;
+  points.reserve(3 * columns.size() + 1);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Column& c = columns[i];
+    if (c.gap) draw_line(series, points, draw);
+    if (series.steps && !points.empty()) points.emplace_back(c.x, columns[i - 1].last);
     if (c.samples > 1) {  // many samples in the column: down and up, ending at the last
       points.emplace_back(c.x, c.low);
       points.emplace_back(c.x, c.high);
     }
     points.emplace_back(c.x, c.last);
-    if (series.filled) {
-      const float right = i + 1 < columns.size() ? columns[i + 1].x : series.steps ? held : c.x;
-      const float right_y = i + 1 < columns.size() && !series.steps ? columns[i + 1].last : c.last;
-      draw.AddQuadFilled({c.x, c.last}, {right, right_y}, {right, zero}, {c.x, zero},
-                         fade(series.color, 0.14F));
-    }
   }
-  draw.Flags = flags;
-  if (series.steps) points.emplace_back(held, columns.back().last);
-  if (series.dashed) {
-    // Dashes by distance along the line.
-    float on = 0.0F;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const float length = std::hypot(points[i + 1].x - points[i].x, points[i + 1].y - points[i].y);
-      if (std::fmod(on, 7.0F) < 4.0F)
-        draw.AddLine(points[i], points[i + 1], series.color, series.width);
-      on += length;
-    }
-    return;
-  }
-  draw.AddPolyline(points.data(), static_cast<int>(points.size()), series.color, 0, series.width);
-  if (!series.steps) draw.AddCircleFilled(points.back(), 2.5F, series.color);
+  if (series.steps) points.emplace_back(end, columns.back().last);
+  const ImVec2 newest = points.back();
+  draw_line(series, points, draw);
+  if (!series.steps && !series.dashed) draw.AddCircleFilled(newest, 2.5F, series.color);
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ void error_plot(App& app, float height) {
   const auto add = [&](Channel channel, const char* name, ImU32 color) {
     const double value = shown_value(h[channel], h, app.desk.time);
     right = legend(look, right, origin.y, color,
-                   std::string(name) + (std::isfinite(value) ? " " + short_number(value) : ""));
+                   std::string(name) + (std::isfinite(value) ? " " + coarse_number(value) : ""));
     spec.series.push_back({h[channel], color, false, false, false, 1.5F});
   };
   if (effects.contact) add(Channel::kPenetration, "overlap", t.amber);
@@ -278,7 +278,8 @@ void timing(App& app) {
   const float half = 0.5F * (width + 24.0F);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const float left = origin.x + half * static_cast<float>(i % 2);
-    const float y = origin.y + 20.0F + 20.0F * static_cast<float>(i / 2);
+    const std::size_t row = i / 2;
+    const float y = origin.y + 20.0F + 20.0F * static_cast<float>(row);
     draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
     draw_text(draw, look.fonts.small, {left + 12.0F, y}, t.dim, list[i].name);
     if (total > 0.0) {

@@ -19,15 +19,6 @@ ImVec2 snapped(ImVec2 p) {
 
 float available_width() { return ImGui::GetContentRegionAvail().x; }
 
-// A ring around what the keyboard is on.
-void draw_focus(const Look& look, ImDrawList& draw, const ImRect& box) {
-  const ImGuiContext& g = *ImGui::GetCurrentContext();
-  if (g.NavId == g.LastItemData.ID && !g.NavDisableHighlight) {
-    draw.AddRect({box.Min.x - 2, box.Min.y - 2}, {box.Max.x + 2, box.Max.y + 2},
-                 look.theme->accent_hover, look.m.radius + 2, 0, 2.0F);
-  }
-}
-
 // Name at the left of a row, value at the right; between them what remains for the control.
 ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -105,12 +96,20 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, b
   const ImVec2 size = text_size(look.fonts.medium, text.data());
   draw_text(draw, look.fonts.medium, {all.Max.x - size.x, origin.y + 0.5F * (look.m.row - size.y)},
             t.text, text.data());
-  draw_focus(look, draw, all);
+  draw_focus(look, draw, all.Min, all.Max);
   if (!active) tooltip(look, name, tip);
   return changed;
 }
 
 }  // namespace
+
+void draw_focus(const Look& look, ImDrawList& draw, ImVec2 min, ImVec2 max) {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.NavId == g.LastItemData.ID && !g.NavDisableHighlight) {
+    draw.AddRect({min.x - 2, min.y - 2}, {max.x + 2, max.y + 2}, look.theme->accent_hover,
+                 look.m.radius + 2, 0, 2.0F);
+  }
+}
 
 void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const char* text,
                const char* end) {
@@ -254,7 +253,7 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
               : hovered ? t.text
                         : t.dim,
               choice.name);
-    draw_focus(look, draw, box);
+    draw_focus(look, draw, box.Min, box.Max);
     tooltip(look, choice.name, choice.tip);
     x = right;
   }
@@ -304,103 +303,8 @@ bool checkbox(const Look& look, const char* name, bool& value, float width, cons
   const ImVec2 size = text_size(look.fonts.regular, name);
   draw_text(draw, look.fonts.regular, {to.x + 8.0F, origin.y + 0.5F * (look.m.row - size.y)},
             t.text, name);
-  draw_focus(look, draw, {origin, {origin.x + width, origin.y + look.m.row}});
+  draw_focus(look, draw, origin, {origin.x + width, origin.y + look.m.row});
   tooltip(look, name, tip);
-  return pressed;
-}
-
-bool button(const Look& look, const char* id, Icon icon, const char* text, ButtonKind kind,
-            float width, float height, const char* tip) {
-  const Theme& t = *look.theme;
-  const ImVec2 size = *text != '\0' ? text_size(look.fonts.medium, text) : ImVec2(0, 0);
-  const float icon_width = icon == Icon::kNone ? 0.0F : 16.0F;
-  const float between = icon_width > 0.0F && size.x > 0.0F ? 6.0F : 0.0F;
-  const float content = icon_width + between + size.x;
-  if (width <= 0.0F) width = size.x > 0.0F ? content + 24.0F : height;
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const bool pressed = ImGui::InvisibleButton(id, {width, height});
-  const bool hovered = ImGui::IsItemHovered();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImRect box(origin, {origin.x + width, origin.y + height});
-  ImU32 ink = kind == ButtonKind::kPrimary ? t.on_accent : t.text;
-  if (kind == ButtonKind::kPrimary) {
-    draw.AddRectFilled(box.Min, box.Max, hovered ? t.accent_hover : t.accent, look.m.radius);
-  } else if (kind == ButtonKind::kPlain || hovered) {
-    draw.AddRectFilled(box.Min, box.Max, hovered ? t.control_hover : t.control, look.m.radius);
-  } else {
-    ink = t.dim;
-  }
-  const float x = origin.x + 0.5F * (width - content);
-  const float y = origin.y + 0.5F * height;
-  if (icon != Icon::kNone) draw_icon(draw, icon, {x + 8.0F, y}, 16.0F, ink);
-  if (size.x > 0.0F) {
-    draw_text(draw, look.fonts.medium, {x + icon_width + between, y - 0.5F * size.y}, ink, text);
-  }
-  draw_focus(look, draw, box);
-  tooltip(look, "", tip);
-  return pressed;
-}
-
-bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
-                 const char* tip, const std::function<void()>& menu) {
-  const Theme& t = *look.theme;
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  ImGui::PushID(id);
-  const bool pressed = ImGui::InvisibleButton("open", {width, height});
-  const bool hovered = ImGui::IsItemHovered();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const ImRect box(origin, {origin.x + width, origin.y + height});
-  draw.AddRectFilled(box.Min, box.Max, hovered ? t.control_hover : t.control, look.m.radius);
-  const std::string shown = fitted(look.fonts.medium, text, width - 40.0F);
-  const float line = text_size(look.fonts.medium, shown.c_str()).y;
-  draw_text(draw, look.fonts.medium, {origin.x + 12.0F, origin.y + 0.5F * (height - line)}, t.text,
-            shown.c_str());
-  draw_icon(draw, Icon::kChevron, {box.Max.x - 16.0F, origin.y + 0.5F * height}, 16.0F, t.dim);
-  draw_focus(look, draw, box);
-  tooltip(look, "", tip);
-  if (pressed) ImGui::OpenPopup("menu");
-
-  // Opens to where there is room, never over its button.
-  const float below = ImGui::GetIO().DisplaySize.y - box.Max.y - 16.0F;
-  const float above = box.Min.y - 16.0F;
-  const bool up = below < 240.0F && above > below;
-  ImGui::SetNextWindowPos({box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F}, ImGuiCond_Always,
-                          {0.0F, up ? 1.0F : 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F},
-                                      {400.0F, std::max(120.0F, up ? above : below)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
-  const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);
-  if (open) {
-    menu();
-    ImGui::EndPopup();
-  }
-  ImGui::PopStyleVar(2);
-  ImGui::PopID();
-  return open;
-}
-
-bool menu_item(const Look& look, const char* text, const char* note, bool current) {
-  const Theme& t = *look.theme;
-  const ImVec2 size = text_size(look.fonts.regular, text);
-  const ImVec2 note_size = *note != '\0' ? text_size(look.fonts.small, note) : ImVec2(0, 0);
-  const float needed = 28.0F + size.x + (note_size.x > 0.0F ? note_size.x + 24.0F : 0.0F) + 8.0F;
-  const float width = std::max(needed, available_width());
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float height = look.m.row + 2.0F;
-  const bool pressed = ImGui::InvisibleButton(text, {width, height});
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (ImGui::IsItemHovered() || ImGui::IsItemFocused()) {
-    draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, t.control, look.m.radius);
-  }
-  const float middle = origin.y + 0.5F * height;
-  if (current) draw_icon(draw, Icon::kCheck, {origin.x + 14.0F, middle}, 16.0F, t.accent_hover);
-  draw_text(draw, look.fonts.regular, {origin.x + 28.0F, middle - 0.5F * size.y}, t.text, text);
-  if (note_size.x > 0.0F) {
-    draw_text(draw, look.fonts.small,
-              {origin.x + width - 8.0F - note_size.x, middle - 0.5F * note_size.y}, t.dim, note);
-  }
-  if (pressed) ImGui::CloseCurrentPopup();
   return pressed;
 }
 

@@ -26,6 +26,9 @@ void section(const Look& look, const char* title, const char* value = nullptr,
              ImU32 value_color = 0);
 void space(float height);
 
+/// A ring around the last item where the keyboard is on it.
+void draw_focus(const Look& look, ImDrawList& draw, ImVec2 min, ImVec2 max);
+
 /// A tooltip for the last item: what it is in a line, more below. Shown after a moment.
 void tooltip(const Look& look, const char* title, const char* text);
 

@@ -19,6 +19,12 @@ TEST(Format, ShortNumbersHaveThreeDigits) {
   EXPECT_EQ(short_number(std::nan("")), "not a number");
 }
 
+TEST(Format, CoarseNumbersHaveTwoDigits) {
+  EXPECT_EQ(coarse_number(2.32e-4), "2.3×10⁻⁴");
+  EXPECT_EQ(coarse_number(0.00784), "0.0078");
+  EXPECT_EQ(coarse_number(65.5), "66");
+}
+
 TEST(Format, PlainNumbersEndInNoZeros) {
   EXPECT_EQ(plain_number(0.1), "0.1");
   EXPECT_EQ(plain_number(0.025), "0.025");

@@ -86,10 +86,10 @@ export async function openPage(session, options = {}) {
   return page;
 }
 
-/** Waits until the page has drawn what it was told. */
-export const drawn = (page) => page.evaluate(() => new Promise((done) => {
-  requestAnimationFrame(() => requestAnimationFrame(done));
-}));
+/** Waits until the page has drawn what it was told: a panel that opens takes a few frames. */
+export const drawn = (page) => page.evaluate(async () => {
+  for (let i = 0; i < 4; ++i) await new Promise((done) => { requestAnimationFrame(done); });
+});
 
 /** A picture of the page or of a part of it, decoded. @param clip {x, y, width, height} */
 export async function picture(page, clip) {

@@ -19,6 +19,11 @@ namespace substep {
 /// What a shell can do for the application. Each may be empty.
 struct Host {
   std::function<void(const std::string& fragment)> link_changed;  // keeps the address up to date
+  /// Hands a file to the person: into the working folder natively, a download in the page.
+  std::function<void(const std::string& name, const std::string& bytes)> save_file;
+  /// Keeps how the window is arranged from one visit to the next; "" where nothing was kept.
+  std::function<void(const std::string& key, const std::string& value)> remember;
+  std::function<std::string(const std::string& key)> recall;
 };
 
 /// What went wrong with outside data: shown in a panel until it is closed.

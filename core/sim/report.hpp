@@ -30,6 +30,7 @@ struct SolverWork {
   std::int64_t pivots = 0;       // BPP: changes of the active set
   std::int64_t passes = 0;       // BPP: refreshes of the friction bounds, the first included
   std::int64_t factorisations = 0;
+  std::int64_t flops = 0;      // floating-point operations of the solver, the same on every machine
   std::int64_t unsettled = 0;  // BPP: solves whose friction bounds still moved after four passes
   std::int64_t unsolved = 0;   // BPP: solves that ended on the bound of pivots
   double residual = 0.0;       // of the last sub-step: largest violation of bounds [N s] and

@@ -104,6 +104,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   work.pivots += solved.pivots;
   work.passes += solved.passes;
   work.factorisations += solved.factorisations;
+  work.flops += solved.flops;
   if (solved.status == SolveStatus::kUnsolved) ++work.unsolved;
   if (solved.status == SolveStatus::kUnsettled) ++work.unsettled;
   clock.lap(report.times.solve);

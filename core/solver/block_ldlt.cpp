@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/solver/flops.hpp"
+
 namespace substep {
 
 namespace {
@@ -189,6 +191,36 @@ void BlockLdlt::lay_out(std::span<const Block> blocks) {
       list.push_back(static_cast<int>(i));
     }
   }
+  count(blocks);
+}
+
+void BlockLdlt::count(std::span<const Block> blocks) {
+  cost_ = {};
+  const auto couple_flops = [](const Block& row, const Block& col) {
+    const bool identity = row.pinned && col.pinned;
+    return product_flops(row.rows, identity ? 3 : 6, col.rows) + (identity ? 3 : 0);
+  };
+  for (const Block& block : blocks) {
+    const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+    cost_.form += bodies * (18 * block.rows + couple_flops(block, block));
+  }
+  for (const Product& product : products_) {
+    cost_.form += couple_flops(blocks[static_cast<std::size_t>(product.row_block)],
+                               blocks[static_cast<std::size_t>(product.col_block)]);
+  }
+  for (std::size_t p = 0; p < nodes_.size(); ++p) {
+    const std::int64_t k = nodes_[p].rows;
+    std::int64_t below = 0;
+    std::int64_t updates = 0;
+    for (std::size_t c = nodes_[p].n_coupled; c-- > 0;) {
+      const std::int64_t rows = coupled_[nodes_[p].first_coupled + c].rows;
+      below += rows;
+      updates += product_flops(below, k, rows);
+    }
+    (p < order_.joints() ? cost_.joints : cost_.contacts) +=
+        ldlt_flops(k) + unit_triangle_flops(k, below) + below * k + updates;
+    cost_.solve += 2 * (unit_triangle_flops(k) + product_flops(below, k, 1)) + k;
+  }
 }
 
 void BlockLdlt::form(const System& system) {
@@ -223,6 +255,7 @@ void BlockLdlt::form(const System& system) {
 
 void BlockLdlt::begin(const System& system) {
   if (order_.update(system.blocks, system.u.size())) lay_out(system.blocks);
+  flops_ = cost_.form + cost_.joints;
   form(system);
   eliminate(0, order_.joints());
   std::copy(values_.begin() + static_cast<std::ptrdiff_t>(contacts_at_), values_.end(),
@@ -230,6 +263,7 @@ void BlockLdlt::begin(const System& system) {
 }
 
 void BlockLdlt::factor_contacts(std::span<const Block> blocks) {
+  flops_ += cost_.contacts;
   std::copy(contacts_.begin(), contacts_.end(),
             values_.begin() + static_cast<std::ptrdiff_t>(contacts_at_));
   for (std::size_t p = order_.joints(); p < nodes_.size(); ++p) {
@@ -390,6 +424,7 @@ void BlockLdlt::backward(const Node& node) {
 }
 
 void BlockLdlt::solve(std::span<const Block> blocks) {
+  flops_ += cost_.solve;
   for (std::size_t p = 0; p < nodes_.size(); ++p) {
     const Node& node = nodes_[p];
     if (p >= order_.joints()) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,7 +29,18 @@ class BlockLdlt {
   }
   void solve(std::span<const Block> blocks);
 
+  /// Floating-point operations since `begin`, that included.
+  [[nodiscard]] std::int64_t flops() const { return flops_; }
+
  private:
+  /// What each call costs with the present layout (flops.hpp).
+  struct Cost {
+    std::int64_t form = 0;
+    std::int64_t joints = 0;
+    std::int64_t contacts = 0;
+    std::int64_t solve = 0;
+  };
+
   /// A block in the order of elimination. Its panel holds the columns of the block from the
   /// diagonal down: rows x rows for itself, then the rows of every coupled block; row-major.
   struct Node {
@@ -58,6 +70,7 @@ class BlockLdlt {
   };
 
   void lay_out(std::span<const Block> blocks);
+  void count(std::span<const Block> blocks);
   void form(const System& system);
   template <int K>
   void eliminate(const Node& node);
@@ -80,6 +93,8 @@ class BlockLdlt {
   std::vector<Weighted> weighted_;
   std::vector<double> scratch_;
   std::vector<double> x_;
+  Cost cost_;
+  std::int64_t flops_ = 0;
 };
 
 }  // namespace substep

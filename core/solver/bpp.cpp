@@ -22,7 +22,7 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   gauss_seidel_.reserve(bodies, blocks);
 }
 
-SolveReport Bpp::solve(const System& system, const Settings& settings) {
+SolveReport Bpp::find_active_set(const System& system, const Settings& settings) {
   SolveReport report;
   u_star_.assign(system.u.begin(), system.u.end());
   ldlt_.begin(system);
@@ -45,7 +45,7 @@ SolveReport Bpp::solve(const System& system, const Settings& settings) {
       if (pivot(system, one_only) == 0) break;
       ++report.pivots;
       if (!one_only || ++single_pivots <= kSinglePivots) continue;
-      go_on_with_gauss_seidel(system, settings);
+      report.flops += go_on_with_gauss_seidel(system, settings);
       report.status = SolveStatus::kUnsolved;
       return report;
     }
@@ -55,7 +55,13 @@ SolveReport Bpp::solve(const System& system, const Settings& settings) {
   return report;
 }
 
-void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings) {
+SolveReport Bpp::solve(const System& system, const Settings& settings) {
+  SolveReport report = find_active_set(system, settings);
+  report.flops += ldlt_.flops();
+  return report;
+}
+
+std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings) {
   std::copy(u_star_.begin(), u_star_.end(), system.u.begin());
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
@@ -67,7 +73,7 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
   }
   Settings warm = settings;
   warm.warm_start = true;
-  gauss_seidel_.solve(system, warm);
+  const std::int64_t flops = gauss_seidel_.solve(system, warm).flops;
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
     const double bound = block.mu * block.impulse[0];
@@ -78,6 +84,7 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
                                                         : std::int8_t{0};
     }
   }
+  return flops;
 }
 
 // A row that was tight in the last sub-step starts tight. A new contact starts free if the bodies

@@ -20,6 +20,7 @@ class Bpp final : public Solver {
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
+  SolveReport find_active_set(const System& system, const Settings& settings);
   void start_active_set(const System& system);
   void set_friction_bounds(std::span<Block> blocks);
   /// True if the friction bounds that follow from the solution leave it a solution.
@@ -29,8 +30,8 @@ class Bpp final : public Solver {
   /// @return how many rows there were
   int pivot(const System& system, bool one_only);
   void apply(const System& system, bool tight_rows);
-  /// From the impulses as they stand, clamped to their bounds.
-  void go_on_with_gauss_seidel(const System& system, const Settings& settings);
+  /// From the impulses as they stand, clamped to their bounds. @return its flops
+  std::int64_t go_on_with_gauss_seidel(const System& system, const Settings& settings);
 
   BlockLdlt ldlt_;
   Pgs gauss_seidel_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/solver/flops.hpp"
+
 namespace substep {
 
 namespace {
@@ -40,6 +42,24 @@ void kick(const double (&W)[kMaxRows][6], double signed_mass, const double (&cha
     for (int j = kFirst; j < 6; ++j) sum[j] += W[row][j] * change[row];
   }
   for (int j = kFirst; j < 6; ++j) u[j] = sum[j];
+}
+
+/// Of one visit to a block: J u and Mt^-1 J^T change on each body, the coupling of its rows, and
+/// per row the softness, the step and the bounds.
+std::int64_t visit_flops(const Block& block) {
+  const std::int64_t n = block.rows;
+  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+  const std::int64_t multiplied = block.pinned ? 3 : 6;  // the rest of a pinned J is +-E
+  return bodies * (2 * product_flops(n, multiplied, 1) + (block.pinned ? 9 : 0)) +
+         unit_triangle_flops(n) + 5 * n;
+}
+
+/// Of packing a block: Mt^-1 J^T and the products of its rows on each body.
+std::int64_t pack_flops(const Block& block) {
+  const std::int64_t n = block.rows;
+  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+  const std::int64_t multiplied = block.pinned ? 3 : 6;
+  return bodies * (18 * n + n * (n + 1) * multiplied + (block.pinned ? 3 : 0)) + 2 * n;
 }
 
 }  // namespace
@@ -159,6 +179,8 @@ SolveReport Pgs::solve(const System& system, const Settings& settings) {
   for (std::size_t k = 0; k < visits_.size(); ++k) {
     std::copy(visits_[k].impulse, visits_[k].impulse + visits_[k].rows, system.blocks[k].impulse);
     report.row_updates += static_cast<std::int64_t>(visits_[k].rows) * settings.iterations;
+    report.flops +=
+        pack_flops(system.blocks[k]) + visit_flops(system.blocks[k]) * settings.iterations;
   }
   return report;
 }

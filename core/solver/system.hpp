@@ -38,6 +38,7 @@ struct SolveReport {
   int pivots = 0;                // BPP: changes of the active set
   int passes = 0;                // BPP: refreshes of the friction bounds, the first included
   int factorisations = 0;        // BPP
+  std::int64_t flops = 0;        // to form, factor and solve, and of row updates: flops.hpp
 };
 
 /// J u of all rows of a block: the relative speeds that it is about.

@@ -38,12 +38,15 @@ int main(int argc, char** argv) {
       "  substep run swinging_box --mode none\n"
       "  substep run bridge --alpha 0.05 --seconds 4 --csv bridge.csv\n"
       "  substep generate rope --links 100 | substep run -\n"
+      "  substep sweep swinging_box\n"
       "  substep check --all\n"
       "Exit code: 0 all went well, 1 a verdict is not as expected, 2 bad input, 3 the state "
       "stopped\n"
-      "being finite.");
+      "being finite, 130 cancelled.");
   int exit_code = kOk;
   add_run(app, exit_code);
+  add_sweep(app, exit_code);
+  add_merge(app, exit_code);
   add_check(app, exit_code);
   add_hash(app, exit_code);
   add_scenes(app, exit_code);

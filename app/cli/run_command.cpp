@@ -1,17 +1,20 @@
-#include <chrono>
 #include <cinttypes>
 #include <cstdio>
 #include <memory>
 #include <string>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/experiments_input.hpp"
 #include "app/cli/length_flags.hpp"
 #include "app/cli/output.hpp"
+#include "app/cli/progress_line.hpp"
 #include "app/cli/run_report.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
+#include "core/io/experiment.hpp"
 #include "core/io/frame_columns.hpp"
 #include "core/io/json.hpp"
+#include "core/lab/experiment.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/sim/simulator.hpp"
 
@@ -22,30 +25,11 @@ struct Options {
   std::string scene;
   std::string csv;
   std::string json;
+  std::string experiments;
+  int seed = 0;
   bool quiet = false;
   LengthFlags length;
   SettingsFlags settings;
-};
-
-/// A line on the terminal that is rewritten in place, at most ten times a second.
-class ProgressLine {
- public:
-  explicit ProgressLine(bool shown) : shown_(shown) {}
-  void update(const RunReport& report, std::int64_t frames) {
-    const auto now = std::chrono::steady_clock::now();
-    if (!shown_ || now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
-    written_ = true;
-    std::fprintf(stderr, "\r\x1b[K%s", report.progress(frames).c_str());
-  }
-  void clear() const {
-    if (written_) std::fputs("\r\x1b[K", stderr);
-  }
-
- private:
-  bool shown_;
-  bool written_ = false;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 std::string json_text(const std::string& text) {
@@ -73,10 +57,13 @@ std::string json_tail(const Verdict& verdict, const State& state) {
 }
 
 int run(const Options& options) {
-  const auto scene = load_scene(options.scene);
+  auto scene = load_scene(options.scene);
   Output csv;
   Output json;
   if (!scene || !csv.open(options.csv) || !json.open(options.json)) return kBadInput;
+  if (options.seed != 0) {
+    scene = std::make_shared<const Scene>(nudged_start(*scene, options.seed));
+  }
 
   Simulator simulator(scene);
   simulator.set_settings(options.settings.applied_to(scene->settings));
@@ -94,7 +81,7 @@ int run(const Options& options) {
     const FrameReport frame = simulator.step();
     verdict.add(*scene, simulator.state(), frame);
     report.add(frame);
-    progress.update(report, frames);
+    if (progress.due()) progress.show(report.progress(frames));
     const FrameView view{*scene, frame, simulator.state()};
     if (csv.is_open()) csv.write(csv_line(columns, view));
     if (json.is_open()) {
@@ -122,11 +109,15 @@ int run(const Options& options) {
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("run", "Run a scene and tell whether it holds");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
-      ->required();
+  command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
   options->length.add_to(*command);
   command->add_option("--csv", options->csv, "write one line per frame to this file, - for stdout");
   command->add_option("--json", options->json, "the same as JSON, with settings and verdict");
+  command->add_option("--seed", options->seed, "nudge the start by up to 1e-9 m/s")
+      ->check(CLI::Range(0, kMostSeed));
+  command->add_option("--experiments", options->experiments,
+                      "run the experiments of this file, one JSON object a line, - for standard "
+                      "input; print one result a line");
   command->add_flag("--quiet", options->quiet, "print the verdict only");
   options->settings.add_to(*command);
   command->footer(
@@ -135,8 +126,15 @@ void add_run(CLI::App& app, int& exit_code) {
       "which is a result, not an error.\n"
       "Examples:\n"
       "  substep run swinging_box --mode const --n 6\n"
-      "  substep run bridge --solver pgs --iterations 50 --seconds 3 --csv -");
+      "  substep run bridge --solver pgs --iterations 50 --seconds 3 --csv -\n"
+      "  substep sweep bridge --list | parallel --pipe -N4 substep run --experiments - > "
+      "bridge.jsonl");
   command->callback([options, &exit_code] {
+    if (!options->experiments.empty()) {
+      exit_code = run_experiments(options->experiments, options->scene);
+      return;
+    }
+    if (options->scene.empty()) throw CLI::RequiredError("scene or --experiments");
     if (options->csv == "-" && options->json == "-") {
       throw CLI::ValidationError("--json", "standard output is taken by --csv");
     }

@@ -15,7 +15,7 @@
 #include "core/io/object_reader.hpp"
 #include "core/io/scene_checks.hpp"
 #include "core/io/scene_limits.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/io/settings_json.hpp"
 
 namespace substep {
 namespace {
@@ -68,36 +68,6 @@ void read_contact(ObjectReader& parent, Scene& scene, Problems& problems) {
   in.number("compliance", kComplianceRange, scene.contact.compliance, kOptional);
   in.number("friction_compliance", kComplianceRange, scene.contact.friction_compliance, kOptional);
   in.number("margin", kMarginRange, scene.contact.margin, kOptional);
-  in.finish();
-}
-
-/// A value as set_setting takes it, or nothing where its kind is wrong.
-std::optional<std::string> setting_value(const SettingField& field, const Json& value) {
-  if (std::holds_alternative<FlagSetting>(field.member)) {
-    if (!value.is_boolean()) return std::nullopt;
-    return value.get<bool>() ? "true" : "false";
-  }
-  if (std::holds_alternative<CountSetting>(field.member) ||
-      std::holds_alternative<NumberSetting>(field.member)) {
-    if (!value.is_number()) return std::nullopt;
-    return value.is_number_integer() ? value.dump() : number_text(value.get<double>());
-  }
-  if (const auto* name = value.get_ptr<const std::string*>()) return *name;
-  return std::nullopt;
-}
-
-void read_settings(ObjectReader& parent, Scene& scene, Problems& problems) {
-  const Json* json = parent.member("settings", kOptional);
-  if (!json) return;
-  ObjectReader in(*json, parent.pointer("settings"), problems);
-  for (const SettingField& field : setting_fields()) {
-    const Json* value = in.member(field.name, kOptional);
-    if (!value) continue;
-    const auto text = setting_value(field, *value);
-    if (!text || set_setting(field, *text, scene.settings)) {
-      in.problem(field.name, value_text(*value) + " is not " + allowed_values(field));
-    }
-  }
   in.finish();
 }
 
@@ -244,7 +214,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   in.vector("gravity", kGravityRange, scene.gravity, kOptional);
   read_contact(in, scene, problems);
   in.number("regularisation", kRegularisationRange, scene.regularisation, kOptional);
-  read_settings(in, scene, problems);
+  read_settings(in, scene.settings, problems);
   SoundParts sound;
   read_bodies(in, scene, sound, problems);
   const BodyNames names(scene.bodies, problems);

@@ -5,7 +5,7 @@
 #include "core/io/effect_names.hpp"
 #include "core/io/json.hpp"
 #include "core/io/number_text.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/io/settings_json.hpp"
 
 namespace substep {
 namespace {
@@ -72,23 +72,6 @@ Json joint_json(const Scene& scene, const Joint& joint) {
   }
   json["compliance"] = j.compliance;
   if (hinge) json["angular_compliance"] = hinge->angular_compliance;
-  return json;
-}
-
-Json settings_json(const Settings& settings) {
-  Json json;
-  for (const SettingField& field : setting_fields()) {
-    Json& value = json[std::string(field.name)];
-    if (const auto* flag = std::get_if<FlagSetting>(&field.member)) {
-      value = settings.*flag->member;
-    } else if (const auto* count = std::get_if<CountSetting>(&field.member)) {
-      value = settings.*count->member;
-    } else if (const auto* number = std::get_if<NumberSetting>(&field.member)) {
-      value = settings.*number->member;
-    } else {
-      value = setting_text(field, settings);
-    }
-  }
   return json;
 }
 

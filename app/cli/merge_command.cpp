@@ -1,0 +1,127 @@
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/report.hpp"
+#include "app/cli/results_file.hpp"
+#include "app/cli/scene_source.hpp"
+#include "core/io/experiment.hpp"
+#include "core/lab/sweep.hpp"
+
+namespace substep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string folder;
+  std::vector<std::string> files;
+  std::string scene;
+  bool quiet = false;
+};
+
+/// The parts in the folder: results.*.jsonl, and results.jsonl itself where it is there.
+std::vector<fs::path> parts_of(const fs::path& folder) {
+  std::vector<fs::path> parts;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("results") && name.ends_with(".jsonl") && name != "results.jsonl") {
+      parts.push_back(entry.path());
+    }
+  }
+  std::sort(parts.begin(), parts.end());
+  return parts;
+}
+
+/// Without the line that a killed program was writing.
+std::string whole_lines(const std::string& text) { return text.substr(0, text.rfind('\n') + 1); }
+
+int merge(const Options& options) {
+  const fs::path folder = options.folder;
+  std::vector<fs::path> parts = parts_of(folder);
+  parts.insert(parts.end(), options.files.begin(), options.files.end());
+
+  std::map<std::string, std::string> lines;
+  std::vector<std::string> order;
+  for (const fs::path& part : parts) {
+    std::ifstream stream(part, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (!stream) {
+      std::fprintf(stderr, "%s: %s\n", part.string().c_str(), std::strerror(errno));
+      return kBadInput;
+    }
+    if (!read_results(part.string(), whole_lines(text), lines, order)) return kBadInput;
+  }
+  std::error_code error;
+  fs::create_directories(folder, error);
+  ResultsFile file;
+  if (!file.open((folder / "results.jsonl").string())) return kBadInput;
+  for (const std::string& id : order) {
+    if (!file.contains(id) && !file.append(id, Json::parse(lines.at(id), nullptr, false))) {
+      return kBadInput;
+    }
+  }
+  if (file.size() == 0) {
+    std::fprintf(stderr, "%s: there are no results to merge\n", folder.string().c_str());
+    return kBadInput;
+  }
+
+  // The order of a sweep that was never parted.
+  const std::vector<Json> results = file.results();
+  const std::string name = results.front().value("scene", "");
+  const std::vector<std::string> shipped = shipped_names();
+  std::shared_ptr<const Scene> scene;
+  if (!options.scene.empty() || std::count(shipped.begin(), shipped.end(), name) > 0) {
+    scene = load_scene(options.scene.empty() ? name : options.scene);
+    if (!scene) return kBadInput;
+  }
+  std::vector<std::string> plan;
+  if (scene) {
+    std::set<std::pair<double, int>> kinds;  // duration and seed
+    for (const Json& result : results) {
+      kinds.emplace(result.value("seconds", 0.0), result.value("seed", 0));
+    }
+    for (const auto& [seconds, seed] : kinds) {
+      for (const Settings& settings : default_sweep(*scene)) {
+        Experiment experiment = experiment_of(*scene, settings, seed);
+        experiment.duration = seconds;
+        plan.push_back(experiment_id(experiment));
+      }
+    }
+  }
+  if (!file.finish(plan)) return kBadInput;
+  if (!options.quiet) {
+    std::printf("%zu runs from %zu parts\nresults  %s\n", file.size(), parts.size(),
+                (folder / "results.jsonl").string().c_str());
+  }
+  return write_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "merge", "Join the parts of a sweep into results.jsonl, and write their report");
+  command->add_option("folder", options->folder, "where the parts are and the results go")
+      ->required();
+  command->add_option("file", options->files, "further files of results, from `run --experiments`");
+  command->add_option("--scene", options->scene,
+                      "file of the scene, where it is not one of `substep scenes`");
+  command->add_flag("--quiet", options->quiet, "no summary");
+  command->footer("Example:\n  substep merge bridge.sweep");
+  command->callback([options, &exit_code] { exit_code = merge(*options); });
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,221 @@
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/length_flags.hpp"
+#include "app/cli/output.hpp"
+#include "app/cli/parallel_sweep.hpp"
+#include "app/cli/progress_line.hpp"
+#include "app/cli/report.hpp"
+#include "app/cli/results_file.hpp"
+#include "app/cli/scene_source.hpp"
+#include "app/cli/settings_flags.hpp"
+#include "core/io/experiment.hpp"
+#include "core/io/number_text.hpp"
+#include "core/io/result.hpp"
+
+namespace substep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMostSeeds = 1000;
+
+/// "2/5": the second of five parts.
+struct Shard {
+  int index = 1;
+  int count = 1;
+};
+
+std::optional<Shard> parse_shard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return std::nullopt;
+  const auto index = parse_integer(text.substr(0, slash));
+  const auto count = parse_integer(text.substr(slash + 1));
+  if (!index || !count || *count < 1 || *count > 100000 || *index < 1 || *index > *count) {
+    return std::nullopt;
+  }
+  return Shard{static_cast<int>(*index), static_cast<int>(*count)};
+}
+
+struct Options {
+  std::string scene;
+  std::string out;
+  std::string shard;
+  int seeds = 1;
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool list = false;
+  bool quiet = false;
+  LengthFlags length;
+  SettingsFlags settings;
+};
+
+std::atomic<bool> g_cancelled{false};
+
+extern "C" void cancel_sweep(int) {
+  g_cancelled = true;
+  std::signal(SIGINT, SIG_DFL);  // whoever asks twice will not wait
+}
+
+std::vector<Experiment> experiments_of(const Options& options, const Scene& scene,
+                                       const Shard& shard) {
+  Scene own = scene;
+  own.settings = options.settings.applied_to(scene.settings);
+  std::vector<Experiment> all;
+  for (int seed = 0; seed < options.seeds; ++seed) {
+    for (const Settings& settings : default_sweep(own)) {
+      Experiment& experiment = all.emplace_back(experiment_of(scene, settings, seed));
+      experiment.duration = static_cast<double>(options.length.count(scene)) * scene.frame;
+      // A whole number of frames gives back the number that was asked for.
+      if (!options.length.frames) {
+        experiment.duration = options.length.seconds.value_or(scene.criteria.duration);
+      }
+    }
+  }
+  std::vector<Experiment> own_part;  // every count-th: each part has cheap and dear ones
+  for (std::size_t i = static_cast<std::size_t>(shard.index - 1); i < all.size();
+       i += static_cast<std::size_t>(shard.count)) {
+    own_part.push_back(std::move(all[i]));
+  }
+  return own_part;
+}
+
+/// "[######----]  61 %  80 of 133 runs, 22 failed, 1:05 left"
+std::string progress_text(double share, std::size_t runs, std::size_t all, std::size_t failed,
+                          double seconds) {
+  constexpr int kWidth = 30;
+  const int filled = static_cast<int>(share * kWidth);
+  std::string bar(static_cast<std::size_t>(filled), '#');
+  bar.resize(kWidth, '-');
+  char text[160];
+  int n = std::snprintf(text, sizeof text, "[%s] %3.0f %%  %zu of %zu runs, %zu failed",
+                        bar.c_str(), 100.0 * share, runs, all, failed);
+  if (share > 0.02) {
+    const auto left = static_cast<int>(seconds * (1.0 - share) / share + 0.5);
+    n += std::snprintf(text + n, sizeof text - static_cast<std::size_t>(n), ", %d:%02d left",
+                       left / 60, left % 60);
+  }
+  return {text, static_cast<std::size_t>(n)};
+}
+
+int sweep(const Options& options, const Shard& shard) {
+  const auto scene = load_scene(options.scene);
+  if (!scene) return kBadInput;
+  const std::vector<Experiment> all = experiments_of(options, *scene, shard);
+  if (options.list) {
+    for (const Experiment& experiment : all) {
+      std::printf("%s\n", experiment_json(experiment).dump().c_str());
+    }
+    return std::fflush(stdout) == 0 ? kOk : kBadInput;
+  }
+
+  const fs::path folder =
+      options.out.empty() ? fs::path(scene->name + ".sweep") : fs::path(options.out);
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    std::fprintf(stderr, "%s: %s\n", folder.string().c_str(), error.message().c_str());
+    return kBadInput;
+  }
+  const std::string name = shard.count == 1 ? "results.jsonl"
+                                            : "results." + std::to_string(shard.index) + "-of-" +
+                                                  std::to_string(shard.count) + ".jsonl";
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, not an end
+  ResultsFile file;
+  if (!file.open((folder / name).string())) return kBadInput;
+
+  ParallelSweep parallel{scene, {}, options.jobs, {}, {}, &g_cancelled};
+  std::vector<std::string> order;
+  for (const Experiment& experiment : all) {
+    order.push_back(experiment_id(experiment));
+    if (!file.contains(order.back())) parallel.experiments.push_back(experiment);
+  }
+  const std::size_t known = all.size() - parallel.experiments.size();
+  if (known > 0 && !options.quiet) {
+    std::fprintf(stderr, "%zu of %zu runs are there already\n", known, all.size());
+  }
+
+  const auto start = std::chrono::steady_clock::now();
+  const auto seconds = [&] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  std::atomic<std::size_t> runs{0};
+  std::atomic<std::size_t> failed{0};
+  std::atomic<bool> written{true};
+  parallel.on_result = [&](const Result& result) {
+    ++runs;
+    if (!result.metrics.holds) ++failed;
+    written = file.append(experiment_id(result.experiment), result_json(result)) && written;
+    return written.load();
+  };
+  ProgressLine progress(!options.quiet && stderr_is_terminal());
+  parallel.on_progress = [&](double share) {
+    if (!progress.due()) return;
+    progress.show(progress_text(share, runs, parallel.experiments.size(), failed, seconds()));
+  };
+  std::signal(SIGINT, cancel_sweep);
+  std::signal(SIGTERM, cancel_sweep);
+  const bool complete = run_sweep(parallel);
+  progress.clear();
+  if (!written) return kBadInput;
+  if (!complete) {
+    std::fprintf(stderr,
+                 "cancelled: %zu of %zu runs are in %s; the same command goes on from there\n",
+                 known + runs, all.size(), (folder / name).string().c_str());
+    return kCancelled;
+  }
+  if (!file.finish(order)) return kBadInput;
+  if (!options.quiet) {
+    std::printf("%s: %zu runs, %zu of the new ones failed, %.1f s\n", scene->name.c_str(),
+                file.size(), failed.load(), seconds());
+    std::printf("results  %s\n", (folder / name).string().c_str());
+  }
+  if (shard.count > 1) return kOk;  // `merge` writes the report of all parts
+  return write_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
+}
+
+}  // namespace
+
+void add_sweep(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("sweep", "Run all methods over a scene: what accuracy costs in time");
+  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
+      ->required();
+  command->add_option("--out", options->out, "folder for results.jsonl and report.html");
+  command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
+  command
+      ->add_option("--seeds", options->seeds,
+                   "runs of each experiment, from starts that differ by 1e-9 m/s")
+      ->check(CLI::Range(1, kMostSeeds));
+  command
+      ->add_option("--shard", options->shard, "i/n: only the i-th of n parts; `merge` joins them")
+      ->check([](const std::string& text) -> std::string {
+        return parse_shard(text) ? "" : text + " is not i/n with 1 <= i <= n";
+      });
+  command->add_flag("--list", options->list,
+                    "print the experiments, one JSON object a line, and run none");
+  command->add_flag("--quiet", options->quiet, "no progress, no summary");
+  options->length.add_to(*command);
+  options->settings.add_to(*command);
+  command->footer(
+      "What is done already is not run again: a sweep that was stopped goes on where it was.\n"
+      "Examples:\n"
+      "  substep sweep swinging_box\n"
+      "  substep sweep bridge --seconds 2 --iterations 50 --out bridge_50\n"
+      "  parallel substep sweep bridge --out b --jobs 1 --shard {}/4 ::: 1 2 3 4; substep merge b");
+  command->callback([options, &exit_code] {
+    exit_code = sweep(*options, parse_shard(options->shard).value_or(Shard{}));
+  });
+}
+
+}  // namespace substep::cli

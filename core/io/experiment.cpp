@@ -1,0 +1,141 @@
+#include "core/io/experiment.hpp"
+
+#include <algorithm>
+#include <cinttypes>
+#include <cstdio>
+
+#include "core/io/number_text.hpp"
+#include "core/io/scene_limits.hpp"
+#include "core/io/scene_writer.hpp"
+#include "core/io/setting_fields.hpp"
+#include "core/io/settings_json.hpp"
+
+namespace substep {
+namespace {
+
+/// FNV-1a over characters.
+std::uint64_t text_hash(std::string_view text) {
+  std::uint64_t value = 0xcbf29ce484222325ULL;
+  for (const char c : text) {
+    value ^= static_cast<unsigned char>(c);
+    value *= 0x100000001b3ULL;
+  }
+  return value;
+}
+
+bool is_view_only(const SettingField& field) { return field.name == "watch_stiffness"; }
+
+}  // namespace
+
+std::string hex_text(std::uint64_t value) {
+  char text[20];
+  std::snprintf(text, sizeof text, "%016" PRIx64, value);
+  return text;
+}
+
+std::uint64_t scene_hash(const Scene& scene) {
+  Scene bare = scene;
+  bare.title.clear();
+  bare.group.clear();
+  bare.description.clear();
+  bare.look_for.clear();
+  bare.camera = Camera{};
+  bare.settings = Settings{};
+  // Not the text of settings either: a setting added later must leave the hash.
+  const auto json = Json::parse(write_scene(bare), nullptr, false);
+  Json content = json;
+  content.erase("settings");
+  content.erase("camera");
+  return text_hash(content.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+Experiment experiment_of(const Scene& scene, const Settings& settings, int seed) {
+  Experiment experiment;
+  experiment.scene = scene.name;
+  experiment.scene_hash = scene_hash(scene);
+  experiment.settings = settings;
+  experiment.settings.watch_stiffness = false;
+  experiment.duration = scene.criteria.duration;
+  experiment.seed = seed;
+  return experiment;
+}
+
+std::string experiment_id(const Experiment& experiment) {
+  std::string text = experiment.scene + ' ' + hex_text(experiment.scene_hash);
+  const Settings defaults;
+  for (const SettingField& field : setting_fields()) {
+    const std::string value = setting_text(field, experiment.settings);
+    if (is_view_only(field) || value == setting_text(field, defaults)) continue;
+    text += ' ';
+    text += field.name;
+    text += '=' + value;
+  }
+  text += " seconds=" + number_text(experiment.duration);
+  text += " seed=" + std::to_string(experiment.seed);
+  return hex_text(text_hash(text));
+}
+
+Json experiment_json(const Experiment& experiment) {
+  Json json;
+  json["id"] = experiment_id(experiment);
+  json["scene"] = experiment.scene;
+  json["scene_hash"] = hex_text(experiment.scene_hash);
+  json["settings"] = settings_json(experiment.settings);
+  json["settings"].erase("watch_stiffness");
+  json["seconds"] = experiment.duration;
+  json["seed"] = experiment.seed;
+  return json;
+}
+
+ExperimentInput read_experiment(const Json& json, const SceneFinder& find, Problems& problems) {
+  constexpr std::size_t kLongest = 1000;  // [bytes]
+  const std::size_t before = problems.size();
+  ObjectReader in(json, "", problems);
+  ExperimentInput input;
+  Experiment experiment;
+  std::string id;
+  std::string hash;
+  if (in.text("scene", kLongest, experiment.scene, kRequired)) {
+    input.scene = find(experiment.scene);
+    if (!input.scene) in.problem("scene", value_text(experiment.scene) + " is not known");
+  }
+  if (input.scene) experiment = experiment_of(*input.scene, input.scene->settings);
+  read_settings(in, experiment.settings, problems);
+  in.number("seconds", kDurationRange, experiment.duration, kOptional);
+  in.integer("seed", 0, kMostSeed, experiment.seed, kOptional);
+  if (in.text("scene_hash", kLongest, hash, kOptional) && input.scene &&
+      hash != hex_text(experiment.scene_hash)) {
+    in.problem("scene_hash", value_text(hash) + " is not " + hex_text(experiment.scene_hash) +
+                                 ": the scene has changed");
+  }
+  if (in.text("id", kLongest, id, kOptional) && problems.size() == before &&
+      id != experiment_id(experiment)) {
+    in.problem("id", value_text(id) + " is not " + experiment_id(experiment) +
+                         ", the id of this experiment");
+  }
+  in.finish();
+  if (problems.size() == before) input.experiment = std::move(experiment);
+  return input;
+}
+
+std::string command_line(const Experiment& experiment, const Scene& scene) {
+  std::string command = "substep run " + scene.name;
+  for (const SettingField& field : setting_fields()) {
+    const std::string value = setting_text(field, experiment.settings);
+    if (is_view_only(field) || value == setting_text(field, scene.settings)) continue;
+    std::string flag(field.name);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    if (std::holds_alternative<FlagSetting>(field.member)) {
+      command += (value == "true" ? " --" : " --no-") + flag;
+    } else {
+      command += " --" + flag + ' ' + value;
+    }
+  }
+  if (experiment.duration != scene.criteria.duration) {
+    command += " --seconds " + number_text(experiment.duration);
+  }
+  if (experiment.seed != 0) command += " --seed " + std::to_string(experiment.seed);
+  return command;
+}
+
+}  // namespace substep

@@ -1,0 +1,122 @@
+#include "core/io/result.hpp"
+
+#include "core/io/experiment.hpp"
+#include "core/io/json_text.hpp"
+#include "core/io/object_reader.hpp"
+
+namespace substep {
+namespace {
+
+template <class T>
+void put(Json& json, const char* key, const std::optional<T>& value) {
+  if (!value) return;
+  if constexpr (std::is_same_v<T, PeakAndMedian>) {
+    json[key] = {{"peak", value->peak}, {"median", value->median}};
+  } else {
+    json[key] = *value;
+  }
+}
+
+Json errors_json(const Errors& e) {
+  Json json;
+  put(json, "trajectory_peak", e.trajectory_peak);
+  put(json, "trajectory_final", e.trajectory_final);
+  put(json, "constraint", e.constraint);
+  put(json, "joint_gap", e.joint_gap);
+  put(json, "penetration", e.penetration);
+  json["energy_drift"] = e.energy_drift;
+  json["energy_drift_peak"] = e.energy_drift_peak;
+  put(json, "energy_drift_percent", e.energy_drift_percent);
+  put(json, "linear_momentum_drift", e.linear_momentum_drift);
+  put(json, "angular_momentum_drift", e.angular_momentum_drift);
+  json["lcp_residual"] = e.lcp_residual;
+  return json;
+}
+
+Json work_json(const Work& w) {
+  return {{"frames", w.frames},
+          {"substeps", w.substeps},
+          {"solves", w.solves},
+          {"row_updates", w.row_updates},
+          {"factorisations", w.factorisations},
+          {"pivots", w.pivots},
+          {"unsettled", w.unsettled},
+          {"unsolved", w.unsolved},
+          {"flops", w.flops},
+          {"n_min", w.n_min},
+          {"n_median", w.n_median},
+          {"n_max", w.n_max}};
+}
+
+Json timing_json(const Timing& t) {
+  const StageTimes& s = t.stages;
+  return {{"ms_median", t.ms_median},
+          {"ms_p95", t.ms_p95},
+          {"real_time_factor", t.real_time_factor},
+          {"stages",
+           {{"joints", s.joints},
+            {"contact", s.contact},
+            {"friction", s.friction},
+            {"mass", s.mass},
+            {"solve", s.solve},
+            {"stiffness", s.stiffness},
+            {"integrate", s.integrate},
+            {"total", s.total}}}};
+}
+
+}  // namespace
+
+std::string results_header() {
+  Json json;
+  json["format"] = "substep-results";
+  json["version"] = kResultsVersion;
+  return json.dump() + '\n';
+}
+
+void check_results_header(std::string_view line, Problems& problems) {
+  const auto json = parse_json(line, problems);
+  if (!json) return;
+  ObjectReader in(*json, "", problems);
+  const Json* format = in.member("format", kRequired);
+  if (format && *format != "substep-results") {
+    in.problem("format", value_text(*format) + " is not \"substep-results\"");
+  }
+  const Json* version = in.member("version", kRequired);
+  if (version && *version != kResultsVersion) {
+    in.problem("version", value_text(*version) + " is not " + std::to_string(kResultsVersion) +
+                              ", the only version that is known");
+  }
+}
+
+Json result_json(const Result& result) {
+  const Metrics& m = result.metrics;
+  const SeriesParameter parameter = series_parameter(result.experiment.settings);
+  Json json = experiment_json(result.experiment);
+  json["series"] = series_name(result.experiment.settings);
+  json["parameter"] = {{"name", parameter.name}, {"value", parameter.value}};
+  json["holds"] = m.holds;
+  if (!m.holds) json["failed_at"] = m.failed_at;
+  json["verdict"] = m.verdict;
+  json["hash"] = hex_text(m.hash);
+  json["errors"] = errors_json(m.errors);
+  json["work"] = work_json(m.work);
+  json["timing"] = timing_json(m.timing);
+  return json;
+}
+
+std::optional<std::string> result_id(const Json& line, Problems& problems) {
+  const std::size_t before = problems.size();
+  ObjectReader in(line, "", problems);
+  std::string id;
+  in.text("id", 16, id, kRequired);
+  if (in.is_object()) {
+    for (const char* part : {"settings", "errors", "work", "timing"}) {
+      const Json* json = in.member(part, kRequired);
+      if (json && !json->is_object()) in.problem(part, value_text(*json) + " is not an object");
+    }
+  }
+  if (problems.size() != before) return std::nullopt;
+  return id;
+}
+
+}  // namespace substep

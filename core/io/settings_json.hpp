@@ -1,0 +1,15 @@
+#pragma once
+
+#include "core/io/json.hpp"
+#include "core/io/object_reader.hpp"
+#include "core/model/settings.hpp"
+
+namespace substep {
+
+/// All settings, by the names of setting_fields().
+Json settings_json(const Settings& settings);
+
+/// Reads the member "settings" of an object where there is one. What it leaves out stays as it was.
+void read_settings(ObjectReader& parent, Settings& settings, Problems& problems);
+
+}  // namespace substep

@@ -1,0 +1,76 @@
+#include "core/lab/experiment.hpp"
+
+#include <cmath>
+
+#include "core/model/names.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kNudge = 1e-9;  // [m/s]
+
+/// Sebastiano Vigna's SplitMix64: the same numbers everywhere.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  /// Uniform in [-1, 1).
+  double next() {
+    state_ += 0x9e3779b97f4a7c15ULL;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebULL;
+    z ^= z >> 31U;
+    return static_cast<double>(z >> 11U) * 0x1p-52 - 1.0;
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+}  // namespace
+
+Scene nudged_start(const Scene& scene, int seed) {
+  Scene nudged = scene;
+  if (seed == 0) return nudged;
+  Random random(static_cast<std::uint64_t>(seed));
+  for (Body& body : nudged.bodies) {
+    if (body.is_static) continue;
+    for (int axis = 0; axis < 3; ++axis) body.velocity[axis] += kNudge * random.next();
+  }
+  return nudged;
+}
+
+std::int64_t frames_of(const Scene& scene, double duration) {
+  return std::llround(duration / scene.frame);
+}
+
+std::string series_name(const Settings& s) {
+  std::string name(name_of(s.solver));
+  if (s.solver == SolverKind::kPgs) name += " " + std::to_string(s.iterations);
+  name += ", ";
+  // One sub-step is where the curve of constant numbers begins.
+  name += s.mode == Mode::kNone ? "const" : name_of(s.mode);
+  if (s.mode == Mode::kAdaptive)
+    name += s.policy == Policy::kFrame ? " per frame" : " per sub-step";
+  name += ", ";
+  name += name_of(s.integrator);
+  if (s.drift != Drift::kAuto) name += ", drift " + std::string(name_of(s.drift));
+  return name;
+}
+
+SeriesParameter series_parameter(const Settings& s) {
+  switch (s.mode) {
+    case Mode::kNone:
+      return {"n", 1.0};
+    case Mode::kConst:
+      return {"n", static_cast<double>(s.n)};
+    case Mode::kCapped:
+      return {"n_cap", static_cast<double>(s.n_cap)};
+    case Mode::kDamping:
+    case Mode::kAdaptive:
+      break;
+  }
+  return {"alpha", s.alpha};
+}
+
+}  // namespace substep

@@ -1,0 +1,38 @@
+#include "core/lab/experiment_run.hpp"
+
+#include <chrono>
+
+namespace substep {
+
+ExperimentRun::ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference)
+    : experiment_(std::move(experiment)),
+      scene_(std::make_shared<const Scene>(nudged_start(scene, experiment_.seed))),
+      simulator_(scene_),
+      report_(simulator_.observe()),
+      measure_(*scene_, simulator_.state(), report_, reference),
+      frames_(frames_of(*scene_, experiment_.duration)) {
+  simulator_.set_settings(experiment_.settings);
+}
+
+bool ExperimentRun::advance() {
+  const auto is_over = [this] {
+    return simulator_.state().frame >= frames_ || !measure_.verdict().holds();
+  };
+  if (is_over()) return false;
+  const auto before = std::chrono::steady_clock::now();
+  report_ = simulator_.step();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
+  measure_.add(*scene_, simulator_.state(), report_, wall.count());
+  return !is_over();
+}
+
+double ExperimentRun::progress() const {
+  return frames_ > 0 ? static_cast<double>(simulator_.state().frame) / static_cast<double>(frames_)
+                     : 1.0;
+}
+
+Result ExperimentRun::result() const {
+  return {experiment_, measure_.metrics(*scene_, simulator_.state())};
+}
+
+}  // namespace substep

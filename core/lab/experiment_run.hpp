@@ -1,0 +1,41 @@
+#pragma once
+
+#include <memory>
+
+#include "core/lab/experiment.hpp"
+#include "core/lab/metrics.hpp"
+#include "core/lab/reference.hpp"
+#include "core/sim/simulator.hpp"
+
+namespace substep {
+
+struct Result {
+  Experiment experiment;
+  Metrics metrics;
+};
+
+/// One experiment, frame by frame. It ends with its duration or with its first failure.
+class ExperimentRun {
+ public:
+  /// @param scene the scene as it stands, without the nudge of the experiment's seed
+  /// @param reference must outlive this
+  ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference);
+
+  /// One more frame. @return false when the run is over
+  bool advance();
+  [[nodiscard]] double progress() const;  ///< 0 to 1
+  [[nodiscard]] Result result() const;
+  [[nodiscard]] const Experiment& experiment() const { return experiment_; }
+  [[nodiscard]] const Simulator& simulator() const { return simulator_; }
+  [[nodiscard]] const FrameReport& report() const { return report_; }
+
+ private:
+  Experiment experiment_;
+  std::shared_ptr<const Scene> scene_;
+  Simulator simulator_;
+  FrameReport report_;  // of the last frame
+  Measure measure_;
+  std::int64_t frames_ = 0;
+};
+
+}  // namespace substep

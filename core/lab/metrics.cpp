@@ -1,0 +1,157 @@
+#include "core/lab/metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace substep {
+namespace {
+
+constexpr std::size_t kWarmUp = 10;  // frames
+
+/// The value that a share of all values does not exceed; the upper one between two.
+template <class T>
+T quantile(std::vector<T> values, double share) {
+  if (values.empty()) return T{};
+  const auto at = static_cast<std::size_t>(share * static_cast<double>(values.size()));
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(std::min(at, values.size() - 1));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+PeakAndMedian peak_and_median(const std::vector<double>& values) {
+  if (values.empty()) return {};
+  return {*std::max_element(values.begin(), values.end()), quantile(values, 0.5)};
+}
+
+/// Nothing from outside acts on the moving bodies.
+bool is_isolated(const Scene& scene) {
+  if (scene.effects.gravity) return false;
+  const auto is_fixed = [&](int body) {
+    return body == kWorld || scene.bodies[static_cast<std::size_t>(body)].is_static;
+  };
+  for (const Joint& joint : scene.joints) {
+    if (is_fixed(base(joint).a) || is_fixed(base(joint).b)) return false;
+  }
+  return !scene.effects.contact || std::none_of(scene.bodies.begin(), scene.bodies.end(),
+                                                [](const Body& b) { return b.is_static; });
+}
+
+void add_times(const StageTimes& frame, StageTimes& sum) {
+  for (double StageTimes::*stage :
+       {&StageTimes::joints, &StageTimes::contact, &StageTimes::friction, &StageTimes::mass,
+        &StageTimes::solve, &StageTimes::stiffness, &StageTimes::integrate, &StageTimes::total}) {
+    sum.*stage += frame.*stage;
+  }
+}
+
+}  // namespace
+
+bool operator==(const PeakAndMedian& a, const PeakAndMedian& b) {
+  return a.peak == b.peak && a.median == b.median;
+}
+
+Measure::Measure(const Scene& scene, const State& state, const FrameReport& start,
+                 const Reference& reference)
+    : reference_(reference),
+      verdict_(scene, state, start),
+      energy_at_start_(start.energy),
+      energy_(start.energy) {
+  if (is_isolated(scene)) momentum_at_start_ = momentum_of(scene, state);
+}
+
+Measure::Momentum Measure::momentum_of(const Scene& scene, const State& state) {
+  Momentum sum;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;
+    const Vec6& u = state.u_synchronised[i];
+    const Vec3 p = body.mass * u.head<3>();
+    const Vec3 omega_B = state.q[i].conjugate() * Vec3(u.tail<3>());
+    sum.linear += p;
+    sum.angular += state.x[i].cross(p) + state.q[i] * Vec3(body.inertia.cwiseProduct(omega_B));
+  }
+  return sum;
+}
+
+void Measure::add(const Scene& scene, const State& state, const FrameReport& report,
+                  double seconds) {
+  verdict_.add(scene, state, report);
+  ++work_.frames;
+  work_.substeps += report.n_substeps;
+  work_.solves += report.work.solves;
+  work_.row_updates += report.work.row_updates;
+  work_.factorisations += report.work.factorisations;
+  work_.pivots += report.work.pivots;
+  work_.unsettled += report.work.unsettled;
+  work_.unsolved += report.work.unsolved;
+  work_.flops += report.work.flops;
+  n_.push_back(report.n_substeps);
+  seconds_.push_back(seconds);
+  add_times(report.times, stages_);
+  constraint_.push_back(report.constraint_error);
+  joint_gap_.push_back(report.joint_gap);
+  penetration_.push_back(report.penetration);
+  errors_.lcp_residual = std::max(errors_.lcp_residual, report.work.residual);
+  energy_ = report.energy;
+  errors_.energy_drift_peak =
+      std::max(errors_.energy_drift_peak, std::abs(energy_ - energy_at_start_));
+  const auto frame = static_cast<std::size_t>(report.frame);
+  if (frame < reference_.track.size() && scene.criteria.track) {
+    const Vec3& x = state.x[static_cast<std::size_t>(*scene.criteria.track)];
+    errors_.trajectory_final = (x - reference_.track[frame]).norm();
+    errors_.trajectory_peak =
+        std::max(errors_.trajectory_peak.value_or(0.0), *errors_.trajectory_final);
+  }
+  if (momentum_at_start_) {
+    const Momentum now = momentum_of(scene, state);
+    errors_.linear_momentum_drift = std::max(errors_.linear_momentum_drift.value_or(0.0),
+                                             (now.linear - momentum_at_start_->linear).norm());
+    errors_.angular_momentum_drift = std::max(errors_.angular_momentum_drift.value_or(0.0),
+                                              (now.angular - momentum_at_start_->angular).norm());
+  }
+}
+
+Timing Measure::timing(const Scene& scene) const {
+  Timing timing;
+  timing.stages = stages_;
+  std::vector<double> warm = seconds_;
+  if (warm.size() > 2 * kWarmUp) warm.erase(warm.begin(), warm.begin() + kWarmUp);
+  timing.ms_median = 1e3 * quantile(warm, 0.5);
+  timing.ms_p95 = 1e3 * quantile(warm, 0.95);
+  double wall = 0.0;
+  for (const double s : warm) wall += s;
+  if (wall > 0.0) timing.real_time_factor = static_cast<double>(warm.size()) * scene.frame / wall;
+  return timing;
+}
+
+Metrics Measure::metrics(const Scene& scene, const State& state) const {
+  Metrics m;
+  m.errors = errors_;
+  m.work = work_;
+  m.timing = timing(scene);
+  m.holds = verdict_.holds();
+  m.failed_at = verdict_.failed_at();
+  m.verdict = verdict_.text();
+  m.hash = state_hash(state);
+  if (scene.effects.joints) {
+    m.errors.constraint = peak_and_median(constraint_);
+    m.errors.joint_gap = peak_and_median(joint_gap_);
+  }
+  if (scene.effects.contact) m.errors.penetration = peak_and_median(penetration_);
+  m.errors.energy_drift = energy_ - energy_at_start_;
+  if (reference_.energy_scale > 0.0) {
+    m.errors.energy_drift_percent = 100.0 * m.errors.energy_drift / reference_.energy_scale;
+  }
+  if (!n_.empty()) {
+    m.work.n_min = *std::min_element(n_.begin(), n_.end());
+    m.work.n_median = quantile(n_, 0.5);
+    m.work.n_max = *std::max_element(n_.begin(), n_.end());
+  }
+  if (!m.holds) {  // the distance from the reference says nothing any more
+    m.errors.trajectory_peak.reset();
+    m.errors.trajectory_final.reset();
+  }
+  return m;
+}
+
+}  // namespace substep

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/lab/reference.hpp"
+#include "core/lab/verdict.hpp"
+#include "core/sim/report.hpp"
+
+namespace substep {
+
+/// Over the frames of a run.
+struct PeakAndMedian {
+  double peak = 0.0;
+  double median = 0.0;
+};
+
+/// How wrong a run is. What a scene cannot have, or what a failed run no longer tells, is empty.
+struct Errors {
+  std::optional<double> trajectory_peak;         // largest distance from the reference [m]
+  std::optional<double> trajectory_final;        // at the end of the reference's window [m]
+  std::optional<PeakAndMedian> constraint;       // sum over joints of the 1-norm of phi [m, rad]
+  std::optional<PeakAndMedian> joint_gap;        // [m]
+  std::optional<PeakAndMedian> penetration;      // [m]
+  double energy_drift = 0.0;                     // at the end, against the start [J]
+  double energy_drift_peak = 0.0;                // largest, either way [J]
+  std::optional<double> energy_drift_percent;    // of the reference's energy scale, at the end
+  std::optional<double> linear_momentum_drift;   // largest, where nothing pulls [kg m/s]
+  std::optional<double> angular_momentum_drift;  // about the world's origin [kg m^2/s]
+  double lcp_residual = 0.0;                     // largest of all frames [N s, m/s]
+
+  friend bool operator==(const Errors&, const Errors&) = default;
+};
+bool operator==(const PeakAndMedian& a, const PeakAndMedian& b);
+
+/// What a run costs, counted: the same on every machine.
+struct Work {
+  std::int64_t frames = 0;
+  std::int64_t substeps = 0;
+  std::int64_t solves = 0;       // with the probe
+  std::int64_t row_updates = 0;  // of PGS
+  std::int64_t factorisations = 0;
+  std::int64_t pivots = 0;
+  std::int64_t unsettled = 0;
+  std::int64_t unsolved = 0;
+  std::int64_t flops = 0;  // of the solver
+  int n_min = 0;           // sub-steps of a frame
+  int n_median = 0;
+  int n_max = 0;
+
+  friend bool operator==(const Work&, const Work&) = default;
+};
+
+/// What a run costs on this machine. The first frames warm caches and branches up and are left out.
+struct Timing {
+  double ms_median = 0.0;         // of a frame, physics alone [ms]
+  double ms_p95 = 0.0;            // [ms]
+  double real_time_factor = 0.0;  // simulated over wall time [-]
+  StageTimes stages;              // sums over the run [s]
+};
+
+struct Metrics {
+  Errors errors;
+  Work work;
+  Timing timing;
+  bool holds = true;
+  double failed_at = 0.0;  // [s], of a failed run
+  std::string verdict;
+  std::uint64_t hash = 0;  // of the state at the end
+};
+
+/// Gathers the metrics of one run as it goes.
+class Measure {
+ public:
+  /// @param reference must outlive this
+  Measure(const Scene& scene, const State& state, const FrameReport& start,
+          const Reference& reference);
+
+  /// @param seconds wall time of the frame
+  void add(const Scene& scene, const State& state, const FrameReport& report, double seconds);
+  [[nodiscard]] const Verdict& verdict() const { return verdict_; }
+  [[nodiscard]] Metrics metrics(const Scene& scene, const State& state) const;
+
+ private:
+  struct Momentum {
+    Vec3 linear = Vec3::Zero();   // [kg m/s]
+    Vec3 angular = Vec3::Zero();  // about the world's origin [kg m^2/s]
+  };
+  static Momentum momentum_of(const Scene& scene, const State& state);
+  [[nodiscard]] Timing timing(const Scene& scene) const;
+
+  const Reference& reference_;
+  Verdict verdict_;
+  Errors errors_;
+  Work work_;
+  StageTimes stages_;
+  double energy_at_start_ = 0.0;               // [J]
+  double energy_ = 0.0;                        // [J]
+  std::optional<Momentum> momentum_at_start_;  // where nothing pulls
+  std::vector<double> constraint_;
+  std::vector<double> joint_gap_;
+  std::vector<double> penetration_;
+  std::vector<int> n_;
+  std::vector<double> seconds_;  // wall time by frame
+};
+
+}  // namespace substep

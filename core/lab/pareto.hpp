@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace substep {
+
+struct CostAndError {
+  double cost;
+  double error;
+};
+
+/// Whether each point is on the Pareto front: no other has less cost at no more error, or less
+/// error at no more cost. Of equal points each is. O(n log n).
+std::vector<bool> pareto_front(std::span<const CostAndError> points);
+
+}  // namespace substep

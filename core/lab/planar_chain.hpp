@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/lab/extrapolation.hpp"
+#include "core/model/scene.hpp"
+
+namespace substep {
+
+/// The exact motion of links on parallel hinges that hang from one fixed point, in minimal
+/// coordinates: one angle a link, no constraint and so no constraint error.
+///
+/// Link i turns by theta_i from its start, so its centre is at
+///   x_i = anchor + sum_{j<i} R(theta_j) L_j + R(theta_i) e_i,
+/// with e from a link's own hinge to its centre and L to the next hinge, as they lie at the start.
+/// Lagrange's equations of the second kind then read, with P_k = m_k e_k + sum_{i>k} m_i L_k,
+///   sum_j M_kj theta_j'' = Q_k - sum_j C_kj theta_j'^2,   and for j < k:
+///   M_kj = R(theta_j) L_j . R(theta_k) P_k,   C_kj = R(theta_j) L_j x R(theta_k) P_k = -C_jk,
+///   M_kk = I_k + m_k e_k^2 + sum_{i>k} m_i L_k^2,   Q_k = g . R'(theta_k) P_k.
+class PlanarChain {
+ public:
+  /// The chain of the scene, or nothing where the scene is something else: contact, a fork, a ball
+  /// joint, hinges that are not parallel, a start that leaves the plane.
+  static std::optional<PlanarChain> of(const Scene& scene);
+
+  /// @param tolerance of a step of the integrator, relative [-]
+  void advance(double seconds, double tolerance = 1e-11);
+
+  /// Centre of a body of the scene, world [m].
+  [[nodiscard]] Vec3 centre(int body) const;
+  [[nodiscard]] double kinetic() const;    ///< [J]
+  [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
+  /// Weight of all links [N]: how far a compliance can stretch a hinge.
+  [[nodiscard]] double weight() const;
+  [[nodiscard]] int size() const { return static_cast<int>(links_.size()); }
+
+ private:
+  using Vec2 = Eigen::Vector2d;
+  using Vector = Eigen::VectorXd;
+  struct Link {
+    int body = 0;           // index into Scene::bodies
+    double mass = 0.0;      // [kg]
+    double inertia = 0.0;   // about the hinge's axis [kg m^2]
+    Vec2 e = Vec2::Zero();  // from its hinge to its centre, at the start [m]
+    Vec2 L = Vec2::Zero();  // from its hinge to the next, at the start [m]
+    Vec2 P = Vec2::Zero();  // m e + (mass beyond) L [kg m]
+    double diagonal = 0.0;  // M_kk [kg m^2]
+    double across = 0.0;    // of its centre, along the axis from the anchor [m]
+  };
+  /// The hinge between a link and the one before it.
+  struct Hinge {
+    int child = 0;
+    int parent = 0;             // index into Scene::bodies or kWorld
+    Vec3 at = Vec3::Zero();     // world, at the start [m]
+    Vec3 axis = Vec3::UnitZ();  // world, at the start
+    Vec3 axis_in_child = Vec3::UnitZ();
+  };
+  static std::optional<std::vector<Hinge>> hinges_outwards(const Scene& scene);
+  void derive();
+  /// y = (theta, theta'), dy = (theta', theta'').
+  void slope(const Vector& y, Vector& dy) const;
+  [[nodiscard]] Vec2 centre_in_plane(std::size_t link, const Vector& y) const;
+
+  std::vector<Link> links_;
+  Vec3 anchor_ = Vec3::Zero();  // world [m]
+  Vec3 e1_, e2_, axis_;         // the plane, and the hinges' axis
+  Vec3 gravity_ = Vec3::Zero();
+  Vector y_;
+  std::optional<Extrapolation> integrator_;
+  double tolerance_ = 0.0;
+};
+
+}  // namespace substep

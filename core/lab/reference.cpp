@@ -1,0 +1,191 @@
+#include "core/lab/reference.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/lab/closed_form.hpp"
+#include "core/lab/experiment.hpp"
+#include "core/lab/planar_chain.hpp"
+#include "core/sim/simulator.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kChaoticWindow = 2.0;      // [s]
+constexpr double kLeastEnergyScale = 1e-3;  // less is no motion to speak of [J]
+constexpr double kChainUncertainty = 1e-9;  // of the integrator and of rounding over 10 s [m]
+constexpr int kFinest = 256;                // sub-steps a frame
+// A chain is exact for rigid hinges. Where compliance stretches it by more, the finest run is
+// nearer to what is simulated.
+constexpr double kMostStretch = 1e-4;  // [m]
+
+struct Sample {
+  Vec3 x = Vec3::Zero();  // of the tracked body [m]
+  double kinetic = 0.0;   // [J]
+};
+
+}  // namespace
+
+class ReferenceRun::Source {
+ public:
+  Source() = default;
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+  virtual ~Source() = default;
+  [[nodiscard]] virtual std::string name() const = 0;
+  virtual Sample next() = 0;
+  /// Of the positions so far [m].
+  [[nodiscard]] virtual double uncertainty() const = 0;
+};
+
+namespace {
+
+class ClosedForm final : public ReferenceRun::Source {
+ public:
+  ClosedForm(const Scene& scene, const UniformAcceleration& motion)
+      : scene_(scene), motion_(motion) {}
+  [[nodiscard]] std::string name() const override { return "exact: closed form"; }
+  Sample next() override {
+    const double t = static_cast<double>(++frame_) * scene_.frame;
+    const Body& body = scene_.bodies[static_cast<std::size_t>(*scene_.criteria.track)];
+    const Vec3 v = motion_.velocity + motion_.acceleration * t;
+    // What spins freely keeps the energy of its spin.
+    const Vec3 omega = body.orientation.conjugate() * body.angular_velocity;
+    return {motion_.at(t),
+            0.5 * body.mass * v.squaredNorm() + 0.5 * omega.dot(body.inertia.cwiseProduct(omega))};
+  }
+  [[nodiscard]] double uncertainty() const override { return 0.0; }
+
+ private:
+  const Scene& scene_;
+  UniformAcceleration motion_;
+  std::int64_t frame_ = 0;
+};
+
+class MinimalCoordinates final : public ReferenceRun::Source {
+ public:
+  MinimalCoordinates(const Scene& scene, PlanarChain chain, double stretch)
+      : scene_(scene), chain_(std::move(chain)), stretch_(stretch) {}
+  [[nodiscard]] std::string name() const override {
+    return "exact: minimal coordinates, " + std::to_string(chain_.size()) + " angles";
+  }
+  Sample next() override {
+    chain_.advance(scene_.frame);
+    return {chain_.centre(*scene_.criteria.track), chain_.kinetic()};
+  }
+  [[nodiscard]] double uncertainty() const override { return kChainUncertainty + stretch_; }
+
+ private:
+  const Scene& scene_;
+  PlanarChain chain_;
+  double stretch_;  // of all hinges by their compliance [m]
+};
+
+/// The scene itself, twice.
+class FinestRun final : public ReferenceRun::Source {
+ public:
+  explicit FinestRun(const std::shared_ptr<const Scene>& scene)
+      : scene_(*scene), fine_(scene), coarse_(scene) {
+    Settings settings = scene->settings;
+    settings.solver = SolverKind::kBpp;
+    settings.mode = Mode::kConst;
+    settings.integrator = Integrator::kLeapfrog;
+    settings.drift = Drift::kAuto;
+    settings.n = kFinest;
+    fine_.set_settings(settings);
+    settings.n = kFinest / 2;
+    coarse_.set_settings(settings);
+  }
+  [[nodiscard]] std::string name() const override {
+    return "finest run: bpp, leapfrog, " + std::to_string(kFinest) + " sub-steps a frame";
+  }
+  Sample next() override {
+    const FrameReport report = fine_.step();
+    coarse_.step();
+    if (!scene_.criteria.track) return {Vec3::Zero(), report.kinetic};
+    const auto body = static_cast<std::size_t>(*scene_.criteria.track);
+    const Vec3 x = fine_.state().x[body];
+    apart_ = std::max(apart_, (x - coarse_.state().x[body]).norm());
+    return {x, report.kinetic};
+  }
+  [[nodiscard]] double uncertainty() const override { return apart_; }
+
+ private:
+  const Scene& scene_;
+  Simulator fine_;
+  Simulator coarse_;
+  double apart_ = 0.0;  // [m]
+};
+
+std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scene>& scene) {
+  if (const auto motion = closed_form(*scene)) return std::make_unique<ClosedForm>(*scene, *motion);
+  if (scene->criteria.track) {
+    if (auto chain = PlanarChain::of(*scene)) {
+      double compliance = 0.0;
+      for (const Joint& joint : scene->joints) compliance += base(joint).compliance;
+      const double stretch = compliance * chain->weight();
+      if (stretch < kMostStretch) {
+        return std::make_unique<MinimalCoordinates>(*scene, std::move(*chain), stretch);
+      }
+    }
+  }
+  return std::make_unique<FinestRun>(scene);
+}
+
+}  // namespace
+
+double predictable_window(const Scene& scene, double duration) {
+  const bool chaotic = scene.effects.contact && !closed_form(scene);
+  return chaotic ? std::min(duration, kChaoticWindow) : duration;
+}
+
+ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration)
+    : scene_(std::move(scene)), source_(source_of(scene_)) {
+  reference_.source = source_->name();
+  reference_.window = predictable_window(*scene_, duration);
+  frames_ = frames_of(*scene_, reference_.window);
+  if (scene_->criteria.track) {
+    reference_.track.push_back(
+        scene_->bodies[static_cast<std::size_t>(*scene_->criteria.track)].position);
+  }
+}
+ReferenceRun::~ReferenceRun() = default;
+ReferenceRun::ReferenceRun(ReferenceRun&&) noexcept = default;
+ReferenceRun& ReferenceRun::operator=(ReferenceRun&&) noexcept = default;
+
+bool ReferenceRun::advance() {
+  if (frame_ < frames_) {
+    const Sample sample = source_->next();
+    if (scene_->criteria.track) reference_.track.push_back(sample.x);
+    kinetic_ = std::max(kinetic_, sample.kinetic);
+    if (++frame_ < frames_) return true;
+  }
+  reference_.uncertainty = source_->uncertainty();
+  if (scene_->criteria.energy_scale) {
+    reference_.energy_scale = *scene_->criteria.energy_scale;
+    reference_.energy_scale_source = "stated by the scene";
+  } else if (kinetic_ > kLeastEnergyScale) {
+    reference_.energy_scale = kinetic_;
+    reference_.energy_scale_source = "largest kinetic energy of the reference";
+  }
+  return false;
+}
+
+double ReferenceRun::progress() const {
+  return frames_ > 0 ? static_cast<double>(frame_) / static_cast<double>(frames_) : 1.0;
+}
+
+const Reference& ReferenceRun::reference() const {
+  assert(frame_ == frames_ && "advance() until it returns false");
+  return reference_;
+}
+
+Reference find_reference(const std::shared_ptr<const Scene>& scene, double duration) {
+  ReferenceRun run(scene, duration);
+  while (run.advance()) {
+  }
+  return run.reference();
+}
+
+}  // namespace substep

@@ -1,0 +1,127 @@
+#include "core/lab/sweep.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace substep {
+namespace {
+
+constexpr int kConstant[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 40, 56, 80};
+constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 0.0125, 0.00625};
+constexpr double kDampingAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
+constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
+constexpr double kReferenceWork = 0.05;  // share of the progress bar
+
+/// Every value of a mode's own parameter.
+void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
+  settings.mode = mode;
+  const auto along = [&](const auto& values, auto member) {
+    for (const auto value : values) {
+      settings.*member = value;
+      all.push_back(settings);
+    }
+  };
+  switch (mode) {
+    case Mode::kNone:
+      all.push_back(settings);
+      break;
+    case Mode::kConst:
+      along(kConstant, &Settings::n);
+      break;
+    case Mode::kCapped:
+      along(kCaps, &Settings::n_cap);
+      break;
+    case Mode::kDamping:
+      along(kDampingAlpha, &Settings::alpha);
+      break;
+    case Mode::kAdaptive:
+      settings.n_max = std::max(settings.n_max, 256);  // a cap of its own would hide the law
+      along(kAlpha, &Settings::alpha);
+      break;
+  }
+}
+
+}  // namespace
+
+std::vector<Settings> default_sweep(const Scene& scene) {
+  std::vector<Settings> all;
+  Settings base = scene.settings;
+  base.watch_stiffness = false;
+  base.drift = Drift::kAuto;
+  const auto curves = [&](SolverKind solver, Integrator integrator) {
+    Settings settings = base;
+    settings.solver = solver;
+    settings.integrator = integrator;
+    settings.policy = Policy::kFrame;
+    append_curve(settings, Mode::kConst, all);
+    append_curve(settings, Mode::kAdaptive, all);
+    settings.policy = Policy::kSubstep;
+    if (solver == SolverKind::kBpp) append_curve(settings, Mode::kAdaptive, all);
+    settings.policy = Policy::kFrame;
+    if (integrator == Integrator::kLeapfrog) return;
+    append_curve(settings, Mode::kDamping, all);
+    append_curve(settings, Mode::kCapped, all);
+  };
+  curves(SolverKind::kBpp, Integrator::kEuler);
+  curves(SolverKind::kBpp, Integrator::kLeapfrog);
+  curves(SolverKind::kPgs, Integrator::kEuler);
+  return all;
+}
+
+double expected_work(const Scene& scene, const Experiment& experiment) {
+  const Settings& s = experiment.settings;
+  double n = 1.0;
+  if (s.mode == Mode::kConst) n = s.n;
+  if (s.mode == Mode::kCapped) n = s.n_cap;
+  if (s.mode == Mode::kAdaptive) n = std::min<double>(s.n_max, 5.0 / std::sqrt(s.alpha));
+  const double per_substep = s.solver == SolverKind::kPgs ? 0.15 * s.iterations : 1.0;
+  const double per_frame = 0.5;  // errors and energies, whatever N
+  return static_cast<double>(frames_of(scene, experiment.duration)) * (per_frame + n * per_substep);
+}
+
+Sweep::Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments)
+    : scene_(std::move(scene)), experiments_(std::move(experiments)) {
+  double longest = 0.0;
+  for (const Experiment& experiment : experiments_) {
+    work_ += expected_work(*scene_, experiment);
+    longest = std::max(longest, experiment.duration);
+  }
+  finding_reference_.emplace(scene_, longest);
+}
+
+const Reference* Sweep::reference() const { return reference_.get(); }
+
+void Sweep::advance_by_a_frame() {
+  if (finding_reference_) {
+    if (finding_reference_->advance()) return;
+    reference_ = std::make_unique<const Reference>(finding_reference_->reference());
+    finding_reference_.reset();
+    return;
+  }
+  if (!run_) {
+    run_ = std::make_unique<ExperimentRun>(*scene_, experiments_[next_++], *reference_);
+    return;
+  }
+  if (run_->advance()) return;
+  results_.push_back(run_->result());
+  work_done_ += expected_work(*scene_, run_->experiment());
+  run_.reset();
+}
+
+bool Sweep::advance(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  while (!done() && Clock::now() < end) advance_by_a_frame();
+  return !done();
+}
+
+double Sweep::progress() const {
+  if (done()) return 1.0;
+  if (finding_reference_) return kReferenceWork * finding_reference_->progress();
+  double work = work_done_;
+  if (run_) work += run_->progress() * expected_work(*scene_, run_->experiment());
+  return work_ > 0.0 ? kReferenceWork + (1.0 - kReferenceWork) * work / work_ : 1.0;
+}
+
+}  // namespace substep

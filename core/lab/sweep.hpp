@@ -1,0 +1,48 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/lab/experiment_run.hpp"
+
+namespace substep {
+
+/// The settings that show what accuracy costs on a scene: constant N, adaptive per frame and per
+/// sub-step, damping, capped with damping; Euler and leapfrog; the direct solver and PGS; each
+/// along its own parameter. Other settings stay as the scene has them.
+std::vector<Settings> default_sweep(const Scene& scene);
+
+/// Sub-steps a run is likely to take, weighted by what one costs: for progress bars only.
+double expected_work(const Scene& scene, const Experiment& experiment);
+
+/// A sweep in slices, for a page that has no threads and must stay alive.
+class Sweep {
+ public:
+  Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments);
+
+  /// Goes on for about that long: at most one frame of one run longer. @return false when done
+  bool advance(double seconds);
+  [[nodiscard]] bool done() const { return next_ == experiments_.size() && !run_; }
+  [[nodiscard]] double progress() const;  ///< 0 to 1
+  [[nodiscard]] const std::vector<Result>& results() const { return results_; }
+  [[nodiscard]] const std::vector<Experiment>& experiments() const { return experiments_; }
+  /// Nothing until it is found.
+  [[nodiscard]] const Reference* reference() const;
+
+ private:
+  void advance_by_a_frame();
+
+  std::shared_ptr<const Scene> scene_;
+  std::vector<Experiment> experiments_;
+  std::optional<ReferenceRun> finding_reference_;
+  std::unique_ptr<const Reference> reference_;
+  std::unique_ptr<ExperimentRun> run_;
+  std::size_t next_ = 0;
+  std::vector<Result> results_;
+  double work_ = 0.0;       // expected of all
+  double work_done_ = 0.0;  // of the runs that are over
+};
+
+}  // namespace substep

@@ -1,0 +1,306 @@
+// Experiments, their text forms, what is measured of them, and sweeps.
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "core/io/experiment.hpp"
+#include "core/io/json_text.hpp"
+#include "core/io/result.hpp"
+#include "core/io/scene_reader.hpp"
+#include "core/io/setting_fields.hpp"
+#include "core/lab/pareto.hpp"
+#include "core/lab/sweep.hpp"
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::test {
+namespace {
+
+std::shared_ptr<const Scene> shared(const Scene& scene) {
+  return std::make_shared<const Scene>(scene);
+}
+
+/// Settings none of which stands at its default.
+Settings unusual() {
+  Settings s;
+  s.solver = SolverKind::kPgs;
+  s.iterations = 31;
+  s.warm_start = true;
+  s.pivots = 7;
+  s.mode = Mode::kCapped;
+  s.alpha = 0.1 / 3.0;
+  s.n = 9;
+  s.n_max = 99;
+  s.n_cap = 5;
+  s.policy = Policy::kSubstep;
+  s.memory = 0.8;
+  s.probe = false;
+  s.integrator = Integrator::kLeapfrog;
+  s.gyroscopic = Gyroscopic::kExplicit;
+  s.drift = Drift::kFull;
+  s.drift_tau = 0.001;
+  s.contact_stiffness = ContactStiffness::kExact;
+  return s;
+}
+
+TEST(Experiment, EverySettingOfTheTestIsUnusual) {
+  for (const SettingField& field : setting_fields()) {
+    if (field.name == "watch_stiffness") continue;
+    EXPECT_NE(setting_text(field, unusual()), setting_text(field, Settings{})) << field.name;
+  }
+}
+
+TEST(Experiment, JsonComesBackTheSame) {
+  const auto scene = shared(scenes::swinging_box());
+  Experiment experiment = experiment_of(*scene, unusual(), 3);
+  experiment.duration = 1.0 / 3.0;
+  Problems problems;
+  const auto json = parse_json(experiment_json(experiment).dump(), problems);
+  ASSERT_TRUE(json.has_value());
+  const auto input = read_experiment(
+      *json, [&](const std::string&) { return scene; }, problems);
+  ASSERT_TRUE(input.experiment.has_value()) << (problems.empty() ? "" : to_string(problems[0]));
+  EXPECT_EQ(*input.experiment, experiment);
+  EXPECT_EQ(experiment_id(*input.experiment), experiment_id(experiment));
+}
+
+TEST(Experiment, WhatIsLeftOutIsTheScenesOwn) {
+  const auto scene = shared(scenes::heavy_stack_tall());
+  Problems problems;
+  const auto input = read_experiment(
+      Json{{"scene", "heavy_stack_tall"}}, [&](const std::string&) { return scene; }, problems);
+  ASSERT_TRUE(input.experiment.has_value());
+  EXPECT_EQ(input.experiment->settings, scene->settings);
+  EXPECT_EQ(input.experiment->duration, scene->criteria.duration);
+}
+
+TEST(Experiment, AllThatIsWrongIsToldAtOnce) {
+  const auto scene = shared(scenes::pendulum());
+  Problems problems;
+  const Json json{{"scene", "pendulum"}, {"scene_hash", "0"}, {"settings", {{"alpha", 3.0}}},
+                  {"seconds", -1.0},     {"seed", -1},        {"colour", "red"}};
+  const auto input = read_experiment(
+      json, [&](const std::string&) { return scene; }, problems);
+  EXPECT_FALSE(input.experiment.has_value());
+  EXPECT_EQ(problems.size(), 5U);
+  problems.clear();
+  EXPECT_FALSE(read_experiment(
+                   Json{{"scene", "?"}}, [](const std::string&) { return nullptr; }, problems)
+                   .experiment.has_value());
+  EXPECT_EQ(problems.size(), 1U);
+  problems.clear();
+  Json other = experiment_json(experiment_of(*scene, Settings{}));
+  other["seconds"] = 7.0;
+  EXPECT_FALSE(read_experiment(
+                   other, [&](const std::string&) { return scene; }, problems)
+                   .experiment)
+      << "the id belongs to another duration";
+}
+
+TEST(Experiment, IdDependsOnAllThatMakesTheRunAndOnNothingElse) {
+  const Scene scene = scenes::pendulum();
+  const std::string id = experiment_id(experiment_of(scene, Settings{}));
+  EXPECT_EQ(id.size(), 16U);
+  std::set<std::string> ids{id};
+  for (const SettingField& field : setting_fields()) {
+    Settings settings;
+    if (field.name == "watch_stiffness") continue;
+    EXPECT_FALSE(set_setting(field, setting_text(field, unusual()), settings));
+    EXPECT_TRUE(ids.insert(experiment_id(experiment_of(scene, settings))).second) << field.name;
+  }
+  EXPECT_TRUE(ids.insert(experiment_id(experiment_of(scene, Settings{}, 1))).second);
+  Experiment longer = experiment_of(scene, Settings{});
+  longer.duration = 11.0;
+  EXPECT_TRUE(ids.insert(experiment_id(longer)).second);
+  Scene heavier = scene;
+  heavier.bodies[0].mass = 2.0;
+  EXPECT_TRUE(ids.insert(experiment_id(experiment_of(heavier, Settings{}))).second);
+  Scene reworded = scene;
+  reworded.description = "another description";
+  reworded.camera.eye.x() += 1.0;
+  reworded.settings.alpha = 0.3;
+  EXPECT_EQ(experiment_id(experiment_of(reworded, Settings{})), id);
+}
+
+// Results of years are keyed by it.
+TEST(Experiment, IdOfTheScenesFileStaysWhatItIs) {
+  const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/free_fall.json").scene;
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(experiment_id(experiment_of(*scene, Settings{})),
+            experiment_id(experiment_of(scenes::free_fall(), Settings{})));
+  EXPECT_EQ(experiment_id(experiment_of(*scene, Settings{})), "338fa7f7f23df747");
+}
+
+TEST(Experiment, ASeedNudgesEveryMovingBodyAndNoMore) {
+  const Scene scene = scenes::swinging_box();
+  EXPECT_EQ(nudged_start(scene, 0).bodies[1].velocity, scene.bodies[1].velocity);
+  const Scene nudged = nudged_start(scene, 5);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const double by = (nudged.bodies[i].velocity - scene.bodies[i].velocity).norm();
+    EXPECT_EQ(by > 0.0, !scene.bodies[i].is_static) << i;
+    EXPECT_LT(by, 2e-9) << i;
+    EXPECT_EQ(nudged.bodies[i].position, scene.bodies[i].position);
+  }
+  EXPECT_EQ(nudged_start(scene, 5).bodies[1].velocity, nudged.bodies[1].velocity);
+  EXPECT_NE(nudged_start(scene, 6).bodies[1].velocity, nudged.bodies[1].velocity);
+}
+
+TEST(Pareto, IsTheFrontOfBruteForce) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> coarse(0, 12);  // ties in both
+  for (int round = 0; round < 200; ++round) {
+    std::vector<CostAndError> points(static_cast<std::size_t>(round % 40));
+    for (auto& p : points) p = {double(coarse(random)), double(coarse(random))};
+    const std::vector<bool> front = pareto_front(points);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bool beaten = false;
+      for (const auto& q : points) {
+        const auto& p = points[i];
+        beaten = beaten ||
+                 (q.cost <= p.cost && q.error <= p.error && (q.cost < p.cost || q.error < p.error));
+      }
+      EXPECT_EQ(front[i], !beaten) << round << " " << i;
+    }
+  }
+}
+
+TEST(Metrics, AFreeTopKeepsItsMomentumAndAPendulumIsNotAsked) {
+  const auto metrics = [](const Scene& scene) {
+    const auto held = shared(scene);
+    Experiment experiment = experiment_of(scene, scene.settings);
+    experiment.duration = 1.0;
+    const Reference reference = find_reference(held, 1.0);
+    ExperimentRun run(scene, experiment, reference);
+    while (run.advance()) {
+    }
+    return run.result().metrics;
+  };
+  const Metrics top = metrics(scenes::spinning_top());
+  ASSERT_TRUE(top.errors.angular_momentum_drift.has_value());
+  EXPECT_LT(*top.errors.angular_momentum_drift, 1e-10);
+  EXPECT_LT(std::abs(*top.errors.energy_drift_percent), 1e-9);
+  EXPECT_FALSE(top.errors.joint_gap.has_value());
+  const Metrics pendulum = metrics(scenes::pendulum());
+  EXPECT_FALSE(pendulum.errors.angular_momentum_drift.has_value());
+  EXPECT_TRUE(pendulum.errors.joint_gap.has_value());
+  EXPECT_EQ(pendulum.work.frames, 60);
+  EXPECT_GT(pendulum.timing.ms_median, 0.0);
+  EXPECT_GE(pendulum.timing.ms_p95, pendulum.timing.ms_median);
+}
+
+TEST(Metrics, AFailedRunEndsThereAndHasNoTrajectoryError) {
+  const Scene scene = scenes::swinging_box();
+  const auto held = shared(scene);
+  Settings settings;
+  settings.mode = Mode::kNone;
+  const Reference reference = find_reference(held, 0.5);
+  ExperimentRun run(scene, experiment_of(scene, settings), reference);
+  while (run.advance()) {
+  }
+  const Metrics m = run.result().metrics;
+  EXPECT_FALSE(m.holds);
+  EXPECT_NEAR(m.failed_at, 0.35, 0.035);
+  EXPECT_EQ(m.work.frames, std::llround(m.failed_at * 60.0));
+  EXPECT_FALSE(m.errors.trajectory_peak.has_value());
+  const Json json = result_json(run.result());
+  EXPECT_EQ(json["holds"], false);
+  Problems problems;
+  EXPECT_EQ(result_id(json, problems), experiment_id(run.experiment()));
+}
+
+TEST(Work, FlopsFollowFromSizesAlone) {
+  // Pinned hinges in a row: a run's flops are a constant per solve.
+  const Scene scene = scenes::rope_of_n({.n = 6});
+  const auto held = shared(scene);
+  const Reference reference = find_reference(held, 0.1);
+  const auto work = [&](const Settings& settings, double seconds) {
+    Experiment experiment = experiment_of(scene, settings);
+    experiment.duration = seconds;
+    ExperimentRun run(scene, experiment, reference);
+    while (run.advance()) {
+    }
+    return run.result().metrics.work;
+  };
+  Settings settings;
+  settings.mode = Mode::kConst;
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    settings.solver = solver;
+    settings.n = 3;
+    const Work once = work(settings, 0.1);
+    settings.n = 6;
+    const Work twice = work(settings, 0.1);
+    EXPECT_GT(once.flops, 0);
+    EXPECT_EQ(once.flops % once.solves, 0);
+    EXPECT_EQ(twice.flops, 2 * once.flops);
+    EXPECT_EQ(twice.row_updates, 2 * once.row_updates);
+    EXPECT_EQ(once.substeps, 18);
+  }
+  EXPECT_EQ(work(settings, 0.1), work(settings, 0.1)) << "run to run";
+}
+
+TEST(Sweep, DefaultHasEveryMethodOnce) {
+  const Scene scene = scenes::swinging_box();
+  std::set<std::string> series;
+  std::set<std::string> ids;
+  for (const Settings& settings : default_sweep(scene)) {
+    series.insert(series_name(settings));
+    EXPECT_TRUE(ids.insert(experiment_id(experiment_of(scene, settings))).second);
+  }
+  for (const char* name :
+       {"bpp, const, euler", "bpp, const, leapfrog", "bpp, adaptive per frame, euler",
+        "bpp, adaptive per sub-step, leapfrog", "bpp, damping, euler", "bpp, capped, euler",
+        "pgs 25, const, euler", "pgs 25, adaptive per frame, euler", "pgs 25, damping, euler"}) {
+    EXPECT_TRUE(series.contains(name)) << name;
+  }
+}
+
+TEST(Sweep, SlicesGiveTheResultsOfWholeRuns) {
+  const Scene scene = scenes::rope_of_n({.n = 3});
+  const auto held = shared(scene);
+  std::vector<Experiment> experiments;
+  for (const int n : {1, 2, 4}) {
+    Settings settings;
+    settings.mode = Mode::kConst;
+    settings.n = n;
+    experiments.push_back(experiment_of(scene, settings));
+    experiments.back().duration = 0.5;
+  }
+  Sweep sweep(held, experiments);
+  double before = 0.0;
+  while (sweep.advance(1e-5)) {
+    EXPECT_GE(sweep.progress(), before);
+    before = sweep.progress();
+  }
+  EXPECT_EQ(sweep.progress(), 1.0);
+  ASSERT_EQ(sweep.results().size(), experiments.size());
+  const Reference reference = find_reference(held, 0.5);
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    ExperimentRun run(scene, experiments[i], reference);
+    while (run.advance()) {
+    }
+    const Metrics whole = run.result().metrics;
+    const Metrics& sliced = sweep.results()[i].metrics;
+    EXPECT_EQ(sweep.results()[i].experiment, experiments[i]);
+    EXPECT_EQ(sliced.errors, whole.errors) << i;
+    EXPECT_EQ(sliced.work, whole.work) << i;
+    EXPECT_EQ(sliced.hash, whole.hash) << i;
+  }
+}
+
+TEST(Results, HeadersOfOtherFilesAreRefused) {
+  Problems problems;
+  std::string own = results_header();
+  own.pop_back();
+  check_results_header(own, problems);
+  EXPECT_TRUE(problems.empty());
+  for (const char* foreign : {"", "{}", "frame,time", R"({"format":"substep-scene","version":1})",
+                              R"({"format":"substep-results","version":2})"}) {
+    problems.clear();
+    check_results_header(foreign, problems);
+    EXPECT_FALSE(problems.empty()) << foreign;
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

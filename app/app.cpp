@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/link.hpp"
+#include "app/png.hpp"
 #include "app/ui/panels.hpp"
 #include "core/io/number_text.hpp"
 #include "core/io/setting_fields.hpp"
@@ -110,7 +111,35 @@ void update_look(App& app) {
   }
 }
 
+// A run that starts anew is seen from its start on, at the zoom that was chosen.
+void restart_plots(Desk& desk) {
+  for (ui::PlotState& plot : desk.plots) plot.set = false;
+  desk.time.from = 0.0;
+  desk.time.follow = true;
+}
+
+// Hands the picture that was asked for to the shell.
+void take_capture(App& app, int width, int height) {
+  const ViewRect& a = app.capture->area;
+  const float ratio = ImGui::GetIO().DisplayFramebufferScale.x;
+  const auto pixel = [ratio](float v, int most) {
+    return std::clamp(static_cast<int>(std::lround(v * ratio)), 0, most);
+  };
+  const int x = pixel(a.x, width - 1);
+  const int y = pixel(a.y, height - 1);
+  const int w = std::max(1, pixel(a.x + a.width, width) - x);
+  const int h = std::max(1, pixel(a.y + a.height, height) - y);
+  const std::string png = encode_png(w, h, app.renderer->pixels(x, y, w, h));
+  if (app.host.save_file) app.host.save_file(app.capture->name, png);
+  app.capture.reset();
+}
+
 }  // namespace
+
+Desk::Desk() {
+  plot(Plot::kError).logarithmic = true;
+  plot(Plot::kTime).shown = false;
+}
 
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : library(std::move(shipped)), session(library.scenes().front()), renderer(std::move(draws)) {
@@ -121,7 +150,7 @@ void App::run(std::shared_ptr<const Scene> scene) {
   ++run_count;
   session.load(std::move(scene));
   change(session.settings());
-  desk.substeps_range = desk.energy_range = desk.error_range = {};
+  restart_plots(desk);
 }
 
 bool App::open(std::string_view name) {
@@ -146,7 +175,7 @@ bool App::open_text(std::string_view json, const std::string& from) {
 void App::reset() {
   ++run_count;
   session.reset();
-  desk.substeps_range = desk.energy_range = desk.error_range = {};
+  restart_plots(desk);
 }
 
 void App::change(const Settings& settings) {
@@ -189,11 +218,14 @@ void App::open_link(std::string_view fragment) {
   if (!problems.empty()) trouble = {"The link could not be followed in full", std::move(problems)};
 }
 
+void App::tell(std::string text) { notice = {std::move(text), 5.0}; }
+
 std::string App::link() const { return make_link(session.scene(), session.settings()); }
 
 void frame(App& app, double wall_dt) {
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.session.advance(wall_dt);
+  app.notice.left -= wall_dt;
 
   update_look(app);
   app.renderer->begin_frame();
@@ -216,6 +248,7 @@ void frame(App& app, double wall_dt) {
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
   app.renderer->draw(app.picture, *ImGui::GetDrawData(), width, height);
+  if (app.capture) take_capture(app, width, height);
 
   if (app.host.link_changed) {
     std::string link = app.link();

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,11 +34,28 @@ struct Trouble {
   std::vector<Problem> problems;
 };
 
-/// Which of the phone's panels is open.
+/// Which of the phone's panels is open; beside the picture, the controls always are.
 enum class Tab : unsigned char { kControls, kPlots, kWhy };
+
+enum class Plot : unsigned char { kSubsteps, kEnergy, kError, kTime, kCount };
+
+/// A picture of a part of the window, taken when this frame has been drawn.
+struct Capture {
+  std::string name;  // of the file
+  ViewRect area;
+};
+
+/// A sentence that is shown for a moment.
+struct Notice {
+  std::string text;
+  double left = 0.0;  // [s]
+};
 
 /// Everything that a person changes about the window and not about the run.
 struct Desk {
+  Desk();
+  [[nodiscard]] ui::PlotState& plot(Plot p) { return plots[static_cast<std::size_t>(p)]; }
+
   bool dark = true;
   bool panels = true;  // off: nothing but the picture
   bool help = false;
@@ -44,9 +63,8 @@ struct Desk {
   Tab tab = Tab::kControls;
   ViewOptions view;
   ui::TimeAxis time;
-  ui::PlotRange substeps_range;
-  ui::PlotRange energy_range;
-  ui::PlotRange error_range;
+  std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
+  ViewRect plots_area;        // where the plots were drawn last
   int dismissed_failure = 0;  // of which run the failure was put aside
 };
 
@@ -72,13 +90,18 @@ struct App {
   /// New settings for the run, live.
   void change(const Settings& settings);
 
+  /// Says something in passing.
+  void tell(std::string text);
+
   Library library;
   Session session;
   SceneView view;
   Desk desk;
   Host host;
   std::unique_ptr<Renderer> renderer;
-  Trouble trouble;    // none where the title is empty
+  Trouble trouble;  // none where the title is empty
+  Notice notice;
+  std::optional<Capture> capture;
   int run_count = 0;  // resets and loads
 
   // Kept by frame().

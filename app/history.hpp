@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,44 +13,102 @@ namespace substep {
 
 /// What the plots show, one number a frame.
 enum class Channel : std::uint8_t {
-  kSubsteps,      // N taken [-]
-  kLimit,         // N at alpha = 1: fewer than this is unstable [-], 0 where K is not known
-  kKinetic,       // [J]
-  kEnergyChange,  // total energy minus that at the start [J]
-  kJointError,    // sum over joints of the 1-norm of phi [m, rad]
-  kPenetration,   // largest overlap of a contact [m]
-  kTime,          // wall time of the frame [ms]
+  kSubsteps,     // N taken [-]
+  kLimit,        // N at alpha = 1: fewer than this is unstable [-], 0 where K is not known
+  kKinetic,      // [J]
+  kPotential,    // minus that at the start [J]
+  kTotal,        // kinetic and potential, minus that at the start: 0, ideally [J]
+  kJointError,   // sum over joints of the 1-norm of phi [m, rad]
+  kJointGap,     // largest distance between the anchors of a joint [m]
+  kPenetration,  // largest overlap of a contact [m]
+  kTime,         // wall time of the frame [ms]
+  kTimeSolve,    // of it, by stage [ms]
+  kTimeJoints,
+  kTimeContact,
+  kTimeFriction,
+  kTimeStiffness,
   kCount
+};
+
+/// Least and greatest of some samples; what is not finite is left out.
+struct Extent {
+  float low = std::numeric_limits<float>::infinity();
+  float high = -std::numeric_limits<float>::infinity();
+  float least_positive = std::numeric_limits<float>::infinity();  // for logarithmic axes
+
+  void add(float value);
+  void add(const Extent& other);
+  [[nodiscard]] bool empty() const { return low > high; }
+};
+
+/// Samples with the extents of blocks of 8, 64 and 512 of them: the extent of any stretch costs
+/// some tens of steps, however long it is.
+class Samples {
+ public:
+  static constexpr std::size_t kFan = 8;
+  static constexpr std::size_t kLevels = 3;
+  static constexpr std::size_t kLargestBlock = kFan * kFan * kFan;
+
+  void clear();
+  void push_back(float value);
+  /// Drops the oldest. @param count a multiple of kLargestBlock
+  void drop_front(std::size_t count);
+  /// Keeps the oldest `count`.
+  void truncate(std::size_t count);
+  [[nodiscard]] std::span<const float> values() const { return values_; }
+  /// Of the samples [first, last).
+  [[nodiscard]] Extent extent(std::size_t first, std::size_t last) const;
+
+ private:
+  std::vector<float> values_;
+  std::array<std::vector<Extent>, kLevels> levels_;  // of whole and of begun blocks
 };
 
 /// The last minutes of a run, one sample a frame, oldest first and contiguous.
 class History {
  public:
-  static constexpr std::size_t kCapacity = std::size_t{60} * 600;  // ten minutes at 60 frames a second
+  static constexpr std::size_t kCapacity =
+      std::size_t{60} * 600;  // ten minutes at 60 frames a second
 
   /// @param frame length of a frame [s]
   void start(const FrameReport& report, double frame);
   void add(const FrameReport& report);
+  /// Forgets what is later than `time` [s].
+  void cut(double time);
 
   [[nodiscard]] std::span<const float> operator[](Channel channel) const {
+    return samples(channel).values();
+  }
+  [[nodiscard]] const Samples& samples(Channel channel) const {
     return channels_[static_cast<std::size_t>(channel)];
   }
-  [[nodiscard]] std::size_t size() const { return channels_[0].size(); }
+  [[nodiscard]] std::size_t size() const { return channels_[0].values().size(); }
   /// Time at the end of the frame of sample i [s]; the samples lie one frame apart.
   [[nodiscard]] double time(std::size_t i) const {
     return first_time_ + static_cast<double>(i) * frame_;
   }
+  /// The samples at and between two times, as [first, last); one more to either side where there
+  /// is one, so that a line goes on over the edge.
+  struct Slice {
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
+  [[nodiscard]] Slice between(double t0, double t1) const;
+  /// Value of the sample nearest to a time. NaN where there is none within a frame.
+  [[nodiscard]] double at(Channel channel, double time) const;
+  [[nodiscard]] double potential_at_start() const { return potential_at_start_; }  ///< [J]
+  [[nodiscard]] double energy_at_start() const { return energy_at_start_; }        ///< [J]
+  [[nodiscard]] double start_time() const { return start_time_; }
   [[nodiscard]] double end_time() const { return size() == 0 ? start_time_ : time(size() - 1); }
   [[nodiscard]] double frame() const { return frame_; }
 
  private:
-  std::vector<float>& channel(Channel c) { return channels_[static_cast<std::size_t>(c)]; }
-
-  std::array<std::vector<float>, static_cast<std::size_t>(Channel::kCount)> channels_;
+  std::array<Samples, static_cast<std::size_t>(Channel::kCount)> channels_;
   double frame_ = 1.0 / 60.0;
   double start_time_ = 0.0;
   double first_time_ = 0.0;
   double energy_at_start_ = 0.0;
+  double potential_at_start_ = 0.0;
 };
 
 }  // namespace substep

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "app/app.hpp"
-#include "app/native/png.hpp"
+#include "app/png.hpp"
 #include "app/render/gl_renderer.hpp"
 #include "app/ui/context.hpp"
 #include "core/io/setting_fields.hpp"
@@ -93,17 +93,25 @@ void listen(GLFWwindow* handle) {
   glfwSetDropCallback(handle, drop_files);
 }
 
-bool save_screenshot(const std::string& path, int width, int height) {
-  std::vector<std::uint8_t> bottom_up(3 * static_cast<std::size_t>(width) *
-                                      static_cast<std::size_t>(height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, bottom_up.data());
-  std::vector<std::uint8_t> rgb;
-  const std::ptrdiff_t row = std::ptrdiff_t{3} * width;
-  for (std::ptrdiff_t y = height - 1; y >= 0; --y) {
-    rgb.insert(rgb.end(), bottom_up.begin() + y * row, bottom_up.begin() + (y + 1) * row);
+bool write_file(const std::string& path, const std::string& bytes) {
+  std::ofstream file(path, std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  return file.flush().good();
+}
+
+// Into the working folder, beside what is there.
+void save_file(App& app, const std::string& name, const std::string& bytes) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path wanted(name);
+  fs::path path = fs::current_path(error) / wanted;
+  for (int i = 2; fs::exists(path, error); ++i) {
+    std::string numbered = wanted.stem().string();
+    numbered.append("-").append(std::to_string(i)).append(wanted.extension().string());
+    path.replace_filename(numbered);
   }
-  return write_png(path, width, height, rgb);
+  const bool written = write_file(path.string(), bytes);
+  app.tell(path.string() + (written ? " was written" : " could not be written"));
 }
 
 // Applies the command line. @return what is wrong with it, or ""
@@ -173,6 +181,9 @@ int run(const Options& options) {
     }
     App app(std::move(library), std::move(renderer));
     window.app = &app;
+    app.host.save_file = [&app](const std::string& name, const std::string& bytes) {
+      save_file(app, name, bytes);
+    };
     listen(window.handle);
     const std::string problem = apply(options, app);
     if (!problem.empty()) {
@@ -201,7 +212,8 @@ int run(const Options& options) {
       before = now;
       frame(app, dt);
       if (!options.screenshot.empty() && i + 1 >= options.frames) {
-        if (!save_screenshot(options.screenshot, width, height)) {
+        const auto pixels = app.renderer->pixels(0, 0, width, height);
+        if (!write_file(options.screenshot, encode_png(width, height, pixels))) {
           std::fprintf(stderr, "substep: %s could not be written\n", options.screenshot.c_str());
           status = 2;
         }

@@ -27,6 +27,7 @@ class GlRenderer final : public Renderer {
   bool build(std::string& error);
   void begin_frame() override { ImGui_ImplOpenGL3_NewFrame(); }
   void draw(const Picture& picture, const ImDrawData& panels, int width, int height) override;
+  std::vector<std::uint8_t> pixels(int x, int y, int width, int height) override;
   void fonts_changed() override { ImGui_ImplOpenGL3_DestroyFontsTexture(); }
 
  private:
@@ -50,6 +51,7 @@ class GlRenderer final : public Renderer {
   gl::Program ribbon_;
   GLuint empty_array_ = 0;
   GLuint ribbon_array_ = 0;
+  int height_ = 0;  // of the frame buffer [pixel]
 };
 
 bool GlRenderer::build(std::string& error) {
@@ -180,6 +182,7 @@ void GlRenderer::draw_ribbons(const Picture& picture) {
 }
 
 void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int width, int height) {
+  height_ = height;
   const Matrix4f light = light_matrix(picture);
   box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
   ball_instances_.upload(picture.balls.data(), picture.balls.size() * sizeof(Instance));
@@ -216,6 +219,23 @@ void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int widt
 
   // Dear ImGui only reads the lists that it is given.
   ImGui_ImplOpenGL3_RenderDrawData(const_cast<ImDrawData*>(&panels));
+}
+
+std::vector<std::uint8_t> GlRenderer::pixels(int x, int y, int width, int height) {
+  // WebGL reads RGBA only, and rows come from the bottom.
+  const auto w = static_cast<std::size_t>(width);
+  const auto h = static_cast<std::size_t>(height);
+  std::vector<std::uint8_t> rgba(4 * w * h);
+  glReadPixels(x, height_ - y - height, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  std::vector<std::uint8_t> rgb;
+  rgb.reserve(3 * w * h);
+  for (std::size_t row = h; row-- > 0;) {
+    for (std::size_t column = 0; column < w; ++column) {
+      const std::uint8_t* pixel = &rgba[4 * (row * w + column)];
+      rgb.insert(rgb.end(), pixel, pixel + 3);
+    }
+  }
+  return rgb;
 }
 
 }  // namespace

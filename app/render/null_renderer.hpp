@@ -12,6 +12,10 @@ class NullRenderer final : public Renderer {
     ++drawn;
     picture = p;
   }
+  std::vector<std::uint8_t> pixels(int, int, int width, int height) override {
+    return std::vector<std::uint8_t>(
+        3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 128);
+  }
   void fonts_changed() override { ++fonts; }
 
   int begun = 0;

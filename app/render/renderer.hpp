@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "app/render/picture.hpp"
 
 struct ImDrawData;
@@ -15,6 +18,9 @@ class Renderer {
   virtual void begin_frame() = 0;
   /// @param width, height of the frame buffer [pixel]
   virtual void draw(const Picture& picture, const ImDrawData& panels, int width, int height) = 0;
+  /// What was drawn last, as RGB rows from the top; asked for right after draw().
+  /// @param x, y from the top left corner [pixel]
+  [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;
   /// The font atlas was rebuilt, for another pixel ratio.
   virtual void fonts_changed() = 0;
 };

@@ -39,6 +39,32 @@ bool button(const Look& look, const char* id, Icon icon, const char* text, Butto
   return pressed;
 }
 
+namespace {
+
+// What opens below its button, or above where there is more room, never over it.
+bool open_menu(const ImRect& box, const std::function<void()>& menu) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float below = display.y - box.Max.y - 16.0F;
+  const float above = box.Min.y - 16.0F;
+  const bool up = below < 240.0F && above > below;
+  const bool left = box.Min.x > display.x - 220.0F;  // grows to where there is room
+  ImGui::SetNextWindowPos({left ? box.Max.x : box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F},
+                          ImGuiCond_Always, {left ? 1.0F : 0.0F, up ? 1.0F : 0.0F});
+  ImGui::SetNextWindowSizeConstraints({box.GetWidth(), 0.0F},
+                                      {400.0F, std::max(120.0F, up ? above : below)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
+  const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);
+  if (open) {
+    menu();
+    ImGui::EndPopup();
+  }
+  ImGui::PopStyleVar(2);
+  return open;
+}
+
+}  // namespace
+
 bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
                  const char* tip, const std::function<void()>& menu) {
   const Theme& t = *look.theme;
@@ -57,23 +83,17 @@ bool menu_button(const Look& look, const char* id, const char* text, float width
   draw_focus(look, draw, box.Min, box.Max);
   tooltip(look, "", tip);
   if (pressed) ImGui::OpenPopup("menu");
+  const bool open = open_menu(box, menu);
+  ImGui::PopID();
+  return open;
+}
 
-  // Opens to where there is room, never over its button.
-  const float below = ImGui::GetIO().DisplaySize.y - box.Max.y - 16.0F;
-  const float above = box.Min.y - 16.0F;
-  const bool up = below < 240.0F && above > below;
-  ImGui::SetNextWindowPos({box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F}, ImGuiCond_Always,
-                          {0.0F, up ? 1.0F : 0.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F},
-                                      {400.0F, std::max(120.0F, up ? above : below)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
-  const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);
-  if (open) {
-    menu();
-    ImGui::EndPopup();
-  }
-  ImGui::PopStyleVar(2);
+bool icon_menu(const Look& look, const char* id, Icon icon, float size, const char* tip,
+               const std::function<void()>& menu) {
+  ImGui::PushID(id);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  if (button(look, "open", icon, "", ButtonKind::kPlain, size, size, tip)) ImGui::OpenPopup("menu");
+  const bool open = open_menu({at, {at.x + size, at.y + size}}, menu);
   ImGui::PopID();
   return open;
 }

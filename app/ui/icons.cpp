@@ -122,6 +122,22 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
       draw.AddRectFilled({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x - 0.1F * s, c.y + 0.34F * s},
                          color, 0.1F * s);
       break;
+    case Icon::kList:
+      for (const float y : {-0.26F, 0.0F, 0.26F}) {
+        draw.AddCircleFilled({c.x - 0.32F * s, c.y + y * s}, 0.07F * s, color, 8);
+        draw.AddLine({c.x - 0.16F * s, c.y + y * s}, {c.x + 0.38F * s, c.y + y * s}, color, line);
+      }
+      break;
+    case Icon::kSave: {
+      const std::array<ImVec2, 3> head{{{c.x - 0.22F * s, c.y - 0.1F * s},
+                                        {c.x, c.y + 0.12F * s},
+                                        {c.x + 0.22F * s, c.y - 0.1F * s}}};
+      draw.AddLine({c.x, c.y - 0.4F * s}, {c.x, c.y + 0.1F * s}, color, line);
+      draw.AddPolyline(head.data(), 3, color, 0, line);
+      draw.AddLine({c.x - 0.34F * s, c.y + 0.36F * s}, {c.x + 0.34F * s, c.y + 0.36F * s}, color,
+                   line);
+      break;
+    }
     case Icon::kNone:
       break;
   }

@@ -11,8 +11,16 @@ void draw_window(App& app);
 void controls(App& app);
 /// @param height that the plots share; 0 takes what they need at least
 void plots(App& app, float height);
+/// The run so far as a CSV file, of the channels of the plots that are shown.
+void save_table(App& app);
+/// What files of this run are called, without an ending.
+std::string file_stem(const App& app);
+/// Who sets N, in two lines and a picture.
+void why_summary(App& app);
+/// All of it: the law with its numbers, and every body's part.
 void why(App& app);
-void timing(App& app);
+/// @param brief without the list of stages
+void timing(App& app, bool brief);
 /// @param phone two rows, larger targets
 void transport(App& app, bool phone);
 
@@ -25,7 +33,7 @@ void trouble_card(App& app);
 void help_card(App& app);
 
 /// Heights that the right panel's fixed parts need.
-float why_height();
-float timing_height(const App& app);
+float why_summary_height();
+float timing_height(const App& app, bool brief);
 
 }  // namespace substep::ui

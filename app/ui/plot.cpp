@@ -3,9 +3,9 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "app/format.hpp"
 #include "app/ui/widgets.hpp"
@@ -14,12 +14,8 @@ namespace substep::ui {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-// The samples that a stretch of time holds, as [first, last).
-struct Slice {
-  std::size_t first = 0;
-  std::size_t last = 0;
-};
+constexpr float kGutter = 40.0F;  // left of the curves, for the labels of the values
+constexpr float kToggle = 16.0F;  // height of "log" at its top
 
 // Where time and values lie on the screen.
 struct Frame {
@@ -34,6 +30,9 @@ struct Frame {
   [[nodiscard]] float x(double time) const {
     return min.x + static_cast<float>((time - t0) / (t1 - t0)) * (max.x - min.x);
   }
+  [[nodiscard]] double time(float x) const {
+    return t0 + (t1 - t0) * static_cast<double>((x - min.x) / (max.x - min.x));
+  }
   [[nodiscard]] float y(double value) const {
     const double v = logarithmic ? std::log10(std::max(value, 1e-300)) : value;
     const double share = std::clamp((v - low) / (high - low), -0.02, 1.02);
@@ -41,13 +40,14 @@ struct Frame {
   }
 };
 
-Slice visible(const History& history, double t0, double t1) {
-  const auto count = static_cast<double>(history.size());
-  if (history.size() == 0) return {};
-  const double first = std::floor((t0 - history.time(0)) / history.frame());
-  const double last = std::ceil((t1 - history.time(0)) / history.frame()) + 1.0;
-  return {static_cast<std::size_t>(std::clamp(first, 0.0, count)),
-          static_cast<std::size_t>(std::clamp(last, 0.0, count))};
+// What of a history is shown: within the axis, and not cleared.
+History::Slice visible(const History& history, const Frame& f, double from) {
+  History::Slice slice = history.between(f.t0, f.t1);
+  if (from > history.start_time()) {
+    slice.first = std::max(slice.first, history.between(from + history.frame(), f.t1).first);
+  }
+  slice.last = std::max(slice.first, slice.last);
+  return slice;
 }
 
 // 1, 2 or 5 times a power of ten, so that about `count` fit into the range.
@@ -60,99 +60,108 @@ double nice_step(double range, int count) {
   return 10.0 * power;
 }
 
-void find_range(const PlotSpec& spec, const Slice& slice, PlotRange& range) {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -low;
-  const auto include = [&](double v) {
-    if (!std::isfinite(v) || (spec.logarithmic && v <= 0.0)) return;
-    if (spec.logarithmic) v = std::log10(v);
-    low = std::min(low, v);
-    high = std::max(high, v);
-  };
-  for (const Series& series : spec.series) {
-    for (std::size_t i = slice.first; i < std::min(slice.last, series.values.size()); ++i) {
-      include(static_cast<double>(series.values[i]));
-    }
+struct Range {
+  double low = 0.0;
+  double high = 1.0;
+};
+
+Range linear_range(const PlotSpec& spec, const Extent& all) {
+  double low = all.empty() ? 0.0 : static_cast<double>(all.low);
+  double high = all.empty() ? spec.least_span : static_cast<double>(all.high);
+  if (spec.from_zero) {
+    low = std::min(low, 0.0);
+    high = std::max(high, 0.0);
   }
-  for (const Level& level : spec.levels) include(level.value);
-  if (spec.from_zero) include(0.0);
-  if (!(low <= high)) {
-    low = spec.logarithmic ? -9.0 : 0.0;
-    high = spec.logarithmic ? -3.0 : spec.least_span;
+  // A level belongs to the picture unless it is so high that the curves would lie flat.
+  for (const Level& level : spec.levels) {
+    if (level.value < 3.0 * std::max(high, spec.least_span)) high = std::max(high, level.value);
   }
-  if (spec.logarithmic) {
-    low = std::floor(low + 0.02);
-    high = std::max(std::ceil(high - 0.02), low + 2.0);
-  } else {
-    const double span = std::max(high - low, spec.least_span);
-    if (!spec.from_zero || low < 0.0) low -= 0.06 * span;
-    high = std::max(high, low + span) + 0.1 * span;
-  }
-  if (!range.set) {
-    range = {low, high, true};
-    return;
-  }
-  const auto settle = [](double& now, double goal, bool wider) {
-    now += (wider ? 1.0 : 0.04) * (goal - now);
-    if (std::abs(now - goal) < 1e-3 * std::abs(goal)) now = goal;
-  };
-  settle(range.low, low, low < range.low);
-  settle(range.high, high, high > range.high);
+  const double span = std::max(high - low, spec.least_span);
+  if (!spec.from_zero || low < 0.0) low -= 0.06 * span;
+  return {low, std::max(high, low + span) + 0.1 * span};
 }
 
-// Lines at round values, or the words for them: the words go over the series.
-void draw_grid(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw,
-               bool words) {
+// Whole decades, two of them at least.
+Range logarithmic_range(const Extent& all) {
+  if (!(all.high > 0.0F)) return {-9.0, -3.0};
+  const double low = std::floor(std::log10(static_cast<double>(all.least_positive)) + 0.02);
+  const double high = std::ceil(std::log10(static_cast<double>(all.high)) - 0.02);
+  return {low, std::max(high, low + 2.0)};
+}
+
+void find_range(const PlotSpec& spec, const Frame& f, double from, PlotState& state) {
+  Extent all;
+  for (const Series& series : spec.series) {
+    const History::Slice slice = visible(*series.history, f, from);
+    all.add(series.history->samples(series.channel).extent(slice.first, slice.last));
+  }
+  const Range goal = state.logarithmic ? logarithmic_range(all) : linear_range(spec, all);
+  if (!state.set) {
+    state.low = goal.low;
+    state.high = goal.high;
+    state.set = true;
+    return;
+  }
+  const double span = goal.high - goal.low;
+  const auto settle = [span](double& now, double wanted, bool wider) {
+    now += (wider ? 1.0 : 0.04) * (wanted - now);
+    if (std::abs(now - wanted) < 1e-3 * span) now = wanted;
+  };
+  settle(state.low, goal.low, goal.low < state.low);
+  settle(state.high, goal.high, goal.high > state.high);
+}
+
+std::string label_of(const PlotSpec& spec, const Frame& f, double v, int digits) {
+  if (f.logarithmic) return power_of_ten(static_cast<int>(std::lround(v)));
+  if (std::abs(v) >= 1e4 * spec.factor) return coarse_number(v / spec.factor);
+  return fixed(v / spec.factor, digits);
+}
+
+// Lines at round values, and in the gutter what they stand for.
+void draw_values(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.28F : 0.4F);
   const double lines = static_cast<double>(f.max.y - f.min.y) / 32.0;
   double step = f.logarithmic ? std::max(1.0, std::ceil((f.high - f.low) / std::max(lines, 2.0)))
                               : spec.factor * nice_step((f.high - f.low) / spec.factor,
                                                         static_cast<int>(std::max(lines, 2.0)));
-  if (spec.counts) step = std::max(step, 1.0);
+  if (spec.counts && !f.logarithmic) step = std::max(step, 1.0);
   const double first = std::ceil(f.low / step - 1e-9) * step;
   const int digits =
       std::clamp(static_cast<int>(-std::floor(std::log10(step / spec.factor) + 1e-9)), 0, 6);
-  float above = f.max.y + 15.0F;  // top of the words below
+  float above = f.max.y + 15.0F;  // top of the label below
   for (int i = 0; i < 12; ++i) {
     const double v = first + i * step;
     if (v > f.high) break;
     const float y = std::round(f.max.y - static_cast<float>((v - f.low) / (f.high - f.low)) *
                                              (f.max.y - f.min.y));
-    if (!words) {
-      draw.AddLine({f.min.x, y}, {f.max.x, y}, line);
-      continue;
-    }
-    const std::string text = f.logarithmic ? power_of_ten(static_cast<int>(std::lround(v)))
-                             : std::abs(v) >= 1e5 * spec.factor ? short_number(v / spec.factor)
-                                                                : fixed(v / spec.factor, digits);
-    const float top = y - 15.0F < f.min.y ? y + 1.0F : y - 15.0F;
-    if (y > f.max.y - 2.0F || y < f.min.y || top + 13.0F > above) continue;
+    draw.AddLine({f.min.x, y}, {f.max.x, y}, line);
+    const std::string text = label_of(spec, f, v, digits);
+    const ImVec2 size = text_size(look.fonts.small, text.c_str());
+    const float top = std::min(y - 0.5F * size.y, f.max.y - size.y + 2.0F);
+    if (top < f.min.y + kToggle - 3.0F || top + size.y > above) continue;
     above = top;
-    for (const float dx : {-1.0F, 0.0F, 1.0F}) {
-      for (const float dy : {-1.0F, 1.0F}) {
-        draw_text(draw, look.fonts.small, {f.min.x + 6.0F + dx, top + dy},
-                  fade(look.theme->well, 0.8F), text.c_str());
-      }
-    }
-    draw_text(draw, look.fonts.small, {f.min.x + 6.0F, top}, look.theme->dim, text.c_str());
+    draw_text(draw, look.fonts.small, {f.min.x - 6.0F - size.x, top}, look.theme->dim,
+              text.c_str());
   }
 }
 
 void draw_time(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.16F : 0.25F);
-  const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 44.0F));
+  const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 50.0F));
   const int digits = step < 0.1 ? 2 : step < 1.0 ? 1 : 0;
   const double first = std::ceil(f.t0 / step) * step;
+  float before = f.min.x - 8.0F;  // right end of the label before
   for (int i = 0; first + i * step <= f.t1; ++i) {
     const double t = first + i * step;
     const float x = std::round(f.x(t));
     draw.AddLine({x, f.min.y}, {x, f.max.y}, line);
-    if (!spec.time_labels || t < 0.5 * step) continue;
+    if (!spec.time_labels) continue;
     const std::string text = fixed(t, digits) + " s";
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
-    if (x + 0.5F * size.x > f.max.x || x - 0.5F * size.x < f.min.x) continue;
-    draw_text(draw, look.fonts.small, {x - 0.5F * size.x, f.max.y + 3.0F}, look.theme->dim,
-              text.c_str());
+    const float left = std::clamp(x - 0.5F * size.x, f.min.x, f.max.x - size.x);
+    if (left < before + 8.0F) continue;
+    before = left + size.x;
+    draw_text(draw, look.fonts.small, {left, f.max.y + 3.0F}, look.theme->dim, text.c_str());
   }
 }
 
@@ -162,83 +171,87 @@ struct Column {
   float low = 0.0F;  // on the screen
   float high = 0.0F;
   float last = 0.0F;
-  int samples = 1;
-  bool gap = false;  // nothing to draw between the one before and this one
+  bool many = false;  // more than one sample
+  bool gap = false;   // nothing to draw between the one before and this one
 };
 
-std::vector<Column> columns_of(const Series& series, const Slice& slice, const History& history,
-                               const Frame& f) {
+bool drawable(float value, const Frame& f) {
+  return std::isfinite(value) && !(f.logarithmic && value <= 0.0F);
+}
+
+std::vector<Column> samples_of(const Series& series, const History::Slice& slice, const Frame& f) {
+  const auto values = (*series.history)[series.channel];
   std::vector<Column> columns;
+  columns.reserve(slice.last - slice.first);
   bool gap = false;
-  const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
-  const double samples = (f.t1 - f.t0) / history.frame();
-  const float width =
-      samples > 4.0 * static_cast<double>((f.max.x - f.min.x) / pixel) ? pixel : 0.0F;
-  for (std::size_t i = slice.first; i < std::min(slice.last, series.values.size()); ++i) {
-    const auto value = static_cast<double>(series.values[i]);
-    if (!std::isfinite(value) || (f.logarithmic && value <= 0.0)) {
+  for (std::size_t i = slice.first; i < slice.last; ++i) {
+    if (!drawable(values[i], f)) {
       gap = true;
       continue;
     }
     // A stepped series holds from the start of its frame.
-    const double time = history.time(i) - (series.steps ? history.frame() : 0.0);
-    const float x = f.x(time);
-    const float y = f.y(value);
-    if (!gap && !columns.empty() && x < columns.back().x + width) {
-      Column& c = columns.back();
-      c.low = std::min(c.low, y);
-      c.high = std::max(c.high, y);
-      c.last = y;
-      ++c.samples;
-    } else {
-      columns.push_back({x, y, y, y, 1, gap});
-      gap = false;
-    }
+    const double time = series.history->time(i) - (series.steps ? series.history->frame() : 0.0);
+    const float y = f.y(static_cast<double>(values[i]));
+    columns.push_back({f.x(time), y, y, y, false, gap});
+    gap = false;
   }
   return columns;
 }
 
+std::vector<Column> decimated(const Series& series, const History::Slice& slice, const Frame& f,
+                              float pixel) {
+  const History& history = *series.history;
+  const Samples& samples = history.samples(series.channel);
+  // The columns are fixed in time and move with it: edges that did not would flicker.
+  const auto count = static_cast<int>((f.max.x - f.min.x) / pixel);
+  const double width = (f.t1 - f.t0) / count;  // [s]
+  const double k0 = std::floor(f.t0 / width);
+  const auto sample = [&](double time) {  // the first one not before a time
+    const double i = std::ceil((time - history.time(0)) / history.frame() - 1e-6);
+    return static_cast<std::size_t>(
+        std::clamp(i, static_cast<double>(slice.first), static_cast<double>(slice.last)));
+  };
+  std::vector<Column> columns;
+  columns.reserve(static_cast<std::size_t>(count) + 2);
+  bool gap = false;
+  for (int c = 0; c <= count; ++c) {
+    const double time = (k0 + c) * width;
+    const std::size_t first = sample(time);
+    const std::size_t last = sample(time + width);
+    if (first >= last) continue;
+    const Extent extent = samples.extent(first, last);
+    const float low = f.logarithmic ? extent.least_positive : extent.low;
+    if (!drawable(low, f)) {
+      gap = true;
+      continue;
+    }
+    const float newest = samples.values()[last - 1];
+    columns.push_back({f.x(time), f.y(static_cast<double>(low)),
+                       f.y(static_cast<double>(extent.high)),
+                       f.y(static_cast<double>(drawable(newest, f) ? newest : low)), true, gap});
+    gap = false;
+  }
+  return columns;
+}
+
+std::vector<Column> columns_of(const Series& series, double from, const Frame& f) {
+  const History::Slice slice = visible(*series.history, f, from);
+  const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
+  const double shown = (f.t1 - f.t0) / series.history->frame();
+  const bool many = shown > 3.0 * static_cast<double>((f.max.x - f.min.x) / pixel);
+  return many ? decimated(series, slice, f, pixel) : samples_of(series, slice, f);
+}
+
 void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width) {
   constexpr float kOn = 5.0F;
-  constexpr float kOff = 4.0F;
-  const int count = static_cast<int>((b.x - a.x) / (kOn + kOff)) + 1;
-  for (int i = 0; i < count; ++i) {
-    const float x = a.x + static_cast<float>(i) * (kOn + kOff);
-    draw.AddLine({x, a.y}, {std::min(x + kOn, b.x), b.y}, color, width);
+  constexpr float kPeriod = 9.0F;
+  const float length = std::hypot(b.x - a.x, b.y - a.y);
+  for (float at = 0.0F; at < length; at += kPeriod) {
+    const float p = at / length;
+    const float q = std::min(at + kOn, length) / length;
+    draw.AddLine({a.x + p * (b.x - a.x), a.y + p * (b.y - a.y)},
+                 {a.x + q * (b.x - a.x), a.y + q * (b.y - a.y)}, color, width);
   }
-}
-
-// Dashes by distance along the line, whatever its points are.
-void draw_dashes(ImDrawList& draw, const std::vector<ImVec2>& points, ImU32 color, float width) {
-  constexpr float kOn = 4.0F;
-  constexpr float kPeriod = 7.0F;
-  float along = 0.0F;  // where in the period the segment starts
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const ImVec2 a = points[i];
-    const ImVec2 d(points[i + 1].x - a.x, points[i + 1].y - a.y);
-    const float length = std::hypot(d.x, d.y);
-    float at = 0.0F;
-    while (at < length) {
-      const bool on = along < kOn;
-      const float to = std::min(length, at + (on ? kOn : kPeriod) - along);
-      if (on) {
-        draw.AddLine({a.x + d.x * at / length, a.y + d.y * at / length},
-                     {a.x + d.x * to / length, a.y + d.y * to / length}, color, width);
-      }
-      along += to - at + 1e-4F;
-      if (along >= kPeriod) along = 0.0F;
-      at = to + 1e-4F;
-    }
-  }
-}
-
-void draw_line(const Series& series, std::vector<ImVec2>& points, ImDrawList& draw) {
-  if (series.dashed) {
-    draw_dashes(draw, points, series.color, series.width);
-  } else {
-    draw.AddPolyline(points.data(), static_cast<int>(points.size()), series.color, 0, series.width);
-  }
-  points.clear();
 }
 
 // Down to zero, slice by slice. Soft edges between the slices would show as stripes.
@@ -257,21 +270,24 @@ void fill_series(const Series& series, const std::vector<Column>& columns, float
   draw.Flags = flags;
 }
 
-void draw_series(const Series& series, const Slice& slice, const History& history, const Frame& f,
-                 ImDrawList& draw) {
-  const std::vector<Column> columns = columns_of(series, slice, history, f);
+void draw_series(const Series& series, double from, const Frame& f, ImDrawList& draw) {
+  const std::vector<Column> columns = columns_of(series, from, f);
   if (columns.empty()) return;
-  const float end = f.x(history.end_time());  // a stepped series holds until here
-  if (series.filled) {
+  const float end = f.x(series.history->end_time());  // a stepped series holds until here
+  if (series.filled && !f.logarithmic) {
     fill_series(series, columns, std::clamp(f.y(0.0), f.min.y, f.max.y), end, draw);
   }
   std::vector<ImVec2> points;
   points.reserve(3 * columns.size() + 1);
+  const auto flush = [&] {
+    draw.AddPolyline(points.data(), static_cast<int>(points.size()), series.color, 0, series.width);
+    points.clear();
+  };
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const Column& c = columns[i];
-    if (c.gap) draw_line(series, points, draw);
+    if (c.gap) flush();
     if (series.steps && !points.empty()) points.emplace_back(c.x, columns[i - 1].last);
-    if (c.samples > 1) {  // many samples in the column: down and up, ending at the last
+    if (c.many) {  // down and up, ending at the last
       points.emplace_back(c.x, c.low);
       points.emplace_back(c.x, c.high);
     }
@@ -279,77 +295,184 @@ void draw_series(const Series& series, const Slice& slice, const History& histor
   }
   if (series.steps) points.emplace_back(end, columns.back().last);
   const ImVec2 newest = points.back();
-  draw_line(series, points, draw);
-  if (!series.steps && !series.dashed) draw.AddCircleFilled(newest, 2.5F, series.color);
+  flush();
+  if (!series.steps) draw.AddCircleFilled(newest, 2.5F, series.color);
+}
+
+void draw_levels(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
+  for (const Level& level : spec.levels) {
+    const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
+    const bool above = v > f.high;  // off the picture: named at its edge
+    const float y = above ? f.min.y + 0.5F : std::round(f.y(level.value)) + 0.5F;
+    if (!above) draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color, 1.0F);
+    const std::string name = level.name + (above ? " ↑" : "");
+    const ImVec2 text = text_size(look.fonts.small, name.c_str());
+    const float text_y = y - text.y - 1.0F < f.min.y ? y + 2.0F : y - text.y - 1.0F;
+    draw_text(draw, look.fonts.small, {f.max.x - text.x - 6.0F, text_y}, level.color, name.c_str());
+  }
+}
+
+void draw_marks(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
+  float below = f.min.y + 2.0F;
+  for (const Mark& mark : spec.marks) {
+    if (mark.time < f.t0 || mark.time > f.t1) continue;
+    const float x = std::round(f.x(mark.time)) + 0.5F;
+    draw_dashed(draw, {x, f.min.y}, {x, f.max.y}, mark.color, 1.0F);
+    if (mark.name.empty()) continue;
+    const ImVec2 size = text_size(look.fonts.small, mark.name.c_str());
+    const float left = x + 4.0F + size.x > f.max.x ? x - 4.0F - size.x : x + 4.0F;
+    draw_text(draw, look.fonts.small, {left, below}, mark.color, mark.name.c_str());
+    below += size.y;
+  }
+}
+
+void draw_hover(const Look& look, const PlotSpec& spec, const Frame& f, const TimeAxis& axis,
+                ImDrawList& draw) {
+  if (!axis.hover || *axis.hover < f.t0 || *axis.hover > f.t1) return;
+  const float x = std::round(f.x(*axis.hover)) + 0.5F;
+  if (axis.drag_from) {
+    draw.AddRectFilled({f.x(*axis.drag_from), f.min.y}, {x, f.max.y},
+                       fade(look.theme->accent, 0.25F));
+  }
+  draw.AddLine({x, f.min.y}, {x, f.max.y}, fade(look.theme->text, 0.5F));
+  for (const Series& series : spec.series) {
+    const double value = shown_value(*series.history, series.channel, axis);
+    if (drawable(static_cast<float>(value), f)) {
+      draw.AddCircleFilled({x, f.y(value)}, 3.0F, series.color);
+    }
+  }
+}
+
+void interact(const Frame& f, double now, TimeAxis& axis) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const double t = f.time(io.MousePos.x);
+  const bool moved = ImGui::IsMouseDragPastThreshold(ImGuiMouseButton_Left, 4.0F);
+  if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+    axis.hover_next = std::clamp(t, f.t0, f.t1);
+  }
+  if (ImGui::IsItemHovered()) {
+    if (io.MouseWheel != 0.0F)
+      axis.zoom(std::pow(0.85, static_cast<double>(io.MouseWheel)), t, now);
+    if (io.MouseWheelH != 0.0F) {
+      axis.pan(-0.05 * axis.span * static_cast<double>(io.MouseWheelH), now);
+    }
+    ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
+    ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelX);
+  }
+  const bool moves = io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Right) ||
+                     ImGui::IsMouseDown(ImGuiMouseButton_Middle);
+  if (ImGui::IsItemActivated() && !moves) axis.drag_from = t;
+  if (ImGui::IsItemActive() && moves && io.MouseDelta.x != 0.0F) {
+    axis.drag_from.reset();
+    axis.pan(static_cast<double>(-io.MouseDelta.x / (f.max.x - f.min.x)) * axis.span, now);
+  }
+  if (ImGui::IsItemDeactivated()) {
+    if (axis.drag_from && moved) {
+      axis.show(std::clamp(*axis.drag_from, f.t0, f.t1), std::clamp(t, f.t0, f.t1));
+    } else if (axis.drag_from) {
+      axis.clicked = std::clamp(t, axis.from, now);
+    }
+    axis.drag_from.reset();
+  }
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    axis.drag_from.reset();
+    axis.follow_again();
+  }
+}
+
+void scale_toggle(const Look& look, ImVec2 at, PlotState& state) {
+  ImGui::SetCursorScreenPos(at);
+  if (ImGui::InvisibleButton("scale", {kGutter - 4.0F, kToggle})) {
+    state.logarithmic = !state.logarithmic;
+    state.set = false;
+  }
+  const char* name = state.logarithmic ? "log" : "lin";
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float width = text_size(look.fonts.small, name).x;
+  draw_text(draw, look.fonts.small, {at.x + kGutter - 6.0F - width, at.y},
+            ImGui::IsItemHovered() ? look.theme->accent_hover : look.theme->dim, name);
+  draw_focus(look, draw, at, {at.x + kGutter - 4.0F, at.y + kToggle});
+  tooltip(look, "",
+          state.logarithmic ? "Logarithmic scale: click for linear"
+                            : "Linear scale: click for logarithmic");
 }
 
 }  // namespace
 
-double shown_value(std::span<const float> values, const History& history, const TimeAxis& axis) {
-  if (values.empty()) return kNothing;
-  if (!axis.hover) return static_cast<double>(values.back());
-  const double i = std::round((*axis.hover - history.time(0)) / history.frame());
-  if (i < 0.0 || i >= static_cast<double>(values.size())) return kNothing;
-  return static_cast<double>(values[static_cast<std::size_t>(i)]);
+std::pair<double, double> TimeAxis::window(double now) const {
+  const double t1 = follow ? std::max(from + span, now) : end;
+  return {t1 - span, t1};
 }
 
-void plot(const Look& look, const PlotSpec& spec, const History& history, ImVec2 size,
-          TimeAxis& axis, PlotRange& range) {
+void TimeAxis::zoom(double factor, double fixed, double now) {
+  const auto [t0, t1] = window(now);
+  const double wanted = std::clamp(span * factor, kShortest, kLongest);
+  if (!follow) {
+    end = fixed + (t1 - fixed) * wanted / span;
+    follow = end >= now && end - wanted <= from;  // all of it is in view
+  }
+  span = wanted;
+}
+
+void TimeAxis::pan(double seconds, double now) {
+  end = window(now).second + seconds;
+  end = std::max(end, from + std::min(span, now - from));
+  follow = end >= now;
+}
+
+void TimeAxis::show(double t0, double t1) {
+  if (t0 > t1) std::swap(t0, t1);
+  span = std::clamp(t1 - t0, kShortest, kLongest);
+  end = std::max(t1, t0 + span);
+  follow = false;
+}
+
+void TimeAxis::follow_again() {
+  follow = true;
+  if (span < 5.0) span = 10.0;
+}
+
+double shown_value(const History& history, Channel channel, const TimeAxis& axis) {
+  if (axis.hover) return history.at(channel, *axis.hover);
+  const auto values = history[channel];
+  return values.empty() ? kNothing : static_cast<double>(values.back());
+}
+
+void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeAxis& axis,
+          PlotState& state) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float below = spec.time_labels ? 18.0F : 0.0F;
-  ImGui::InvisibleButton(spec.id, size);
-  const bool hovered = ImGui::IsItemHovered();
+  const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 
-  // What is newest stands at the right edge once there is more than fits.
   Frame f;
-  f.min = origin;
+  f.min = {origin.x + kGutter, origin.y};
   f.max = {origin.x + size.x, origin.y + size.y - below};
-  f.t1 = std::max(axis.span, history.end_time());
-  f.t0 = f.t1 - axis.span;
-  f.logarithmic = spec.logarithmic;
-  const Slice slice = visible(history, f.t0, f.t1);
-  find_range(spec, slice, range);
-  f.low = range.low;
-  f.high = range.high;
+  std::tie(f.t0, f.t1) = axis.window(now);
+  f.logarithmic = state.logarithmic;
+  find_range(spec, f, axis.from, state);
+  f.low = state.low;
+  f.high = state.high;
 
+  ImGui::PushID(spec.id);
+  scale_toggle(look, origin, state);
   draw.AddRectFilled(f.min, f.max, look.theme->well, 4.0F);
   draw_time(look, spec, f, draw);
+  draw_values(look, spec, f, draw);
   draw.PushClipRect(f.min, f.max, true);
-  draw_grid(look, spec, f, draw, false);
-  for (const Series& series : spec.series) draw_series(series, slice, history, f, draw);
-  draw_grid(look, spec, f, draw, true);
-  for (const Level& level : spec.levels) {
-    const float y = std::round(f.y(level.value)) + 0.5F;
-    draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color, 1.0F);
-    const ImVec2 text = text_size(look.fonts.small, level.name.c_str());
-    const float text_y = y - text.y - 1.0F < f.min.y ? y + 2.0F : y - text.y - 1.0F;
-    draw_text(draw, look.fonts.small, {f.max.x - text.x - 6.0F, text_y}, level.color,
-              level.name.c_str());
-  }
-  if (axis.hover && *axis.hover >= f.t0 && *axis.hover <= f.t1) {
-    const float x = std::round(f.x(*axis.hover)) + 0.5F;
-    draw.AddLine({x, f.min.y}, {x, f.max.y}, fade(look.theme->text, 0.5F));
-    for (const Series& series : spec.series) {
-      const double value = shown_value(series.values, history, axis);
-      if (std::isfinite(value) && !(f.logarithmic && value <= 0.0)) {
-        draw.AddCircleFilled({x, f.y(value)}, 3.0F, series.color);
-      }
-    }
-  }
+  for (const Series& series : spec.series) draw_series(series, axis.from, f, draw);
+  draw_levels(look, spec, f, draw);
+  draw_marks(look, spec, f, draw);
+  draw_hover(look, spec, f, axis, draw);
   draw.PopClipRect();
 
-  if (hovered) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const double t =
-        f.t0 + (f.t1 - f.t0) * static_cast<double>((io.MousePos.x - f.min.x) / (f.max.x - f.min.x));
-    axis.hover_next = t;
-    if (io.MouseWheel != 0.0F) {
-      axis.span =
-          std::clamp(axis.span * std::pow(0.85, static_cast<double>(io.MouseWheel)), 1.0, 600.0);
-    }
-    ImGui::SetItemKeyOwner(ImGuiKey_MouseWheelY);
-  }
+  ImGui::SetCursorScreenPos(f.min);
+  ImGui::InvisibleButton("curves", {f.max.x - f.min.x, f.max.y - f.min.y},
+                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
+                             ImGuiButtonFlags_MouseButtonMiddle);
+  interact(f, now, axis);
+  ImGui::PopID();
+  ImGui::SetCursorScreenPos(origin);
+  ImGui::Dummy(size);
 }
 
 }  // namespace substep::ui

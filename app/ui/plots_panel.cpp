@@ -1,19 +1,45 @@
-// The right panel: what happens, and why.
+// The plots: what happened, frame by frame.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "app/export.hpp"
 #include "app/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/model/names.hpp"
 
 namespace substep::ui {
 namespace {
 
-constexpr float kTimeLabels = 18.0F;  // below the last plot
-constexpr float kHeading = 24.0F;     // a section's heading with the gap below it
+constexpr float kHeading = 24.0F;  // a section's heading with the gap below it
+constexpr float kLeastPlot = 56.0F;
+
+struct PlotInfo {
+  Plot plot;
+  const char* name;
+};
+constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
+    {{Plot::kSubsteps, "Sub-steps per frame"},
+     {Plot::kEnergy, "Energy"},
+     {Plot::kError, "Error and overlap"},
+     {Plot::kTime, "Time by stage"}}};
+
+// A scene with nothing to violate has no plot of errors.
+bool exists(const App& app, Plot plot) {
+  const Effects& effects = app.session.scene().effects;
+  return plot != Plot::kError || effects.joints || effects.contact;
+}
+
+std::vector<Plot> shown_plots(App& app) {
+  std::vector<Plot> shown;
+  for (const PlotInfo& info : kPlots) {
+    if (exists(app, info.plot) && app.desk.plot(info.plot).shown) shown.push_back(info.plot);
+  }
+  return shown;
+}
 
 // A coloured dot with its name and value, right-aligned at `right`. @return where it starts
 float legend(const Look& look, float right, float y, ImU32 color, const std::string& text) {
@@ -22,65 +48,71 @@ float legend(const Look& look, float right, float y, ImU32 color, const std::str
   const float x = right - size.x;
   draw_text(draw, look.fonts.small, {x, y}, look.theme->text, text.c_str());
   draw.AddCircleFilled({x - 8.0F, y + 0.5F * size.y}, 3.5F, color);
-  return x - 24.0F;
+  return x - 22.0F;
 }
 
-void substeps_plot(App& app, float height) {
+void draw_plot(App& app, Plot which, const PlotSpec& spec, float height) {
+  const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
+  plot(app.look, spec, app.session.history().end_time(),
+       {ImGui::GetContentRegionAvail().x, height + below}, app.desk.time, app.desk.plot(which));
+}
+
+// The largest N at alpha = 1 so far: what a constant N would have to be to hold throughout.
+int constant_to_beat(const History& history) {
+  const Extent least = history.samples(Channel::kLimit).extent(0, history.size());
+  return least.empty() ? 0 : static_cast<int>(std::min(1e9F, std::ceil(least.high)));
+}
+
+void substeps_plot(App& app, float height, bool last) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const History& h = app.session.history();
   const Settings& s = app.session.settings();
-  const double n = shown_value(h[Channel::kSubsteps], h, app.desk.time);
-  section(look, "Sub-steps per frame", std::isfinite(n) ? ("N = " + fixed(n, 0)).c_str() : "",
-          t.blue);
+  const double n = shown_value(h, Channel::kSubsteps, app.desk.time);
+  section(look, "Sub-steps per frame", std::isfinite(n) ? ("N = " + fixed(n, 0)).c_str() : "");
   tooltip(look, "Sub-steps per frame",
-          "Blue: the N taken in each frame (Eq. 11). Dashed: the least N that is stable, h √r / 2, "
-          "which is N at alpha = 1. Below that line the scene gains energy.");
+          "The N taken in each frame (Eq. 11). Dashed: the constant N that would have held so far, "
+          "the largest h √r / 2, which is N at alpha = 1. Adaptive pays it only where it must.");
 
   PlotSpec spec;
   spec.id = "substeps";
+  spec.time_labels = last;
   spec.from_zero = true;
   spec.counts = true;
   spec.least_span = 4.0;
-  const auto limit = h[Channel::kLimit];
-  const bool has_limit = std::any_of(limit.begin(), limit.end(), [](float v) { return v > 0.0F; });
-  if (has_limit && s.mode != Mode::kDamping) {
-    spec.series.push_back({limit, t.amber, false, false, true, 1.0F});
+  spec.series.push_back({&h, Channel::kSubsteps, t.blue, true, true});
+  if (const int beat = constant_to_beat(h); beat > 1 && s.mode != Mode::kDamping) {
+    spec.levels.push_back(
+        {static_cast<double>(beat), "constant N to beat " + grouped(beat), t.amber});
   }
-  spec.series.push_back({h[Channel::kSubsteps], t.blue, true, true, false, 1.5F});
   // A cap is worth a line once N comes near it.
   const int cap = s.mode == Mode::kAdaptive ? s.n_max : s.mode == Mode::kCapped ? s.n_cap : 0;
-  const auto taken = h[Channel::kSubsteps];
-  const std::size_t recent = taken.size() - std::min<std::size_t>(taken.size(), 600);
-  const float most =
-      taken.empty()
-          ? 0.0F
-          : *std::max_element(taken.begin() + static_cast<std::ptrdiff_t>(recent), taken.end());
-  if (cap > 0 && most >= 0.7F * static_cast<float>(cap)) {
+  const std::size_t recent = h.size() - std::min<std::size_t>(h.size(), 600);
+  const Extent taken = h.samples(Channel::kSubsteps).extent(recent, h.size());
+  if (cap > 0 && taken.high >= 0.7F * static_cast<float>(cap)) {
     spec.levels.push_back({static_cast<double>(cap), "cap " + std::to_string(cap), t.orange});
   }
-  plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height}, app.desk.time,
-       app.desk.substeps_range);
+  draw_plot(app, Plot::kSubsteps, spec, height);
 }
 
 void energy_plot(App& app, float height, bool last) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const History& h = app.session.history();
-  const auto kinetic = h[Channel::kKinetic];
-  const auto change = h[Channel::kEnergyChange];
-  double scale = 0.0;
-  for (const float v : kinetic) scale = std::max(scale, static_cast<double>(v));
+  const Extent kinetic = h.samples(Channel::kKinetic).extent(0, h.size());
+  const double scale = kinetic.empty() ? 0.0 : static_cast<double>(kinetic.high);
   const auto& exchanged = app.session.scene().criteria.energy_scale;
+  const bool gravity = app.session.scene().effects.gravity;
   const Unit unit = unit_for(std::max(scale, 1e-3));
 
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float right = origin.x + ImGui::GetContentRegionAvail().x;
   section(look, (std::string("Energy, ") + unit.prefix + "J").c_str());
   tooltip(look, "Energy",
-          "Kinetic energy, and how much the total has changed since the start: none, ideally. "
-          "The percentage is of the energy that the motion exchanges.");
-  const double now = shown_value(change, h, app.desk.time);
+          "Kinetic energy, and how much the potential and the total energy have changed since the "
+          "start: the total not at all, ideally. The percentage is of the energy that the motion "
+          "exchanges.");
+  const double now = shown_value(h, Channel::kTotal, app.desk.time);
   const double whole = exchanged.value_or(scale);
   std::string total = "total";
   if (std::isfinite(now) && whole > 0.0) {
@@ -88,8 +120,9 @@ void energy_plot(App& app, float height, bool last) {
                         ? short_number(now / unit.factor) + " " + unit.prefix + "J"
                         : percent(now / whole));
   }
-  const float x = legend(look, right, origin.y, t.orange, total);
-  legend(look, x, origin.y, t.teal, "kinetic");
+  float x = legend(look, right, origin.y, t.orange, total);
+  if (gravity) x = legend(look, x, origin.y, t.purple, "pot.");
+  legend(look, x, origin.y, t.teal, "kin.");
 
   PlotSpec spec;
   spec.id = "energy";
@@ -97,13 +130,13 @@ void energy_plot(App& app, float height, bool last) {
   spec.from_zero = true;
   spec.factor = unit.factor;
   spec.least_span = unit.factor;
-  spec.series.push_back({kinetic, t.teal, false, true, false, 1.5F});
-  spec.series.push_back({change, t.orange, false, false, false, 1.5F});
-  plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height + (last ? kTimeLabels : 0.0F)},
-       app.desk.time, app.desk.energy_range);
+  spec.series.push_back({&h, Channel::kKinetic, t.teal, false, true});
+  if (gravity) spec.series.push_back({&h, Channel::kPotential, t.purple, false, false, 1.0F});
+  spec.series.push_back({&h, Channel::kTotal, t.orange});
+  draw_plot(app, Plot::kEnergy, spec, height);
 }
 
-void error_plot(App& app, float height) {
+void error_plot(App& app, float height, bool last) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const History& h = app.session.history();
@@ -112,150 +145,220 @@ void error_plot(App& app, float height) {
   float right = origin.x + ImGui::GetContentRegionAvail().x;
   section(look, "Error, m");
   tooltip(look, "Constraint error",
-          "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact. "
-          "On a logarithmic scale.");
+          "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact.");
   PlotSpec spec;
   spec.id = "error";
-  spec.logarithmic = true;
-  spec.time_labels = true;
+  spec.time_labels = last;
+  spec.from_zero = true;
+  spec.least_span = 1e-9;
   const auto add = [&](Channel channel, const char* name, ImU32 color) {
-    const double value = shown_value(h[channel], h, app.desk.time);
+    const double value = shown_value(h, channel, app.desk.time);
     right = legend(look, right, origin.y, color,
                    std::string(name) + (std::isfinite(value) ? " " + coarse_number(value) : ""));
-    spec.series.push_back({h[channel], color, false, false, false, 1.5F});
+    spec.series.push_back({&h, channel, color});
   };
   if (effects.contact) add(Channel::kPenetration, "overlap", t.amber);
-  if (effects.joints) add(Channel::kJointError, "joints", t.purple);
-  plot(look, spec, h, {ImGui::GetContentRegionAvail().x, height + kTimeLabels}, app.desk.time,
-       app.desk.error_range);
-}
-
-std::string degree_of_freedom(const Scene& scene, const StiffnessLeader& leader) {
-  static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-  const auto axis = static_cast<std::size_t>(leader.dof % 3);
-  const Body& body = scene.bodies[static_cast<std::size_t>(leader.body)];
-  return body.name + (leader.dof < 3 ? ", along " : ", rotation about ") + kAxes[axis];
-}
-
-// One column per body in the order of the scene, as high as its k/M is of the largest.
-void body_columns(App& app, float height) {
-  const Look& look = app.look;
-  const Scene& scene = app.session.scene();
-  const std::vector<double> shares = stiffness_shares(scene, app.session.state());
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x;
-  ImGui::InvisibleButton("bodies", {width, height});
-  const bool hovered = ImGui::IsItemHovered();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, look.theme->well, 4.0F);
-  std::vector<std::size_t> moving;
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    if (!scene.bodies[i].is_static) moving.push_back(i);
-  }
-  if (moving.empty()) return;
-  const int leader = app.session.report().leader.body;
-  const float inner = width - 8.0F;
-  const float pitch = inner / static_cast<float>(moving.size());
-  const float gap = pitch >= 4.0F ? std::min(2.0F, 0.25F * pitch) : 0.0F;
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const double share = shares[moving[i]];
-    const double tall = std::max(share, 0.03);
-    const float x = origin.x + 4.0F + pitch * static_cast<float>(i);
-    const float top = origin.y + height - 4.0F - static_cast<float>(tall) * (height - 8.0F);
-    const bool leads = static_cast<int>(moving[i]) == leader;
-    draw.AddRectFilled({x, top}, {x + std::min(pitch - gap, 28.0F), origin.y + height - 4.0F},
-                       leads ? look.theme->orange : look.theme->blue, 1.0F);
-  }
-  if (!hovered) return;
-  const float at = (ImGui::GetIO().MousePos.x - origin.x - 4.0F) / pitch;
-  const auto i =
-      static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(moving.size() - 1)));
-  const Body& body = scene.bodies[moving[i]];
-  const std::string text = "k/M is " + fixed(100.0 * shares[moving[i]], 1) + " % of the largest.";
-  tooltip(look, body.name.c_str(), text.c_str());
+  if (effects.joints) add(Channel::kJointError, "joints", t.blue);
+  draw_plot(app, Plot::kError, spec, height);
 }
 
 struct Stage {
   const char* name;
   double seconds;
   ImU32 color;
+  Channel channel;
 };
 
 std::vector<Stage> stages(const App& app) {
   const Theme& t = *app.look.theme;
   const StageTimes& times = app.session.times();
   const Effects& effects = app.session.scene().effects;
-  std::vector<Stage> list{{"solve", times.solve, t.blue}};
-  if (effects.joints) list.push_back({"joints", times.joints, t.teal});
-  if (effects.contact) list.push_back({"contact", times.contact, t.amber});
-  if (effects.friction) list.push_back({"friction", times.friction, t.orange});
-  list.push_back({"stiffness", times.stiffness, t.purple});
+  std::vector<Stage> list{{"solve", times.solve, t.blue, Channel::kTimeSolve}};
+  if (effects.joints) list.push_back({"joints", times.joints, t.teal, Channel::kTimeJoints});
+  if (effects.contact) list.push_back({"contact", times.contact, t.amber, Channel::kTimeContact});
+  if (effects.friction)
+    list.push_back({"friction", times.friction, t.orange, Channel::kTimeFriction});
+  list.push_back({"stiffness", times.stiffness, t.purple, Channel::kTimeStiffness});
   double known = 0.0;
   for (const Stage& stage : list) known += stage.seconds;
-  list.push_back({"rest", std::max(0.0, times.total - known), t.grey});
+  list.push_back({"rest", std::max(0.0, times.total - known), t.grey, Channel::kTime});
   return list;
+}
+
+void time_plot(App& app, float height, bool last) {
+  const Look& look = app.look;
+  const History& h = app.session.history();
+  const double now = shown_value(h, Channel::kTime, app.desk.time);
+  section(look, "Time per frame, ms", std::isfinite(now) ? (fixed(now, 2) + " ms").c_str() : "");
+  tooltip(look, "Time per frame",
+          "Wall time of the simulation, frame by frame: the whole in grey, its stages in the "
+          "colours that the list below names.");
+  PlotSpec spec;
+  spec.id = "time";
+  spec.time_labels = last;
+  spec.from_zero = true;
+  spec.least_span = 0.01;
+  spec.series.push_back({&h, Channel::kTime, look.theme->grey, false, true});
+  for (const Stage& stage : stages(app)) {
+    if (stage.channel == Channel::kTime) continue;
+    spec.series.push_back({&h, stage.channel, stage.color, false, false, 1.0F});
+  }
+  draw_plot(app, Plot::kTime, spec, height);
+}
+
+void draw_one(App& app, Plot which, float height, bool last) {
+  switch (which) {
+    case Plot::kSubsteps:
+      return substeps_plot(app, height, last);
+    case Plot::kEnergy:
+      return energy_plot(app, height, last);
+    case Plot::kError:
+      return error_plot(app, height, last);
+    case Plot::kTime:
+      return time_plot(app, height, last);
+    case Plot::kCount:
+      return;
+  }
+}
+
+std::vector<Channel> channels_of(Plot plot) {
+  switch (plot) {
+    case Plot::kSubsteps:
+      return {Channel::kSubsteps, Channel::kLimit};
+    case Plot::kEnergy:
+      return {Channel::kKinetic, Channel::kPotential, Channel::kTotal};
+    case Plot::kError:
+      return {Channel::kJointError, Channel::kJointGap, Channel::kPenetration};
+    case Plot::kTime:
+      return {Channel::kTime,        Channel::kTimeSolve,    Channel::kTimeJoints,
+              Channel::kTimeContact, Channel::kTimeFriction, Channel::kTimeStiffness};
+    case Plot::kCount:
+      break;
+  }
+  return {};
+}
+
+std::string span_name(double seconds) {
+  return seconds < 9.95 ? plain_number(seconds) + " s" : fixed(seconds, 0) + " s";
+}
+
+void span_menu(App& app, float width) {
+  const Look& look = app.look;
+  TimeAxis& time = app.desk.time;
+  menu_button(look, "span", span_name(time.span).c_str(), width, look.m.row,
+              "How much time the plots show (wheel on a plot)", [&] {
+                for (const double span : {2.0, 5.0, 10.0, 30.0, 60.0, 200.0, 600.0}) {
+                  if (menu_item(look, span_name(span).c_str(), "", span == time.span)) {
+                    time.span = span;
+                    time.follow = true;
+                  }
+                }
+              });
+}
+
+void save_menu(App& app) {
+  const Look& look = app.look;
+  icon_menu(look, "save", Icon::kSave, look.m.row, "Save the run or a picture", [&] {
+    const std::string name = file_stem(app);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    if (menu_item(look, "Run as a table", "CSV", false)) save_table(app);
+    if (menu_item(look, "Plots", "PNG", false)) {
+      app.capture = {name + "-plots.png", app.desk.plots_area};
+    }
+    if (menu_item(look, "View", "PNG", false)) {
+      app.capture = {name + "-view.png", app.view_rect};
+    }
+    if (menu_item(look, "Window", "PNG", false)) {
+      app.capture = {name + ".png", {0.0F, 0.0F, display.x, display.y}};
+    }
+  });
+}
+
+// Above the plots: what they show, and how much of it.
+void toolbar(App& app) {
+  const Look& look = app.look;
+  TimeAxis& time = app.desk.time;
+  const float row = look.m.row;
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  if (button(look, "follow", time.follow ? Icon::kPause : Icon::kPlay, "", ButtonKind::kPlain, row,
+             row,
+             time.follow ? "Hold the plots: the run goes on"
+                         : "Follow the run again (double click on a plot)")) {
+    if (time.follow) {
+      time.end = time.window(app.session.history().end_time()).second;
+      time.follow = false;
+    } else {
+      time.follow_again();
+    }
+  }
+  ImGui::SameLine(0.0F, 8.0F);
+  span_menu(app, 84.0F);
+  ImGui::SetCursorScreenPos({origin.x + width - 3.0F * row - 16.0F, origin.y});
+  icon_menu(look, "which", Icon::kList, row, "Which plots are shown", [&] {
+    for (const PlotInfo& info : kPlots) {
+      PlotState& state = app.desk.plot(info.plot);
+      if (exists(app, info.plot) && menu_item(look, info.name, "", state.shown)) {
+        state.shown = !state.shown;
+      }
+    }
+  });
+  ImGui::SameLine(0.0F, 8.0F);
+  save_menu(app);
+  ImGui::SameLine(0.0F, 8.0F);
+  if (button(look, "clear", Icon::kCross, "", ButtonKind::kPlain, row, row,
+             "Clear the plots up to now; a reset brings them back")) {
+    time.from = app.session.history().end_time();
+    time.follow = true;
+  }
 }
 
 }  // namespace
 
-float why_height() { return kHeading + 24.0F + 20.0F + 48.0F; }
+float timing_height(const App& app, bool brief) {
+  const std::size_t rows = brief ? 0 : (stages(app).size() + 1) / 2;
+  return kHeading + 12.0F + (rows > 0 ? 8.0F + 20.0F * static_cast<float>(rows) : 0.0F);
+}
 
-float timing_height(const App& app) {
-  const std::size_t rows = (stages(app).size() + 1) / 2;
-  return kHeading + 20.0F + 20.0F * static_cast<float>(rows);
+std::string file_stem(const App& app) {
+  return app.session.scene().name + "-" + std::string(name_of(app.session.settings().mode));
+}
+
+void save_table(App& app) {
+  if (!app.host.save_file) return;
+  std::vector<Channel> channels;
+  for (const Plot plot : shown_plots(app)) {
+    for (const Channel channel : channels_of(plot)) channels.push_back(channel);
+  }
+  const std::array<ExportedRun, 1> runs{{{file_stem(app), &app.session.history()}}};
+  app.host.save_file(file_stem(app) + ".csv",
+                     history_csv(app.session.scene(), runs, channels, app.desk.time.from));
 }
 
 void plots(App& app, float height) {
-  // All of one height, the last with the labels of the time axis below it. A scene with nothing to
-  // violate has no plot of errors.
-  const Effects& effects = app.session.scene().effects;
-  const bool errors = effects.joints || effects.contact;
-  const float count = errors ? 3.0F : 2.0F;
-  const float gap = app.look.m.section;
-  const float rest = height - count * kHeading - (count - 1.0F) * gap - kTimeLabels;
-  const float unit = std::floor(std::max(rest / count, 56.0F));
-  substeps_plot(app, unit);
-  space(gap);
-  energy_plot(app, unit, !errors);
-  if (!errors) return;
-  space(gap);
-  error_plot(app, unit);
-}
-
-void why(App& app) {
-  const Look& look = app.look;
-  const Theme& t = *look.theme;
-  const FrameReport& report = app.session.report();
-  const StiffnessLeader& leader = report.leader;
-  const bool capped = report.capped;
-  const std::string note = capped ? "wanted " + std::to_string(report.n_wanted) + ", capped"
-                           : std::isfinite(report.dt_stable)
-                               ? "dt max " + duration(report.dt_stable)
-                               : "";
-  section(look, "Why this N", note.c_str(), capped ? t.orange : t.text);
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  // All of one height, the last with the labels of the time axis below it.
+  toolbar(app);
+  const ImVec2 from = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  std::string first = "nothing stiff yet";
-  std::string second = "K is zero or not evaluated in this mode.";
-  if (leader.body >= 0) {
-    first = degree_of_freedom(app.session.scene(), leader);
-    const bool turns = leader.dof >= 3;
-    second = "k " + short_number(leader.k) + (turns ? " N m/rad" : " N/m") + "  ·  M " +
-             short_number(leader.mass) + (turns ? " kg m²" : " kg");
+  const std::vector<Plot> shown = shown_plots(app);
+  const auto count = static_cast<float>(shown.size());
+  const float gap = 0.75F * app.look.m.section;
+  const float rest =
+      height - app.look.m.row - 8.0F - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
+  const float unit = std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot));
+  for (const Plot which : shown) {
+    if (which != shown.front()) space(gap);
+    draw_one(app, which, unit, which == shown.back());
   }
-  draw_text(draw, look.fonts.medium, origin, t.text,
-            fitted(look.fonts.medium, first, width).c_str());
-  draw_text(draw, look.fonts.small, {origin.x, origin.y + 20.0F}, t.dim,
-            fitted(look.fonts.small, second, width).c_str());
-  ImGui::Dummy({width, 36.0F});
-  tooltip(look, "Why this N",
-          "The degree of freedom with the largest k/M sets r (Eq. 9), with it the longest stable "
-          "step dt max = 2 √(α/r) (Eq. 10), and with it N (Eq. 11).");
-  body_columns(app, 48.0F);
+  if (shown.empty()) {
+    label(app.look.fonts.small, app.look.theme->dim,
+          "Every plot is hidden: the list above shows them.");
+  }
+  app.desk.plots_area = {from.x - 8.0F, from.y - 4.0F, width + 16.0F,
+                         ImGui::GetCursorScreenPos().y - from.y + 4.0F};
 }
 
-void timing(App& app) {
+void timing(App& app, bool brief) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const std::vector<Stage> list = stages(app);
@@ -274,25 +377,27 @@ void timing(App& app) {
     }
     x += w;
   }
+  std::string listed;  // for the tooltip
   // Two to a row: name at the left, time at the right of its half.
   const float half = 0.5F * (width + 24.0F);
   for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string value = total > 0.0 ? duration(list[i].seconds) : "";
+    listed.append("\n").append(list[i].name).append("  ").append(value);
+    if (brief) continue;
     const float left = origin.x + half * static_cast<float>(i % 2);
     const std::size_t row = i / 2;
     const float y = origin.y + 20.0F + 20.0F * static_cast<float>(row);
     draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
     draw_text(draw, look.fonts.small, {left + 12.0F, y}, t.dim, list[i].name);
-    if (total > 0.0) {
-      const std::string value = duration(list[i].seconds);
-      const float w = text_size(look.fonts.small, value.c_str()).x;
-      draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, t.text, value.c_str());
-    }
+    const float w = text_size(look.fonts.small, value.c_str()).x;
+    draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, t.text, value.c_str());
   }
-  ImGui::Dummy({width, timing_height(app) - kHeading});
-  tooltip(
-      look, "Time per frame",
+  ImGui::Dummy({width, timing_height(app, brief) - kHeading});
+  const std::string tip =
       "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
-      "does not call for does not exist.");
+      "does not call for does not exist." +
+      (brief ? listed : "");
+  tooltip(look, "Time per frame", tip.c_str());
 }
 
 }  // namespace substep::ui

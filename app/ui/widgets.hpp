@@ -64,6 +64,8 @@ enum class Icon : unsigned char {
   kCross,
   kFrame,
   kPanels,
+  kList,
+  kSave,
   kNone
 };
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);
@@ -76,6 +78,9 @@ bool button(const Look& look, const char* id, Icon icon, const char* text, Butto
 /// A button that opens a menu, the current choice on it.
 bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
                  const char* tip, const std::function<void()>& menu);
+/// The same with an icon alone.
+bool icon_menu(const Look& look, const char* id, Icon icon, float size, const char* tip,
+               const std::function<void()>& menu);
 /// An entry of such a menu.
 bool menu_item(const Look& look, const char* text, const char* note, bool current);
 

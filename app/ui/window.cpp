@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -68,6 +69,34 @@ void view_input(App& app) {
   ImGui::End();
 }
 
+// Tabs as wide as the panel. @param first what the first of the choices stands for
+template <std::size_t N>
+void tabs(App& app, const std::array<Choice, N>& choices, Tab first) {
+  const int offset = static_cast<int>(first);
+  int tab = std::max(0, static_cast<int>(app.desk.tab) - offset);
+  if (segmented(app.look, "tabs", choices, tab, ImGui::GetContentRegionAvail().x)) {
+    app.desk.tab = static_cast<Tab>(tab + offset);
+  }
+}
+
+// What is in the right panel.
+void instruments(App& app, float height) {
+  const Look& look = app.look;
+  static constexpr std::array<Choice, 2> kTabs{{{"Plots", ""}, {"Why this N", ""}}};
+  tabs(app, kTabs, Tab::kPlots);
+  height -= look.m.row + 8.0F;
+  if (app.desk.tab == Tab::kWhy) {
+    why(app);
+    return;
+  }
+  const bool brief = height < 640.0F;
+  plots(app, height - why_summary_height() - timing_height(app, brief) - 2.0F * look.m.section);
+  space(look.m.section);
+  why_summary(app);
+  space(look.m.section);
+  timing(app, brief);
+}
+
 void desktop(App& app, ImVec2 display) {
   const float margin = app.look.m.margin;
   const float pad = app.look.m.pad;
@@ -91,12 +120,7 @@ void desktop(App& app, ImVec2 display) {
     }
     ImGui::End();
     if (begin_panel("##plots", right)) {
-      const float fixed = why_height() + timing_height(app) + 2.0F * app.look.m.section;
-      plots(app, panel_height - 2.0F * pad - fixed);
-      space(app.look.m.section);
-      why(app);
-      space(app.look.m.section);
-      timing(app);
+      instruments(app, panel_height - 2.0F * pad);
       scroll_by_drag();
     }
     ImGui::End();
@@ -132,9 +156,7 @@ void phone(App& app, ImVec2 display) {
     if (app.desk.panels) {
       static constexpr std::array<Choice, 3> kTabs{
           {{"Controls", ""}, {"Plots", ""}, {"Why this N", ""}}};
-      int tab = static_cast<int>(app.desk.tab);
-      segmented(app.look, "tabs", kTabs, tab, ImGui::GetContentRegionAvail().x);
-      app.desk.tab = static_cast<Tab>(tab);
+      tabs(app, kTabs, Tab::kControls);
       ImGui::Dummy({1.0F, 0.0F});
       if (ImGui::BeginChild("content", {0, 0})) {
         switch (app.desk.tab) {
@@ -147,7 +169,7 @@ void phone(App& app, ImVec2 display) {
           case Tab::kWhy:
             why(app);
             space(app.look.m.section);
-            timing(app);
+            timing(app, false);
             break;
         }
         scroll_by_drag();
@@ -157,6 +179,20 @@ void phone(App& app, ImVec2 display) {
   }
   ImGui::End();
   ImGui::PopStyleVar(3);
+}
+
+// What the application says in passing, above the bar.
+void notice(App& app) {
+  if (app.notice.text.empty() || app.notice.left <= 0.0) return;
+  const Look& look = app.look;
+  const ViewRect& v = app.view_rect;
+  const std::string text = fitted(look.fonts.regular, app.notice.text, v.width - 64.0F);
+  const ImVec2 size = text_size(look.fonts.regular, text.c_str());
+  const ImVec2 at(v.x + 0.5F * (v.width - size.x), v.y + v.height - 68.0F);
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.AddRectFilled({at.x - 14.0F, at.y - 8.0F}, {at.x + size.x + 14.0F, at.y + size.y + 8.0F},
+                     look.theme->raised, look.m.panel_radius);
+  draw_text(draw, look.fonts.regular, at, look.theme->text, text.c_str());
 }
 
 }  // namespace
@@ -173,6 +209,7 @@ void draw_window(App& app) {
   caption(app, small);
   body_labels(app);
   if (!small) tint_scale(app);
+  notice(app);
   failure_card(app);
   trouble_card(app);
   help_card(app);

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
 namespace substep {
 namespace {
 
@@ -22,7 +27,7 @@ TEST(History, KeepsOneSampleAFrameWithItsTime) {
   EXPECT_NEAR(history.end_time(), 2.0, 1e-12);
   EXPECT_NEAR(history.time(0), 1.0 / 60.0, 1e-12);
   EXPECT_EQ(history[Channel::kSubsteps][6], 0.0F);
-  EXPECT_FLOAT_EQ(history[Channel::kEnergyChange][9], 10.0F);
+  EXPECT_FLOAT_EQ(history[Channel::kTotal][9], 10.0F);
 }
 
 TEST(History, ForgetsTheOldestAndKeepsItsTimes) {
@@ -34,6 +39,51 @@ TEST(History, ForgetsTheOldestAndKeepsItsTimes) {
   EXPECT_GE(history.size(), History::kCapacity - History::kCapacity / 10);
   EXPECT_NEAR(history.end_time(), frames / 60.0, 1e-6);
   EXPECT_FLOAT_EQ(history[Channel::kSubsteps].back(), static_cast<float>(frames % 7));
+}
+
+TEST(History, IsCutAndGoesOnAsIfItHadNeverBeenLonger) {
+  History straight;
+  History rewound;
+  straight.start(report_at(0), 1.0 / 60.0);
+  rewound.start(report_at(0), 1.0 / 60.0);
+  for (int i = 1; i <= 1500; ++i) straight.add(report_at(i));
+  for (int i = 1; i <= 1400; ++i) rewound.add(report_at(i));
+  rewound.cut(700 / 60.0);
+  ASSERT_EQ(rewound.size(), 700U);
+  EXPECT_TRUE(std::isnan(rewound.at(Channel::kSubsteps, 701 / 60.0)));
+  for (int i = 701; i <= 1500; ++i) rewound.add(report_at(i));
+  for (std::size_t first = 0; first < 1500; first += 37) {
+    const Extent a = straight.samples(Channel::kSubsteps).extent(first, 1500);
+    const Extent b = rewound.samples(Channel::kSubsteps).extent(first, 1500);
+    EXPECT_EQ(a.low, b.low);
+    EXPECT_EQ(a.high, b.high);
+  }
+  rewound.cut(-1.0);
+  EXPECT_EQ(rewound.size(), 0U);
+}
+
+TEST(Samples, ExtentsOfBlocksAreThoseOfTheSamples) {
+  Samples samples;
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> value(-1.0F, 3.0F);
+  for (int i = 0; i < 5000; ++i) {
+    samples.push_back(i % 97 == 0 ? std::numeric_limits<float>::quiet_NaN() : value(random));
+    if (i == 4500) samples.drop_front(Samples::kLargestBlock);
+  }
+  const auto values = samples.values();
+  std::uniform_int_distribution<std::size_t> index(0, values.size());
+  for (int trial = 0; trial < 400; ++trial) {
+    std::size_t first = index(random);
+    std::size_t last = index(random);
+    if (first > last) std::swap(first, last);
+    Extent each;
+    for (std::size_t i = first; i < last; ++i) each.add(values[i]);
+    const Extent blocks = samples.extent(first, last);
+    EXPECT_EQ(each.low, blocks.low);
+    EXPECT_EQ(each.high, blocks.high);
+    EXPECT_EQ(each.least_positive, blocks.least_positive);
+    EXPECT_EQ(each.empty(), blocks.empty());
+  }
 }
 
 }  // namespace

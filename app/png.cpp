@@ -1,8 +1,7 @@
-#include "app/native/png.hpp"
+#include "app/png.hpp"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <string_view>
 
 namespace substep {
@@ -65,8 +64,7 @@ Bytes stored(const Bytes& raw) {
 
 }  // namespace
 
-bool write_png(const std::string& path, int width, int height,
-               const std::vector<std::uint8_t>& rgb) {
+std::string encode_png(int width, int height, const std::vector<std::uint8_t>& rgb) {
   Bytes out{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
   Bytes header;
   put32(header, static_cast<std::uint32_t>(width));
@@ -82,9 +80,7 @@ bool write_png(const std::string& path, int width, int height,
   }
   put_chunk(out, "IDAT", stored(raw));
   put_chunk(out, "IEND", {});
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(out.data()), static_cast<std::streamsize>(out.size()));
-  return file.flush().good();
+  return {out.begin(), out.end()};
 }
 
 }  // namespace substep

@@ -1,0 +1,291 @@
+// "Why this N?": the body and degree of freedom that set it, by the paper's law.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/stepping/substep_clock.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kHeading = 24.0F;  // a section's heading with the gap below it
+constexpr float kColumns = 32.0F;  // height of the picture of all bodies
+constexpr std::size_t kMostBars = 12;
+
+// The stiffest degree of freedom of each moving body, the largest k/M first.
+std::vector<StiffnessLeader> by_body(const Scene& scene, const State& state) {
+  std::vector<StiffnessLeader> list;
+  if (state.k.size() != scene.bodies.size()) return list;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;
+    StiffnessLeader most{static_cast<int>(i), 0, 0.0, body.mass, 0.0};
+    for (int dof = 0; dof < 6; ++dof) {
+      const double mass = dof < 3 ? body.mass : body.inertia[dof - 3];
+      const double k = state.k[i][dof];
+      if (k / mass > most.r) most = {static_cast<int>(i), dof, k, mass, k / mass};
+    }
+    list.push_back(most);
+  }
+  std::stable_sort(list.begin(), list.end(),
+                   [](const auto& a, const auto& b) { return a.r > b.r; });
+  return list;
+}
+
+const std::string& name_of_body(const Scene& scene, const StiffnessLeader& who) {
+  return scene.bodies[static_cast<std::size_t>(who.body)].name;
+}
+
+std::string degree_of_freedom(const StiffnessLeader& who) {
+  static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+  return std::string(who.dof < 3 ? "along " : "rotation about ") +
+         kAxes[static_cast<std::size_t>(who.dof % 3)];
+}
+
+std::string stiffness_and_mass(const StiffnessLeader& who) {
+  const bool turns = who.dof >= 3;
+  return "k " + short_number(who.k) + (turns ? " N m/rad" : " N/m") + "  ·  M " +
+         short_number(who.mass) + (turns ? " kg m²" : " kg");
+}
+
+// N by Eqs. 10 and 11.
+int substeps_for(const Session& session, double r) {
+  return wanted_substeps(session.scene().frame, stable_step(session.settings().alpha, r));
+}
+
+std::string cap_note(const FrameReport& report) {
+  return grouped(report.n_wanted) + " wanted, " + grouped(report.n_substeps) + " given";
+}
+
+// One column per body in the order of the scene, as high as its k/M is of the largest.
+void body_columns(App& app, float height) {
+  const Look& look = app.look;
+  const Scene& scene = app.session.scene();
+  const std::vector<double> shares = stiffness_shares(scene, app.session.state());
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::InvisibleButton("bodies", {width, height});
+  const bool hovered = ImGui::IsItemHovered();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, look.theme->well, 4.0F);
+  std::vector<std::size_t> moving;
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    if (!scene.bodies[i].is_static) moving.push_back(i);
+  }
+  if (moving.empty()) return;
+  const int leader = app.session.report().leader.body;
+  const float inner = width - 8.0F;
+  const float pitch = inner / static_cast<float>(moving.size());
+  const float gap = pitch >= 4.0F ? std::min(2.0F, 0.25F * pitch) : 0.0F;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const double share = shares[moving[i]];
+    const double tall = std::max(share, 0.03);
+    const float x = origin.x + 4.0F + pitch * static_cast<float>(i);
+    const float top = origin.y + height - 4.0F - static_cast<float>(tall) * (height - 8.0F);
+    const bool leads = static_cast<int>(moving[i]) == leader;
+    draw.AddRectFilled({x, top}, {x + std::min(pitch - gap, 28.0F), origin.y + height - 4.0F},
+                       leads ? look.theme->orange : look.theme->blue, 1.0F);
+  }
+  if (!hovered) return;
+  const float at = (ImGui::GetIO().MousePos.x - origin.x - 4.0F) / pitch;
+  const auto i =
+      static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(moving.size() - 1)));
+  const Body& body = scene.bodies[moving[i]];
+  const std::string text = "k/M is " + fixed(100.0 * shares[moving[i]], 1) + " % of the largest.";
+  tooltip(look, body.name.c_str(), text.c_str());
+}
+
+// A line of the law: what it says, its numbers below, the equation at the right.
+void law_line(const Look& look, const std::string& law, const std::string& numbers,
+              const char* equation) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float right = text_size(look.fonts.small, equation).x;
+  draw_text(draw, look.fonts.regular, origin, look.theme->text,
+            fitted(look.fonts.regular, law, width - right - 8.0F).c_str());
+  draw_text(draw, look.fonts.small, {origin.x + width - right, origin.y + 1.0F}, look.theme->dim,
+            equation);
+  draw_text(draw, look.fonts.small, {origin.x, origin.y + 18.0F}, look.theme->dim,
+            fitted(look.fonts.small, numbers, width).c_str());
+  ImGui::Dummy({width, 34.0F});
+}
+
+void law(App& app, const StiffnessLeader& leader) {
+  const Look& look = app.look;
+  const double h = app.session.scene().frame;
+  const double alpha = app.session.settings().alpha;
+  const double dt = stable_step(alpha, leader.r);
+  law_line(look, "r = max k/M = " + short_number(leader.r) + " s⁻²",
+           "= " + short_number(leader.k) + " / " + short_number(leader.mass), "Eq. 9");
+  law_line(look, "Δt max = 2 √(α/r) = " + duration(dt),
+           "= 2 √(" + plain_number(alpha) + " / " + short_number(leader.r) + ")", "Eq. 10");
+  law_line(look, "N = h/Δt max, rounded up = " + grouped(substeps_for(app.session, leader.r)),
+           "= " + short_number(1e3 * h) + " ms / " + duration(dt) + " = " + short_number(h / dt),
+           "Eq. 11");
+}
+
+// What the mode makes of the law's number.
+std::string taken_note(const Session& session) {
+  const FrameReport& report = session.report();
+  const Settings& s = session.settings();
+  switch (s.mode) {
+    case Mode::kNone:
+      return "Mode none takes 1 all the same.";
+    case Mode::kConst:
+      return "Mode const takes " + grouped(s.n) + " all the same.";
+    case Mode::kDamping:
+      return "Mode damping takes 1 and damps what is too stiff for it.";
+    case Mode::kAdaptive:
+      if (report.capped) return "N at most is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
+      return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
+    case Mode::kCapped:
+      if (report.capped) return "The cap bit: " + cap_note(report) + "; damping does the rest.";
+      return "The cap of " + grouped(s.n_cap) + " did not bite.";
+  }
+  return "";
+}
+
+void without_leader(App& app, const std::vector<StiffnessLeader>& list) {
+  const Look& look = app.look;
+  const Scene& scene = app.session.scene();
+  std::string text = "Without " + name_of_body(scene, list[0]) + " ";
+  if (list.size() < 2 || !(list[1].r > 0.0)) {
+    text += "nothing would be stiff: N = 1.";
+  } else {
+    text += "N would be " + grouped(substeps_for(app.session, list[1].r)) + ", set by " +
+            name_of_body(scene, list[1]) + ".";
+  }
+  label(look.fonts.small, look.theme->dim, text.c_str());
+}
+
+void bar_tooltip(const Look& look, const Session& session, const StiffnessLeader& who) {
+  const std::string title = name_of_body(session.scene(), who) + ", " + degree_of_freedom(who);
+  const std::string text = stiffness_and_mass(who) + "\nk/M " + short_number(who.r) +
+                           " s⁻²  ·  Δt max " +
+                           duration(stable_step(session.settings().alpha, who.r));
+  tooltip(look, title.c_str(), text.c_str());
+}
+
+// One bar per body: the N that it alone would ask for.
+void bars(App& app, const std::vector<StiffnessLeader>& list) {
+  constexpr float kRow = 20.0F;
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const Scene& scene = app.session.scene();
+  section(look, "N by body");
+  tooltip(look, "N by body",
+          "The N that each body alone would ask for, from the k/M of its stiffest degree of "
+          "freedom. The largest decides for all.");
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float names = std::min(112.0F, 0.4F * width);
+  constexpr float kNumbers = 34.0F;
+  const float most = width - names - kNumbers - 12.0F;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::size_t shown = list.size() <= kMostBars + 1 ? list.size() : kMostBars;
+  for (std::size_t i = 0; i < shown; ++i) {
+    const StiffnessLeader& who = list[i];
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::InvisibleButton("bar", {width, kRow});
+    const bool hovered = ImGui::IsItemHovered();
+    bar_tooltip(look, app.session, who);
+    ImGui::PopID();
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
+    const ImU32 ink = i == 0 || hovered ? t.text : t.dim;
+    draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, ink,
+              fitted(look.fonts.small, name_of_body(scene, who), names - 4.0F).c_str());
+    const float x = at.x + names;
+    const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N goes with √r
+    draw.AddRectFilled({x, at.y + 5.0F}, {x + most, at.y + kRow - 5.0F}, t.well, 2.0F);
+    draw.AddRectFilled({x, at.y + 5.0F}, {x + std::max(2.0F, share * most), at.y + kRow - 5.0F},
+                       i == 0 ? t.orange : t.blue, 2.0F);
+    const std::string n = grouped(substeps_for(app.session, who.r));
+    const float n_width = text_size(look.fonts.small, n.c_str()).x;
+    draw_text(draw, look.fonts.small, {at.x + width - n_width, at.y + 3.0F}, ink, n.c_str());
+  }
+  space(8.0F);
+  if (shown < list.size()) {
+    const std::string others = "and " + std::to_string(list.size() - shown) + " others, N up to " +
+                               grouped(substeps_for(app.session, list[shown].r));
+    label(look.fonts.small, t.dim, others.c_str());
+  }
+}
+
+void nothing_stiff(const App& app) {
+  const bool evaluated = app.session.report().stages.stiffness;
+  label(app.look.fonts.medium, app.look.theme->text, "nothing stiff yet");
+  label(app.look.fonts.small, app.look.theme->dim,
+        evaluated ? "No constraint force, no geometric stiffness: N = 1."
+                  : "K has not been evaluated: it takes a frame, and \"why this N\" under Show in "
+                    "the modes that do without it.");
+}
+
+}  // namespace
+
+float why_summary_height() { return kHeading + 36.0F + 8.0F + kColumns; }
+
+void why_summary(App& app) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const FrameReport& report = app.session.report();
+  const StiffnessLeader& leader = report.leader;
+  const std::string note = report.capped ? cap_note(report)
+                           : std::isfinite(report.dt_stable)
+                               ? "Δt max " + duration(report.dt_stable)
+                               : "";
+  section(look, "Why this N", note.c_str(), report.capped ? t.orange : t.text);
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  std::string first = "nothing stiff yet";
+  std::string second = "K is zero or not evaluated in this mode.";
+  if (leader.body >= 0) {
+    first = name_of_body(app.session.scene(), leader) + ", " + degree_of_freedom(leader);
+    second = stiffness_and_mass(leader);
+  }
+  if (ImGui::InvisibleButton("why", {width, 36.0F})) app.desk.tab = Tab::kWhy;
+  const bool hovered = ImGui::IsItemHovered();
+  draw_text(draw, look.fonts.medium, origin, hovered ? t.accent_hover : t.text,
+            fitted(look.fonts.medium, first, width).c_str());
+  draw_text(draw, look.fonts.small, {origin.x, origin.y + 20.0F}, t.dim,
+            fitted(look.fonts.small, second, width).c_str());
+  draw_focus(look, draw, origin, {origin.x + width, origin.y + 36.0F});
+  tooltip(look, "Why this N",
+          "The degree of freedom with the largest k/M sets r (Eq. 9), with it the longest stable "
+          "step Δt max = 2 √(α/r) (Eq. 10), and with it N (Eq. 11). Click for all of it.");
+  body_columns(app, kColumns);
+}
+
+void why(App& app) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const Scene& scene = app.session.scene();
+  const std::vector<StiffnessLeader> list = by_body(scene, app.session.state());
+  section(look, "Why this N");
+  if (list.empty() || !(list[0].r > 0.0)) {
+    nothing_stiff(app);
+    return;
+  }
+  const StiffnessLeader& leader = list[0];
+  label(look.fonts.medium, t.text,
+        (name_of_body(scene, leader) + ", " + degree_of_freedom(leader)).c_str());
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4.0F);
+  label(look.fonts.small, t.dim, stiffness_and_mass(leader).c_str());
+  law(app, leader);
+  const std::string note = taken_note(app.session);
+  if (!note.empty()) {
+    label(look.fonts.small, app.session.report().capped ? t.orange : t.dim, note.c_str());
+  }
+  without_leader(app, list);
+  space(look.m.section);
+  bars(app, list);
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "app/export.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/plot.hpp"
+#include "tests/app/ui/ui_fixture.hpp"
+
+namespace substep {
+namespace {
+
+using ui::TimeAxis;
+
+TEST(TimeAxis, FollowsTheRunAndFillsFromTheLeft) {
+  TimeAxis axis;
+  EXPECT_EQ(axis.window(3.0), std::make_pair(0.0, 10.0));
+  EXPECT_EQ(axis.window(25.0), std::make_pair(15.0, 25.0));
+}
+
+TEST(TimeAxis, ZoomKeepsWhatThePointerIsOn) {
+  TimeAxis axis;
+  axis.show(20.0, 30.0);
+  EXPECT_FALSE(axis.follow);
+  const double share = (23.0 - axis.window(60.0).first) / axis.span;
+  axis.zoom(0.5, 23.0, 60.0);
+  const auto [t0, t1] = axis.window(60.0);
+  EXPECT_NEAR(t1 - t0, 5.0, 1e-12);
+  EXPECT_NEAR((23.0 - t0) / axis.span, share, 1e-12);
+}
+
+TEST(TimeAxis, PanningToTheNewestFollowsAgain) {
+  TimeAxis axis;
+  axis.pan(-4.0, 60.0);
+  EXPECT_FALSE(axis.follow);
+  EXPECT_NEAR(axis.window(61.0).second, 56.0, 1e-12);  // it holds while the run goes on
+  axis.pan(10.0, 61.0);
+  EXPECT_TRUE(axis.follow);
+}
+
+TEST(TimeAxis, NeverShowsLessThanATenthOrMoreThanTenMinutes) {
+  TimeAxis axis;
+  for (int i = 0; i < 200; ++i) axis.zoom(0.5, 5.0, 60.0);
+  EXPECT_EQ(axis.span, TimeAxis::kShortest);
+  for (int i = 0; i < 200; ++i) axis.zoom(2.0, 5.0, 60.0);
+  EXPECT_EQ(axis.span, TimeAxis::kLongest);
+  axis.show(7.0, 7.0);
+  EXPECT_GE(axis.span, TimeAxis::kShortest);
+}
+
+// Where the curves of the first plot lie in the right panel.
+ViewRect plots_of(const Headless& h) { return h.app->desk.plots_area; }
+
+TEST(Plots, ADragShowsItsRangeAndADoubleClickFollowsAgain) {
+  Headless h;
+  h.app->session.play();
+  h.frames(300);
+  h.app->session.pause();
+  h.frames(2);
+  const ViewRect area = plots_of(h);
+  const float y = area.y + 60.0F;
+  const float middle = area.x + 0.5F * area.width;
+  ImGuiIO& io = ImGui::GetIO();
+  io.AddMousePosEvent(middle - 20.0F, y);
+  h.frames(1);
+  io.AddMouseButtonEvent(0, true);
+  h.frames(1);
+  io.AddMousePosEvent(middle + 40.0F, y);
+  h.frames(2);
+  EXPECT_TRUE(h.app->desk.time.drag_from.has_value());
+  io.AddMouseButtonEvent(0, false);
+  h.frames(2);
+  EXPECT_FALSE(h.app->desk.time.follow);
+  EXPECT_GT(h.app->desk.time.span, 1.0);
+  EXPECT_LT(h.app->desk.time.span, 5.0);
+  EXPECT_TRUE(h.app->desk.time.hover.has_value());
+  h.frames(60);  // or the click before would count
+  for (int i = 0; i < 2; ++i) {
+    io.AddMouseButtonEvent(0, true);
+    h.frames(1);
+    io.AddMouseButtonEvent(0, false);
+    h.frames(1);
+  }
+  EXPECT_TRUE(h.app->desk.time.follow);
+}
+
+TEST(Plots, WheelZoomsAllOfThem) {
+  Headless h;
+  h.frames(2);
+  const double before = h.app->desk.time.span;
+  const ViewRect area = plots_of(h);
+  ImGui::GetIO().AddMousePosEvent(area.x + 0.5F * area.width, area.y + 60.0F);
+  h.frames(1);
+  ImGui::GetIO().AddMouseWheelEvent(0.0F, 2.0F);
+  h.frames(2);
+  EXPECT_LT(h.app->desk.time.span, before);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Export, TableHoldsTheChannelsOfTheShownPlots) {
+  Headless h;
+  for (int i = 0; i < 30; ++i) h.app->session.step();
+  std::string name;
+  std::string csv;
+  h.app->host.save_file = [&](const std::string& n, const std::string& bytes) {
+    name = n;
+    csv = bytes;
+  };
+  ui::save_table(*h.app);
+  EXPECT_EQ(name, "swinging_box-adaptive.csv");
+  const auto lines = lines_of(csv);
+  ASSERT_EQ(lines.size(), 31U);
+  EXPECT_EQ(lines[0],
+            "frame,time,substeps,substeps_least,kinetic,potential,energy,constraint_error,"
+            "joint_gap");
+  EXPECT_TRUE(lines[30].starts_with("30,0.5,")) << lines[30];
+  // The energy is the whole one, not its change.
+  const FrameReport& r = h.app->session.report();
+  std::istringstream last(lines[30]);
+  std::vector<double> values;
+  for (std::string field; std::getline(last, field, ',');) values.push_back(std::stod(field));
+  EXPECT_NEAR(values[4], r.kinetic, 1e-6 * r.kinetic);
+  EXPECT_NEAR(values[6], r.energy, 1e-4 * r.kinetic);
+
+  h.app->desk.plot(Plot::kEnergy).shown = false;
+  ui::save_table(*h.app);
+  EXPECT_EQ(lines_of(csv)[0].find("kinetic"), std::string::npos);
+}
+
+TEST(Export, PictureHasThePixelsOfItsArea) {
+  Headless h(1280, 720, 2.0F);
+  std::string png;
+  h.app->host.save_file = [&](const std::string&, const std::string& bytes) { png = bytes; };
+  h.app->capture = {"view.png", {100.0F, 50.0F, 300.0F, 200.0F}};
+  h.frames(1);
+  ASSERT_GT(png.size(), 600U * 400U * 3U);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  const auto at = [&](std::size_t i) { return static_cast<unsigned char>(png[i]); };
+  EXPECT_EQ(256 * at(18) + at(19), 600);
+  EXPECT_EQ(256 * at(22) + at(23), 400);
+  EXPECT_FALSE(h.app->capture.has_value());
+}
+
+TEST(Why, EverySceneIsExplainedInEveryMode) {
+  Headless h;
+  h.app->desk.tab = Tab::kWhy;
+  for (const auto& scene : h.app->library.scenes()) {
+    h.app->run(scene);
+    h.app->session.play();
+    for (const char* mode : {"none", "const", "damping", "adaptive", "capped"}) {
+      ASSERT_EQ(h.app->set("mode", mode), "");
+      h.frames(6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace substep

@@ -1,8 +1,9 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "core/collision/shape_pairs.hpp"
+#include "core/collision/box_edges.hpp"
 
 namespace substep {
 
@@ -128,6 +129,15 @@ void box_box(const Placed& a, const Box& box_a, const Placed& b, const Box& box_
   const Face on_a =
       best_face(-(a.R.transpose() * d), R_BA.transpose(), box_a.half_extents, box_b.half_extents);
   if (on_a.gap > margin) return;
+  const EdgePair edges = best_edges(a, box_a.half_extents, b, box_b.half_extents);
+  if (edges.gap > margin) return;
+  // Faces unless two edges are clearly better: one contact that takes turns with four shakes a
+  // stack, and a face that lies on another has edges that cross at nearly the same gap.
+  constexpr double kFaces = 1e-3;  // [m]
+  if (edges.gap > std::max(on_a.gap, on_b.gap) + kFaces &&
+      edge_point(edges, a, box_a.half_extents, b, box_b.half_extents, out)) {
+    return;
+  }
   // b's face unless a's is clearly better: two faces that lie on each other must not take turns.
   constexpr double kPreference = 1e-4;  // [m]
   if (on_a.gap > on_b.gap + kPreference) {

@@ -32,7 +32,7 @@ void sphere_box(const Placed& a, const Sphere& sphere, const Placed& b, const Bo
 /// One point per corner; the feature is the corner.
 void box_plane(const Placed& a, const Box& box, const Placed& b, double margin, ContactPoints& out);
 /// Face against face: the corners of the incident face clipped by the sides of the reference face.
-/// Edge against edge is answered with the nearest face pair.
+/// Edge against edge: one point (box_edges.hpp).
 void box_box(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
              ContactPoints& out);
 

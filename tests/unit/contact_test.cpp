@@ -164,6 +164,124 @@ TEST(BoxBox, FlushFacesHaveTheSameFourPointsWhateverTheLastBit) {
   }
 }
 
+/// Two long boxes that cross like an X, turned by 45 degrees about themselves: edge over edge.
+/// @param gap between the edges [m]
+Scene crossed_boxes(double gap) {
+  Scene scene =
+      pair_of(moving(Box{Vec3{2.0, 0.3, 0.3}}, 2.0), moving(Box{Vec3{0.2, 0.2, 3.0}}, 5.0));
+  const double eighth = 0.25 * std::acos(-1.0);
+  scene.bodies[0].orientation = Quat(Eigen::AngleAxisd(eighth, Vec3::UnitX()));
+  scene.bodies[1].orientation = Quat(Eigen::AngleAxisd(eighth, Vec3::UnitZ()));
+  scene.bodies[0].position = {0.1, std::sqrt(2.0) * (0.3 + 0.2) + gap, -0.4};
+  return scene;
+}
+
+TEST(BoxBox, CrossedEdgesTouchInOnePoint) {
+  for (const double gap : {0.015, 0.0, -0.05}) {
+    Scene scene = crossed_boxes(gap);
+    scene.contact.margin = 0.02;
+    Blocks blocks;
+    contact_rows(scene)(initial_state(scene), blocks);
+    ASSERT_EQ(blocks.size(), 1U) << gap;
+    const Block& block = blocks.all()[0];
+    EXPECT_NEAR(block.phi[0], gap, 1e-12);
+    const double up = block.a == 0 ? 1.0 : -1.0;
+    EXPECT_LT((up * block.n - Vec3::UnitY()).norm(), 1e-12);
+    const Vec3& arm_upper = block.a == 0 ? block.r_a : block.r_b;
+    EXPECT_NEAR(arm_upper.x(), -0.1, 1e-12) << "the lower box's edge runs at x = 0";
+    EXPECT_NEAR(arm_upper.z(), 0.0, 1e-12) << "the upper box's edge runs through its middle";
+  }
+}
+
+TEST(BoxBox, GradientMatchesFiniteDifferencesOnCrossedEdges) {
+  Random random(7);
+  for (int trial = 0; trial < 40; ++trial) {
+    Scene scene = crossed_boxes(uniform(random, -0.05, 0.05));
+    scene.bodies[0].orientation = Quat(Eigen::AngleAxisd(0.2, random_vector(random).normalized())) *
+                                  scene.bodies[0].orientation;
+    const Quat turn = random_rotation(random);
+    for (Body& body : scene.bodies) {
+      body.position = turn * body.position;
+      body.orientation = turn * body.orientation;
+    }
+    const State state = initial_state(scene);
+    const Rows rows = contact_rows(scene);
+    Blocks blocks;
+    rows(state, blocks);
+    ASSERT_EQ(blocks.size(), 1U);
+    expect_gradient(scene, state, rows);
+  }
+}
+
+/// Largest gap over the fifteen axes, by brute force on the corners: an oracle for the depth of
+/// overlapping boxes.
+double separation(const Scene& scene) {
+  std::vector<Vec3> axes;
+  std::vector<Vec3> corners[2];
+  Mat3 R[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Body& body = scene.bodies[k];
+    R[k] = body.orientation.toRotationMatrix();
+    for (int i = 0; i < 3; ++i) axes.emplace_back(R[k].col(i));
+    const Vec3& half = std::get<Box>(body.shape).half_extents;
+    for (int c = 0; c < 8; ++c) {
+      const Vec3 corner((c & 1) != 0 ? half.x() : -half.x(), (c & 2) != 0 ? half.y() : -half.y(),
+                        (c & 4) != 0 ? half.z() : -half.z());
+      corners[k].push_back(body.position + R[k] * corner);
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) axes.emplace_back(R[0].col(i).cross(R[1].col(j)).normalized());
+  }
+  double best = -kUnbounded;
+  for (const Vec3& axis : axes) {
+    for (const double side : {1.0, -1.0}) {
+      double lowest = kUnbounded;
+      double highest = -kUnbounded;
+      for (const Vec3& p : corners[0]) lowest = std::min(lowest, side * axis.dot(p));
+      for (const Vec3& p : corners[1]) highest = std::max(highest, side * axis.dot(p));
+      best = std::max(best, lowest - highest);
+    }
+  }
+  return best;
+}
+
+TEST(BoxBox, OverlappingBoxesAlwaysTouchAndAsDeepAsTheyOverlap) {
+  Random random(8);
+  int edges = 0;
+  constexpr int kTrials = 4000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const Vec3 half_a{uniform(random, 0.1, 0.6), uniform(random, 0.1, 0.6),
+                      uniform(random, 0.01, 0.6)};
+    const Vec3 half_b{uniform(random, 0.1, 0.6), uniform(random, 0.01, 0.6),
+                      uniform(random, 0.1, 0.6)};
+    Scene scene = pair_of(moving(Box{half_a}), moving(Box{half_b}));
+    scene.contact.margin = 0.02;
+    scene.bodies[0].orientation = random_rotation(random);
+    scene.bodies[1].orientation = random_rotation(random);
+    // Along a line until they overlap a little.
+    const Vec3 away = random_vector(random).normalized();
+    const double depth = uniform(random, 0.002, 0.02);
+    double lo = 0.0;
+    double hi = 3.0;
+    for (int step = 0; step < 50; ++step) {
+      const double middle = 0.5 * (lo + hi);
+      scene.bodies[0].position = middle * away;
+      (separation(scene) < -depth ? lo : hi) = middle;
+    }
+    Blocks blocks;
+    contact_rows(scene)(initial_state(scene), blocks);
+    ASSERT_GT(blocks.size(), 0U) << "trial " << trial;
+    double deepest = kUnbounded;
+    for (const Block& block : blocks.all()) deepest = std::min(deepest, block.phi[0]);
+    // Faces are taken where edges are better by less than a millimetre.
+    EXPECT_GT(deepest, -depth - 1.2e-3) << "trial " << trial;
+    EXPECT_LT(deepest, 0.0) << "trial " << trial;
+    if (blocks.size() == 1) ++edges;
+  }
+  EXPECT_GT(edges, kTrials / 20);
+}
+
 TEST(Contact, ApartByMoreThanTheMarginThereIsNoRow) {
   for (const double gap : {0.019, 0.021}) {
     Scene scene = pair_of(moving(Sphere{0.5}), fixed(Plane{}));

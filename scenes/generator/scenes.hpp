@@ -1,7 +1,6 @@
 #pragma once
-// Every scene that the project ships, as code. The values are those of scenes.md in the design; the
-// scene files beside this folder are written from here. Nothing beyond sqrt is used, so that every
-// compiler writes the same bytes.
+// Every scene that the project ships, as code: the scene files beside this folder are written from
+// here. Nothing beyond sqrt is used, so that every compiler writes the same bytes.
 
 #include <vector>
 
@@ -73,6 +72,23 @@ Scene sliding_box(const SlopeOptions& options = {});
 
 /// One ball falls 20 m towards nothing.
 Scene free_fall();
+
+/// Dry bricks in running bond and a ball thrown at them.
+struct WallOptions {
+  int courses = 8;  // >= 1
+  int bricks = 6;   // in a course, >= 1
+};
+Scene wall(const WallOptions& options = {});
+
+/// A heavy ball on a chain swings into a tower of crates.
+Scene wrecking_ball();
+
+/// Pairs of cards that lean on each other, lying cards between the storeys.
+/// @param storeys pairs of cards at the bottom, one less in each storey above, >= 1
+Scene card_house(int storeys = 4);
+
+/// Four jointed dolls fall down a flight of steps.
+Scene ragdoll_drop();
 
 /// All of the files of this folder.
 std::vector<Scene> shipped();

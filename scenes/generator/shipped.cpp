@@ -7,7 +7,9 @@ std::vector<Scene> shipped() {
           heavy_stack(),        heavy_stack_tall(),
           heavy_stack_stress(), heavy_stack_stress_tall(),
           pendulum(),           spinning_top(),
-          sliding_box(),        free_fall()};
+          sliding_box(),        free_fall(),
+          wrecking_ball(),      card_house(),
+          ragdoll_drop(),       wall()};
 }
 
 }  // namespace substep::scenes

@@ -1,0 +1,77 @@
+#include <string>
+
+#include "scenes/generator/parts.hpp"
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::scenes {
+namespace {
+
+// Cards ten times as long and wide as playing cards, and thicker: the picture is the same.
+constexpr double kLength = 0.88;      // [m]
+constexpr double kThickness = 0.012;  // [m]
+constexpr double kWidth = 0.63;       // [m]
+constexpr double kMass = 0.25;        // [kg]
+constexpr double kMu = 0.8;
+// Cards lean 22.6 degrees: a triangle with sides 5, 12 and 13.
+constexpr double kSine = 5.0 / 13.0;
+constexpr double kCosine = 12.0 / 13.0;
+constexpr double kPitch = 0.70;  // from one pair of cards to the next [m]
+
+Body card(const Scene& scene, double length, const Vec3& position) {
+  Body body = solid("card_" + std::to_string(scene.bodies.size() - 1),
+                    box(length, kThickness, kWidth), kMass * length / kLength, position);
+  body.friction = kMu;
+  return body;
+}
+
+/// Two cards that lean on each other over x, standing at height y.
+void add_pair(double x, double y, Scene& scene) {
+  // Half the extents of a leaning card. It touches its partner with the upper corner.
+  const double half_width = 0.5 * (kLength * kSine + kThickness * kCosine);
+  const double half_height = 0.5 * (kLength * kCosine + kThickness * kSine);
+  for (const double side : {-1.0, 1.0}) {
+    Body body = card(scene, kLength, {x + side * half_width, y + half_height, 0.0});
+    // The card's +x looks up and to its partner.
+    body.orientation = turn_about_z(-side * kSine, kCosine);
+    scene.bodies.push_back(body);
+  }
+}
+
+}  // namespace
+
+Scene card_house(int storeys) {
+  const double storey = kLength * kCosine + kThickness * kSine;
+  Scene scene;
+  scene.name = "card_house";
+  scene.title = "Card house";
+  scene.group = "playground";
+  scene.description = "A house of cards, " + std::to_string(storeys) +
+                      " storeys high. Friction and balance are all that holds it.";
+  scene.look_for = "It stands. Throw a ball at it, or pull out a card.";
+  scene.effects = {.gravity = true, .contact = true, .friction = true};
+  scene.contact.compliance = 1e-8;
+  scene.contact.friction_compliance = 1e-8;
+  scene.contact.margin = 0.004;
+  scene.bodies.push_back(floor_plane());
+  scene.bodies.back().friction = kMu;
+  double y = 0.0;
+  for (int pairs = storeys; pairs >= 1; --pairs) {
+    const double first = -0.5 * (pairs - 1) * kPitch;
+    for (int i = 0; i < pairs; ++i) add_pair(first + i * kPitch, y, scene);
+    y += storey;
+    for (int i = 0; i + 1 < pairs; ++i) {  // lying cards: the next storey's floor
+      scene.bodies.push_back(
+          card(scene, kPitch - 0.004, {first + (i + 0.5) * kPitch, y + 0.5 * kThickness, 0.0}));
+    }
+    y += kThickness;
+  }
+  // The last card of the top pair.
+  const int top = static_cast<int>(scene.bodies.size()) - 1;
+  scene.criteria.displacement = Criteria::Displacement{top, 0.1};
+  scene.criteria.track = top;
+  scene.camera.eye = {2.4, 0.5 * y + 0.9, 1.1 + 1.35 * y};
+  scene.camera.target = {0.0, 0.5 * y, 0.0};
+  return scene;
+}
+
+}  // namespace substep::scenes

@@ -1,0 +1,69 @@
+#include <string>
+
+#include "scenes/generator/parts.hpp"
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::scenes {
+namespace {
+
+constexpr double kLength = 0.5;     // of a brick [m]
+constexpr double kHeight = 0.25;    // [m]
+constexpr double kDepth = 0.25;     // [m]
+constexpr double kDensity = 200.0;  // of a brick [kg/m^3]
+constexpr double kMu = 0.6;
+
+void add_brick(double x, double y, double length, Scene& scene) {
+  Body brick =
+      solid("brick_" + std::to_string(scene.bodies.size() - 1), box(length, kHeight, kDepth),
+            kDensity * length * kHeight * kDepth, {x, y, 0.0});
+  brick.friction = kMu;
+  scene.bodies.push_back(brick);
+}
+
+}  // namespace
+
+Scene wall(const WallOptions& options) {
+  Scene scene;
+  scene.name = "wall";
+  scene.title = "Wall";
+  scene.group = "playground";
+  scene.description = "A wall of " + std::to_string(options.courses) +
+                      " courses of dry bricks, and a ball of 150 kg on its way to it.";
+  scene.look_for =
+      "The ball arrives after half a second. Hundreds of contacts come and go; sub-steps follow "
+      "the "
+      "largest force among them.";
+  scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
+  scene.contact.compliance = 1e-8;
+  scene.contact.friction_compliance = 1e-8;
+  scene.contact.margin = 0.01;
+  scene.criteria.duration = 5.0;
+  scene.bodies.push_back(floor_plane());
+  scene.bodies.back().friction = kMu;
+  const double width = options.bricks * kLength;
+  for (int course = 0; course < options.courses; ++course) {
+    const double y = (course + 0.5) * kHeight;
+    if (course % 2 == 0) {
+      for (int i = 0; i < options.bricks; ++i) {
+        add_brick((i + 0.5) * kLength - 0.5 * width, y, kLength, scene);
+      }
+    } else {  // half a brick at either end: running bond
+      add_brick(0.25 * kLength - 0.5 * width, y, 0.5 * kLength, scene);
+      for (int i = 1; i < options.bricks; ++i) {
+        add_brick(i * kLength - 0.5 * width, y, kLength, scene);
+      }
+      add_brick(0.5 * width - 0.25 * kLength, y, 0.5 * kLength, scene);
+    }
+  }
+  const double height = options.courses * kHeight;
+  Body ball = solid("ball", Sphere{0.35}, 150.0, {-0.3, 0.55 * height + 0.6, 5.5});
+  ball.velocity = {0.5, 1.5, -10.0};
+  ball.friction = kMu;
+  scene.criteria.track = static_cast<int>(scene.bodies.size());
+  scene.bodies.push_back(ball);
+  scene.camera.eye = {3.6, 2.2, 6.2};
+  scene.camera.target = {0.0, 0.45 * height, 0.0};
+  return scene;
+}
+
+}  // namespace substep::scenes

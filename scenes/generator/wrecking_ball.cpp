@@ -1,0 +1,84 @@
+#include <string>
+
+#include "scenes/generator/parts.hpp"
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::scenes {
+namespace {
+
+constexpr int kLinks = 16;
+constexpr double kLink = 0.3;    // length of a link [m]
+constexpr double kRadius = 0.6;  // of the ball [m]
+constexpr double kCrate = 0.5;   // edge of a crate [m]
+constexpr double kMu = 0.5;
+const Vec3 kAnchor{0.0, 6.3, 0.0};
+
+/// A taut chain of ball joints with the ball at its end, held out at 53 degrees (sine 4/5).
+void add_chain(Scene& scene) {
+  const Vec3 along{-0.8, -0.6, 0.0};
+  const auto hang = [&](Body body, double centre, double half_length, double parent_half_length) {
+    body.position = kAnchor + along * centre;
+    body.orientation = turn_about_z(-along.x(), -along.y());
+    body.friction = kMu;
+    BallJoint joint;
+    joint.name = "pivot_" + std::to_string(scene.joints.size());
+    joint.a = static_cast<int>(scene.bodies.size());
+    // The body's +x looks up along the chain.
+    joint.anchor_a = {half_length, 0.0, 0.0};
+    if (scene.joints.empty()) {
+      joint.b = kWorld;
+      joint.anchor_b = kAnchor;
+    } else {
+      joint.b = joint.a - 1;
+      joint.anchor_b = {-parent_half_length, 0.0, 0.0};
+    }
+    scene.bodies.push_back(std::move(body));
+    scene.joints.emplace_back(joint);
+  };
+  for (int i = 0; i < kLinks; ++i) {
+    hang(solid("link_" + std::to_string(i), box(kLink, 0.1, 0.1), 2.0, Vec3::Zero()),
+         kLink * (i + 0.5), 0.5 * kLink, 0.5 * kLink);
+  }
+  hang(solid("ball", Sphere{kRadius}, 1000.0, Vec3::Zero()), kLink * kLinks + kRadius, kRadius,
+       0.5 * kLink);
+  scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
+}
+
+}  // namespace
+
+Scene wrecking_ball() {
+  Scene scene;
+  scene.name = "wrecking_ball";
+  scene.title = "Wrecking ball";
+  scene.group = "playground";
+  scene.description =
+      "A ball of 1000 kg on a chain of 16 light links swings into a tower of crates.";
+  scene.look_for =
+      "Sub-steps rise with the pull in the chain, jump when the ball hits, and fall with the "
+      "tower.";
+  scene.effects = {
+      .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
+  scene.contact.compliance = 1e-8;
+  scene.contact.friction_compliance = 1e-8;
+  scene.contact.margin = 0.01;
+  scene.settings.solver = SolverKind::kPgs;
+  scene.bodies.push_back(floor_plane());
+  scene.bodies.back().friction = kMu;
+  add_chain(scene);
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 2; ++x) {
+      for (int z = 0; z < 3; ++z) {
+        Body crate =
+            solid("crate_" + std::to_string(6 * y + 3 * x + z), box(kCrate, kCrate, kCrate), 12.0,
+                  {0.9 + kCrate * x, kCrate * (y + 0.5), kCrate * (z - 1)});
+        crate.friction = kMu;
+        scene.bodies.push_back(crate);
+      }
+    }
+  }
+  scene.camera.eye = {3.0, 3.6, 13.0};
+  scene.camera.target = {-0.6, 3.0, 0.0};
+  return scene;
+}
+
+}  // namespace substep::scenes

@@ -33,6 +33,16 @@ std::string choose(std::string_view value, std::array<std::string_view, 2> words
   return "";
 }
 
+std::string choose_panel(std::string_view value, Tab& tab) {
+  static constexpr std::array<std::string_view, 4> kNames{"controls", "plots", "why", "compare"};
+  const auto* const found = std::find(kNames.begin(), kNames.end(), value);
+  if (found == kNames.end()) {
+    return "'" + std::string(value) + "' is not controls, plots, why or compare";
+  }
+  tab = static_cast<Tab>(found - kNames.begin());
+  return "";
+}
+
 // Keys by the character that they type, so that they are where the keyboard's layout has them.
 void handle_key(App& app, ImWchar c) {
   Settings s = app.session.settings();
@@ -143,10 +153,12 @@ Desk::Desk() {
 
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : library(std::move(shipped)), session(library.scenes().front()), renderer(std::move(draws)) {
+  session.frame_taken = [this] { compare.take_frame(session); };
   run(library.scenes().front());
 }
 
 void App::run(std::shared_ptr<const Scene> scene) {
+  compare.close();  // it was about the other scene
   ++run_count;
   session.load(std::move(scene));
   change(session.settings());
@@ -175,6 +187,7 @@ bool App::open_text(std::string_view json, const std::string& from) {
 void App::reset() {
   ++run_count;
   session.reset();
+  compare.restart(session);
   restart_plots(desk);
 }
 
@@ -198,6 +211,15 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
   if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
   if (key == "tint") return choose(value, {"off", "on"}, desk.view.tint);
+  if (key == "panel") return choose_panel(value, desk.tab);
+  if (key == "compare") {
+    std::string problem;
+    const std::vector<Overrides> runs =
+        value == "off" ? std::vector<Overrides>{} : parse_overrides(value, problem);
+    reset();
+    compare.start(session, runs);
+    return problem;
+  }
   const SettingField* field = find_setting(key);
   if (field == nullptr) return "is not a setting";
   Settings s = session.settings();
@@ -211,6 +233,9 @@ void App::open_link(std::string_view fragment) {
   // The scene first: it brings settings of its own, which the others then change.
   auto parts = parse_link(fragment);
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
+  if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
+    compare.close();
+  }
   for (const LinkPart& part : parts) {
     const std::string problem = set(part.key, part.value);
     if (!problem.empty()) problems.push_back({part.key, problem});
@@ -220,7 +245,20 @@ void App::open_link(std::string_view fragment) {
 
 void App::tell(std::string text) { notice = {std::move(text), 5.0}; }
 
-std::string App::link() const { return make_link(session.scene(), session.settings()); }
+std::string App::link() const {
+  std::string link = make_link(session.scene(), session.settings());
+  if (compare.open()) {
+    std::vector<Overrides> runs;
+    for (const Compare::Run& run : compare.runs()) runs.push_back(run.overrides);
+    link += "&compare=" + overrides_text(runs);
+  }
+  return link;
+}
+
+ImU32 App::compare_color(std::size_t run) const {
+  const ui::Theme& t = *look.theme;
+  return std::array<ImU32, Compare::kMost>{t.orange, t.teal, t.purple}.at(run);
+}
 
 void frame(App& app, double wall_dt) {
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
@@ -236,6 +274,7 @@ void frame(App& app, double wall_dt) {
   if (app.session.settings().watch_stiffness != app.desk.view.tint) {
     app.change(app.session.settings());
   }
+  app.compare.follow(app.session);
   app.view.follow(app.session);
   app.view.camera.update(wall_dt, app.desk.reduced_motion);
   ui::draw_window(app);
@@ -244,6 +283,11 @@ void frame(App& app, double wall_dt) {
   app.view.build(app.session, app.desk.view, app.look.theme->view, app.view_rect,
                  static_cast<double>(io.DisplaySize.x), static_cast<double>(io.DisplaySize.y),
                  app.picture);
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    const ImVec4 c = ui::to_vec4(app.compare_color(i));
+    SceneView::add_ghost(app.session.scene(), app.compare.runs()[i].poses, {c.x, c.y, c.z, 0.5F},
+                         app.picture);
+  }
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));

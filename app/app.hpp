@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/compare.hpp"
 #include "app/library.hpp"
 #include "app/render/renderer.hpp"
 #include "app/render/scene_view.hpp"
@@ -35,7 +36,7 @@ struct Trouble {
 };
 
 /// Which of the phone's panels is open; beside the picture, the controls always are.
-enum class Tab : unsigned char { kControls, kPlots, kWhy };
+enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare };
 
 enum class Plot : unsigned char { kSubsteps, kEnergy, kError, kTime, kCount };
 
@@ -65,6 +66,7 @@ struct Desk {
   ui::TimeAxis time;
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;        // where the plots were drawn last
+  int compare_open = -1;      // of which of the compared the settings are shown
   int dismissed_failure = 0;  // of which run the failure was put aside
 };
 
@@ -73,6 +75,8 @@ struct Desk {
 struct App {
   /// @param library not empty; its first scene runs
   App(Library library, std::unique_ptr<Renderer> renderer);
+  App(const App&) = delete;  // the session calls back
+  App& operator=(const App&) = delete;
 
   /// Runs a shipped scene. @return false where there is none of that name
   bool open(std::string_view name);
@@ -95,6 +99,7 @@ struct App {
 
   Library library;
   Session session;
+  Compare compare;
   SceneView view;
   Desk desk;
   Host host;
@@ -105,6 +110,9 @@ struct App {
   int run_count = 0;  // resets and loads
 
   // Kept by frame().
+  /// Colour of a run that is compared, in plots and in the picture.
+  [[nodiscard]] ImU32 compare_color(std::size_t run) const;
+
   ui::Look look;
   float pixel_ratio = 0.0F;        // that the fonts were made for
   double frame_time = 1.0 / 60.0;  // smoothed [s]

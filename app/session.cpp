@@ -69,6 +69,7 @@ void Session::take_frame() {
     extend_trail();
     smooth_times();
   }
+  if (frame_taken) frame_taken();
 }
 
 void Session::step() {
@@ -106,6 +107,10 @@ int Session::advance(double wall_dt, double budget) {
   return frames;
 }
 
+double Session::between() const {
+  return playing_ ? std::clamp(accumulator_ / scene_->frame, 0.0, 1.0) : 1.0;
+}
+
 void Session::update_poses() {
   const State& now = state();
   if (!playing_) {
@@ -113,7 +118,7 @@ void Session::update_poses() {
     poses_.q = now.q;
     return;
   }
-  const double t = std::clamp(accumulator_ / scene_->frame, 0.0, 1.0);
+  const double t = between();
   for (std::size_t i = 0; i < now.x.size(); ++i) {
     poses_.x[i] = previous_.x[i] + t * (now.x[i] - previous_.x[i]);
     poses_.q[i] = previous_.q[i].slerp(t, now.q[i]);

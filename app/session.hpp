@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -48,6 +49,7 @@ class Session {
   [[nodiscard]] double pace() const { return pace_; }
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   [[nodiscard]] const State& state() const { return simulator_->state(); }
   [[nodiscard]] const Settings& settings() const { return simulator_->settings(); }
   void set_settings(const Settings& settings) { simulator_->set_settings(settings); }
@@ -61,6 +63,10 @@ class Session {
   /// Poses at the accumulated wall time, between the last two frames: motion stays smooth at any
   /// speed and any refresh rate. Those of the state itself when paused.
   [[nodiscard]] const Poses& poses() const { return poses_; }
+  /// How far the poses to draw are from the frame before (0) to the last one (1).
+  [[nodiscard]] double between() const;
+  /// Called after every frame: what runs beside this session keeps step with it.
+  std::function<void()> frame_taken;
   /// Where the tracked body was in the last frames, oldest first; empty where none is tracked.
   [[nodiscard]] const std::deque<Vec3>& trail() const { return trail_; }
   /// Wall times by stage, smoothed over about half a second: a browser's clock is coarse.

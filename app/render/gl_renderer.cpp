@@ -35,6 +35,7 @@ class GlRenderer final : public Renderer {
   static Matrix4f light_matrix(const Picture& picture);
   void draw_shadows(const Picture& picture, const Matrix4f& light);
   void draw_bodies(const Picture& picture, const Matrix4f& light);
+  void draw_ghosts(const Picture& picture);
   void draw_ground(const Picture& picture, const Matrix4f& light);
   void draw_ribbons(const Picture& picture);
 
@@ -143,6 +144,23 @@ void GlRenderer::draw_bodies(const Picture& picture, const Matrix4f& light) {
   ball_.draw(static_cast<int>(picture.balls.size()));
 }
 
+// After draw_bodies, with its light. A little behind where they are, so that a ghost in the same
+// place as its body does not show through it.
+void GlRenderer::draw_ghosts(const Picture& picture) {
+  if (picture.ghost_boxes.empty() && picture.ghost_balls.empty()) return;
+  box_instances_.upload(picture.ghost_boxes.data(), picture.ghost_boxes.size() * sizeof(Instance));
+  ball_instances_.upload(picture.ghost_balls.data(), picture.ghost_balls.size() * sizeof(Instance));
+  glEnable(GL_CULL_FACE);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.0F, 8.0F);
+  glDepthMask(GL_TRUE);  // only the nearest face of a ghost is seen
+  body_.use();
+  box_.draw(static_cast<int>(picture.ghost_boxes.size()));
+  ball_.draw(static_cast<int>(picture.ghost_balls.size()));
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_CULL_FACE);
+}
+
 void GlRenderer::draw_ground(const Picture& picture, const Matrix4f& light) {
   const Ground& ground = picture.ground;
   if (!ground.visible) return;
@@ -213,6 +231,7 @@ void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int widt
   glDepthMask(GL_FALSE);
   draw_ground(picture, light);
   draw_ribbons(picture);
+  draw_ghosts(picture);
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);

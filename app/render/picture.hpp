@@ -55,6 +55,8 @@ struct Picture {
   float shadow = 0.5F;   // how dark a shadow on the ground is
   std::vector<Instance> boxes;
   std::vector<Instance> balls;
+  std::vector<Instance> ghost_boxes;  // seen through, without shadows
+  std::vector<Instance> ghost_balls;
   std::vector<RibbonVertex> ribbons;  // triangles
   Ground ground;
 };

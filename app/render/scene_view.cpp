@@ -39,21 +39,27 @@ Instance instance(const Vec3& x, const Quat& q, const Color& color) {
   return i;
 }
 
-void add_box(Picture& out, const Vec3& x, const Quat& q, const Vec3& half, double rounding,
-             const Color& color) {
+void add_box(std::vector<Instance>& out, const Vec3& x, const Quat& q, const Vec3& half,
+             double rounding, const Color& color) {
   Instance i = instance(x, q, color);
   i.half_extents = floats(half);
   i.rounding = static_cast<float>(rounding);
-  out.boxes.push_back(i);
+  out.push_back(i);
 }
 
-void add_ball(Picture& out, const Vec3& x, const Quat& q, double r, bool pattern,
+// With the radius of the edges that suits its size.
+void add_box(std::vector<Instance>& out, const Vec3& x, const Quat& q, const Vec3& half,
+             const Color& color) {
+  add_box(out, x, q, half, std::min(0.3 * half.minCoeff(), 0.01 + 0.05 * half.maxCoeff()), color);
+}
+
+void add_ball(std::vector<Instance>& out, const Vec3& x, const Quat& q, double r, bool pattern,
               const Color& color) {
   Instance i = instance(x, q, color);
   i.half_extents = floats(Vec3::Constant(r));
   i.rounding = static_cast<float>(r);
   i.pattern = pattern ? 1.0F : 0.0F;
-  out.balls.push_back(i);
+  out.push_back(i);
 }
 
 // A ball around the centres of the moving bodies and what is fixed to them.
@@ -131,6 +137,8 @@ void SceneView::build(const Session& session, const ViewOptions& options,
                       double window_height, Picture& out) const {
   out.boxes.clear();
   out.balls.clear();
+  out.ghost_boxes.clear();
+  out.ghost_balls.clear();
   out.ribbons.clear();
   out.view_projection = camera.view_projection(view, window_width, window_height).cast<float>();
   out.eye = floats(camera.eye(view));
@@ -178,11 +186,23 @@ void SceneView::add_bodies(const Session& session, const ViewOptions& options,
                       : mix(palette.stiff_mid, palette.stiff_high, 2.0 * t - 1.0);
     }
     if (const auto* box = std::get_if<Box>(&body.shape)) {
-      const double rounding =
-          std::min(0.3 * box->half_extents.minCoeff(), 0.01 + 0.05 * box->half_extents.maxCoeff());
-      add_box(out, poses.x[i], poses.q[i], box->half_extents, rounding, color);
+      add_box(out.boxes, poses.x[i], poses.q[i], box->half_extents, color);
     } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-      add_ball(out, poses.x[i], poses.q[i], sphere->radius, true, color);
+      add_ball(out.balls, poses.x[i], poses.q[i], sphere->radius, true, color);
+    }
+  }
+}
+
+void SceneView::add_ghost(const Scene& scene, const Poses& poses, const Color& color,
+                          Picture& out) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;              // it stands where the session's own does
+    if (!(poses.x[i].norm() < 1e6)) continue;  // it exploded
+    if (const auto* box = std::get_if<Box>(&body.shape)) {
+      add_box(out.ghost_boxes, poses.x[i], poses.q[i], box->half_extents, color);
+    } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
+      add_ball(out.ghost_balls, poses.x[i], poses.q[i], sphere->radius, true, color);
     }
   }
 }
@@ -197,7 +217,7 @@ void SceneView::add_joints(const Session& session, const ViewOptions& options,
     const auto a = static_cast<std::size_t>(j.a);
     double thin = thickness(scene.bodies[a].shape);
     if (j.b == kWorld) {
-      add_box(out, j.anchor_b + Vec3(0.0, 0.6 * bracket, 0.0), Quat::Identity(),
+      add_box(out.boxes, j.anchor_b + Vec3(0.0, 0.6 * bracket, 0.0), Quat::Identity(),
               bracket * Vec3(2.2, 0.6, 2.2), 0.2 * bracket, palette.fixture);
     } else {
       thin = std::min(thin, thickness(scene.bodies[static_cast<std::size_t>(j.b)].shape));
@@ -207,10 +227,10 @@ void SceneView::add_joints(const Session& session, const ViewOptions& options,
     const Vec3 x = poses.x[a] + poses.q[a] * j.anchor_a;
     if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
       const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * hinge->axis_a);
-      add_box(out, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
+      add_box(out.boxes, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
     } else {
       // A box round all over: there are many of them, and they are small.
-      add_box(out, x, poses.q[a], Vec3::Constant(r), r, palette.joint);
+      add_box(out.boxes, x, poses.q[a], Vec3::Constant(r), r, palette.joint);
     }
   }
 }

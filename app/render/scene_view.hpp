@@ -46,6 +46,8 @@ class SceneView {
   void frame_all(const Session& session);
   void build(const Session& session, const ViewOptions& options, const ViewPalette& palette,
              const ViewRect& view, double window_width, double window_height, Picture& out) const;
+  /// The bodies of another run over the same picture, in one colour that is seen through.
+  static void add_ghost(const Scene& scene, const Poses& poses, const Color& color, Picture& out);
 
  private:
   void add_bodies(const Session& session, const ViewOptions& options, const ViewPalette& palette,

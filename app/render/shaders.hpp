@@ -89,7 +89,7 @@ void main() {
   float shine = pow(max(0.0, dot(n, half_way)), 48.0) * 0.22 * light;
   float rim = pow(1.0 - max(0.0, dot(n, to_eye)), 4.0) * 0.18;
   vec3 c = base * (around + vec3(1.0, 0.97, 0.92) * light) + shine + rim * sky * ambient;
-  out_color = vec4(pow(c / (1.0 + 0.12 * c), vec3(1.0 / 2.2)), 1.0);
+  out_color = vec4(pow(c / (1.0 + 0.12 * c), vec3(1.0 / 2.2)), 1.0) * v_color.a;
 }
 )";
 

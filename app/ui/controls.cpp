@@ -145,6 +145,12 @@ void showing(App& app) {
 
 }  // namespace
 
+void method_controls(const Look& look, Settings& settings) {
+  stabilisation(look, settings);
+  space(look.m.section);
+  solving(look, settings);
+}
+
 void controls(App& app) {
   const Look& look = app.look;
   Settings s = app.session.settings();
@@ -152,9 +158,7 @@ void controls(App& app) {
   // The picker may have brought a scene with settings of its own.
   if (app.session.settings() != s) s = app.session.settings();
   space(look.m.section);
-  stabilisation(look, s);
-  space(look.m.section);
-  solving(look, s);
+  method_controls(look, s);
   space(look.m.section);
   showing(app);
   if (s != app.session.settings()) app.change(s);

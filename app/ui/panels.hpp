@@ -9,6 +9,8 @@ namespace substep::ui {
 void draw_window(App& app);
 
 void controls(App& app);
+/// Mode and solver with their parameters: the controls that any run has.
+void method_controls(const Look& look, Settings& settings);
 /// @param height that the plots share; 0 takes what they need at least
 void plots(App& app, float height);
 /// The run so far as a CSV file, of the channels of the plots that are shown.
@@ -19,6 +21,12 @@ std::string file_stem(const App& app);
 void why_summary(App& app);
 /// All of it: the law with its numbers, and every body's part.
 void why(App& app);
+/// What runs beside this run.
+void compare(App& app);
+/// Who is who in the picture, at a place on the screen; nothing where nothing is compared.
+void compare_legend(App& app, float x, float y);
+/// What this run is called beside others.
+std::string run_title(const App& app);
 /// @param brief without the list of stages
 void timing(App& app, bool brief);
 /// @param phone two rows, larger targets

@@ -72,6 +72,10 @@ Range linear_range(const PlotSpec& spec, const Extent& all) {
     low = std::min(low, 0.0);
     high = std::max(high, 0.0);
   }
+  if (spec.most > 0.0) {
+    low = std::max(low, -spec.most);
+    high = std::min(high, spec.most);
+  }
   // A level belongs to the picture unless it is so high that the curves would lie flat.
   for (const Level& level : spec.levels) {
     if (level.value < 3.0 * std::max(high, spec.least_span)) high = std::max(high, level.value);

@@ -75,6 +75,7 @@ struct PlotSpec {
   std::vector<Mark> marks;
   bool from_zero = false;    // a linear axis starts at 0
   bool counts = false;       // whole numbers: no lines between them
+  double most = 0.0;         // a linear axis shows no more to either side of 0; 0: all
   double least_span = 1.0;   // smallest range shown, in units of the values
   double factor = 1.0;       // value of one unit of the labels
   bool time_labels = false;  // seconds along the bottom

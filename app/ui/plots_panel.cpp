@@ -51,6 +51,30 @@ float legend(const Look& look, float right, float y, ImU32 color, const std::str
   return x - 22.0F;
 }
 
+// The others of a comparison, in the colours that they have in the picture; where they part from
+// this run is marked.
+void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps = false) {
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    const Compare::Run& run = app.compare.runs()[i];
+    const ImU32 color = app.compare_color(i);
+    spec.series.push_back({&run.history, channel, color, steps, false, 1.25F});
+    if (run.divergence) spec.marks.push_back({run.divergence->time, "", color});
+  }
+}
+
+// The value of each run that is compared, right-aligned. @param text of a value
+template <class Text>
+void compared_values(App& app, float right, float y, Channel channel, Text text) {
+  const auto value = [&](const History& history, ImU32 color) {
+    const double v = shown_value(history, channel, app.desk.time);
+    right = legend(app.look, right, y, color, std::isfinite(v) ? text(v) : "–");
+  };
+  for (std::size_t i = app.compare.runs().size(); i-- > 0;) {
+    value(app.compare.runs()[i].history, app.compare_color(i));
+  }
+  value(app.session.history(), app.look.theme->blue);
+}
+
 void draw_plot(App& app, Plot which, const PlotSpec& spec, float height) {
   const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
   plot(app.look, spec, app.session.history().end_time(),
@@ -69,7 +93,14 @@ void substeps_plot(App& app, float height, bool last) {
   const History& h = app.session.history();
   const Settings& s = app.session.settings();
   const double n = shown_value(h, Channel::kSubsteps, app.desk.time);
-  section(look, "Sub-steps per frame", std::isfinite(n) ? ("N = " + fixed(n, 0)).c_str() : "");
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const bool several = app.compare.open();
+  section(look, several ? "Sub-steps" : "Sub-steps per frame",
+          several || !std::isfinite(n) ? "" : ("N = " + fixed(n, 0)).c_str());
+  if (several) {
+    compared_values(app, origin.x + ImGui::GetContentRegionAvail().x, origin.y, Channel::kSubsteps,
+                    [](double v) { return fixed(v, 0); });
+  }
   tooltip(look, "Sub-steps per frame",
           "The N taken in each frame (Eq. 11). Dashed: the constant N that would have held so far, "
           "the largest h √r / 2, which is N at alpha = 1. Adaptive pays it only where it must.");
@@ -80,7 +111,8 @@ void substeps_plot(App& app, float height, bool last) {
   spec.from_zero = true;
   spec.counts = true;
   spec.least_span = 4.0;
-  spec.series.push_back({&h, Channel::kSubsteps, t.blue, true, true});
+  spec.series.push_back({&h, Channel::kSubsteps, t.blue, true, !several});
+  add_compared(app, spec, Channel::kSubsteps, true);
   if (const int beat = constant_to_beat(h); beat > 1 && s.mode != Mode::kDamping) {
     spec.levels.push_back(
         {static_cast<double>(beat), "constant N to beat " + grouped(beat), t.amber});
@@ -107,32 +139,41 @@ void energy_plot(App& app, float height, bool last) {
 
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float right = origin.x + ImGui::GetContentRegionAvail().x;
-  section(look, (std::string("Energy, ") + unit.prefix + "J").c_str());
+  section(look,
+          ((app.compare.open() ? "Energy change, " : "Energy, ") + std::string(unit.prefix) + "J")
+              .c_str());
   tooltip(look, "Energy",
           "Kinetic energy, and how much the potential and the total energy have changed since the "
           "start: the total not at all, ideally. The percentage is of the energy that the motion "
           "exchanges.");
-  const double now = shown_value(h, Channel::kTotal, app.desk.time);
   const double whole = exchanged.value_or(scale);
-  std::string total = "total";
-  if (std::isfinite(now) && whole > 0.0) {
-    total += " " + (std::abs(now) > 99.0 * whole
-                        ? short_number(now / unit.factor) + " " + unit.prefix + "J"
-                        : percent(now / whole));
-  }
-  float x = legend(look, right, origin.y, t.orange, total);
-  if (gravity) x = legend(look, x, origin.y, t.purple, "pot.");
-  legend(look, x, origin.y, t.teal, "kin.");
-
+  const auto change = [&](double joules) {
+    return whole <= 0.0 || std::abs(joules) > 99.0 * whole
+               ? coarse_number(joules / unit.factor) + " " + unit.prefix + "J"
+               : percent(joules / whole);
+  };
   PlotSpec spec;
   spec.id = "energy";
   spec.time_labels = last;
   spec.from_zero = true;
   spec.factor = unit.factor;
   spec.least_span = unit.factor;
-  spec.series.push_back({&h, Channel::kKinetic, t.teal, false, true});
-  if (gravity) spec.series.push_back({&h, Channel::kPotential, t.purple, false, false, 1.0F});
-  spec.series.push_back({&h, Channel::kTotal, t.orange});
+  if (app.compare.open()) {
+    // What each has lost or gained; one that explodes must not make the others a line at zero.
+    compared_values(app, right, origin.y, Channel::kTotal, change);
+    spec.most = 1.5 * std::max(whole, unit.factor);
+    spec.series.push_back({&h, Channel::kTotal, t.blue});
+    add_compared(app, spec, Channel::kTotal);
+  } else {
+    const double now = shown_value(h, Channel::kTotal, app.desk.time);
+    float x = legend(look, right, origin.y, t.orange,
+                     std::isfinite(now) ? "total " + change(now) : "total");
+    if (gravity) x = legend(look, x, origin.y, t.purple, "pot.");
+    legend(look, x, origin.y, t.teal, "kin.");
+    spec.series.push_back({&h, Channel::kKinetic, t.teal, false, true});
+    if (gravity) spec.series.push_back({&h, Channel::kPotential, t.purple, false, false, 1.0F});
+    spec.series.push_back({&h, Channel::kTotal, t.orange});
+  }
   draw_plot(app, Plot::kEnergy, spec, height);
 }
 
@@ -157,8 +198,15 @@ void error_plot(App& app, float height, bool last) {
                    std::string(name) + (std::isfinite(value) ? " " + coarse_number(value) : ""));
     spec.series.push_back({&h, channel, color});
   };
-  if (effects.contact) add(Channel::kPenetration, "overlap", t.amber);
-  if (effects.joints) add(Channel::kJointError, "joints", t.blue);
+  if (app.compare.open()) {
+    const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;
+    compared_values(app, right, origin.y, channel, coarse_number);
+    spec.series.push_back({&h, channel, t.blue});
+    add_compared(app, spec, channel);
+  } else {
+    if (effects.contact) add(Channel::kPenetration, "overlap", t.amber);
+    if (effects.joints) add(Channel::kJointError, "joints", t.blue);
+  }
   draw_plot(app, Plot::kError, spec, height);
 }
 
@@ -189,7 +237,10 @@ void time_plot(App& app, float height, bool last) {
   const Look& look = app.look;
   const History& h = app.session.history();
   const double now = shown_value(h, Channel::kTime, app.desk.time);
-  section(look, "Time per frame, ms", std::isfinite(now) ? (fixed(now, 2) + " ms").c_str() : "");
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const bool several = app.compare.open();
+  section(look, several ? "Time, ms" : "Time per frame, ms",
+          several || !std::isfinite(now) ? "" : (fixed(now, 2) + " ms").c_str());
   tooltip(look, "Time per frame",
           "Wall time of the simulation, frame by frame: the whole in grey, its stages in the "
           "colours that the list below names.");
@@ -198,10 +249,17 @@ void time_plot(App& app, float height, bool last) {
   spec.time_labels = last;
   spec.from_zero = true;
   spec.least_span = 0.01;
-  spec.series.push_back({&h, Channel::kTime, look.theme->grey, false, true});
-  for (const Stage& stage : stages(app)) {
-    if (stage.channel == Channel::kTime) continue;
-    spec.series.push_back({&h, stage.channel, stage.color, false, false, 1.0F});
+  if (several) {
+    compared_values(app, origin.x + ImGui::GetContentRegionAvail().x, origin.y, Channel::kTime,
+                    [](double v) { return fixed(v, 2); });
+    spec.series.push_back({&h, Channel::kTime, look.theme->blue});
+    add_compared(app, spec, Channel::kTime);
+  } else {
+    spec.series.push_back({&h, Channel::kTime, look.theme->grey, false, true});
+    for (const Stage& stage : stages(app)) {
+      if (stage.channel == Channel::kTime) continue;
+      spec.series.push_back({&h, stage.channel, stage.color, false, false, 1.0F});
+    }
   }
   draw_plot(app, Plot::kTime, spec, height);
 }
@@ -330,7 +388,10 @@ void save_table(App& app) {
   for (const Plot plot : shown_plots(app)) {
     for (const Channel channel : channels_of(plot)) channels.push_back(channel);
   }
-  const std::array<ExportedRun, 1> runs{{{file_stem(app), &app.session.history()}}};
+  std::vector<ExportedRun> runs{{file_stem(app), &app.session.history()}};
+  for (const Compare::Run& run : app.compare.runs()) {
+    runs.push_back({overrides_title(run.overrides), &run.history});
+  }
   app.host.save_file(file_stem(app) + ".csv",
                      history_csv(app.session.scene(), runs, channels, app.desk.time.from));
 }

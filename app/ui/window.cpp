@@ -82,11 +82,17 @@ void tabs(App& app, const std::array<Choice, N>& choices, Tab first) {
 // What is in the right panel.
 void instruments(App& app, float height) {
   const Look& look = app.look;
-  static constexpr std::array<Choice, 2> kTabs{{{"Plots", ""}, {"Why this N", ""}}};
+  static constexpr std::array<Choice, 3> kTabs{{{"Plots", "What happens, frame by frame"},
+                                                {"Why this N", "Who sets the number of sub-steps"},
+                                                {"Compare", "Other methods beside this run"}}};
   tabs(app, kTabs, Tab::kPlots);
   height -= look.m.row + 8.0F;
   if (app.desk.tab == Tab::kWhy) {
     why(app);
+    return;
+  }
+  if (app.desk.tab == Tab::kCompare) {
+    compare(app);
     return;
   }
   const bool brief = height < 640.0F;
@@ -154,8 +160,8 @@ void phone(App& app, ImVec2 display) {
     transport(app, true);
     ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
     if (app.desk.panels) {
-      static constexpr std::array<Choice, 3> kTabs{
-          {{"Controls", ""}, {"Plots", ""}, {"Why this N", ""}}};
+      static constexpr std::array<Choice, 4> kTabs{
+          {{"Controls", ""}, {"Plots", ""}, {"Why N", ""}, {"Compare", ""}}};
       tabs(app, kTabs, Tab::kControls);
       ImGui::Dummy({1.0F, 0.0F});
       if (ImGui::BeginChild("content", {0, 0})) {
@@ -170,6 +176,9 @@ void phone(App& app, ImVec2 display) {
             why(app);
             space(app.look.m.section);
             timing(app, false);
+            break;
+          case Tab::kCompare:
+            compare(app);
             break;
         }
         scroll_by_drag();
@@ -207,6 +216,8 @@ void draw_window(App& app) {
     desktop(app, display);
   }
   caption(app, small);
+  const float pad = small ? 12.0F : 16.0F;
+  compare_legend(app, app.view_rect.x + pad + 8.0F, app.view_rect.y + pad + 56.0F);
   body_labels(app);
   if (!small) tint_scale(app);
   notice(app);

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/session.hpp"
+
+namespace substep {
+
+/// One setting that differs from those of the run that it is compared with, as links spell it.
+struct Override {
+  std::string key;
+  std::string value;
+  friend bool operator==(const Override&, const Override&) = default;
+};
+using Overrides = std::vector<Override>;
+
+/// What a run has cost since the comparison began.
+struct Cost {
+  std::int64_t frames = 0;
+  std::int64_t substeps = 0;
+  double seconds = 0.0;  // of computing
+};
+
+/// When a run left the one that it is compared with: a body was farther away than the threshold.
+struct Divergence {
+  double time = 0.0;  // [s]
+  int body = 0;
+  double distance = 0.0;  // [m]
+};
+
+/// Other methods on the same scene and the same clock: each of a session's frames is taken by all
+/// of them, from the same state on.
+class Compare {
+ public:
+  static constexpr std::size_t kMost = 3;     // beside the session itself
+  static constexpr double kThreshold = 0.01;  // [m]
+
+  /// One of the other methods.
+  struct Run {
+    Overrides overrides;
+    std::unique_ptr<Simulator> simulator;
+    std::optional<Verdict> verdict;
+    FrameReport report;
+    History history;
+    Poses poses;  // to draw, in between two frames as those of the session are
+    Cost cost;
+    std::optional<Divergence> divergence;
+
+   private:
+    friend class Compare;
+    Poses previous;
+    struct Checkpoint {
+      State state;
+      Verdict verdict;
+      Cost cost;
+    };
+    std::vector<Checkpoint> checkpoints;  // oldest first
+  };
+
+  [[nodiscard]] bool open() const { return !runs_.empty(); }
+  [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+  /// Of the session, since the comparison began.
+  [[nodiscard]] const Cost& cost() const { return cost_; }
+
+  /// Runs these beside the session, from its present state on. None closes the comparison.
+  void start(const Session& session, std::vector<Overrides> runs);
+  void close() { runs_.clear(); }
+  /// From the session's present state on, with the same methods.
+  void restart(const Session& session);
+  /// Adds, changes or removes one, and starts all of them anew.
+  void add(const Session& session, Overrides overrides);
+  void remove(const Session& session, std::size_t index);
+  /// Changes the method of one that runs, live.
+  void change(const Session& session, std::size_t index, const Settings& settings);
+
+  /// The session has taken a frame: so do the others.
+  void take_frame(const Session& session);
+  /// Once a picture: follows the session where it was set back or changed, and sets the poses.
+  void follow(const Session& session);
+
+  /// The settings of one: those of the session but for its overrides.
+  [[nodiscard]] static Settings settings_of(const Overrides& overrides, const Settings& session);
+
+ private:
+  void begin(Run& run, const Session& session);
+  void step(Run& run);
+  void seek(Run& run, const Session& session);
+  static void watch(Run& run, const Session& session);
+
+  std::vector<Run> runs_;
+  Cost cost_;
+  const Scene* scene_ = nullptr;
+  std::int64_t frame_ = 0;  // of the session when it was looked at last
+  Settings settings_;       // of the session then
+};
+
+/// "mode:none;mode:damping,alpha:0.2": the runs of a comparison as links spell them.
+std::string overrides_text(const std::vector<Overrides>& runs);
+/// Reads such text. @param problem what is wrong with it, or ""
+std::vector<Overrides> parse_overrides(std::string_view text, std::string& problem);
+/// What the overrides are, for people: "no sub-steps, PGS". "the same" where there are none.
+std::string overrides_title(const Overrides& overrides);
+
+}  // namespace substep

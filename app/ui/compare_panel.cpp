@@ -1,0 +1,229 @@
+// "Compare": other methods beside the run, on the same scene and clock.
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/model/names.hpp"
+
+namespace substep::ui {
+namespace {
+
+struct Preset {
+  const char* title;
+  const char* note;
+  const char* link;  // settings of the run, then what runs beside it
+};
+constexpr std::array<Preset, 4> kPresets{
+    {{"None, damping, adaptive", "what holds, and at what price",
+      "mode=adaptive&compare=mode:none;mode:damping"},
+     {"PGS and BPP", "an approximate and an exact solver",
+      "mode=adaptive&solver=bpp&compare=solver:pgs"},
+     {"Alpha 0.1 and 0.05", "√2 times the sub-steps, for how much less error?",
+      "mode=adaptive&alpha=0.1&compare=alpha:0.05"},
+     {"Euler and leapfrog", "first and second order at the same cost",
+      "mode=adaptive&integrator=euler&compare=integrator:leapfrog"}}};
+
+struct Addition {
+  const char* name;
+  Override change;
+};
+const std::array<Addition, 8>& additions() {
+  static const std::array<Addition, 8> list{{{"without sub-steps", {"mode", "none"}},
+                                             {"constant N", {"mode", "const"}},
+                                             {"damping", {"mode", "damping"}},
+                                             {"adaptive", {"mode", "adaptive"}},
+                                             {"capped, then damping", {"mode", "capped"}},
+                                             {"PGS", {"solver", "pgs"}},
+                                             {"BPP", {"solver", "bpp"}},
+                                             {"leapfrog", {"integrator", "leapfrog"}}}};
+  return list;
+}
+
+std::string count_text(std::int64_t count) { return grouped(static_cast<double>(count)); }
+
+std::string mean_time(const Cost& cost) {
+  return cost.frames == 0 ? "" : duration(cost.seconds / static_cast<double>(cost.frames));
+}
+
+// "holds", or when it failed.
+std::string verdict_note(const Verdict& verdict) {
+  return verdict.holds() ? "holds" : "fails at " + fixed(verdict.failed_at(), 2) + " s";
+}
+
+struct Line {
+  std::string name;
+  ImU32 color;
+  const Verdict* verdict;
+  const Cost* cost;
+};
+
+// Two rows: who it is and how it stands, what it has cost.
+void draw_line(const Look& look, const Line& line, float right) {
+  const Theme& t = *look.theme;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({at.x, at.y + 3.0F}, {at.x + 10.0F, at.y + 13.0F}, line.color, 3.0F);
+  const std::string stands = verdict_note(*line.verdict);
+  const float width = text_size(look.fonts.small, stands.c_str()).x;
+  const ImU32 ink = line.verdict->holds() ? t.teal : t.orange;
+  const float x = right - width;
+  draw_text(draw, look.fonts.small, {x, at.y + 1.0F}, ink, stands.c_str());
+  draw_icon(draw, line.verdict->holds() ? Icon::kCheck : Icon::kCross, {x - 10.0F, at.y + 8.0F},
+            12.0F, ink);
+  draw_text(draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
+            fitted(look.fonts.medium, line.name, x - at.x - 44.0F).c_str());
+  const std::string cost =
+      count_text(line.cost->substeps) + " sub-steps  ·  " + mean_time(*line.cost) + " a frame";
+  draw_text(draw, look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost.c_str());
+  ImGui::Dummy({1.0F, 36.0F});
+}
+
+std::string divergence_text(const Session& session, const Compare::Run& run) {
+  const std::string threshold = fixed(100.0 * Compare::kThreshold, 0) + " cm";
+  if (!run.divergence) return "No body is farther than " + threshold + " from this run's yet.";
+  const std::string& body =
+      session.scene().bodies[static_cast<std::size_t>(run.divergence->body)].name;
+  return "Parts from this run at " + fixed(run.divergence->time, 2) + " s: " + body +
+         " is more than " + threshold + " away.";
+}
+
+// One of the others: its line, its settings when opened. @return whether it is to go
+bool other(App& app, std::size_t i) {
+  const Look& look = app.look;
+  const Compare::Run& run = app.compare.runs()[i];
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float row = look.m.row;
+  const bool opened = app.desk.compare_open == static_cast<int>(i);
+  draw_line(look, {overrides_title(run.overrides), app.compare_color(i), &*run.verdict, &run.cost},
+            origin.x + width);
+  label(look.fonts.small, look.theme->dim, divergence_text(app.session, run).c_str());
+  if (button(look, "change", Icon::kNone, opened ? "Done" : "Change", ButtonKind::kPlain, 0.0F, row,
+             "Any setting of this one alone")) {
+    app.desk.compare_open = opened ? -1 : static_cast<int>(i);
+  }
+  ImGui::SameLine(0.0F, 8.0F);
+  const bool gone =
+      button(look, "remove", Icon::kNone, "Remove", ButtonKind::kGhost, 0.0F, row, "");
+  if (!gone && opened) {
+    Settings s = Compare::settings_of(run.overrides, app.session.settings());
+    const Settings before = s;
+    space(look.m.section);
+    method_controls(look, s);
+    if (s != before) app.compare.change(app.session, i, s);
+  }
+  return gone;
+}
+
+void presets(App& app) {
+  const Look& look = app.look;
+  label(look.fonts.small, look.theme->dim,
+        "Other methods beside this run: the same scene, the same clock, the same start. They are "
+        "drawn as ghosts and in the plots.");
+  space(look.m.section);
+  for (const Preset& preset : kPresets) {
+    if (button(look, preset.title, Icon::kNone, preset.title, ButtonKind::kPlain,
+               ImGui::GetContentRegionAvail().x, look.m.row + 4.0F, "")) {
+      app.open_link(preset.link);
+      app.session.play();
+    }
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4.0F);
+    label(look.fonts.small, look.theme->dim, preset.note);
+    space(12.0F);
+  }
+}
+
+void add_menu(App& app, const char* name, float width) {
+  const Look& look = app.look;
+  menu_button(look, "add", name, width, look.m.row + 4.0F, "", [&] {
+    for (const Addition& addition : additions()) {
+      if (menu_item(look, addition.name, "", false)) {
+        app.compare.add(app.session, {addition.change});
+      }
+    }
+  });
+}
+
+// From the start again, or all of them from the state that this run has now.
+void restart_buttons(App& app) {
+  const Look& look = app.look;
+  const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
+  if (button(look, "start", Icon::kReset, "From start", ButtonKind::kPlain, half, look.m.row,
+             "All of them from the scene's start (R)")) {
+    app.reset();
+    app.session.play();
+  }
+  ImGui::SameLine(0.0F, 8.0F);
+  if (button(look, "now", Icon::kNone, "From now", ButtonKind::kPlain, half, look.m.row,
+             "All of them from the state that this run is in")) {
+    app.compare.restart(app.session);
+  }
+}
+
+}  // namespace
+
+std::string run_title(const App& app) {
+  const Settings& s = app.session.settings();
+  return std::string(name_of(s.mode)) + " (this run)";
+}
+
+void compare(App& app) {
+  const Look& look = app.look;
+  section(look, "Compare");
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (!app.compare.open()) {
+    presets(app);
+    add_menu(app, "One of your own …", width);
+    return;
+  }
+  restart_buttons(app);
+  space(look.m.section);
+  draw_line(look, {run_title(app), look.theme->blue, &app.session.verdict(), &app.compare.cost()},
+            ImGui::GetCursorScreenPos().x + width);
+  std::optional<std::size_t> gone;
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    space(look.m.section);
+    ImGui::PushID(static_cast<int>(i));
+    if (other(app, i)) gone = i;
+    ImGui::PopID();
+  }
+  space(look.m.section + 4.0F);
+  if (app.compare.runs().size() < Compare::kMost) add_menu(app, "Add another …", width);
+  if (button(look, "close", Icon::kNone, "End the comparison", ButtonKind::kGhost, width,
+             look.m.row, "")) {
+    app.compare.close();
+  }
+  if (gone) {
+    app.desk.compare_open = -1;
+    app.compare.remove(app.session, *gone);
+  }
+}
+
+void compare_legend(App& app, float x, float y) {
+  if (!app.compare.open()) return;
+  const Look& look = app.look;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const auto line = [&](const std::string& name, ImU32 color, const Verdict& verdict,
+                        const FrameReport& report) {
+    const std::string text =
+        name + "  ·  " +
+        (verdict.holds() ? "N " + std::to_string(report.n_substeps) : verdict_note(verdict));
+    const ImVec2 size = text_size(look.fonts.regular, text.c_str());
+    draw.AddRectFilled({x - 8.0F, y - 2.0F}, {x + size.x + 28.0F, y + size.y + 2.0F},
+                       fade(look.theme->panel, 0.8F), look.m.radius);
+    draw.AddCircleFilled({x + 5.0F, y + 0.5F * size.y}, 5.0F, color);
+    draw_text(draw, look.fonts.regular, {x + 18.0F, y}, look.theme->text, text.c_str());
+    y += size.y + 8.0F;
+  };
+  line(run_title(app), look.theme->blue, app.session.verdict(), app.session.report());
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    const Compare::Run& run = app.compare.runs()[i];
+    line(overrides_title(run.overrides), app.compare_color(i), *run.verdict, run.report);
+  }
+}
+
+}  // namespace substep::ui

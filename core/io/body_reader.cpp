@@ -1,7 +1,10 @@
 #include "core/io/body_reader.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <string>
 
 #include "core/io/object_reader.hpp"
 #include "core/io/scene_limits.hpp"
@@ -74,6 +77,21 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
   }
 }
 
+/// "#rrggbb", as everywhere on the web.
+void read_color(ObjectReader& in, Body& body) {
+  std::string text;
+  if (!in.text("color", kMaxNameSize, text, kOptional)) return;
+  std::uint32_t value = 0;
+  const char* begin = text.data() + 1;
+  const char* end = text.data() + text.size();
+  const bool shaped = text.size() == 7 && text[0] == '#';
+  if (!shaped || std::from_chars(begin, end, value, 16).ptr != end) {
+    in.problem("color", value_text(text) + " is not a color like \"#ff8800\"");
+    return;
+  }
+  body.color = value;
+}
+
 void refuse(ObjectReader& in, std::string_view key, const std::string& why) {
   if (in.member(key, kOptional)) in.problem(key, why);
 }
@@ -107,8 +125,10 @@ Body read_body(const Json& json, const std::string& pointer, Problems& problems)
     in.vector("angular_velocity", kAngularVelocityRange, body.angular_velocity, kOptional);
   }
   in.number("friction", kFrictionRange, body.friction, kOptional);
+  in.number("restitution", kRestitutionRange, body.restitution, kOptional);
   in.integer("collision_group", 0, kMaxCollisionGroup, body.collision_group, kOptional);
   in.flag("collides", body.collides, kOptional);
+  read_color(in, body);
   in.finish();
   return body;
 }

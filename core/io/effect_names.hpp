@@ -14,8 +14,8 @@ struct NamedEffect {
 };
 
 inline constexpr std::array kEffectNames{
-    NamedEffect{"gravity", &Effects::gravity}, NamedEffect{"gyroscopic", &Effects::gyroscopic},
-    NamedEffect{"joints", &Effects::joints}, NamedEffect{"contact", &Effects::contact},
-    NamedEffect{"friction", &Effects::friction}};
+    NamedEffect{"gravity", &Effects::gravity},   NamedEffect{"gyroscopic", &Effects::gyroscopic},
+    NamedEffect{"joints", &Effects::joints},     NamedEffect{"contact", &Effects::contact},
+    NamedEffect{"friction", &Effects::friction}, NamedEffect{"restitution", &Effects::restitution}};
 
 }  // namespace substep

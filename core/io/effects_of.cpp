@@ -23,6 +23,9 @@ Effects effects_of(const Scene& scene) {
   effects.friction = effects.contact && any([](const Body& body) {
                        return !body.is_static && body.collides && body.friction > 0.0;
                      });
+  effects.restitution = effects.contact && any([](const Body& body) {
+                          return body.collides && body.restitution > 0.0;
+                        });
   return effects;
 }
 

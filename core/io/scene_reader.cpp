@@ -68,6 +68,8 @@ void read_contact(ObjectReader& parent, Scene& scene, Problems& problems) {
   in.number("compliance", kComplianceRange, scene.contact.compliance, kOptional);
   in.number("friction_compliance", kComplianceRange, scene.contact.friction_compliance, kOptional);
   in.number("margin", kMarginRange, scene.contact.margin, kOptional);
+  in.number("restitution_speed", kRestitutionSpeedRange, scene.contact.restitution_speed,
+            kOptional);
   in.finish();
 }
 
@@ -193,15 +195,24 @@ void check_effects(ObjectReader& in, const Scene& scene) {
     missing("joints", "/joints has " + std::to_string(scene.joints.size()));
   }
   if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");
-  if (!listed.contact && listed.friction) missing("contact", "\"friction\" needs it");
-  if (!listed.contact || listed.friction) return;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.is_static || !body.collides || body.friction == 0.0) continue;
-    missing("friction",
-            pointer_to(pointer_to("/bodies", i), "friction") + " is " + number_text(body.friction));
-    return;
-  }
+  // What contacts can have besides their normal rows, and who asks for it.
+  const auto needs_contact = [&](bool Effects::*effect, const char* name, double Body::*coefficient,
+                                 bool of_static) {
+    if (!listed.contact && listed.*effect) {
+      missing("contact", "\"" + std::string(name) + "\" needs it");
+    }
+    if (!listed.contact || listed.*effect) return;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Body& body = scene.bodies[i];
+      if ((body.is_static && !of_static) || !body.collides || body.*coefficient == 0.0) continue;
+      missing(name,
+              pointer_to(pointer_to("/bodies", i), name) + " is " + number_text(body.*coefficient));
+      return;
+    }
+  };
+  // Both bodies must rub, but one that bounces is enough: a static one counts too.
+  needs_contact(&Effects::friction, "friction", &Body::friction, false);
+  needs_contact(&Effects::restitution, "restitution", &Body::restitution, true);
 }
 
 void read_all(const Json& json, Scene& scene, Problems& problems) {

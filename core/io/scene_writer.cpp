@@ -1,6 +1,8 @@
 #include "core/io/scene_writer.hpp"
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
 
 #include "core/io/effect_names.hpp"
 #include "core/io/json.hpp"
@@ -26,6 +28,13 @@ Json shape_json(const Shape& shape) {
   return json;
 }
 
+std::string color_text(std::uint32_t color) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text = "#";
+  for (int shift = 20; shift >= 0; shift -= 4) text += kDigits[(color >> shift) & 15U];
+  return text;
+}
+
 Json body_json(const Body& body) {
   Json json;
   json["name"] = body.name;
@@ -47,8 +56,10 @@ Json body_json(const Body& body) {
     json["angular_velocity"] = vector_json(body.angular_velocity);
   }
   if (body.friction != 0.0) json["friction"] = body.friction;
+  if (body.restitution != 0.0) json["restitution"] = body.restitution;
   if (body.collision_group >= 0) json["collision_group"] = body.collision_group;
   if (!body.collides) json["collides"] = false;
+  if (body.color) json["color"] = color_text(*body.color);
   return json;
 }
 
@@ -116,6 +127,7 @@ Json scene_json(const Scene& scene) {
     contact["compliance"] = scene.contact.compliance;
     if (scene.effects.friction) contact["friction_compliance"] = scene.contact.friction_compliance;
     contact["margin"] = scene.contact.margin;
+    if (scene.effects.restitution) contact["restitution_speed"] = scene.contact.restitution_speed;
   }
   if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
   json["settings"] = settings_json(scene.settings);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/model/shape.hpp"
@@ -19,9 +21,11 @@ struct Body {
   Vec3 velocity = Vec3::Zero();          // world [m/s]
   Vec3 angular_velocity = Vec3::Zero();  // world [rad/s]
   double friction = 0.0;                 // Coulomb coefficient [-]; a pair uses sqrt(mu_a mu_b)
+  double restitution = 0.0;              // e in [0, 1] [-]; a pair uses the larger one
   int collision_group =
       -1;                // bodies of one group >= 0 do not collide with each other; -1: no group
   bool collides = true;  // false: never touches anything
+  std::optional<std::uint32_t> color;  // 0xRRGGBB, for views only; none: the view's own choice
 };
 
 }  // namespace substep

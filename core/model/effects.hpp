@@ -9,6 +9,7 @@ struct Effects {
   bool joints = false;
   bool contact = false;
   bool friction = false;
+  bool restitution = false;
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };

@@ -16,6 +16,7 @@ struct ContactModel {
   double compliance = 1e-10;           // C of the normal row [m/N]
   double friction_compliance = 1e-10;  // C of the friction rows [m/N]
   double margin = 0.02;                // rows are made for gaps up to this [m]
+  double restitution_speed = 0.1;      // slower approaches do not bounce [m/s]
 };
 
 /// When a run counts as failed, and what it is measured by.

@@ -56,6 +56,7 @@ struct StagesRun {
   bool joints = false;
   bool contact = false;
   bool friction = false;
+  bool restitution = false;
   bool stiffness = false;
   bool damping = false;
   bool probe = false;

@@ -14,6 +14,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   if (effects.joints) joints = std::make_unique<JointStage>(*scene);
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
   if (effects.friction) friction = std::make_unique<FrictionStage>(*scene);
+  if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);
   solver = make_solver(settings.solver);
 
   // Room for the contacts to come: a sub-step must not allocate when bodies touch.
@@ -74,6 +75,7 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
   report.stages.joints = joints != nullptr;
   report.stages.contact = contact != nullptr;
   report.stages.friction = friction != nullptr;
+  report.stages.restitution = restitution != nullptr;
   report.work.residual = lcp_residual({blocks.all(), inverse_mass, state.u});
   for (const Block& block : blocks.all()) {
     if (block.is_contact()) {

@@ -6,6 +6,7 @@
 
 #include "core/constraints/contact_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
+#include "core/constraints/restitution_stage.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/sim/stage_clock.hpp"
 #include "core/solver/solver.hpp"
@@ -42,6 +43,7 @@ struct Simulator::Impl {
   std::unique_ptr<JointStage> joints;
   std::unique_ptr<ContactStage> contact;
   std::unique_ptr<FrictionStage> friction;
+  std::unique_ptr<RestitutionStage> restitution;
   std::unique_ptr<StiffnessStage> stiffness;  // built when a mode or a view first needs K
   std::unique_ptr<Solver> solver;
 

@@ -80,6 +80,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
     set_probe_bias(rows, dt);
   } else {
     set_drift_bias(rows, drift_law(settings), settings.drift_tau, dt);
+    if (restitution) restitution->apply(*scene, u_before, dt, rows);
   }
   const double per_dt2 = 1.0 / (dt * dt);
   for (Block& block : rows) {

@@ -21,6 +21,7 @@ Body card(const Scene& scene, double length, const Vec3& position) {
   Body body = solid("card_" + std::to_string(scene.bodies.size() - 1),
                     box(length, kThickness, kWidth), kMass * length / kLength, position);
   body.friction = kMu;
+  body.color = kPaper;
   return body;
 }
 

@@ -11,14 +11,19 @@ constexpr double kMu = 0.6;
 /// Builds one doll, upright with its arms out, then turns it about its pelvis.
 class Doll {
  public:
-  Doll(int number, const Vec3& pelvis, const Quat& turn, Scene& scene)
-      : prefix_("doll_" + std::to_string(number) + "_"), at_(pelvis), turn_(turn), scene_(scene) {}
+  Doll(int number, std::uint32_t color, const Vec3& pelvis, const Quat& turn, Scene& scene)
+      : prefix_("doll_" + std::to_string(number) + "_"),
+        color_(color),
+        at_(pelvis),
+        turn_(turn),
+        scene_(scene) {}
 
   /// @param centre from the pelvis' centre, before the turn [m]  @return the body's index
   int part(const std::string& name, const Shape& shape, double mass, const Vec3& centre) {
     Body body = solid(prefix_ + name, shape, mass, at_ + turn_ * centre);
     body.orientation = turn_;
     body.friction = kMu;
+    body.color = color_;
     centres_.push_back(centre);
     scene_.bodies.push_back(body);
     return static_cast<int>(scene_.bodies.size()) - 1;
@@ -42,6 +47,7 @@ class Doll {
   }
 
   std::string prefix_;
+  std::uint32_t color_;
   Vec3 at_;
   Quat turn_;
   Scene& scene_;
@@ -50,8 +56,8 @@ class Doll {
 
 void hinge_about(HingeJoint& hinge, const Vec3& axis) { hinge.axis_a = hinge.axis_b = axis; }
 
-void add_doll(int number, const Vec3& at, const Quat& turn, Scene& scene) {
-  Doll doll(number, at, turn, scene);
+void add_doll(int number, std::uint32_t color, const Vec3& at, const Quat& turn, Scene& scene) {
+  Doll doll(number, color, at, turn, scene);
   const int pelvis = doll.part("pelvis", box(0.32, 0.18, 0.20), 10.0, {0.0, 0.0, 0.0});
   const int chest = doll.part("chest", box(0.38, 0.38, 0.22), 18.0, {0.0, 0.31, 0.0});
   const int head = doll.part("head", Sphere{0.13}, 5.0, {0.0, 0.68, 0.0});
@@ -107,10 +113,10 @@ Scene ragdoll_drop() {
   const Quat upright = Quat::Identity();
   const Quat leaning = turn_about_z(0.8, -0.6);  // head to +x, down the steps
   const Quat lying = turn_about_z(0.0, 1.0);
-  add_doll(0, {-1.6, 3.2, -0.9}, leaning, scene);
-  add_doll(1, {-1.9, 3.6, 0.9}, upright, scene);
-  add_doll(2, {-1.4, 5.2, -0.2}, lying, scene);
-  add_doll(3, {-1.2, 6.6, 0.3}, leaning.conjugate(), scene);
+  add_doll(0, kBlue, {-1.6, 3.2, -0.9}, leaning, scene);
+  add_doll(1, kTeal, {-1.9, 3.6, 0.9}, upright, scene);
+  add_doll(2, kAmber, {-1.4, 5.2, -0.2}, lying, scene);
+  add_doll(3, kViolet, {-1.2, 6.6, 0.3}, leaning.conjugate(), scene);
   scene.camera.eye = {5.2, 3.6, 7.4};
   scene.camera.target = {-0.3, 1.6, 0.0};
   return scene;

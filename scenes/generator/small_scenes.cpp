@@ -1,5 +1,7 @@
 // Small scenes with an answer in closed form.
 
+#include <string>
+
 #include "scenes/generator/parts.hpp"
 #include "scenes/generator/scenes.hpp"
 
@@ -51,6 +53,34 @@ Scene spinning_top() {
   Body top = solid("block", box(1.0, 0.6, 0.2), 12.0, {0.0, 1.0, 0.0});
   top.angular_velocity = {0.0, 6.0, 0.05};
   scene.bodies.push_back(top);
+  return scene;
+}
+
+Scene bouncing_balls() {
+  Scene scene;
+  scene.name = "bouncing_balls";
+  scene.title = "Bouncing balls";
+  scene.group = "exact";
+  scene.description =
+      "Five balls fall 2 m onto a floor. They part with 1, 0.9, 0.7, 0.5 and 0 of the speed of "
+      "impact.";
+  scene.look_for =
+      "The first keeps its height for ever; the others come back to 81 %, 49 %, 25 % and nothing.";
+  scene.effects = {.gravity = true, .contact = true, .restitution = true};
+  scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
+  scene.criteria.track = 1;
+  scene.camera.eye = {0.0, 1.9, 6.6};
+  scene.camera.target = {0.0, 1.2, 0.0};
+  scene.bodies.push_back(floor_plane());
+  constexpr double kRadius = 0.2;
+  double x = -1.6;
+  for (const double e : {1.0, 0.9, 0.7, 0.5, 0.0}) {
+    Body ball = solid("ball_" + std::to_string(scene.bodies.size()), Sphere{kRadius}, 1.0,
+                      {x, 2.0 + kRadius, 0.0});
+    ball.restitution = e;
+    scene.bodies.push_back(ball);
+    x += 0.8;
+  }
   return scene;
 }
 

@@ -17,6 +17,7 @@ void add_brick(double x, double y, double length, Scene& scene) {
       solid("brick_" + std::to_string(scene.bodies.size() - 1), box(length, kHeight, kDepth),
             kDensity * length * kHeight * kDepth, {x, y, 0.0});
   brick.friction = kMu;
+  brick.color = scene.bodies.size() % 3 == 0 ? kBrickDark : kBrick;
   scene.bodies.push_back(brick);
 }
 
@@ -59,6 +60,7 @@ Scene wall(const WallOptions& options) {
   Body ball = solid("ball", Sphere{0.35}, 150.0, {-0.3, 0.55 * height + 0.6, 5.5});
   ball.velocity = {0.5, 1.5, -10.0};
   ball.friction = kMu;
+  ball.color = kIron;
   scene.criteria.track = static_cast<int>(scene.bodies.size());
   scene.bodies.push_back(ball);
   scene.camera.eye = {3.6, 2.2, 6.2};

@@ -20,6 +20,7 @@ void add_chain(Scene& scene) {
     body.position = kAnchor + along * centre;
     body.orientation = turn_about_z(-along.x(), -along.y());
     body.friction = kMu;
+    body.color = kIron;
     BallJoint joint;
     joint.name = "pivot_" + std::to_string(scene.joints.size());
     joint.a = static_cast<int>(scene.bodies.size());
@@ -72,6 +73,7 @@ Scene wrecking_ball() {
             solid("crate_" + std::to_string(6 * y + 3 * x + z), box(kCrate, kCrate, kCrate), 12.0,
                   {0.9 + kCrate * x, kCrate * (y + 0.5), kCrate * (z - 1)});
         crate.friction = kMu;
+        crate.color = (x + y + z) % 2 == 0 ? kWood : kWoodDark;
         scene.bodies.push_back(crate);
       }
     }

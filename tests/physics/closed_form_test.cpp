@@ -81,6 +81,81 @@ TEST(FreeFall, NothingAsksForSubsteps) {
   EXPECT_EQ(r.n_max(), 1);
 }
 
+/// Highest points between bounces of a body of the bouncing balls, above its rest [m].
+std::vector<double> apexes(std::size_t body, const Settings& settings, double seconds) {
+  std::vector<double> heights;
+  double before = 2.0;
+  double now = 2.0;
+  run(scenes::bouncing_balls(), settings, seconds, [&](const Simulator& s, const FrameReport&) {
+    const double next = s.state().x[body].y() - 0.2;
+    if (now > before && now >= next) heights.push_back(now);
+    before = now;
+    now = next;
+  });
+  return heights;
+}
+
+// A bounce that loses nothing turns u around at the same x: the steps up retrace the steps down.
+TEST(Restitution, ABallThatLosesNothingComesBackToItsHeightForEver) {
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+    for (const int n : {1, 4}) {
+      const auto heights = apexes(1, constant(n, integrator), 30.0);
+      ASSERT_GT(heights.size(), 20U);
+      // Seen at the ends of frames only: with N = 4 the turn can lie half a frame beside one.
+      const double unseen = n == 1 ? 1e-8 : 0.5 * kGravity / (120.0 * 120.0);
+      for (const double height : heights) EXPECT_NEAR(height, heights.front(), unseen) << "n " << n;
+      EXPECT_NEAR(heights.front(), 2.0, 0.5 * kGravity / (60.0 * 60.0) + unseen) << "n " << n;
+    }
+  }
+}
+
+TEST(Restitution, HeightsShrinkByItsSquare) {
+  const double e[] = {1.0, 0.9, 0.7, 0.5};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto heights = apexes(i + 1, constant(64, Integrator::kLeapfrog), 4.0);
+    ASSERT_GT(heights.size(), 1U);
+    // The impact falls somewhere in a sub-step of 0.26 ms, at up to 6.3 m/s.
+    EXPECT_NEAR(heights[0], e[i] * e[i] * 2.0, 0.004);
+    EXPECT_NEAR(heights[1] / heights[0], e[i] * e[i], 0.004);
+  }
+}
+
+TEST(Restitution, SlowApproachesEndAtRest) {
+  const Outcome r = run(scenes::bouncing_balls(), constant(4, Integrator::kEuler), 10.0);
+  for (const std::size_t body : {std::size_t{4}, std::size_t{5}}) {
+    EXPECT_NEAR(r.end.x[body].y(), 0.2, 1e-6);
+    EXPECT_LT(r.end.u[body].norm(), 1e-9);
+  }
+}
+
+// Two balls head on: momentum stays, and they part with e times the speed of their approach.
+TEST(Restitution, PartsAtETimesTheSpeedOfApproach) {
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    for (const double e : {0.0, 0.3, 1.0}) {
+      Scene scene = scenes::bouncing_balls();
+      scene.effects.gravity = false;
+      scene.bodies.resize(3);
+      Body& a = scene.bodies[1];
+      Body& b = scene.bodies[2];
+      a.position = {0.0, 5.0, 0.0};
+      b.position = {1.0, 5.0, 0.0};
+      a.velocity = {2.0, 0.0, 0.0};
+      b.velocity = {-1.0, 0.0, 0.0};
+      a.restitution = 0.0;  // the bouncier one counts
+      b.restitution = e;
+      b.mass = 3.0;
+      b.inertia = solid_inertia(b.shape, b.mass);
+      Settings settings = constant(4, Integrator::kEuler);
+      settings.solver = solver;
+      const State end = run(scene, settings, 1.0).end;
+      const double v_a = end.u[1][0];
+      const double v_b = end.u[2][0];
+      EXPECT_NEAR(v_b - v_a, 3.0 * e, 1e-9);
+      EXPECT_NEAR(v_a + 3.0 * v_b, -1.0, 1e-12);
+    }
+  }
+}
+
 // u stands at the middle of the last sub-step: angular momentum and energy are those of the
 // momentum at its end, p = I w + dt/2 (I w) x w.
 TEST(SpinningTop, KeepsEnergyAndAngularMomentumFor60SecondsAtOneSubstep) {

@@ -32,6 +32,9 @@ TEST(Stages, AnEffectNotCalledForLeavesNoRowsAndNoTime) {
   EXPECT_EQ(stack.friction_rows, 0);
   EXPECT_EQ(stack.times.joints, 0.0);
 
+  EXPECT_FALSE(stack.stages.restitution);
+  EXPECT_TRUE(first_frame(scenes::bouncing_balls()).stages.restitution);
+
   const FrameReport top = first_frame(scenes::spinning_top());
   EXPECT_TRUE(top.stages.gyroscopic);
   EXPECT_FALSE(top.stages.gravity || top.stages.joints || top.stages.contact);

@@ -44,7 +44,7 @@ class SceneBitsWriter {
     if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
   }
   void add(const Effects& e) {
-    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction}) add(b);
+    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution}) add(b);
   }
   void add(const Body& b) {
     add(b.name);
@@ -57,8 +57,10 @@ class SceneBitsWriter {
     add(b.velocity);
     add(b.angular_velocity);
     add(b.friction);
+    add(b.restitution);
     add(b.collision_group);
     add(b.collides);
+    add(b.color ? static_cast<int>(*b.color) : -1);
   }
   void add(const Joint& joint) {
     const JointBase& j = base(joint);
@@ -95,6 +97,7 @@ inline SceneBits bits_of(const Scene& s) {
   out.add(s.contact.compliance);
   out.add(s.contact.friction_compliance);
   out.add(s.contact.margin);
+  out.add(s.contact.restitution_speed);
   out.add(s.regularisation);
   out.add(s.criteria.duration);
   out.add(s.criteria.joint_gap);

@@ -17,9 +17,9 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);
   solver = make_solver(settings.solver);
 
-  // Room for the contacts to come: a sub-step must not allocate when bodies touch.
+  // Room for the contacts to come, and a hand: a sub-step must not allocate when bodies touch.
   const std::size_t n = scene->bodies.size();
-  const std::size_t n_blocks = (joints ? scene->joints.size() : 0) + (contact ? 4 * n + 16 : 0);
+  const std::size_t n_blocks = (joints ? scene->joints.size() : 0) + (contact ? 4 * n + 16 : 0) + 1;
   blocks.reserve(n_blocks);
   solver->reserve(n, n_blocks);
   state.forces.reserve(n_blocks);
@@ -57,6 +57,26 @@ void Simulator::Impl::probe(FrameReport& report) {
   report.failed_body = -1;
   report.n_substeps = 0;
   report.stages.probe = true;
+}
+
+void Simulator::Impl::begin_frame() {
+  FrameReport report;
+  if (probe_due()) probe(report);  // the first frame has no lambda yet
+  open.emplace(OpenFrame{SubstepClock(settings, scene->frame, state.r), report});
+}
+
+FrameReport Simulator::Impl::end(StageClock& wall) {
+  auto& [substeps, report] = *open;
+  const bool done = report.status != StepStatus::kOk || !substeps.running();
+  if (done) {
+    close(substeps, report);
+  } else {
+    observe(report);
+  }
+  wall.lap(report.times.total);
+  const FrameReport result = report;
+  if (done) open.reset();
+  return result;
 }
 
 void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& report) {
@@ -135,7 +155,42 @@ void Simulator::set_state(State state) {
          "a state goes on in the scene it is from");
   impl_->state = std::move(state);
   impl_->state.forces.reserve(impl_->blocks.capacity());
+  impl_->grab.reset();
+  impl_->blocks.clear();
+  impl_->open.reset();
   impl_->stopped = FrameReport{};
+}
+
+void Simulator::set_grab(const std::optional<Grab>& grab) {
+  assert((!grab || !impl_->scene->bodies[static_cast<std::size_t>(grab->body)].is_static) &&
+         "what is held can move");
+  impl_->grab = grab;
+}
+const std::optional<Grab>& Simulator::grab() const { return impl_->grab; }
+
+ConstraintForces Simulator::constraint_forces() const {
+  ConstraintForces out;
+  const auto pulled = [](const Block& block) {
+    return Vec3(block.lambda[0], block.lambda[1], block.lambda[2]).cast<float>();
+  };
+  for (const Block& block : impl_->blocks.all()) {
+    if (block.is_contact()) {
+      Vec3 force = block.lambda[0] * block.n;
+      if (block.rows == 3) force += block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
+      out.contacts.push_back({block.body_a, block.body_b, block.r_a.cast<float>(),
+                              block.n.cast<float>(), force.cast<float>(),
+                              static_cast<float>(block.phi[0])});
+    } else if (block.id < impl_->scene->joints.size()) {  // and not the hand
+      JointForce& force = out.joints.emplace_back();
+      force.force = pulled(block);
+      if (block.kind == BlockKind::kHinge) {
+        const Vec3 torque = block.lambda[3] * block.axis.cross(block.v1) +
+                            block.lambda[4] * block.axis.cross(block.v2);
+        force.torque = torque.cast<float>();
+      }
+    }
+  }
+  return out;
 }
 
 const Settings& Simulator::settings() const { return impl_->settings; }

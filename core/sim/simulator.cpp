@@ -1,36 +1,36 @@
 #include "core/sim/simulator.hpp"
 
+#include <limits>
+
 #include "core/sim/simulator_impl.hpp"
 
 namespace substep {
 
-FrameReport Simulator::step() {  // Giles and Andrews 2024, Algorithm 1
-  Impl& sim = *impl_;
-  if (sim.stopped.status != StepStatus::kOk) return sim.stopped;
+// Giles and Andrews 2024, Algorithm 1: a whole frame, or as much of one as is asked for.
+FrameReport Simulator::Impl::advance(int most) {
+  if (stopped.status != StepStatus::kOk) return stopped;
 
-  FrameReport report;
-  StageClock whole_frame;
-  if (sim.probe_due()) sim.probe(report);  // the first frame has no lambda yet
-
-  SubstepClock clock(sim.settings, sim.scene->frame,
-                     sim.state.r);  // N = ceil(h / dt_max)   Eqs. 9-11
-  while (clock.running()) {
-    const double dt = clock.dt();
-    sim.begin_substep(report);
-    sim.append_rows(report);          // phi, J
-    sim.external_forces(dt, report);  // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
-    sim.solve(dt, false, report);     // lambda, u+                                       Eq. 3
-    if (!sim.finite(report)) break;
-    if (clock.needs_stiffness()) {
-      sim.evaluate_stiffness(
-          report);  // K, k, r, with the arms that lambda belongs to   Eqs. 1, 4, 9
+  StageClock wall;
+  if (!open) begin_frame();  // N = ceil(h / dt_max)                                 Eqs. 9-11
+  auto& [substeps, report] = *open;
+  while (substeps.running() && most-- > 0) {
+    const double dt = substeps.dt();
+    begin_substep(report);
+    append_rows(report);          // phi, J
+    external_forces(dt, report);  // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
+    solve(dt, false, report);     // lambda, u+                                       Eq. 3
+    if (!finite(report)) break;
+    if (substeps.needs_stiffness()) {
+      evaluate_stiffness(report);  // K, k, r, with the arms that lambda belongs to   Eqs. 1, 4, 9
     }
-    sim.advance_poses(dt, report);
-    clock.advance(sim.bound.r);  // per frame: nothing; per sub-step: decide again
+    advance_poses(dt, report);
+    substeps.advance(bound.r);  // per frame: nothing; per sub-step: decide again
   }
-  sim.close(clock, report);
-  whole_frame.lap(report.times.total);
-  return report;
+  return end(wall);
 }
+
+FrameReport Simulator::step() { return impl_->advance(std::numeric_limits<int>::max()); }
+FrameReport Simulator::substep() { return impl_->advance(1); }
+int Simulator::substeps_left() const { return impl_->open ? impl_->open->substeps.left() : 0; }
 
 }  // namespace substep

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "core/model/grab.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
+#include "core/sim/constraint_forces.hpp"
 #include "core/sim/report.hpp"
 
 namespace substep {
@@ -16,10 +19,15 @@ class Simulator {
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// One displayed frame of length scene().frame: Algorithm 1 of the paper. Never throws. After a
-  /// status other than kOk the state is that of the last finite sub-step and further calls do
-  /// nothing.
+  /// One displayed frame of length scene().frame: Algorithm 1 of the paper; what is left of it
+  /// where substep() began one. Never throws. After a status other than kOk the state is that of
+  /// the last finite sub-step and further calls do nothing.
   FrameReport step();
+  /// One sub-step. The state between two sub-steps of a frame is to look at, not to keep: only from
+  /// frame to frame is it a snapshot. @return of the frame so far; complete where none is left
+  FrameReport substep();
+  /// Sub-steps that the frame begun by substep() still has, as decided so far; 0 between frames.
+  [[nodiscard]] int substeps_left() const;
 
   /// Energies and errors of the current state, without stepping. Rows and work are a frame's: 0
   /// here.
@@ -30,8 +38,14 @@ class Simulator {
 
   [[nodiscard]] const Scene& scene() const;
   [[nodiscard]] const State& state() const;
-  /// Goes on from a snapshot of the same scene.
+  /// Goes on from a snapshot of the same scene; lets go of what was grabbed.
   void set_state(State state);
+  /// A hand on a body, or none. Acts from the next sub-step on, and is in K as any joint is.
+  void set_grab(const std::optional<Grab>& grab);
+  [[nodiscard]] const std::optional<Grab>& grab() const;
+  /// Of the last sub-step; empty where the state was set and none has been taken since.
+  [[nodiscard]] ConstraintForces constraint_forces() const;
+
   [[nodiscard]] const Settings& settings() const;
   void set_settings(const Settings& settings);
 

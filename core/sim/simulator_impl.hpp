@@ -2,6 +2,7 @@
 // What a Simulator is made of: the stages that its scene calls for, and scratch.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/constraints/contact_stage.hpp"
@@ -18,7 +19,10 @@ namespace substep {
 struct Simulator::Impl {
   explicit Impl(std::shared_ptr<const Scene> scene_in);
 
-  // The parts of a sub-step, in the order in which step() calls them.
+  /// @param most sub-steps to take, >= 1; the frame that is open goes on, else one begins
+  FrameReport advance(int most);
+
+  // The parts of a sub-step, in the order in which advance() calls them.
   void begin_substep(FrameReport& report);
   void append_rows(FrameReport& report);
   void external_forces(double dt, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
@@ -31,13 +35,21 @@ struct Simulator::Impl {
   void probe(FrameReport& report);
   void seed_forces();
   void store_forces();
+  void begin_frame();
+  FrameReport end(StageClock& wall);  // of a call: closes the frame where it is done
   void close(const SubstepClock& clock, FrameReport& report);
   void observe(FrameReport& report);
 
   std::shared_ptr<const Scene> scene;
   Settings settings;
   State state;
-  FrameReport stopped;  // the report of the frame that failed
+  std::optional<Grab> grab;
+  struct OpenFrame {
+    SubstepClock substeps;
+    FrameReport report;
+  };
+  std::optional<OpenFrame> open;  // a frame of which some sub-steps are taken
+  FrameReport stopped;            // the report of the frame that failed
 
   // Stages: null where the scene does not call for the effect.
   std::unique_ptr<JointStage> joints;

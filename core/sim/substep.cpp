@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constraints/grab_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
@@ -42,6 +43,10 @@ void Simulator::Impl::append_rows(FrameReport& report) {
   if (friction) {
     friction->append(*scene, R_WB, blocks);
     clock.lap(report.times.friction);
+  }
+  if (grab) {
+    const auto body = static_cast<std::size_t>(grab->body);
+    grab_rows(*grab, {state.x[body], R_WB[body]}, blocks.append());
   }
 }
 
@@ -88,6 +93,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
       block.softness[row] = block.C[row] * per_dt2 + scene->regularisation;
     }
   }
+  if (grab) soften_grab(*grab, dt, rows.back());
   seed_forces();
   const System system{rows, inverse_mass, state.u};
   const SolveReport solved = solver->solve(system, settings);

@@ -22,7 +22,8 @@ class SubstepClock {
   SubstepClock(const Settings& settings, double h, double r);
 
   [[nodiscard]] bool running() const { return left_ > 0; }
-  [[nodiscard]] double dt() const { return dt_; }  ///< [s]
+  [[nodiscard]] double dt() const { return dt_; }   ///< [s]
+  [[nodiscard]] int left() const { return left_; }  ///< sub-steps to come, as decided so far
   /// Whether what follows reads the stiffness of this sub-step.
   [[nodiscard]] bool needs_stiffness() const;
   /// Goes on to the next sub-step. @param r of this sub-step, where it was needed [1/s^2]

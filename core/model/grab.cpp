@@ -1,0 +1,33 @@
+#include "core/model/grab.hpp"
+
+#include <vector>
+
+#include "core/model/scene.hpp"
+
+namespace substep {
+
+double joined_mass(const Scene& scene, int body) {
+  const auto moves = [&](int i) {
+    return i != kWorld && !scene.bodies[static_cast<std::size_t>(i)].is_static;
+  };
+  std::vector<bool> found(scene.bodies.size(), false);
+  std::vector<int> open{body};
+  found[static_cast<std::size_t>(body)] = true;
+  double mass = 0.0;
+  while (!open.empty()) {
+    const int at = open.back();
+    open.pop_back();
+    mass += scene.bodies[static_cast<std::size_t>(at)].mass;
+    for (const Joint& joint : scene.joints) {
+      const JointBase& j = base(joint);
+      if ((j.a != at && j.b != at) || !moves(j.a) || !moves(j.b)) continue;
+      const int other = j.a == at ? j.b : j.a;
+      if (found[static_cast<std::size_t>(other)]) continue;
+      found[static_cast<std::size_t>(other)] = true;
+      open.push_back(other);
+    }
+  }
+  return mass;
+}
+
+}  // namespace substep

@@ -55,6 +55,16 @@ void handle_key(App& app, ImWchar c) {
       app.session.pause();
       app.session.step();
       break;
+    case ',':
+      app.session.step_back();
+      break;
+    case ';':
+      app.session.substep();
+      break;
+    case 'b':
+    case 'B':
+      ui::throw_ball(app);
+      break;
     case 'r':
     case 'R':
       app.reset();
@@ -98,6 +108,8 @@ void handle_keys(App& app) {
   if (io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper) return;
   const ImVector<ImWchar> typed = io.InputQueueCharacters;
   for (const ImWchar c : typed) handle_key(app, c);
+  if (ImGui::IsKeyPressed(ImGuiKey_Home)) app.session.go_to(0);
+  if (ImGui::IsKeyPressed(ImGuiKey_End)) app.session.go_to(app.session.timeline().size() - 1);
 }
 
 // Fonts and colours follow the window that the app finds itself in.
@@ -162,6 +174,7 @@ void App::run(std::shared_ptr<const Scene> scene) {
   ++run_count;
   session.load(std::move(scene));
   change(session.settings());
+  desk.selected = -1;
   restart_plots(desk);
 }
 
@@ -210,7 +223,9 @@ std::string App::set(std::string_view key, std::string_view value) {
   }
   if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
   if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
-  if (key == "tint") return choose(value, {"off", "on"}, desk.view.tint);
+  for (const ViewSwitch& option : kViewSwitches) {
+    if (key == option.key) return choose(value, {"off", "on"}, desk.view.*option.member);
+  }
   if (key == "panel") return choose_panel(value, desk.tab);
   if (key == "compare") {
     std::string problem;
@@ -288,6 +303,7 @@ void frame(App& app, double wall_dt) {
     SceneView::add_ghost(app.session.scene(), app.compare.runs()[i].poses, {c.x, c.y, c.z, 0.5F},
                          app.picture);
   }
+  ui::draw_over_picture(app);
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));

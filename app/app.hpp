@@ -52,6 +52,15 @@ struct Notice {
   double left = 0.0;  // [s]
 };
 
+/// What the pointer does in the picture while its button is down.
+struct Hand {
+  int body = -1;               // that it went down on, or -1
+  Vec3 anchor = Vec3::Zero();  // where on it, body frame [m]
+  Vec3 point = Vec3::Zero();   // the same in the world; it moves in the plane of view there [m]
+  bool moved = false;          // farther than a click
+  bool holding = false;        // the body follows
+};
+
 /// Everything that a person changes about the window and not about the run.
 struct Desk {
   Desk();
@@ -63,6 +72,7 @@ struct Desk {
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
   ViewOptions view;
+  int selected = -1;  // body, or -1
   ui::TimeAxis time;
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;        // where the plots were drawn last
@@ -118,6 +128,8 @@ struct App {
   double frame_time = 1.0 / 60.0;  // smoothed [s]
   ViewRect view_rect;
   Picture picture;
+  Hand hand;
+  bool pointer_on_picture = false;
   std::string last_link;
 };
 

@@ -11,31 +11,123 @@ constexpr std::size_t kTrailFrames = 150;
 
 }  // namespace
 
-Session::Session(std::shared_ptr<const Scene> scene) { load(std::move(scene)); }
+Session::Session(std::shared_ptr<const Scene> scene, std::size_t past_bytes)
+    : timeline_(past_bytes) {
+  load(std::move(scene));
+}
 
 void Session::load(std::shared_ptr<const Scene> scene) {
-  scene_ = std::move(scene);
+  loaded_ = std::move(scene);
+  scene_ = loaded_;
   simulator_ = std::make_unique<Simulator>(scene_);
   ++generation_;
   restart();
 }
 
 void Session::reset() {
+  use_scene(loaded_);
   simulator_->reset();
   restart();
 }
 
 void Session::restart() {
   report_ = simulator_->observe();
+  forces_ = {};
   verdict_ = std::make_unique<Verdict>(*scene_, state(), report_);
   history_.start(report_, scene_->frame);
-  previous_ = {state().x, state().q};
-  poses_ = previous_;
+  timeline_.start(moment());
+  thrown_ = 0;
   trail_.clear();
   extend_trail();
   times_ = {};
-  accumulator_ = 0.0;
   pace_ = 1.0;
+  show_present();
+}
+
+void Session::use_scene(std::shared_ptr<const Scene> scene) {
+  if (scene == scene_) return;
+  const Settings settings = simulator_->settings();
+  scene_ = std::move(scene);
+  simulator_ = std::make_unique<Simulator>(scene_);
+  simulator_->set_settings(settings);
+}
+
+Moment Session::moment() const {
+  return {scene_, settings(), state(), report_, *verdict_, forces_};
+}
+
+// No motion between two frames is left to be shown.
+void Session::show_present() {
+  accumulator_ = 0.0;
+  previous_ = {state().x, state().q};
+  poses_ = previous_;
+}
+
+void Session::go_to(std::size_t index) {
+  pause();
+  timeline_.go_to(index);
+  const Moment& m = timeline_.now();
+  use_scene(m.scene);
+  simulator_->set_state(m.state);
+  report_ = m.report;
+  forces_ = m.forces;
+  *verdict_ = m.verdict;
+  trail_.clear();
+  if (scene_->criteria.track) {
+    const auto tracked = static_cast<std::size_t>(*scene_->criteria.track);
+    const std::size_t first = timeline_.index() - std::min(timeline_.index(), kTrailFrames - 1);
+    for (std::size_t i = first; i <= timeline_.index(); ++i) {
+      trail_.push_back(timeline_[i].state.x[tracked]);
+    }
+  }
+  show_present();
+}
+
+void Session::step_back() {
+  const bool within = substeps_left() > 0 || stopped();
+  const std::size_t i = timeline_.index();
+  go_to(within || i == 0 ? i : i - 1);
+}
+
+void Session::go_to_last_good(double seconds) {
+  std::size_t i =
+      timeline_.at_time((verdict_->holds() ? state().time : verdict_->failed_at()) - seconds);
+  while (i > 0 && !timeline_[i].verdict.holds()) --i;
+  go_to(i);
+}
+
+// The run goes on from a moment in the past: what came after it did not happen.
+void Session::forget_future() {
+  if (timeline_.at_end()) return;
+  timeline_.cut();
+  history_.cut(timeline_.now().state.time);
+}
+
+void Session::grab(int body, const Vec3& anchor, const Vec3& target) {
+  simulator_->set_grab(Grab{body, anchor, target, joined_mass(*scene_, body)});
+  verdict_->disturb(state().time);
+}
+
+void Session::pull_to(const Vec3& target) {
+  if (!held()) return;
+  Grab grab = *held();
+  grab.target = target;
+  simulator_->set_grab(grab);
+}
+
+void Session::throw_ball(const Ball& ball) {
+  if (stopped()) return;
+  if (substeps_left() > 0) take_frame();
+  forget_future();
+  const std::size_t slot =
+      loaded_->bodies.size() + static_cast<std::size_t>(thrown_++ % Ball::kMost);
+  State carried = with_ball(state(), ball, slot);
+  const std::optional<Grab> holding = held();
+  use_scene(std::make_shared<const Scene>(with_ball(*scene_, ball, slot)));
+  simulator_->set_state(std::move(carried));
+  simulator_->set_grab(holding);
+  verdict_->disturb(state().time);
+  show_present();
 }
 
 void Session::extend_trail() {
@@ -59,8 +151,14 @@ void Session::smooth_times() {
 }
 
 void Session::take_frame() {
+  forget_future();
   previous_ = {state().x, state().q};
   report_ = simulator_->step();
+  end_frame();
+}
+
+void Session::end_frame() {
+  forces_ = simulator_->constraint_forces();
   verdict_->add(*scene_, state(), report_);
   if (stopped()) {
     pause();
@@ -68,16 +166,34 @@ void Session::take_frame() {
     history_.add(report_);
     extend_trail();
     smooth_times();
+    timeline_.add(moment());
   }
   if (frame_taken) frame_taken();
 }
 
 void Session::step() {
   if (stopped()) return;
+  const std::size_t next = timeline_.index() + 1;
+  if (!timeline_.at_end() && !held() && substeps_left() == 0 &&
+      timeline_[next].settings == settings()) {
+    go_to(next);
+    return;
+  }
   take_frame();
-  accumulator_ = 0.0;
-  previous_ = {state().x, state().q};
-  update_poses();
+  show_present();
+}
+
+void Session::substep() {
+  if (stopped()) return;
+  pause();
+  forget_future();
+  report_ = simulator_->substep();
+  if (substeps_left() == 0) {
+    end_frame();
+  } else {
+    forces_ = simulator_->constraint_forces();
+  }
+  show_present();
 }
 
 int Session::advance(double wall_dt, double budget) {

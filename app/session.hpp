@@ -4,9 +4,12 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "app/ball.hpp"
 #include "app/history.hpp"
+#include "app/timeline.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/model/scene.hpp"
 #include "core/sim/simulator.hpp"
@@ -19,13 +22,15 @@ struct Poses {
   std::vector<Quat> q;
 };
 
-/// One scene running: simulator, judge, history and clock. Knows nothing of windows.
+/// One scene running: simulator, judge, history, past and clock. Knows nothing of windows.
 class Session {
  public:
-  explicit Session(std::shared_ptr<const Scene> scene);
+  /// @param past_bytes how much memory the saved states may take
+  explicit Session(std::shared_ptr<const Scene> scene, std::size_t past_bytes = Timeline::kBytes);
 
   /// Starts another scene with the settings that it asks for. Keeps playing if it was.
   void load(std::shared_ptr<const Scene> scene);
+  /// Back to the start of the scene as it was loaded.
   void reset();
 
   /// Lets wall time pass: whole frames are taken while there is time for them. The time that one
@@ -33,14 +38,37 @@ class Session {
   /// what does not fit into `budget` is dropped: the run is then slower than the wall, see pace().
   /// @return frames taken
   int advance(double wall_dt, double budget = 0.025);
-  /// One frame now, whether it plays or not.
+  /// One frame, whether it plays or not: what is left of the one that substep() began. Where the
+  /// run is looked at in the past and nothing was changed since, the frame that followed then.
   void step();
+  /// One sub-step.
+  void substep();
+  /// Sub-steps that the frame begun by substep() still has; 0 between frames.
+  [[nodiscard]] int substeps_left() const { return simulator_->substeps_left(); }
+
+  /// The past: every frame, as far as memory goes. From a moment in it the run goes on bit for bit;
+  /// what came after it is forgotten then.
+  [[nodiscard]] const Timeline& timeline() const { return timeline_; }
+  void go_to(std::size_t moment);
+  /// To the frame before this one, or to the start of the one that substep() began.
+  void step_back();
+  /// To the last moment whose verdict holds, `seconds` or more before the run failed.
+  void go_to_last_good(double seconds = 0.0);
+
+  /// Holds a body. @param anchor where, in its frame [m]; @param target world [m]
+  void grab(int body, const Vec3& anchor, const Vec3& target);
+  void pull_to(const Vec3& target);  ///< world [m]
+  void let_go() { simulator_->set_grab(std::nullopt); }
+  [[nodiscard]] const std::optional<Grab>& held() const { return simulator_->grab(); }
+  void throw_ball(const Ball& ball);
+  /// Balls that were thrown and are still there.
+  [[nodiscard]] std::size_t balls() const { return scene_->bodies.size() - loaded_->bodies.size(); }
 
   void play() { playing_ = !stopped(); }
   void pause() { playing_ = false; }
   void toggle() { playing_ ? pause() : play(); }
   [[nodiscard]] bool playing() const { return playing_; }
-  /// The state stopped being finite: only a reset goes on.
+  /// The state stopped being finite: only a reset or the past goes on.
   [[nodiscard]] bool stopped() const { return report_.status != StepStatus::kOk; }
 
   [[nodiscard]] double speed() const { return speed_; }
@@ -56,6 +84,8 @@ class Session {
   [[nodiscard]] const FrameReport& report() const { return report_; }
   [[nodiscard]] const Verdict& verdict() const { return *verdict_; }
   [[nodiscard]] const History& history() const { return history_; }
+  /// What joints and contacts did in the last sub-step.
+  [[nodiscard]] const ConstraintForces& forces() const { return forces_; }
   [[nodiscard]] std::uint64_t hash() const { return state_hash(state()); }
   /// Counts scenes loaded, for those who must notice a new one.
   [[nodiscard]] int generation() const { return generation_; }
@@ -74,16 +104,24 @@ class Session {
 
  private:
   void restart();
+  void use_scene(std::shared_ptr<const Scene> scene);
   void take_frame();
+  void end_frame();
+  void forget_future();
+  [[nodiscard]] Moment moment() const;
+  void show_present();
   void update_poses();
   void extend_trail();
   void smooth_times();
 
-  std::shared_ptr<const Scene> scene_;
+  std::shared_ptr<const Scene> loaded_;
+  std::shared_ptr<const Scene> scene_;  // what was loaded, and the balls
   std::unique_ptr<Simulator> simulator_;
   std::unique_ptr<Verdict> verdict_;
   FrameReport report_;
+  ConstraintForces forces_;
   History history_;
+  Timeline timeline_;
   Poses previous_;
   Poses poses_;
   std::deque<Vec3> trail_;
@@ -92,6 +130,7 @@ class Session {
   double speed_ = 1.0;
   double pace_ = 1.0;
   bool playing_ = false;
+  int thrown_ = 0;  // balls since the scene was loaded
   int generation_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <string_view>
 #include <vector>
 
 #include "app/render/camera.hpp"
@@ -10,11 +12,31 @@ namespace substep {
 
 /// What the person wants drawn beside the bodies.
 struct ViewOptions {
-  bool tint = true;    // bodies by k/M: who asks for small steps
-  bool joints = true;  // pins of joints
-  bool trail = true;   // path of the tracked body
-  bool labels = true;  // masses
+  bool tint = true;       // bodies by k/M: who asks for small steps
+  bool joints = true;     // pins of joints
+  bool trail = true;      // path of the tracked body
+  bool labels = true;     // masses
+  bool forces = false;    // of joints and contacts
+  bool contacts = false;  // points and normals
+  bool frames = false;    // of joints
+  bool errors = false;    // gaps of joints, exaggerated
+  bool axes = false;      // of bodies
 };
+
+/// What links and scripts call them.
+struct ViewSwitch {
+  std::string_view key;
+  bool ViewOptions::*member;
+};
+inline constexpr std::array<ViewSwitch, 9> kViewSwitches{{{"tint", &ViewOptions::tint},
+                                                          {"joints", &ViewOptions::joints},
+                                                          {"trail", &ViewOptions::trail},
+                                                          {"masses", &ViewOptions::labels},
+                                                          {"forces", &ViewOptions::forces},
+                                                          {"contacts", &ViewOptions::contacts},
+                                                          {"frames", &ViewOptions::frames},
+                                                          {"errors", &ViewOptions::errors},
+                                                          {"axes", &ViewOptions::axes}}};
 
 /// Colours and light of the view.
 struct ViewPalette {

@@ -78,6 +78,15 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
       draw.AddRectFilled({c.x + 0.22F * s, c.y - 0.34F * s}, {c.x + 0.36F * s, c.y + 0.34F * s},
                          color, 0.04F * s);
       break;
+    case Icon::kSubstep:
+      // A smaller triangle, and the frame that it is a part of in dots.
+      draw.AddTriangleFilled({c.x - 0.36F * s, c.y - 0.24F * s}, {c.x + 0.02F * s, c.y},
+                             {c.x - 0.36F * s, c.y + 0.24F * s}, color);
+      for (const float x : {0.14F, 0.34F}) {
+        draw.AddRectFilled({c.x + (x - 0.04F) * s, c.y - 0.24F * s},
+                           {c.x + (x + 0.05F) * s, c.y + 0.24F * s}, color, 0.03F * s);
+      }
+      break;
     case Icon::kReset:
       draw_reset(draw, c, s, color);
       break;
@@ -138,6 +147,14 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
                    line);
       break;
     }
+    case Icon::kBall:
+      draw.AddCircleFilled({c.x + 0.14F * s, c.y - 0.1F * s}, 0.26F * s, color);
+      for (const float y : {-0.2F, 0.0F, 0.2F}) {
+        const float from = y == 0.0F ? -0.42F : -0.34F;
+        draw.AddLine({c.x + from * s, c.y + (y + 0.06F) * s},
+                     {c.x - 0.2F * s, c.y + (0.75F * y + 0.02F) * s}, color, 0.08F * s);
+      }
+      break;
     case Icon::kNone:
       break;
   }

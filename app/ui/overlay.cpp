@@ -6,23 +6,13 @@
 #include <string>
 
 #include "app/format.hpp"
+#include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
 
 namespace substep::ui {
 namespace {
-
-// Text over the picture keeps its contrast on any body: a soft halo of the background around it.
-void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
-               const char* text) {
-  const Color& b = look.theme->view.background_top;
-  const ImU32 halo = ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, 0.55F});
-  for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)}) {
-    draw_text(draw, font, {at.x + d.x, at.y + d.y}, halo, text);
-  }
-  draw_text(draw, font, at, color, text);
-}
 
 std::string method_line(const Settings& s) {
   std::string line(name_of(s.mode));
@@ -46,17 +36,6 @@ std::string method_line(const Settings& s) {
   line += s.solver == SolverKind::kBpp ? "  ·  BPP" : "  ·  PGS " + std::to_string(s.iterations);
   line += s.integrator == Integrator::kEuler ? "  ·  Euler" : "  ·  leapfrog";
   return line;
-}
-
-// World to the screen. @return false behind the eye
-bool project(const App& app, const Vec3& x, ImVec2& out) {
-  const Eigen::Vector4f p = app.picture.view_projection *
-                            Eigen::Vector4f(static_cast<float>(x.x()), static_cast<float>(x.y()),
-                                            static_cast<float>(x.z()), 1.0F);
-  if (p.w() <= 0.0F) return false;
-  const ImVec2 size = ImGui::GetIO().DisplaySize;
-  out = {(0.5F + 0.5F * p.x() / p.w()) * size.x, (0.5F - 0.5F * p.y() / p.w()) * size.y};
-  return true;
 }
 
 // A card in the middle of the picture. Closes with a click on its cross.
@@ -104,6 +83,31 @@ bool card_closed(const Look& look) {
 
 }  // namespace
 
+void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
+               const char* text) {
+  const Color& b = look.theme->view.background_top;
+  const ImU32 halo = ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, 0.55F});
+  for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)}) {
+    draw_text(draw, font, {at.x + d.x, at.y + d.y}, halo, text);
+  }
+  draw_text(draw, font, at, color, text);
+}
+
+bool project(const App& app, const Vec3& x, ImVec2& out) {
+  const Eigen::Vector4f p = app.picture.view_projection * x.cast<float>().homogeneous();
+  if (p.w() <= 0.0F) return false;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  out = {(0.5F + 0.5F * p.x() / p.w()) * size.x, (0.5F - 0.5F * p.y() / p.w()) * size.y};
+  return true;
+}
+
+double pixel_size(const App& app, const Vec3& x) {
+  const auto depth =
+      static_cast<double>(app.picture.view_projection.row(3).dot(x.cast<float>().homogeneous()));
+  return 2.0 * std::max(0.0, depth) * std::tan(0.5 * OrbitCamera::kFieldOfView) /
+         std::max(1.0, static_cast<double>(app.view_rect.height));
+}
+
 void caption(App& app, bool phone) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
@@ -122,9 +126,14 @@ void caption(App& app, bool phone) {
   if (report.n_substeps == 0) return;
   const float right = v.x + v.width - pad;
   draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n.c_str());
-  const char* unit = report.n_substeps == 1 ? "step a frame" : "sub-steps";
-  const float unit_width = text_size(look.fonts.regular, unit).x;
-  draw_over(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim, unit);
+  const int left = app.session.substeps_left();
+  const std::string unit = left > 0
+                               ? "of " + std::to_string(report.n_substeps + left) + " sub-steps"
+                           : report.n_substeps == 1 ? "step a frame"
+                                                    : "sub-steps";
+  const float unit_width = text_size(look.fonts.regular, unit.c_str()).x;
+  draw_over(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim,
+            unit.c_str());
 }
 
 void body_labels(App& app) {
@@ -239,6 +248,15 @@ void failure_card(App& app) {
         app.reset();
       }
     }
+    if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
+               "Back to the last frame that held; it goes on from there")) {
+      app.session.go_to_last_good();
+    }
+    ImGui::SameLine();
+    if (button(look, "second", Icon::kNone, "1 s before", ButtonKind::kPlain, 0.0F, 28.0F,
+               "Back to one second before it failed; change something and go on from there")) {
+      app.session.go_to_last_good(1.0);
+    }
     if (card_closed(look)) app.desk.dismissed_failure = app.run_count;
   }
   ImGui::End();
@@ -281,8 +299,10 @@ void help_card(App& app) {
     const char* key;
     const char* what;
   };
-  static constexpr std::array<Key, 17> kKeys{{{"Space", "play, pause"},
-                                              {".", "one frame"},
+  static constexpr std::array<Key, 22> kKeys{{{"Space", "play, pause"},
+                                              {",  .", "one frame back, one forward"},
+                                              {";", "one sub-step"},
+                                              {"Home, End", "first and last saved frame"},
                                               {"R", "back to the start"},
                                               {"[  ]", "slower, faster"},
                                               {"1 … 5", "the five ways to keep it stable"},
@@ -291,7 +311,10 @@ void help_card(App& app) {
                                               {"T", "light or dark"},
                                               {"?", "this list"},
                                               {"", ""},
-                                              {"drag", "turn the view"},
+                                              {"B", "throw a ball at the pointer"},
+                                              {"click a body", "what it is and does"},
+                                              {"drag a body", "pull it, while it plays"},
+                                              {"drag beside", "turn the view"},
                                               {"right drag, Shift drag", "move the view"},
                                               {"wheel, pinch", "closer, farther"},
                                               {"wheel on a plot", "more or less time"},

@@ -1,12 +1,21 @@
 #pragma once
 // What the window consists of. Each function fills the current Dear ImGui window.
 
+#include <imgui.h>
+
 #include "app/app.hpp"
 
 namespace substep::ui {
 
 /// All of the window for this frame; sets app.view_rect.
 void draw_window(App& app);
+/// What is drawn and written over the picture, once it is known where things are in it.
+void draw_over_picture(App& app);
+
+/// The picture under the pointer: turns, moves and zooms it, selects and pulls bodies.
+void view_input(App& app);
+/// A ball from beside the eye at what the pointer is on.
+void throw_ball(App& app);
 
 void controls(App& app);
 /// Mode and solver with their parameters: the controls that any run has.
@@ -32,9 +41,14 @@ void timing(App& app, bool brief);
 /// @param phone two rows, larger targets
 void transport(App& app, bool phone);
 
+/// The run's past, to be looked at.
+void scrubber(App& app, ImVec2 at, float width, float height);
+
 /// Over the picture: what runs, N, the scale of the tint, masses, and what went wrong.
 void caption(App& app, bool phone);
 void body_labels(App& app);
+void annotations(App& app);
+void selection_card(App& app, bool phone);
 void tint_scale(App& app);
 void failure_card(App& app);
 void trouble_card(App& app);

@@ -31,25 +31,31 @@ const char* speed_name(double speed) {
   return "?";
 }
 
-void play_buttons(App& app, float height) {
+void play_buttons(App& app, float height, float gap) {
   const Look& look = app.look;
   const bool playing = app.session.playing();
-  if (button(look, "play", playing ? Icon::kPause : Icon::kPlay, "", ButtonKind::kPrimary, 52.0F,
+  if (button(look, "play", playing ? Icon::kPause : Icon::kPlay, "", ButtonKind::kPrimary, 48.0F,
              height, playing ? "Pause (Space)" : "Play (Space)")) {
     app.session.toggle();
   }
-  ImGui::SameLine(0.0F, 8.0F);
-  if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 40.0F, height, "One frame (.)")) {
+  ImGui::SameLine(0.0F, gap);
+  if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 36.0F, height,
+             "One frame (.), back with the comma key")) {
     app.session.pause();
     app.session.step();
   }
-  ImGui::SameLine(0.0F, 8.0F);
-  if (button(look, "reset", Icon::kReset, "", ButtonKind::kPlain, 40.0F, height,
+  ImGui::SameLine(0.0F, gap);
+  if (button(look, "substep", Icon::kSubstep, "", ButtonKind::kPlain, 36.0F, height,
+             "One sub-step (;): one pass of the loop of Algorithm 1")) {
+    app.session.substep();
+  }
+  ImGui::SameLine(0.0F, gap);
+  if (button(look, "reset", Icon::kReset, "", ButtonKind::kPlain, 36.0F, height,
              "Back to the start (R)")) {
     app.reset();
   }
-  ImGui::SameLine(0.0F, 8.0F);
-  menu_button(look, "speed", speed_name(app.session.speed()), 76.0F, height,
+  ImGui::SameLine(0.0F, gap);
+  menu_button(look, "speed", speed_name(app.session.speed()), 72.0F, height,
               "Speed of the simulation against the clock ([ and ])", [&] {
                 for (const Speed& s : kSpeeds) {
                   if (menu_item(look, s.name, "", s.value == app.session.speed())) {
@@ -59,28 +65,38 @@ void play_buttons(App& app, float height) {
               });
 }
 
-// Verdict with its sign: a tick or a cross says it as well as the colour does.
-void verdict_chip(App& app, ImVec2 at, float height, float room) {
+// Verdict with its sign: a tick, a hand's circle or a cross says it as well as the colour does.
+// @return its width
+float verdict_chip(App& app, ImVec2 at, float height, float room) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const Verdict& verdict = app.session.verdict();
-  const ImU32 color = verdict.holds() ? t.teal : t.orange;
-  const std::string text = fitted(look.fonts.medium, verdict.text(), room - 36.0F);
+  const bool disturbed = verdict.holds() && verdict.disturbed();
+  const ImU32 color = disturbed ? t.amber : verdict.holds() ? t.teal : t.orange;
+  const std::string text = fitted(look.fonts.medium, verdict.text(), room - 40.0F);
   const ImVec2 size = text_size(look.fonts.medium, text.c_str());
   const float width = size.x + 40.0F;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float top = at.y + 0.5F * (height - 28.0F);
   draw.AddRectFilled({at.x, top}, {at.x + width, top + 28.0F}, fade(color, t.dark ? 0.14F : 0.1F),
                      14.0F);
-  draw_icon(draw, verdict.holds() ? Icon::kCheck : Icon::kCross, {at.x + 17.0F, top + 14.0F}, 16.0F,
-            color);
+  const ImVec2 sign(at.x + 17.0F, top + 14.0F);
+  if (disturbed) {
+    draw.AddCircle(sign, 5.0F, color, 0, 2.0F);
+  } else {
+    draw_icon(draw, verdict.holds() ? Icon::kCheck : Icon::kCross, sign, 16.0F, color);
+  }
   draw_text(draw, look.fonts.medium, {at.x + 28.0F, top + 0.5F * (28.0F - size.y)}, color,
             text.c_str());
   ImGui::SetCursorScreenPos({at.x, top});
   ImGui::InvisibleButton("verdict", {width, 28.0F});
   tooltip(look, verdict.text().c_str(),
-          "Judged by the criteria in the scene's file: the largest joint gap, energy gained, "
-          "a body displaced, numbers that are not finite.");
+          disturbed ? "A body was pulled or a ball thrown: this is no longer the scene's own run. "
+                      "Joints that tear and numbers that are not finite are judged still. A reset "
+                      "brings the scene back."
+                    : "Judged by the criteria in the scene's file: the largest joint gap, energy "
+                      "gained, a body displaced, numbers that are not finite.");
+  return width;
 }
 
 // Text right-aligned at `right`. @return where it starts
@@ -112,40 +128,47 @@ float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) 
     app.desk.dark = !app.desk.dark;
   }
   if (add("panels", Icon::kPanels, "Panels on or off (H)")) app.desk.panels = !app.desk.panels;
+  if (add("ball", Icon::kBall, "Throw a ball (B throws it at the pointer)")) throw_ball(app);
   if (add("frame", Icon::kFrame, "Show everything (F)")) app.view.frame_all(app.session);
   return right - 8.0F;
+}
+
+std::string time_text(const App& app) {
+  // Within a frame the time goes by fractions of a millisecond.
+  return fixed(app.session.state().time, app.session.substeps_left() > 0 ? 4 : 2) + " s";
+}
+
+// Two rows: buttons, then the past between verdict and time.
+void phone_transport(App& app, ImVec2 bar, float width, float height) {
+  const Look& look = app.look;
+  play_buttons(app, height, 6.0F);
+  icon_buttons(app, ImGui::GetItemRectMax().x + 2.0F, bar.x + width, bar, height);
+  const float y = bar.y + height + 8.0F;
+  const std::string time = time_text(app);
+  const float time_width = text_size(look.fonts.medium, time.c_str()).x;
+  draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {bar.x + width - time_width, y + 4.0F},
+            look.theme->text, time.c_str());
+  constexpr float kLeastTrack = 96.0F;
+  const float chip =
+      verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, width - time_width - kLeastTrack - 20.0F);
+  scrubber(app, {bar.x + chip + 8.0F, y - 2.0F}, width - chip - time_width - 20.0F, 28.0F);
 }
 
 }  // namespace
 
 void transport(App& app, bool phone) {
   const Look& look = app.look;
-  const Theme& t = *look.theme;
   constexpr float kHeight = 32.0F;
+  constexpr float kGap = 16.0F;
   const ImVec2 bar = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-
-  play_buttons(app, kHeight);
-  const float after_buttons = ImGui::GetItemRectMax().x + 16.0F;
-  const std::string time = fixed(app.session.state().time, 2) + " s";
-  const ImVec2 time_size = text_size(look.fonts.medium, time.c_str());
-
   if (phone) {
-    icon_buttons(app, after_buttons - 12.0F, bar.x + width, bar, kHeight);
-    const float y = bar.y + kHeight + 8.0F;
-    verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, width - time_size.x - 16.0F);
-    draw_text(draw, look.fonts.medium, {bar.x + width - time_size.x, y + 4.0F}, t.text,
-              time.c_str());
+    phone_transport(app, bar, width, kHeight);
     return;
   }
-  const float time_width = std::max(64.0F, time_size.x);
-  draw_text(draw, look.fonts.medium,
-            {after_buttons + time_width - time_size.x, bar.y + 0.5F * (kHeight - time_size.y)},
-            t.text, time.c_str());
-  const float chip_x = after_buttons + time_width + 16.0F;
-
-  float right = icon_buttons(app, after_buttons - 12.0F, bar.x + width, bar, kHeight);
+  play_buttons(app, kHeight, 8.0F);
+  const float after_buttons = ImGui::GetItemRectMax().x + kGap;
+  float right = icon_buttons(app, after_buttons, bar.x + width, bar, kHeight);
   // A run that rests is drawn only when something changes: a rate would say nothing.
   if (app.session.playing()) {
     const std::string fps = fixed(1.0 / std::max(1e-3, app.frame_time), 0) + " fps";
@@ -155,11 +178,27 @@ void transport(App& app, bool phone) {
     right = status(look, right, bar, kHeight, fixed(100.0 * app.session.pace(), 0) + " % speed",
                    0.0F, "The simulation takes longer than the time it shows");
   }
-  if (right - chip_x > 320.0F) {
+  if (right - after_buttons > 560.0F) {
     right = status(look, right, bar, kHeight, "hash " + hex(app.session.hash()), 0.0F,
                    "Hash of the state's bits: the same on every machine for the same experiment");
   }
-  verdict_chip(app, {chip_x, bar.y}, kHeight, right - chip_x);
+
+  // From the right: verdict, time; the past takes what is left.
+  const float room = right - after_buttons;
+  const float chip_room = std::clamp(0.45F * room, 100.0F, 300.0F);
+  const std::string verdict =
+      fitted(look.fonts.medium, app.session.verdict().text(), chip_room - 40.0F);
+  const float chip = text_size(look.fonts.medium, verdict.c_str()).x + 40.0F;
+  verdict_chip(app, {right - chip, bar.y}, kHeight, chip_room);
+  const std::string time = time_text(app);
+  const float time_width = std::max(64.0F, text_size(look.fonts.medium, time.c_str()).x);
+  const ImVec2 time_size = text_size(look.fonts.medium, time.c_str());
+  const float time_right = right - chip - kGap;
+  draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium,
+            {time_right - time_size.x, bar.y + 0.5F * (kHeight - time_size.y)}, look.theme->text,
+            time.c_str());
+  const float track = time_right - time_width - 8.0F - after_buttons;
+  if (track > 48.0F) scrubber(app, {after_buttons, bar.y}, track, kHeight);
 }
 
 }  // namespace substep::ui

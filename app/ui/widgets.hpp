@@ -55,6 +55,7 @@ enum class Icon : unsigned char {
   kPlay,
   kPause,
   kStep,
+  kSubstep,
   kReset,
   kHelp,
   kSun,
@@ -66,6 +67,7 @@ enum class Icon : unsigned char {
   kPanels,
   kList,
   kSave,
+  kBall,
   kNone
 };
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);

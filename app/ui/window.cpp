@@ -38,37 +38,6 @@ void scroll_by_drag() {
   }
 }
 
-// The picture itself: turned, moved and zoomed by mouse, trackpad and fingers.
-void view_input(App& app) {
-  const ImGuiIO& io = ImGui::GetIO();
-  ImGui::SetNextWindowPos({0.0F, 0.0F});
-  ImGui::SetNextWindowSize(io.DisplaySize);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
-  ImGui::Begin("##view", nullptr,
-               kFixed | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollWithMouse |
-                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoNav |
-                   ImGuiWindowFlags_NoBringToFrontOnFocus);
-  ImGui::PopStyleVar();
-  ImGui::InvisibleButton("picture", io.DisplaySize,
-                         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
-                             ImGuiButtonFlags_MouseButtonMiddle);
-  OrbitCamera& camera = app.view.camera;
-  if (ImGui::IsItemActive()) {
-    const ImVec2 d = io.MouseDelta;
-    const bool pan = io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Right) ||
-                     ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-    if (pan) {
-      camera.pan(static_cast<double>(d.x), static_cast<double>(d.y), app.view_rect);
-    } else {
-      camera.orbit(-0.007 * static_cast<double>(d.x), 0.007 * static_cast<double>(d.y));
-    }
-  }
-  if (ImGui::IsItemHovered() && io.MouseWheel != 0.0F) {
-    camera.zoom(std::pow(1.12, static_cast<double>(io.MouseWheel)));
-  }
-  ImGui::End();
-}
-
 // Tabs as wide as the panel. @param first what the first of the choices stands for
 template <std::size_t N>
 void tabs(App& app, const std::array<Choice, N>& choices, Tab first) {
@@ -204,26 +173,34 @@ void notice(App& app) {
   draw_text(draw, look.fonts.regular, at, look.theme->text, text.c_str());
 }
 
+bool is_small(ImVec2 display) { return display.x < 900.0F || display.y < 480.0F; }
+
 }  // namespace
 
 void draw_window(App& app) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const bool small = display.x < 900.0F || display.y < 480.0F;
+  const bool small = is_small(display);
   view_input(app);
   if (small) {
     phone(app, display);
   } else {
     desktop(app, display);
   }
-  caption(app, small);
-  const float pad = small ? 12.0F : 16.0F;
-  compare_legend(app, app.view_rect.x + pad + 8.0F, app.view_rect.y + pad + 56.0F);
-  body_labels(app);
-  if (!small) tint_scale(app);
-  notice(app);
+  selection_card(app, small);
   failure_card(app);
   trouble_card(app);
   help_card(app);
+}
+
+void draw_over_picture(App& app) {
+  const bool small = is_small(ImGui::GetIO().DisplaySize);
+  annotations(app);
+  body_labels(app);
+  caption(app, small);
+  const float pad = small ? 12.0F : 16.0F;
+  compare_legend(app, app.view_rect.x + pad + 8.0F, app.view_rect.y + pad + 56.0F);
+  if (!small) tint_scale(app);
+  notice(app);
 }
 
 }  // namespace substep::ui

@@ -33,9 +33,10 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   } else if (report.joint_gap > criteria.joint_gap) {
     why = exceeds("joint gap", report.joint_gap, criteria.joint_gap, "m") + " (" +
           base(scene.joints[static_cast<std::size_t>(report.joint_gap_joint)]).name + ")";
-  } else if (criteria.energy_gain && report.energy - energy_at_start_ > *criteria.energy_gain) {
+  } else if (!disturbed_ && criteria.energy_gain &&
+             report.energy - energy_at_start_ > *criteria.energy_gain) {
     why = exceeds("energy gain", report.energy - energy_at_start_, *criteria.energy_gain, "J");
-  } else if (criteria.displacement) {
+  } else if (!disturbed_ && criteria.displacement) {
     const auto body = static_cast<std::size_t>(criteria.displacement->body);
     const double moved = (state.x[body] - watched_start_).norm();
     if (moved > criteria.displacement->distance) {
@@ -49,6 +50,14 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   char when[40];
   std::snprintf(when, sizeof when, "fails at %.3f s: ", failed_at_);
   text_ = when + why;
+}
+
+void Verdict::disturb(double time) {
+  if (failed_ || disturbed_) return;
+  disturbed_ = true;
+  char text[40];
+  std::snprintf(text, sizeof text, "disturbed at %.2f s", time);
+  text_ = text;
 }
 
 }  // namespace substep

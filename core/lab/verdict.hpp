@@ -17,14 +17,20 @@ class Verdict {
   /// Looks at one more frame. After the first failure nothing changes.
   void add(const Scene& scene, const State& state, const FrameReport& report);
 
+  /// Somebody took a hand in it: from now on energy and displacement are his doing and are not
+  /// judged; joints that tear and numbers that are not finite are. @param time [s]
+  void disturb(double time);
+
   [[nodiscard]] bool holds() const { return !failed_; }
+  [[nodiscard]] bool disturbed() const { return disturbed_; }
   [[nodiscard]] double failed_at() const { return failed_at_; }  ///< [s], of a failed run
   [[nodiscard]] bool not_finite() const { return not_finite_; }
-  /// "holds", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
+  /// "holds", "disturbed at 1.20 s", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
   bool failed_ = false;
+  bool disturbed_ = false;
   bool not_finite_ = false;
   double failed_at_ = 0.0;
   double energy_at_start_ = 0.0;

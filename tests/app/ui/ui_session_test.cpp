@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <ranges>
+
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -83,6 +86,212 @@ TEST(Session, VerdictOfUnprotectedSwingingBoxFails) {
   session.reset();
   EXPECT_TRUE(session.verdict().holds());
   EXPECT_EQ(session.settings().mode, Mode::kNone);
+}
+
+void take(Session& session, int frames) {
+  for (int i = 0; i < frames; ++i) session.step();
+}
+
+TEST(Past, RunGoesOnFromItBitForBit) {
+  for (const char* scene : {"swinging_box", "bridge", "heavy_stack"}) {
+    Session straight(shipped(scene));
+    take(straight, 40);
+    Session session(shipped(scene));
+    take(session, 30);
+    const auto history = session.history().size();
+    session.go_to(10);
+    EXPECT_EQ(session.state().frame, 10);
+    EXPECT_EQ(session.report().frame, 10);
+    EXPECT_FALSE(session.timeline().at_end());
+    EXPECT_EQ(session.history().size(), history) << "looking cuts nothing";
+    session.play();
+    while (session.state().frame < 40) session.advance(kFrame, 10.0);
+    EXPECT_EQ(session.hash(), straight.hash()) << scene;
+    EXPECT_EQ(session.verdict().text(), straight.verdict().text());
+    EXPECT_EQ(session.report().energy, straight.report().energy);
+    ASSERT_EQ(session.history().size(), straight.history().size());
+    for (const Channel channel : {Channel::kSubsteps, Channel::kKinetic, Channel::kJointError}) {
+      EXPECT_TRUE(std::ranges::equal(session.history()[channel], straight.history()[channel]));
+    }
+  }
+}
+
+TEST(Past, VerdictThatFellIsTakenBackAndFallsAgain) {
+  Session session(shipped("swinging_box"));
+  Settings s = session.settings();
+  s.mode = Mode::kNone;
+  session.set_settings(s);
+  take(session, 40);
+  ASSERT_FALSE(session.verdict().holds());
+  const std::string text = session.verdict().text();
+  session.go_to_last_good();
+  EXPECT_TRUE(session.verdict().holds());
+  const auto good = session.state().frame;
+  EXPECT_LT(session.state().time, session.timeline().last().verdict.failed_at());
+  session.go_to_last_good(0.2);
+  EXPECT_EQ(session.state().frame, good - 12);
+  while (session.state().frame < 40) session.step();
+  EXPECT_EQ(session.verdict().text(), text);
+}
+
+TEST(Past, OneForwardIsTheFrameThatFollowedUnlessSomethingChanged) {
+  Session session(shipped("swinging_box"));
+  take(session, 20);
+  const std::uint64_t end = session.hash();
+  session.step_back();
+  session.step_back();
+  EXPECT_EQ(session.state().frame, 18);
+  session.step();
+  EXPECT_EQ(session.timeline().size(), 21U);
+  session.step();
+  EXPECT_EQ(session.hash(), end);
+  session.step_back();
+  Settings s = session.settings();
+  s.alpha = 0.5;
+  session.set_settings(s);
+  session.step_back();
+  session.step();
+  EXPECT_EQ(session.state().frame, 19);
+  EXPECT_TRUE(session.timeline().at_end()) << "what was taken with another alpha is forgotten";
+  EXPECT_EQ(session.history().size(), 19U);
+}
+
+TEST(Past, TrailIsThatOfTheMoment) {
+  Session session(shipped("swinging_box"));
+  take(session, 30);
+  session.go_to(12);
+  const std::deque<Vec3> rewound = session.trail();
+  Session straight(shipped("swinging_box"));
+  take(straight, 12);
+  ASSERT_EQ(rewound.size(), straight.trail().size());
+  for (std::size_t i = 0; i < rewound.size(); ++i) EXPECT_EQ(rewound[i], straight.trail()[i]);
+}
+
+TEST(Past, KeepsToItsShareOfMemoryAndToTheStart) {
+  constexpr std::size_t kShare = std::size_t{1} << 20U;
+  Session session(shipped("swinging_box"), kShare);
+  take(session, 600);
+  const Timeline& past = session.timeline();
+  EXPECT_LE(past.bytes(), kShare);
+  EXPECT_GT(past.bytes(), kShare / 2);
+  EXPECT_EQ(past[0].state.frame, 0);
+  EXPECT_EQ(past.last().state.frame, 600);
+  EXPECT_EQ(past[past.size() - 2].state.frame, 599);
+  for (std::size_t i = 1; i < past.size(); ++i) {
+    EXPECT_GT(past[i].state.frame, past[i - 1].state.frame);
+  }
+  // Any kept moment goes on exactly, however sparse its neighbours are.
+  Session straight(shipped("swinging_box"));
+  take(straight, 600);
+  session.go_to(past.size() / 4);
+  session.play();
+  while (session.state().frame < 600) session.advance(kFrame, 10.0);
+  EXPECT_EQ(session.hash(), straight.hash());
+}
+
+TEST(Past, IsFoundByTime) {
+  Session session(shipped("pendulum"));
+  take(session, 60);
+  const Timeline& past = session.timeline();
+  EXPECT_EQ(past.at_time(-1.0), 0U);
+  EXPECT_EQ(past.at_time(0.5), 30U);
+  EXPECT_EQ(past.at_time(0.5 + 0.4 * kFrame), 30U);
+  EXPECT_EQ(past.at_time(100.0), 60U);
+}
+
+TEST(Substep, GoesOnToTheSameFrame) {
+  Session whole(shipped("swinging_box"));
+  Session pieces(shipped("swinging_box"));
+  take(whole, 3);
+  for (int frame = 0; frame < 3; ++frame) {
+    pieces.substep();
+    ASSERT_GT(pieces.substeps_left(), 0);
+    EXPECT_EQ(pieces.state().frame, frame);
+    EXPECT_EQ(pieces.timeline().last().state.frame, frame) << "the past knows whole frames only";
+    pieces.step();
+  }
+  EXPECT_EQ(pieces.hash(), whole.hash());
+  EXPECT_EQ(pieces.history().size(), whole.history().size());
+  pieces.substep();
+  pieces.step_back();
+  EXPECT_EQ(pieces.hash(), whole.hash()) << "back to the start of the frame";
+}
+
+TEST(Hand, HoldingABodyDisturbsTheRunAndAResetBringsItBack) {
+  Session session(shipped("swinging_box"));
+  take(session, 5);
+  const auto box = session.scene().bodies.size() - 1;
+  session.grab(static_cast<int>(box), Vec3::Zero(), session.state().x[box] + Vec3(0, 5, 0));
+  take(session, 60);
+  EXPECT_TRUE(session.verdict().disturbed());
+  EXPECT_EQ(session.verdict().text(), "disturbed at 0.08 s");
+  EXPECT_TRUE(session.verdict().holds());
+  Session alone(shipped("swinging_box"));
+  take(alone, 65);
+  EXPECT_GT(session.state().x[box].y(), alone.state().x[box].y() + 0.3) << "it was pulled up";
+  session.reset();
+  EXPECT_FALSE(session.held());
+  take(session, 65);
+  EXPECT_EQ(session.hash(), alone.hash());
+  EXPECT_EQ(session.verdict().text(), "holds");
+}
+
+TEST(Hand, EnergyThatItBringsIsNoFailure) {
+  Scene scene = *shipped("swinging_box");
+  scene.criteria.energy_gain = 10.0;
+  Session session(std::make_shared<const Scene>(scene));
+  const auto box = session.scene().bodies.size() - 1;
+  session.grab(static_cast<int>(box), Vec3::Zero(), session.state().x[box] + Vec3(0, 5, 0));
+  take(session, 30);
+  EXPECT_GT(session.report().energy - session.timeline()[0].report.energy, 10.0);
+  EXPECT_TRUE(session.verdict().holds());
+}
+
+Ball ball_at(const Vec3& position, const Vec3& velocity) {
+  Ball ball;
+  ball.position = position;
+  ball.velocity = velocity;
+  return ball;
+}
+
+TEST(Hand, ThrownBallHitsWhatNeverTouchedAnything) {
+  Session session(shipped("swinging_box"));
+  ASSERT_FALSE(session.scene().effects.contact);
+  take(session, 10);
+  const auto box = session.scene().bodies.size() - 1;
+  const Vec3 x = session.state().x[box];
+  const Vec3 v = session.state().u[box].head<3>();
+  session.throw_ball(ball_at(x + Vec3(0.0, 0.0, 4.0), v + Vec3(0.0, 0.0, -12.0)));
+  EXPECT_EQ(session.balls(), 1U);
+  EXPECT_TRUE(session.scene().effects.contact);
+  bool touched = false;
+  for (int i = 0; i < 60; ++i) {
+    session.step();
+    for (const ContactForce& c : session.forces().contacts) {
+      EXPECT_EQ(std::max(c.a, c.b), static_cast<int>(box) + 1) << "only the ball touches";
+      touched = touched || c.gap < 1e-3F;
+    }
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_GT(session.state().x[box + 1].z(), -1.0) << "12 m/s would have taken it 8 m behind";
+  EXPECT_LT(session.report().joint_gap, 0.1);
+  EXPECT_TRUE(session.verdict().disturbed());
+  session.go_to(5);
+  EXPECT_EQ(session.balls(), 0U) << "before the throw there was none";
+  session.reset();
+  EXPECT_EQ(session.scene().bodies.size(), box + 1);
+}
+
+TEST(Hand, TheOldestBallGoes) {
+  Session session(shipped("heavy_stack"));
+  const std::size_t bodies = session.scene().bodies.size();
+  for (int i = 0; i < Ball::kMost + 3; ++i) {
+    session.throw_ball(ball_at({3.0 + 2.0 * i, 5.0, 0.0}, Vec3::Zero()));
+    session.step();
+  }
+  EXPECT_EQ(session.balls(), static_cast<std::size_t>(Ball::kMost));
+  EXPECT_NEAR(session.state().x[bodies + 2].x(), 3.0 + 2.0 * (Ball::kMost + 2), 1e-3);
+  EXPECT_EQ(session.report().status, StepStatus::kOk);
 }
 
 }  // namespace

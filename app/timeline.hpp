@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "core/lab/verdict.hpp"
+#include "core/model/scene.hpp"
+#include "core/sim/constraint_forces.hpp"
+#include "core/sim/report.hpp"
+
+namespace substep {
+
+/// A run at the end of a frame: all that it takes to look at it and to go on from it bit for bit.
+struct Moment {
+  std::shared_ptr<const Scene> scene;  // a thrown ball makes it another one
+  Settings settings;                   // that its frame was taken with
+  State state;
+  FrameReport report;
+  Verdict verdict;
+  ConstraintForces forces;
+};
+
+/// The moments of a run, oldest first, and which of them is looked at. Where they would take more
+/// than their share of memory every second one of the older half is forgotten: the recent past is
+/// there frame by frame, the distant one in larger and larger steps. The start is always there.
+class Timeline {
+ public:
+  static constexpr std::size_t kBytes = std::size_t{64} << 20U;
+  explicit Timeline(std::size_t bytes = kBytes) : most_bytes_(bytes) {}
+
+  /// Forgets everything; the moment is the start of a run.
+  void start(Moment moment);
+  /// What came after the present moment is forgotten, and this one is the present.
+  void add(Moment moment);
+  void cut();
+  void go_to(std::size_t index);
+
+  [[nodiscard]] std::size_t size() const { return moments_.size(); }
+  [[nodiscard]] std::size_t index() const { return index_; }
+  [[nodiscard]] bool at_end() const { return index_ + 1 == moments_.size(); }
+  [[nodiscard]] const Moment& operator[](std::size_t i) const { return moments_[i]; }
+  [[nodiscard]] const Moment& now() const { return moments_[index_]; }
+  [[nodiscard]] const Moment& last() const { return moments_.back(); }
+  /// The moment closest to a time. @param time [s]
+  [[nodiscard]] std::size_t at_time(double time) const;
+  [[nodiscard]] std::size_t bytes() const { return bytes_; }
+
+ private:
+  void thin();
+
+  std::vector<Moment> moments_;
+  std::size_t index_ = 0;
+  std::size_t bytes_ = 0;
+  std::size_t most_bytes_;
+};
+
+}  // namespace substep

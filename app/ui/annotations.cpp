@@ -1,0 +1,283 @@
+// What is drawn over the bodies to be read off them: forces, contacts, frames, errors, the selected
+// body and the hand. Only what is switched on is looked at.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/format.hpp"
+#include "app/ui/over_picture.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kLine = 1.75F;
+
+struct Segment {
+  ImVec2 from;
+  ImVec2 to;
+};
+
+std::optional<Segment> seen(const App& app, const Vec3& from, const Vec3& to) {
+  Segment s;
+  if (!project(app, from, s.from) || !project(app, to, s.to)) return std::nullopt;
+  return s;
+}
+
+ImU32 ground(const Look& look, float opacity) {
+  const Color& b = look.theme->view.background_bottom;
+  return ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, opacity});
+}
+
+// A line with an edge of the background, so that it is seen on bright bodies and dark ones.
+void draw_line(const Look& look, ImDrawList& draw, const Segment& s, ImU32 color,
+               float width = kLine) {
+  draw.AddLine(s.from, s.to, ground(look, 0.5F), width + 2.0F);
+  draw.AddLine(s.from, s.to, color, width);
+}
+
+void draw_arrow(const Look& look, ImDrawList& draw, const Segment& s, ImU32 color) {
+  const ImVec2 d(s.to.x - s.from.x, s.to.y - s.from.y);
+  const float length = std::sqrt(d.x * d.x + d.y * d.y);
+  if (length < 2.0F) return;
+  const ImVec2 t(d.x / length, d.y / length);
+  const float head = std::min(8.0F, 0.6F * length);
+  const ImVec2 neck(s.to.x - head * t.x, s.to.y - head * t.y);
+  draw_line(look, draw, {s.from, neck}, color, 2.0F);
+  const float half = 0.5F * head;
+  draw.AddTriangleFilled(s.to, {neck.x - half * t.y, neck.y + half * t.x},
+                         {neck.x + half * t.y, neck.y - half * t.x}, color);
+}
+
+Vec3 anchor_of(const App& app, const JointBase& joint) {
+  const auto a = static_cast<std::size_t>(joint.a);
+  const Poses& poses = app.session.poses();
+  return poses.x[a] + poses.q[a] * joint.anchor_a;
+}
+
+Vec3 other_anchor_of(const App& app, const JointBase& joint) {
+  if (joint.b == kWorld) return joint.anchor_b;
+  const auto b = static_cast<std::size_t>(joint.b);
+  const Poses& poses = app.session.poses();
+  return poses.x[b] + poses.q[b] * joint.anchor_b;
+}
+
+Vec3 point_of(const App& app, const ContactForce& contact) {
+  return app.session.poses().x[static_cast<std::size_t>(contact.a)] + contact.arm_a.cast<double>();
+}
+
+// What an arrow of full length stands for: the weight of all that moves, where there is gravity.
+double force_scale(const App& app) {
+  const Scene& scene = app.session.scene();
+  double mass = 0.0;
+  for (const Body& body : scene.bodies) mass += body.is_static ? 0.0 : body.mass;
+  const double g = scene.effects.gravity ? scene.gravity.norm() : 9.81;
+  return std::max(1e-9, mass * g);
+}
+
+// Arrows grow with the root of the force: a link's weight and the box's are both seen.
+void force_arrow(const App& app, ImDrawList& draw, const Vec3& at, const Vec3& force, double scale,
+                 ImU32 color) {
+  constexpr double kFull = 72.0;   // of a force like the scale [px]
+  constexpr double kMost = 160.0;  // [px]
+  const double f = force.norm();
+  if (!(f > 1e-4 * scale)) return;
+  const double length = std::min(kMost, kFull * std::sqrt(f / scale)) * pixel_size(app, at);
+  if (const auto s = seen(app, at, at + length / f * force)) {
+    draw_arrow(app.look, draw, *s, color);
+  }
+}
+
+void draw_forces(const App& app, ImDrawList& draw) {
+  const Theme& t = *app.look.theme;
+  const Scene& scene = app.session.scene();
+  const ConstraintForces& forces = app.session.forces();
+  const double scale = force_scale(app);
+  for (std::size_t i = 0; i < forces.joints.size(); ++i) {
+    force_arrow(app, draw, anchor_of(app, base(scene.joints[i])),
+                forces.joints[i].force.cast<double>(), scale, t.amber);
+  }
+  for (const ContactForce& contact : forces.contacts) {
+    force_arrow(app, draw, point_of(app, contact), contact.force.cast<double>(), scale, t.teal);
+  }
+}
+
+void draw_contacts(const App& app, ImDrawList& draw) {
+  const Theme& t = *app.look.theme;
+  for (const ContactForce& contact : app.session.forces().contacts) {
+    const Vec3 at = point_of(app, contact);
+    const Vec3 tip = at + 14.0 * pixel_size(app, at) * contact.normal.cast<double>();
+    const auto s = seen(app, at, tip);
+    if (!s) continue;
+    draw_line(app.look, draw, *s, t.teal);
+    const bool closed = contact.force.squaredNorm() > 0.0F;
+    draw.AddCircleFilled(s->from, 4.0F, closed ? t.teal : ground(app.look, 1.0F));
+    draw.AddCircle(s->from, 4.0F, closed ? ground(app.look, 1.0F) : t.teal, 0, 1.5F);
+  }
+}
+
+// x, y and z as in the plots: orange, teal, blue.
+void draw_axes(const App& app, ImDrawList& draw, const Vec3& at, const Quat& q, double length) {
+  const Theme& t = *app.look.theme;
+  const std::array<ImU32, 3> colors{t.orange, t.teal, t.blue};
+  for (int i = 0; i < 3; ++i) {
+    if (const auto s = seen(app, at, at + length * (q * Vec3::Unit(i)))) {
+      draw_line(app.look, draw, *s, colors[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
+void draw_body_axes(const App& app, ImDrawList& draw) {
+  const Scene& scene = app.session.scene();
+  const Poses& poses = app.session.poses();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].is_static) continue;
+    draw_axes(app, draw, poses.x[i], poses.q[i], 26.0 * pixel_size(app, poses.x[i]));
+  }
+}
+
+void draw_joint_frames(const App& app, ImDrawList& draw) {
+  const Theme& t = *app.look.theme;
+  const Poses& poses = app.session.poses();
+  for (const Joint& joint : app.session.scene().joints) {
+    const JointBase& j = base(joint);
+    const Quat& q = poses.q[static_cast<std::size_t>(j.a)];
+    const Vec3 at = anchor_of(app, j);
+    const double px = pixel_size(app, at);
+    if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
+      const Vec3 axis = 22.0 * px * (q * hinge->axis_a);
+      if (const auto s = seen(app, at - axis, at + axis)) {
+        draw_line(app.look, draw, *s, t.purple, 2.0F);
+      }
+    } else {
+      draw_axes(app, draw, at, q, 14.0 * px);
+    }
+    ImVec2 p;
+    if (project(app, at, p)) draw.AddCircleFilled(p, 3.0F, t.purple);
+  }
+}
+
+// Gaps of joints are too small to be seen: all are drawn longer by the same power of ten, such that
+// the largest is.
+void draw_errors(const App& app, ImDrawList& draw) {
+  const Scene& scene = app.session.scene();
+  const FrameReport& report = app.session.report();
+  if (scene.joints.empty() || !(report.joint_gap > 0.0) || report.joint_gap_joint < 0) return;
+  const auto largest = static_cast<std::size_t>(report.joint_gap_joint);
+  const double px = pixel_size(app, anchor_of(app, base(scene.joints[largest])));
+  const double power = std::floor(std::log10(36.0 * px / report.joint_gap));
+  const double factor = std::pow(10.0, std::clamp(power, 0.0, 12.0));
+  for (const Joint& joint : scene.joints) {
+    const Vec3 a = anchor_of(app, base(joint));
+    const Vec3 gap = a - other_anchor_of(app, base(joint));
+    const auto s = seen(app, a, a + factor * gap);
+    if (!s) continue;
+    draw_line(app.look, draw, *s, app.look.theme->orange, 2.5F);
+    draw.AddCircleFilled(s->to, 3.0F, app.look.theme->orange);
+  }
+  const std::string text =
+      "joint gaps × " + (power > 0.0 ? power_of_ten(static_cast<int>(power)) : "1");
+  const ViewRect& v = app.view_rect;
+  const float up = app.desk.view.tint ? 48.0F : 28.0F;
+  draw_over(app.look, draw, app.look.fonts.small, {v.x + 16.0F, v.y + v.height - up - 5.0F},
+            app.look.theme->dim, text.c_str());
+}
+
+// Outline of a body on the display: the convex hull of its corners, or of a ball's rim.
+std::vector<ImVec2> outline(const App& app, std::size_t body) {
+  const Poses& poses = app.session.poses();
+  const Vec3& x = poses.x[body];
+  std::vector<ImVec2> points;
+  const auto add = [&](const Vec3& corner) {
+    ImVec2 p;
+    if (project(app, corner, p)) points.push_back(p);
+  };
+  const Shape& shape = app.session.scene().bodies[body].shape;
+  if (const auto* box = std::get_if<Box>(&shape)) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                      (corner & 4) != 0 ? 1 : -1);
+      add(x + poses.q[body] * box->half_extents.cwiseProduct(sign));
+    }
+  } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    // The rim is the circle that rays from the eye touch.
+    const Vec3 to_eye = app.view.camera.eye(app.view_rect) - x;
+    const double distance = to_eye.norm();
+    if (distance <= sphere->radius) return points;
+    const Vec3 back = to_eye / distance;
+    const Vec3 right = back.unitOrthogonal();
+    const Vec3 up = back.cross(right);
+    const double sine = sphere->radius / distance;
+    const double rim = sphere->radius * std::sqrt(1.0 - sine * sine);
+    for (int i = 0; i < 48; ++i) {
+      const double a = 2.0 * 3.14159265358979 * i / 48.0;
+      add(x + sphere->radius * sine * back + rim * (std::cos(a) * right + std::sin(a) * up));
+    }
+  }
+  return points;
+}
+
+// Andrew's monotone chain.
+std::vector<ImVec2> convex_hull(std::vector<ImVec2> p) {
+  std::sort(p.begin(), p.end(),
+            [](ImVec2 a, ImVec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  const auto left_turn = [](ImVec2 a, ImVec2 b, ImVec2 c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0F;
+  };
+  std::vector<ImVec2> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t first = hull.size();
+    for (const ImVec2 q : p) {
+      while (hull.size() >= first + 2 && !left_turn(hull[hull.size() - 2], hull.back(), q)) {
+        hull.pop_back();
+      }
+      hull.push_back(q);
+    }
+    hull.pop_back();
+    std::reverse(p.begin(), p.end());
+  }
+  return hull;
+}
+
+void draw_outline(const App& app, ImDrawList& draw, int body, ImU32 color) {
+  const std::vector<ImVec2> hull = convex_hull(outline(app, static_cast<std::size_t>(body)));
+  if (hull.size() < 3) return;
+  const auto count = static_cast<int>(hull.size());
+  draw.AddPolyline(hull.data(), count, fade(color, 0.25F), ImDrawFlags_Closed, 6.0F);
+  draw.AddPolyline(hull.data(), count, color, ImDrawFlags_Closed, 2.0F);
+}
+
+void draw_hand(const App& app, ImDrawList& draw) {
+  const auto& held = app.session.held();
+  if (!held) return;
+  const auto i = static_cast<std::size_t>(held->body);
+  const Poses& poses = app.session.poses();
+  const auto s = seen(app, poses.x[i] + poses.q[i] * held->anchor, held->target);
+  if (!s) return;
+  const ImU32 color = app.look.theme->accent_hover;
+  draw_line(app.look, draw, *s, color, 2.0F);
+  draw.AddCircleFilled(s->from, 4.0F, color);
+  draw.AddCircle(s->to, 8.0F, color, 0, 2.0F);
+}
+
+}  // namespace
+
+void annotations(App& app) {
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const ViewOptions& show = app.desk.view;
+  if (app.desk.selected >= 0) {
+    draw_outline(app, draw, app.desk.selected, app.look.theme->accent_hover);
+  }
+  if (show.axes) draw_body_axes(app, draw);
+  if (show.frames) draw_joint_frames(app, draw);
+  if (show.contacts) draw_contacts(app, draw);
+  if (show.forces) draw_forces(app, draw);
+  if (show.errors) draw_errors(app, draw);
+  draw_hand(app, draw);
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,148 @@
+// The card of the selected body: what it is, how it moves, what holds it, what it asks for.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/stepping/substep_clock.hpp"
+
+namespace substep::ui {
+namespace {
+
+void row(const Look& look, const char* name, const std::string& value, const char* tip = "") {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_text(draw, look.fonts.small, at, look.theme->dim, name);
+  const float left = text_size(look.fonts.small, name).x + 12.0F;
+  const std::string shown = fitted(look.fonts.small, value, width - left);
+  const float wide = text_size(look.fonts.small, shown.c_str()).x;
+  draw_text(draw, look.fonts.small, {at.x + width - wide, at.y}, look.theme->text, shown.c_str());
+  ImGui::PushID(name);
+  ImGui::InvisibleButton("row", {width, 16.0F});
+  ImGui::PopID();
+  tooltip(look, name, tip);
+}
+
+std::string triple(const Vec3& v, int digits, const char* unit) {
+  return fixed(v.x(), digits) + "  " + fixed(v.y(), digits) + "  " + fixed(v.z(), digits) + unit;
+}
+
+std::string newtons(double force) {
+  const Unit unit = unit_for(force);
+  return short_number(force / unit.factor) + ' ' + unit.prefix + 'N';
+}
+
+// What the body alone would ask for: its largest k/M [1/s^2].
+double own_ratio(const Body& body, const Vec6& k) {
+  return std::max({0.0, k.head<3>().maxCoeff() / body.mass,
+                   k.tail<3>().cwiseQuotient(body.inertia).maxCoeff()});
+}
+
+void motion_rows(const App& app, std::size_t i) {
+  const Look& look = app.look;
+  const State& state = app.session.state();
+  const Vec6& u = state.u[i];
+  row(look, "position", triple(state.x[i], 2, " m"), "Centre of mass: x, y, z.");
+  row(look, "speed", short_number(u.head<3>().norm()) + " m/s");
+  row(look, "turns", short_number(u.tail<3>().norm()) + " rad/s", "Angular speed.");
+}
+
+void stiffness_row(const App& app, std::size_t i) {
+  const State& state = app.session.state();
+  if (state.k.size() <= i || !(state.r > 0.0)) return;
+  const double r = own_ratio(app.session.scene().bodies[i], state.k[i]);
+  const int n =
+      wanted_substeps(app.session.scene().frame, stable_step(app.session.settings().alpha, r));
+  row(app.look, "k/M",
+      fixed(100.0 * r / state.r, r < state.r ? 1 : 0) + " % of r  ·  N " + std::to_string(n),
+      "Its largest diagonal entry of K over that of M, as a share of r (Eq. 9), and the N that it "
+      "would ask for alone (Eqs. 10, 11).");
+}
+
+// Joints by the force in them, and the sum over the contacts.
+void force_rows(const App& app, int body) {
+  const Scene& scene = app.session.scene();
+  const ConstraintForces& forces = app.session.forces();
+  struct Pull {
+    const std::string* joint;
+    double force;
+  };
+  std::vector<Pull> pulls;
+  for (std::size_t j = 0; j < forces.joints.size(); ++j) {
+    const JointBase& joint = base(scene.joints[j]);
+    if (joint.a != body && joint.b != body) continue;
+    pulls.push_back({&joint.name, static_cast<double>(forces.joints[j].force.norm())});
+  }
+  std::sort(pulls.begin(), pulls.end(),
+            [](const Pull& a, const Pull& b) { return a.force > b.force; });
+  constexpr std::size_t kShown = 4;
+  for (std::size_t j = 0; j < std::min(kShown, pulls.size()); ++j) {
+    row(app.look, pulls[j].joint->c_str(), newtons(pulls[j].force),
+        "Force in this joint in the last sub-step.");
+  }
+  int touching = 0;
+  double pressed = 0.0;
+  for (const ContactForce& contact : forces.contacts) {
+    if ((contact.a != body && contact.b != body) || contact.force.squaredNorm() == 0.0F) continue;
+    ++touching;
+    pressed += static_cast<double>(contact.force.dot(contact.normal));
+  }
+  if (touching == 0) return;
+  const std::string name = std::to_string(touching) + (touching == 1 ? " contact" : " contacts");
+  row(app.look, name.c_str(), newtons(pressed), "Sum of the normal forces in the last sub-step.");
+}
+
+}  // namespace
+
+void selection_card(App& app, bool phone) {
+  const auto count = static_cast<int>(app.session.scene().bodies.size());
+  if (app.desk.selected >= count) app.desk.selected = -1;
+  if (app.desk.selected < 0) return;
+  const Look& look = app.look;
+  const ViewRect& v = app.view_rect;
+  const auto i = static_cast<std::size_t>(app.desk.selected);
+  const Body& body = app.session.scene().bodies[i];
+  const float width = phone ? 188.0F : 232.0F;
+  ImGui::SetNextWindowPos({v.x + v.width - 12.0F, v.y + v.height - 12.0F}, ImGuiCond_Always,
+                          {1.0F, 1.0F});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, v.height - 96.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 3.0F});
+  bool close = false;
+  if (ImGui::Begin("##selection", nullptr,
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                       ImGuiWindowFlags_NoFocusOnAppearing)) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float room = ImGui::GetContentRegionAvail().x;
+    draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, at, look.theme->text,
+              fitted(look.fonts.medium, body.name, room - 28.0F).c_str());
+    ImGui::SetCursorScreenPos({at.x + room - 20.0F, at.y - 2.0F});
+    close = button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 22.0F, 22.0F,
+                   "Nothing selected (Esc)");
+    if (body.is_static) {
+      row(look, "mass", "does not move");
+    } else {
+      row(look, "mass", short_number(body.mass) + " kg");
+      if (!phone) {
+        row(look, "inertia",
+            coarse_number(body.inertia.x()) + "  " + coarse_number(body.inertia.y()) + "  " +
+                coarse_number(body.inertia.z()) + " kg m²",
+            "Principal moments of inertia.");
+      }
+      motion_rows(app, i);
+      stiffness_row(app, i);
+    }
+    force_rows(app, app.desk.selected);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  if (close || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) app.desk.selected = -1;
+}
+
+}  // namespace substep::ui

@@ -170,7 +170,7 @@ const std::optional<Grab>& Simulator::grab() const { return impl_->grab; }
 
 ConstraintForces Simulator::constraint_forces() const {
   ConstraintForces out;
-  const auto pulled = [](const Block& block) {
+  const auto pulled = [](const Block& block) -> Eigen::Vector3f {
     return Vec3(block.lambda[0], block.lambda[1], block.lambda[2]).cast<float>();
   };
   for (const Block& block : impl_->blocks.all()) {

@@ -138,6 +138,47 @@ TEST(Grab, AsksForSubsteps) {
   EXPECT_GT(b.n_substeps, a.n_substeps);
 }
 
+TEST(ConstraintForces, OfAJointCarryWhatHangsFromIt) {
+  Scene scene;
+  scene.effects = {.gravity = true, .joints = true};
+  for (int i = 0; i < 2; ++i) {
+    Body body;
+    body.mass = 3.0 + 4.0 * i;
+    body.inertia = solid_inertia(body.shape, body.mass);
+    body.position = {0.0, -1.0 - i, 0.0};
+    scene.bodies.push_back(body);
+    BallJoint joint;
+    joint.a = i;
+    joint.b = i - 1;  // the first one hangs from the world
+    joint.anchor_a = {0.0, 1.0, 0.0};
+    scene.joints.emplace_back(joint);
+  }
+  Simulator simulator = simulator_of(scene, scene.settings);
+  EXPECT_TRUE(simulator.constraint_forces().joints.empty());
+  for (int frame = 0; frame < 3; ++frame) simulator.step();
+  const ConstraintForces forces = simulator.constraint_forces();
+  ASSERT_EQ(forces.joints.size(), 2U);
+  EXPECT_LT((forces.joints[0].force - Eigen::Vector3f(0.0F, 98.1F, 0.0F)).norm(), 1e-3F);
+  EXPECT_LT((forces.joints[1].force - Eigen::Vector3f(0.0F, 68.67F, 0.0F)).norm(), 1e-3F);
+}
+
+TEST(ConstraintForces, OfContactsCarryWhatStandsOnThem) {
+  const Scene scene = scenes::heavy_stack();
+  double weight = 0.0;
+  for (const Body& body : scene.bodies) weight += body.is_static ? 0.0 : 9.81 * body.mass;
+  Simulator simulator = simulator_of(scene, scene.settings);
+  for (int frame = 0; frame < 60; ++frame) simulator.step();
+  Eigen::Vector3f carried = Eigen::Vector3f::Zero();
+  for (const ContactForce& contact : simulator.constraint_forces().contacts) {
+    if (scene.bodies[static_cast<std::size_t>(contact.b)].is_static) carried += contact.force;
+    const Vec3 point =
+        simulator.state().x[static_cast<std::size_t>(contact.a)] + contact.arm_a.cast<double>();
+    EXPECT_GT(point.y(), -1e-3);
+    EXPECT_NEAR(static_cast<double>(contact.normal.norm()), 1.0, 1e-6);
+  }
+  EXPECT_NEAR(static_cast<double>(carried.y()) / weight, 1.0, 1e-3);
+}
+
 struct Yank {
   Scene scene;
   int body;

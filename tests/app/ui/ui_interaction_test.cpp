@@ -1,0 +1,288 @@
+// The picture under the pointer, and the past under the scrubber.
+
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <cmath>
+#include <string>
+
+#include "app/render/picking.hpp"
+#include "app/ui/over_picture.hpp"
+#include "tests/app/ui/ui_fixture.hpp"
+
+namespace substep {
+namespace {
+
+int body_of(const App& app, const std::string& name) {
+  const auto& bodies = app.session.scene().bodies;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (bodies[i].name == name) return static_cast<int>(i);
+  }
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+ImVec2 on_display(const App& app, int body) {
+  ImVec2 p;
+  EXPECT_TRUE(ui::project(app, app.session.poses().x[static_cast<std::size_t>(body)], p));
+  return p;
+}
+
+void point_at(Headless& h, ImVec2 p) {
+  ImGui::GetIO().AddMousePosEvent(p.x, p.y);
+  h.frames(1);
+}
+
+void press(Headless& h, bool down) {
+  ImGui::GetIO().AddMouseButtonEvent(0, down);
+  h.frames(1);
+}
+
+void key(Headless& h, ImGuiKey k) {
+  ImGui::GetIO().AddKeyEvent(k, true);
+  h.frames(1);
+  ImGui::GetIO().AddKeyEvent(k, false);
+  h.frames(1);
+}
+
+bool is_open(const char* window) {
+  const ImGuiWindow* w = ImGui::FindWindowByName(window);
+  return w != nullptr && w->WasActive && !w->Hidden;
+}
+
+TEST(Picking, RayMeetsWhatIsSeenThere) {
+  for (const char* scene : {"swinging_box", "bridge", "heavy_stack"}) {
+    Headless h;
+    h.app->open(scene);
+    h.frames(2);
+    const Session& session = h.app->session;
+    const auto& bodies = session.scene().bodies;
+    int met = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (std::holds_alternative<Plane>(bodies[i].shape)) continue;
+      const ImVec2 p = on_display(*h.app, static_cast<int>(i));
+      const Ray ray = ray_through(h.app->picture.view_projection.cast<double>(),
+                                  2.0 * static_cast<double>(p.x) / 1280.0 - 1.0,
+                                  1.0 - 2.0 * static_cast<double>(p.y) / 720.0);
+      const Vec3 to_centre = session.poses().x[i] - ray.origin;
+      EXPECT_LT(ray.direction.cross(to_centre).norm(), 2e-3 * to_centre.norm());
+      const auto hit = first_hit(ray, session.scene(), session.poses());
+      ASSERT_TRUE(hit);
+      EXPECT_LT(hit->distance, to_centre.norm());
+      met += hit->body == static_cast<int>(i) ? 1 : 0;
+    }
+    EXPECT_GT(met, 3) << "what is not hidden is met itself, in " << scene;
+  }
+}
+
+TEST(Picking, PassesByWhatItMisses) {
+  Scene scene;
+  scene.bodies.resize(2);
+  scene.bodies[0].shape = Sphere{1.0};
+  scene.bodies[1].shape = Box{{1.0, 0.5, 0.25}};
+  Poses poses;
+  poses.x = {{0.0, 0.0, -5.0}, {0.0, 0.0, -10.0}};
+  // Turned by 90 degrees about z, the box is 1 high and 0.5 wide.
+  poses.q = {Quat::Identity(), Quat(Eigen::AngleAxisd(1.5707963267948966, Vec3::UnitZ()))};
+  const auto along_z = [&](double x, double y) {
+    return first_hit({{x, y, 0.0}, -Vec3::UnitZ()}, scene, poses);
+  };
+  ASSERT_TRUE(along_z(0.0, 0.0));
+  EXPECT_EQ(along_z(0.0, 0.0)->body, 0);
+  EXPECT_NEAR(along_z(0.0, 0.0)->distance, 4.0, 1e-12);
+  EXPECT_NEAR(along_z(0.6, 0.0)->distance, 5.0 - 0.8, 1e-12);
+  EXPECT_FALSE(along_z(1.01, 0.0));
+  poses.x[0].x() = 9.0;
+  EXPECT_EQ(along_z(0.4, 0.9)->body, 1);
+  EXPECT_NEAR(along_z(0.4, 0.9)->distance, 9.75, 1e-9);
+  EXPECT_FALSE(along_z(0.6, 0.9));
+  EXPECT_FALSE(first_hit({{0.0, 0.0, -20.0}, -Vec3::UnitZ()}, scene, poses)) << "behind";
+}
+
+TEST(Selection, ClickShowsABodyAndAClickBesideHidesIt) {
+  Headless h;
+  const int box = body_of(*h.app, "box");
+  const ImVec2 p = on_display(*h.app, box);
+  h.click(p.x, p.y);
+  EXPECT_EQ(h.app->desk.selected, box);
+  h.frames(2);
+  EXPECT_TRUE(is_open("##selection"));
+  EXPECT_EQ(h.app->session.state().frame, 0) << "looking changes nothing";
+  EXPECT_FALSE(h.app->session.verdict().disturbed());
+  h.click(640.0F, 560.0F);
+  EXPECT_EQ(h.app->desk.selected, -1);
+  h.frames(2);
+  EXPECT_FALSE(is_open("##selection"));
+  h.app->desk.selected = box;
+  h.frames(2);
+  h.app->open("pendulum");
+  h.frames(2);
+  EXPECT_FALSE(is_open("##selection")) << "another scene, other bodies";
+}
+
+TEST(Hand, DragPullsABodyWhileTheRunPlays) {
+  Headless h;
+  h.app->session.play();
+  h.frames(5);
+  const int box = body_of(*h.app, "box");
+  const Vec3 eye = h.app->view.camera.eye(h.app->view_rect);
+  ImVec2 p = on_display(*h.app, box);
+  point_at(h, p);
+  press(h, true);
+  EXPECT_FALSE(h.app->session.held()) << "not before the pointer moves";
+  for (int i = 0; i < 30; ++i) {
+    p.y -= 4.0F;
+    point_at(h, p);
+  }
+  ASSERT_TRUE(h.app->session.held());
+  EXPECT_EQ(h.app->session.held()->body, box);
+  ImVec2 target;
+  ASSERT_TRUE(ui::project(*h.app, h.app->session.held()->target, target));
+  EXPECT_NEAR(target.x, p.x, 1.5F);
+  EXPECT_NEAR(target.y, p.y, 1.5F);
+  EXPECT_LT((h.app->view.camera.eye(h.app->view_rect) - eye).norm(), 1e-9) << "the view stays";
+  h.frames(60);
+  const auto i = static_cast<std::size_t>(box);
+  const double pulled = h.app->session.state().x[i].y();
+  press(h, false);
+  EXPECT_FALSE(h.app->session.held());
+  EXPECT_EQ(h.app->desk.selected, -1) << "a drag is no click";
+  EXPECT_TRUE(h.app->session.verdict().disturbed());
+  Session alone(shipped("swinging_box"));
+  while (alone.state().frame < h.app->session.state().frame) alone.step();
+  EXPECT_GT(pulled, alone.state().x[i].y() + 0.5);
+}
+
+TEST(Hand, DragOnABodyTurnsTheViewWhileTheRunRests) {
+  Headless h;
+  const Vec3 eye = h.app->view.camera.eye(h.app->view_rect);
+  const ImVec2 p = on_display(*h.app, body_of(*h.app, "box"));
+  point_at(h, p);
+  press(h, true);
+  point_at(h, {p.x - 30.0F, p.y});
+  point_at(h, {p.x - 90.0F, p.y});
+  press(h, false);
+  h.frames(30);
+  EXPECT_FALSE(h.app->session.verdict().disturbed());
+  EXPECT_GT((h.app->view.camera.eye(h.app->view_rect) - eye).norm(), 1.0);
+}
+
+TEST(Hand, BallFliesAtThePointer) {
+  Headless h;
+  h.app->session.play();
+  h.frames(3);
+  const std::size_t bodies = h.app->session.scene().bodies.size();
+  const ImVec2 aim(560.0F, 330.0F);
+  point_at(h, aim);
+  h.type("b");
+  ASSERT_EQ(h.app->session.balls(), 1U);
+  float closest = 1e6F;
+  for (int i = 0; i < 60; ++i) {
+    h.frames(1);
+    const ImVec2 p = on_display(*h.app, static_cast<int>(bodies));
+    closest = std::min(closest, std::hypot(p.x - aim.x, p.y - aim.y));
+  }
+  EXPECT_LT(closest, 25.0F);
+  EXPECT_EQ(h.app->session.scene().name, "swinging_box") << "links name the scene that was loaded";
+  h.type("r");
+  EXPECT_EQ(h.app->session.balls(), 0U);
+}
+
+TEST(Keys, GoBackAndForthInThePast) {
+  Headless h;
+  for (int i = 0; i < 12; ++i) h.app->session.step();
+  const std::uint64_t end = h.app->session.hash();
+  h.type(",");
+  h.type(",");
+  EXPECT_EQ(h.app->session.state().frame, 10);
+  h.type(".");
+  EXPECT_EQ(h.app->session.state().frame, 11);
+  key(h, ImGuiKey_Home);
+  EXPECT_EQ(h.app->session.state().frame, 0);
+  key(h, ImGuiKey_End);
+  EXPECT_EQ(h.app->session.hash(), end);
+  h.type(";");
+  EXPECT_GT(h.app->session.substeps_left(), 0);
+  EXPECT_GT(h.app->session.state().time, 12.0 * kFrame);
+  EXPECT_EQ(h.app->session.state().frame, 12);
+  h.type(".");
+  EXPECT_EQ(h.app->session.state().frame, 13);
+}
+
+TEST(Scrubber, DragLooksBackAndPausesTheRun) {
+  for (const ImVec2 display : {ImVec2(1280, 720), ImVec2(390, 844)}) {
+    Headless h(display.x, display.y);
+    for (int i = 0; i < 100; ++i) h.app->session.step();
+    h.app->session.play();
+    h.frames(2);
+    const auto end = h.app->session.state().frame;
+    // The track's middle: found where a hover is on it, as a person would.
+    const ImGuiWindow* bar = ImGui::FindWindowByName(display.x > 900 ? "##transport" : "##phone");
+    ASSERT_NE(bar, nullptr);
+    const float y = display.x > 900 ? bar->Pos.y + 28.0F : bar->Pos.y + 66.0F;
+    const float x = display.x > 900 ? 500.0F : 200.0F;
+    h.click(x, y);
+    EXPECT_FALSE(h.app->session.playing());
+    const auto middle = h.app->session.state().frame;
+    EXPECT_GT(middle, 5);
+    EXPECT_LT(middle, end - 5);
+    EXPECT_EQ(h.app->session.timeline().last().state.frame, h.app->session.history().size());
+    point_at(h, {x, y});
+    press(h, true);
+    point_at(h, {x - 30.0F, y});
+    press(h, false);
+    EXPECT_LT(h.app->session.state().frame, middle);
+  }
+}
+
+TEST(Failure, GoesBackToTheLastGoodStateAndGoesOn) {
+  Headless h;
+  ASSERT_EQ(h.app->set("mode", "none"), "");
+  for (int i = 0; i < 40; ++i) h.app->session.step();
+  ASSERT_FALSE(h.app->session.verdict().holds());
+  h.frames(2);
+  EXPECT_TRUE(is_open("##failure"));
+  h.app->session.go_to_last_good(0.3);  // before it began to swing up
+  ASSERT_EQ(h.app->set("mode", "adaptive"), "");
+  h.frames(2);
+  EXPECT_FALSE(is_open("##failure"));
+  h.app->session.play();
+  h.frames(60);
+  EXPECT_TRUE(h.app->session.verdict().holds()) << h.app->session.verdict().text();
+}
+
+int vertices_over_the_picture() { return ImGui::GetBackgroundDrawList()->VtxBuffer.Size; }
+
+TEST(Show, DrawsWhatIsSwitchedOnAndNothingElse) {
+  Headless h;
+  h.app->open("bridge");
+  ASSERT_EQ(h.app->set("tint", "off"), "");
+  h.app->session.play();
+  h.frames(60);
+  h.app->session.pause();
+  h.frames(2);
+  const int plain = vertices_over_the_picture();
+  for (const char* option : {"forces", "contacts", "frames", "errors", "axes"}) {
+    ASSERT_EQ(h.app->set(option, "on"), "");
+    h.frames(1);
+    EXPECT_GT(vertices_over_the_picture(), plain + 20) << option;
+    ASSERT_EQ(h.app->set(option, "off"), "");
+    h.frames(1);
+    EXPECT_EQ(vertices_over_the_picture(), plain) << option;
+  }
+  EXPECT_NE(h.app->set("forces", "maybe"), "");
+}
+
+TEST(Show, PastFramesHaveTheirForces) {
+  Headless h;
+  for (int i = 0; i < 20; ++i) h.app->session.step();
+  const auto then = h.app->session.forces().joints.front().force;
+  ASSERT_GT(then.norm(), 0.0F);
+  for (int i = 0; i < 20; ++i) h.app->session.step();
+  EXPECT_NE(h.app->session.forces().joints.front().force, then);
+  h.app->session.go_to(20);
+  EXPECT_EQ(h.app->session.forces().joints.front().force, then);
+}
+
+}  // namespace
+}  // namespace substep

@@ -69,6 +69,7 @@ struct Desk {
   bool dark = true;
   bool panels = true;  // off: nothing but the picture
   bool help = false;
+  bool more = false;  // the finer points of the method are unfolded
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
   ViewOptions view;

@@ -115,19 +115,31 @@ void Session::pull_to(const Vec3& target) {
   simulator_->set_grab(grab);
 }
 
-void Session::throw_ball(const Ball& ball) {
-  if (stopped()) return;
-  if (substeps_left() > 0) take_frame();
+// Another scene from the present frame on: the run is no longer that of the one loaded.
+void Session::go_on_in(Scene scene, State state) {
   forget_future();
+  const std::optional<Grab> holding = held();
+  use_scene(std::make_shared<const Scene>(std::move(scene)));
+  simulator_->set_state(std::move(state));
+  simulator_->set_grab(holding);
+  verdict_->disturb(this->state().time);
+  show_present();
+}
+
+void Session::throw_ball(const Ball& ball) {
+  if (substeps_left() > 0) take_frame();
+  if (stopped()) return;
   const std::size_t slot =
       loaded_->bodies.size() + static_cast<std::size_t>(thrown_++ % Ball::kMost);
-  State carried = with_ball(state(), ball, slot);
-  const std::optional<Grab> holding = held();
-  use_scene(std::make_shared<const Scene>(with_ball(*scene_, ball, slot)));
-  simulator_->set_state(std::move(carried));
-  simulator_->set_grab(holding);
-  verdict_->disturb(state().time);
-  show_present();
+  go_on_in(with_ball(*scene_, ball, slot), with_ball(state(), ball, slot));
+}
+
+void Session::set_effects(const Effects& effects) {
+  if (substeps_left() > 0) take_frame();
+  if (stopped() || effects == scene_->effects) return;
+  Scene scene = *scene_;
+  scene.effects = effects;
+  go_on_in(std::move(scene), state());
 }
 
 void Session::extend_trail() {

@@ -61,6 +61,10 @@ class Session {
   void let_go() { simulator_->set_grab(std::nullopt); }
   [[nodiscard]] const std::optional<Grab>& held() const { return simulator_->grab(); }
   void throw_ball(const Ball& ball);
+  /// Goes on with some of the scene's effects switched off, or on again.
+  void set_effects(const Effects& effects);
+  /// The scene as it was loaded; scene() differs where a hand was in it.
+  [[nodiscard]] const Scene& loaded() const { return *loaded_; }
   /// Balls that were thrown and are still there.
   [[nodiscard]] std::size_t balls() const { return scene_->bodies.size() - loaded_->bodies.size(); }
 
@@ -105,6 +109,7 @@ class Session {
  private:
   void restart();
   void use_scene(std::shared_ptr<const Scene> scene);
+  void go_on_in(Scene scene, State state);
   void take_frame();
   void end_frame();
   void forget_future();

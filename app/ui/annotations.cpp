@@ -82,8 +82,8 @@ double force_scale(const App& app) {
 // Arrows grow with the root of the force: a link's weight and the box's are both seen.
 void force_arrow(const App& app, ImDrawList& draw, const Vec3& at, const Vec3& force, double scale,
                  ImU32 color) {
-  constexpr double kFull = 72.0;   // of a force like the scale [px]
-  constexpr double kMost = 160.0;  // [px]
+  constexpr double kFull = 48.0;   // of a force like the scale [px]
+  constexpr double kMost = 110.0;  // [px]
   const double f = force.norm();
   if (!(f > 1e-4 * scale)) return;
   const double length = std::min(kMost, kFull * std::sqrt(f / scale)) * pixel_size(app, at);

@@ -65,6 +65,55 @@ bool open_menu(const ImRect& box, const std::function<void()>& menu) {
 
 }  // namespace
 
+bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
+            const char* tip) {
+  const Theme& t = *look.theme;
+  const ImVec2 size = text_size(look.fonts.small_medium, name);
+  const float dot = mark != 0 ? 12.0F : 0.0F;
+  const float width = size.x + dot + 18.0F;
+  constexpr float kGap = 6.0F;
+  const float height = look.m.row;
+  if (!first) {
+    ImGui::SameLine(0.0F, kGap);
+    if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+  }
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton(name, {width, height});
+  if (pressed) value = !value;
+  const bool hovered = ImGui::IsItemHovered();
+  const ImVec2 end(origin.x + width, origin.y + height);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(origin, end, value ? fade(t.accent, t.dark ? 0.32F : 0.14F) : t.well,
+                     0.5F * height);
+  draw.AddRect(origin, end, value ? t.accent : hovered ? t.dim : t.track, 0.5F * height);
+  const float middle = origin.y + 0.5F * height;
+  if (mark != 0)
+    draw.AddCircleFilled({origin.x + 13.0F, middle}, 3.5F, fade(mark, value ? 1 : 0.6F));
+  draw_text(draw, look.fonts.small_medium, {origin.x + 9.0F + dot, middle - 0.5F * size.y},
+            value || hovered ? t.text : t.dim, name);
+  draw_focus(look, draw, origin, end);
+  tooltip(look, name, tip);
+  return pressed;
+}
+
+void fold(const Look& look, const char* title, bool& open, const char* tip) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  constexpr float kHeight = 24.0F;
+  ImGui::PushID(title);
+  if (ImGui::InvisibleButton("fold", {width, kHeight})) open = !open;
+  ImGui::PopID();
+  const bool hovered = ImGui::IsItemHovered();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 ink = hovered ? look.theme->text : look.theme->dim;
+  const ImVec2 size = text_size(look.fonts.regular, title);
+  draw_text(draw, look.fonts.regular, {origin.x, origin.y + 0.5F * (kHeight - size.y)}, ink, title);
+  draw_icon(draw, open ? Icon::kChevronUp : Icon::kChevron,
+            {origin.x + width - 10.0F, origin.y + 0.5F * kHeight}, 16.0F, ink);
+  draw_focus(look, draw, origin, {origin.x + width, origin.y + kHeight});
+  tooltip(look, title, tip);
+}
+
 bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
                  const char* tip, const std::function<void()>& menu) {
   const Theme& t = *look.theme;

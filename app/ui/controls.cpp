@@ -7,6 +7,7 @@
 
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/io/effect_names.hpp"
 #include "core/model/names.hpp"
 
 namespace substep::ui {
@@ -48,6 +49,13 @@ constexpr std::array<Choice, 3> kDrifts{
      {"soft",
       "The error decays with a time constant of its own: bias phi dt/tau², so that a "
       "change of dt brings no energy in."}}};
+
+constexpr std::array<Choice, 2> kContactStiffnesses{
+    {{"paper", "The contact as a ball joint that carries its force: the paper's, steers N."},
+     {"exact", "The true derivative of the contact force."}}};
+constexpr std::array<Choice, 2> kGyroscopics{
+    {{"explicit", "Explicit Euler: gains energy."},
+     {"implicit", "Half a step explicit, half implicit: keeps energy and angular momentum."}}};
 
 template <class Enum, std::size_t N>
 bool choose(const Look& look, const char* name, const std::array<Choice, N>& choices, Enum& value,
@@ -106,9 +114,6 @@ void stabilisation(const Look& look, Settings& s) {
     slider(look, "N cap", s.n_cap, 1, 64, true,
            "Sub-steps up to here; damping (Eq. 6) at dt = h/N cap for what they do not reach.");
   }
-  if (s.mode == Mode::kAdaptive || s.mode == Mode::kCapped) {
-    choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
-  }
 }
 
 void solving(const Look& look, Settings& s) {
@@ -116,39 +121,118 @@ void solving(const Look& look, Settings& s) {
   choose(look, "Method", kSolvers, s.solver, "What solves the velocities of a sub-step, Eq. 3.");
   if (s.solver == SolverKind::kPgs) {
     slider(look, "Sweeps", s.iterations, 1, 400, true, "Iterations of PGS in every sub-step.");
-  } else {
-    slider(look, "Pivots", s.pivots, 1, 100, true,
-           "Block pivots of BPP before it goes on one by one, which always ends.");
   }
   choose(look, "Integrator", kIntegrators, s.integrator, "How a sub-step advances time.");
+}
+
+// What most people never touch; only what acts in this scene, mode and solver.
+void finer_points(const Look& look, const Effects& effects, Settings& s) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (s.mode == Mode::kAdaptive || s.mode == Mode::kCapped) {
+    choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
+    if (s.policy == Policy::kSubstep) {
+      slider(look, "Memory", s.memory, 0.0, 0.99, false, "%.2f",
+             "How much of r (Eq. 9) stays from sub-step to sub-step: a force that dips for one "
+             "sub-step does not let the next one grow.");
+    }
+  }
+  if (s.mode != Mode::kNone && s.mode != Mode::kConst) {
+    checkbox(look, "probe before the first frame", s.probe, width,
+             "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "
+             "without it the first N is 1. Acts from a reset on.");
+  }
+  if (effects.contact) {
+    choose(look, "K contact", kContactStiffnesses, s.contact_stiffness,
+           "Which block of a contact enters K (Eq. 1).");
+  }
   choose(look, "Drift", kDrifts, s.drift, "How errors of position are taken back.");
+  if (drift_law(s) == Drift::kSoft) {
+    double tau_ms = 1e3 * s.drift_tau;
+    if (slider(look, "Drift τ", tau_ms, 0.2, 50.0, true, "%.2f ms",
+               "Time constant of the soft law: bias phi dt/tau² for dt below tau.")) {
+      s.drift_tau = 1e-3 * tau_ms;
+    }
+  }
   if (s.solver == SolverKind::kPgs) {
-    checkbox(look, "warm start", s.warm_start, ImGui::GetContentRegionAvail().x,
+    checkbox(look, "warm start", s.warm_start, width,
              "Sweeps start from the forces of the last sub-step.");
+  } else if (effects.contact) {
+    slider(look, "Pivots", s.pivots, 1, 100, true,
+           "Block pivots of BPP (Judice and Pires 1994) before it goes on one row at a time, which "
+           "always ends.");
+  }
+  if (effects.gyroscopic) {
+    choose(look, "Gyroscopic", kGyroscopics, s.gyroscopic, "How the torque I ω × ω is integrated.");
   }
 }
 
+// The effects of the scene, to be switched off while it runs. An effect that is off has no stage.
+void effect_switches(App& app) {
+  static constexpr std::array<const char*, kEffectNames.size()> kTips{
+      "Weight: m g on every moving body.",
+      "The torque I ω × ω of bodies with unequal moments.",
+      "All joints. Off: everything falls apart.",
+      "Contacts. Off: bodies pass through each other.",
+      "Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.",
+      "Contacts that bounce (Newton's law)."};
+  const Look& look = app.look;
+  Effects effects = app.session.scene().effects;
+  label(look.fonts.small, look.theme->dim, "Effects, until a reset");
+  bool first = true;
+  for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
+    if (!(app.session.loaded().effects.*kEffectNames[i].member)) continue;
+    toggle(look, kEffectNames[i].name.data(), effects.*kEffectNames[i].member, 0, first, kTips[i]);
+    first = false;
+  }
+  if (effects != app.session.scene().effects) app.session.set_effects(effects);
+}
+
+// Only what the scene has can be shown; the dots are the colours that it is drawn in.
 void showing(App& app) {
   const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const Scene& scene = app.session.scene();
+  const Effects& effects = scene.effects;
   ViewOptions& v = app.desk.view;
   section(look, "Show");
-  const float half = 0.5F * ImGui::GetContentRegionAvail().x;
-  checkbox(look, "why this N", v.tint, half,
-           "Bodies by their k/M: the orange ones ask for small steps. Evaluates K in every mode.");
-  ImGui::SameLine(0.0F, 0.0F);
-  checkbox(look, "joints", v.joints, half, "Pins where bodies are joined.");
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4.0F);
-  checkbox(look, "trail", v.trail, half, "Path of the body that the scene tracks.");
-  ImGui::SameLine(0.0F, 0.0F);
-  checkbox(look, "masses", v.labels, half, "Mass of what is heavy.");
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {6.0F, 6.0F});
+  toggle(look, "why this N", v.tint, t.orange, true,
+         "Bodies by their k/M (Eq. 9): the orange ones ask for small steps. Evaluates K in every "
+         "mode.");
+  toggle(look, "masses", v.labels, 0, false, "Mass of what is heavy.");
+  if (scene.criteria.track) {
+    toggle(look, "trail", v.trail, t.blue, false, "Path of the body that the scene tracks.");
+  }
+  if (effects.joints) toggle(look, "joints", v.joints, 0, false, "Pins where bodies are joined.");
+  if (effects.joints || effects.contact) {
+    toggle(look, "forces", v.forces, t.amber, false,
+           "λ of Eq. 3: of joints on their first body in amber, of contacts with friction in "
+           "green. Arrows grow with the root of the force; a long one is the weight of all.");
+  }
+  if (effects.contact) {
+    toggle(look, "contacts", v.contacts, t.teal, false,
+           "Contact points and normals; filled where they carry a force.");
+  }
+  if (effects.joints) {
+    toggle(look, "gaps", v.errors, t.orange, false,
+           "Errors φ of joints, drawn longer by a power of ten so that the largest is seen.");
+    toggle(look, "frames", v.frames, t.purple, false,
+           "Axes of hinges, frames of ball joints: x orange, y green, z blue.");
+  }
+  toggle(look, "axes", v.axes, 0, false,
+         "Principal axes of bodies: x orange, y green, z blue. K is taken along them (Eq. 4).");
+  ImGui::PopStyleVar();
 }
 
 }  // namespace
 
-void method_controls(const Look& look, Settings& settings) {
+void method_controls(const Look& look, const Effects& effects, Settings& settings, bool& more) {
   stabilisation(look, settings);
   space(look.m.section);
   solving(look, settings);
+  fold(look, more ? "Less" : "More", more,
+       "What most people never touch: drift, the probe, how often N is decided, contacts in K.");
+  if (more) finer_points(look, effects, settings);
 }
 
 void controls(App& app) {
@@ -158,7 +242,8 @@ void controls(App& app) {
   // The picker may have brought a scene with settings of its own.
   if (app.session.settings() != s) s = app.session.settings();
   space(look.m.section);
-  method_controls(look, s);
+  method_controls(look, app.session.scene().effects, s, app.desk.more);
+  if (app.desk.more) effect_switches(app);
   space(look.m.section);
   showing(app);
   if (s != app.session.settings()) app.change(s);

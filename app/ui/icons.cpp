@@ -102,10 +102,12 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
     case Icon::kMoon:
       draw_moon(draw, c, s, color);
       break;
-    case Icon::kChevron: {
-      const std::array<ImVec2, 3> points{{{c.x - 0.24F * s, c.y - 0.12F * s},
-                                          {c.x, c.y + 0.14F * s},
-                                          {c.x + 0.24F * s, c.y - 0.12F * s}}};
+    case Icon::kChevron:
+    case Icon::kChevronUp: {
+      const float down = icon == Icon::kChevron ? s : -s;
+      const std::array<ImVec2, 3> points{{{c.x - 0.24F * s, c.y - 0.12F * down},
+                                          {c.x, c.y + 0.14F * down},
+                                          {c.x + 0.24F * s, c.y - 0.12F * down}}};
       draw.AddPolyline(points.data(), 3, color, 0, line);
       break;
     }

@@ -51,6 +51,14 @@ bool slider(const Look& look, const char* name, int& value, int least, int most,
 
 bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip);
 
+/// A pill that is on or off; those that follow each other fill lines. @param mark colour of what it
+/// shows, 0 for none; @param first starts a line
+bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
+            const char* tip);
+
+/// A heading that folds what is below it.
+void fold(const Look& look, const char* title, bool& open, const char* tip);
+
 enum class Icon : unsigned char {
   kPlay,
   kPause,
@@ -61,6 +69,7 @@ enum class Icon : unsigned char {
   kSun,
   kMoon,
   kChevron,
+  kChevronUp,
   kCheck,
   kCross,
   kFrame,

@@ -284,5 +284,22 @@ TEST(Show, PastFramesHaveTheirForces) {
   EXPECT_EQ(h.app->session.forces().joints.front().force, then);
 }
 
+TEST(Controls, UnfoldedScrollWithinTheirPanel) {
+  Headless h(1280, 720);
+  h.app->desk.more = true;
+  for (const auto& scene : h.app->library.scenes()) {
+    for (const char* solver : {"pgs", "bpp"}) {
+      h.app->run(scene);
+      ASSERT_EQ(h.app->set("solver", solver), "");
+      ASSERT_EQ(h.app->set("policy", "substep"), "");
+      h.frames(3);
+      const ImGuiWindow* panel = ImGui::FindWindowByName("##controls");
+      ASSERT_NE(panel, nullptr);
+      EXPECT_LE(panel->Rect().Max.y, ImGui::FindWindowByName("##transport")->Pos.y);
+      EXPECT_EQ(panel->ScrollMax.x, 0.0F) << scene->name;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace substep

@@ -294,5 +294,23 @@ TEST(Hand, TheOldestBallGoes) {
   EXPECT_EQ(session.report().status, StepStatus::kOk);
 }
 
+TEST(Hand, EffectsAreSwitchedOffWhileItRunsAndBackByAReset) {
+  Session session(shipped("swinging_box"));
+  take(session, 20);
+  const auto box = session.scene().bodies.size() - 1;
+  Effects effects = session.scene().effects;
+  effects.joints = false;
+  session.set_effects(effects);
+  const Vec3 v = session.state().u[box].head<3>();
+  take(session, 30);
+  EXPECT_TRUE(session.forces().joints.empty());
+  const Vec3 fallen = v + 0.5 * Vec3(0.0, -9.81, 0.0);
+  EXPECT_LT((session.state().u[box].head<3>() - fallen).norm(), 1e-6) << "it falls freely";
+  EXPECT_TRUE(session.verdict().disturbed());
+  session.reset();
+  EXPECT_TRUE(session.scene().effects.joints);
+  EXPECT_FALSE(session.verdict().disturbed());
+}
+
 }  // namespace
 }  // namespace substep

@@ -16,6 +16,12 @@ Color mix(const Color& a, const Color& b, double t) {
   return {a.r + f * (b.r - a.r), a.g + f * (b.g - a.g), a.b + f * (b.b - a.b), 1.0F};
 }
 
+/// @param rgb 0xRRGGBB
+Color from_rgb(std::uint32_t rgb) {
+  const auto part = [&](int shift) { return static_cast<float>((rgb >> shift) & 255U) / 255.0F; };
+  return {part(16), part(8), part(0), 1.0F};
+}
+
 bool is_plane(const Body& body) { return std::holds_alternative<Plane>(body.shape); }
 
 double radius(const Shape& shape) {
@@ -180,9 +186,11 @@ void SceneView::add_bodies(const Session& session, const ViewOptions& options,
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     Color color = body.is_static ? palette.fixture : palette.body;
+    if (body.color) color = from_rgb(*body.color);
     if (!shares.empty() && !body.is_static) {
       const double t = shares[i];
-      color = t < 0.5 ? mix(palette.stiff_low, palette.stiff_mid, 2.0 * t)
+      const Color low = body.color ? color : palette.stiff_low;
+      color = t < 0.5 ? mix(low, palette.stiff_mid, 2.0 * t)
                       : mix(palette.stiff_mid, palette.stiff_high, 2.0 * t - 1.0);
     }
     if (const auto* box = std::get_if<Box>(&body.shape)) {

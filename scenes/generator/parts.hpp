@@ -11,17 +11,18 @@ namespace substep::scenes {
 /// A moving body with the inertia of its solid shape, at rest.
 Body solid(std::string name, const Shape& shape, double mass, const Vec3& position);
 
-/// Colours of the playground, apart for people who do not see red and green as others do.
-inline constexpr std::uint32_t kBrick = 0xc8704a;
-inline constexpr std::uint32_t kBrickDark = 0xb05c3a;
-inline constexpr std::uint32_t kIron = 0x3c4654;
-inline constexpr std::uint32_t kWood = 0xd9b26f;
-inline constexpr std::uint32_t kWoodDark = 0xc29a57;
+/// Colours of the playground: apart for people who do not see red and green as others do, and none
+/// of them the bright orange that marks what asks for small steps.
+inline constexpr std::uint32_t kBrick = 0xb07a6c;
+inline constexpr std::uint32_t kBrickDark = 0x9a6659;
+inline constexpr std::uint32_t kIron = 0x5a6676;
+inline constexpr std::uint32_t kWood = 0xd8c08c;
+inline constexpr std::uint32_t kWoodDark = 0xc2a874;
 inline constexpr std::uint32_t kPaper = 0xf2ead8;
-inline constexpr std::uint32_t kBlue = 0x4f8fd8;
-inline constexpr std::uint32_t kTeal = 0x3fb39a;
-inline constexpr std::uint32_t kAmber = 0xe8a33d;
-inline constexpr std::uint32_t kViolet = 0xa882d8;
+inline constexpr std::uint32_t kBlue = 0x5b93d6;
+inline constexpr std::uint32_t kTeal = 0x4bb59e;
+inline constexpr std::uint32_t kRose = 0xcf7fa3;
+inline constexpr std::uint32_t kViolet = 0xa38ad6;
 
 /// A box by its full extents [m].
 Box box(double x, double y, double z);

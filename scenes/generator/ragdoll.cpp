@@ -115,7 +115,7 @@ Scene ragdoll_drop() {
   const Quat lying = turn_about_z(0.0, 1.0);
   add_doll(0, kBlue, {-1.6, 3.2, -0.9}, leaning, scene);
   add_doll(1, kTeal, {-1.9, 3.6, 0.9}, upright, scene);
-  add_doll(2, kAmber, {-1.4, 5.2, -0.2}, lying, scene);
+  add_doll(2, kRose, {-1.4, 5.2, -0.2}, lying, scene);
   add_doll(3, kViolet, {-1.2, 6.6, 0.3}, leaning.conjugate(), scene);
   scene.camera.eye = {5.2, 3.6, 7.4};
   scene.camera.target = {-0.3, 1.6, 0.0};

@@ -5,15 +5,19 @@
 #include <cmath>
 #include <utility>
 
+#include "app/command.hpp"
 #include "app/link.hpp"
 #include "app/png.hpp"
 #include "app/ui/panels.hpp"
 #include "core/io/number_text.hpp"
+#include "core/io/saved_scene.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
 
 namespace substep {
 namespace {
 
+constexpr const char* kOwnScenes = "own_scenes";  // what Host::remember calls them
 constexpr std::array<double, 7> kSpeeds{0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0};
 
 void change_speed(Session& session, int by) {
@@ -185,16 +189,39 @@ bool App::open(std::string_view name) {
 }
 
 bool App::open_text(std::string_view json, const std::string& from) {
-  SceneResult result = read_scene(json);
+  return open_result(read_scene(json), from);
+}
+
+bool App::open_result(SceneResult result, const std::string& from) {
   if (!result.scene) {
     trouble = {from + " was not loaded", std::move(result.problems)};
     return false;
   }
   trouble = {};
-  library.add(result.scene);
-  run(result.scene);
+  const auto scene = library.add(*result.scene);
+  own.add(scene);
+  if (host.remember) host.remember(kOwnScenes, own.text());
+  run(scene);
   session.play();
   return true;
+}
+
+void App::recall_scenes() {
+  if (!host.recall) return;
+  own = OwnScenes::read(host.recall(kOwnScenes));
+  for (const auto& scene : own.scenes()) library.add(*scene);
+}
+
+void App::save_scene() {
+  const Scene scene = saved_scene(session.scene(), session.state(), session.settings());
+  const std::string text = write_scene(scene);
+  // What has flown too far or spins too fast is beyond what a scene may hold.
+  SceneResult result = read_scene(text);
+  if (!result.scene) {
+    trouble = {"This state cannot be a scene file", std::move(result.problems)};
+  } else if (host.save_file) {
+    host.save_file(scene.name + ".json", text);
+  }
 }
 
 void App::reset() {
@@ -273,6 +300,11 @@ std::string App::link() const {
 ImU32 App::compare_color(std::size_t run) const {
   const ui::Theme& t = *look.theme;
   return std::array<ImU32, Compare::kMost>{t.orange, t.teal, t.purple}.at(run);
+}
+
+std::string App::command() const {
+  return make_command(session.scene(), session.settings(), session.state().frame,
+                      is_own(session.scene()));
 }
 
 void frame(App& app, double wall_dt) {

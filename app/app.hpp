@@ -10,6 +10,7 @@
 
 #include "app/compare.hpp"
 #include "app/library.hpp"
+#include "app/own_scenes.hpp"
 #include "app/render/renderer.hpp"
 #include "app/render/scene_view.hpp"
 #include "app/session.hpp"
@@ -22,6 +23,9 @@ namespace substep {
 /// What a shell can do for the application. Each may be empty.
 struct Host {
   std::function<void(const std::string& fragment)> link_changed;  // keeps the address up to date
+  std::function<void()> copy_link;  // puts the address that holds the experiment on the clipboard
+  std::function<void()> open_file;  // lets the person choose a scene file, and opens it
+  std::function<void(bool on)> record;  // begins and ends a video of the window
   /// Hands a file to the person: into the working folder natively, a download in the page.
   std::function<void(const std::string& name, const std::string& bytes)> save_file;
   /// Keeps how the window is arranged from one visit to the next; "" where nothing was kept.
@@ -94,6 +98,12 @@ struct App {
   /// Runs a scene given as text. Where it has problems they are shown and the old one goes on.
   /// @param from what people call it: a file's name
   bool open_text(std::string_view json, const std::string& from);
+  /// The same for the text of a file, or for what was wrong with reading it.
+  bool open_result(SceneResult result, const std::string& from);
+  /// Brings back the person's own scenes of earlier visits. Called once, when the host is there.
+  void recall_scenes();
+  /// Hands the run as it is now to the person, as a scene file.
+  void save_scene();
   void run(std::shared_ptr<const Scene> scene);
   /// Changes a part of the experiment: "scene", "solver", "alpha", ... as links spell them.
   /// @return what is wrong with it, or ""
@@ -101,6 +111,8 @@ struct App {
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
   void open_link(std::string_view fragment);
   [[nodiscard]] std::string link() const;
+  /// What to type for the same run on the command line.
+  [[nodiscard]] std::string command() const;
   void reset();
   /// New settings for the run, live.
   void change(const Settings& settings);
@@ -118,7 +130,9 @@ struct App {
   Trouble trouble;  // none where the title is empty
   Notice notice;
   std::optional<Capture> capture;
-  int run_count = 0;  // resets and loads
+  OwnScenes own;
+  bool recording = false;  // a video, see Host::record
+  int run_count = 0;       // resets and loads
 
   // Kept by frame().
   /// Colour of a run that is compared, in plots and in the picture.

@@ -13,7 +13,9 @@ struct Group {
   std::string_view name;
   std::string_view title;
 };
-constexpr std::array<Group, 5> kGroups{{{"paper", "From the paper"},
+constexpr std::string_view kOwn = "own";
+constexpr std::array<Group, 6> kGroups{{{kOwn, "Your own"},
+                                        {"paper", "From the paper"},
                                         {"authors", "The authors' constants"},
                                         {"stress", "Stress"},
                                         {"exact", "Small and exact"},
@@ -57,11 +59,18 @@ std::shared_ptr<const Scene> Library::find(std::string_view name) const {
   return found == scenes_.end() ? nullptr : *found;
 }
 
-void Library::add(std::shared_ptr<const Scene> scene) {
-  std::erase_if(scenes_, [&](const auto& old) { return old->name == scene->name; });
-  scenes_.push_back(std::move(scene));
+std::shared_ptr<const Scene> Library::add(const Scene& scene) {
+  auto own = std::make_shared<Scene>(scene);
+  own->group = kOwn;
+  const auto shipped = find(own->name);
+  if (shipped && !is_own(*shipped)) own->name += "_own";
+  std::erase_if(scenes_, [&](const auto& old) { return old->name == own->name; });
+  scenes_.push_back(own);
   sort();
+  return own;
 }
+
+bool is_own(const Scene& scene) { return scene.group == kOwn; }
 
 std::string group_title(std::string_view group) {
   const std::size_t i = group_rank(group);

@@ -19,13 +19,18 @@ class Library {
 
   [[nodiscard]] const std::vector<std::shared_ptr<const Scene>>& scenes() const { return scenes_; }
   [[nodiscard]] std::shared_ptr<const Scene> find(std::string_view name) const;
-  /// Adds a person's own scene, or puts it in the place of an older one of the same name.
-  void add(std::shared_ptr<const Scene> scene);
+  /// Adds a person's own scene, or puts it in the place of an older one of the same name. It comes
+  /// into a group of its own, and where a shipped scene has its name, under another name.
+  /// @return the scene as it is in the library
+  std::shared_ptr<const Scene> add(const Scene& scene);
 
  private:
   void sort();
   std::vector<std::shared_ptr<const Scene>> scenes_;
 };
+
+/// Whether a scene of the library was added by the person.
+bool is_own(const Scene& scene);
 
 /// What the picker calls a group of scenes: "From the paper" for "paper".
 std::string group_title(std::string_view group);

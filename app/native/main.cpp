@@ -12,15 +12,13 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/app.hpp"
-#include "app/png.hpp"
+#include "app/native/host.hpp"
 #include "app/render/gl_renderer.hpp"
 #include "app/ui/context.hpp"
 #include "core/io/setting_fields.hpp"
@@ -74,9 +72,7 @@ double window_ratio(const Window& window) {
 void drop_files(GLFWwindow* handle, int count, const char** paths) {
   if (count < 1) return;
   const std::filesystem::path path = paths[0];
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  window_of(handle).app->open_text(text, path.filename().string());
+  window_of(handle).app->open_result(read_scene_file(path.string()), path.filename().string());
 }
 
 void listen(GLFWwindow* handle) {
@@ -91,27 +87,6 @@ void listen(GLFWwindow* handle) {
   glfwSetKeyCallback(handle, ImGui_ImplGlfw_KeyCallback);
   glfwSetCharCallback(handle, ImGui_ImplGlfw_CharCallback);
   glfwSetDropCallback(handle, drop_files);
-}
-
-bool write_file(const std::string& path, const std::string& bytes) {
-  std::ofstream file(path, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  return file.flush().good();
-}
-
-// Into the working folder, beside what is there.
-void save_file(App& app, const std::string& name, const std::string& bytes) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::path wanted(name);
-  fs::path path = fs::current_path(error) / wanted;
-  for (int i = 2; fs::exists(path, error); ++i) {
-    std::string numbered = wanted.stem().string();
-    numbered.append("-").append(std::to_string(i)).append(wanted.extension().string());
-    path.replace_filename(numbered);
-  }
-  const bool written = write_file(path.string(), bytes);
-  app.tell(path.string() + (written ? " was written" : " could not be written"));
 }
 
 // Applies the command line. @return what is wrong with it, or ""
@@ -181,9 +156,10 @@ int run(const Options& options) {
     }
     App app(std::move(library), std::move(renderer));
     window.app = &app;
-    app.host.save_file = [&app](const std::string& name, const std::string& bytes) {
-      save_file(app, name, bytes);
-    };
+    NativeHost host(app);
+    // Pictures for tests and pages do not depend on what somebody did before.
+    if (!options.screenshot.empty()) app.host.remember = nullptr, app.host.recall = nullptr;
+    app.recall_scenes();
     listen(window.handle);
     const std::string problem = apply(options, app);
     if (!problem.empty()) {
@@ -208,12 +184,13 @@ int run(const Options& options) {
       io.DisplayFramebufferScale = {ratio, ratio};
       const double now = glfwGetTime();
       // Pictures for tests and pages are of a moment that does not depend on the machine.
-      const double dt = options.screenshot.empty() ? now - before : 1.0 / 60.0;
+      const bool by_clock = options.screenshot.empty() && !app.recording;
+      const double dt = by_clock ? now - before : 1.0 / 60.0;
       before = now;
       frame(app, dt);
+      host.after_frame(width, height);
       if (!options.screenshot.empty() && i + 1 >= options.frames) {
-        const auto pixels = app.renderer->pixels(0, 0, width, height);
-        if (!write_file(options.screenshot, encode_png(width, height, pixels))) {
+        if (!write_file(options.screenshot, picture_of(app, width, height))) {
           std::fprintf(stderr, "substep: %s could not be written\n", options.screenshot.c_str());
           status = 2;
         }

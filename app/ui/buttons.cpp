@@ -137,11 +137,11 @@ bool menu_button(const Look& look, const char* id, const char* text, float width
   return open;
 }
 
-bool icon_menu(const Look& look, const char* id, Icon icon, float size, const char* tip,
-               const std::function<void()>& menu) {
+bool icon_menu(const Look& look, const char* id, Icon icon, ButtonKind kind, float size,
+               const char* tip, const std::function<void()>& menu) {
   ImGui::PushID(id);
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  if (button(look, "open", icon, "", ButtonKind::kPlain, size, size, tip)) ImGui::OpenPopup("menu");
+  if (button(look, "open", icon, "", kind, size, size, tip)) ImGui::OpenPopup("menu");
   const bool open = open_menu({at, {at.x + size, at.y + size}}, menu);
   ImGui::PopID();
   return open;

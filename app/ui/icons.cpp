@@ -57,6 +57,21 @@ void draw_corners(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
   }
 }
 
+// A tray, and an arrow that leaves it.
+void draw_share(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+  const float line = 0.11F * s;
+  const std::array<ImVec2, 4> tray{{{c.x - 0.36F * s, c.y + 0.04F * s},
+                                    {c.x - 0.36F * s, c.y + 0.4F * s},
+                                    {c.x + 0.36F * s, c.y + 0.4F * s},
+                                    {c.x + 0.36F * s, c.y + 0.04F * s}}};
+  draw.AddPolyline(tray.data(), 4, color, 0, line);
+  draw.AddLine({c.x, c.y + 0.18F * s}, {c.x, c.y - 0.4F * s}, color, line);
+  const std::array<ImVec2, 3> head{{{c.x - 0.2F * s, c.y - 0.2F * s},
+                                    {c.x, c.y - 0.42F * s},
+                                    {c.x + 0.2F * s, c.y - 0.2F * s}}};
+  draw.AddPolyline(head.data(), 3, color, 0, line);
+}
+
 }  // namespace
 
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
@@ -156,6 +171,9 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
         draw.AddLine({c.x + from * s, c.y + (y + 0.06F) * s},
                      {c.x - 0.2F * s, c.y + (0.75F * y + 0.02F) * s}, color, 0.08F * s);
       }
+      break;
+    case Icon::kShare:
+      draw_share(draw, c, s, color);
       break;
     case Icon::kNone:
       break;

@@ -44,6 +44,8 @@ void transport(App& app, bool phone);
 
 /// The run's past, to be looked at.
 void scrubber(App& app, ImVec2 at, float width, float height);
+/// The button with the menu of links, files and pictures.
+void share_menu(App& app, float size);
 
 /// Over the picture: what runs, N, the scale of the tint, masses, and what went wrong.
 void caption(App& app, bool phone);

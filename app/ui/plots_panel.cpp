@@ -316,20 +316,21 @@ void span_menu(App& app, float width) {
 
 void save_menu(App& app) {
   const Look& look = app.look;
-  icon_menu(look, "save", Icon::kSave, look.m.row, "Save the run or a picture", [&] {
-    const std::string name = file_stem(app);
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    if (menu_item(look, "Run as a table", "CSV", false)) save_table(app);
-    if (menu_item(look, "Plots", "PNG", false)) {
-      app.capture = {name + "-plots.png", app.desk.plots_area};
-    }
-    if (menu_item(look, "View", "PNG", false)) {
-      app.capture = {name + "-view.png", app.view_rect};
-    }
-    if (menu_item(look, "Window", "PNG", false)) {
-      app.capture = {name + ".png", {0.0F, 0.0F, display.x, display.y}};
-    }
-  });
+  icon_menu(look, "save", Icon::kSave, ButtonKind::kPlain, look.m.row, "Save the run or a picture",
+            [&] {
+              const std::string name = file_stem(app);
+              const ImVec2 display = ImGui::GetIO().DisplaySize;
+              if (menu_item(look, "Run as a table", "CSV", false)) save_table(app);
+              if (menu_item(look, "Plots", "PNG", false)) {
+                app.capture = {name + "-plots.png", app.desk.plots_area};
+              }
+              if (menu_item(look, "View", "PNG", false)) {
+                app.capture = {name + "-view.png", app.view_rect};
+              }
+              if (menu_item(look, "Window", "PNG", false)) {
+                app.capture = {name + ".png", {0.0F, 0.0F, display.x, display.y}};
+              }
+            });
 }
 
 // Above the plots: what they show, and how much of it.
@@ -353,7 +354,7 @@ void toolbar(App& app) {
   ImGui::SameLine(0.0F, 8.0F);
   span_menu(app, 84.0F);
   ImGui::SetCursorScreenPos({origin.x + width - 3.0F * row - 16.0F, origin.y});
-  icon_menu(look, "which", Icon::kList, row, "Which plots are shown", [&] {
+  icon_menu(look, "which", Icon::kList, ButtonKind::kPlain, row, "Which plots are shown", [&] {
     for (const PlotInfo& info : kPlots) {
       PlotState& state = app.desk.plot(info.plot);
       if (exists(app, info.plot) && menu_item(look, info.name, "", state.shown)) {

@@ -124,6 +124,11 @@ float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) 
     return button(look, id, icon, "", ButtonKind::kGhost, height, height, tip);
   };
   if (add("help", Icon::kHelp, "Keys and gestures (?)")) app.desk.help = !app.desk.help;
+  if (right - height >= left) {
+    right -= height;
+    ImGui::SetCursorScreenPos({right, bar.y});
+    share_menu(app, height);
+  }
   if (add("theme", app.desk.dark ? Icon::kSun : Icon::kMoon, "Light or dark (T)")) {
     app.desk.dark = !app.desk.dark;
   }

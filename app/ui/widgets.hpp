@@ -77,6 +77,7 @@ enum class Icon : unsigned char {
   kList,
   kSave,
   kBall,
+  kShare,
   kNone
 };
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 color);
@@ -90,8 +91,8 @@ bool button(const Look& look, const char* id, Icon icon, const char* text, Butto
 bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
                  const char* tip, const std::function<void()>& menu);
 /// The same with an icon alone.
-bool icon_menu(const Look& look, const char* id, Icon icon, float size, const char* tip,
-               const std::function<void()>& menu);
+bool icon_menu(const Look& look, const char* id, Icon icon, ButtonKind kind, float size,
+               const char* tip, const std::function<void()>& menu);
 /// An entry of such a menu.
 bool menu_item(const Look& look, const char* text, const char* note, bool current);
 

@@ -20,9 +20,6 @@
 namespace substep {
 namespace {
 
-constexpr std::size_t kMaxTitle = 200;   // [bytes]
-constexpr std::size_t kMaxProse = 2000;  // [bytes]
-
 /// Whether this is a scene of a version that can be read at all. If not, nothing else is worth
 /// telling.
 bool read_version(ObjectReader& in, Problems& problems) {

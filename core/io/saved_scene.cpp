@@ -1,0 +1,47 @@
+#include "core/io/saved_scene.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "core/io/body_reader.hpp"
+#include "core/io/scene_limits.hpp"
+
+namespace substep {
+namespace {
+
+// With `mark` and `when` at its end, in place of those of an earlier save. Too long a text stays.
+void tell_when(std::string& text, const std::string& mark, const std::string& when,
+               std::size_t most) {
+  std::string told = text.substr(0, text.rfind(mark)) + mark + when;
+  if (told.size() <= most) text = std::move(told);
+}
+
+}  // namespace
+
+Scene saved_scene(const Scene& scene, const State& state, const Settings& settings) {
+  Scene saved = scene;
+  saved.settings = settings;
+  for (std::size_t i = 0; i < saved.bodies.size(); ++i) {
+    Body& body = saved.bodies[i];
+    if (body.is_static) continue;
+    body.position = state.x[i];
+    body.orientation = state.q[i];
+    // Leapfrog keeps u at the middle of a sub-step and starts from one at the time of the poses.
+    const bool leapfrog = settings.integrator == Integrator::kLeapfrog;
+    const Vec6& u = leapfrog ? state.u_synchronised[i] : state.u[i];
+    body.velocity = u.head<3>();
+    body.angular_velocity = u.tail<3>();
+  }
+  if (state.frame > 0) {
+    const long long ms = std::llround(1e3 * state.time);
+    char seconds[32];
+    std::snprintf(seconds, sizeof seconds, "%.2f", state.time);
+    tell_when(saved.name, "_at_", std::to_string(ms) + "ms", kMaxNameSize);
+    tell_when(saved.title, ", from ", std::string(seconds) + " s", kMaxTitle);
+  }
+  return saved;
+}
+
+}  // namespace substep

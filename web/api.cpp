@@ -4,8 +4,14 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "app/export.hpp"
 #include "app/format.hpp"
+#include "core/io/saved_scene.hpp"
+#include "core/io/scene_writer.hpp"
+#include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
 #include "web/instance.hpp"
 
@@ -18,11 +24,16 @@ namespace {
 
 App& app() { return *instance->app; }
 
-const char* keep(const json& value) {
+// Until the next call.
+const char* keep_text(std::string value) {
   static std::string text;
-  // What is not UTF-8 came from outside and is shown with a mark instead.
-  text = value.dump(-1, ' ', false, json::error_handler_t::replace);
+  text = std::move(value);
   return text.c_str();
+}
+
+const char* keep(const json& value) {
+  // What is not UTF-8 came from outside and is shown with a mark instead.
+  return keep_text(value.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 json outcome(const std::vector<Problem>& problems) {
@@ -42,16 +53,17 @@ std::string text_of(const json& value) {
 
 extern "C" {
 
-/// A shipped scene by its name, or a scene as JSON.
-EMSCRIPTEN_KEEPALIVE const char* substep_load(const char* text, const char* from) {
-  const std::string_view view(text);
-  if (view.find('{') == std::string_view::npos) {
-    const std::string problem = app().set("scene", view);
-    return keep(outcome(problem.empty() ? std::vector<Problem>{}
-                                        : std::vector<Problem>{{"scene", problem}}));
-  }
+/// A scene of the library by its name.
+EMSCRIPTEN_KEEPALIVE const char* substep_open(const char* name) {
+  const std::string problem = app().set("scene", name);
+  return keep(
+      outcome(problem.empty() ? std::vector<Problem>{} : std::vector<Problem>{{"scene", problem}}));
+}
+
+/// A scene as JSON. @param from what people call it: a file's name
+EMSCRIPTEN_KEEPALIVE const char* substep_open_text(const char* text, const char* from) {
   const bool playing = app().session.playing();
-  app().open_text(view, from);
+  app().open_text(text, from);
   if (!playing) app().session.pause();
   return keep(outcome(app().trouble.problems));
 }
@@ -90,12 +102,63 @@ EMSCRIPTEN_KEEPALIVE int substep_playing() { return app().session.playing() ? 1 
 
 EMSCRIPTEN_KEEPALIVE void substep_reset() { app().reset(); }
 
-EMSCRIPTEN_KEEPALIVE void substep_open_link(const char* fragment) { app().open_link(fragment); }
+/// @return what of it could not be read
+EMSCRIPTEN_KEEPALIVE const char* substep_open_link(const char* fragment) {
+  app().trouble = {};
+  app().open_link(fragment);
+  return keep(outcome(app().trouble.problems));
+}
+
+EMSCRIPTEN_KEEPALIVE const char* substep_link() { return keep_text(app().link()); }
+
+EMSCRIPTEN_KEEPALIVE const char* substep_command() { return keep_text(app().command()); }
+
+/// The scene as it started, as a file; "" where it is a shipped one, which a link can name.
+EMSCRIPTEN_KEEPALIVE const char* substep_own_scene() {
+  const substep::Scene& scene = app().session.scene();
+  return keep_text(substep::is_own(scene) ? substep::write_scene(scene) : "");
+}
+
+/// The run as it is now, as a scene file.
+EMSCRIPTEN_KEEPALIVE const char* substep_saved_scene() {
+  const substep::Session& s = app().session;
+  return keep_text(substep::write_scene(substep::saved_scene(s.scene(), s.state(), s.settings())));
+}
+
+/// What the plots remember, as CSV: one line a frame.
+EMSCRIPTEN_KEEPALIVE const char* substep_history() {
+  const substep::Session& s = app().session;
+  std::vector<substep::Channel> channels;
+  for (int i = 0; i < static_cast<int>(substep::Channel::kCount); ++i) {
+    channels.push_back(static_cast<substep::Channel>(i));
+  }
+  const substep::ExportedRun run{s.scene().name, &s.history()};
+  return keep_text(substep::history_csv(s.scene(), {&run, 1}, channels, 0.0));
+}
+
+/// Settings with their values now, and what is allowed.
+EMSCRIPTEN_KEEPALIVE const char* substep_settings() {
+  json list = json::array();
+  for (const substep::SettingField& field : substep::setting_fields()) {
+    list.push_back({{"name", field.name},
+                    {"value", setting_text(field, app().session.settings())},
+                    {"allowed", allowed_values(field)},
+                    {"help", field.help}});
+  }
+  return keep(list);
+}
+
+/// Something that the page found wrong with outside data.
+EMSCRIPTEN_KEEPALIVE void substep_trouble(const char* title, const char* message) {
+  app().trouble = {title, {{"", message}}};
+}
+
+EMSCRIPTEN_KEEPALIVE void substep_tell(const char* text) { app().tell(text); }
+
+EMSCRIPTEN_KEEPALIVE void substep_recording(int on) { app().recording = on != 0; }
 
 EMSCRIPTEN_KEEPALIVE const char* substep_hash() {
-  static std::string text;
-  text = substep::hex(app().session.hash());
-  return text.c_str();
+  return keep_text(substep::hex(app().session.hash()));
 }
 
 /// The last frame and how the run stands.
@@ -129,6 +192,9 @@ EMSCRIPTEN_KEEPALIVE const char* substep_report() {
       {"holds", s.verdict().holds()},
       {"verdict", s.verdict().text()},
       {"trouble", app().trouble.title},
+      {"notice", app().notice.left > 0.0 ? app().notice.text : ""},
+      {"view",
+       {app().view_rect.x, app().view_rect.y, app().view_rect.width, app().view_rect.height}},
       {"frame_time", app().frame_time},
   };
   if (r.leader.body >= 0) {
@@ -148,7 +214,5 @@ EMSCRIPTEN_KEEPALIVE const char* substep_scenes() {
   }
   return keep(list);
 }
-
-EMSCRIPTEN_KEEPALIVE void substep_close_trouble() { app().trouble = {}; }
 
 }  // extern "C"

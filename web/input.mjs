@@ -2,9 +2,10 @@
 
 /**
  * @param wasm what runtime.mjs start() gave
+ * @param {boolean} shares whether wheel and fingers are the page's until the canvas has the focus
  * @param {() => void} wake called with every event: something is to be drawn again
  */
-export function listen(canvas, wasm, wake) {
+export function listen(canvas, wasm, wake, shares) {
   const fingers = new Map(); // pointer id -> where it is
   let pressed = false; // whether the application believes in a finger down
 
@@ -73,6 +74,7 @@ export function listen(canvas, wasm, wake) {
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
 
   canvas.addEventListener("wheel", (event) => {
+    if (shares && document.activeElement !== canvas) return; // the page scrolls
     // Lines or pages to pixels; a notch is about 100 of them, and one of ours.
     const scale = [1, 33, 400][event.deltaMode] / 100;
     wasm.wheel(-event.deltaX * scale, -event.deltaY * scale * (event.ctrlKey ? 4 : 1));
@@ -83,10 +85,18 @@ export function listen(canvas, wasm, wake) {
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     if (name === "Tab") return; // leaves the canvas, as everywhere on a page
     const plain = !event.ctrlKey && !event.metaKey && !event.altKey;
+    // The clipboard is in the paste event, which must come; it sends the key itself.
+    if (!plain && name === "v") return;
     const taken = wasm.key(name, down, event.ctrlKey, event.shiftKey, event.altKey, event.metaKey);
     if (down && plain && event.key.length === 1) wasm.text(event.key);
     if (plain && (taken || event.key === "/" || event.key === "'")) event.preventDefault();
   };
+  window.addEventListener("paste", (event) => {
+    if (document.activeElement !== canvas) return;
+    wasm.pasted(event.clipboardData?.getData("text/plain") ?? "");
+    for (const down of [1, 0]) wasm.key("v", down, down, 0, 0, 0);
+    wake();
+  });
   // A ring around the page shows where the keyboard is, for those who came with Tab.
   let tab = false;
   window.addEventListener("keydown", (event) => { tab = event.key === "Tab"; }, true);

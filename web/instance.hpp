@@ -11,7 +11,6 @@ namespace substep::web {
 struct Instance {
   ui::Context context;
   std::unique_ptr<App> app;
-  std::string new_link;  // to be written into the address, or ""
 };
 
 /// Null before substep_start.

@@ -4,10 +4,10 @@
 #include <emscripten/html5.h>
 #include <imgui.h>
 
-#include <cstdio>
 #include <string>
 
 #include "app/render/gl_renderer.hpp"
+#include "web/host.hpp"
 #include "web/instance.hpp"
 
 namespace substep::web {
@@ -24,24 +24,21 @@ using substep::web::instance;
 
 extern "C" {
 
-/// Opens the canvas and runs the first scene. @return "" or why it cannot
-EMSCRIPTEN_KEEPALIVE const char* substep_start(const char* canvas) {
+/// Runs the first scene. @param context of WebGL 2, as Emscripten counts them
+/// @return "" or why it cannot
+EMSCRIPTEN_KEEPALIVE const char* substep_start(int context) {
   static std::string error;
-  EmscriptenWebGLContextAttributes attributes;
-  emscripten_webgl_init_context_attributes(&attributes);
-  attributes.majorVersion = 2;
-  attributes.alpha = EM_FALSE;
-  attributes.antialias = EM_TRUE;
-  substep::web::context = emscripten_webgl_create_context(canvas, &attributes);
-  if (substep::web::context <= 0) return "WebGL 2 is not available";
-  emscripten_webgl_make_context_current(substep::web::context);
+  substep::web::context = context;
+  emscripten_webgl_make_context_current(context);
   instance = std::make_unique<substep::web::Instance>();
   auto renderer = substep::make_gl_renderer(error);
   if (!renderer) return error.c_str();
   substep::Library library("/scenes");
   if (library.scenes().empty()) return "no scenes came with the page";
   instance->app = std::make_unique<substep::App>(std::move(library), std::move(renderer));
-  instance->app->host.link_changed = [](const std::string& link) { instance->new_link = link; };
+  instance->app->host = substep::web::page_host();
+  instance->app->recall_scenes();
+  substep::web::use_page_clipboard();
   return "";
 }
 
@@ -75,14 +72,6 @@ EMSCRIPTEN_KEEPALIVE void substep_frame(double dt) {
 /// The mouse cursor wanted: 0 arrow, 1 hand, 2 text.
 EMSCRIPTEN_KEEPALIVE int substep_cursor() {
   return ImGui::GetMouseCursor() == ImGuiMouseCursor_TextInput ? 2 : 0;
-}
-
-/// The link where it changed since the last call, else "".
-EMSCRIPTEN_KEEPALIVE const char* substep_take_link() {
-  static std::string link;
-  link = std::move(instance->new_link);
-  instance->new_link.clear();
-  return link.c_str();
 }
 
 }  // extern "C"

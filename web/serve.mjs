@@ -29,11 +29,12 @@ async function find(folder, url) {
     let path = normalize(join(folder, decodeURIComponent(new URL(url, "http://x").pathname)));
     if (path !== folder && !path.startsWith(folder + sep)) return null;
     let info = await stat(path);
-    if (info.isDirectory()) {
+    const isFolder = info.isDirectory();
+    if (isFolder) {
       path = join(path, "index.html");
       info = await stat(path);
     }
-    return info.isFile() ? { path, size: info.size } : null;
+    return info.isFile() ? { path, isFolder, size: info.size } : null;
   } catch {
     return null; // no such file, or an address that cannot be read
   }
@@ -46,6 +47,11 @@ export function serve(folder, port = 0) {
     const file = await find(folder, request.url);
     if (!file) {
       response.writeHead(404, { "Content-Type": "text/plain" }).end("not found\n");
+      return;
+    }
+    if (file.isFolder && !new URL(request.url, "http://x").pathname.endsWith("/")) {
+      // What the page names beside itself is found only below a slash.
+      response.writeHead(301, { Location: `${new URL(request.url, "http://x").pathname}/` }).end();
       return;
     }
     const type = types[extname(file.path)] ?? "application/octet-stream";

@@ -1,5 +1,6 @@
 // What the browser tests and the screenshots share: a server, a browser, a page that must not
 // complain, and its pictures.
+import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { mkdir, mkdtemp, rm, symlink, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -14,7 +15,7 @@ const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 /** The folder of the built page: the first argument, SUBSTEP_WEB_DIST, or where ./dev builds it. */
 export function distFolder() {
   const folder = resolve(process.argv[2] ?? process.env.SUBSTEP_WEB_DIST ?? join(root, "build/web/dist"));
-  if (!existsSync(join(folder, "substep.wasm"))) {
+  if (!existsSync(join(folder, "engine.wasm"))) {
     console.error(`There is no built page in ${folder}: ./dev web makes it.`);
     process.exit(2);
   }
@@ -31,24 +32,29 @@ function chromiumPath() {
   return found;
 }
 
-/** A browser with a software renderer, and a server of the page below a sub-path. */
-export async function open() {
+/**
+ * A browser with a software renderer, and a server of the page below a sub-path.
+ * @param options {dist, flags}: another folder with the page, more flags of the browser
+ */
+export async function open({ dist = distFolder(), flags = [] } = {}) {
   const folder = await mkdtemp(join(tmpdir(), "substep-web-"));
   await mkdir(join(folder, "some"));
-  await symlink(distFolder(), join(folder, "some/path"));
+  await symlink(dist, join(folder, "some/path"));
   const server = await serve(folder, 0);
   const browser = await chromium.launch({
     executablePath: chromiumPath(),
     args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
       "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run",
-      "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+      "--disable-background-networking", "--disable-component-update", "--disable-sync", ...flags],
   });
   return {
     browser,
+    server,
     address: `http://127.0.0.1:${server.address().port}/some/path/`,
     async close() {
       await browser.close();
       server.close();
+      server.closeAllConnections();
       await rm(folder, { recursive: true });
     },
   };
@@ -56,12 +62,14 @@ export async function open() {
 
 /**
  * A page with the application running in it.
- * @param options {width, height, ratio, fragment, light, touch, before}; before is a script that
- *   runs ahead of the page's own, and then nothing is waited for
+ * @param options {width, height, ratio, fragment, light, touch, calm, context, path, before}; before
+ *   is a script that runs ahead of the page's own, and then nothing is waited for
  * @returns the page; page.complaints lists what it logged as warning or error
  */
 export async function openPage(session, options = {}) {
-  const context = await session.browser.newContext({
+  const context = options.context ?? await session.browser.newContext({
+    serviceWorkers: options.offline ? "allow" : "block",
+    reducedMotion: options.calm ? "reduce" : "no-preference",
     viewport: { width: options.width ?? 1280, height: options.height ?? 720 },
     deviceScaleFactor: options.ratio ?? 1,
     colorScheme: options.light ? "light" : "dark",
@@ -70,8 +78,9 @@ export async function openPage(session, options = {}) {
   const page = await context.newPage();
   page.complaints = [];
   page.on("console", (message) => {
-    // SwiftShader talks about its own speed.
-    if (["warning", "error"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text())) {
+    // SwiftShader talks about its own speed, and Playwright about what it was told to block.
+    const theirs = /GPU stall|GL Driver|blocked by Playwright/.test(message.text());
+    if (["warning", "error"].includes(message.type()) && !theirs) {
       page.complaints.push(`${message.type()}: ${message.text()}`);
     }
   });
@@ -81,9 +90,50 @@ export async function openPage(session, options = {}) {
     if (response.status() >= 400) page.complaints.push(`${response.status()}: ${response.url()}`);
   });
   if (options.before) await page.addInitScript(options.before);
-  await page.goto(`${session.address}${options.fragment ? `#${options.fragment}` : ""}`);
+  const fragment = options.fragment ? `#${options.fragment}` : "";
+  await page.goto(`${session.address}${options.path ?? ""}${fragment}`);
   if (!options.before) await page.waitForFunction(() => window.substep, null, { timeout: 60000 });
   return page;
+}
+
+/** Calls the page's API. */
+export const call = (page, name, ...args) =>
+  page.evaluate(([n, a]) => window.substep[n](...a), [name, args]);
+
+/** Nothing was logged as a warning or an error. */
+export const quiet = (page) => assert.deepEqual(page.complaints, []);
+
+/** Waits until a part of the report has a value. */
+export const reports = (page, name, value) => page.waitForFunction(
+  ([n, v]) => window.substep.report()[n] === v, [name, value], { timeout: 20000 });
+
+/** Drops a file on the laboratory. @param bytes a text or an array of bytes */
+export async function drop(page, name, bytes) {
+  const transfer = await page.evaluateHandle(([n, b]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([typeof b === "string" ? b : new Uint8Array(b)], n));
+    return data;
+  }, [name, bytes]);
+  await page.dispatchEvent(".substep-view", "drop", { dataTransfer: transfer });
+  await page.waitForTimeout(200);
+  await drawn(page);
+}
+
+// The menu of links, files and pictures at 1280 x 720: its button, and the middles of its entries.
+const menu = { button: [1208, 680], link: 440, command: 470, open: 510, save: 540, window: 580,
+  view: 610, video: 640 };
+
+/** Opens the menu. */
+export async function openMenu(page) {
+  await page.mouse.click(...menu.button);
+  await drawn(page);
+  await drawn(page); // it fades in
+}
+
+/** Picks an entry of the menu: "link", "command", ... */
+export async function pick(page, entry) {
+  await openMenu(page);
+  await page.mouse.click(menu.button[0] - 40, menu[entry]);
 }
 
 /** Waits until the page has drawn what it was told: a panel that opens takes a few frames. */

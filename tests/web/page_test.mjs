@@ -1,8 +1,7 @@
 // The page in a browser: node tests/web/page_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
-import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { drawn, open, openPage, picture, save } from "./browser.mjs";
+import { call, drawn, open, openPage, picture, quiet as isQuiet, save } from "./browser.mjs";
 import { difference, part, variance } from "./pixels.mjs";
 
 const scenes = ["swinging_box", "bridge", "heavy_stack"];
@@ -18,9 +17,8 @@ let session;
 let page; // the one that most tests share
 let last; // its picture at the end of a test
 
-const api = (name, ...args) =>
-  page.evaluate(([n, a]) => window.substep[n](...a), [name, args]);
-const quiet = (p = page) => assert.deepEqual(p.complaints, []);
+const api = (name, ...args) => call(page, name, ...args);
+const quiet = (p = page) => isQuiet(p);
 
 before(async () => {
   session = await open();
@@ -31,7 +29,7 @@ after(() => session?.close());
 test("loads, shows a picture and says nothing on the console", async () => {
   await drawn(page);
   assert.ok(variance(await picture(page, view)) > somethingSeen);
-  assert.ok(await page.locator("#overlay").isHidden());
+  assert.ok(await page.locator(".substep-overlay").isHidden());
   quiet();
 });
 
@@ -50,7 +48,7 @@ test("runs in real time and the plots move", async () => {
 
 test("tells in HTML what the canvas shows", async () => {
   await page.waitForTimeout(1200);
-  const twin = await page.locator("#twin").innerText();
+  const twin = await page.locator(".substep-twin").innerText();
   for (const word of ["Swinging box", "adaptive, bpp, euler", "playing at", "holds"]) {
     assert.ok(twin.includes(word), `"${word}" is not in: ${twin}`);
   }
@@ -85,14 +83,14 @@ test("changes by mouse and keys, and the address follows", async () => {
   await page.mouse.click(136, 200); // "damping" of the five modes
   await drawn(page);
   assert.equal((await api("report")).mode, "damping");
-  assert.match(page.url(), /mode=damping/);
+  await page.waitForURL(/mode=damping/);
   await page.keyboard.press("1");
   await drawn(page);
   assert.equal((await api("report")).mode, "none");
   await page.keyboard.press("4");
   await drawn(page);
   assert.equal((await api("report")).mode, "adaptive");
-  assert.match(page.url(), /#scene=swinging_box&.*mode=adaptive/);
+  await page.waitForURL(/#scene=swinging_box&.*mode=adaptive/);
 
   const frame = (await api("report")).frame;
   await page.keyboard.press(".");
@@ -153,71 +151,12 @@ test("keeps the running scene and shows what is wrong with another", async () =>
   quiet();
 });
 
-test("runs a scene file dropped on it, and refuses a broken one", async () => {
-  const drop = async (name, text) => {
-    const transfer = await page.evaluateHandle(([n, t]) => {
-      const data = new DataTransfer();
-      data.items.add(new File([t], n));
-      return data;
-    }, [name, text]);
-    await page.dispatchEvent("#view", "drop", { dataTransfer: transfer });
-    await page.waitForTimeout(200);
-    await drawn(page);
-  };
-  await drop("broken.json", "{ this is no scene");
-  assert.equal((await api("report")).scene, "bridge");
-  assert.match((await api("report")).trouble, /broken\.json/);
-  const file = new URL("../../scenes/pendulum.json", import.meta.url);
-  const own = JSON.parse(await readFile(file, "utf8"));
-  own.name = "mine";
-  await drop("mine.json", JSON.stringify(own));
-  assert.equal((await api("report")).scene, "mine");
-  assert.equal((await api("report")).trouble, "");
-  quiet();
-});
-
-test("answers wrong calls with what is wrong", async () => {
-  assert.equal((await api("load", "no_such_scene")).ok, false);
-  const result = await api("set", { alpha: -1, warp: 9, mode: "none" });
-  assert.deepEqual(result.problems.map((p) => p.pointer).sort(), ["alpha", "warp"]);
-  assert.equal((await api("report")).mode, "none");
-  assert.equal((await api("set", 3)).ok, false);
-  quiet();
-});
-
-test("reads the experiment from the address", async () => {
-  const other = await openPage(session,
-    { fragment: "scene=bridge&solver=pgs&mode=const&n=12&integrator=leapfrog", light: true });
-  const report = await other.evaluate(() => window.substep.report());
-  assert.equal(report.scene, "bridge");
-  assert.equal(report.solver, "pgs");
-  assert.equal(report.mode, "const");
-  assert.equal(report.integrator, "leapfrog");
-  await other.evaluate(() => { window.substep.pause(); window.substep.step(60); });
-  await drawn(other);
-  assert.equal((await other.evaluate(() => window.substep.report())).substeps, 12);
-  await save(other, "bridge-light");
-  quiet(other);
-  await other.context().close();
-});
-
-test("shows what it cannot read in an address, and runs", async () => {
-  const other = await openPage(session, { fragment: "mode=warp&alpha=7&%zz&=&scene=%00" });
-  await drawn(other);
-  const report = await other.evaluate(() => window.substep.report());
-  assert.match(report.trouble, /link/);
-  assert.equal(report.scene, "swinging_box");
-  await save(other, "bad-link");
-  quiet(other);
-  await other.context().close();
-});
-
 test("fits a phone, at two pixels to one", async () => {
   const phone = await openPage(session, { width: 390, height: 844, ratio: 2, touch: true });
   await phone.evaluate(() => { window.substep.pause(); window.substep.step(90); });
   await drawn(phone);
   assert.deepEqual(await phone.evaluate(() => {
-    const canvas = document.querySelector("#view");
+    const canvas = document.querySelector(".substep-view");
     return [canvas.width, canvas.height, document.documentElement.scrollWidth];
   }), [780, 1688, 390]);
   assert.ok(variance(await picture(phone, { x: 0, y: 60, width: 390, height: 300 })) > 20);
@@ -231,14 +170,14 @@ test("fits a phone, at two pixels to one", async () => {
 
 test("comes back when the graphics context was lost", async () => {
   await page.evaluate(() => {
-    window.lostContext = document.querySelector("#view").getContext("webgl2")
+    window.lostContext = document.querySelector(".substep-view").getContext("webgl2")
       .getExtension("WEBGL_lose_context");
     window.lostContext.loseContext();
   });
   await page.waitForTimeout(300);
-  assert.ok(await page.locator("#overlay").isVisible());
+  assert.ok(await page.locator(".substep-overlay").isVisible());
   await page.evaluate(() => window.lostContext.restoreContext());
-  await page.waitForFunction(() => document.querySelector("#overlay").hidden);
+  await page.waitForFunction(() => document.querySelector(".substep-overlay").hidden);
   await drawn(page);
   assert.ok(variance(await picture(page, view)) > 60);
   // The browser itself reports the loss.
@@ -252,8 +191,8 @@ for (const [what, script] of [
 ]) {
   test(`says so where ${what} is missing`, async () => {
     const poor = await openPage(session, { before: script });
-    await poor.waitForFunction(() => /cannot/.test(document.querySelector("#overlay h1").textContent));
-    assert.ok((await poor.locator("#message").innerText()).includes(what));
+    await poor.waitForFunction(() => /cannot/.test(document.querySelector(".substep-overlay h2").textContent));
+    assert.ok((await poor.locator(".substep-overlay p").innerText()).includes(what));
     await save(poor, `missing-${what.replace(" ", "-")}`);
     quiet(poor);
     await poor.context().close();

@@ -1,0 +1,138 @@
+// For people who see, point or move otherwise: node tests/web/access_test.mjs [BUILT PAGE]
+import assert from "node:assert/strict";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+import { call, drawn, open, openPage, picture, quiet, reports, save } from "./browser.mjs";
+import { difference, part } from "./pixels.mjs";
+
+const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+
+let session;
+before(async () => { session = await open(); });
+after(() => session?.close());
+
+const focused = (page) => page.evaluate(() =>
+  document.activeElement.name || document.activeElement.className || document.activeElement.tagName);
+
+for (const light of [false, true]) {
+  for (const path of ["", "example/article.html"]) {
+    test(`axe finds nothing serious on ${path || "index.html"}, ${light ? "light" : "dark"}`, async () => {
+      const page = await openPage(session, { path, light, before: "1" });
+      await page.waitForFunction(() => window.substep ?? window.laboratories, null, { timeout: 60000 });
+      const check = async () => {
+        const { violations } = await page.evaluate(() => window.axe.run());
+        const serious = violations.filter((v) => ["serious", "critical"].includes(v.impact));
+        assert.deepEqual(serious.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`), []);
+      };
+      await page.addScriptTag({ path: axe });
+      await check();
+      await page.locator("select").first().focus(); // the controls come into sight
+      await check();
+      quiet(page);
+      await page.context().close();
+    });
+  }
+}
+
+test("HTML tells what the canvas shows, and says aloud only what matters", async () => {
+  const page = await openPage(session);
+  await page.evaluate(() => {
+    window.said = [];
+    const live = document.querySelector("[aria-live=polite]");
+    new MutationObserver(() => window.said.push(live.textContent)).observe(live, { childList: true });
+  });
+  await page.waitForTimeout(4000);
+  const twin = await page.locator(".substep-twin").textContent();
+  for (const word of ["Swinging box", "adaptive, bpp, euler", "playing at", "holds"]) {
+    assert.ok(twin.includes(word), `"${word}" is not in: ${twin}`);
+  }
+  const quietly = await page.evaluate(() => window.said.length);
+  assert.ok(quietly <= 1, `${quietly} announcements while nothing happened`);
+  await call(page, "set", { mode: "none" });
+  await page.waitForFunction(() => window.said.some((text) => /none.*fails/.test(text)), null,
+    { timeout: 20000 });
+  quiet(page);
+  await page.context().close();
+});
+
+test("the keyboard alone runs everything, and gets out again", async () => {
+  const page = await openPage(session);
+  await call(page, "pause");
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(page), "substep-view");
+  const plain = await picture(page);
+  await page.keyboard.press(".");
+  await reports(page, "frame", 1);
+  const canvas = await page.locator(".substep-view").boundingBox();
+  assert.ok(canvas.width === 1280);
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(page), "scene");
+  await drawn(page);
+  await save(page, "keyboard-controls");
+  assert.ok(difference(part(plain, { x: 0, y: 0, width: 1280, height: 56 }),
+    part(await picture(page), { x: 0, y: 0, width: 1280, height: 56 })) > 0.2, "they are not seen");
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(page), "mode");
+  await page.keyboard.press("n");
+  await reports(page, "mode", "none");
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(page), "alpha");
+  await page.keyboard.press("Control+A");
+  await page.keyboard.type("0.25");
+  await page.keyboard.press("Tab");
+  await reports(page, "alpha", 0.25);
+  assert.equal(await focused(page), "play");
+  await page.keyboard.press("Enter");
+  await reports(page, "playing", true);
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter"); // one frame pauses
+  await reports(page, "playing", false);
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  await reports(page, "frame", 0);
+  await page.keyboard.press("Tab");
+  assert.ok(!["reset", "substep-view"].includes(await focused(page)), "there is no way out");
+  for (let i = 0; i < 8; ++i) await page.keyboard.press("Shift+Tab");
+  assert.equal(await focused(page), "substep-view");
+  quiet(page);
+  await page.context().close();
+});
+
+test("a ring shows where the keyboard is", async () => {
+  const page = await openPage(session);
+  await call(page, "pause");
+  await drawn(page);
+  const edge = { x: 0, y: 200, width: 3, height: 300 };
+  const before = await picture(page, edge);
+  await page.keyboard.press("Tab");
+  await drawn(page);
+  assert.ok(difference(before, await picture(page, edge)) > 0.9, "no ring after Tab");
+  await page.mouse.click(620, 300);
+  await drawn(page);
+  assert.ok(difference(before, await picture(page, edge)) < 0.1, "a ring after a click");
+  await page.context().close();
+});
+
+test("keys work at once, before anything was clicked", async () => {
+  const page = await openPage(session);
+  await call(page, "pause");
+  await call(page, "reset");
+  await page.keyboard.press(".");
+  await reports(page, "frame", 1);
+  quiet(page);
+  await page.context().close();
+});
+
+test("who asked for less motion gets it", async () => {
+  const page = await openPage(session, { calm: true });
+  await call(page, "pause");
+  await page.waitForTimeout(1700);
+  await page.keyboard.press("f"); // without a flight of the camera: there with the next picture
+  await drawn(page);
+  const there = await picture(page, { x: 300, y: 100, width: 600, height: 500 });
+  await page.waitForTimeout(1000);
+  assert.ok(difference(there, await picture(page, { x: 300, y: 100, width: 600, height: 500 })) < 0.001);
+  quiet(page);
+  await page.context().close();
+});

@@ -1,0 +1,190 @@
+// window.substep and createSubstep: node tests/web/api_test.mjs [FOLDER OF THE BUILT PAGE]
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { PNG } from "pngjs";
+import { call, drawn, open, openPage, picture, quiet, save } from "./browser.mjs";
+import { variance } from "./pixels.mjs";
+
+let session;
+let page;
+before(async () => {
+  session = await open();
+  page = await openPage(session);
+  await call(page, "pause");
+});
+after(() => session?.close());
+
+test("wrong calls tell what is wrong and leave the run alone", async () => {
+  await call(page, "set", { scene: "bridge" });
+  await call(page, "step", 10);
+  const hash = await call(page, "hash");
+  const settings = await call(page, "settings");
+  const wrong = [["load"], ["load", 7], ["load", null], ["load", []], ["load", ""], ["load", {}],
+    ["load", "no_such_scene"], ["load", "{"], ["load", '{"bodies": 3}'], ["load", "a\0b"],
+    ["set"], ["set", 3], ["set", null], ["set", []], ["set", "mode=none"], ["set", { warp: 9 }],
+    ["set", { alpha: -1 }], ["set", { alpha: "a" }], ["set", { alpha: null }], ["set", { n: 1e9 }],
+    ["set", { mode: {} }], ["set", { mode: "warp" }], ["set", { scene: "nowhere" }],
+    ["step", -1], ["step", 1.5], ["step", "3"], ["step", 1e9], ["step", null],
+    ["openLink"], ["openLink", 3], ["openLink", {}]];
+  for (const [name, ...args] of wrong) {
+    const shown = `${name}(${JSON.stringify(args)})`;
+    const result = await call(page, name, ...args);
+    assert.equal(result.ok, false, shown);
+    assert.ok(result.problems.length > 0 && result.problems.every((p) =>
+      typeof p.pointer === "string" && p.message.length > 4), JSON.stringify(result));
+    assert.equal(await call(page, "hash"), hash, shown);
+    assert.deepEqual(await call(page, "settings"), settings, shown);
+  }
+  const odd = await page.evaluate(() => {
+    const circle = {};
+    circle.self = circle;
+    return [window.substep.load(circle), window.substep.set({ alpha: NaN }),
+      window.substep.set({ alpha: 1n }), window.substep.set(() => {}), window.substep.step(NaN)];
+  });
+  for (const result of odd) assert.equal(result.ok, false, JSON.stringify(result));
+  for (const [name, options] of [["screenshot", { part: "left" }], ["record", { seconds: -1 }]]) {
+    await assert.rejects(call(page, name, options), new RegExp(Object.keys(options)[0]));
+  }
+  assert.equal(await call(page, "hash"), hash);
+  quiet(page);
+});
+
+test("what can be read of several settings holds", async () => {
+  const result = await call(page, "set", { alpha: -1, warp: 9, mode: "none" });
+  assert.deepEqual(result.problems.map((p) => p.pointer).sort(), ["alpha", "warp"]);
+  assert.equal((await call(page, "report")).mode, "none");
+});
+
+test("settings are told with what is allowed", async () => {
+  const settings = Object.fromEntries((await call(page, "settings")).map((s) => [s.name, s]));
+  assert.match(settings.mode.allowed, /none.*adaptive/);
+  assert.equal(settings.mode.value, "none");
+  assert.ok(settings.alpha.help.length > 10);
+});
+
+test("listeners hear frames and verdicts until they leave", async () => {
+  await call(page, "set", { scene: "swinging_box", mode: "none" });
+  await call(page, "reset");
+  const heard = await page.evaluate(async () => {
+    const frames = [];
+    const verdicts = [];
+    const leave = window.substep.on("frame", (report) => frames.push(report.frame));
+    window.substep.on("frame", () => { throw new Error("on purpose"); })();
+    window.substep.on("verdict", (text) => verdicts.push(text));
+    window.substep.play();
+    await new Promise((done) => { setTimeout(done, 4000); });
+    leave();
+    const count = frames.length;
+    window.substep.reset();
+    await new Promise((done) => { setTimeout(done, 500); });
+    return { frames, verdicts, later: frames.length - count };
+  });
+  assert.ok(heard.frames.length >= 3, `${heard.frames.length} frames`);
+  assert.ok(heard.frames.every((f, i) => i === 0 || f > heard.frames[i - 1]));
+  assert.equal(heard.later, 0);
+  assert.ok(heard.verdicts.some((text) => /^fails at/.test(text)), heard.verdicts.join("; "));
+  quiet(page);
+});
+
+test("an event that is none is told", async () => {
+  const other = await openPage(session);
+  await other.evaluate(() => window.substep.on("explosion", () => {}));
+  assert.match(other.complaints.join(), /events are frame, verdict/);
+  await other.context().close();
+});
+
+test("pictures and videos are given as blobs", async () => {
+  const bytes = (name, options) => page.evaluate(async ([n, o]) => {
+    const blob = await window.substep[n](o);
+    return [blob.type, ...new Uint8Array(await blob.arrayBuffer())];
+  }, [name, options]);
+  const [type, ...png] = await bytes("screenshot", {});
+  assert.equal(type, "image/png");
+  const whole = PNG.sync.read(Buffer.from(png));
+  assert.deepEqual([whole.width, whole.height], [1280, 720]);
+  assert.ok(variance(whole) > 60);
+  const [, ...view] = await bytes("screenshot", { part: "view" });
+  assert.ok(PNG.sync.read(Buffer.from(view)).width < 1280);
+  const [kind, ...video] = await bytes("record", { seconds: 1.5 });
+  assert.equal(kind, "video/webm");
+  assert.ok(video.length > 5000, `${video.length} bytes`);
+  quiet(page);
+});
+
+test("the history is a table", async () => {
+  await call(page, "set", { scene: "swinging_box", mode: "adaptive" });
+  await call(page, "pause");
+  await call(page, "reset");
+  await call(page, "step", 30);
+  const lines = (await call(page, "history")).trim().split("\n");
+  assert.match(lines[0], /time.*substeps/);
+  assert.equal(lines.length, 31);
+});
+
+test("an article holds two, which do not disturb each other", async () => {
+  const article = await openPage(session, { path: "example/article.html", before: "1", height: 900 });
+  await article.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
+  const report = (which) => article.evaluate((w) => window.laboratories[w].report(), which);
+  await article.waitForFunction(() => window.laboratories.none.report().time > 0.2, null,
+    { timeout: 30000 });
+  assert.equal((await report("none")).mode, "none");
+  assert.equal((await report("adaptive")).mode, "adaptive");
+  assert.ok(!article.url().includes("#"), "the address is the article's");
+  // The second is below the window: it waits until it is seen.
+  assert.equal((await report("adaptive")).time, 0);
+  await article.evaluate(() => document.querySelector("#adaptive").scrollIntoView());
+  await article.waitForFunction(() => window.laboratories.adaptive.report().time > 0.2, null,
+    { timeout: 30000 });
+  await article.evaluate(() => {
+    for (const lab of Object.values(window.laboratories)) {
+      lab.pause();
+      lab.reset();
+      lab.step(60);
+    }
+  });
+  assert.notEqual((await report("none")).verdict, "holds");
+  assert.equal((await report("adaptive")).verdict, "holds");
+  await drawn(article);
+  for (const id of ["none", "adaptive"]) {
+    await article.evaluate((i) => document.getElementById(i).scrollIntoView({ block: "center" }), id);
+    await drawn(article);
+    const box = await article.locator(`#${id}`).boundingBox();
+    assert.ok(variance(await picture(article, box)) > 20, id);
+    await save(article, `article-${id}`);
+  }
+  // The page scrolls over a laboratory until it was clicked.
+  await article.evaluate(() => window.scrollTo(0, 0));
+  const box = await article.locator("#none").boundingBox();
+  await article.mouse.move(box.x + 200, box.y + 200);
+  await article.mouse.wheel(0, 200);
+  await article.waitForFunction(() => window.scrollY > 100);
+  const top = await article.evaluate(() => window.scrollY);
+  await article.mouse.click(box.x + 200, box.y + 60);
+  await article.mouse.wheel(0, 200);
+  await article.waitForTimeout(300);
+  assert.equal(await article.evaluate(() => window.scrollY), top);
+  quiet(article);
+  await article.context().close();
+});
+
+test("createSubstep says what it was not given, and can be removed", async () => {
+  const other = await openPage(session, { path: "example/article.html", before: "1" });
+  await other.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
+  const message = await other.evaluate(async () => {
+    const { createSubstep } = await import("../substep.mjs");
+    try {
+      await createSubstep(null);
+      return "";
+    } catch (error) {
+      return error.message;
+    }
+  });
+  assert.match(message, /not an element/);
+  assert.equal(await other.evaluate(() => {
+    window.laboratories.none.remove();
+    return document.querySelector("#none").children.length;
+  }), 0);
+  await other.waitForTimeout(500);
+  quiet(other);
+  await other.context().close();
+});

@@ -1,0 +1,132 @@
+// Files in and out: node tests/web/files_test.mjs [FOLDER OF THE BUILT PAGE]
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { after, before, test } from "node:test";
+import { PNG } from "pngjs";
+import { call, drawn, drop, open, openPage, pick, quiet, save } from "./browser.mjs";
+import { variance } from "./pixels.mjs";
+
+let session;
+let page;
+let mine; // a scene of one's own, as text
+
+before(async () => {
+  session = await open();
+  page = await openPage(session);
+  await call(page, "set", { scene: "bridge" });
+  await call(page, "pause");
+  const scene = JSON.parse(await readFile(new URL("../../scenes/pendulum.json", import.meta.url), "utf8"));
+  mine = JSON.stringify({ ...scene, name: "mine", title: "My pendulum" });
+});
+after(() => session?.close());
+
+const read = async (download) => readFile(await download.path());
+
+test("a dropped scene file runs, and is there at the next visit", async () => {
+  await drop(page, "mine.json", mine);
+  assert.deepEqual([(await call(page, "report")).scene, (await call(page, "report")).trouble], ["mine", ""]);
+  await page.reload();
+  await page.waitForFunction(() => window.substep);
+  assert.ok((await call(page, "scenes")).some((s) => s.name === "mine" && s.group === "own"));
+  assert.deepEqual(await call(page, "load", "mine"), { ok: true, problems: [] });
+  quiet(page);
+});
+
+test("a file that is none is told by name, and the run is untouched", async () => {
+  await call(page, "set", { scene: "bridge" });
+  await call(page, "pause");
+  await call(page, "step", 20);
+  const hash = await call(page, "hash");
+  const files = {
+    "broken.json": "{ this is no scene",
+    "other.json": '{"name": "some-package", "version": "1.0.0"}',
+    "empty.json": "",
+    "list.json": "[1, 2, 3]",
+    "deep.json": "[".repeat(200000),
+    "picture.png": [0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10, 0, 0, 0, 13],
+    "utf16.json": [0xff, 0xfe, 0x7b, 0x00],
+    "cut.json": mine.slice(0, mine.length / 2),
+    "zero.json": `${mine}\0${mine}`,
+    "mass.json": mine.replace(/"mass":\s*[0-9.]+/, '"mass":-1'),
+  };
+  for (const [name, bytes] of Object.entries(files)) {
+    await drop(page, name, bytes);
+    const report = await call(page, "report");
+    assert.equal(report.trouble, `${name} was not loaded`);
+    assert.equal(await call(page, "hash"), hash, name);
+    if (name === "mass.json") await save(page, "problems");
+    await page.keyboard.press("Escape");
+    await drawn(page);
+    assert.equal((await call(page, "report")).trouble, "");
+  }
+  quiet(page);
+});
+
+test("a huge file is refused without being read", async () => {
+  const hash = await call(page, "hash");
+  await page.evaluate(() => {
+    const data = new DataTransfer();
+    data.items.add(new File([new Uint8Array(40e6).fill(32)], "huge.json"));
+    const event = new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true });
+    document.querySelector(".substep-view").dispatchEvent(event);
+  });
+  await page.waitForFunction(() => window.substep.report().trouble === "huge.json was not loaded");
+  await drawn(page);
+  assert.equal(await call(page, "hash"), hash);
+  // One that may be read, just so, goes through the heap and not the stack.
+  await drop(page, "large.json", `${" ".repeat(8e6)}{`);
+  assert.equal((await call(page, "report")).trouble, "large.json was not loaded");
+  assert.equal(await call(page, "hash"), hash);
+  await page.keyboard.press("Escape");
+  quiet(page);
+});
+
+test("the menu opens a file", async () => {
+  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), pick(page, "open")]);
+  await chooser.setFiles({ name: "chosen.json", mimeType: "application/json",
+    buffer: Buffer.from(mine.replace('"mine"', '"chosen"')) });
+  await page.waitForFunction(() => window.substep.report().scene === "chosen");
+  quiet(page);
+});
+
+test("the run as it is now is saved, and goes on from its file", async () => {
+  await call(page, "set", { scene: "heavy_stack", mode: "const", n: 8 });
+  await call(page, "pause");
+  await call(page, "reset");
+  await call(page, "step", 60);
+  const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "save")]);
+  assert.equal(download.suggestedFilename(), "heavy_stack_at_1000ms.json");
+  const text = (await read(download)).toString();
+  assert.equal(text, await call(page, "saved"));
+  const before = await call(page, "report");
+  assert.deepEqual(await call(page, "load", text), { ok: true, problems: [] });
+  await call(page, "pause");
+  const now = await call(page, "report");
+  assert.equal(now.mode, "const");
+  assert.ok(Math.abs(now.potential - before.potential) < 1e-3 * Math.abs(before.potential));
+  quiet(page);
+});
+
+test("pictures of window and view are what is seen", async () => {
+  for (const entry of ["window", "view"]) {
+    const [download] = await Promise.all([page.waitForEvent("download"), pick(page, entry)]);
+    assert.match(download.suggestedFilename(), /^heavy_stack.*\.png$/);
+    const png = PNG.sync.read(await read(download));
+    assert.ok(entry === "window" ? png.width === 1280 && png.height === 720 : png.width < 1280);
+    assert.ok(variance(png) > 60);
+  }
+  quiet(page);
+});
+
+test("a video is recorded", async () => {
+  await call(page, "play");
+  await pick(page, "video");
+  await page.waitForTimeout(2500);
+  await save(page, "recording");
+  const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "video")]);
+  assert.match(download.suggestedFilename(), /\.webm$/);
+  const bytes = await read(download);
+  assert.deepEqual([...bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]); // EBML
+  assert.ok(bytes.length > 10000, `${bytes.length} bytes`);
+  quiet(page);
+});

@@ -1,0 +1,104 @@
+// The page's address holds the experiment: written while it changes, read when a person comes back
+// to it. A scene of the person's own is inside it, as `scene64`.
+import { pack, unpack } from "./inline_scene.mjs";
+
+// Longer addresses break in mails and messengers; the address then only names the scene.
+const longestScene = 16_000; // letters
+const settled = 300; // a slider that moves is written when it rests [ms]
+
+/** The parts of a fragment, as they are. */
+const partsOf = (fragment) => fragment.replace(/^#/, "").split("&").filter((part) => part !== "");
+
+const isScene = (part) => part.startsWith("scene=");
+
+export function makeAddress(wasm, host, keep) {
+  const packed = { text: "", letters: "" }; // the last own scene
+  let written = ""; // the fragment that this wrote, or read, last
+  let timer = 0;
+
+  /** The experiment as a fragment, without '#'. */
+  async function link() {
+    const plain = wasm.link();
+    const text = wasm.ownScene();
+    if (text === "" || typeof CompressionStream === "undefined") return plain;
+    if (packed.text !== text) Object.assign(packed, { text, letters: await pack(text) });
+    if (packed.letters.length > longestScene) return plain;
+    return partsOf(plain).map((part) => (isScene(part) ? `scene64=${packed.letters}` : part)).join("&");
+  }
+
+  /** The experiment as an address of the laboratory. */
+  async function url() {
+    const page = keep ? location.href.replace(/#.*/, "") : new URL("index.html", import.meta.url).href;
+    return `${page}#${await link()}`;
+  }
+
+  /** Runs what a fragment holds. @returns {ok, problems} */
+  async function open(fragment) {
+    const parts = partsOf(fragment);
+    const scene = parts.find((part) => part.startsWith("scene64="));
+    let found = null;
+    if (scene) {
+      try {
+        found = JSON.parse(wasm.openText(await unpack(scene.slice("scene64=".length)), "The link's scene"));
+      } catch {
+        const message = "is no scene: was the link cut short?";
+        found = { ok: false, problems: [{ pointer: "scene64", message }] };
+        wasm.trouble("The link's scene could not be read", message);
+      }
+      if (!found.ok) return found;
+    }
+    const rest = JSON.parse(wasm.openLink(parts.filter((part) => part !== scene).join("&")));
+    host.changed?.();
+    return rest;
+  }
+
+  async function write() {
+    const fragment = `#${await link()}`;
+    if (fragment === written) return;
+    // Going back leads to the scene before, not to every setting on the way.
+    const sceneOf = (text) => partsOf(text).find((part) => /^scene(64)?=/.test(part));
+    const anew = written !== "" && sceneOf(fragment) !== sceneOf(written);
+    written = fragment;
+    document.title = `${JSON.parse(wasm.report()).title} · substep`;
+    history[anew ? "pushState" : "replaceState"](null, "", fragment);
+  }
+
+  async function read() {
+    written = location.hash; // what it becomes is written in its place
+    if (written.length > 1) await open(written);
+  }
+
+  host.linkChanged = () => {
+    if (!keep) return;
+    clearTimeout(timer);
+    timer = setTimeout(write, settled);
+  };
+  host.copyLink = async () => {
+    const text = await url();
+    const own = wasm.ownScene() !== "";
+    if (!(await host.copyText(text))) return;
+    wasm.tell(own && !text.includes("scene64=")
+      ? "Link copied, but this scene is too large for it: send its file too" : "Link copied");
+    host.changed?.();
+  };
+
+  return {
+    link,
+    url,
+    open,
+    /** Follows the address from now on. */
+    async start() {
+      if (!keep) return;
+      await read();
+      window.addEventListener("popstate", async () => {
+        if (location.hash === written) return;
+        clearTimeout(timer);
+        await read();
+      });
+    },
+    stop() {
+      keep = false;
+      clearTimeout(timer);
+    },
+  };
+}

@@ -1,0 +1,80 @@
+// Pictures and videos of the canvas.
+
+const formats = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
+
+/** A part of the canvas as a PNG. @param part {x, y, width, height} in CSS pixels */
+function toPng(canvas, part) {
+  const ratio = canvas.width / canvas.getBoundingClientRect().width;
+  const [x, y, width, height] = [part.x, part.y, part.width, part.height]
+    .map((length) => Math.round(length * ratio));
+  const copy = Object.assign(document.createElement("canvas"), { width, height });
+  copy.getContext("2d").drawImage(canvas, x, y, width, height, 0, 0, width, height);
+  return new Promise((done) => copy.toBlob(done, "image/png"));
+}
+
+export function makeCapture(frame, wasm, host, save) {
+  const { canvas } = frame;
+  const name = () => JSON.parse(wasm.report()).scene;
+  const wanted = []; // what is done with the pixels when they are there
+  let recorder = null;
+
+  /** @param part as above, or undefined for all of it */
+  function picture(part) {
+    const box = canvas.getBoundingClientRect();
+    const whole = { x: 0, y: 0, width: box.width, height: box.height };
+    return new Promise((done) => {
+      wanted.push(() => done(toPng(canvas, part ?? whole)));
+      host.changed?.();
+    });
+  }
+
+  /** @returns a promise of the video, or null where the browser cannot make one */
+  function begin() {
+    const mimeType = globalThis.MediaRecorder && formats.find((f) => MediaRecorder.isTypeSupported(f));
+    if (!mimeType || recorder) return null;
+    recorder = new MediaRecorder(canvas.captureStream(60), { mimeType, videoBitsPerSecond: 8e6 });
+    const parts = [];
+    recorder.addEventListener("dataavailable", (event) => parts.push(event.data));
+    const video = new Promise((done) => {
+      recorder.addEventListener("stop", () => {
+        recorder = null;
+        wasm.recording(0);
+        host.changed?.();
+        done(new Blob(parts, { type: mimeType.split(";")[0] }));
+      });
+    });
+    recorder.start(1000);
+    wasm.recording(1);
+    return video;
+  }
+
+  function end() {
+    recorder?.stop();
+    recorder?.stream.getTracks().forEach((track) => track.stop());
+  }
+
+  host.record = async (on) => {
+    if (!on) {
+      end();
+      return;
+    }
+    const video = begin();
+    if (!video) {
+      wasm.tell("This browser cannot record a video");
+      return;
+    }
+    const blob = await video;
+    save(`${name()}.${blob.type.split("/")[1]}`, blob);
+  };
+
+  return {
+    picture,
+    begin,
+    end,
+    /** Right after drawing, while the pixels are there. */
+    afterDraw() {
+      if (recorder) host.changed?.(); // a video of a run that rests has pictures too
+      for (const take of wanted.splice(0)) take();
+    },
+  };
+}

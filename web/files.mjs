@@ -1,0 +1,106 @@
+// Scene files come in by the menu or dropped on the laboratory; scenes, tables and pictures go out
+// as downloads; a few words are kept in the browser from visit to visit.
+
+const largest = 32 << 20; // of a scene file, as core/io reads them [bytes]
+const prefix = "substep."; // of what is kept
+
+const types = { json: "application/json", csv: "text/csv", png: "image/png", webm: "video/webm",
+  mp4: "video/mp4" };
+
+async function textOf(file) {
+  if (file.size > largest) {
+    throw new Error(`${(file.size / 1e6).toFixed(0)} MB are too much: a scene file has at most ` +
+      `${(largest / 1e6).toFixed(0)} MB`);
+  }
+  const bytes = await file.arrayBuffer().catch(() => {
+    throw new Error("the browser could not read it: is it a folder?");
+  });
+  const text = (() => {
+    try {
+      return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+    } catch {
+      return "\0";
+    }
+  })();
+  if (text.includes("\0")) throw new Error("is not text: a scene file is JSON in UTF-8");
+  return text;
+}
+
+async function copy(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    // Without https there is no clipboard; the old way still works there.
+    const field = Object.assign(document.createElement("textarea"), { value: text });
+    field.style.position = "fixed";
+    const active = document.activeElement;
+    document.body.append(field);
+    field.select();
+    const done = document.execCommand("copy");
+    field.remove();
+    active?.focus({ preventScroll: true });
+    return done;
+  }
+}
+
+export function makeFiles(frame, wasm, host) {
+  const tell = (text) => {
+    wasm.tell(text);
+    host.changed?.();
+  };
+
+  async function open(file) {
+    if (!file) return;
+    try {
+      wasm.openText(await textOf(file), file.name);
+    } catch (error) {
+      wasm.trouble(`${file.name} was not loaded`, error.message);
+    }
+    frame.canvas.focus({ preventScroll: true });
+    host.changed?.();
+  }
+
+  /** @param data bytes, text or a Blob */
+  function save(name, data) {
+    const blob = data instanceof Blob ? data
+      : new Blob([data], { type: types[name.split(".").pop()] ?? "application/octet-stream" });
+    const href = URL.createObjectURL(blob);
+    Object.assign(document.createElement("a"), { href, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(href), 60000);
+    tell(`${name} was handed to the browser's downloads`);
+  }
+
+  host.saveFile = save;
+  host.openFile = () => {
+    const chooser = Object.assign(document.createElement("input"),
+      { type: "file", accept: ".json,application/json" });
+    chooser.addEventListener("change", () => open(chooser.files[0]));
+    chooser.click();
+  };
+  host.copyText = async (text) => {
+    const done = await copy(text);
+    if (!done) tell("The browser does not allow copying here");
+    return done;
+  };
+  // Where nothing may be kept (private windows, blocked storage) nothing is.
+  host.remember = (key, value) => {
+    try {
+      localStorage.setItem(prefix + key, value);
+    } catch { /* as above */ }
+  };
+  host.recall = (key) => {
+    try {
+      return localStorage.getItem(prefix + key) ?? "";
+    } catch {
+      return "";
+    }
+  };
+
+  frame.element.addEventListener("dragover", (event) => event.preventDefault());
+  frame.element.addEventListener("drop", (event) => {
+    event.preventDefault();
+    open(event.dataTransfer?.files[0]);
+  });
+  return { save };
+}

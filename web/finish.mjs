@@ -1,0 +1,30 @@
+#!/usr/bin/env node
+// The last step of the build: writes what depends on all files of the page.
+//   node web/finish.mjs SOURCE FOLDER FILE...
+// The files are all that the build put into the folder. What an earlier build left there is removed.
+// version.mjs  sizes of what is downloaded, for the progress bar
+// service_worker.js  with the version, a hash of all files, and their list
+import { createHash } from "node:crypto";
+import { readdir, readFile, rm, stat, writeFile } from "node:fs/promises";
+import { join, relative } from "node:path";
+
+const [source, folder, ...built] = process.argv.slice(2);
+const files = [...built, "version.mjs"].sort();
+
+const sizes = {};
+for (const name of ["engine.wasm", "engine.data"]) sizes[name] = (await stat(join(folder, name))).size;
+await writeFile(join(folder, "version.mjs"),
+  `// Written by the build.\nexport const sizes = ${JSON.stringify(sizes)};\n`);
+
+for (const entry of await readdir(folder, { recursive: true, withFileTypes: true })) {
+  const path = join(entry.parentPath ?? entry.path, entry.name);
+  if (entry.isFile() && !files.includes(relative(folder, path))) await rm(path);
+}
+const hash = createHash("sha256");
+for (const name of files) hash.update(name).update(await readFile(join(folder, name)));
+const worker = await readFile(join(source, "service_worker.js"), "utf8");
+// A folder is asked for by its name as well as by its page's.
+const asked = ["./", ...files];
+await writeFile(join(folder, "service_worker.js"), worker
+  .replace("@VERSION@", hash.digest("hex").slice(0, 16))
+  .replace('["@FILES@"]', JSON.stringify(asked, null, 1)));

@@ -1,0 +1,77 @@
+// What a laboratory is made of on the page: the canvas, its twin in HTML, and a card over both that
+// says what goes on.
+
+let instances = 0;
+
+const markup = (id) => `
+<canvas class="substep-view" tabindex="0" role="application" aria-describedby="${id}-twin"
+  aria-label="substep: simulation, controls and plots"></canvas>
+<section class="substep-twin" id="${id}-twin" aria-label="What the simulation shows"></section>
+<div class="substep-overlay">
+  <div class="substep-card">
+    <h2></h2>
+    <p></p>
+    <progress max="1" value="0" aria-label="Loading"></progress>
+    <button type="button" hidden></button>
+  </div>
+</div>`;
+
+/** The styles come with the module, once for all laboratories of a page. */
+function addStyles() {
+  const href = new URL("substep.css", import.meta.url).href;
+  if ([...document.styleSheets].some((sheet) => sheet.href === href)) return;
+  const link = Object.assign(document.createElement("link"), { rel: "stylesheet", href });
+  document.head.append(link);
+}
+
+export function makeFrame(element, wholePage) {
+  addStyles();
+  element.classList.add("substep");
+  element.classList.toggle("substep-shares", !wholePage); // wheel and fingers, with the page
+  element.innerHTML = markup(`substep-${++instances}`);
+  const canvas = element.querySelector("canvas");
+  const overlay = element.querySelector(".substep-overlay");
+  const heading = overlay.querySelector("h2");
+  const message = overlay.querySelector("p");
+  const bar = overlay.querySelector("progress");
+  const button = overlay.querySelector("button");
+
+  const say = (title, text, { working = false, answer = "" } = {}) => {
+    overlay.hidden = false;
+    overlay.setAttribute("role", working ? "status" : "alert");
+    heading.textContent = title;
+    message.textContent = text;
+    bar.hidden = !working;
+    button.hidden = answer === "";
+    button.textContent = answer;
+  };
+  return {
+    element,
+    canvas,
+    wholePage,
+    twin: element.querySelector(".substep-twin"),
+    say,
+    /** Says it and waits for the button to be pressed. */
+    ask(title, text, answer) {
+      say(title, text, { answer });
+      return new Promise((done) => button.addEventListener("click", done, { once: true }));
+    },
+    progress(share) { bar.value = share; },
+    clear() { overlay.hidden = true; },
+
+    /** The drawing buffer has as many pixels as the screen shows. @returns whether it changed */
+    fit(wasm) {
+      const ratio = window.devicePixelRatio || 1;
+      const box = canvas.getBoundingClientRect();
+      const width = Math.max(1, Math.round(box.width * ratio));
+      const height = Math.max(1, Math.round(box.height * ratio));
+      const changed = canvas.width !== width || canvas.height !== height;
+      if (changed) {
+        canvas.width = width;
+        canvas.height = height;
+      }
+      wasm.resize(width / ratio, height / ratio, ratio);
+      return changed;
+    },
+  };
+}

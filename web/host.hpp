@@ -1,0 +1,12 @@
+#pragma once
+
+#include "app/app.hpp"
+
+namespace substep::web {
+
+/// What the application asks of the page: each is a function of Module.host, see web/host.mjs.
+Host page_host();
+/// Dear ImGui's copy and paste through the page.
+void use_page_clipboard();
+
+}  // namespace substep::web

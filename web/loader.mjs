@@ -1,0 +1,134 @@
+// Loads the WebAssembly and its data with the progress told, and wraps what it exports.
+import { sizes } from "./version.mjs";
+
+/** A download that did not come to its end: trying again may help. */
+export class LoadError extends Error {}
+
+/** Starts to fetch a file of this folder. @param tell called with the bytes of each piece */
+async function fetchFile(name, type, tell) {
+  let response;
+  try {
+    response = await fetch(new URL(name, import.meta.url));
+  } catch (error) {
+    throw new LoadError(`${name} could not be fetched: ${error.message}`);
+  }
+  if (!response.ok) throw new LoadError(`${name}: ${response.status} ${response.statusText}`);
+  const counted = response.body.pipeThrough(new TransformStream({
+    transform(piece, out) {
+      tell(piece.length);
+      out.enqueue(piece);
+    },
+  }));
+  return new Response(counted, { headers: { "Content-Type": type } });
+}
+
+let attempts = 0;
+let engine = null; // fetched and compiled once for all instances on a page
+const watchers = new Set();
+
+async function fetchEngine() {
+  const total = sizes["engine.wasm"] + sizes["engine.data"];
+  let done = 0;
+  const tell = (bytes) => {
+    done += bytes;
+    for (const watcher of watchers) watcher(Math.min(1, done / total));
+  };
+  const files = [
+    fetchFile("engine.wasm", "application/wasm", tell).then(WebAssembly.compileStreaming),
+    fetchFile("engine.data", "application/octet-stream", tell).then((file) => file.arrayBuffer()),
+    // Browsers remember that an import failed: another try needs another address.
+    import(attempts++ ? `./engine.js?${attempts}` : "./engine.js"),
+  ];
+  try {
+    const [compiled, data, script] = await Promise.all(files);
+    return { compiled, data, create: script.default };
+  } catch (error) {
+    if (error instanceof LoadError) throw error;
+    throw new LoadError(`the download broke off: ${error.message}`);
+  }
+}
+
+/** @param progress called with 0..1 */
+export async function loadEngine(progress) {
+  watchers.add(progress);
+  try {
+    engine ??= fetchEngine();
+    return await engine;
+  } catch (error) {
+    engine = null;
+    throw error;
+  } finally {
+    watchers.delete(progress);
+  }
+}
+
+// Results and parameters of the exports: v nothing, n number, s text.
+const exported = {
+  start: "sn", context_lost: "v", context_restored: "s", resize: "vnnn", frame: "vn", cursor: "n",
+  pointer: "vnnn", pointer_gone: "v", button: "vnnn", wheel: "vnn", pinch: "vnnn",
+  key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
+  open: "ss", open_text: "sss", set: "ss", step: "vn", play: "vn", playing: "n", reset: "v",
+  open_link: "ss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
+  trouble: "vss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
+};
+
+/** A function of the module. Texts go through the heap: a file does not fit on the stack. */
+function wrap(module, name, signature) {
+  const [result, ...types] = signature;
+  const call = module[`_substep_${name}`];
+  return (...args) => {
+    const texts = [];
+    const raw = types.map((type, i) => {
+      if (type === "n") return Number(args[i]);
+      const text = String(args[i]);
+      const size = module.lengthBytesUTF8(text) + 1;
+      const at = module._malloc(size);
+      module.stringToUTF8(text, at, size);
+      texts.push(at);
+      return at;
+    });
+    try {
+      const value = call(...raw);
+      return result === "s" ? module.UTF8ToString(value) : value;
+    } finally {
+      texts.forEach((at) => module._free(at));
+    }
+  };
+}
+
+const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+
+/**
+ * An application of its own for a canvas.
+ * @param engine what loadEngine gave
+ * @param host what the application may ask of the page: see web/host.cpp
+ * @returns the exports by their names in camel case; run() starts it, once the host is complete,
+ *   close() gives the graphics back
+ */
+export async function makeEngine(engine, canvas, host) {
+  const module = await engine.create({
+    host,
+    canvas,
+    instantiateWasm(imports, done) {
+      WebAssembly.instantiate(engine.compiled, imports).then((instance) => done(instance));
+      return {};
+    },
+    // Read once by each instance, which may take what it is given.
+    getPreloadedPackage: () => engine.data.slice(0),
+    print: (text) => console.log(text),
+    printErr: (text) => console.warn(text),
+  });
+  const wasm = {};
+  for (const [name, signature] of Object.entries(exported)) {
+    wasm[camel(name)] = wrap(module, name, signature);
+  }
+  wasm.run = () => {
+    const context = module.GL.createContext(canvas,
+      { majorVersion: 2, minorVersion: 0, alpha: false, antialias: true, depth: true });
+    if (!context) throw new Error("The browser gave no WebGL 2 context");
+    const error = wasm.start(context);
+    if (error) throw new Error(error);
+  };
+  wasm.close = () => canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
+  return wasm;
+}

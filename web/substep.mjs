@@ -1,0 +1,169 @@
+// A laboratory in an element of any page: the module to import. See README.md.
+import { makeAddress } from "./address.mjs";
+import { makeApi } from "./api.mjs";
+import { makeCapture } from "./capture.mjs";
+import { makeFiles } from "./files.mjs";
+import { makeFrame } from "./frame.mjs";
+import { listen } from "./input.mjs";
+import { LoadError, loadEngine, makeEngine } from "./loader.mjs";
+import { makeTwin } from "./twin.mjs";
+
+/** What this browser lacks, or "". */
+function missing() {
+  if (typeof WebAssembly !== "object") return "WebAssembly";
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return "WebGL 2";
+  context.getExtension("WEBGL_lose_context")?.loseContext(); // browsers give only a few
+  return "";
+}
+
+/** Loads the program; where the network fails, until it succeeds or the person gives up. */
+async function load(frame) {
+  for (;;) {
+    frame.say("substep", "Loading the laboratory", { working: true });
+    try {
+      return await loadEngine(frame.progress);
+    } catch (error) {
+      if (!(error instanceof LoadError)) throw error;
+      console.error(error);
+      await frame.ask("The laboratory could not be loaded", `${error.message}. Is there a network? ` +
+        "Nothing is lost: the address still holds the experiment.", "Try again");
+    }
+  }
+}
+
+/** Draws while the run plays and for a moment after every event, as long as it can be seen. */
+class Clock {
+  constructor(wasm, frame, afterDraw) {
+    Object.assign(this, { wasm, frame, afterDraw });
+    this.before = performance.now();
+    this.awakeUntil = 0;
+    this.lost = false; // the graphics context
+    this.seen = true;
+    this.watcher = new IntersectionObserver(([entry]) => {
+      this.seen = entry.isIntersecting;
+      this.wake();
+    });
+    this.watcher.observe(frame.canvas);
+    this.tick = (now) => {
+      this.request = requestAnimationFrame(this.tick);
+      const dt = Math.max(0, (now - this.before) / 1000);
+      this.before = now;
+      if (this.lost || !this.seen) return;
+      if (frame.fit(wasm)) this.wake();
+      if (wasm.playing() || now < this.awakeUntil) this.draw(dt);
+    };
+    this.wake();
+    this.request = requestAnimationFrame(this.tick);
+  }
+
+  /** Until what moves has come to rest. */
+  wake() { this.awakeUntil = performance.now() + 1500; }
+
+  draw(dt) {
+    this.wasm.frame(dt);
+    this.frame.canvas.style.cursor = this.wasm.cursor() === 2 ? "text" : "default";
+    this.afterDraw();
+  }
+
+  stop() {
+    cancelAnimationFrame(this.request);
+    this.watcher.disconnect();
+  }
+}
+
+function watchContext(wasm, frame, clock) {
+  frame.canvas.addEventListener("webglcontextlost", (event) => {
+    if (!frame.canvas.isConnected) return;
+    event.preventDefault();
+    clock.lost = true;
+    wasm.contextLost();
+    frame.say("The graphics context was lost", "The system took the graphics away, perhaps to " +
+      "save memory. The picture comes back by itself when it is given again; the run waits.");
+  });
+  frame.canvas.addEventListener("webglcontextrestored", () => {
+    const error = wasm.contextRestored();
+    if (error) {
+      frame.say("The graphics did not come back", `${error} Reloading the page helps.`);
+      return;
+    }
+    clock.lost = false;
+    frame.clear();
+    clock.wake();
+  });
+}
+
+/**
+ * Opens a laboratory in an element, which it fills: give the element a size.
+ * @param {HTMLElement} element
+ * @param {object} options
+ *   scene: name of a shipped scene, or a scene as object or JSON text
+ *   settings: {mode, alpha, ..., theme, panels, tint, speed}
+ *   link: an experiment as the fragment of an address, "scene=bridge&mode=none"
+ *   play: whether it starts at once, true
+ *   address: whether the page's address holds the experiment, false
+ *   wholePage: whether wheel and fingers are always the laboratory's; otherwise (false) the page
+ *     scrolls under them until the laboratory was clicked or tapped
+ * @returns a promise of the API; it fails where the browser lacks something
+ */
+export async function createSubstep(element, options = {}) {
+  if (!(element instanceof HTMLElement)) {
+    throw new TypeError("createSubstep: the first argument is not an element of the page");
+  }
+  const frame = makeFrame(element, options.wholePage === true);
+  const lacking = missing();
+  if (lacking) {
+    frame.say("This browser cannot show substep", `It needs ${lacking}, which is missing or ` +
+      "switched off here. A current Firefox, Chrome, Edge or Safari has it; on some machines " +
+      "graphics acceleration must be on.");
+    throw new Error(`substep needs ${lacking}`);
+  }
+  try {
+    return await open(frame, options);
+  } catch (error) {
+    console.error(error);
+    frame.say("substep did not start", String(error?.message ?? error));
+    throw error;
+  }
+}
+
+async function open(frame, options) {
+  const engine = await load(frame);
+  const host = {}; // what the application may ask of the page: web/host.cpp calls it
+  const wasm = await makeEngine(engine, frame.canvas, host);
+  const files = makeFiles(frame, wasm, host);
+  const address = makeAddress(wasm, host, options.address === true);
+  const capture = makeCapture(frame, wasm, host, files.save);
+  wasm.run();
+
+  let api = null;
+  let twin = null;
+  const clock = new Clock(wasm, frame, () => {
+    capture.afterDraw();
+    api?.afterDraw();
+    twin?.afterDraw();
+  });
+  const wake = () => clock.wake();
+  host.changed = wake;
+
+  wasm.reducedMotion(matchMedia("(prefers-reduced-motion: reduce)").matches ? 1 : 0);
+  frame.fit(wasm);
+  api = makeApi({ wasm, wake, address, capture, clock, frame });
+  const { calls } = api;
+  if (matchMedia("(prefers-color-scheme: light)").matches) calls.set({ theme: "light" });
+  if (options.play !== false) calls.play();
+  const problems = [];
+  if (options.scene !== undefined) problems.push(...calls.load(options.scene).problems);
+  if (options.settings !== undefined) problems.push(...calls.set(options.settings).problems);
+  if (options.link !== undefined) problems.push(...(await calls.openLink(options.link)).problems);
+  if (problems.length > 0) console.warn("createSubstep: not all options could be used", problems);
+  if (options.play === false) calls.pause();
+  await address.start();
+  twin = makeTwin(frame.twin, calls);
+
+  listen(frame.canvas, wasm, wake, !frame.wholePage);
+  watchContext(wasm, frame, clock);
+  clock.draw(0);
+  frame.clear();
+  return calls;
+}

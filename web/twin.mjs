@@ -1,0 +1,105 @@
+// The laboratory in plain HTML, for those who do not see the canvas or do not use a pointer: what
+// it shows, read out where it matters, and its main controls. The controls come into sight when the
+// keyboard reaches them.
+
+const period = 1000; // between updates: more would only make noise [ms]
+
+const fields = { scene: "Scene", method: "Method", state: "State",
+  substeps: "Sub-steps per frame", energy: "Energy", verdict: "Verdict" };
+
+const markup = (id) => `
+<form class="substep-keys" aria-label="Controls">
+  <label for="${id}-scene">Scene</label><select id="${id}-scene" name="scene"></select>
+  <label for="${id}-mode">Stabilisation</label><select id="${id}-mode" name="mode"></select>
+  <label for="${id}-solver">Solver</label><select id="${id}-solver" name="solver"></select>
+  <label for="${id}-alpha">Alpha</label>
+  <input id="${id}-alpha" name="alpha" type="number" min="0.001" max="1" step="any">
+  <button type="button" name="play">Play</button>
+  <button type="button" name="step">One frame</button>
+  <button type="button" name="reset">Reset</button>
+</form>
+<dl>${Object.entries(fields).map(([name, title]) =>
+    `<dt>${title}</dt><dd data-field="${name}"></dd>`).join("")}</dl>
+<p role="status" aria-live="polite"></p>`;
+
+function fill(select, entries) {
+  select.replaceChildren(...entries.map(([value, text]) => new Option(text, value)));
+}
+
+export function makeTwin(section, calls) {
+  section.innerHTML = markup(section.id);
+  const form = section.querySelector("form");
+  const live = section.querySelector("[aria-live]");
+  const { scene, mode, solver, alpha, play, step, reset } = form.elements;
+  const shown = Object.fromEntries(
+    [...section.querySelectorAll("[data-field]")].map((e) => [e.dataset.field, e]));
+
+  // "none, const or capped": the words of what is allowed.
+  const choices = (name) => calls.settings().find((s) => s.name === name).allowed
+    .split(/, | or /).map((word) => [word, word]);
+  fill(mode, choices("mode"));
+  fill(solver, choices("solver"));
+
+  form.addEventListener("submit", (event) => event.preventDefault());
+  form.addEventListener("change", ({ target }) => {
+    const { problems } = calls.set({ [target.name]: target.value });
+    if (problems.length > 0) live.textContent = `${target.name}: ${problems[0].message}`;
+    update();
+  });
+  play.addEventListener("click", () => {
+    calls.report().playing ? calls.pause() : calls.play();
+    update();
+  });
+  step.addEventListener("click", () => {
+    calls.pause();
+    calls.step();
+    update();
+  });
+  reset.addEventListener("click", () => {
+    calls.reset();
+    update();
+  });
+
+  let said = "";
+  let told = -Infinity;
+  let names = "";
+  const put = (control, value) => {
+    if (document.activeElement !== control && control.value !== value) control.value = value;
+  };
+
+  function update() {
+    told = performance.now();
+    const r = calls.report();
+    const state = r.stopped ? "stopped" : r.playing ? "playing" : "paused";
+    const values = {
+      scene: r.title,
+      method: `${r.mode}, ${r.solver}, ${r.integrator}, alpha ${r.alpha}`,
+      state: `${state} at ${r.time.toFixed(1)} s`,
+      substeps: String(r.substeps),
+      energy: r.kinetic === null ? "not finite" : `${(r.kinetic / 1000).toFixed(2)} kJ kinetic`,
+      verdict: r.verdict,
+    };
+    for (const [name, value] of Object.entries(values)) {
+      if (shown[name].textContent !== value) shown[name].textContent = value;
+    }
+    const scenes = calls.scenes();
+    const now = scenes.map((s) => s.name).join();
+    if (now !== names) fill(scene, scenes.map((s) => [s.name, s.title]));
+    names = now;
+    put(scene, r.scene);
+    put(mode, r.mode);
+    put(solver, r.solver);
+    put(alpha, String(r.alpha));
+    play.textContent = r.playing ? "Pause" : "Play";
+    // Read out only what a person waits for, not every number that moves.
+    const words = [r.title, r.mode, state, r.verdict, r.trouble, r.notice].filter(Boolean).join(", ");
+    if (words !== said) live.textContent = said = words;
+  }
+
+  update();
+  return {
+    afterDraw() {
+      if (performance.now() - told > period) update();
+    },
+  };
+}

@@ -66,9 +66,8 @@ void draw_share(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
                                     {c.x + 0.36F * s, c.y + 0.04F * s}}};
   draw.AddPolyline(tray.data(), 4, color, 0, line);
   draw.AddLine({c.x, c.y + 0.18F * s}, {c.x, c.y - 0.4F * s}, color, line);
-  const std::array<ImVec2, 3> head{{{c.x - 0.2F * s, c.y - 0.2F * s},
-                                    {c.x, c.y - 0.42F * s},
-                                    {c.x + 0.2F * s, c.y - 0.2F * s}}};
+  const std::array<ImVec2, 3> head{
+      {{c.x - 0.2F * s, c.y - 0.2F * s}, {c.x, c.y - 0.42F * s}, {c.x + 0.2F * s, c.y - 0.2F * s}}};
   draw.AddPolyline(head.data(), 3, color, 0, line);
 }
 

@@ -90,6 +90,13 @@ EMSCRIPTEN_KEEPALIVE void substep_step(int frames) {
   for (int i = 0; i < frames && !app().session.stopped(); ++i) app().session.step();
 }
 
+EMSCRIPTEN_KEEPALIVE void substep_substep() { app().session.substep(); }
+
+/// Looks at the moment of the past that is closest to a time. @param time [s]
+EMSCRIPTEN_KEEPALIVE void substep_go_to(double time) {
+  app().session.go_to(app().session.timeline().at_time(time));
+}
+
 EMSCRIPTEN_KEEPALIVE void substep_play(int on) {
   if (on != 0) {
     app().session.play();
@@ -177,6 +184,8 @@ EMSCRIPTEN_KEEPALIVE const char* substep_report() {
       {"stopped", s.stopped()},
       {"frame", s.state().frame},
       {"time", s.state().time},
+      {"substeps_left", s.substeps_left()},
+      {"latest", s.timeline().last().state.time},
       {"substeps", r.n_substeps},
       {"substeps_wanted", r.n_wanted},
       {"capped", r.capped},

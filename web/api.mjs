@@ -61,6 +61,16 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
       wasm.step(frames);
       return { ...right, ...report() };
     },
+    substep() {
+      wasm.substep();
+      return { ...right, ...report() };
+    },
+    goTo(time) {
+      if (!Number.isFinite(time) || time < 0) return wrong("time", `${show(time)} is no time in s`);
+      wasm.play(0);
+      wasm.goTo(time);
+      return { ...right, ...report() };
+    },
     play() {
       wasm.play(1);
       return right;

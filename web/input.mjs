@@ -84,6 +84,11 @@ export function listen(canvas, wasm, wake, shares) {
   const key = (event, down) => {
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     if (name === "Tab") return; // leaves the canvas, as everywhere on a page
+    if (name === "F6") { // from panel to panel, which is Ctrl Tab where no browser takes it
+      if (down) for (const [tab, ctrl] of [[1, 1], [0, 1], [0, 0]]) wasm.key("Tab", tab, ctrl, 0, 0, 0);
+      event.preventDefault();
+      return;
+    }
     const plain = !event.ctrlKey && !event.metaKey && !event.altKey;
     // The clipboard is in the paste event, which must come; it sends the key itself.
     if (!plain && name === "v") return;

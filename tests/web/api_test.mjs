@@ -86,6 +86,27 @@ test("listeners hear frames and verdicts until they leave", async () => {
   quiet(page);
 });
 
+test("the run goes on from its past, bit for bit", async () => {
+  await call(page, "set", { scene: "bridge", mode: "adaptive" });
+  await call(page, "pause");
+  await call(page, "reset");
+  await call(page, "step", 20);
+  const middle = await call(page, "hash");
+  await call(page, "step", 20);
+  const end = await call(page, "hash");
+  const past = await call(page, "goTo", 20 / 60);
+  assert.deepEqual([past.frame, await call(page, "hash")], [20, middle]);
+  assert.ok(past.latest > past.time);
+  await call(page, "set", { alpha: 0.1 }); // as it was: the future is computed anew
+  await call(page, "step", 20);
+  assert.equal(await call(page, "hash"), end);
+  const begun = await call(page, "substep");
+  assert.ok(begun.substeps_left > 0, JSON.stringify(begun));
+  assert.equal((await call(page, "step")).substeps_left, 0);
+  for (const time of [-1, "1", null]) assert.equal((await call(page, "goTo", time)).ok, false);
+  quiet(page);
+});
+
 test("an event that is none is told", async () => {
   const other = await openPage(session);
   await other.evaluate(() => window.substep.on("explosion", () => {}));

@@ -26,8 +26,8 @@ async function load(frame) {
     } catch (error) {
       if (!(error instanceof LoadError)) throw error;
       console.error(error);
-      await frame.ask("The laboratory could not be loaded", `${error.message}. Is there a network? ` +
-        "Nothing is lost: the address still holds the experiment.", "Try again");
+      await frame.ask("The laboratory could not be loaded", `${error.message}. Is there a network?`,
+        "Try again");
     }
   }
 }

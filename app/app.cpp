@@ -1,13 +1,18 @@
 #include "app/app.hpp"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "app/arrangement.hpp"
 #include "app/command.hpp"
+#include "app/format.hpp"
 #include "app/link.hpp"
 #include "app/png.hpp"
+#include "app/tour.hpp"
 #include "app/ui/panels.hpp"
 #include "core/io/number_text.hpp"
 #include "core/io/saved_scene.hpp"
@@ -27,6 +32,11 @@ void change_speed(Session& session, int by) {
   session.set_speed(kSpeeds[static_cast<std::size_t>(i)]);
 }
 
+void change_scale(App& app, double by) {
+  app.desk.scale = std::clamp(std::round(10.0 * (app.desk.scale + by)) / 10.0, 0.8, 1.5);
+  app.tell("Interface at " + fixed(100.0 * app.desk.scale, 0) + " %");
+}
+
 // One of two words. @return what is wrong, or ""
 std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
   if (value != words[0] && value != words[1]) {
@@ -44,6 +54,26 @@ std::string choose_panel(std::string_view value, Tab& tab) {
     return "'" + std::string(value) + "' is not controls, plots, why or compare";
   }
   tab = static_cast<Tab>(found - kNames.begin());
+  return "";
+}
+
+// "off", or the number of a step: its experiment from the start.
+std::string go_on_tour(App& app, std::string_view value) {
+  const auto steps = tour_steps();
+  const auto step = parse_number(value);
+  const auto count = static_cast<double>(steps.size());
+  if (value != "off" && (!step || *step != std::round(*step) || *step < 1.0 || *step > count)) {
+    return "is not off or a whole number from 1 to " + std::to_string(steps.size());
+  }
+  app.desk.tour_hint = false;
+  if (value == "off") {
+    app.desk.tour = -1;
+    return "";
+  }
+  app.desk.tour = static_cast<int>(*step) - 1;
+  app.open_link(steps[static_cast<std::size_t>(app.desk.tour)].link);
+  app.reset();
+  app.session.play();
   return "";
 }
 
@@ -90,6 +120,13 @@ void handle_key(App& app, ImWchar c) {
       break;
     case ']':
       change_speed(app.session, 1);
+      break;
+    case '+':
+    case '=':
+      change_scale(app, 0.1);
+      break;
+    case '-':
+      change_scale(app, -0.1);
       break;
     case '?':
       app.desk.help = !app.desk.help;
@@ -254,6 +291,13 @@ std::string App::set(std::string_view key, std::string_view value) {
     if (key == option.key) return choose(value, {"off", "on"}, desk.view.*option.member);
   }
   if (key == "panel") return choose_panel(value, desk.tab);
+  if (key == "tour") return go_on_tour(*this, value);
+  if (key == "scale") {
+    const auto scale = parse_number(value);
+    if (!scale || *scale < 0.8 || *scale > 1.5) return "is not a number from 0.8 to 1.5";
+    desk.scale = *scale;
+    return "";
+  }
   if (key == "compare") {
     std::string problem;
     const std::vector<Overrides> runs =
@@ -307,7 +351,42 @@ std::string App::command() const {
                       is_own(session.scene()));
 }
 
+namespace {
+
+// The shell speaks in its own logical pixels, of which the interface's are `scale` times as large.
+class Scaled {
+ public:
+  explicit Scaled(App& app) : size_(ImGui::GetIO().DisplaySize), ratio_(buffer_scale()) {
+    const auto scale = static_cast<float>(app.desk.scale);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {size_.x / scale, size_.y / scale};
+    io.DisplayFramebufferScale = {ratio_.x * scale, ratio_.y * scale};
+    for (ImGuiInputEvent& event : ImGui::GetCurrentContext()->InputEventsQueue) {
+      if (event.EventId <= app.last_event) continue;  // it waited since an earlier frame
+      app.last_event = event.EventId;
+      if (event.Type != ImGuiInputEventType_MousePos) continue;
+      event.MousePos.PosX /= scale;
+      event.MousePos.PosY /= scale;
+    }
+  }
+  ~Scaled() {
+    ImGui::GetIO().DisplaySize = size_;
+    ImGui::GetIO().DisplayFramebufferScale = ratio_;
+  }
+  Scaled(const Scaled&) = delete;
+  Scaled& operator=(const Scaled&) = delete;
+
+ private:
+  static ImVec2 buffer_scale() { return ImGui::GetIO().DisplayFramebufferScale; }
+  ImVec2 size_;
+  ImVec2 ratio_;
+};
+
+}  // namespace
+
 void frame(App& app, double wall_dt) {
+  if (app.pixel_ratio == 0.0F) recall_arrangement(app);  // the shell is there now
+  const Scaled scaled(app);
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.session.advance(wall_dt);
   app.notice.left -= wall_dt;
@@ -327,7 +406,9 @@ void frame(App& app, double wall_dt) {
   ui::draw_window(app);
 
   const ImGuiIO& io = ImGui::GetIO();
-  app.view.build(app.session, app.desk.view, app.look.theme->view, app.view_rect,
+  ViewOptions shown = app.desk.view;
+  if (app.compare.open()) shown.tint = false;  // colours say who is who then
+  app.view.build(app.session, shown, app.look.theme->view, app.view_rect,
                  static_cast<double>(io.DisplaySize.x), static_cast<double>(io.DisplaySize.y),
                  app.picture);
   for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
@@ -342,6 +423,7 @@ void frame(App& app, double wall_dt) {
   app.renderer->draw(app.picture, *ImGui::GetDrawData(), width, height);
   if (app.capture) take_capture(app, width, height);
 
+  remember_arrangement(app);
   if (app.host.link_changed) {
     std::string link = app.link();
     if (link != app.last_link) {

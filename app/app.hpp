@@ -44,6 +44,12 @@ enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare };
 
 enum class Plot : unsigned char { kSubsteps, kEnergy, kError, kTime, kCount };
 
+/// A panel at a side of the picture.
+struct PanelSide {
+  float width = 0.0F;  // as it was dragged; 0: what suits the window
+  bool open = true;
+};
+
 /// A picture of a part of the window, taken when this frame has been drawn.
 struct Capture {
   std::string name;  // of the file
@@ -76,6 +82,12 @@ struct Desk {
   bool more = false;  // the finer points of the method are unfolded
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
+  PanelSide left;
+  PanelSide right;
+  double scale = 1.0;        // of everything but the picture, 0.8 to 1.5
+  int tour = -1;             // step of the guided tour, or -1
+  float tour_height = 0.0F;  // of its card, which the picture makes room for
+  bool tour_hint = false;    // nobody has taken it or put it aside yet
   ViewOptions view;
   int selected = -1;  // body, or -1
   ui::TimeAxis time;
@@ -146,6 +158,8 @@ struct App {
   Hand hand;
   bool pointer_on_picture = false;
   std::string last_link;
+  std::string last_arrangement;
+  unsigned last_event = 0;  // of Dear ImGui, that was brought to the scale
 };
 
 /// One frame on the screen: lets the time pass, builds the panels, draws. The shell has told Dear

@@ -7,7 +7,7 @@
 #include "app/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/model/names.hpp"
+#include "core/io/setting_fields.hpp"
 
 namespace substep::ui {
 namespace {
@@ -167,8 +167,18 @@ void restart_buttons(App& app) {
 }  // namespace
 
 std::string run_title(const App& app) {
-  const Settings& s = app.session.settings();
-  return std::string(name_of(s.mode)) + " (this run)";
+  // By what the others do differently.
+  Overrides own;
+  for (const Compare::Run& run : app.compare.runs()) {
+    for (const Override& o : run.overrides) {
+      const bool known = std::any_of(own.begin(), own.end(),
+                                     [&](const auto& other) { return other.key == o.key; });
+      const SettingField* field = find_setting(o.key);
+      if (known || field == nullptr) continue;
+      own.push_back({o.key, setting_text(*field, app.session.settings())});
+    }
+  }
+  return own.empty() ? "this run" : overrides_title(own) + " (this run)";
 }
 
 void compare(App& app) {

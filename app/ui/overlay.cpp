@@ -183,7 +183,7 @@ void body_labels(App& app) {
 }
 
 void tint_scale(App& app) {
-  if (!app.desk.view.tint) return;
+  if (!app.desk.view.tint || app.compare.open()) return;
   if (stiffness_shares(app.session.scene(), app.session.state()).empty()) return;
   const Look& look = app.look;
   const ViewPalette& palette = look.theme->view;
@@ -299,7 +299,7 @@ void help_card(App& app) {
     const char* key;
     const char* what;
   };
-  static constexpr std::array<Key, 22> kKeys{{{"Space", "play, pause"},
+  static constexpr std::array<Key, 24> kKeys{{{"Space", "play, pause"},
                                               {",  .", "one frame back, one forward"},
                                               {";", "one sub-step"},
                                               {"Home, End", "first and last saved frame"},
@@ -309,6 +309,7 @@ void help_card(App& app) {
                                               {"F", "show everything"},
                                               {"H", "panels on or off"},
                                               {"T", "light or dark"},
+                                              {"+  −", "larger or smaller interface"},
                                               {"?", "this list"},
                                               {"", ""},
                                               {"B", "throw a ball at the pointer"},
@@ -318,6 +319,7 @@ void help_card(App& app) {
                                               {"right drag, Shift drag", "move the view"},
                                               {"wheel, pinch", "closer, farther"},
                                               {"wheel on a plot", "more or less time"},
+                                              {"drag, click on a plot", "that range, that moment"},
                                               {"Ctrl click on a slider", "type the value"},
                                               {"Tab, arrows", "controls by keyboard"},
                                               {"drop a file", "run your own scene"}}};

@@ -35,6 +35,8 @@ void why(App& app);
 void compare(App& app);
 /// Who is who in the picture, at a place on the screen; nothing where nothing is compared.
 void compare_legend(App& app, float x, float y);
+/// The guided tour's card, or the button that opens it.
+void tour(App& app);
 /// What this run is called beside others.
 std::string run_title(const App& app);
 /// @param brief without the list of stages

@@ -117,7 +117,7 @@ void find_range(const PlotSpec& spec, const Frame& f, double from, PlotState& st
 
 std::string label_of(const PlotSpec& spec, const Frame& f, double v, int digits) {
   if (f.logarithmic) return power_of_ten(static_cast<int>(std::lround(v)));
-  if (std::abs(v) >= 1e4 * spec.factor) return coarse_number(v / spec.factor);
+  if (std::abs(v) >= 1e4 * spec.factor || digits > 4) return coarse_number(v / spec.factor);
   return fixed(v / spec.factor, digits);
 }
 
@@ -380,6 +380,7 @@ void interact(const Frame& f, double now, TimeAxis& axis) {
   }
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     axis.drag_from.reset();
+    axis.clicked = now;  // the first of the two had gone back
     axis.follow_again();
   }
 }

@@ -24,7 +24,7 @@ struct TimeAxis {
   std::optional<double> hover;       // pointed at in this frame [s]
   std::optional<double> hover_next;  // what the plots report for the next one [s]
   std::optional<double> drag_from;   // a range is being dragged from here [s]
-  std::optional<double> clicked;     // asked for in this frame [s]
+  std::optional<double> clicked;     // to be looked at; whoever goes there resets it [s]
 
   /// First and last time shown, for a run that has come to `now` [s].
   [[nodiscard]] std::pair<double, double> window(double now) const;
@@ -85,7 +85,8 @@ inline constexpr float kTimeLabelHeight = 18.0F;
 
 /// Draws series over time with one vertical line per pixel column at most, from the least to the
 /// greatest value in it: nothing is missed and 200 s cost as much as 2. Wheel zooms, a drag shows
-/// its range, a drag with the right button or Shift moves, a double click follows again.
+/// its range, a drag with the right button or Shift moves, a click goes to its time, a double click
+/// follows the newest again.
 /// @param size with the gutter of the labels, and with the time labels where there are any
 void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeAxis& axis,
           PlotState& state);

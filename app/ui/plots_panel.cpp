@@ -75,10 +75,18 @@ void compared_values(App& app, float right, float y, Channel channel, Text text)
   value(app.session.history(), app.look.theme->blue);
 }
 
-void draw_plot(App& app, Plot which, const PlotSpec& spec, float height) {
+void draw_plot(App& app, Plot which, PlotSpec spec, float height) {
+  const Session& session = app.session;
+  if (!session.timeline().at_end()) {  // the past is looked at
+    spec.marks.push_back({session.state().time, "", app.look.theme->text});
+  }
   const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
   plot(app.look, spec, app.session.history().end_time(),
        {ImGui::GetContentRegionAvail().x, height + below}, app.desk.time, app.desk.plot(which));
+  if (app.desk.time.clicked) {
+    app.session.go_to(session.timeline().at_time(*app.desk.time.clicked));
+    app.desk.time.clicked.reset();
+  }
 }
 
 // The largest N at alpha = 1 so far: what a constant N would have to be to hold throughout.
@@ -140,11 +148,10 @@ void energy_plot(App& app, float height, bool last) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float right = origin.x + ImGui::GetContentRegionAvail().x;
   section(look,
-          ((app.compare.open() ? "Energy change, " : "Energy, ") + std::string(unit.prefix) + "J")
-              .c_str());
+          app.compare.open() ? "Energy, %" : (std::string("Energy, ") + unit.prefix + "J").c_str());
   tooltip(look, "Energy",
           "Kinetic energy, and how much the potential and the total energy have changed since the "
-          "start: the total not at all, ideally. The percentage is of the energy that the motion "
+          "start: the total not at all, ideally. Percentages are of the energy that the motion "
           "exchanges.");
   const double whole = exchanged.value_or(scale);
   const auto change = [&](double joules) {
@@ -160,8 +167,15 @@ void energy_plot(App& app, float height, bool last) {
   spec.least_span = unit.factor;
   if (app.compare.open()) {
     // What each has lost or gained; one that explodes must not make the others a line at zero.
-    compared_values(app, right, origin.y, Channel::kTotal, change);
-    spec.most = 1.5 * std::max(whole, unit.factor);
+    const double exchange = whole > 0.0 ? whole : 1.0;
+    compared_values(app, right, origin.y, Channel::kTotal, [exchange](double joules) {
+      const double share = 100.0 * joules / exchange;
+      if (std::abs(share) > 999.0) return std::string(share > 0.0 ? "> 999" : "< −999");
+      return fixed(share, std::abs(share) < 9.95 ? 2 : 0);
+    });
+    spec.factor = 0.01 * exchange;
+    spec.least_span = 1e-4 * exchange;
+    spec.most = 1.5 * exchange;
     spec.series.push_back({&h, Channel::kTotal, t.blue});
     add_compared(app, spec, Channel::kTotal);
   } else {

@@ -182,7 +182,7 @@ void bars(App& app, const std::vector<StiffnessLeader>& list) {
   section(look, "N by body");
   tooltip(look, "N by body",
           "The N that each body alone would ask for, from the k/M of its stiffest degree of "
-          "freedom. The largest decides for all.");
+          "freedom. The largest decides for all. A click selects the body.");
   const float width = ImGui::GetContentRegionAvail().x;
   const float names = std::min(112.0F, 0.4F * width);
   constexpr float kNumbers = 34.0F;
@@ -193,8 +193,11 @@ void bars(App& app, const std::vector<StiffnessLeader>& list) {
     const StiffnessLeader& who = list[i];
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(i));
-    ImGui::InvisibleButton("bar", {width, kRow});
-    const bool hovered = ImGui::IsItemHovered();
+    if (ImGui::InvisibleButton("bar", {width, kRow})) {
+      app.desk.selected = app.desk.selected == who.body ? -1 : who.body;
+    }
+    const bool hovered = ImGui::IsItemHovered() || app.desk.selected == who.body;
+    draw_focus(look, draw, at, {at.x + width, at.y + kRow});
     bar_tooltip(look, app.session, who);
     ImGui::PopID();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);

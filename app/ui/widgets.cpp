@@ -137,11 +137,34 @@ std::string fitted(ImFont* font, const std::string& text, float width) {
   return "…";
 }
 
+std::string wrapped(ImFont* font, const char* text, float width) {
+  std::string lines;
+  std::string line;
+  for (const char* p = text; *p != '\0';) {
+    const char* end = p;
+    while (*end != '\0' && *end != ' ' && *end != '\n') ++end;
+    const std::string word(p, end);
+    const std::string longer = line.empty() ? word : line + ' ' + word;
+    if (!line.empty() && text_size(font, longer.c_str()).x > width) {
+      lines += line + '\n';
+      line = word;
+    } else {
+      line = longer;
+    }
+    if (*end == '\n') {
+      lines += line + '\n';
+      line.clear();
+    }
+    p = *end == '\0' ? end : end + 1;
+  }
+  return lines + line;
+}
+
 void label(ImFont* font, ImU32 color, const char* text) {
   ImGui::PushFont(font);
   ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextUnformatted(text);
+  ImGui::PushTextWrapPos(0.0F);  // for a word that is longer than a line
+  ImGui::TextUnformatted(wrapped(font, text, available_width()).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   ImGui::PopFont();
@@ -196,7 +219,7 @@ void tooltip(const Look& look, const char* title, const char* text) {
       ImGui::PopFont();
     }
     ImGui::PushStyleColor(ImGuiCol_Text, look.theme->dim);
-    ImGui::TextUnformatted(text);
+    ImGui::TextUnformatted(wrapped(look.fonts.regular, text, 300.0F).c_str());
     ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();

@@ -1,5 +1,7 @@
 // Where everything lies: panels around the picture, or below it on a phone.
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -72,33 +74,83 @@ void instruments(App& app, float height) {
   timing(app, brief);
 }
 
-void desktop(App& app, ImVec2 display) {
-  const float margin = app.look.m.margin;
-  const float pad = app.look.m.pad;
-  const bool wide = display.x >= 1500.0F;
-  const float left_width = wide ? 300.0F : 276.0F;
-  const float right_width = std::clamp(std::round(0.235F * display.x), 288.0F, 460.0F);
-  const float panel_height = display.y - kBar - 3.0F * margin;
-  const Rect left{margin, margin, left_width, panel_height};
-  const Rect right{display.x - margin - right_width, margin, right_width, panel_height};
-  const Rect bar{margin, display.y - margin - kBar, display.x - 2.0F * margin, kBar};
-  app.view_rect = app.desk.panels ? ViewRect{left.x + left.width, 0.0F,
-                                             right.x - left.x - left.width, bar.y - margin + margin}
-                                  : ViewRect{0.0F, 0.0F, display.x, bar.y};
-  if (app.desk.panels) {
+constexpr float kEdge = 10.0F;         // width of the strip that a panel is dragged by
+constexpr float kLeastPanel = 240.0F;  // width
+constexpr float kLeastView = 320.0F;
+
+// The strip at a panel's inner edge: dragged, it changes the width; clicked, it folds the panel
+// away or brings it back.
+// @param outward +1 where the panel lies to the right of the strip, -1 to the left
+void edge(App& app, const char* id, PanelSide& side, const Rect& strip, float width, float most,
+          float outward) {
+  const Theme& t = *app.look.theme;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
+  if (begin_panel(id, strip, ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar)) {
+    ImGui::InvisibleButton("edge", {strip.width, strip.height});
+    const bool moved = ImGui::IsMouseDragPastThreshold(ImGuiMouseButton_Left, 3.0F);
+    const bool hot = ImGui::IsItemHovered() || ImGui::IsItemActive();
+    if (hot) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+    if (ImGui::IsItemActive() && moved && side.open) {
+      side.width = std::clamp(width - outward * ImGui::GetIO().MouseDelta.x, kLeastPanel, most);
+    }
+    if (ImGui::IsItemDeactivated() && !moved) side.open = !side.open;
+    const ImVec2 c(strip.x + 0.5F * strip.width, strip.y + 0.5F * strip.height);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddRectFilled({c.x - 2.0F, c.y - 20.0F}, {c.x + 2.0F, c.y + 20.0F},
+                       hot ? t.accent_hover : fade(t.faint, 0.7F), 2.0F);
+    tooltip(app.look, "", side.open ? "Drag: width. Click: fold away" : "Click: bring it back");
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+float width_of(const PanelSide& side, float suits, float most) {
+  return side.width > 0.0F ? std::clamp(side.width, kLeastPanel, std::max(kLeastPanel, most))
+                           : suits;
+}
+
+// What a folded panel leaves of its place is the strip that brings it back.
+void desktop_panels(App& app, const Rect& space) {
+  const bool wide = space.width >= 1476.0F;
+  const float most = 0.5F * (space.width - kLeastView);
+  PanelSide& left = app.desk.left;
+  PanelSide& right = app.desk.right;
+  const float left_width = width_of(left, wide ? 300.0F : 276.0F, most);
+  const float right_width =
+      width_of(right, std::clamp(std::round(0.235F * space.width), 288.0F, 460.0F), most);
+  const float left_edge = left.open ? space.x + left_width : space.x - app.look.m.margin;
+  const float right_edge =
+      right.open ? space.x + space.width - right_width : space.x + space.width + app.look.m.margin;
+  app.view_rect = {left_edge, 0.0F, right_edge - left_edge, space.y + space.height + space.y};
+  if (left.open) {
     // As tall as what is in it.
-    ImGui::SetNextWindowPos({left.x, left.y});
-    ImGui::SetNextWindowSizeConstraints({left.width, 0.0F}, {left.width, left.height});
+    ImGui::SetNextWindowPos({space.x, space.y});
+    ImGui::SetNextWindowSizeConstraints({left_width, 0.0F}, {left_width, space.height});
     if (ImGui::Begin("##controls", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
       controls(app);
       scroll_by_drag();
     }
     ImGui::End();
-    if (begin_panel("##plots", right)) {
-      instruments(app, panel_height - 2.0F * pad);
+  }
+  if (right.open) {
+    if (begin_panel("##plots", {right_edge, space.y, right_width, space.height})) {
+      instruments(app, space.height - 2.0F * app.look.m.pad);
       scroll_by_drag();
     }
     ImGui::End();
+  }
+  const float y = space.y + 0.5F * space.height - 60.0F;
+  edge(app, "##left_edge", left, {left_edge, y, kEdge, 120.0F}, left_width, most, -1.0F);
+  edge(app, "##right_edge", right, {right_edge - kEdge, y, kEdge, 120.0F}, right_width, most, 1.0F);
+}
+
+void desktop(App& app, ImVec2 display) {
+  const float margin = app.look.m.margin;
+  const Rect bar{margin, display.y - margin - kBar, display.x - 2.0F * margin, kBar};
+  app.view_rect = {0.0F, 0.0F, display.x, bar.y};
+  if (app.desk.panels) {
+    desktop_panels(app, {margin, margin, display.x - 2.0F * margin, bar.y - 2.0F * margin});
   }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 12.0F});
   if (begin_panel("##transport", bar, ImGuiWindowFlags_NoScrollbar)) transport(app, false);
@@ -186,7 +238,9 @@ void draw_window(App& app) {
   } else {
     desktop(app, display);
   }
+  app.view_rect.height -= app.desk.tour_height;
   selection_card(app, small);
+  tour(app);
   failure_card(app);
   trouble_card(app);
   help_card(app);

@@ -1,0 +1,129 @@
+// The guided tour: a card over the picture, and the button that opens it.
+
+#include <algorithm>
+#include <string>
+
+#include "app/tour.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
+                                   ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoFocusOnAppearing;
+
+void go_to(App& app, int step) { app.set("tour", std::to_string(step + 1)); }
+
+void end(App& app) { app.set("tour", "off"); }
+
+// Where the tour stands, as dots.
+void draw_dots(const Look& look, int step, int count, ImVec2 at) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (int i = 0; i < count; ++i) {
+    const ImVec2 centre(at.x + 4.0F + 14.0F * static_cast<float>(i), at.y);
+    draw.AddCircleFilled(centre, i == step ? 4.0F : 3.0F,
+                         i == step ? look.theme->accent_hover : look.theme->faint);
+  }
+}
+
+void steps_row(App& app, int step, int count) {
+  const Look& look = app.look;
+  const float row = look.m.row + 2.0F;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const bool last = step + 1 == count;
+  draw_dots(look, step, count, {origin.x, origin.y + 0.5F * row});
+  ImGui::SetCursorScreenPos({origin.x + width - 168.0F, origin.y});
+  if (step > 0) {
+    if (button(look, "back", Icon::kNone, "Back", ButtonKind::kPlain, 80.0F, row, "")) {
+      go_to(app, step - 1);
+    }
+  } else {
+    ImGui::Dummy({80.0F, row});
+  }
+  ImGui::SameLine(0.0F, 8.0F);
+  if (button(look, "next", Icon::kNone, last ? "Done" : "Next", ButtonKind::kPrimary, 80.0F, row,
+             "")) {
+    if (last) {
+      end(app);
+    } else {
+      go_to(app, step + 1);
+    }
+  }
+}
+
+void card(App& app, int step) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const auto steps = tour_steps();
+  const TourStep& now = steps[static_cast<std::size_t>(step)];
+  const ViewRect& v = app.view_rect;
+  const float width = std::min(440.0F, v.width - 24.0F);
+  // Below the picture, which has made room for it.
+  const float bottom = v.y + v.height + app.desk.tour_height;
+  ImGui::SetNextWindowPos({v.x + 0.5F * v.width, bottom - 12.0F}, ImGuiCond_Always, {0.5F, 1.0F});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, bottom - v.y - 24.0F});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {16.0F, 12.0F});
+  if (ImGui::Begin("##tour", nullptr, kCard)) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float right = at.x + ImGui::GetContentRegionAvail().x;
+    const std::string title = std::to_string(step + 1) + "  ·  " + now.title;
+    draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {at.x, at.y + 4.0F}, t.text,
+              fitted(look.fonts.medium, title, right - at.x - 32.0F).c_str());
+    ImGui::SetCursorScreenPos({right - 24.0F, at.y});
+    if (button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 24.0F, 24.0F, "End the tour")) {
+      end(app);
+    }
+    label(look.fonts.regular, t.text, now.text);
+    label(look.fonts.small, t.dim, (std::string("Watch: ") + now.watch).c_str());
+    steps_row(app, step, static_cast<int>(steps.size()));
+  }
+  app.desk.tour_height = ImGui::GetWindowHeight() + 12.0F;
+  ImGui::End();
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor();
+}
+
+// Says more to those who have not been here before, until it is taken or put aside.
+void invitation(App& app) {
+  const Look& look = app.look;
+  const ViewRect& v = app.view_rect;
+  const bool fresh = app.desk.tour_hint;
+  ImGui::SetNextWindowPos({v.x + v.width - 12.0F, v.y + v.height - 12.0F}, ImGuiCond_Always,
+                          {1.0F, 1.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
+  if (ImGui::Begin("##tour_button", nullptr, kCard | ImGuiWindowFlags_NoBackground)) {
+    if (button(look, "tour", Icon::kNone, fresh ? "Take the tour: six steps" : "Tour",
+               fresh ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, look.m.row + 2.0F,
+               "The paper's story in six steps")) {
+      go_to(app, 0);
+    }
+    if (fresh) {
+      ImGui::SameLine(0.0F, 4.0F);
+      if (button(look, "not", Icon::kCross, "", ButtonKind::kPlain, look.m.row + 2.0F,
+                 look.m.row + 2.0F, "Not now; the button stays")) {
+        end(app);
+      }
+    }
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+}
+
+}  // namespace
+
+void tour(App& app) {
+  if (app.desk.tour < 0) app.desk.tour_height = 0.0F;
+  if (app.desk.tour >= 0) {
+    card(app, app.desk.tour);
+  } else {
+    invitation(app);
+  }
+}
+
+}  // namespace substep::ui

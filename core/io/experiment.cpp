@@ -1,6 +1,5 @@
 #include "core/io/experiment.hpp"
 
-#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
 
@@ -71,6 +70,7 @@ std::string experiment_id(const Experiment& experiment) {
     text += '=' + value;
   }
   text += " seconds=" + number_text(experiment.duration);
+  if (experiment.load != 1.0) text += " load=" + number_text(experiment.load);
   text += " seed=" + std::to_string(experiment.seed);
   return hex_text(text_hash(text));
 }
@@ -83,6 +83,7 @@ Json experiment_json(const Experiment& experiment) {
   json["settings"] = settings_json(experiment.settings);
   json["settings"].erase("watch_stiffness");
   json["seconds"] = experiment.duration;
+  json["load"] = experiment.load;
   json["seed"] = experiment.seed;
   return json;
 }
@@ -102,6 +103,7 @@ ExperimentInput read_experiment(const Json& json, const SceneFinder& find, Probl
   if (input.scene) experiment = experiment_of(*input.scene, input.scene->settings);
   read_settings(in, experiment.settings, problems);
   in.number("seconds", kDurationRange, experiment.duration, kOptional);
+  in.number("load", kLoadRange, experiment.load, kOptional);
   in.integer("seed", 0, kMostSeed, experiment.seed, kOptional);
   if (in.text("scene_hash", kLongest, hash, kOptional) && input.scene &&
       hash != hex_text(experiment.scene_hash)) {
@@ -119,21 +121,12 @@ ExperimentInput read_experiment(const Json& json, const SceneFinder& find, Probl
 }
 
 std::string command_line(const Experiment& experiment, const Scene& scene) {
-  std::string command = "substep run " + scene.name;
-  for (const SettingField& field : setting_fields()) {
-    const std::string value = setting_text(field, experiment.settings);
-    if (is_view_only(field) || value == setting_text(field, scene.settings)) continue;
-    std::string flag(field.name);
-    std::replace(flag.begin(), flag.end(), '_', '-');
-    if (std::holds_alternative<FlagSetting>(field.member)) {
-      command += (value == "true" ? " --" : " --no-") + flag;
-    } else {
-      command += " --" + flag + ' ' + value;
-    }
-  }
+  std::string command =
+      "substep run " + scene.name + setting_flags(experiment.settings, scene.settings);
   if (experiment.duration != scene.criteria.duration) {
     command += " --seconds " + number_text(experiment.duration);
   }
+  if (experiment.load != 1.0) command += " --load " + number_text(experiment.load);
   if (experiment.seed != 0) command += " --seed " + std::to_string(experiment.seed);
   return command;
 }

@@ -9,11 +9,13 @@
 
 #include "core/io/json.hpp"
 #include "core/io/problem.hpp"
+#include "core/io/range.hpp"
 #include "core/lab/experiment.hpp"
 
 namespace substep {
 
 inline constexpr int kMostSeed = 1'000'000;
+inline constexpr Range kLoadRange{1e-6, 1e6};
 
 /// Hash of what the scene holds: bodies, joints, contact, gravity, criteria. Not of words, camera
 /// and settings, which make no other run or are the experiment's own.
@@ -28,7 +30,8 @@ std::string experiment_id(const Experiment& experiment);
 
 std::string hex_text(std::uint64_t value);
 
-/// {"id": ..., "scene": ..., "scene_hash": ..., "settings": {...}, "seconds": 10, "seed": 0}
+/// {"id": ..., "scene": ..., "scene_hash": ..., "settings": {...}, "seconds": 10,
+/// "load": 1, "seed": 0}
 Json experiment_json(const Experiment& experiment);
 
 /// Finds a scene by its name, or null.

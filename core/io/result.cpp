@@ -33,6 +33,14 @@ Json errors_json(const Errors& e) {
   return json;
 }
 
+Json reference_json(const ReferenceSummary& r) {
+  return {{"source", r.source},
+          {"uncertainty", r.uncertainty},
+          {"window", r.window},
+          {"energy_scale", r.energy_scale},
+          {"energy_scale_source", r.energy_scale_source}};
+}
+
 Json work_json(const Work& w) {
   return {{"frames", w.frames},
           {"substeps", w.substeps},
@@ -99,6 +107,7 @@ Json result_json(const Result& result) {
   json["verdict"] = m.verdict;
   json["hash"] = hex_text(m.hash);
   json["errors"] = errors_json(m.errors);
+  json["reference"] = reference_json(result.reference);
   json["work"] = work_json(m.work);
   json["timing"] = timing_json(m.timing);
   return json;

@@ -1,5 +1,6 @@
 #include "core/io/setting_fields.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/io/number_text.hpp"
@@ -134,6 +135,23 @@ std::optional<std::string> set_setting(const SettingField& field, std::string_vi
                              field.member);
   if (ok) return std::nullopt;
   return std::string(text) + " is not " + allowed_values(field);
+}
+
+std::string setting_flags(const Settings& settings, const Settings& base) {
+  std::string flags;
+  for (const SettingField& field : setting_fields()) {
+    if (field.name == "watch_stiffness") continue;
+    const std::string value = setting_text(field, settings);
+    if (value == setting_text(field, base)) continue;
+    std::string flag(field.name);
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    if (std::holds_alternative<FlagSetting>(field.member)) {
+      flags += (value == "true" ? " --" : " --no-") + flag;
+    } else {
+      flags += " --" + flag + " " + value;
+    }
+  }
+  return flags;
 }
 
 }  // namespace substep

@@ -59,4 +59,8 @@ std::string setting_text(const SettingField& field, const Settings& settings);
 std::optional<std::string> set_setting(const SettingField& field, std::string_view text,
                                        Settings& settings);
 
+/// " --mode const --n 12": the command-line flags that make `settings` out of `base`. What is only
+/// looked at, watch_stiffness, is left out.
+std::string setting_flags(const Settings& settings, const Settings& base);
+
 }  // namespace substep

@@ -1,6 +1,8 @@
 #include "core/lab/experiment.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/model/names.hpp"
 
@@ -27,17 +29,47 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace
+Body& heaviest(std::vector<Body>& bodies) {
+  return *std::max_element(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) {
+    return (a.is_static ? 0.0 : a.mass) < (b.is_static ? 0.0 : b.mass);
+  });
+}
 
-Scene nudged_start(const Scene& scene, int seed) {
-  Scene nudged = scene;
-  if (seed == 0) return nudged;
+void apply_load(double load, Scene& scene) {
+  if (scene.bodies.empty()) return;
+  Body& body = heaviest(scene.bodies);
+  body.mass *= load;
+  body.inertia *= load;
+  if (scene.criteria.energy_gain) *scene.criteria.energy_gain *= load;
+  if (scene.criteria.energy_scale) *scene.criteria.energy_scale *= load;
+}
+
+void nudge(int seed, Scene& scene) {
   Random random(static_cast<std::uint64_t>(seed));
-  for (Body& body : nudged.bodies) {
+  for (Body& body : scene.bodies) {
     if (body.is_static) continue;
     for (int axis = 0; axis < 3; ++axis) body.velocity[axis] += kNudge * random.next();
   }
-  return nudged;
+}
+
+}  // namespace
+
+Scene start_of(const Scene& scene, double load, int seed) {
+  Scene start = scene;
+  if (load != 1.0) apply_load(load, start);
+  if (seed != 0) nudge(seed, start);
+  return start;
+}
+
+double mass_ratio(const Scene& scene) {
+  double most = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Body& body : scene.bodies) {
+    if (body.is_static) continue;
+    most = std::max(most, body.mass);
+    least = std::min(least, body.mass);
+  }
+  return most > 0.0 ? most / least : 1.0;
 }
 
 std::int64_t frames_of(const Scene& scene, double duration) {

@@ -15,15 +15,20 @@ struct Experiment {
   std::uint64_t scene_hash = 0;  // of what the scene holds, io's scene_hash
   Settings settings;
   double duration = 10.0;  // [s], > 0
-  int seed = 0;            // of the start, nudged_start
+  double load = 1.0;       // factor on the mass of the heaviest body, > 0 [-]
+  int seed = 0;            // of the start's nudge
 
   friend bool operator==(const Experiment&, const Experiment&) = default;
 };
 
-/// The scene with the start of a seed. 0 is the scene as it stands; any other seed changes the
-/// velocity of every moving body by up to 1e-9 m/s along each axis, far below every error that is
-/// measured: what then differs between seeds, rounding decides.
-Scene nudged_start(const Scene& scene, int seed);
+/// The scene that an experiment starts from. Load 1 and seed 0 leave it as it stands.
+/// A load scales mass and inertia of the heaviest body, and with it the energies that the verdict
+/// goes by. A seed changes the velocity of every moving body by up to 1e-9 m/s along each axis, far
+/// below every error that is measured: what then differs between seeds, rounding decides.
+Scene start_of(const Scene& scene, double load, int seed);
+
+/// Mass of the heaviest moving body over that of the lightest [-].
+double mass_ratio(const Scene& scene);
 
 /// Frames of a duration, rounded to whole ones.
 std::int64_t frames_of(const Scene& scene, double duration);

@@ -4,12 +4,22 @@
 
 namespace substep {
 
+namespace {
+
+const Reference& none() {
+  static const Reference reference;
+  return reference;
+}
+
+}  // namespace
+
 ExperimentRun::ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference)
     : experiment_(std::move(experiment)),
-      scene_(std::make_shared<const Scene>(nudged_start(scene, experiment_.seed))),
+      scene_(std::make_shared<const Scene>(start_of(scene, experiment_.load, experiment_.seed))),
       simulator_(scene_),
       report_(simulator_.observe()),
-      measure_(*scene_, simulator_.state(), report_, reference),
+      reference_(experiment_.load == 1.0 ? reference : none()),
+      measure_(*scene_, simulator_.state(), report_, reference_),
       frames_(frames_of(*scene_, experiment_.duration)) {
   simulator_.set_settings(experiment_.settings);
 }
@@ -32,7 +42,7 @@ double ExperimentRun::progress() const {
 }
 
 Result ExperimentRun::result() const {
-  return {experiment_, measure_.metrics(*scene_, simulator_.state())};
+  return {experiment_, measure_.metrics(*scene_, simulator_.state()), reference_};
 }
 
 }  // namespace substep

@@ -12,13 +12,15 @@ namespace substep {
 struct Result {
   Experiment experiment;
   Metrics metrics;
+  ReferenceSummary reference;
 };
 
 /// One experiment, frame by frame. It ends with its duration or with its first failure.
 class ExperimentRun {
  public:
-  /// @param scene the scene as it stands, without the nudge of the experiment's seed
-  /// @param reference must outlive this
+  /// @param scene the scene as it stands, without the experiment's load and seed
+  /// @param reference of the scene as it stands; must outlive this. Another load moves otherwise:
+  /// its distance from the reference is not measured
   ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference);
 
   /// One more frame. @return false when the run is over
@@ -34,6 +36,7 @@ class ExperimentRun {
   std::shared_ptr<const Scene> scene_;
   Simulator simulator_;
   FrameReport report_;  // of the last frame
+  const Reference& reference_;
   Measure measure_;
   std::int64_t frames_ = 0;
 };

@@ -202,6 +202,12 @@ double PlanarChain::potential() const {
   return energy;
 }
 
+double PlanarChain::length() const {
+  double length = links_.back().e.norm();
+  for (const Link& link : links_) length += link.L.norm();
+  return length;
+}
+
 double PlanarChain::weight() const {
   double mass = 0.0;
   for (const Link& link : links_) mass += link.mass;

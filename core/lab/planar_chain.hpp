@@ -34,6 +34,8 @@ class PlanarChain {
   [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
   /// Weight of all links [N]: how far a compliance can stretch a hinge.
   [[nodiscard]] double weight() const;
+  /// From the fixed point to the last centre, stretched out [m].
+  [[nodiscard]] double length() const;
   [[nodiscard]] int size() const { return static_cast<int>(links_.size()); }
 
  private:

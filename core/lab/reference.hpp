@@ -9,14 +9,19 @@
 
 namespace substep {
 
-/// The motion that errors are measured from: where the tracked body is after every frame.
-struct Reference {
-  std::string source;       // "exact: ...", or "finest run: ..."
-  std::vector<Vec3> track;  // frame 0 is the start, world [m]; empty where the scene tracks nothing
+/// What a reference is worth.
+struct ReferenceSummary {
+  std::string source;         // "exact: ...", or "finest run: ..."
   double uncertainty = 0.0;   // of the positions [m]
   double window = 0.0;        // how long the motion can be foretold [s]
   double energy_scale = 0.0;  // 100 % of the energy drift [J], 0 where there is none
   std::string energy_scale_source;
+};
+
+/// The motion that errors are measured from: where the tracked body is after every frame.
+struct Reference : ReferenceSummary {
+  // Frame 0 is the start, world [m]; empty where the scene tracks nothing.
+  std::vector<Vec3> track;
 };
 
 /// How long the motion of a scene can be foretold: contact makes it chaotic. [s]

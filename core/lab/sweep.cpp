@@ -11,6 +11,10 @@ constexpr int kConstant[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28,
 constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 0.0125, 0.00625};
 constexpr double kDampingAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
+// The map has fewer values than the curves: each stands for a run under every load.
+constexpr int kMapN[] = {1, 2, 4, 6, 8, 12, 16, 24};
+constexpr double kMapAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
+constexpr double kMapLoads[] = {0.01, 0.1, 0.32, 3.2, 10.0};
 constexpr double kReferenceWork = 0.05;  // share of the progress bar
 
 /// Every value of a mode's own parameter.
@@ -42,9 +46,29 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
   }
 }
 
+/// Constant N and adaptive along their parameter, with the direct solver, under every other load.
+void append_map(Settings settings, std::vector<SweepPoint>& points) {
+  settings.solver = SolverKind::kBpp;
+  settings.integrator = Integrator::kEuler;
+  settings.policy = Policy::kFrame;
+  std::vector<Settings> all;
+  append_curve(settings, Mode::kConst, all);
+  append_curve(settings, Mode::kAdaptive, all);
+  const auto is_on_map = [](const Settings& s) {
+    return s.mode == Mode::kConst
+               ? std::find(std::begin(kMapN), std::end(kMapN), s.n) != std::end(kMapN)
+               : std::find(std::begin(kMapAlpha), std::end(kMapAlpha), s.alpha) !=
+                     std::end(kMapAlpha);
+  };
+  for (const Settings& on_map : all) {
+    if (!is_on_map(on_map)) continue;
+    for (const double load : kMapLoads) points.push_back({on_map, load});
+  }
+}
+
 }  // namespace
 
-std::vector<Settings> default_sweep(const Scene& scene) {
+std::vector<SweepPoint> default_sweep(const Scene& scene) {
   std::vector<Settings> all;
   Settings base = scene.settings;
   base.watch_stiffness = false;
@@ -66,7 +90,10 @@ std::vector<Settings> default_sweep(const Scene& scene) {
   curves(SolverKind::kBpp, Integrator::kEuler);
   curves(SolverKind::kBpp, Integrator::kLeapfrog);
   curves(SolverKind::kPgs, Integrator::kEuler);
-  return all;
+  std::vector<SweepPoint> points;
+  for (const Settings& settings : all) points.push_back({settings, 1.0});
+  if (mass_ratio(scene) > 1.0) append_map(base, points);
+  return points;
 }
 
 double expected_work(const Scene& scene, const Experiment& experiment) {

@@ -9,10 +9,16 @@
 
 namespace substep {
 
-/// The settings that show what accuracy costs on a scene: constant N, adaptive per frame and per
+struct SweepPoint {
+  Settings settings;
+  double load = 1.0;  // Experiment::load
+};
+
+/// The runs that show what accuracy costs on a scene: constant N, adaptive per frame and per
 /// sub-step, damping, capped with damping; Euler and leapfrog; the direct solver and PGS; each
-/// along its own parameter. Other settings stay as the scene has them.
-std::vector<Settings> default_sweep(const Scene& scene);
+/// along its own parameter; and, for a map of where they hold, constant N and adaptive under other
+/// loads where bodies of different mass meet. Other settings stay as the scene has them.
+std::vector<SweepPoint> default_sweep(const Scene& scene);
 
 /// Sub-steps a run is likely to take, weighted by what one costs: for progress bars only.
 double expected_work(const Scene& scene, const Experiment& experiment);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <random>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "core/lab/pareto.hpp"
 #include "core/lab/sweep.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/unit/scene_schema_validator.hpp"
 
 namespace substep::test {
 namespace {
@@ -55,6 +57,7 @@ TEST(Experiment, JsonComesBackTheSame) {
   const auto scene = shared(scenes::swinging_box());
   Experiment experiment = experiment_of(*scene, unusual(), 3);
   experiment.duration = 1.0 / 3.0;
+  experiment.load = 0.1;
   Problems problems;
   const auto json = parse_json(experiment_json(experiment).dump(), problems);
   ASSERT_TRUE(json.has_value());
@@ -113,6 +116,8 @@ TEST(Experiment, IdDependsOnAllThatMakesTheRunAndOnNothingElse) {
   Experiment longer = experiment_of(scene, Settings{});
   longer.duration = 11.0;
   EXPECT_TRUE(ids.insert(experiment_id(longer)).second);
+  longer.load = 2.0;
+  EXPECT_TRUE(ids.insert(experiment_id(longer)).second);
   Scene heavier = scene;
   heavier.bodies[0].mass = 2.0;
   EXPECT_TRUE(ids.insert(experiment_id(experiment_of(heavier, Settings{}))).second);
@@ -132,18 +137,30 @@ TEST(Experiment, IdOfTheScenesFileStaysWhatItIs) {
   EXPECT_EQ(experiment_id(experiment_of(*scene, Settings{})), "338fa7f7f23df747");
 }
 
+TEST(Experiment, ALoadScalesTheHeaviestBodyAlone) {
+  const Scene scene = scenes::swinging_box();
+  const Scene loaded = start_of(scene, 3.0, 0);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const double factor = scene.bodies[i].name == "box" ? 3.0 : 1.0;
+    EXPECT_EQ(loaded.bodies[i].mass, factor * scene.bodies[i].mass) << i;
+    EXPECT_EQ(loaded.bodies[i].inertia, factor * scene.bodies[i].inertia) << i;
+  }
+  EXPECT_EQ(mass_ratio(scene), 1000.0);
+  EXPECT_EQ(mass_ratio(loaded), 3000.0);
+}
+
 TEST(Experiment, ASeedNudgesEveryMovingBodyAndNoMore) {
   const Scene scene = scenes::swinging_box();
-  EXPECT_EQ(nudged_start(scene, 0).bodies[1].velocity, scene.bodies[1].velocity);
-  const Scene nudged = nudged_start(scene, 5);
+  EXPECT_EQ(start_of(scene, 1.0, 0).bodies[1].velocity, scene.bodies[1].velocity);
+  const Scene nudged = start_of(scene, 1.0, 5);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const double by = (nudged.bodies[i].velocity - scene.bodies[i].velocity).norm();
     EXPECT_EQ(by > 0.0, !scene.bodies[i].is_static) << i;
     EXPECT_LT(by, 2e-9) << i;
     EXPECT_EQ(nudged.bodies[i].position, scene.bodies[i].position);
   }
-  EXPECT_EQ(nudged_start(scene, 5).bodies[1].velocity, nudged.bodies[1].velocity);
-  EXPECT_NE(nudged_start(scene, 6).bodies[1].velocity, nudged.bodies[1].velocity);
+  EXPECT_EQ(start_of(scene, 1.0, 5).bodies[1].velocity, nudged.bodies[1].velocity);
+  EXPECT_NE(start_of(scene, 1.0, 6).bodies[1].velocity, nudged.bodies[1].velocity);
 }
 
 TEST(Pareto, IsTheFrontOfBruteForce) {
@@ -243,9 +260,11 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
   const Scene scene = scenes::swinging_box();
   std::set<std::string> series;
   std::set<std::string> ids;
-  for (const Settings& settings : default_sweep(scene)) {
-    series.insert(series_name(settings));
-    EXPECT_TRUE(ids.insert(experiment_id(experiment_of(scene, settings))).second);
+  for (const SweepPoint& point : default_sweep(scene)) {
+    series.insert(series_name(point.settings));
+    Experiment experiment = experiment_of(scene, point.settings);
+    experiment.load = point.load;
+    EXPECT_TRUE(ids.insert(experiment_id(experiment)).second);
   }
   for (const char* name :
        {"bpp, const, euler", "bpp, const, leapfrog", "bpp, adaptive per frame, euler",
@@ -285,6 +304,35 @@ TEST(Sweep, SlicesGiveTheResultsOfWholeRuns) {
     EXPECT_EQ(sliced.errors, whole.errors) << i;
     EXPECT_EQ(sliced.work, whole.work) << i;
     EXPECT_EQ(sliced.hash, whole.hash) << i;
+  }
+}
+
+Json result_schema() {
+  std::ifstream file(SUBSTEP_SOURCE_DIR "/core/io/result.schema.json");
+  return Json::parse(file, nullptr, false);
+}
+
+TEST(Results, LinesKeepToTheirSchema) {
+  const Json schema = result_schema();
+  ASSERT_TRUE(schema.is_object());
+  EXPECT_EQ(schema_errors(schema, schema, Json::parse(results_header())),
+            std::vector<std::string>{});
+  Settings none;
+  none.mode = Mode::kNone;
+  for (const auto& [scene, settings] :
+       {std::pair{scenes::swinging_box(), Settings{}}, std::pair{scenes::swinging_box(), none},
+        std::pair{scenes::heavy_stack(), Settings{}}, std::pair{scenes::spinning_top(), Settings{}},
+        std::pair{scenes::sliding_box(), unusual()}}) {
+    Experiment experiment = experiment_of(scene, settings);
+    experiment.duration = 0.5;
+    const Reference reference = find_reference(shared(scene), 0.1);
+    ExperimentRun run(scene, experiment, reference);
+    while (run.advance()) {
+    }
+    Json line = Json::parse(result_json(run.result()).dump());
+    EXPECT_EQ(schema_errors(schema, schema, line), std::vector<std::string>{}) << line.dump();
+    line["colour"] = "red";
+    EXPECT_FALSE(schema_errors(schema, schema, line).empty());
   }
 }
 

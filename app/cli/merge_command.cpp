@@ -92,9 +92,12 @@ int merge(const Options& options) {
     for (const Json& result : results) {
       kinds.emplace(result.value("seconds", 0.0), result.value("seed", 0));
     }
+    Experiment experiment = experiment_of(*scene, scene->settings);
     for (const auto& [seconds, seed] : kinds) {
-      for (const Settings& settings : default_sweep(*scene)) {
-        Experiment experiment = experiment_of(*scene, settings, seed);
+      for (const SweepPoint& point : default_sweep(*scene)) {
+        experiment.settings = point.settings;
+        experiment.seed = seed;
+        experiment.load = point.load;
         experiment.duration = seconds;
         plan.push_back(experiment_id(experiment));
       }
@@ -105,7 +108,7 @@ int merge(const Options& options) {
     std::printf("%zu runs from %zu parts\nresults  %s\n", file.size(), parts.size(),
                 (folder / "results.jsonl").string().c_str());
   }
-  return write_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
+  return write_sweep_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ class ProgressLine {
     return shown_ && std::chrono::steady_clock::now() - last_ >= std::chrono::milliseconds(100);
   }
   void show(const std::string& text) {
+    if (!shown_) return;
     last_ = std::chrono::steady_clock::now();
     written_ = true;
     std::fprintf(stderr, "\r\x1b[K%s", text.c_str());

@@ -1,9 +1,205 @@
 #include "app/cli/report.hpp"
 
-namespace substep::cli {
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <memory>
 
-bool write_report(const std::filesystem::path&, const Scene*, const std::vector<Json>&, bool) {
+#include "app/cli/run_report.hpp"
+#include "app/cli/run_trace.hpp"
+#include "app/report/page.hpp"
+#include "core/io/experiment.hpp"
+#include "core/io/number_text.hpp"
+
+namespace substep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a picture needs: thousands of numbers of 17 digits help nobody.
+double shortened(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g", x);
+  return parse_number(text).value_or(0.0);
+}
+
+/// The settings of a result, or nothing where the line is of another version.
+std::optional<Experiment> experiment_in(const Json& result, const Scene& scene) {
+  Json json = result;
+  for (const char* other : {"series", "parameter", "holds", "failed_at", "verdict", "hash",
+                            "errors", "reference", "work", "timing", "command"}) {
+    json.erase(other);
+  }
+  Problems problems;
+  const auto held = std::make_shared<const Scene>(scene);
+  return read_experiment(
+             json, [&](const std::string&) { return held; }, problems)
+      .experiment;
+}
+
+/// Picture 2: adaptive against the smallest constant N that holds, and energy by mode.
+Json time_charts(const Scene& scene, const std::vector<Json>& results) {
+  int least = 0;  // constant N that holds
+  for (const Json& result : results) {
+    const Json& parameter = result["parameter"];
+    if (result.value("series", "") != "bpp, const, euler" || !result.value("holds", false) ||
+        result.value("load", 1.0) != 1.0) {
+      continue;
+    }
+    const int n = static_cast<int>(parameter.value("value", 0.0));
+    if (least == 0 || n < least) least = n;
+  }
+  const auto held = std::make_shared<const Scene>(scene);
+  Settings settings = scene.settings;
+  settings.solver = SolverKind::kBpp;
+  settings.integrator = Integrator::kEuler;
+  settings.drift = Drift::kAuto;
+  const double duration = scene.criteria.duration;
+  std::vector<Curve> n_curves;
+  std::vector<Curve> energy_curves;
+  const auto add = [&](const std::string& name, bool with_n) {
+    const RunTrace trace = trace_run(held, settings, duration);
+    const std::string note = trace.holds ? "" : trace.verdict;
+    if (with_n) {
+      n_curves.push_back({name,
+                          {trace.time.begin() + 1, trace.time.end()},
+                          {trace.substeps.begin() + 1, trace.substeps.end()},
+                          note,
+                          !trace.holds,
+                          settings.mode == Mode::kConst,
+                          true});
+    }
+    energy_curves.push_back({name, trace.time, trace.kinetic, note, !trace.holds});
+  };
+  settings.mode = Mode::kAdaptive;
+  add("adaptive, alpha " + number_text(settings.alpha), true);
+  settings.mode = Mode::kConst;
+  settings.n = least;
+  if (least > 0) add("constant " + std::to_string(least) + ", the smallest that holds", true);
+  settings.mode = Mode::kDamping;
+  add("damping", false);
+  settings.mode = Mode::kNone;
+  add("none", false);
+  Json charts = Json::array();
+  charts.push_back(chart_json(
+      "Sub-steps over time",
+      "Adaptive sub-steps follow the forces. A constant number has to be found by trial, for the "
+      "worst frame, and it says nothing of the next scene.",
+      "time [s]", "sub-steps of a frame", false, n_curves));
+  charts.push_back(chart_json("Kinetic energy over time",
+                              "A mode that loses or gains energy parts from the others.",
+                              "time [s]", "kinetic energy [J]", false, energy_curves));
+  return charts;
+}
+
+}  // namespace
+
+Json chart_json(const std::string& title, const std::string& note, const std::string& x,
+                const std::string& y, bool log, const std::vector<Curve>& curves) {
+  constexpr std::size_t kMostPoints = 1500;  // of a curve; more than pixels
+  Json json{{"title", title}, {"note", note}, {"x", x}, {"y", y}, {"log", log}};
+  Json& list = json["curves"] = Json::array();
+  for (const Curve& curve : curves) {
+    Json one{{"name", curve.name}, {"dashed", curve.dashed}, {"step", curve.step}};
+    if (!curve.note.empty()) one["note"] = curve.note;
+    if (curve.failed) one["failed_at"] = curve.x.empty() ? 0.0 : curve.x.back();
+    Json& points = one["points"] = Json::array();
+    // Per stretch the least and the largest value, in the order of time: peaks stay.
+    const std::size_t n = curve.x.size();
+    const std::size_t stretch = std::max<std::size_t>(1, 2 * n / kMostPoints);
+    for (std::size_t i = 0; i < n; i += stretch) {
+      const auto first = curve.y.begin() + static_cast<std::ptrdiff_t>(i);
+      const auto last = curve.y.begin() + static_cast<std::ptrdiff_t>(std::min(n, i + stretch));
+      const auto [low, high] = std::minmax_element(first, last);
+      auto a = static_cast<std::size_t>(low - curve.y.begin());
+      auto b = static_cast<std::size_t>(high - curve.y.begin());
+      if (a > b) std::swap(a, b);
+      points.push_back({shortened(curve.x[a]), shortened(curve.y[a])});
+      if (b != a) points.push_back({shortened(curve.x[b]), shortened(curve.y[b])});
+    }
+    list.push_back(std::move(one));
+  }
+  return json;
+}
+
+bool write_page(const fs::path& path, const Json& data, bool quiet) {
+  if (report::kHead.empty()) {
+    std::fprintf(stderr,
+                 "%s: not written, this program was built without Node.js and the chart library\n",
+                 path.string().c_str());
+    return true;  // the results are there
+  }
+  std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
+  // Nothing in the data may end the element that they stand in.
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  const fs::path temporary = path.string() + ".new";
+  std::ofstream file(temporary, std::ios::binary);
+  file << report::kHead << text << report::kTail;
+  file.close();
+  std::error_code error;
+  if (file) fs::rename(temporary, path, error);
+  if (!file || error) {
+    std::fprintf(stderr, "%s: could not be written\n", path.string().c_str());
+    fs::remove(temporary, error);
+    return false;
+  }
+  if (!quiet) std::printf("report   %s\n", path.string().c_str());
   return true;
+}
+
+bool write_sweep_report(const fs::path& folder, const Scene* scene,
+                        const std::vector<Json>& results, bool quiet) {
+  Json data;
+  const std::string name = results.empty() ? "" : results.front().value("scene", "");
+  data["title"] = "What accuracy costs: " + (scene ? scene->title : name);
+  Json about = Json::array();
+  if (scene) about.push_back(scene->description + " " + scene->look_for);
+  Json own = Json::array();
+  std::size_t failed = 0;
+  for (const Json& result : results) {
+    failed += result.value("holds", true) ? 0U : 1U;
+    Json& one = own.emplace_back(result);
+    one.erase("settings");  // the command says them, and shorter
+    if (!scene) continue;
+    if (const auto experiment = experiment_in(result, *scene)) {
+      one["command"] = command_line(*experiment, *scene);
+    }
+    if (!data.contains("reference") && result.value("load", 1.0) == 1.0) {
+      data["reference"] = result["reference"];
+    }
+  }
+  about.push_back(std::to_string(results.size()) + " runs, " + std::to_string(failed) +
+                  " of them failed and are shown.");
+  if (data.contains("reference")) {
+    const Json& reference = data["reference"];
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "Errors are measured from: %s, uncertain by %.2g m, over %g s. 100 %% of the "
+                  "energy drift are %g J, %s.",
+                  reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
+                  reference.value("window", 0.0), reference.value("energy_scale", 0.0),
+                  reference.value("energy_scale_source", "").c_str());
+    about.push_back(text);
+  }
+  data["about"] = std::move(about);
+  data["results"] = std::move(own);
+  if (scene) {
+    data["mass_ratio"] = mass_ratio(*scene);
+    data["charts"] = time_charts(*scene, results);
+    data["settings"] =
+        Json::array({"The scene's own settings: " + settings_line(scene->settings) +
+                         ". Every run differs from them by its method and its parameter alone.",
+                     "Work (sub-steps, row updates, operations) is counted and the same on every "
+                     "machine. Times "
+                     "are of the machine of the sweep, the first ten frames of a run left out; "
+                     "runs side by side "
+                     "share it. Energies under another load are judged in proportion to it."});
+  }
+  return write_page(folder / "report.html", data, quiet);
 }
 
 }  // namespace substep::cli

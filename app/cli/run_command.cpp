@@ -26,6 +26,7 @@ struct Options {
   std::string csv;
   std::string json;
   std::string experiments;
+  double load = 1.0;
   int seed = 0;
   bool quiet = false;
   LengthFlags length;
@@ -61,8 +62,8 @@ int run(const Options& options) {
   Output csv;
   Output json;
   if (!scene || !csv.open(options.csv) || !json.open(options.json)) return kBadInput;
-  if (options.seed != 0) {
-    scene = std::make_shared<const Scene>(nudged_start(*scene, options.seed));
+  if (options.load != 1.0 || options.seed != 0) {
+    scene = std::make_shared<const Scene>(start_of(*scene, options.load, options.seed));
   }
 
   Simulator simulator(scene);
@@ -113,6 +114,8 @@ void add_run(CLI::App& app, int& exit_code) {
   options->length.add_to(*command);
   command->add_option("--csv", options->csv, "write one line per frame to this file, - for stdout");
   command->add_option("--json", options->json, "the same as JSON, with settings and verdict");
+  command->add_option("--load", options->load, "factor on the mass of the heaviest body")
+      ->check(CLI::Range(kLoadRange.least, kLoadRange.most));
   command->add_option("--seed", options->seed, "nudge the start by up to 1e-9 m/s")
       ->check(CLI::Range(0, kMostSeed));
   command->add_option("--experiments", options->experiments,

@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/length_flags.hpp"
 #include "app/cli/output.hpp"
@@ -59,26 +60,20 @@ struct Options {
   SettingsFlags settings;
 };
 
-std::atomic<bool> g_cancelled{false};
-
-extern "C" void cancel_sweep(int) {
-  g_cancelled = true;
-  std::signal(SIGINT, SIG_DFL);  // whoever asks twice will not wait
-}
-
 std::vector<Experiment> experiments_of(const Options& options, const Scene& scene,
                                        const Shard& shard) {
   Scene own = scene;
   own.settings = options.settings.applied_to(scene.settings);
+  Experiment plain = experiment_of(scene, own.settings);
+  plain.duration = options.length.frames ? static_cast<double>(*options.length.frames) * scene.frame
+                                         : options.length.seconds.value_or(scene.criteria.duration);
   std::vector<Experiment> all;
   for (int seed = 0; seed < options.seeds; ++seed) {
-    for (const Settings& settings : default_sweep(own)) {
-      Experiment& experiment = all.emplace_back(experiment_of(scene, settings, seed));
-      experiment.duration = static_cast<double>(options.length.count(scene)) * scene.frame;
-      // A whole number of frames gives back the number that was asked for.
-      if (!options.length.frames) {
-        experiment.duration = options.length.seconds.value_or(scene.criteria.duration);
-      }
+    for (const SweepPoint& point : default_sweep(own)) {
+      Experiment& experiment = all.emplace_back(plain);
+      experiment.settings = point.settings;
+      experiment.load = point.load;
+      experiment.seed = seed;
     }
   }
   std::vector<Experiment> own_part;  // every count-th: each part has cheap and dear ones
@@ -108,6 +103,7 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
 }
 
 int sweep(const Options& options, const Shard& shard) {
+  const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   const std::vector<Experiment> all = experiments_of(options, *scene, shard);
@@ -133,7 +129,7 @@ int sweep(const Options& options, const Shard& shard) {
   ResultsFile file;
   if (!file.open((folder / name).string())) return kBadInput;
 
-  ParallelSweep parallel{scene, {}, options.jobs, {}, {}, &g_cancelled};
+  ParallelSweep parallel{scene, {}, options.jobs, {}, {}, &cancelled};
   std::vector<std::string> order;
   for (const Experiment& experiment : all) {
     order.push_back(experiment_id(experiment));
@@ -162,8 +158,6 @@ int sweep(const Options& options, const Shard& shard) {
     if (!progress.due()) return;
     progress.show(progress_text(share, runs, parallel.experiments.size(), failed, seconds()));
   };
-  std::signal(SIGINT, cancel_sweep);
-  std::signal(SIGTERM, cancel_sweep);
   const bool complete = run_sweep(parallel);
   progress.clear();
   if (!written) return kBadInput;
@@ -180,7 +174,7 @@ int sweep(const Options& options, const Shard& shard) {
     std::printf("results  %s\n", (folder / name).string().c_str());
   }
   if (shard.count > 1) return kOk;  // `merge` writes the report of all parts
-  return write_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
+  return write_sweep_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
 }
 
 }  // namespace

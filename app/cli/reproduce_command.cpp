@@ -1,0 +1,110 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include "app/cli/cancel.hpp"
+#include "app/cli/commands.hpp"
+#include "app/cli/output.hpp"
+#include "app/cli/progress_line.hpp"
+#include "app/cli/report.hpp"
+#include "app/cli/reproduction.hpp"
+
+namespace substep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  std::string out = "reproduction";
+  int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  bool quiet = false;
+};
+
+const char* name_of(Card::Outcome outcome) {
+  switch (outcome) {
+    case Card::Outcome::kAgrees:
+      return "agrees";
+    case Card::Outcome::kDiffers:
+      return "differs";
+    case Card::Outcome::kFails:
+      break;
+  }
+  return "fails";
+}
+
+Json page_of(const std::vector<Card>& cards) {
+  Json list = Json::array();
+  Json charts = Json::array();
+  for (std::size_t i = 0; i < cards.size(); ++i) {
+    const Card& card = cards[i];
+    list.push_back({{"title", card.title},
+                    {"paper", card.paper},
+                    {"here", card.here},
+                    {"why", card.why},
+                    {"command", card.command},
+                    {"verdict", name_of(card.outcome)}});
+    for (Json chart : card.charts) {
+      chart["card"] = i;
+      charts.push_back(std::move(chart));
+    }
+  }
+  Json data;
+  data["title"] = "The paper's figures and claims";
+  data["about"] = Json::array(
+      {"Giles and Andrews, \"Adaptive Sub-stepping for Constrained Rigid Body Simulations\", MIG "
+       "'24, beside what comes out here. Every number was computed when this page was written."});
+  data["cards"] = std::move(list);
+  data["charts"] = std::move(charts);
+  return data;
+}
+
+int run(const Options& options) {
+  const fs::path folder = options.out;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    std::fprintf(stderr, "%s: %s\n", folder.string().c_str(), error.message().c_str());
+    return kBadInput;
+  }
+  ProgressLine progress(!options.quiet && stderr_is_terminal());
+  Reproduction reproduction;
+  reproduction.jobs = options.jobs;
+  reproduction.cancelled = &cancel_on_signal();
+  reproduction.on_card = [&](std::size_t i, std::size_t n, const std::string& name) {
+    progress.show(std::to_string(i + 1) + " of " + std::to_string(n) + ": " + name);
+  };
+  const std::vector<Card> cards = reproduce(reproduction);
+  progress.clear();
+  if (*reproduction.cancelled) {
+    std::fprintf(stderr, "cancelled; nothing was written\n");
+    return kCancelled;
+  }
+  bool all = true;
+  for (const Card& card : cards) {
+    all = all && card.outcome != Card::Outcome::kFails;
+    if (!options.quiet) {
+      std::printf("%-8s %s\n         %s\n", name_of(card.outcome), card.title.c_str(),
+                  card.here.c_str());
+    }
+  }
+  if (!write_page(folder / "report.html", page_of(cards), options.quiet)) return kBadInput;
+  return all ? kOk : kUnexpectedVerdict;
+}
+
+}  // namespace
+
+void add_reproduce(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "reproduce", "Run the paper's figures and claims and put them beside what it says");
+  command->add_option("--out", options->out, "folder for report.html");
+  command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
+  command->add_flag("--quiet", options->quiet, "no progress, no summary");
+  command->footer("Exit code 1 where something is not as it was found before.");
+  command->callback([options, &exit_code] { exit_code = run(*options); });
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,9 @@
+// Stands in for the bundled page where Node.js or the chart library was not there at build time.
+#include "app/report/page.hpp"
+
+namespace substep::report {
+
+const std::string_view kHead;
+const std::string_view kTail;
+
+}  // namespace substep::report

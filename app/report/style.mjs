@@ -1,0 +1,36 @@
+// What a curve looks like follows from what its method is: colour from the mode, filled or hollow
+// from the integrator, solid or dashed from the solver.
+
+const modes = [
+  ["adaptive per sub-step", "purple", "triangle", "adaptive per sub-step"],
+  ["adaptive", "blue", "circle", "adaptive per frame"],
+  ["const", "orange", "square", "constant N"],
+  ["damping", "teal", "diamond", "damping"],
+  ["capped", "amber", "star", "capped + damping"],
+];
+
+const shapes = {
+  circle: '<circle cx="17" cy="7" r="4"/>', square: '<rect x="13.3" y="3.3" width="7.4" height="7.4"/>',
+  triangle: '<path d="M17 2L21.6 10.4H12.4Z"/>', diamond: '<path d="M17 1.6L21 7L17 12.4L13 7Z"/>',
+  star: '<path d="M17 1.5L18.6 5.2L22.4 5.5L19.5 8L20.4 12L17 9.8L13.6 12L14.5 8L11.6 5.5L15.4 5.2Z"/>',
+};
+
+// The piece of a curve that stands before its name.
+export function swatchText({ token, symbol, hollow, dashed }) {
+  const c = `var(--${token})`;
+  return `<svg class="swatch" width="34" height="14" viewBox="0 0 34 14" aria-hidden="true" stroke="${c}" stroke-width="1.6">` +
+    `<path d="M1 7H33"${dashed ? ' stroke-dasharray="5 3"' : ""}/><g fill="${hollow ? "var(--ground)" : c}">${shapes[symbol]}</g></svg>`;
+}
+
+export const colour = name =>
+  getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+
+export function styleOf(series) {
+  const [, token, symbol, mode] = modes.find(([part]) => series.includes(part)) ?? ["", "grey", "circle", series];
+  const leapfrog = series.includes("leapfrog");
+  const pgs = /^pgs (\d+)/.exec(series);
+  const drift = /drift (\w+)/.exec(series);
+  const name = [mode, leapfrog ? "leapfrog" : "", pgs ? `PGS ${pgs[1]}` : "", drift ? drift[0] : ""]
+    .filter(Boolean).join(", ");
+  return { token, symbol, name, hollow: leapfrog, dashed: pgs !== null };
+}

@@ -1,0 +1,241 @@
+// Sweeps on the command line: killed, parted, merged, and with files that are not theirs.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+#include "core/io/json.hpp"
+#include "tests/app/program.hpp"
+
+namespace substep {
+namespace {
+
+/// A scene that is exact and quick: a sweep of it takes about a second.
+constexpr const char* kSweep = "sweep pendulum --seconds 0.5 --quiet --jobs 2 ";
+
+/// An empty folder of the running test's own.
+fs::path fresh(const std::string& name) {
+  const fs::path path = folder() / name;
+  fs::remove_all(path);
+  return path;
+}
+
+/// Results without their times: what must not depend on how a sweep went.
+std::vector<std::string> figures(const fs::path& file) {
+  std::vector<std::string> lines;
+  for (const std::string& line : lines_of(text_of(file))) {
+    Json json = Json::parse(line, nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << line;
+    if (json.is_object()) json.erase("timing");
+    lines.push_back(json.dump());
+  }
+  return lines;
+}
+
+const std::vector<std::string>& whole_sweep() {
+  static const std::vector<std::string> lines = [] {
+    const fs::path out = fresh("whole");
+    EXPECT_EQ(substep(kSweep + ("--out " + out.string())).exit_code, 0);
+    return figures(out / "results.jsonl");
+  }();
+  return lines;
+}
+
+TEST(SweepCommand, WritesOneResultALineAndAReport) {
+  const fs::path out = fresh("sweep");
+  const Outcome sweep = substep("sweep pendulum --seconds 0.5 --out " + out.string());
+  ASSERT_EQ(sweep.exit_code, 0) << sweep.err;
+  EXPECT_EQ(sweep.err, "") << "progress is for terminals only";
+  const auto lines = lines_of(text_of(out / "results.jsonl"));
+  ASSERT_GT(lines.size(), 100U);
+  EXPECT_EQ(lines.front(), R"({"format":"substep-results","version":1})");
+  std::set<std::string> ids;
+  std::set<std::string> series;
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const Json result = Json::parse(lines[i], nullptr, false);
+    ASSERT_TRUE(result.is_object()) << lines[i];
+    EXPECT_TRUE(ids.insert(result["id"]).second);
+    series.insert(result["series"]);
+    EXPECT_GT(result["work"]["flops"], 0);
+  }
+  EXPECT_GE(series.size(), 12U);
+  const std::string report = text_of(out / "report.html");
+  if (report.empty()) GTEST_SKIP() << "built without the chart library";
+  EXPECT_EQ(report.find("<!doctype html>"), 0U);
+  EXPECT_NE(report.find(*ids.begin()), std::string::npos);
+  EXPECT_EQ(report.find("src=\"http"), std::string::npos) << "it opens without a network";
+}
+
+TEST(SweepCommand, KilledAtAnyMomentItEndsTheSame) {
+  const std::vector<std::string>& whole = whole_sweep();
+  const fs::path out = fresh("killed");
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> seconds(0.02, 0.3);
+  int killed = 0;
+  std::size_t before = 0;
+  for (int round = 0; round < 20; ++round) {
+    const Outcome run = substep(kSweep + ("--out " + out.string()),
+                                "timeout -s KILL " + std::to_string(seconds(random)));
+    killed += run.exit_code == 137 ? 1 : 0;
+    const std::size_t now = lines_of(text_of(out / "results.jsonl")).size();
+    EXPECT_GE(now + 1, before) << "finished runs are kept";  // a last line may have been cut short
+    before = now;
+    // Start over once all are done, so that every round is killed in its work.
+    if (run.exit_code == 0) {
+      EXPECT_EQ(figures(out / "results.jsonl"), whole);
+      fs::remove_all(out);
+      before = 0;
+    }
+  }
+  EXPECT_GT(killed, 5);
+  ASSERT_EQ(substep(kSweep + ("--out " + out.string())).exit_code, 0);
+  EXPECT_EQ(figures(out / "results.jsonl"), whole);
+}
+
+TEST(SweepCommand, InterruptedItSaysSoAndGoesOn) {
+  const fs::path out = fresh("interrupted");
+  // Long enough that it cannot be over, short enough for a test.
+  const std::string sweep = "sweep swinging_box --seconds 5 --jobs 2 --out " + out.string();
+  const Outcome run = substep(sweep, "timeout -s INT 0.5");
+  EXPECT_EQ(run.exit_code, 124) << "what `timeout` makes of it";
+  EXPECT_NE(run.err.find("cancelled"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("goes on from there"), std::string::npos);
+}
+
+TEST(SweepCommand, ALineThatWasCutShortIsRunAgain) {
+  const fs::path out = fresh("cut");
+  ASSERT_EQ(substep(kSweep + ("--out " + out.string())).exit_code, 0);
+  const fs::path file = out / "results.jsonl";
+  fs::resize_file(file, fs::file_size(file) - 40);
+  ASSERT_EQ(substep(kSweep + ("--out " + out.string())).exit_code, 0);
+  EXPECT_EQ(figures(file), whole_sweep());
+}
+
+TEST(SweepCommand, FilesThatAreNotItsOwnAreRefusedAndLeftAsTheyAre) {
+  const fs::path out = fresh("foreign");
+  fs::create_directories(out);
+  const std::string good = R"({"format":"substep-results","version":1})";
+  for (const std::string& text :
+       {std::string("frame,time\n0,0\n"), std::string("my notes"), good + "\nnot json\n",
+        good + "\n{\"id\": 7}\n",
+        good + "\n{}\n{\"half\": ", std::string("{\"format\":\"substep-results\",\"version\":9}\n"),
+        std::string("\0\1\2", 3)}) {
+    const fs::path file = out / "results.jsonl";
+    std::ofstream(file, std::ios::binary) << text;
+    const Outcome sweep = substep(kSweep + ("--out " + out.string()));
+    EXPECT_EQ(sweep.exit_code, 2) << text;
+    EXPECT_NE(sweep.err.find("results.jsonl"), std::string::npos) << sweep.err;
+    EXPECT_EQ(text_of(file), text);
+  }
+}
+
+TEST(SweepCommand, TwoDoNotWriteOneFile) {
+  const fs::path out = fresh("locked");
+  fs::create_directories(out);
+  const int other = open((out / "results.jsonl").c_str(), O_RDWR | O_CREAT, 0666);
+  ASSERT_GE(other, 0);
+  ASSERT_EQ(flock(other, LOCK_EX), 0);
+  const Outcome sweep = substep(kSweep + ("--out " + out.string()));
+  EXPECT_EQ(sweep.exit_code, 2);
+  EXPECT_NE(sweep.err.find("another sweep"), std::string::npos) << sweep.err;
+  close(other);
+}
+
+TEST(SweepCommand, WhereNothingCanBeWrittenItSaysSo) {
+  const fs::path file = folder() / "a_file";
+  std::ofstream(file) << "x";
+  const Outcome sweep = substep(kSweep + ("--out " + (file / "out").string()));
+  EXPECT_EQ(sweep.exit_code, 2);
+  EXPECT_NE(sweep.err.find("a_file"), std::string::npos) << sweep.err;
+}
+
+// A limit on the file's size stands for a full disk: the write fails in the middle of a line.
+TEST(SweepCommand, AFullDiskLosesNothingThatIsFinished) {
+  const fs::path out = fresh("full");
+  const Outcome full = substep(kSweep + ("--out " + out.string()), "ulimit -f 30;");
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_NE(full.err.find("all results before are kept"), std::string::npos) << full.err;
+  const std::string text = text_of(out / "results.jsonl");
+  EXPECT_EQ(text.back(), '\n');
+  EXPECT_GT(lines_of(text).size(), 2U);
+  ASSERT_EQ(substep(kSweep + ("--out " + out.string())).exit_code, 0);
+  EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
+}
+
+// The first recipe of core/lab/README.md. Without GNU Parallel, xargs takes its place.
+TEST(SweepCommand, PartsRunSideBySideMergeToTheWhole) {
+  const fs::path out = fresh("parts");
+  const std::string part =
+      "sweep pendulum --seconds 0.5 --quiet --jobs 1 --out " + out.string() + " --shard {}/4";
+  const bool has_parallel = std::system("command -v parallel >/dev/null 2>&1") == 0;
+  const std::string spread = has_parallel
+                                 ? "parallel -j 2 \"" SUBSTEP_PROGRAM "\" " + part + " ::: 1 2 3 4"
+                                 : "seq 4 | xargs -P 2 -I{} \"" SUBSTEP_PROGRAM "\" " + part;
+  ASSERT_EQ(std::system(spread.c_str()), 0) << spread;
+  EXPECT_TRUE(fs::exists(out / "results.3-of-4.jsonl"));
+  const Outcome merged = substep("merge " + out.string());
+  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
+}
+
+TEST(SweepCommand, ExperimentsGoInAndResultsComeOutOneALine) {
+  const fs::path out = fresh("piped");
+  fs::create_directories(out);
+  const std::string list = (out / "list").string();
+  const Outcome listed = substep(std::string(kSweep) + "--list");
+  ASSERT_EQ(listed.exit_code, 0) << listed.err;
+  std::ofstream(list) << listed.out;
+  const Outcome run = substep("run --experiments - < " + list);
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(lines_of(run.out).size(), lines_of(listed.out).size());
+  std::ofstream(out / "piped.jsonl") << run.out;
+  const fs::path merged = out / "merged";
+  ASSERT_EQ(substep("merge " + merged.string() + " " + (out / "piped.jsonl").string()).exit_code,
+            0);
+  EXPECT_EQ(figures(merged / "results.jsonl"), whole_sweep());
+}
+
+TEST(SweepCommand, WrongExperimentsAreToldByLineAndTheOthersRun) {
+  const fs::path out = folder() / "list";
+  std::ofstream(out) << "{\"scene\": \"free_fall\", \"seconds\": 0.1}\n"
+                        "{\"scene\": \"nowhere\"}\n"
+                        "{\"scene\": \"free_fall\", \"settings\": {\"alpha\": 7}}\n";
+  const Outcome run = substep("run --experiments " + out.string());
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_EQ(lines_of(run.out).size(), 1U);
+  EXPECT_NE(run.err.find(":2: /scene"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find(":3: /settings/alpha"), std::string::npos) << run.err;
+}
+
+// A clicked point must give its figures again: the command is what the report shows.
+TEST(SweepCommand, TheCommandOfAResultGivesItsHash) {
+  const fs::path out = fresh("commands");
+  ASSERT_EQ(substep("sweep swinging_box --seconds 0.25 --quiet --out " + out.string()).exit_code,
+            0);
+  const std::string report = text_of(out / "report.html");
+  if (report.empty()) GTEST_SKIP() << "built without the chart library";
+  const std::string begin = R"(<script type="application/json" id="data">)";
+  const std::size_t at = report.find(begin) + begin.size();
+  const Json data =
+      Json::parse(report.substr(at, report.find("</script>", at) - at), nullptr, false);
+  ASSERT_TRUE(data.is_object());
+  int seen = 0;
+  for (std::size_t i = 0; i < data["results"].size(); i += 17) {
+    const Json& result = data["results"][i];
+    const std::string command = result["command"];
+    if (!result["holds"]) continue;  // a run that fails is followed to its end by `run`
+    const Outcome run = substep(command.substr(std::string("substep ").size()));
+    ASSERT_EQ(run.exit_code, 0) << command;
+    EXPECT_NE(run.out.find(result["hash"].get<std::string>()), std::string::npos) << command;
+    ++seen;
+  }
+  EXPECT_GT(seen, 5);
+}
+
+}  // namespace
+}  // namespace substep

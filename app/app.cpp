@@ -48,10 +48,11 @@ std::string choose(std::string_view value, std::array<std::string_view, 2> words
 }
 
 std::string choose_panel(std::string_view value, Tab& tab) {
-  static constexpr std::array<std::string_view, 4> kNames{"controls", "plots", "why", "compare"};
+  static constexpr std::array<std::string_view, 5> kNames{"controls", "plots", "why", "compare",
+                                                          "accuracy"};
   const auto* const found = std::find(kNames.begin(), kNames.end(), value);
   if (found == kNames.end()) {
-    return "'" + std::string(value) + "' is not controls, plots, why or compare";
+    return "'" + std::string(value) + "' is not controls, plots, why, compare or accuracy";
   }
   tab = static_cast<Tab>(found - kNames.begin());
   return "";
@@ -268,6 +269,13 @@ void App::reset() {
   restart_plots(desk);
 }
 
+void App::run_result(const Result& result) {
+  if (session.loaded_scene() != accuracy.scene()) run(accuracy.scene());
+  change(result.experiment.settings);
+  reset();
+  session.play();
+}
+
 void App::change(const Settings& settings) {
   Settings s = settings;
   s.watch_stiffness = desk.view.tint;
@@ -296,6 +304,13 @@ std::string App::set(std::string_view key, std::string_view value) {
     const auto scale = parse_number(value);
     if (!scale || *scale < 0.8 || *scale > 1.5) return "is not a number from 0.8 to 1.5";
     desk.scale = *scale;
+    return "";
+  }
+  if (key == "accuracy") {
+    bool on = accuracy.running();
+    const std::string problem = choose(value, {"cancel", "run"}, on);
+    if (!problem.empty()) return problem;
+    on ? accuracy.start(session.loaded_scene()) : accuracy.cancel();
     return "";
   }
   if (key == "compare") {
@@ -389,6 +404,8 @@ void frame(App& app, double wall_dt) {
   const Scaled scaled(app);
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.session.advance(wall_dt);
+  // Beside a run that plays the sweep takes what a frame can spare.
+  app.accuracy.advance(app.session.playing() ? 0.003 : 0.008);
   app.notice.left -= wall_dt;
 
   update_look(app);

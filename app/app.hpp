@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/accuracy.hpp"
 #include "app/compare.hpp"
 #include "app/library.hpp"
 #include "app/own_scenes.hpp"
@@ -40,7 +41,7 @@ struct Trouble {
 };
 
 /// Which of the phone's panels is open; beside the picture, the controls always are.
-enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare };
+enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy };
 
 enum class Plot : unsigned char { kSubsteps, kEnergy, kError, kTime, kCount };
 
@@ -126,6 +127,8 @@ struct App {
   /// What to type for the same run on the command line.
   [[nodiscard]] std::string command() const;
   void reset();
+  /// Runs a point of the accuracy picture from its start.
+  void run_result(const Result& result);
   /// New settings for the run, live.
   void change(const Settings& settings);
 
@@ -135,6 +138,7 @@ struct App {
   Library library;
   Session session;
   Compare compare;
+  Accuracy accuracy;
   SceneView view;
   Desk desk;
   Host host;

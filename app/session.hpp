@@ -82,6 +82,8 @@ class Session {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
+  /// The scene without what was thrown into it.
+  [[nodiscard]] const std::shared_ptr<const Scene>& loaded_scene() const { return loaded_; }
   [[nodiscard]] const State& state() const { return simulator_->state(); }
   [[nodiscard]] const Settings& settings() const { return simulator_->settings(); }
   void set_settings(const Settings& settings) { simulator_->set_settings(settings); }

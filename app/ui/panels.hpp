@@ -33,6 +33,8 @@ void why_summary(App& app);
 void why(App& app);
 /// What runs beside this run.
 void compare(App& app);
+/// What accuracy costs: all methods over this scene.
+void accuracy(App& app);
 /// Who is who in the picture, at a place on the screen; nothing where nothing is compared.
 void compare_legend(App& app, float x, float y);
 /// The guided tour's card, or the button that opens it.

@@ -53,9 +53,11 @@ void tabs(App& app, const std::array<Choice, N>& choices, Tab first) {
 // What is in the right panel.
 void instruments(App& app, float height) {
   const Look& look = app.look;
-  static constexpr std::array<Choice, 3> kTabs{{{"Plots", "What happens, frame by frame"},
-                                                {"Why this N", "Who sets the number of sub-steps"},
-                                                {"Compare", "Other methods beside this run"}}};
+  static constexpr std::array<Choice, 4> kTabs{
+      {{"Plots", "What happens, frame by frame"},
+       {"Why N", "Who sets the number of sub-steps"},
+       {"Compare", "Other methods beside this run"},
+       {"Accuracy", "What does accuracy cost? All methods over this scene"}}};
   tabs(app, kTabs, Tab::kPlots);
   height -= look.m.row + 8.0F;
   if (app.desk.tab == Tab::kWhy) {
@@ -64,6 +66,10 @@ void instruments(App& app, float height) {
   }
   if (app.desk.tab == Tab::kCompare) {
     compare(app);
+    return;
+  }
+  if (app.desk.tab == Tab::kAccuracy) {
+    accuracy(app);
     return;
   }
   const bool brief = height < 640.0F;
@@ -181,8 +187,8 @@ void phone(App& app, ImVec2 display) {
     transport(app, true);
     ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
     if (app.desk.panels) {
-      static constexpr std::array<Choice, 4> kTabs{
-          {{"Controls", ""}, {"Plots", ""}, {"Why N", ""}, {"Compare", ""}}};
+      static constexpr std::array<Choice, 5> kTabs{
+          {{"Controls", ""}, {"Plots", ""}, {"Why N", ""}, {"Compare", ""}, {"Accuracy", ""}}};
       tabs(app, kTabs, Tab::kControls);
       ImGui::Dummy({1.0F, 0.0F});
       if (ImGui::BeginChild("content", {0, 0})) {
@@ -200,6 +206,9 @@ void phone(App& app, ImVec2 display) {
             break;
           case Tab::kCompare:
             compare(app);
+            break;
+          case Tab::kAccuracy:
+            accuracy(app);
             break;
         }
         scroll_by_drag();

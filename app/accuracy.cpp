@@ -1,0 +1,176 @@
+#include "app/accuracy.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+
+#include "core/io/experiment.hpp"
+
+namespace substep {
+namespace {
+
+/// The curves grow evenly when every fourth value comes first, then every second, then the rest.
+int round_of(std::size_t along_curve) {
+  if (along_curve % 4 == 0) return 0;
+  return along_curve % 2 == 0 ? 1 : 2;
+}
+
+std::vector<Experiment> plan(const Scene& scene) {
+  struct Step {
+    int round;
+    Experiment experiment;
+  };
+  Experiment plain = experiment_of(scene, scene.settings);
+  // Beyond its window a motion cannot be foretold, and people wait.
+  plain.duration = predictable_window(scene, scene.criteria.duration);
+  std::vector<Step> steps;
+  std::map<std::string, std::size_t> along;
+  for (const SweepPoint& point : default_sweep(scene)) {
+    if (point.load != 1.0) continue;  // the map of loads is the command line's
+    Step& step = steps.emplace_back(Step{round_of(along[series_name(point.settings)]++), plain});
+    step.experiment.settings = point.settings;
+  }
+  std::stable_sort(steps.begin(), steps.end(),
+                   [](const Step& a, const Step& b) { return a.round < b.round; });
+  std::vector<Experiment> experiments;
+  for (Step& step : steps) experiments.push_back(std::move(step.experiment));
+  return experiments;
+}
+
+double wall_clock() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+void Accuracy::start(std::shared_ptr<const Scene> scene) {
+  scene_ = std::move(scene);
+  sweep_.emplace(scene_, plan(*scene_));
+  cancelled_ = false;
+  elapsed_ = 0.0;
+  last_ = -1.0;
+  if (!scene_->criteria.track) error = ErrorAxis::kEnergy;
+}
+
+void Accuracy::cancel() { cancelled_ = true; }
+
+void Accuracy::advance(double seconds) {
+  if (!running()) return;
+  const double now = wall_clock();
+  if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // a tab that slept was not at work
+  last_ = now;
+  sweep_->advance(seconds);
+}
+
+double Accuracy::progress() const { return sweep_ ? sweep_->progress() : 0.0; }
+
+double Accuracy::seconds_left() const {
+  const double share = progress();
+  if (share < 0.02 || elapsed_ < 1.0) return -1.0;
+  return elapsed_ * (1.0 - share) / share;
+}
+
+const std::vector<Result>& Accuracy::results() const {
+  static const std::vector<Result> none;
+  return sweep_ ? sweep_->results() : none;
+}
+
+std::size_t Accuracy::planned() const { return sweep_ ? sweep_->experiments().size() : 0; }
+
+const Reference* Accuracy::reference() const { return sweep_ ? sweep_->reference() : nullptr; }
+
+std::vector<Accuracy::Point> Accuracy::points() const {
+  std::vector<Point> list;
+  std::vector<CostAndError> values;
+  for (std::size_t i = 0; i < results().size(); ++i) {
+    const auto value = error_of(results()[i], error);
+    const double price = cost_of(results()[i], cost);
+    if (!value || !(*value > 0.0) || !(price > 0.0)) continue;
+    list.push_back({i, price, *value, false});
+    values.push_back({price, *value});
+  }
+  const std::vector<bool> front = pareto_front(values);
+  for (std::size_t i = 0; i < list.size(); ++i) list[i].front = front[i];
+  return list;
+}
+
+std::vector<Accuracy::Point> Accuracy::failed() const {
+  std::vector<Point> list;
+  for (std::size_t i = 0; i < results().size(); ++i) {
+    if (!results()[i].metrics.holds) list.push_back({i, cost_of(results()[i], cost), 0.0, false});
+  }
+  return list;
+}
+
+bool Accuracy::has(ErrorAxis axis) const {
+  const auto measured = [axis](const Result& r) { return error_of(r, axis).value_or(0.0) > 0.0; };
+  return std::count_if(results().begin(), results().end(), measured) > 1;
+}
+
+const char* axis_name(ErrorAxis axis) {
+  switch (axis) {
+    case ErrorAxis::kTrajectory:
+      return "largest distance from the reference [m]";
+    case ErrorAxis::kEnergy:
+      return "largest energy drift [J]";
+    case ErrorAxis::kGap:
+      return "largest joint gap [m]";
+    case ErrorAxis::kPenetration:
+      return "deepest overlap [m]";
+    case ErrorAxis::kCount:
+      break;
+  }
+  return "";
+}
+
+const char* axis_name(CostAxis axis) {
+  switch (axis) {
+    case CostAxis::kSubsteps:
+      return "sub-steps per frame";
+    case CostAxis::kOperations:
+      return "solver operations per frame";
+    case CostAxis::kTime:
+      return "median ms per frame, here";
+    case CostAxis::kCount:
+      break;
+  }
+  return "";
+}
+
+double cost_of(const Result& result, CostAxis axis) {
+  const Work& work = result.metrics.work;
+  if (work.frames == 0) return 0.0;
+  const auto frames = static_cast<double>(work.frames);
+  switch (axis) {
+    case CostAxis::kSubsteps:
+      return static_cast<double>(work.substeps) / frames;
+    case CostAxis::kOperations:
+      return static_cast<double>(work.flops) / frames;
+    case CostAxis::kTime:
+      return result.metrics.timing.ms_median;
+    case CostAxis::kCount:
+      break;
+  }
+  return 0.0;
+}
+
+std::optional<double> error_of(const Result& result, ErrorAxis axis) {
+  const Errors& errors = result.metrics.errors;
+  if (!result.metrics.holds) return std::nullopt;
+  switch (axis) {
+    case ErrorAxis::kTrajectory:
+      return errors.trajectory_peak;
+    case ErrorAxis::kEnergy:
+      return errors.energy_drift_peak;
+    case ErrorAxis::kGap:
+      return errors.joint_gap ? std::optional(errors.joint_gap->peak) : std::nullopt;
+    case ErrorAxis::kPenetration:
+      return errors.penetration ? std::optional(errors.penetration->peak) : std::nullopt;
+    case ErrorAxis::kCount:
+      break;
+  }
+  return std::nullopt;
+}
+
+}  // namespace substep

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/lab/pareto.hpp"
+#include "core/lab/sweep.hpp"
+
+namespace substep {
+
+/// What errors are drawn against.
+enum class CostAxis : unsigned char { kSubsteps, kOperations, kTime, kCount };
+/// What is drawn of the errors.
+enum class ErrorAxis : unsigned char { kTrajectory, kEnergy, kGap, kPenetration, kCount };
+
+/// "What does accuracy cost?": a sweep of all methods over the running scene, in slices of a few
+/// milliseconds a frame, and the points of its picture as they come.
+class Accuracy {
+ public:
+  /// One run in the picture.
+  struct Point {
+    std::size_t result = 0;  // index into results()
+    double cost = 0.0;
+    double error = 0.0;  // of a run that holds
+    bool front = false;  // no other beats it
+  };
+
+  /// Sweeps this scene; what was there before is forgotten.
+  void start(std::shared_ptr<const Scene> scene);
+  /// Stops within the frame. The results so far stay.
+  void cancel();
+  /// Goes on for about so long, if a sweep runs. @param seconds of this frame's time
+  void advance(double seconds);
+
+  [[nodiscard]] bool running() const {
+    return sweep_.has_value() && !cancelled_ && !sweep_->done();
+  }
+  [[nodiscard]] bool cancelled() const { return cancelled_; }
+  [[nodiscard]] double progress() const;      ///< 0 to 1
+  [[nodiscard]] double seconds_left() const;  ///< wall time at the present pace [s], < 0 unknown
+  /// The scene of the results, or null.
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
+  [[nodiscard]] const std::vector<Result>& results() const;
+  [[nodiscard]] std::size_t planned() const;
+  /// Null until it is found.
+  [[nodiscard]] const Reference* reference() const;
+
+  /// Runs that hold, with a positive error, by the axes.
+  [[nodiscard]] std::vector<Point> points() const;
+  /// Runs that failed.
+  [[nodiscard]] std::vector<Point> failed() const;
+  /// Whether two runs or more have such an error.
+  [[nodiscard]] bool has(ErrorAxis axis) const;
+
+  CostAxis cost = CostAxis::kSubsteps;
+  ErrorAxis error = ErrorAxis::kTrajectory;
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  std::optional<Sweep> sweep_;
+  bool cancelled_ = false;
+  double elapsed_ = 0.0;  // wall time of the sweep, the time between the slices included [s]
+  double last_ = -1.0;    // wall clock at the last slice [s]
+};
+
+/// "largest distance from the reference [m]"
+const char* axis_name(ErrorAxis axis);
+const char* axis_name(CostAxis axis);
+
+double cost_of(const Result& result, CostAxis axis);
+/// Nothing where the scene has no such error, or the run failed.
+std::optional<double> error_of(const Result& result, ErrorAxis axis);
+
+}  // namespace substep

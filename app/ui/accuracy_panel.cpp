@@ -1,0 +1,162 @@
+// "What does accuracy cost?": the sweep of all methods over this scene, and its picture.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/format.hpp"
+#include "app/ui/accuracy_picture.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr std::array<const char*, static_cast<std::size_t>(ErrorAxis::kCount)> kErrorNames{
+    "Path", "Energy", "Gap", "Overlap"};
+constexpr std::array<Choice, static_cast<std::size_t>(CostAxis::kCount)> kCosts{
+    {{"Sub-steps", "Counted, per frame"},
+     {"Operations", "Of the solver, counted, per frame: the same on every machine"},
+     {"Time", "Median of a frame on this machine, while everything else runs"}}};
+
+/// A button to start or to stop, and how far it is.
+void sweep_bar(App& app) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (!accuracy.running()) {
+    const bool again = !accuracy.results().empty();
+    if (button(look, "sweep", Icon::kPlay, again ? "Run it again" : "Run all methods",
+               again ? ButtonKind::kPlain : ButtonKind::kPrimary, width, look.m.row + 4.0F,
+               "Over 130 runs of this scene from its start, in the background")) {
+      accuracy.start(app.session.loaded_scene());
+    }
+    return;
+  }
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float bar = width - 76.0F;
+  const float y = at.y + 0.5F * look.m.row;
+  draw.AddRectFilled({at.x, y - 3.0F}, {at.x + bar, y + 3.0F}, look.theme->track, 3.0F);
+  draw.AddRectFilled(
+      {at.x, y - 3.0F},
+      {at.x + std::max(6.0F, bar * static_cast<float>(accuracy.progress())), y + 3.0F},
+      look.theme->accent, 3.0F);
+  ImGui::SetCursorScreenPos({at.x + bar + 12.0F, at.y});
+  if (button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, 64.0F, look.m.row,
+             "The results so far stay")) {
+    accuracy.cancel();
+  }
+}
+
+std::string state_text(const Accuracy& accuracy) {
+  const auto& results = accuracy.results();
+  const auto failed = std::count_if(results.begin(), results.end(),
+                                    [](const Result& r) { return !r.metrics.holds; });
+  std::string text = std::to_string(results.size()) + " of " + std::to_string(accuracy.planned()) +
+                     " runs, " + std::to_string(failed) + " failed";
+  if (accuracy.running() && accuracy.reference() == nullptr) return "Finding the reference …";
+  if (accuracy.cancelled()) return text + ", cancelled";
+  const double left = accuracy.seconds_left();
+  if (accuracy.running() && left >= 0.0) text += ", about " + fixed(left, 0) + " s left";
+  return text;
+}
+
+void axes_row(App& app) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  std::vector<Choice> names;
+  std::vector<ErrorAxis> axes;
+  int current = 0;
+  for (std::size_t i = 0; i < kErrorNames.size(); ++i) {
+    const auto axis = static_cast<ErrorAxis>(i);
+    if (!accuracy.has(axis)) continue;
+    if (axis == accuracy.error) current = static_cast<int>(axes.size());
+    axes.push_back(axis);
+    names.push_back({kErrorNames[i], axis_name(axis)});
+  }
+  if (axes.size() > 1 && segmented_row(look, "Error", names, current, "What goes up")) {
+    accuracy.error = axes[static_cast<std::size_t>(current)];
+  }
+  int cost = static_cast<int>(accuracy.cost);
+  if (segmented_row(look, "Cost", kCosts, cost, "What goes to the right")) {
+    accuracy.cost = static_cast<CostAxis>(cost);
+  }
+}
+
+/// Who is who, and how many of each hold.
+void legend(const App& app) {
+  const Look& look = app.look;
+  struct Entry {
+    CurveStyle style;
+    int runs = 0;
+    int held = 0;
+  };
+  std::map<std::string, Entry> entries;
+  std::vector<std::string> order;
+  for (const Result& result : app.accuracy.results()) {
+    const Settings& s = result.experiment.settings;
+    const auto [entry, is_new] =
+        entries.try_emplace(series_name(s), Entry{curve_style(*look.theme, s)});
+    if (is_new) order.push_back(entry->first);
+    ++entry->second.runs;
+    entry->second.held += result.metrics.holds ? 1 : 0;
+  }
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float width = ImGui::GetContentRegionAvail().x;
+  for (const std::string& name : order) {
+    const Entry& entry = entries.at(name);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    draw_swatch(entry.style, look.theme->panel | IM_COL32_A_MASK, draw,
+                {at.x + 14.0F, at.y + 8.0F});
+    const std::string held =
+        std::to_string(entry.held) + " of " + std::to_string(entry.runs) + " hold";
+    const float note = text_size(look.fonts.small, held.c_str()).x;
+    draw_text(draw, look.fonts.small, {at.x + 36.0F, at.y + 1.0F}, look.theme->text,
+              fitted(look.fonts.small, entry.style.name, width - note - 44.0F).c_str());
+    draw_text(draw, look.fonts.small, {at.x + width - note, at.y + 1.0F},
+              entry.held == entry.runs ? look.theme->dim : look.theme->orange, held.c_str());
+    ImGui::Dummy({1.0F, 12.0F});
+  }
+}
+
+}  // namespace
+
+void accuracy(App& app) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  section(look, "What does accuracy cost?");
+  const bool other = accuracy.scene() && accuracy.scene() != app.session.loaded_scene();
+  if (accuracy.planned() == 0 || other) {
+    label(look.fonts.small, look.theme->dim,
+          other ? "The picture below is of another scene."
+                : "Every method along its own parameter: how wrong it is, and what it costs. The "
+                  "picture grows while they run; a click on a point runs it.");
+    space(8.0F);
+  }
+  sweep_bar(app);
+  if (accuracy.planned() == 0) return;
+  label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
+  space(8.0F);
+  axes_row(app);
+  label(look.fonts.small, look.theme->dim, axis_name(accuracy.error));
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 size(width, std::clamp(1.05F * width, 240.0F, 460.0F));
+  if (const auto chosen = accuracy_picture(look, accuracy, app.session.settings(), size)) {
+    app.run_result(accuracy.results()[*chosen]);
+  }
+  if (const Reference* reference = accuracy.reference()) {
+    label(look.fonts.small, look.theme->dim,
+          ("Measured from: " + reference->source + ", uncertain by " +
+           coarse_number(reference->uncertainty) + " m, over " + plain_number(reference->window) +
+           " s. The band is the Pareto front.")
+              .c_str());
+  }
+  space(8.0F);
+  legend(app);
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,141 @@
+// "What does accuracy cost?" in the window: a sweep in slices, and points that run.
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/app/ui/ui_fixture.hpp"
+
+namespace substep {
+namespace {
+
+/// Until the sweep is done.
+void finish(Headless& h) {
+  h.app->session.pause();
+  for (int i = 0; i < 20000 && h.app->accuracy.running(); ++i) h.frames(1);
+}
+
+TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
+  Headless h;
+  h.app->open("pendulum");
+  ASSERT_EQ(h.app->set("panel", "accuracy"), "");
+  h.frames(3);
+  EXPECT_EQ(h.app->accuracy.planned(), 0U) << "nothing runs unasked";
+  ASSERT_EQ(h.app->set("accuracy", "run"), "");
+  EXPECT_TRUE(h.app->accuracy.running());
+  double before = 0.0;
+  std::size_t stages = 0;
+  std::size_t results = 0;
+  for (int i = 0; i < 20000 && h.app->accuracy.running(); ++i) {
+    h.frames(1);
+    EXPECT_GE(h.app->accuracy.progress(), before);
+    before = h.app->accuracy.progress();
+    stages += h.app->accuracy.results().size() > results ? 1U : 0U;
+    results = h.app->accuracy.results().size();
+  }
+  EXPECT_EQ(h.app->accuracy.progress(), 1.0);
+  EXPECT_EQ(h.app->accuracy.results().size(), h.app->accuracy.planned());
+  EXPECT_GT(stages, 5U) << "the picture grows, it does not come at once";
+  EXPECT_GT(h.app->accuracy.points().size(), 50U);
+  std::set<std::string> series;
+  for (const Result& r : h.app->accuracy.results()) {
+    series.insert(series_name(r.experiment.settings));
+  }
+  EXPECT_GE(series.size(), 12U);
+}
+
+TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {
+  Headless h;
+  h.app->open("swinging_box");
+  h.app->set("accuracy", "run");
+  double before = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    h.app->accuracy.advance(1e-9);  // one frame of one run at most
+    EXPECT_LE(h.app->accuracy.progress() - before, 1e-3);
+    before = h.app->accuracy.progress();
+  }
+  EXPECT_GT(before, 0.0);
+  ASSERT_EQ(h.app->set("accuracy", "cancel"), "");
+  EXPECT_FALSE(h.app->accuracy.running());
+  const std::size_t results = h.app->accuracy.results().size();
+  h.frames(5);
+  EXPECT_EQ(h.app->accuracy.results().size(), results);
+  EXPECT_EQ(h.app->accuracy.progress(), before);
+  EXPECT_NE(h.app->set("accuracy", "perhaps"), "");
+}
+
+TEST(Accuracy, AChosenPointGivesItsFiguresAgain) {
+  Headless h;
+  h.app->open("pendulum");
+  h.app->set("accuracy", "run");
+  finish(h);
+  const std::vector<Result> results = h.app->accuracy.results();
+  h.app->open("free_fall");  // the point brings its scene along
+  for (std::size_t i = 0; i < results.size(); i += 20) {
+    h.app->run_result(results[i]);
+    EXPECT_TRUE(h.app->session.playing());
+    h.app->session.pause();
+    ASSERT_EQ(h.app->session.scene().name, "pendulum");
+    const auto frames = static_cast<int>(results[i].metrics.work.frames);
+    for (int f = 0; f < frames; ++f) h.app->session.step();
+    EXPECT_EQ(h.app->session.hash(), results[i].metrics.hash) << i;
+  }
+}
+
+// A click on the picture where a point lies runs that point.
+TEST(Accuracy, PointsAreFoundUnderThePointer) {
+  Headless h;
+  h.app->open("pendulum");
+  h.app->set("panel", "accuracy");
+  h.app->set("accuracy", "run");
+  finish(h);
+  h.frames(2);
+  std::set<std::string> chosen;
+  for (float y = 260.0F; y < 520.0F; y += 12.0F) {
+    for (float x = 1000.0F; x < 1260.0F; x += 20.0F) {
+      h.click(x, y);
+      const Settings& s = h.app->session.settings();
+      chosen.insert(series_name(s) + std::to_string(series_parameter(s).value));
+    }
+  }
+  EXPECT_GT(chosen.size(), 10U);
+}
+
+TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
+  Headless h;
+  h.app->open("pendulum");
+  h.app->set("accuracy", "run");
+  finish(h);
+  for (const CostAxis cost : {CostAxis::kSubsteps, CostAxis::kOperations, CostAxis::kTime}) {
+    h.app->accuracy.cost = cost;
+    const auto points = h.app->accuracy.points();
+    int on_front = 0;
+    for (const auto& p : points) {
+      bool beaten = false;
+      for (const auto& q : points) {
+        beaten = beaten ||
+                 (q.cost <= p.cost && q.error <= p.error && (q.cost < p.cost || q.error < p.error));
+      }
+      EXPECT_EQ(p.front, !beaten);
+      on_front += p.front ? 1 : 0;
+    }
+    EXPECT_GT(on_front, 2);
+  }
+}
+
+TEST(Accuracy, ThePanelIsDrawnInEveryLayout) {
+  Headless h;
+  h.app->open("pendulum");
+  h.app->set("panel", "accuracy");
+  h.app->set("accuracy", "run");
+  finish(h);
+  for (const auto& [width, height] : {std::pair{1280.0F, 720.0F}, std::pair{1920.0F, 1080.0F},
+                                      std::pair{390.0F, 844.0F}, std::pair{844.0F, 390.0F}}) {
+    h.resize(width, height, 2.0F);
+    h.frames(3);
+    EXPECT_EQ(h.app->desk.tab, Tab::kAccuracy);
+  }
+}
+
+}  // namespace
+}  // namespace substep

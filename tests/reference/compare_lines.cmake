@@ -9,7 +9,7 @@ file(STRINGS ${GOLDEN} golden REGEX "^[^#]")
 
 foreach(line IN LISTS lines)
   if(NOT line IN_LIST golden)
-    message(SEND_ERROR "not a golden hash: ${line}")
+    message(SEND_ERROR "not golden: ${line}")
   endif()
 endforeach()
 foreach(line IN LISTS golden)

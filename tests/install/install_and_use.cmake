@@ -1,0 +1,18 @@
+# Installs the library, builds the consumer against it alone, and runs it.
+file(REMOVE_RECURSE ${WORK}/prefix ${WORK}/build)
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE out ERROR_VARIABLE out)
+  if(failed)
+    message(FATAL_ERROR "${ARGN}\n${out}")
+  endif()
+  set(out "${out}" PARENT_SCOPE)
+endfunction()
+run(${CMAKE_COMMAND} --install ${BUILD} --component core --prefix ${WORK}/prefix)
+run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
+    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${WORK}/prefix)
+run(${CMAKE_COMMAND} --build ${WORK}/build)
+run(${WORK}/build/consumer ${SCENES}/pendulum.json)
+string(STRIP "${out}" hash)
+if(NOT hash MATCHES "^[0-9a-f]+ exact")
+  message(FATAL_ERROR "the consumer says '${out}'")
+endif()

@@ -93,9 +93,10 @@ struct Desk {
   int selected = -1;  // body, or -1
   ui::TimeAxis time;
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
-  ViewRect plots_area;        // where the plots were drawn last
-  int compare_open = -1;      // of which of the compared the settings are shown
-  int dismissed_failure = 0;  // of which run the failure was put aside
+  ViewRect plots_area;          // where the plots were drawn last
+  bool accuracy_large = false;  // its picture lies over the view
+  int compare_open = -1;        // of which of the compared the settings are shown
+  int dismissed_failure = 0;    // of which run the failure was put aside
 };
 
 /// The application: one scene running, the view of it, and the panels around it. The same in the

@@ -87,6 +87,14 @@ void axes_row(App& app) {
   }
 }
 
+/// The picture with the name of what goes up; a click on a point runs it.
+void picture(App& app, ImVec2 size) {
+  label(app.look.fonts.small, app.look.theme->dim, axis_name(app.accuracy.error));
+  if (const auto chosen = accuracy_picture(app.look, app.accuracy, app.session.settings(), size)) {
+    app.run_result(app.accuracy.results()[*chosen]);
+  }
+}
+
 /// Who is who, and how many of each hold.
 void legend(const App& app) {
   const Look& look = app.look;
@@ -142,11 +150,13 @@ void accuracy(App& app) {
   label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
   space(8.0F);
   axes_row(app);
-  label(look.fonts.small, look.theme->dim, axis_name(accuracy.error));
   const float width = ImGui::GetContentRegionAvail().x;
-  const ImVec2 size(width, std::clamp(1.05F * width, 240.0F, 460.0F));
-  if (const auto chosen = accuracy_picture(look, accuracy, app.session.settings(), size)) {
-    app.run_result(accuracy.results()[*chosen]);
+  if (!app.desk.accuracy_large) picture(app, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
+  if (ImGui::GetIO().DisplaySize.x >= 900.0F &&
+      button(look, "larger", app.desk.accuracy_large ? Icon::kNone : Icon::kFrame,
+             app.desk.accuracy_large ? "Back into the panel" : "Larger", ButtonKind::kGhost, 0.0F,
+             look.m.row, "The picture over the view")) {
+    app.desk.accuracy_large = !app.desk.accuracy_large;
   }
   if (const Reference* reference = accuracy.reference()) {
     label(look.fonts.small, look.theme->dim,
@@ -157,6 +167,27 @@ void accuracy(App& app) {
   }
   space(8.0F);
   legend(app);
+}
+
+void accuracy_card(App& app) {
+  if (!app.desk.accuracy_large || app.desk.tab != Tab::kAccuracy || !app.desk.panels ||
+      app.accuracy.planned() == 0) {
+    return;
+  }
+  constexpr float kAround = 16.0F;
+  constexpr float kCaption = 76.0F;  // what runs is named at the top of the view
+  const ViewRect& v = app.view_rect;
+  const ImVec2 size(v.width - 2.0F * kAround, std::min(v.height - kCaption - kAround, 620.0F));
+  ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption});
+  ImGui::SetNextWindowSize(size);
+  if (ImGui::Begin("##accuracy", nullptr,
+                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                       ImGuiWindowFlags_NoScrollbar)) {
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    picture(app, {room.x, room.y - 22.0F});
+  }
+  ImGui::End();
 }
 
 }  // namespace substep::ui

@@ -35,6 +35,8 @@ void why(App& app);
 void compare(App& app);
 /// What accuracy costs: all methods over this scene.
 void accuracy(App& app);
+/// Its picture over the view, where that was asked for.
+void accuracy_card(App& app);
 /// Who is who in the picture, at a place on the screen; nothing where nothing is compared.
 void compare_legend(App& app, float x, float y);
 /// The guided tour's card, or the button that opens it.

@@ -250,6 +250,7 @@ void draw_window(App& app) {
   app.view_rect.height -= app.desk.tour_height;
   selection_card(app, small);
   tour(app);
+  if (!small) accuracy_card(app);
   failure_card(app);
   trouble_card(app);
   help_card(app);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "core/lab/closed_form.hpp"
 #include "core/lab/experiment.hpp"
@@ -34,7 +35,8 @@ class ReferenceRun::Source {
   Source& operator=(const Source&) = delete;
   virtual ~Source() = default;
   [[nodiscard]] virtual std::string name() const = 0;
-  virtual Sample next() = 0;
+  /// The next frame, or nothing where it takes further calls: none may hold a page up for long.
+  virtual std::optional<Sample> next() = 0;
   /// Of the positions so far [m].
   [[nodiscard]] virtual double uncertainty() const = 0;
 };
@@ -46,14 +48,14 @@ class ClosedForm final : public ReferenceRun::Source {
   ClosedForm(const Scene& scene, const UniformAcceleration& motion)
       : scene_(scene), motion_(motion) {}
   [[nodiscard]] std::string name() const override { return "exact: closed form"; }
-  Sample next() override {
+  std::optional<Sample> next() override {
     const double t = static_cast<double>(++frame_) * scene_.frame;
     const Body& body = scene_.bodies[static_cast<std::size_t>(*scene_.criteria.track)];
     const Vec3 v = motion_.velocity + motion_.acceleration * t;
     // What spins freely keeps the energy of its spin.
     const Vec3 omega = body.orientation.conjugate() * body.angular_velocity;
-    return {motion_.at(t),
-            0.5 * body.mass * v.squaredNorm() + 0.5 * omega.dot(body.inertia.cwiseProduct(omega))};
+    return Sample{motion_.at(t), 0.5 * body.mass * v.squaredNorm() +
+                                     0.5 * omega.dot(body.inertia.cwiseProduct(omega))};
   }
   [[nodiscard]] double uncertainty() const override { return 0.0; }
 
@@ -71,10 +73,10 @@ class MinimalCoordinates final : public ReferenceRun::Source {
     return "exact: minimal coordinates, " + std::to_string(chain_.size()) +
            (chain_.size() == 1 ? " angle" : " angles");
   }
-  Sample next() override {
+  std::optional<Sample> next() override {
     chain_.advance(scene_.frame);
     ++frames_;
-    return {chain_.centre(*scene_.criteria.track), chain_.kinetic()};
+    return Sample{chain_.centre(*scene_.criteria.track), chain_.kinetic()};
   }
   // What a longer chain is late by grows with every swing.
   [[nodiscard]] double uncertainty() const override {
@@ -108,22 +110,40 @@ class FinestRun final : public ReferenceRun::Source {
   [[nodiscard]] std::string name() const override {
     return "finest run: bpp, leapfrog, " + std::to_string(kFinest) + " sub-steps a frame";
   }
-  Sample next() override {
-    const FrameReport report = fine_.step();
-    coarse_.step();
-    if (!scene_.criteria.track) return {Vec3::Zero(), report.kinetic};
-    const auto body = static_cast<std::size_t>(*scene_.criteria.track);
-    const Vec3 x = fine_.state().x[body];
-    apart_ = std::max(apart_, (x - coarse_.state().x[body]).norm());
-    return {x, report.kinetic};
+  std::optional<Sample> next() override {
+    for (int i = 0; i < kSlice; ++i) {
+      Simulator& simulator = fine_done_ ? coarse_ : fine_;
+      const FrameReport report = simulator.substep();
+      if (simulator.substeps_left() > 0) continue;
+      if (!fine_done_) {
+        kinetic_ = report.kinetic;
+        fine_done_ = true;
+        continue;
+      }
+      fine_done_ = false;
+      return sample();
+    }
+    return std::nullopt;
   }
   [[nodiscard]] double uncertainty() const override { return apart_; }
 
  private:
+  static constexpr int kSlice = 48;  // sub-steps of a call
+
+  Sample sample() {
+    if (!scene_.criteria.track) return {Vec3::Zero(), kinetic_};
+    const auto body = static_cast<std::size_t>(*scene_.criteria.track);
+    const Vec3 x = fine_.state().x[body];
+    apart_ = std::max(apart_, (x - coarse_.state().x[body]).norm());
+    return {x, kinetic_};
+  }
+
   const Scene& scene_;
   Simulator fine_;
   Simulator coarse_;
-  double apart_ = 0.0;  // [m]
+  bool fine_done_ = false;  // with the frame that the coarse one is at
+  double kinetic_ = 0.0;    // of the fine one [J]
+  double apart_ = 0.0;      // [m]
 };
 
 std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scene>& scene) {
@@ -164,9 +184,10 @@ ReferenceRun& ReferenceRun::operator=(ReferenceRun&&) noexcept = default;
 
 bool ReferenceRun::advance() {
   if (frame_ < frames_) {
-    const Sample sample = source_->next();
-    if (scene_->criteria.track) reference_.track.push_back(sample.x);
-    kinetic_ = std::max(kinetic_, sample.kinetic);
+    const std::optional<Sample> sample = source_->next();
+    if (!sample) return true;
+    if (scene_->criteria.track) reference_.track.push_back(sample->x);
+    kinetic_ = std::max(kinetic_, sample->kinetic);
     if (++frame_ < frames_) return true;
   }
   reference_.uncertainty = source_->uncertainty();

@@ -38,7 +38,7 @@ class ReferenceRun {
   ReferenceRun(ReferenceRun&&) noexcept;
   ReferenceRun& operator=(ReferenceRun&&) noexcept;
 
-  /// One more frame. @return false when all are done
+  /// One more frame, or a part of it. @return false when all are done
   bool advance();
   [[nodiscard]] double progress() const;  ///< 0 to 1
   /// Valid once advance() has returned false.

@@ -139,7 +139,9 @@ void Sweep::advance_by_a_frame() {
 bool Sweep::advance(double seconds) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  while (!done() && Clock::now() < end) advance_by_a_frame();
+  do {
+    if (!done()) advance_by_a_frame();
+  } while (!done() && Clock::now() < end);
   return !done();
 }
 

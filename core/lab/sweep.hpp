@@ -28,7 +28,7 @@ class Sweep {
  public:
   Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments);
 
-  /// Goes on for about that long: at most one frame of one run longer. @return false when done
+  /// Goes on for about that long, by a frame of one run at least. @return false when done
   bool advance(double seconds);
   [[nodiscard]] bool done() const { return next_ == experiments_.size() && !run_; }
   [[nodiscard]] double progress() const;  ///< 0 to 1

@@ -90,7 +90,8 @@ struct Desk {
   float tour_height = 0.0F;  // of its card, which the picture makes room for
   bool tour_hint = false;    // nobody has taken it or put it aside yet
   ViewOptions view;
-  int selected = -1;  // body, or -1
+  int selected = -1;       // body, or -1
+  bool card_left = false;  // the side of the view that its card is on
   ui::TimeAxis time;
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // where the plots were drawn last

@@ -71,7 +71,14 @@ EMSCRIPTEN_KEEPALIVE void substep_frame(double dt) {
 
 /// The mouse cursor wanted: 0 arrow, 1 hand, 2 text.
 EMSCRIPTEN_KEEPALIVE int substep_cursor() {
-  return ImGui::GetMouseCursor() == ImGuiMouseCursor_TextInput ? 2 : 0;
+  switch (ImGui::GetMouseCursor()) {
+    case ImGuiMouseCursor_Hand:
+      return 1;
+    case ImGuiMouseCursor_TextInput:
+      return 2;
+    default:
+      return 0;
+  }
 }
 
 }  // extern "C"

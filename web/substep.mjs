@@ -62,7 +62,7 @@ class Clock {
 
   draw(dt) {
     this.wasm.frame(dt);
-    this.frame.canvas.style.cursor = this.wasm.cursor() === 2 ? "text" : "default";
+    this.frame.canvas.style.cursor = ["default", "grab", "text"][this.wasm.cursor()];
     this.afterDraw();
   }
 

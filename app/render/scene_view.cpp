@@ -90,17 +90,21 @@ Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) 
   return {0.5 * (low + high), std::max(0.05, 0.5 * (high - low).norm())};
 }
 
-// How far the bodies reach to either side of where the camera looks at the start: what swings
-// comes to the other side as well.
+// How far the bodies reach to either side of where the camera looks at the start, as they are seen
+// at the distance of its target: what swings comes to the other side as well, nearer or farther.
 double half_width(const Scene& scene, const Poses& poses) {
   const Vec3 right = OrbitCamera::right_of(scene.camera);
+  const Vec3 back = scene.camera.eye - scene.camera.target;
+  const double distance = std::max(1e-3, back.norm());
   double reach = 0.0;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (is_plane(scene.bodies[i])) continue;
-    const double offset = std::abs(right.dot(poses.x[i] - scene.camera.target));
-    reach = std::max(reach, offset + radius(scene.bodies[i].shape));
+    const Vec3 offset = poses.x[i] - scene.camera.target;
+    const double nearer = std::min(0.8, std::abs(back.dot(offset)) / (distance * distance));
+    const double aside = std::abs(right.dot(offset)) + radius(scene.bodies[i].shape);
+    reach = std::max(reach, aside / (1.0 - nearer));
   }
-  return 1.04 * reach;
+  return 1.02 * reach;
 }
 
 }  // namespace

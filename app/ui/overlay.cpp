@@ -147,7 +147,8 @@ void body_labels(App& app) {
   }
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ViewRect& v = app.view_rect;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  const std::size_t own = app.session.loaded().bodies.size();  // a thrown ball has no label
+  for (std::size_t i = 0; i < own; ++i) {
     const Body& body = scene.bodies[i];
     if (body.is_static || body.mass < 20.0 * lightest) continue;
     ImVec2 p;

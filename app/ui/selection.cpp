@@ -108,8 +108,10 @@ void selection_card(App& app, bool phone) {
   const auto i = static_cast<std::size_t>(app.desk.selected);
   const Body& body = app.session.scene().bodies[i];
   const float width = phone ? 188.0F : 232.0F;
-  ImGui::SetNextWindowPos({v.x + v.width - 12.0F, v.y + v.height - 12.0F}, ImGuiCond_Always,
-                          {1.0F, 1.0F});
+  const bool left = app.desk.card_left;
+  const float up = left && !phone ? 48.0F : 12.0F;  // over the scale of the tint
+  ImGui::SetNextWindowPos({left ? v.x + 12.0F : v.x + v.width - 12.0F, v.y + v.height - up},
+                          ImGuiCond_Always, {left ? 0.0F : 1.0F, 1.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, v.height - 96.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 3.0F});

@@ -65,17 +65,27 @@ void play_buttons(App& app, float height, float gap) {
               });
 }
 
+constexpr float kChipFrame = 40.0F;  // of a verdict: its sign and the round ends
+
+// Without what it failed by where there is no room for it: that is in its tooltip.
+std::string verdict_text(const App& app, float room) {
+  const Look& look = app.look;
+  const std::string& text = app.session.verdict().text();
+  room -= kChipFrame;
+  if (text_size(look.fonts.medium, text.c_str()).x <= room) return text;
+  return fitted(look.fonts.medium, text.substr(0, text.find(": ")), room);
+}
+
 // Verdict with its sign: a tick, a hand's circle or a cross says it as well as the colour does.
 // @return its width
-float verdict_chip(App& app, ImVec2 at, float height, float room) {
+float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const Verdict& verdict = app.session.verdict();
   const bool disturbed = verdict.holds() && verdict.disturbed();
   const ImU32 color = disturbed ? t.amber : verdict.holds() ? t.teal : t.orange;
-  const std::string text = fitted(look.fonts.medium, verdict.text(), room - 40.0F);
   const ImVec2 size = text_size(look.fonts.medium, text.c_str());
-  const float width = size.x + 40.0F;
+  const float width = size.x + kChipFrame;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float top = at.y + 0.5F * (height - 28.0F);
   draw.AddRectFilled({at.x, top}, {at.x + width, top + 28.0F}, fade(color, t.dark ? 0.14F : 0.1F),
@@ -154,8 +164,8 @@ void phone_transport(App& app, ImVec2 bar, float width, float height) {
   draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {bar.x + width - time_width, y + 4.0F},
             look.theme->text, time.c_str());
   constexpr float kLeastTrack = 96.0F;
-  const float chip =
-      verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, width - time_width - kLeastTrack - 20.0F);
+  const std::string verdict = verdict_text(app, width - time_width - kLeastTrack - 20.0F);
+  const float chip = verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, verdict);
   scrubber(app, {bar.x + chip + 8.0F, y - 2.0F}, width - chip - time_width - 20.0F, 28.0F);
 }
 
@@ -191,10 +201,9 @@ void transport(App& app, bool phone) {
   // From the right: verdict, time; the past takes what is left.
   const float room = right - after_buttons;
   const float chip_room = std::clamp(0.45F * room, 100.0F, 300.0F);
-  const std::string verdict =
-      fitted(look.fonts.medium, app.session.verdict().text(), chip_room - 40.0F);
-  const float chip = text_size(look.fonts.medium, verdict.c_str()).x + 40.0F;
-  verdict_chip(app, {right - chip, bar.y}, kHeight, chip_room);
+  const std::string verdict = verdict_text(app, chip_room);
+  const float chip = text_size(look.fonts.medium, verdict.c_str()).x + kChipFrame;
+  verdict_chip(app, {right - chip, bar.y}, kHeight, verdict);
   const std::string time = time_text(app);
   const float time_width = std::max(64.0F, text_size(look.fonts.medium, time.c_str()).x);
   const ImVec2 time_size = text_size(look.fonts.medium, time.c_str());

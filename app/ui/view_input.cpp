@@ -89,12 +89,19 @@ void drag(App& app) {
   }
 }
 
+// Its card goes where the body is not.
+void select(App& app, int body) {
+  app.desk.selected = body;
+  const ViewRect& v = app.view_rect;
+  app.desk.card_left = ImGui::GetIO().MousePos.x > v.x + 0.5F * v.width;
+}
+
 void release(App& app) {
   Hand& hand = app.hand;
   if (hand.holding) {
     app.session.let_go();
   } else if (!hand.moved) {
-    app.desk.selected = hand.body;
+    select(app, hand.body);
   }
   hand = {};
 }
@@ -134,11 +141,11 @@ void view_input(App& app) {
   ImGui::End();
 }
 
-// From beside the eye to what the pointer is on, or to the middle of the view; it arrives in about
-// half a second, so that one sees it fly.
+// From beside the eye to what the pointer is on, or to the middle of the view; it takes a moment,
+// so that one sees it fly.
 void throw_ball(App& app) {
-  constexpr double kFlight = 0.55;    // [s]
-  constexpr double kDensity = 400.0;  // of light wood [kg/m^3]
+  constexpr double kFlight = 0.8;     // [s]
+  constexpr double kDensity = 120.0;  // of cork [kg/m^3]
   constexpr double kFull = 4.18879;   // volume of the unit ball
   const OrbitCamera& camera = app.view.camera;
   const Vec3 eye = camera.eye(app.view_rect);

@@ -71,8 +71,8 @@ Scene swinging_box(const SwingingBoxOptions& options) {
   scene.effects = {.gravity = true, .joints = true};
   scene.criteria.energy_gain = 5150.0;
   scene.criteria.energy_scale = 51500.0;
-  scene.camera.eye = {0.0, 6.5, 21.0};
-  scene.camera.target = {0.0, 6.0, 0.0};
+  scene.camera.eye = {16.0, 9.0, 15.9};
+  scene.camera.target = {1.7, 6.0, 0.0};
   scene.bodies.push_back(floor_plane());
   add_rope({.compliance = options.compliance, .angle = options.angle}, {0.0, 12.0, 0.0}, scene);
   return scene;

@@ -17,14 +17,12 @@ double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse))
 
 void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   ldlt_.reserve(bodies, blocks);
-  u_star_.reserve(bodies);
   friction_bound_.reserve(blocks);
   gauss_seidel_.reserve(bodies, blocks);
 }
 
 SolveReport Bpp::find_active_set(const System& system, const Settings& settings) {
   SolveReport report;
-  u_star_.assign(system.u.begin(), system.u.end());
   ldlt_.begin(system);
   factor_valid_ = false;
   start_active_set(system);
@@ -62,7 +60,7 @@ SolveReport Bpp::solve(const System& system, const Settings& settings) {
 }
 
 std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings) {
-  std::copy(u_star_.begin(), u_star_.end(), system.u.begin());
+  std::copy(ldlt_.u_star().begin(), ldlt_.u_star().end(), system.u.begin());
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
     block.impulse[0] = std::max(0.0, block.impulse[0]);
@@ -114,7 +112,7 @@ void Bpp::set_friction_bounds(std::span<Block> blocks) {
     for (int row = 1; row < 3; ++row) {  // no room to be free in
       if (block.tight[row] != 0) continue;
       block.tight[row] = -1;
-      factor_valid_ = false;
+      change_factor(i);
     }
   }
 }
@@ -133,26 +131,7 @@ bool Bpp::bounds_settled(std::span<const Block> blocks) const {
   return true;
 }
 
-void Bpp::apply(const System& system, bool tight_rows) {
-  for (const Block& block : system.blocks) {
-    if (tight_rows && !block.is_contact()) continue;
-    if (!tight_rows && !block.is_contact()) {  // a joint has no tight rows
-      apply_impulse(block, block.impulse, system.inverse_mass, system.u);
-      continue;
-    }
-    double part[kMaxRows];
-    bool any = false;
-    for (int row = 0; row < block.rows; ++row) {
-      part[row] = (block.tight[row] != 0) == tight_rows ? block.impulse[row] : 0.0;
-      any = any || part[row] != 0.0;
-    }
-    if (any) apply_impulse(block, part, system.inverse_mass, system.u);
-  }
-}
-
 void Bpp::solve_active_set(const System& system, SolveReport& report) {
-  // Tight impulses first: they are known, and what they do to u is all that the others see of them.
-  std::copy(u_star_.begin(), u_star_.end(), system.u.begin());
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
     if (!block.is_contact()) continue;
@@ -161,34 +140,26 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
         block.impulse[row] = row == 0 ? 0.0 : block.tight[row] * friction_bound_[i];
     }
   }
-  apply(system, true);
+  if (!factor_valid_) ++report.factorisations;
+  ldlt_.solve(system);
+  factor_valid_ = true;
+}
 
-  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
-    const Block& block = system.blocks[i];
-    double* rhs = ldlt_.row(i);
-    row_speeds(block, system.u, rhs);
-    for (int row = 0; row < block.rows; ++row) rhs[row] = -block.bias[row] - rhs[row];
-  }
-  if (!factor_valid_) {
-    ldlt_.factor_contacts(system.blocks);
-    ++report.factorisations;
-    factor_valid_ = true;
-  }
-  ldlt_.solve(system.blocks);
-  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
-    Block& block = system.blocks[i];
-    const double* x = ldlt_.row(i);
-    for (int row = 0; row < block.rows; ++row) {
-      if (block.tight[row] == 0) block.impulse[row] = x[row];
-    }
-  }
-  apply(system, false);
+void Bpp::change_factor(std::size_t block) {
+  ldlt_.touch(block);
+  factor_valid_ = false;
+}
+
+void Bpp::move(std::span<Block> blocks, const Move& move) {
+  std::int8_t& set = blocks[move.block].tight[move.row];
+  // From one bound to the other the same rows stay free.
+  if (set == 0 || move.set == 0) change_factor(move.block);
+  set = move.set;
 }
 
 int Bpp::pivot(const System& system, bool one_only) {
   int wrong = 0;
-  std::int8_t* last = nullptr;
-  std::int8_t last_set = 0;
+  Move last;
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
     if (!block.is_contact()) continue;
@@ -209,16 +180,14 @@ int Bpp::pivot(const System& system, bool one_only) {
       }
       if (set == block.tight[row]) continue;
       ++wrong;
-      factor_valid_ = factor_valid_ && set != 0 && block.tight[row] != 0;
       if (one_only) {
-        last = &block.tight[row];
-        last_set = set;
+        last = {i, row, set};
       } else {
-        block.tight[row] = set;
+        move(system.blocks, {i, row, set});
       }
     }
   }
-  if (last != nullptr) *last = last_set;
+  if (one_only && wrong > 0) move(system.blocks, last);
   return wrong;
 }
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/solver/block_ldlt.hpp"
 #include "core/solver/pgs.hpp"
+#include "core/solver/saddle_ldlt.hpp"
 #include "core/solver/solver.hpp"
 
 namespace substep {
@@ -21,6 +21,12 @@ class Bpp final : public Solver {
 
  private:
   SolveReport find_active_set(const System& system, const Settings& settings);
+  /// A row's new set.
+  struct Move {
+    std::size_t block = 0;
+    int row = 0;
+    std::int8_t set = 0;
+  };
   void start_active_set(const System& system);
   void set_friction_bounds(std::span<Block> blocks);
   /// True if the friction bounds that follow from the solution leave it a solution.
@@ -29,14 +35,14 @@ class Bpp final : public Solver {
   /// Moves rows on the wrong side to their right set. @param one_only only the last such row
   /// @return how many rows there were
   int pivot(const System& system, bool one_only);
-  void apply(const System& system, bool tight_rows);
+  void move(std::span<Block> blocks, const Move& move);
+  void change_factor(std::size_t block);
   /// From the impulses as they stand, clamped to their bounds. @return its flops
   std::int64_t go_on_with_gauss_seidel(const System& system, const Settings& settings);
 
-  BlockLdlt ldlt_;
+  SaddleLdlt ldlt_;
   Pgs gauss_seidel_;
-  bool factor_valid_ = false;  // the contacts' factor belongs to the present active set
-  std::vector<Vec6> u_star_;
+  bool factor_valid_ = false;           // the factor belongs to the present active set
   std::vector<double> friction_bound_;  // per block [N s]
 };
 

@@ -1,98 +1,130 @@
 #include "core/solver/elimination_order.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <iterator>
 
 namespace substep {
 
 namespace {
 
 constexpr std::size_t kTypicalDegree = 32;
+constexpr int kNone = -1;
+constexpr int kUnordered = -2;  // a position to come
 
-template <class T>
-void grow(std::vector<std::vector<T>>& lists, std::size_t size) {
-  while (lists.size() < size) lists.emplace_back().reserve(kTypicalDegree);
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+void insert(std::vector<int>& sorted, int value) {
+  const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
+  if (at == sorted.end() || *at != value) sorted.insert(at, value);
 }
 
 }  // namespace
 
 void EliminationOrder::reserve(std::size_t bodies, std::size_t blocks) {
-  keys_.reserve(blocks);
-  order_.reserve(blocks);
-  position_.reserve(blocks);
-  grow(graph_, blocks);
-  grow(on_body_, bodies);
-}
-
-void EliminationOrder::connect(int block, int other) {
-  auto& list = graph_[static_cast<std::size_t>(block)];
-  const auto at = std::lower_bound(list.begin(), list.end(), other);
-  if (at == list.end() || *at != other) list.insert(at, other);
+  edges_.reserve(blocks);
+  found_.reserve(blocks);
+  merged_.reserve(bodies);
+  first_.reserve(bodies + 2);
+  next_.reserve(bodies);
+  previous_.reserve(bodies);
+  degree_.reserve(bodies);
+  order_.reserve(bodies);
+  position_.reserve(bodies);
+  while (graph_.size() < bodies) graph_.emplace_back().reserve(kTypicalDegree);
 }
 
 bool EliminationOrder::update(std::span<const Block> blocks, std::size_t bodies) {
-  const auto key = [](const Block& block) {
-    return Key{block.a, block.b, block.rows, block.is_contact()};
-  };
-  if (keys_.size() == blocks.size() &&
-      std::equal(blocks.begin(), blocks.end(), keys_.begin(),
-                 [&](const Block& block, const Key& k) { return key(block) == k; })) {
-    return false;
-  }
-  keys_.clear();
-  for (const Block& block : blocks) keys_.push_back(key(block));
-
-  const std::size_t n = blocks.size();
-  grow(graph_, n);
-  grow(on_body_, bodies);
-  for (std::size_t i = 0; i < n; ++i) graph_[i].clear();
-  for (auto& list : on_body_) list.clear();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (const int body : {blocks[i].a, blocks[i].b}) {
-      if (body < 0) continue;
-      for (const int other : on_body_[static_cast<std::size_t>(body)]) {
-        connect(static_cast<int>(i), other);
-        connect(other, static_cast<int>(i));
-      }
-      on_body_[static_cast<std::size_t>(body)].push_back(static_cast<int>(i));
-    }
-  }
-
-  order_.clear();
-  position_.assign(n, -1);
-  joints_ = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    std::size_t best = n;
-    bool best_contact = true;
-    std::size_t best_degree = std::numeric_limits<std::size_t>::max();
-    for (std::size_t i = 0; i < n; ++i) {
-      if (position_[i] >= 0) continue;
-      const bool contact = keys_[i].contact;
-      if (contact && !best_contact) continue;
-      if ((best_contact && !contact) || graph_[i].size() < best_degree) {
-        best = i;
-        best_contact = contact;
-        best_degree = graph_[i].size();
-      }
-    }
-    position_[best] = static_cast<int>(k);
-    order_.push_back(static_cast<int>(best));
-    if (!best_contact) ++joints_;
-    // What it couples becomes a clique, and forgets it.
-    const auto& clique = graph_[best];
-    for (const int i : clique) {
-      auto& list = graph_[static_cast<std::size_t>(i)];
-      list.erase(std::lower_bound(list.begin(), list.end(), static_cast<int>(best)));
-      for (const int j : clique) {
-        if (j != i) connect(i, j);
-      }
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    std::sort(graph_[i].begin(), graph_[i].end(),
-              [&](int p, int q) { return position(p) < position(q); });
-  }
+  const int world = static_cast<int>(bodies);
+  read_edges(blocks, world);
+  if (world == world_ && found_ == edges_) return false;
+  std::swap(found_, edges_);
+  world_ = world;
+  build_graph(world);
+  eliminate(world);
   return true;
+}
+
+void EliminationOrder::read_edges(std::span<const Block> blocks, int world) {
+  found_.clear();
+  for (const Block& block : blocks) {
+    Edge edge{std::min(block.a, block.b), std::max(block.a, block.b)};
+    if (edge.low < 0) edge = {edge.high, block.is_contact() ? edge.high : world};
+    // The points of a contact follow each other.
+    if (found_.empty() || !(found_.back() == edge)) found_.push_back(edge);
+  }
+}
+
+void EliminationOrder::build_graph(int world) {
+  const std::size_t bodies = index(world);
+  while (graph_.size() < bodies) graph_.emplace_back().reserve(kTypicalDegree);
+  for (std::size_t i = 0; i < bodies; ++i) graph_[i].clear();
+  position_.assign(bodies, kNone);
+  for (const Edge& edge : edges_) {
+    position_[index(edge.low)] = kUnordered;
+    if (edge.low == edge.high) continue;
+    insert(graph_[index(edge.low)], edge.high);
+    if (edge.high == world) continue;
+    insert(graph_[index(edge.high)], edge.low);
+    position_[index(edge.high)] = kUnordered;
+  }
+}
+
+void EliminationOrder::enqueue(int body, std::size_t degree) {
+  degree_[index(body)] = degree;
+  int& first = first_[degree];
+  next_[index(body)] = first;
+  previous_[index(body)] = kNone;
+  if (first != kNone) previous_[index(first)] = body;
+  first = body;
+}
+
+void EliminationOrder::dequeue(int body) {
+  const int next = next_[index(body)];
+  const int previous = previous_[index(body)];
+  if (next != kNone) previous_[index(next)] = previous;
+  (previous != kNone ? next_[index(previous)] : first_[degree_[index(body)]]) = next;
+}
+
+void EliminationOrder::eliminate(int world) {
+  const std::size_t bodies = index(world);
+  first_.assign(bodies + 2, kNone);
+  next_.resize(bodies);
+  previous_.resize(bodies);
+  degree_.resize(bodies);
+  order_.clear();
+  std::size_t left = 0;
+  for (int body = world; body-- > 0;) {  // of equal degree, the first is eliminated first
+    if (position(body) == kNone) continue;
+    enqueue(body, graph_[index(body)].size());
+    ++left;
+  }
+  for (std::size_t degree = 0; left > 0; --left) {
+    while (first_[degree] == kNone) ++degree;
+    const int body = first_[degree];
+    dequeue(body);
+    position_[index(body)] = static_cast<int>(order_.size());
+    order_.push_back(body);
+    const std::vector<int>& clique = graph_[index(body)];
+    for (const int other : clique) {
+      if (other == world) continue;
+      merged_.clear();
+      const std::vector<int>& list = graph_[index(other)];
+      std::set_union(list.begin(), list.end(), clique.begin(), clique.end(),
+                     std::back_inserter(merged_));
+      dequeue(other);
+      graph_[index(other)].clear();
+      for (const int i : merged_) {
+        if (i != body && i != other) graph_[index(other)].push_back(i);
+      }
+      enqueue(other, graph_[index(other)].size());
+      degree = std::min(degree, graph_[index(other)].size());
+    }
+  }
+  for (const int body : order_) {
+    auto& list = graph_[index(body)];
+    if (!list.empty() && list.back() == world) list.pop_back();
+    std::sort(list.begin(), list.end(), [&](int p, int q) { return position(p) < position(q); });
+  }
 }
 
 }  // namespace substep

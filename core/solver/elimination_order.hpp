@@ -8,43 +8,52 @@
 
 namespace substep {
 
-/// The order in which blocks are eliminated from J Mt^-1 J^T: of least degree first, joints before
-/// contacts. Two blocks are neighbours if they share a moving body. A chain comes out as a chain, a
-/// tree without fill; since contacts come last, a change of their active set leaves the joints'
-/// factor as it is.
+/// The order in which bodies are eliminated: of least degree first. Two bodies are neighbours if a
+/// constraint joins them, and all neighbours of a body that is eliminated become neighbours of each
+/// other. A tree of joints comes out from the leaves to the root without fill: the world counts as
+/// a neighbour that stays, so that a chain starts at its free end.
+///
+/// The order depends on the pairs of bodies alone, not on how many points they touch in, and is
+/// found anew only when a pair comes or goes.
 class EliminationOrder {
  public:
   void reserve(std::size_t bodies, std::size_t blocks);
 
-  /// Finds the order anew if the graph has changed. @return true if it has
+  /// @return true if the graph, and with it the order, has changed
   bool update(std::span<const Block> blocks, std::size_t bodies);
 
-  /// Blocks in the order of elimination.
+  /// Bodies with a constraint, in the order of elimination.
   [[nodiscard]] std::span<const int> order() const { return order_; }
-  /// How many of them, from the front, are joints.
-  [[nodiscard]] std::size_t joints() const { return joints_; }
-  /// Position of a block in the order.
-  [[nodiscard]] int position(int block) const { return position_[static_cast<std::size_t>(block)]; }
-  /// Blocks that are coupled to this one when it is eliminated, in the order of elimination.
-  [[nodiscard]] std::span<const int> coupled(int block) const {
-    return graph_[static_cast<std::size_t>(block)];
+  /// Place of a body in the order, -1 without constraints.
+  [[nodiscard]] int position(int body) const { return position_[static_cast<std::size_t>(body)]; }
+  /// Bodies that a body is coupled to when it is eliminated, in the order of elimination.
+  [[nodiscard]] std::span<const int> coupled(int body) const {
+    return graph_[static_cast<std::size_t>(body)];
   }
 
  private:
-  struct Key {
-    int a, b, rows;
-    bool contact;
-    friend bool operator==(const Key&, const Key&) = default;
+  struct Edge {
+    int low, high;  // the world's number is that of the bodies; low = high: a body by itself
+    friend bool operator==(const Edge&, const Edge&) = default;
   };
-  void connect(int block, int other);
+  void read_edges(std::span<const Block> blocks, int world);
+  void build_graph(int world);
+  void eliminate(int world);
+  void enqueue(int body, std::size_t degree);
+  void dequeue(int body);
 
-  std::vector<Key> keys_;  // the graph that the order belongs to
-  std::vector<std::vector<int>>
-      graph_;  // per block, sorted; shrinks to `coupled` while eliminating
-  std::vector<std::vector<int>> on_body_;
+  std::vector<Edge> edges_;  // the graph that the order belongs to, as the blocks name it
+  std::vector<Edge> found_;
+  int world_ = -1;
+  std::vector<std::vector<int>> graph_;  // per body, sorted; ends as `coupled`
+  std::vector<int> merged_;
+  // Bodies by degree: doubly linked lists, so that a body changes its list in constant time.
+  std::vector<int> first_;  // per degree
+  std::vector<int> next_;   // per body
+  std::vector<int> previous_;
+  std::vector<std::size_t> degree_;
   std::vector<int> order_;
   std::vector<int> position_;
-  std::size_t joints_ = 0;
 };
 
 }  // namespace substep

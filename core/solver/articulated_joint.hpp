@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/constraints/block.hpp"
+#include "core/solver/system.hpp"
+
+namespace substep {
+
+/// A symmetric 6 x 6 matrix of a body, linear part first.
+using Square6 = double[6][6];
+
+/// A += the inertia P about a point moved by r.
+void add_shifted(const Square6& P, const double* r, Square6& A);
+
+/// Elimination of a body together with the one pinned joint that ties it to what is left: its
+/// parent, or the world. In closed form, without inverting the body's inertia; see the derivation
+/// in articulated_joint.cpp. The body's quantities are about the pivot, the parent's about the
+/// reference point that the parent has: its own pivot if it is articulated, else its centre.
+class ArticulatedJoint {
+ public:
+  /// What a sub-step knows of the joint. @param child_is_a which side of the block is eliminated
+  void read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star);
+  /// @param reference the parent's pivot from its centre [m], nullptr for the centre
+  void refer_to(const double* reference);
+
+  /// @param W Mt^-1 of the child  @param A in: what the child carries of others, about its pivot;
+  /// overwritten
+  /// @param to_parent out: what the parent gains, or nullptr for the world
+  void eliminate(const InverseMass& W, Square6& A, Square6* to_parent);
+
+  /// @param g_centre momentum that the child is given about its centre [N s, N m s]
+  /// @param g_parent momentum of the parent, added to; nullptr for the world
+  void forward(const double* g_centre, double* g_parent);
+
+  /// @param v_parent change of the parent's velocity, nullptr for the world
+  /// @param v_centre out: the child's  @param impulse out, one per row
+  void backward(const double* v_parent, double* v_centre, double* impulse);
+
+  [[nodiscard]] const double* pivot() const { return r_; }
+  /// Momentum that articulated children hand over, about the pivot.
+  [[nodiscard]] double* momentum() { return g_; }
+  /// Change of the child's velocity at the pivot.
+  [[nodiscard]] const double* velocity() const { return v_; }
+
+  static std::int64_t factor_flops(int rows) { return 250 + (rows == 3 ? 240 : 84) + 82 * rows; }
+  static std::int64_t solve_flops(int rows) { return 220 + (rows == 3 ? 105 : 35) + 16 * rows; }
+
+ private:
+  /// A direction of rotation that the joint leaves free.
+  struct Free {
+    double f[3];
+    double column[6];  // A f when it is eliminated
+    double inverse;    // 1/(f A f)
+    double momentum;   // f g
+  };
+
+  int rows_;
+  int n_free_;
+  double sign_;          // child minus parent against the block's a minus b
+  double r_[3];          // pivot from the child's centre [m]
+  double r_parent_[3];   // pivot from the parent's centre [m]
+  double to_parent_[3];  // the parent's reference point from the pivot [m]
+  double e_[2][3];       // hinge: across the axis, dual to the two angular rows
+  double w_[kMaxRows];   // child minus parent: J u* + bias [m/s, rad/s]
+  double softness_[kMaxRows];
+  Free free_[3];
+  Square6 P_;    // what the parent sees of the child, at the pivot
+  double g_[6];  // momentum at the pivot, first the child's, then what the parent sees of it
+  double v_[6];
+};
+
+}  // namespace substep

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/solver/articulated_joint.hpp"
+#include "core/solver/elimination_order.hpp"
+#include "core/solver/system.hpp"
+
+namespace substep {
+
+/// Eq. 3 in the change of velocity v = u+ - u*, eliminated body by body; J Mt^-1 J^T is never
+/// formed.
+///
+///   [ Mt  -J^T ] [v]   [ J^T x_tight    ]       over the rows that are free;
+///   [ J     s  ] [x] = [ -(J u* + bias) ]       the impulses of tight rows are given
+///
+/// A node of the elimination is a body with all constraints to bodies that come later. It is handed
+/// what earlier nodes leave on its body, and leaves a symmetric matrix on the later bodies that it
+/// is coupled to. A node is factored by one of three ways:
+///  - articulated: one pinned joint to one later body or the world, in closed form;
+///  - bare: nothing came before, so Mt^-1 is at hand and only the rows remain, S = s + J Mt^-1 J^T;
+///  - general: LDL^T of the 6 x 6 inertia, then of S.
+/// In a general node rows with enough softness are folded into the bodies as springs of stiffness
+/// 1/s, and x = -(J u + bias)/s follows from the velocities: any number of contact points costs no
+/// more than one 6 x 6 block. Rows without, such as exact joints, stay rows and are pivots after
+/// their body, so that nothing is divided by a small s.
+///
+/// When rows become tight or free, only their nodes and those on the way to the root are factored
+/// anew.
+class SaddleLdlt {
+ public:
+  void reserve(std::size_t bodies, std::size_t blocks);
+  /// Takes a new system, its u as u*.
+  void begin(const System& system);
+  /// Says that rows of a block have become tight or free.
+  void touch(std::size_t block);
+  /// Impulses of free rows from those of tight rows, and u+. Factors what has changed.
+  void solve(const System& system);
+
+  /// Floating-point operations since `begin`.
+  [[nodiscard]] std::int64_t flops() const { return flops_; }
+  [[nodiscard]] std::span<const Vec6> u_star() const { return u_star_; }
+
+ private:
+  enum class Way : std::uint8_t { kArticulated, kBare, kGeneral };
+  /// A constraint at the node of the body that is eliminated first.
+  struct Attached {
+    int block = 0;
+    int other = -1;  // of the node's coupled bodies, -1: static
+    bool is_a = false;
+    bool folded = false;
+  };
+  struct Node {
+    int body = 0;
+    Way way = Way::kGeneral;
+    bool dirty = true;
+    int parent = -1;                // the node that is handed what this one leaves
+    int coupled = 0;                // later bodies
+    std::size_t first_coupled = 0;  // into coupled_
+    std::size_t first_child = 0;    // into children_
+    std::size_t n_children = 0;
+    std::size_t first_attached = 0;  // into attached_
+    std::size_t n_attached = 0;
+    std::size_t first_row = 0;  // into rows_ and c_
+    int n_rows = 0;             // free and not folded
+    int n_folded = 0;           // rows
+    int most_rows = 0;
+    std::int64_t solve_flops = 0;
+    std::size_t joint = 0;   // into joints_, of an articulated node
+    std::size_t values = 0;  // into values_
+    std::size_t update = 0;  // into values_: what it leaves on the coupled bodies
+  };
+  struct Row {
+    int attached = 0;
+    int row = 0;
+  };
+  struct Key {  // what the layout depends on
+    int a, b, rows;
+    bool foldable;
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  /// The factor of a node, row-major.
+  struct Factor {
+    double* A;          // 6 x 6: L below the diagonal
+    double* A_inverse;  // 6: 1/D
+    double* Y;          // 6 x width: L^-1 B
+    double* V;          // rows x 6: J L^-T; bare: J Mt^-1
+    double* S;          // rows x rows: L below the diagonal
+    double* S_inverse;  // rows: 1/D
+    double* Z;          // rows x width: L^-1 (J of the coupled bodies - J A^-1 B)
+  };
+
+  [[nodiscard]] static int width(const Node& node) { return 6 * node.coupled; }
+  [[nodiscard]] Factor at(const Node& node);
+  [[nodiscard]] Square6& square(std::size_t at);
+  [[nodiscard]] bool foldable(const Block& block, const System& system) const;
+  void read_rows(const Node& node, const System& system);
+  bool layout_is_the_same(const System& system);
+  void lay_out(const System& system);
+  void attach(std::span<const Block> blocks);
+  void choose_way(Node& node, std::span<const Block> blocks);
+
+  void factor_node(Node& node, std::span<const Block> blocks);
+  void count(Node& node);
+  void factor_articulated(Node& node);
+  void factor_bare(Node& node, std::span<const Block> blocks);
+  void factor_general(Node& node, std::span<const Block> blocks);
+  void gather_rows(Node& node, std::span<const Block> blocks);
+  void add_inertia(const Node& node, Square6& A) const;
+  void add_children(const Node& node, Square6& A, double* B, double* U) const;
+  void fold(const Node& node, const Block& block, const Attached& attached, Square6& A, double* B,
+            double* U) const;
+  void eliminate_rows(Node& node, std::span<const Block> blocks);
+
+  void set_momenta(std::span<const Block> blocks);
+  [[nodiscard]] double* momentum(int node);
+  [[nodiscard]] const double* velocity(int node) const;
+  void forward(const Node& node);
+  void backward(const Node& node, std::span<Block> blocks);
+
+  EliminationOrder order_;
+  std::vector<Key> keys_;
+  std::vector<Key> found_;
+  std::vector<Node> nodes_;
+  std::vector<int> node_of_block_;
+  std::vector<Attached> attached_;
+  std::vector<int> coupled_;   // nodes
+  std::vector<int> place_;     // beside coupled_: where the parent has it among its own, -1: itself
+  std::vector<int> children_;  // nodes
+  std::vector<Row> rows_;
+  std::vector<ArticulatedJoint> joints_;
+  std::vector<double> values_;
+  std::int64_t flops_ = 0;
+
+  std::vector<InverseMass> inverse_mass_;
+  std::vector<Vec6> u_star_;
+  std::vector<double> w_;  // J u* + bias, kMaxRows per block
+  std::vector<Vec6> v_;    // per node: momentum, then what is left of it, then the velocity
+  std::vector<double> c_;  // per row of a node, from forward to backward
+};
+
+}  // namespace substep

@@ -15,9 +15,8 @@ namespace substep {
 //   R = A1 (v_parent + E y) - g1.
 // Then y, with Sigma = E diag(s) E^T:
 //   R = P v_parent - g_parent,   P = (1 + A1 Sigma)^-1 A1,   g_parent = g1 + P (E w - Sigma g1).
-// P is A1 in series with a spring of compliance Sigma. One row at a time that is
-//   A1 -= A1 e (s / (1 + s e.A1 e)) (A1 e)^T,
-// nothing for s = 0, and without loss of digits for any s. Backwards come R, x, y, and then
+// P is A1 in series with a spring of compliance Sigma; the linear rows and the two angular ones are
+// softened one after the other. Backwards come R, x, y, and then
 //   q = (F^T A F)^-1 F^T (g - A (v_parent + E y)).
 
 namespace {
@@ -28,81 +27,51 @@ void cross(const double* a, const double* b, double* out) {
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-double dot6(const double* a, const double* b) { return dot(a, b) + dot(a + 3, b + 3); }
-
-// While it is worked on, a Square6 is kept in 2 x 2 blocks on and above the diagonal.
-
-/// A e for an angular direction e.
-void angular_column(const Square6& A, const double* e, double* out) {
-  for (int i = 0; i < 3; ++i) out[i] = A[i][3] * e[0] + A[i][4] * e[1] + A[i][5] * e[2];
-  out[3] = A[3][3] * e[0] + A[3][4] * e[1] + A[3][5] * e[2];
-  out[4] = A[3][4] * e[0] + A[4][4] * e[1] + A[4][5] * e[2];
-  out[5] = A[3][5] * e[0] + A[4][5] * e[1] + A[5][5] * e[2];
+/// f A f of a direction of rotation, from A f.
+double along(const double (&f)[3], const Pairs6& column) {
+  return f[0] * column[3] + f[1] * column[4] + f[2] * column[5];
 }
 
-/// A -= a factor a^T.
-void subtract_outer(const double* __restrict a, double factor, Square6& A) {
-  for (int i = 0; i < 6; ++i) {
-    const double f = a[i] * factor;
-    for (int j = i & ~1; j < 6; ++j) A[i][j] -= f * a[j];
-  }
-}
-
-/// A symmetric matrix from its upper half.
-void mirror(Square6& A) {
-  for (int i = 1; i < 6; ++i) {
-    for (int j = 0; j < i; ++j) A[i][j] = A[j][i];
-  }
-}
-
-/// The inertia of a body about a point at r from its centre, Mt given by its inverse.
-void add_inertia(const InverseMass& inverse, const double* r, Square6& A) {
+/// What a body carries and its own inertia about a point at r from its centre, Mt given by its
+/// inverse.
+Symmetric6 add_inertia(const InverseMass& inverse, const double* r, const Square6& A) {
   double I[3][3];
   inverse_of(inverse.angular, I);
   const double m = 1.0 / inverse.linear;
   const double mx = m * r[0];
   const double my = m * r[1];
   const double mz = m * r[2];
-  for (int i = 0; i < 3; ++i) A[i][i] += m;
-  A[0][4] -= mz;
-  A[0][5] += my;
-  A[1][3] += mz;
-  A[1][5] -= mx;
-  A[2][3] -= my;
-  A[2][4] += mx;
-  A[3][3] += I[0][0] + (my * r[1] + mz * r[2]);
-  A[4][4] += I[1][1] + (mx * r[0] + mz * r[2]);
-  A[5][5] += I[2][2] + (mx * r[0] + my * r[1]);
-  A[3][4] += I[1][0] - mx * r[1];
-  A[3][5] += I[2][0] - mx * r[2];
-  A[4][5] += I[2][1] - my * r[2];
+  const Pair none{0.0, 0.0};
+  Symmetric6 sum;
+  sum.set(0, Pair{A[0][0] + m, A[0][1]}, Pair{A[0][2], A[0][3]}, Pair{A[0][4] - mz, A[0][5] + my});
+  sum.set(1, Pair{A[0][1], A[1][1] + m}, Pair{A[1][2], A[1][3] + mz}, Pair{A[1][4], A[1][5] - mx});
+  sum.set(2, none, Pair{A[2][2] + m, A[2][3] - my}, Pair{A[2][4] + mx, A[2][5]});
+  const double xx = A[3][3] + (I[0][0] + (my * r[1] + mz * r[2]));
+  const double yy = A[4][4] + (I[1][1] + (mx * r[0] + mz * r[2]));
+  const double zz = A[5][5] + (I[2][2] + (mx * r[0] + my * r[1]));
+  const double xy = A[3][4] + (I[1][0] - mx * r[1]);
+  const double xz = A[3][5] + (I[2][0] - mx * r[2]);
+  const double yz = A[4][5] + (I[2][1] - my * r[2]);
+  sum.set(3, none, Pair{A[2][3] - my, xx}, Pair{xy, xz});
+  sum.set(4, none, none, Pair{yy, yz});
+  sum.set(5, none, none, Pair{yz, zz});
+  return sum;
+}
+
+/// A in series with springs of compliance s along two directions of rotation:
+/// A -= a (diag(1/s) + e^T a)^-1 a^T with a = A e.
+void soften_angular(const double (&e)[2][3], const double* s, Symmetric6& A) {
+  const Pairs6 a0 = A.angular_column(e[0]);
+  const Pairs6 a1 = A.angular_column(e[1]);
+  const double n00 = 1.0 + s[0] * along(e[0], a0);
+  const double n11 = 1.0 + s[1] * along(e[1], a1);
+  const double mixed = s[0] * s[1] * along(e[0], a1);
+  const double k = 1.0 / (n00 * n11 - mixed * along(e[0], a1));
+  const double k01 = -(k * mixed);
+  A.subtract(a0, combine(k * s[0] * n11, a0, k01, a1), a1, combine(k01, a0, k * s[1] * n00, a1));
 }
 
 }  // namespace
-
-// X^T P X with X = [ E [r]; 0 E ]:  C' = C + L [r],  Omega' = Omega - [r] C' + C^T [r].
-void add_shifted(const Square6& P, const double* r, Square6& A) {
-  double C[3][3];
-  for (int i = 0; i < 3; ++i) {
-    const double* L = P[i];
-    C[i][0] = L[3] + (L[1] * r[2] - L[2] * r[1]);
-    C[i][1] = L[4] + (L[2] * r[0] - L[0] * r[2]);
-    C[i][2] = L[5] + (L[0] * r[1] - L[1] * r[0]);
-    for (int j = i; j < 3; ++j) A[i][j] += L[j];
-    for (int j = 0; j < 3; ++j) A[i][3 + j] += C[i][j];
-  }
-  const auto omega = [&](int i, int j, double rC) {
-    const int k = (j + 1) % 3;
-    const int l = (j + 2) % 3;
-    A[3 + i][3 + j] += (P[3 + i][3 + j] - rC) + (P[k][3 + i] * r[l] - P[l][3 + i] * r[k]);
-  };
-  omega(0, 0, r[1] * C[2][0] - r[2] * C[1][0]);
-  omega(0, 1, r[1] * C[2][1] - r[2] * C[1][1]);
-  omega(0, 2, r[1] * C[2][2] - r[2] * C[1][2]);
-  omega(1, 1, r[2] * C[0][1] - r[0] * C[2][1]);
-  omega(1, 2, r[2] * C[0][2] - r[0] * C[2][2]);
-  omega(2, 2, r[0] * C[1][2] - r[1] * C[0][2]);
-}
 
 void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star) {
   rows_ = joint.rows;
@@ -168,34 +137,22 @@ void ArticulatedJoint::refer_to(const double* reference) {
   }
 }
 
-void ArticulatedJoint::eliminate(const InverseMass& W, Square6& A, Square6* to_parent) {
-  add_inertia(W, r_, A);
+void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, Square6* to_parent) {
+  Symmetric6 A = add_inertia(W, r_, carried);
   for (int k = 0; k < n_free_; ++k) {
     Free& free = free_[k];
-    angular_column(A, free.f, free.column);
-    free.inverse = 1.0 / dot(free.f, free.column + 3);
-    subtract_outer(free.column, free.inverse, A);
+    free.column = A.angular_column(free.f);
+    free.inverse = 1.0 / along(free.f, free.column);
+    Pairs6 scaled;
+    for (int p = 0; p < 3; ++p) scaled.p[p] = free.inverse * free.column.p[p];
+    A.subtract(scaled, free.column);
   }
-  for (int row = 0; row < rows_; ++row) {
-    const double s = softness_[row];
-    if (s == 0.0) continue;
-    double column[6];
-    double along = 0.0;  // e A e
-    if (row < 3) {
-      for (int j = 0; j < 6; ++j) column[j] = j < row ? A[j][row] : A[row][j];
-      along = column[row];
-    } else {
-      angular_column(A, e_[row - 3], column);
-      along = dot(e_[row - 3], column + 3);
-    }
-    subtract_outer(column, s / (1.0 + s * along), A);
-  }
-  mirror(A);
-  std::copy(A[0], A[0] + 36, P_[0]);
-  if (to_parent == nullptr) return;
-  std::fill((*to_parent)[0], (*to_parent)[0] + 36, 0.0);
-  add_shifted(P_, to_parent_, *to_parent);
-  mirror(*to_parent);
+  // Exact rows are left as they are.
+  const double* s = softness_;
+  if (s[0] != 0.0 || s[1] != 0.0 || s[2] != 0.0) A.soften_linear(s);
+  if (rows_ == 5 && (s[3] != 0.0 || s[4] != 0.0)) soften_angular(e_, s + 3, A);
+  P_ = A.rows();
+  if (to_parent != nullptr) A.shift(to_parent_, *to_parent);
 }
 
 void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
@@ -219,9 +176,8 @@ void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
     const double y = w_[row] - softness_[row] * dot(e, g + 3);
     for (int i = 0; i < 3; ++i) d[3 + i] += e[i] * y;
   }
-  for (int j = 0; j < 6; ++j) {
-    for (int i = 0; i < 6; ++i) g[i] += P_[j][i] * d[j];
-  }
+  const Pairs6 handed = P_.times(d);
+  for (int i = 0; i < 6; ++i) g[i] += handed[i];
   if (g_parent == nullptr) return;
   cross(to_parent_, g, torque);
   for (int i = 0; i < 3; ++i) {
@@ -231,20 +187,21 @@ void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
 }
 
 void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double* impulse) {
-  double* v = v_;
+  double(&v)[6] = v_;
   double R[6];
-  for (int i = 0; i < 6; ++i) R[i] = -g_[i];
   if (v_parent != nullptr) {
     cross(to_parent_, v_parent + 3, v);
     for (int i = 0; i < 3; ++i) {
       v[i] += v_parent[i];
       v[3 + i] = v_parent[3 + i];
     }
-    for (int j = 0; j < 6; ++j) {
-      for (int i = 0; i < 6; ++i) R[i] += P_[j][i] * v[j];
-    }
+    const Pairs6 carried = P_.times(v);
+    for (int i = 0; i < 6; ++i) R[i] = carried[i] - g_[i];
   } else {
-    std::fill(v, v + 6, 0.0);
+    for (int i = 0; i < 6; ++i) {
+      v[i] = 0.0;
+      R[i] = -g_[i];
+    }
   }
   for (int row = 0; row < 3; ++row) {
     v[row] -= w_[row] + softness_[row] * R[row];
@@ -259,7 +216,10 @@ void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double
   }
   for (int k = n_free_; k-- > 0;) {
     const Free& free = free_[k];
-    const double q = free.inverse * (free.momentum - dot6(free.column, v));
+    const Pairs6& a = free.column;
+    const double sum =
+        (a[0] * v[0] + a[1] * v[1] + a[2] * v[2]) + (a[3] * v[3] + a[4] * v[4] + a[5] * v[5]);
+    const double q = free.inverse * (free.momentum - sum);
     for (int i = 0; i < 3; ++i) v[3 + i] += free.f[i] * q;
   }
   cross(r_, v + 3, v_centre);

@@ -3,15 +3,10 @@
 #include <cstdint>
 
 #include "core/constraints/block.hpp"
+#include "core/solver/symmetric6.hpp"
 #include "core/solver/system.hpp"
 
 namespace substep {
-
-/// A symmetric 6 x 6 matrix of a body, linear part first.
-using Square6 = double[6][6];
-
-/// A += the inertia P about a point moved by r.
-void add_shifted(const Square6& P, const double* r, Square6& A);
 
 /// Elimination of a body together with the one pinned joint that ties it to what is left: its
 /// parent, or the world. In closed form, without inverting the body's inertia; see the derivation
@@ -24,10 +19,10 @@ class ArticulatedJoint {
   /// @param reference the parent's pivot from its centre [m], nullptr for the centre
   void refer_to(const double* reference);
 
-  /// @param W Mt^-1 of the child  @param A in: what the child carries of others, about its pivot;
-  /// overwritten
-  /// @param to_parent out: what the parent gains, or nullptr for the world
-  void eliminate(const InverseMass& W, Square6& A, Square6* to_parent);
+  /// @param W Mt^-1 of the child  @param carried what the child carries of others, about its pivot;
+  /// only the upper half is read
+  /// @param to_parent out: what the parent gains, its upper half; nullptr for the world
+  void eliminate(const InverseMass& W, const Square6& carried, Square6* to_parent);
 
   /// @param g_centre momentum that the child is given about its centre [N s, N m s]
   /// @param g_parent momentum of the parent, added to; nullptr for the world
@@ -50,9 +45,9 @@ class ArticulatedJoint {
   /// A direction of rotation that the joint leaves free.
   struct Free {
     double f[3];
-    double column[6];  // A f when it is eliminated
-    double inverse;    // 1/(f A f)
-    double momentum;   // f g
+    Pairs6 column;    // A f when it is eliminated
+    double inverse;   // 1/(f A f)
+    double momentum;  // f g
   };
 
   int rows_;
@@ -65,7 +60,7 @@ class ArticulatedJoint {
   double w_[kMaxRows];   // child minus parent: J u* + bias [m/s, rad/s]
   double softness_[kMaxRows];
   Free free_[3];
-  Square6 P_;    // what the parent sees of the child, at the pivot
+  Rows6 P_;      // what the parent sees of the child, at the pivot
   double g_[6];  // momentum at the pivot, first the child's, then what the parent sees of it
   double v_[6];
 };

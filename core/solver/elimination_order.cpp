@@ -8,6 +8,8 @@ namespace substep {
 namespace {
 
 constexpr std::size_t kTypicalDegree = 32;
+constexpr std::size_t kTypicalJoints = 4;
+constexpr int kDegreesOfFreedom = 6;
 constexpr int kNone = -1;
 constexpr int kUnordered = -2;  // a position to come
 
@@ -24,13 +26,19 @@ void EliminationOrder::reserve(std::size_t bodies, std::size_t blocks) {
   edges_.reserve(blocks);
   found_.reserve(blocks);
   merged_.reserve(bodies);
-  first_.reserve(bodies + 2);
+  joint_rows_.reserve(bodies);
+  first_.reserve(2 * bodies + 4);
   next_.reserve(bodies);
   previous_.reserve(bodies);
-  degree_.reserve(bodies);
+  priority_.reserve(bodies);
   order_.reserve(bodies);
   position_.reserve(bodies);
+  make_room(bodies);
+}
+
+void EliminationOrder::make_room(std::size_t bodies) {
   while (graph_.size() < bodies) graph_.emplace_back().reserve(kTypicalDegree);
+  while (joined_.size() < bodies) joined_.emplace_back().reserve(kTypicalJoints);
 }
 
 bool EliminationOrder::update(std::span<const Block> blocks, std::size_t bodies) {
@@ -47,20 +55,37 @@ bool EliminationOrder::update(std::span<const Block> blocks, std::size_t bodies)
 void EliminationOrder::read_edges(std::span<const Block> blocks, int world) {
   found_.clear();
   for (const Block& block : blocks) {
-    Edge edge{std::min(block.a, block.b), std::max(block.a, block.b)};
-    if (edge.low < 0) edge = {edge.high, block.is_contact() ? edge.high : world};
+    Edge edge{std::min(block.a, block.b), std::max(block.a, block.b),
+              block.is_contact() ? 0 : block.rows};
+    if (edge.low < 0) {
+      edge.low = edge.high;
+      if (!block.is_contact()) edge.high = world;
+    }
     // The points of a contact follow each other.
-    if (found_.empty() || !(found_.back() == edge)) found_.push_back(edge);
+    if (edge.rows == 0 && !found_.empty() && found_.back() == edge) continue;
+    found_.push_back(edge);
   }
 }
 
 void EliminationOrder::build_graph(int world) {
   const std::size_t bodies = index(world);
-  while (graph_.size() < bodies) graph_.emplace_back().reserve(kTypicalDegree);
-  for (std::size_t i = 0; i < bodies; ++i) graph_[i].clear();
+  make_room(bodies);
+  for (std::size_t i = 0; i < bodies; ++i) {
+    graph_[i].clear();
+    joined_[i].clear();
+  }
   position_.assign(bodies, kNone);
-  for (const Edge& edge : edges_) {
+  joint_rows_.assign(bodies, 0);
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const Edge& edge = edges_[e];
     position_[index(edge.low)] = kUnordered;
+    if (edge.rows > 0) {
+      for (const int body : {edge.low, edge.high}) {
+        if (body == world) continue;
+        joined_[index(body)].push_back(static_cast<int>(e));
+        joint_rows_[index(body)] += edge.rows;
+      }
+    }
     if (edge.low == edge.high) continue;
     insert(graph_[index(edge.low)], edge.high);
     if (edge.high == world) continue;
@@ -69,9 +94,14 @@ void EliminationOrder::build_graph(int world) {
   }
 }
 
-void EliminationOrder::enqueue(int body, std::size_t degree) {
-  degree_[index(body)] = degree;
-  int& first = first_[degree];
+std::size_t EliminationOrder::priority(int body) const {
+  const std::size_t degree = graph_[index(body)].size();
+  return joint_rows_[index(body)] > kDegreesOfFreedom ? index(world_) + 1 + degree : degree;
+}
+
+void EliminationOrder::enqueue(int body) {
+  priority_[index(body)] = priority(body);
+  int& first = first_[priority_[index(body)]];
   next_[index(body)] = first;
   previous_[index(body)] = kNone;
   if (first != kNone) previous_[index(first)] = body;
@@ -82,42 +112,47 @@ void EliminationOrder::dequeue(int body) {
   const int next = next_[index(body)];
   const int previous = previous_[index(body)];
   if (next != kNone) previous_[index(next)] = previous;
-  (previous != kNone ? next_[index(previous)] : first_[degree_[index(body)]]) = next;
+  (previous != kNone ? next_[index(previous)] : first_[priority_[index(body)]]) = next;
 }
 
 void EliminationOrder::eliminate(int world) {
   const std::size_t bodies = index(world);
-  first_.assign(bodies + 2, kNone);
+  first_.assign(2 * bodies + 4, kNone);
   next_.resize(bodies);
   previous_.resize(bodies);
-  degree_.resize(bodies);
+  priority_.resize(bodies);
   order_.clear();
   std::size_t left = 0;
-  for (int body = world; body-- > 0;) {  // of equal degree, the first is eliminated first
+  for (int body = world; body-- > 0;) {  // of equal priority, the first is eliminated first
     if (position(body) == kNone) continue;
-    enqueue(body, graph_[index(body)].size());
+    enqueue(body);
     ++left;
   }
-  for (std::size_t degree = 0; left > 0; --left) {
-    while (first_[degree] == kNone) ++degree;
-    const int body = first_[degree];
+  for (std::size_t least = 0; left > 0; --left) {
+    while (first_[least] == kNone) ++least;
+    const int body = first_[least];
     dequeue(body);
     position_[index(body)] = static_cast<int>(order_.size());
     order_.push_back(body);
+    for (const int e : joined_[index(body)]) {
+      const Edge& edge = edges_[index(e)];
+      const int other = edge.low == body ? edge.high : edge.low;
+      if (other != world) joint_rows_[index(other)] -= edge.rows;
+    }
     const std::vector<int>& clique = graph_[index(body)];
     for (const int other : clique) {
       if (other == world) continue;
       merged_.clear();
-      const std::vector<int>& list = graph_[index(other)];
+      std::vector<int>& list = graph_[index(other)];
       std::set_union(list.begin(), list.end(), clique.begin(), clique.end(),
                      std::back_inserter(merged_));
       dequeue(other);
-      graph_[index(other)].clear();
+      list.clear();
       for (const int i : merged_) {
-        if (i != body && i != other) graph_[index(other)].push_back(i);
+        if (i != body && i != other) list.push_back(i);
       }
-      enqueue(other, graph_[index(other)].size());
-      degree = std::min(degree, graph_[index(other)].size());
+      enqueue(other);
+      least = std::min(least, priority_[index(other)]);
     }
   }
   for (const int body : order_) {

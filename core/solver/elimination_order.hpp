@@ -34,12 +34,15 @@ class EliminationOrder {
  private:
   struct Edge {
     int low, high;  // the world's number is that of the bodies; low = high: a body by itself
+    int rows;       // of joints
     friend bool operator==(const Edge&, const Edge&) = default;
   };
+  void make_room(std::size_t bodies);
   void read_edges(std::span<const Block> blocks, int world);
   void build_graph(int world);
   void eliminate(int world);
-  void enqueue(int body, std::size_t degree);
+  [[nodiscard]] std::size_t priority(int body) const;
+  void enqueue(int body);
   void dequeue(int body);
 
   std::vector<Edge> edges_;  // the graph that the order belongs to, as the blocks name it
@@ -47,11 +50,13 @@ class EliminationOrder {
   int world_ = -1;
   std::vector<std::vector<int>> graph_;  // per body, sorted; ends as `coupled`
   std::vector<int> merged_;
-  // Bodies by degree: doubly linked lists, so that a body changes its list in constant time.
-  std::vector<int> first_;  // per degree
+  std::vector<int> joint_rows_;           // per body: to the world and bodies not yet eliminated
+  std::vector<std::vector<int>> joined_;  // per body: edges with joints
+  // Bodies by priority: doubly linked lists, so that a body changes its list in constant time.
+  std::vector<int> first_;  // per priority
   std::vector<int> next_;   // per body
   std::vector<int> previous_;
-  std::vector<std::size_t> degree_;
+  std::vector<std::size_t> priority_;
   std::vector<int> order_;
   std::vector<int> position_;
 };

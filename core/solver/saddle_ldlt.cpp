@@ -23,6 +23,10 @@ namespace {
 // A row is folded if 1/s exceeds what the row sees of its bodies' inertia by at most this: as many
 // digits of the inertia are lost.
 constexpr double kFold = 1e7;
+// Exact rows that are redundant on the body of their node, as in closed loops of exact joints, need
+// not be redundant in the whole. They are softened by this much of J A^-1 J^T: as much is wrong
+// with the answer, and rounding makes as much again.
+constexpr double kLeastPivot = 1e-8;
 constexpr int kBareRows = 8;  // more rows are cheaper when folded
 
 std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -338,20 +342,31 @@ void SaddleLdlt::add_children(const Node& node, Square6& A, double* B, double* U
 
 void SaddleLdlt::factor_articulated(Node& node) {
   ArticulatedJoint& joint = joints_[node.joint];
-  Square6 A = {};
-  for (std::size_t c = 0; c < node.n_children; ++c) {
-    const Node& child = nodes_[index(children_[node.first_child + c])];
-    const Square6& from = square(child.update);
-    if (child.way == Way::kArticulated) {
-      for (int i = 0; i < 6; ++i) {
-        for (int j = i & ~1; j < 6; ++j) A[i][j] += from[i][j];
+  const int* children = children_.data() + node.first_child;
+  Square6 sum = {};
+  const Square6* carried = &sum;
+  if (node.n_children == 1 && nodes_[index(children[0])].way == Way::kArticulated) {
+    carried = &square(nodes_[index(children[0])].update);
+  } else {
+    for (std::size_t c = 0; c < node.n_children; ++c) {
+      const Node& child = nodes_[index(children[c])];
+      Square6 shifted;
+      const Square6* from = &square(child.update);
+      if (child.way != Way::kArticulated) {
+        load(*from).shift(joint.pivot(), shifted);
+        from = &shifted;
       }
-    } else {
-      add_shifted(from, joint.pivot(), A);
+      for (int i = 0; i < 6; ++i) {
+        for (int j = i; j < 6; ++j) sum[i][j] += (*from)[i][j];
+      }
     }
   }
-  joint.eliminate(inverse_mass_[index(node.body)], A,
-                  node.coupled > 0 ? &square(node.update) : nullptr);
+  Square6* to_parent = node.parent < 0 ? nullptr : &square(node.update);
+  joint.eliminate(inverse_mass_[index(node.body)], *carried, to_parent);
+  if (to_parent == nullptr || nodes_[index(node.parent)].way == Way::kArticulated) return;
+  for (int i = 1; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) (*to_parent)[i][j] = (*to_parent)[j][i];
+  }
 }
 
 void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
@@ -393,7 +408,7 @@ void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
     const auto& J_other = gradient(block, row.row, !attached.is_a);
     std::copy(J_other, J_other + 6, f.Z + i * n + 6 * attached.other);
   }
-  factor_ldlt(f.S, rows, f.S_inverse);
+  factor_ldlt(f.S, rows, f.S_inverse, kLeastPivot);
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, rows, f.S_inverse, 1.0, n, U);
 }
@@ -471,7 +486,7 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
     }
     for (int j = 0; j < 6; ++j) subtract_row(f.Y + j * n, weighted[j], n, Z);
   }
-  factor_ldlt(f.S, rows, f.S_inverse);
+  factor_ldlt(f.S, rows, f.S_inverse, kLeastPivot);
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, rows, f.S_inverse, 1.0, n, values_.data() + node.update);
 }

@@ -28,11 +28,10 @@ inline void subtract_row(const double* __restrict x, double f, int n, double* __
   for (int j = 0; j < n; ++j) y[j] -= f * x[j];
 }
 
-/// A = L D L^T in place: L below the diagonal, 1/D apart. A pivot is at least `least` times the
-/// diagonal that it started from; a zero pivot makes what follows no number, which is caught.
-/// @param A only on and below the diagonal
-inline void factor_ldlt(double* A, int n, double* inverse, double least = 0.0) {
-  for (int j = 0; j < n; ++j) inverse[j] = least * A[j * n + j];
+/// A = L D L^T in place: L below the diagonal, 1/D apart. A zero pivot makes what follows no
+/// number, which is caught.
+/// @param A only on and below the diagonal  @param inverse in: least pivots; out: 1/D
+inline void factor_ldlt(double* A, int n, double* inverse) {
   for (int j = 0; j < n; ++j) {
     double d = A[j * n + j];
     if (d < inverse[j]) d = inverse[j];

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::size_t kTypicalDegree = 32;
 constexpr std::size_t kTypicalJoints = 4;
-constexpr int kDegreesOfFreedom = 6;
 constexpr int kNone = -1;
 constexpr int kUnordered = -2;  // a position to come
 
@@ -96,7 +95,7 @@ void EliminationOrder::build_graph(int world) {
 
 std::size_t EliminationOrder::priority(int body) const {
   const std::size_t degree = graph_[index(body)].size();
-  return joint_rows_[index(body)] > kDegreesOfFreedom ? index(world_) + 1 + degree : degree;
+  return joint_rows_[index(body)] > kMaxRows ? index(world_) + 1 + degree : degree;
 }
 
 void EliminationOrder::enqueue(int body) {

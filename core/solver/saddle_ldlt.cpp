@@ -403,12 +403,13 @@ void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
     const auto& J = gradient(block, row.row, attached.is_a);
     weigh(inverse, J, f.V + 6 * i);
     for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(J, f.V + 6 * j);
+    f.S_inverse[i] = kLeastPivot * f.S[i * rows + i];
     f.S[i * rows + i] += block.softness[row.row];
     if (attached.other < 0) continue;
     const auto& J_other = gradient(block, row.row, !attached.is_a);
     std::copy(J_other, J_other + 6, f.Z + i * n + 6 * attached.other);
   }
-  factor_ldlt(f.S, rows, f.S_inverse, kLeastPivot);
+  factor_ldlt(f.S, rows, f.S_inverse);
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, rows, f.S_inverse, 1.0, n, U);
 }
@@ -427,6 +428,7 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks) {
     if (attached.folded) fold(node, blocks[index(attached.block)], attached, A, f.Y, U);
   }
   std::copy(A[0], A[0] + 36, f.A);
+  std::fill(f.A_inverse, f.A_inverse + 6, 0.0);
   factor_ldlt(f.A, 6, f.A_inverse);
   solve_lower(f.A, 6, n, f.Y);
   add_gram<6>(f.Y, f.A_inverse, -1.0, n, U);
@@ -479,6 +481,9 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
     for (int j = 0; j < 6; ++j) weighted[j] = f.A_inverse[j] * V[j];
     for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(weighted, f.V + 6 * j);
     f.S[i * rows + i] += block.softness[row.row];
+    double on_body[6];
+    weigh(inverse_mass_[index(node.body)], J, on_body);
+    f.S_inverse[i] = kLeastPivot * dot6(J, on_body);
     double* Z = f.Z + i * n;
     if (attached.other >= 0) {
       const auto& J_other = gradient(block, row.row, !attached.is_a);
@@ -486,7 +491,7 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
     }
     for (int j = 0; j < 6; ++j) subtract_row(f.Y + j * n, weighted[j], n, Z);
   }
-  factor_ldlt(f.S, rows, f.S_inverse, kLeastPivot);
+  factor_ldlt(f.S, rows, f.S_inverse);
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, rows, f.S_inverse, 1.0, n, values_.data() + node.update);
 }

@@ -285,8 +285,8 @@ double error_of_linear_solve(Problem problem) {
   return error / (1.0 + x.norm());
 }
 
-// Exact joints and stiff springs: no digits are lost to a small softness, but for the eight that
-// folding stiff springs and redundant pivots may cost.
+// Exact joints and stiff springs: a small softness costs no more digits than the eight that folded
+// springs and pivots of redundant rows may.
 TEST(Bpp, IsExactForAnySoftness) {
   Random random(21);
   for (const double softness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12, 0.0}) {
@@ -297,7 +297,7 @@ TEST(Bpp, IsExactForAnySoftness) {
       loop = std::max(loop, error_of_linear_solve(random_tree(random, 8, 1, softness)));
     }
     EXPECT_LT(tree, 1e-8) << softness;
-    EXPECT_LT(loop, 1e-6) << softness;
+    EXPECT_LT(loop, 1e-5) << softness;
   }
 }
 

@@ -54,12 +54,12 @@ export function makeAddress(wasm, host, keep) {
 
   async function write() {
     const fragment = `#${await link()}`;
+    document.title = `${JSON.parse(wasm.report()).title} · substep`;
     if (fragment === written) return;
     // Going back leads to the scene before, not to every setting on the way.
     const sceneOf = (text) => partsOf(text).find((part) => /^scene(64)?=/.test(part));
     const anew = written !== "" && sceneOf(fragment) !== sceneOf(written);
     written = fragment;
-    document.title = `${JSON.parse(wasm.report()).title} · substep`;
     history[anew ? "pushState" : "replaceState"](null, "", fragment);
   }
 

@@ -78,6 +78,8 @@ test("a huge file is refused without being read", async () => {
   assert.equal((await call(page, "report")).trouble, "large.json was not loaded");
   assert.equal(await call(page, "hash"), hash);
   await page.keyboard.press("Escape");
+  await page.waitForFunction(() => window.substep.report().trouble === "");
+  await drawn(page);
   quiet(page);
 });
 

@@ -64,7 +64,7 @@ test("leads back and forward from scene to scene", async () => {
   await reports(page, "scene", "bridge");
   await page.goForward();
   await reports(page, "scene", "heavy_stack");
-  assert.match(await page.title(), /Heavy stack/i);
+  await page.waitForFunction(() => /^Heavy stack/.test(document.title));
   quiet(page);
   await page.context().close();
 });
@@ -135,9 +135,11 @@ test("and the command are copied from the menu", async () => {
   await openMenu(page);
   await save(page, "share-menu");
   await page.keyboard.press("Escape");
+  await drawn(page);
   const copied = async (entry) => {
+    await page.evaluate(() => navigator.clipboard.writeText("nothing yet"));
     await pick(page, entry);
-    await page.waitForTimeout(400);
+    await page.waitForFunction(async () => (await navigator.clipboard.readText()) !== "nothing yet");
     return page.evaluate(() => navigator.clipboard.readText());
   };
   assert.equal(await copied("link"), page.url());

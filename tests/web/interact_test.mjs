@@ -1,0 +1,151 @@
+// Hands on the picture and the past: node tests/web/interact_test.mjs [FOLDER OF THE BUILT PAGE]
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { call, drawn, open, openPage, picture, quiet, save } from "./browser.mjs";
+import { difference, part } from "./pixels.mjs";
+
+// Where things are at 1280 x 720.
+const box = [926, 300]; // the swinging box at the start
+const track = { left: 307, right: 724, y: 680 }; // of the past
+const tabs = { plots: [1017, 41], why: [1104, 41], compare: [1205, 41] };
+const side = { x: 980, y: 60, width: 280, height: 560 };
+
+let session;
+let page;
+before(async () => {
+  session = await open();
+  page = await openPage(session, { calm: true });
+});
+after(() => session?.close());
+
+/** The swinging box at its start, after some frames. @returns the hash */
+async function run(frames) {
+  await call(page, "pause");
+  await call(page, "set", { scene: "swinging_box", mode: "adaptive" });
+  await call(page, "reset");
+  await call(page, "step", frames);
+  await drawn(page);
+  return call(page, "hash");
+}
+
+test("a body is grabbed, pulled and let go", async () => {
+  const free = await run(60);
+  await run(0);
+  await call(page, "set", { speed: 0.01 }); // bodies are held while the run plays
+  await call(page, "play");
+  await page.mouse.move(...box);
+  await drawn(page);
+  await page.mouse.down();
+  await drawn(page);
+  await page.mouse.move(box[0] - 300, box[1] + 120, { steps: 5 });
+  await drawn(page);
+  await save(page, "grab");
+  await call(page, "step", 30);
+  await page.mouse.up();
+  await drawn(page);
+  await call(page, "pause");
+  await call(page, "set", { speed: 1 });
+  await call(page, "step", 60 - (await call(page, "report")).frame);
+  assert.notEqual(await call(page, "hash"), free, "it was not pulled");
+  assert.equal(await run(60), free, "the hand still pulls after a reset");
+  quiet(page);
+});
+
+test("a ball is thrown with its key", async () => {
+  const free = await run(60);
+  await run(0);
+  await page.mouse.move(620, 300);
+  await drawn(page);
+  await page.keyboard.press("b");
+  await drawn(page);
+  await call(page, "step", 60);
+  assert.notEqual(await call(page, "hash"), free);
+  assert.equal(await run(60), free, "the ball is still there after a reset");
+  quiet(page);
+});
+
+test("the past is looked at by dragging along it", async () => {
+  const end = await run(60);
+  await page.mouse.move(track.right, track.y);
+  await page.mouse.down();
+  await page.mouse.move((track.left + track.right) / 2, track.y, { steps: 4 });
+  await drawn(page);
+  await page.mouse.up();
+  await drawn(page);
+  const { time, latest } = await call(page, "report");
+  assert.ok(time > 0.3 && time < 0.7, `${time} s`);
+  assert.equal(latest, 1);
+  await save(page, "past");
+  await call(page, "step", 60 - Math.round(60 * time));
+  assert.equal(await call(page, "hash"), end);
+  quiet(page);
+});
+
+test("other methods run beside it, in the picture and in the plots", async () => {
+  await run(0);
+  await page.mouse.click(...tabs.compare);
+  await drawn(page);
+  const empty = await picture(page, side);
+  await page.mouse.click(1117, 159); // none, damping, adaptive
+  await drawn(page);
+  await call(page, "step", 40);
+  await page.waitForTimeout(1000);
+  await drawn(page);
+  await save(page, "compare");
+  assert.ok(difference(empty, await picture(page, side)) > 0.05);
+  await page.mouse.click(...tabs.plots);
+  await drawn(page);
+  await save(page, "compare-plots");
+  quiet(page);
+});
+
+test("why this N has a page of its own", async () => {
+  await run(30);
+  const plots = await picture(page, side);
+  await page.mouse.click(...tabs.why);
+  await drawn(page);
+  assert.ok(difference(plots, await picture(page, side)) > 0.03);
+  await save(page, "why");
+  await page.mouse.click(...tabs.plots);
+  quiet(page);
+});
+
+test("fingers turn, zoom and scroll", async () => {
+  const phone = await openPage(session, { width: 390, height: 844, ratio: 2, touch: true, calm: true });
+  await call(phone, "pause");
+  await call(phone, "set", { scene: "heavy_stack" });
+  await phone.waitForTimeout(1000);
+  const touch = await phone.context().newCDPSession(phone);
+  /** Fingers that move in a few steps. @param ways [[from, to], ...] in CSS pixels */
+  const gesture = async (...ways) => {
+    const at = (share) => ways.map(([from, to], id) => ({ id,
+      x: from[0] + share * (to[0] - from[0]), y: from[1] + share * (to[1] - from[1]) }));
+    await touch.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: at(0) });
+    for (const share of [0.25, 0.5, 0.75, 1]) {
+      await touch.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: at(share) });
+      await drawn(phone);
+    }
+    await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await phone.waitForTimeout(600);
+    await drawn(phone);
+  };
+  const whole = async () => picture(phone);
+  const upper = { x: 0, y: 120, width: 780, height: 560 };
+  let before = await whole();
+  await gesture([[40, 300], [160, 290]]);
+  let now = await whole();
+  assert.ok(difference(part(before, upper), part(now, upper)) > 0.03, "one finger did not turn");
+  before = now;
+  await gesture([[150, 200], [90, 140]], [[240, 200], [300, 260]]);
+  now = await whole();
+  assert.ok(difference(part(before, upper), part(now, upper)) > 0.03, "two fingers did not zoom");
+  before = now;
+  const lower = { x: 0, y: 1000, width: 780, height: 600 };
+  await gesture([[20, 700], [20, 500]]);
+  now = await whole();
+  assert.ok(difference(part(before, lower), part(now, lower)) > 0.03, "the panel did not scroll");
+  assert.deepEqual(await phone.evaluate(() => [window.scrollX, window.scrollY]), [0, 0]);
+  await save(phone, "phone-fingers");
+  quiet(phone);
+  await phone.context().close();
+});

@@ -64,7 +64,7 @@ export async function loadEngine(progress) {
 
 // Results and parameters of the exports: v nothing, n number, s text.
 const exported = {
-  start: "sn", context_lost: "v", context_restored: "s", resize: "vnnn", frame: "vn", cursor: "n",
+  start: "snn", context_lost: "v", context_restored: "s", resize: "vnnn", frame: "vn", cursor: "n",
   pointer: "vnnn", pointer_gone: "v", button: "vnnn", wheel: "vnn", pinch: "vnnn",
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", playing: "n", reset: "v",
@@ -122,11 +122,11 @@ export async function makeEngine(engine, canvas, host) {
   for (const [name, signature] of Object.entries(exported)) {
     wasm[camel(name)] = wrap(module, name, signature);
   }
-  wasm.run = () => {
+  wasm.run = (keeps) => {
     const context = module.GL.createContext(canvas,
       { majorVersion: 2, minorVersion: 0, alpha: false, antialias: true, depth: true });
     if (!context) throw new Error("The browser gave no WebGL 2 context");
-    const error = wasm.start(context);
+    const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);
   };
   wasm.close = () => canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();

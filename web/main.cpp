@@ -25,8 +25,9 @@ using substep::web::instance;
 extern "C" {
 
 /// Runs the first scene. @param context of WebGL 2, as Emscripten counts them
+/// @param keeps whether anything is kept from visit to visit; in somebody's article nothing is
 /// @return "" or why it cannot
-EMSCRIPTEN_KEEPALIVE const char* substep_start(int context) {
+EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   static std::string error;
   substep::web::context = context;
   emscripten_webgl_make_context_current(context);
@@ -37,6 +38,10 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context) {
   if (library.scenes().empty()) return "no scenes came with the page";
   instance->app = std::make_unique<substep::App>(std::move(library), std::move(renderer));
   instance->app->host = substep::web::page_host();
+  if (keeps == 0) {
+    instance->app->host.remember = nullptr;
+    instance->app->host.recall = nullptr;
+  }
   instance->app->recall_scenes();
   substep::web::use_page_clipboard();
   return "";

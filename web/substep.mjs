@@ -134,7 +134,7 @@ async function open(frame, options) {
   const files = makeFiles(frame, wasm, host);
   const address = makeAddress(wasm, host, options.address === true);
   const capture = makeCapture(frame, wasm, host, files.save);
-  wasm.run();
+  wasm.run(frame.wholePage);
 
   let api = null;
   let twin = null;

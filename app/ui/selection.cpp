@@ -43,11 +43,11 @@ double own_ratio(const Body& body, const Vec6& k) {
                    k.tail<3>().cwiseQuotient(body.inertia).maxCoeff()});
 }
 
-void motion_rows(const App& app, std::size_t i) {
+void motion_rows(const App& app, std::size_t i, bool phone) {
   const Look& look = app.look;
   const State& state = app.session.state();
   const Vec6& u = state.u[i];
-  row(look, "position", triple(state.x[i], 2, " m"), "Centre of mass: x, y, z.");
+  row(look, "position", triple(state.x[i], phone ? 1 : 2, " m"), "Centre of mass: x, y, z.");
   row(look, "speed", short_number(u.head<3>().norm()) + " m/s");
   row(look, "turns", short_number(u.tail<3>().norm()) + " rad/s", "Angular speed.");
 }
@@ -109,7 +109,7 @@ void selection_card(App& app, bool phone) {
   const Body& body = app.session.scene().bodies[i];
   const float width = phone ? 188.0F : 232.0F;
   const bool left = app.desk.card_left;
-  const float up = left && !phone ? 48.0F : 12.0F;  // over the scale of the tint
+  const float up = phone ? 12.0F : 48.0F;  // over the scale of the tint, and the tour's button
   ImGui::SetNextWindowPos({left ? v.x + 12.0F : v.x + v.width - 12.0F, v.y + v.height - up},
                           ImGuiCond_Always, {left ? 0.0F : 1.0F, 1.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, v.height - 96.0F});
@@ -137,7 +137,7 @@ void selection_card(App& app, bool phone) {
                 coarse_number(body.inertia.z()) + " kg m²",
             "Principal moments of inertia.");
       }
-      motion_rows(app, i);
+      motion_rows(app, i, phone);
       stiffness_row(app, i);
     }
     force_rows(app, app.desk.selected);

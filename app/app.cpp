@@ -16,6 +16,7 @@
 #include "app/ui/panels.hpp"
 #include "core/io/number_text.hpp"
 #include "core/io/saved_scene.hpp"
+#include "core/io/scene_limits.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
 
@@ -214,6 +215,10 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
 void App::run(std::shared_ptr<const Scene> scene) {
   compare.close();  // it was about the other scene
   ++run_count;
+  plain_scene = scene;
+  load = 1.0;
+  seed = 0;
+  pause_at = 0.0;
   session.load(std::move(scene));
   change(session.settings());
   desk.selected = -1;
@@ -269,6 +274,18 @@ void App::reset() {
   restart_plots(desk);
 }
 
+void App::vary(double new_load, int new_seed) {
+  const Settings kept = session.settings();
+  const auto plain = plain_scene;
+  const double end = pause_at;
+  run(std::make_shared<const Scene>(start_of(*plain, new_load, new_seed)));
+  plain_scene = plain;
+  load = new_load;
+  seed = new_seed;
+  pause_at = end;
+  change(kept);
+}
+
 void App::run_result(const Result& result) {
   if (session.loaded_scene() != accuracy.scene()) run(accuracy.scene());
   change(result.experiment.settings);
@@ -304,6 +321,17 @@ std::string App::set(std::string_view key, std::string_view value) {
     const auto scale = parse_number(value);
     if (!scale || *scale < 0.8 || *scale > 1.5) return "is not a number from 0.8 to 1.5";
     desk.scale = *scale;
+    return "";
+  }
+  if (key == "load" || key == "seed" || key == "seconds") {
+    const auto number = parse_number(value);
+    const Range range = key == "load"   ? kLoadRange
+                        : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
+                                        : kDurationRange;
+    if (!number || !range.contains(*number)) return "is not " + range.text();
+    if (key == "load") vary(*number, seed);
+    if (key == "seed") vary(load, static_cast<int>(*number));
+    if (key == "seconds") pause_at = *number;
     return "";
   }
   if (key == "accuracy") {
@@ -347,7 +375,12 @@ void App::open_link(std::string_view fragment) {
 void App::tell(std::string text) { notice = {std::move(text), 5.0}; }
 
 std::string App::link() const {
-  std::string link = make_link(session.scene(), session.settings());
+  Experiment experiment;
+  experiment.settings = session.settings();
+  experiment.duration = session.scene().criteria.duration;
+  experiment.load = load;
+  experiment.seed = seed;
+  std::string link = make_link(session.scene(), experiment);
   if (compare.open()) {
     std::vector<Overrides> runs;
     for (const Compare::Run& run : compare.runs()) runs.push_back(run.overrides);
@@ -404,6 +437,10 @@ void frame(App& app, double wall_dt) {
   const Scaled scaled(app);
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.session.advance(wall_dt);
+  if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
+    app.session.pause();
+    app.pause_at = 0.0;  // whoever plays on wants to see more
+  }
   // Beside a run that plays the sweep takes what a frame can spare.
   app.accuracy.advance(app.session.playing() ? 0.003 : 0.008);
   app.notice.left -= wall_dt;

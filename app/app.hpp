@@ -129,6 +129,8 @@ struct App {
   /// What to type for the same run on the command line.
   [[nodiscard]] std::string command() const;
   void reset();
+  /// Runs the scene from another of its starts, with the settings as they are.
+  void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.
   void run_result(const Result& result);
   /// New settings for the run, live.
@@ -150,7 +152,12 @@ struct App {
   std::optional<Capture> capture;
   OwnScenes own;
   bool recording = false;  // a video, see Host::record
-  int run_count = 0;       // resets and loads
+  // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
+  std::shared_ptr<const Scene> plain_scene;
+  double load = 1.0;  // [-]
+  int seed = 0;
+  double pause_at = 0.0;  // an experiment's end, 0 where there is none [s]
+  int run_count = 0;      // resets and loads
 
   // Kept by frame().
   /// Colour of a run that is compared, in plots and in the picture.

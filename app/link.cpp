@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "core/io/number_text.hpp"
 #include "core/io/setting_fields.hpp"
+#include "core/io/settings_json.hpp"
 
 namespace substep {
 namespace {
@@ -64,6 +66,44 @@ std::string make_link(const Scene& scene, const Settings& settings) {
     link += '=' + encode(value);
   }
   return link;
+}
+
+std::string make_link(const Scene& scene, const Experiment& experiment) {
+  std::string link = make_link(scene, experiment.settings);
+  if (experiment.duration != scene.criteria.duration) {
+    link += "&seconds=" + number_text(experiment.duration);
+  }
+  if (experiment.load != 1.0) link += "&load=" + number_text(experiment.load);
+  if (experiment.seed != 0) link += "&seed=" + std::to_string(experiment.seed);
+  return link;
+}
+
+// Through its JSON form: one reader knows what is allowed.
+ExperimentInput read_experiment_link(std::string_view fragment, const SceneFinder& find,
+                                     Problems& problems) {
+  Json json;
+  Json settings = Json::object();
+  Settings checked;
+  for (const LinkPart& part : parse_link(fragment)) {
+    if (part.key == "scene") json["scene"] = part.value;
+    if (part.key == "seconds" || part.key == "load") {
+      const auto number = parse_number(part.value);
+      json[part.key] = number ? Json(*number) : Json(part.value);
+    }
+    if (part.key == "seed") {
+      const auto number = parse_integer(part.value);
+      json[part.key] = number ? Json(*number) : Json(part.value);
+    }
+    const SettingField* field = find_setting(part.key);
+    if (!field) continue;
+    if (const auto problem = set_setting(*field, part.value, checked)) {
+      problems.push_back({"/settings/" + part.key, *problem});
+    } else {
+      settings[part.key] = settings_json(checked)[part.key];
+    }
+  }
+  json["settings"] = std::move(settings);
+  return read_experiment(json, find, problems);
 }
 
 std::vector<LinkPart> parse_link(std::string_view fragment) {

@@ -38,9 +38,9 @@ std::span<const TourStep> tour_steps() {
        {"What does accuracy cost?",
         "Sometimes nothing: leapfrog lets gravity act over the middles of two sub-steps and keeps "
         "the energy to a millionth, at the same number of sub-steps. The orange ghost is Euler.",
-        "The energy. Now try the bridge, alpha, or a method of your own under Compare.",
+        "The energy. Then run all methods in the panel Accuracy: error against cost.",
         "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=leapfrog"
-        "&compare=integrator:euler&panel=compare"}}};
+        "&compare=integrator:euler&panel=accuracy"}}};
   return kSteps;
 }
 

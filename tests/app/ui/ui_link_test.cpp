@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/link.hpp"
+#include "core/lab/experiment_run.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -53,6 +54,54 @@ TEST(Link, AnyTextIsTaken) {
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].value, "my scene");
   EXPECT_EQ(parts[1].key, "x");
+}
+
+TEST(Link, AnExperimentComesBackTheSame) {
+  const auto scene = shipped("bridge");
+  Experiment experiment = experiment_of(*scene, scene->settings, 7);
+  experiment.settings.mode = Mode::kCapped;
+  experiment.settings.alpha = 0.1 / 3.0;
+  experiment.settings.warm_start = true;
+  experiment.settings.solver = SolverKind::kPgs;
+  experiment.duration = 1.0 / 3.0;
+  experiment.load = 0.3;
+  Problems problems;
+  const auto input = read_experiment_link(
+      make_link(*scene, experiment), [&](const std::string&) { return scene; }, problems);
+  ASSERT_TRUE(input.experiment.has_value()) << (problems.empty() ? "" : to_string(problems[0]));
+  EXPECT_EQ(*input.experiment, experiment);
+  EXPECT_EQ(experiment_id(*input.experiment), experiment_id(experiment));
+}
+
+TEST(Link, WhatIsWrongWithAnExperimentIsTold) {
+  Problems problems;
+  const auto input = read_experiment_link(
+      "scene=bridge&alpha=7&seconds=x&load=-1&seed=0.5",
+      [](const std::string&) { return shipped("bridge"); }, problems);
+  EXPECT_FALSE(input.experiment.has_value());
+  EXPECT_EQ(problems.size(), 4U);
+}
+
+// The same experiment in the window and in the lab.
+TEST(Link, TheWindowRunsTheExperimentOfALink) {
+  const auto scene = shipped("pendulum");
+  Experiment experiment = experiment_of(*scene, scene->settings, 3);
+  experiment.settings.mode = Mode::kConst;
+  experiment.settings.n = 5;
+  experiment.duration = 0.5;
+  experiment.load = 2.0;
+  const Reference reference = find_reference(scene, 0.5);
+  ExperimentRun run(*scene, experiment, reference);
+  while (run.advance()) {
+  }
+  Headless h;
+  h.app->open_link(make_link(*scene, experiment));
+  EXPECT_TRUE(h.app->trouble.title.empty());
+  h.app->session.play();
+  h.frames(60);
+  EXPECT_FALSE(h.app->session.playing()) << "it pauses where the experiment ends";
+  EXPECT_EQ(h.app->session.hash(), run.result().metrics.hash);
+  EXPECT_NE(h.app->link().find("load=2&seed=3"), std::string::npos) << h.app->link();
 }
 
 }  // namespace

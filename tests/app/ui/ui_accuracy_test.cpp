@@ -1,6 +1,7 @@
 // "What does accuracy cost?" in the window: a sweep in slices, and points that run.
 
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <set>
 
@@ -132,7 +133,20 @@ TEST(Accuracy, ThePanelIsDrawnInEveryLayout) {
   for (const auto& [width, height] : {std::pair{1280.0F, 720.0F}, std::pair{1920.0F, 1080.0F},
                                       std::pair{390.0F, 844.0F}, std::pair{844.0F, 390.0F}}) {
     h.resize(width, height, 2.0F);
-    h.frames(3);
+    for (const bool large : {false, true}) {
+      h.app->desk.accuracy_large = large;
+      h.frames(3);
+      const ImGuiWindow* card = ImGui::FindWindowByName("##accuracy");
+      const bool shown = card != nullptr && card->Active;
+      EXPECT_EQ(shown, large && width >= 900.0F) << width;
+      if (shown) {
+        const ViewRect& v = h.app->view_rect;
+        EXPECT_GE(card->Pos.x, v.x);
+        EXPECT_LE(card->Pos.x + card->Size.x, v.x + v.width);
+        EXPECT_LE(card->Pos.y + card->Size.y, v.y + v.height);
+        EXPECT_GT(card->Size.x, 300.0F) << "larger than in the panel";
+      }
+    }
     EXPECT_EQ(h.app->desk.tab, Tab::kAccuracy);
   }
 }

@@ -121,13 +121,20 @@ void SaddleLdlt::read_rows(const Node& node, const System& system) {
 
 bool SaddleLdlt::layout_is_the_same(const System& system) {
   found_.clear();
-  for (const Block& block : system.blocks) {
-    found_.push_back({block.a, block.b, block.rows, foldable(block, system)});
-  }
+  for (const Block& block : system.blocks) found_.push_back({block.a, block.b, block.rows});
   const bool other_graph = order_.update(system.blocks, system.u.size());
-  if (!other_graph && found_ == keys_) return true;
-  std::swap(found_, keys_);
-  return false;
+  if (other_graph || found_ != keys_) {
+    std::swap(found_, keys_);
+    return false;
+  }
+  for (const Node& node : nodes_) {
+    if (node.way != Way::kGeneral) continue;
+    for (std::size_t k = 0; k < node.n_attached; ++k) {
+      const Attached& attached = attached_[node.first_attached + k];
+      if (attached.foldable != foldable(system.blocks[index(attached.block)], system)) return false;
+    }
+  }
+  return true;
 }
 
 void SaddleLdlt::lay_out(const System& system) {
@@ -175,7 +182,7 @@ void SaddleLdlt::lay_out(const System& system) {
   std::size_t values = 0;
   std::size_t rows = 0;
   for (Node& node : nodes_) {
-    choose_way(node, system.blocks);
+    choose_way(node, system);
     const std::size_t w = index(width(node));
     const std::size_t r = index(node.most_rows);
     node.values = values;
@@ -222,7 +229,8 @@ void SaddleLdlt::attach(std::span<const Block> blocks) {
   }
 }
 
-void SaddleLdlt::choose_way(Node& node, std::span<const Block> blocks) {
+void SaddleLdlt::choose_way(Node& node, const System& system) {
+  const std::span<const Block> blocks = system.blocks;
   Attached* attached = attached_.data() + node.first_attached;
   const int* children = children_.data() + node.first_child;
   const bool in_tree = std::all_of(children, children + node.n_children,
@@ -238,9 +246,10 @@ void SaddleLdlt::choose_way(Node& node, std::span<const Block> blocks) {
   for (std::size_t k = 0; k < node.n_attached; ++k) rows += blocks[index(attached[k].block)].rows;
   node.way = node.n_children == 0 && rows <= kBareRows ? Way::kBare : Way::kGeneral;
   for (std::size_t k = 0; k < node.n_attached; ++k) {
-    const int block = attached[k].block;
-    attached[k].folded = node.way == Way::kGeneral && keys_[index(block)].foldable;
-    if (!attached[k].folded) node.most_rows += blocks[index(block)].rows;
+    const Block& block = blocks[index(attached[k].block)];
+    attached[k].foldable = foldable(block, system);
+    attached[k].folded = node.way == Way::kGeneral && attached[k].foldable;
+    if (!attached[k].folded) node.most_rows += block.rows;
   }
 }
 

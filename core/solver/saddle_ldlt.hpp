@@ -50,6 +50,7 @@ class SaddleLdlt {
     int block = 0;
     int other = -1;  // of the node's coupled bodies, -1: static
     bool is_a = false;
+    bool foldable = false;
     bool folded = false;
   };
   struct Node {
@@ -78,7 +79,6 @@ class SaddleLdlt {
   };
   struct Key {  // what the layout depends on
     int a, b, rows;
-    bool foldable;
     friend bool operator==(const Key&, const Key&) = default;
   };
   /// The factor of a node, row-major.
@@ -100,7 +100,7 @@ class SaddleLdlt {
   bool layout_is_the_same(const System& system);
   void lay_out(const System& system);
   void attach(std::span<const Block> blocks);
-  void choose_way(Node& node, std::span<const Block> blocks);
+  void choose_way(Node& node, const System& system);
 
   void factor_node(Node& node, std::span<const Block> blocks);
   void count(Node& node);

@@ -201,6 +201,9 @@ EMSCRIPTEN_KEEPALIVE const char* substep_report() {
       {"holds", s.verdict().holds()},
       {"verdict", s.verdict().text()},
       {"trouble", app().trouble.title},
+      {"selected", app().desk.selected < 0
+                       ? ""
+                       : s.scene().bodies[static_cast<std::size_t>(app().desk.selected)].name},
       {"notice", app().notice.left > 0.0 ? app().notice.text : ""},
       {"view",
        {app().view_rect.x, app().view_rect.y, app().view_rect.width, app().view_rect.height}},

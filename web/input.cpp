@@ -61,6 +61,9 @@ EMSCRIPTEN_KEEPALIVE void substep_wheel(float x, float y) {
   ImGui::GetIO().AddMouseWheelEvent(x, y);
 }
 
+/// A second finger came: what the first one began is no click. 0 when a first finger comes again.
+EMSCRIPTEN_KEEPALIVE void substep_pinching(int on) { instance->pinching = on != 0; }
+
 /// Two fingers on the picture.
 EMSCRIPTEN_KEEPALIVE void substep_pinch(double factor, double dx, double dy) {
   instance->app->view.camera.zoom(factor);

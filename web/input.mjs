@@ -28,11 +28,13 @@ export function listen(canvas, wasm, wake, shares) {
     } else {
       fingers.set(event.pointerId, at);
       if (fingers.size === 1) {
+        wasm.pinching(0);
         wasm.pointer(at.x, at.y, 1);
         wasm.button(0, 1, 1);
         pressed = true;
       } else if (pressed) {
-        wasm.button(0, 0, 1); // the second finger makes it a pinch
+        wasm.pinching(1); // the second finger makes it a pinch
+        wasm.button(0, 0, 1);
         pressed = false;
       }
     }

@@ -11,6 +11,7 @@ namespace substep::web {
 struct Instance {
   ui::Context context;
   std::unique_ptr<App> app;
+  bool pinching = false;  // two fingers are or were on the picture
 };
 
 /// Null before substep_start.

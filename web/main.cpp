@@ -71,6 +71,7 @@ EMSCRIPTEN_KEEPALIVE void substep_resize(float width, float height, float ratio)
 /// Draws one frame. @param dt wall time since the last one [s]
 EMSCRIPTEN_KEEPALIVE void substep_frame(double dt) {
   ImGui::GetIO().DeltaTime = static_cast<float>(dt > 1e-4 ? dt : 1e-4);
+  if (instance->pinching) instance->app->hand.moved = true;
   substep::frame(*instance->app, dt);
 }
 

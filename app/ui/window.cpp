@@ -34,7 +34,10 @@ bool begin_panel(const char* id, const Rect& r, ImGuiWindowFlags flags = 0) {
 // A finger scrolls a panel by dragging it where there is no control.
 void scroll_by_drag() {
   const ImGuiIO& io = ImGui::GetIO();
-  if (ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) && !ImGui::IsAnyItemActive() &&
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  // A window's ground is active when it was pressed, as if the window were to be moved.
+  const bool on_ground = g.ActiveId == 0 || g.ActiveId == g.ActiveIdWindow->MoveId;
+  if (on_ground && ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) &&
       ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) {
     ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
   }

@@ -139,13 +139,14 @@ test("fingers turn, zoom and scroll", async () => {
   await gesture([[150, 200], [90, 140]], [[240, 200], [300, 260]]);
   now = await whole();
   assert.ok(difference(part(before, upper), part(now, upper)) > 0.03, "two fingers did not zoom");
+  assert.equal((await call(phone, "report")).selected, "", "a pinch is no click");
   before = now;
   const lower = { x: 0, y: 1000, width: 780, height: 600 };
   await gesture([[20, 700], [20, 500]]);
   now = await whole();
+  await save(phone, "phone-fingers", now);
   assert.ok(difference(part(before, lower), part(now, lower)) > 0.03, "the panel did not scroll");
   assert.deepEqual(await phone.evaluate(() => [window.scrollX, window.scrollY]), [0, 0]);
-  await save(phone, "phone-fingers");
   quiet(phone);
   await phone.context().close();
 });

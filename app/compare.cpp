@@ -235,8 +235,13 @@ std::string overrides_title(const Overrides& overrides) {
   std::string title;
   for (const Override& o : overrides) {
     if (!title.empty()) title += ", ";
-    const bool tells_itself = o.key == "mode" || o.key == "solver" || o.key == "integrator";
-    title += tells_itself ? o.value : o.key + " " + o.value;
+    if (o.key == "solver") {
+      title += o.value == "pgs" ? "PGS" : "BPP";
+    } else if (o.key == "n") {
+      title += "constant " + o.value;
+    } else {
+      title += o.key == "mode" || o.key == "integrator" ? o.value : o.key + " " + o.value;
+    }
   }
   return title;
 }

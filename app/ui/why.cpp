@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/format.hpp"
+#include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -17,26 +18,6 @@ namespace {
 constexpr float kHeading = 24.0F;  // a section's heading with the gap below it
 constexpr float kColumns = 32.0F;  // height of the picture of all bodies
 constexpr std::size_t kMostBars = 12;
-
-// The stiffest degree of freedom of each moving body, the largest k/M first.
-std::vector<StiffnessLeader> by_body(const Scene& scene, const State& state) {
-  std::vector<StiffnessLeader> list;
-  if (state.k.size() != scene.bodies.size()) return list;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.is_static) continue;
-    StiffnessLeader most{static_cast<int>(i), 0, 0.0, body.mass, 0.0};
-    for (int dof = 0; dof < 6; ++dof) {
-      const double mass = dof < 3 ? body.mass : body.inertia[dof - 3];
-      const double k = state.k[i][dof];
-      if (k / mass > most.r) most = {static_cast<int>(i), dof, k, mass, k / mass};
-    }
-    list.push_back(most);
-  }
-  std::stable_sort(list.begin(), list.end(),
-                   [](const auto& a, const auto& b) { return a.r > b.r; });
-  return list;
-}
 
 const std::string& name_of_body(const Scene& scene, const StiffnessLeader& who) {
   return scene.bodies[static_cast<std::size_t>(who.body)].name;
@@ -270,7 +251,7 @@ void why(App& app) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const Scene& scene = app.session.scene();
-  const std::vector<StiffnessLeader> list = by_body(scene, app.session.state());
+  const std::vector<StiffnessLeader> list = stiffness_by_body(scene, app.session.state());
   section(look, "Why this N");
   if (list.empty() || !(list[0].r > 0.0)) {
     nothing_stiff(app);

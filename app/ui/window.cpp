@@ -171,7 +171,9 @@ void desktop(App& app, ImVec2 display) {
 void phone(App& app, ImVec2 display) {
   const bool lying = display.x > display.y;
   const float side = lying ? std::min(392.0F, 0.5F * display.x) : display.x;
-  const float top = lying ? 0.0F : std::round(0.44F * display.y);
+  // A card of the tour takes its place from both.
+  const float share = app.desk.tour >= 0 ? 0.52F : 0.44F;
+  const float top = lying ? 0.0F : std::round(share * display.y);
   app.view_rect = lying ? ViewRect{0.0F, 0.0F, display.x - side, display.y}
                         : ViewRect{0.0F, 0.0F, display.x, top};
   if (!app.desk.panels) {

@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "app/export.hpp"
+#include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/plot.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
@@ -149,7 +151,7 @@ TEST(Export, PictureHasThePixelsOfItsArea) {
   EXPECT_FALSE(h.app->capture.has_value());
 }
 
-TEST(Why, EverySceneIsExplainedInEveryMode) {
+TEST(Why, TheFirstOfTheListIsWhoSetsN) {
   Headless h;
   h.app->desk.tab = Tab::kWhy;
   for (const auto& scene : h.app->library.scenes()) {
@@ -158,6 +160,18 @@ TEST(Why, EverySceneIsExplainedInEveryMode) {
     for (const char* mode : {"none", "const", "damping", "adaptive", "capped"}) {
       ASSERT_EQ(h.app->set("mode", mode), "");
       h.frames(6);
+      const auto list = stiffness_by_body(*scene, h.app->session.state());
+      const StiffnessLeader& leader = h.app->session.report().leader;
+      if (leader.body < 0) {
+        EXPECT_TRUE(list.empty() || list.front().r == 0.0) << scene->name << ", " << mode;
+        continue;
+      }
+      ASSERT_FALSE(list.empty()) << scene->name << ", " << mode;
+      EXPECT_EQ(list.front().body, leader.body) << scene->name << ", " << mode;
+      EXPECT_EQ(list.front().dof, leader.dof);
+      EXPECT_EQ(list.front().r, leader.r);
+      EXPECT_TRUE(std::is_sorted(list.begin(), list.end(),
+                                 [](const auto& a, const auto& b) { return a.r > b.r; }));
     }
   }
 }

@@ -13,8 +13,8 @@ std::span<const TourStep> tour_steps() {
         "The links, and the error as it climbs.",
         "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots"},
        {"Enough sub-steps hold it",
-        "7 in every frame hold; 6, the orange ghost, tear at 2.1 s. Nobody tells you the 7 "
-        "beforehand, and every frame pays for the worst one.",
+        "7 in every frame hold; 6, the orange ghost, tear after a few seconds. Nobody tells you "
+        "the 7 beforehand, and every frame pays for the worst one.",
         "The ghost leaves the chain as it passes the lowest point.",
         "scene=swinging_box&mode=const&n=7&solver=bpp&integrator=euler&compare=n:6&panel=plots"},
        {"Damping holds it too, and slows it",

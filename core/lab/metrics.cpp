@@ -46,10 +46,6 @@ void add_times(const StageTimes& frame, StageTimes& sum) {
 
 }  // namespace
 
-bool operator==(const PeakAndMedian& a, const PeakAndMedian& b) {
-  return a.peak == b.peak && a.median == b.median;
-}
-
 Measure::Measure(const Scene& scene, const State& state, const FrameReport& start,
                  const Reference& reference)
     : reference_(reference),

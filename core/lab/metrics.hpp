@@ -15,6 +15,8 @@ namespace substep {
 struct PeakAndMedian {
   double peak = 0.0;
   double median = 0.0;
+
+  friend bool operator==(const PeakAndMedian&, const PeakAndMedian&) = default;
 };
 
 /// How wrong a run is. What a scene cannot have, or what a failed run no longer tells, is empty.
@@ -33,7 +35,6 @@ struct Errors {
 
   friend bool operator==(const Errors&, const Errors&) = default;
 };
-bool operator==(const PeakAndMedian& a, const PeakAndMedian& b);
 
 /// What a run costs, counted: the same on every machine.
 struct Work {

@@ -62,7 +62,6 @@ Scene wrecking_ball() {
   scene.contact.compliance = 1e-8;
   scene.contact.friction_compliance = 1e-8;
   scene.contact.margin = 0.01;
-  scene.settings.solver = SolverKind::kPgs;
   scene.bodies.push_back(floor_plane());
   scene.bodies.back().friction = kMu;
   add_chain(scene);

@@ -26,8 +26,8 @@ std::vector<std::string> files() {
   static const std::set<std::string> binary{".png", ".jpg", ".ttf", ".ico", ".woff2"};
   std::vector<std::string> found;
   for (auto it = fs::recursive_directory_iterator(kRoot); it != fs::end(it); ++it) {
-    if (it->is_directory() && skipped.contains(it->path().filename().string())) {
-      it.disable_recursion_pending();
+    if (skipped.contains(it->path().filename().string())) {
+      if (it->is_directory()) it.disable_recursion_pending();  // .git is a file in a worktree
     } else if (it->is_regular_file() && !binary.contains(it->path().extension().string())) {
       found.push_back(it->path().lexically_relative(kRoot).generic_string());
     }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr float kGutter = 40.0F;  // left of the curves, for the labels of the values
-constexpr float kToggle = 16.0F;  // height of "log" at its top
+constexpr float kToggle = 16.0F;  // height of "log" at its top, there while one points at the plot
 
 // Where time and values lie on the screen.
 struct Frame {
@@ -122,7 +122,9 @@ std::string label_of(const PlotSpec& spec, const Frame& f, double v, int digits)
 }
 
 // Lines at round values, and in the gutter what they stand for.
-void draw_values(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
+/// @param taken of the gutter's top
+void draw_values(const Look& look, const PlotSpec& spec, const Frame& f, float taken,
+                 ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.28F : 0.4F);
   const double lines = static_cast<double>(f.max.y - f.min.y) / 32.0;
   double step = f.logarithmic ? std::max(1.0, std::ceil((f.high - f.low) / std::max(lines, 2.0)))
@@ -141,8 +143,8 @@ void draw_values(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawL
     draw.AddLine({f.min.x, y}, {f.max.x, y}, line);
     const std::string text = label_of(spec, f, v, digits);
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
-    const float top = std::min(y - 0.5F * size.y, f.max.y - size.y + 2.0F);
-    if (top < f.min.y + kToggle - 3.0F || top + size.y > above) continue;
+    const float top = std::clamp(y - 0.5F * size.y, f.min.y - 2.0F, f.max.y - size.y + 2.0F);
+    if (top < f.min.y + taken - 3.0F || top + size.y > above) continue;
     above = top;
     draw_text(draw, look.fonts.small, {f.min.x - 6.0F - size.x, top}, look.theme->dim,
               text.c_str());
@@ -385,13 +387,16 @@ void interact(const Frame& f, double now, TimeAxis& axis) {
   }
 }
 
-void scale_toggle(const Look& look, ImVec2 at, PlotState& state) {
+/// @param pointed at the plot  @return whether it is seen
+bool scale_toggle(const Look& look, ImVec2 at, bool pointed, PlotState& state) {
   ImGui::SetCursorScreenPos(at);
   if (ImGui::InvisibleButton("scale", {kGutter - 4.0F, kToggle})) {
     state.logarithmic = !state.logarithmic;
     state.set = false;
   }
   const char* name = state.logarithmic ? "log" : "lin";
+  const bool seen = pointed || ImGui::IsItemFocused();
+  if (!seen) return false;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float width = text_size(look.fonts.small, name).x;
   draw_text(draw, look.fonts.small, {at.x + kGutter - 6.0F - width, at.y},
@@ -400,6 +405,7 @@ void scale_toggle(const Look& look, ImVec2 at, PlotState& state) {
   tooltip(look, "",
           state.logarithmic ? "Logarithmic scale: click for linear"
                             : "Linear scale: click for logarithmic");
+  return true;
 }
 
 }  // namespace
@@ -459,10 +465,11 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   f.high = state.high;
 
   ImGui::PushID(spec.id);
-  scale_toggle(look, origin, state);
+  const bool pointed = ImGui::IsMouseHoveringRect(origin, f.max);
+  const bool toggle = scale_toggle(look, origin, pointed, state);
   draw.AddRectFilled(f.min, f.max, look.theme->well, 4.0F);
   draw_time(look, spec, f, draw);
-  draw_values(look, spec, f, draw);
+  draw_values(look, spec, f, toggle ? kToggle : 0.0F, draw);
   draw.PushClipRect(f.min, f.max, true);
   for (const Series& series : spec.series) draw_series(series, axis.from, f, draw);
   draw_levels(look, spec, f, draw);

@@ -71,38 +71,49 @@ TEST(SweepCommand, WritesOneResultALineAndAReport) {
   EXPECT_EQ(report.find("src=\"http"), std::string::npos) << "it opens without a network";
 }
 
+/// What goes before a program to send it a signal as soon as a file has so many lines, however fast
+/// the machine is.
+std::string signalled(const std::string& signal, const fs::path& file, std::size_t lines) {
+  return "bash -c '\"$@\" & pid=$!; while kill -0 $pid 2>/dev/null && "
+         "[ \"$(cat \"$0\" 2>/dev/null | wc -l)\" -lt " +
+         std::to_string(lines) + " ]; do sleep 0.002; done; kill -" + signal +
+         " $pid 2>/dev/null; wait $pid' \"" + file.string() + "\"";
+}
+
 TEST(SweepCommand, KilledAtAnyMomentItEndsTheSame) {
-  const std::vector<std::string>& whole = whole_sweep();
+  // Long enough that the file can be watched as it grows.
+  const std::string sweep = "sweep pendulum --seconds 5 --quiet --jobs 2 --out ";
+  const fs::path all = fresh("all");
+  ASSERT_EQ(substep(sweep + all.string()).exit_code, 0);
+  const std::vector<std::string> whole = figures(all / "results.jsonl");
   const fs::path out = fresh("killed");
+  const fs::path file = out / "results.jsonl";
   std::mt19937 random(11);
-  std::uniform_real_distribution<double> seconds(0.02, 0.3);
+  std::uniform_int_distribution<std::size_t> more(1, 25);
   int killed = 0;
   std::size_t before = 0;
-  for (int round = 0; round < 20; ++round) {
-    const Outcome run = substep(kSweep + ("--out " + out.string()),
-                                "timeout -s KILL " + std::to_string(seconds(random)));
-    killed += run.exit_code == 137 ? 1 : 0;
-    const std::size_t now = lines_of(text_of(out / "results.jsonl")).size();
-    EXPECT_GE(now + 1, before) << "finished runs are kept";  // a last line may have been cut short
-    before = now;
-    // Start over once all are done, so that every round is killed in its work.
-    if (run.exit_code == 0) {
-      EXPECT_EQ(figures(out / "results.jsonl"), whole);
+  for (int round = 0; round < 60 && killed < 6; ++round) {
+    if (before + 30 > whole.size()) {  // nearly done: the next ones are killed in a new one
       fs::remove_all(out);
       before = 0;
     }
+    const Outcome run =
+        substep(sweep + out.string(), signalled("KILL", file, before + more(random)));
+    killed += run.exit_code == 137 ? 1 : 0;
+    const std::size_t now = lines_of(text_of(file)).size();
+    EXPECT_GE(now + 1, before) << "finished runs are kept";  // a last line may have been cut short
+    before = now;
   }
-  EXPECT_GT(killed, 5);
-  ASSERT_EQ(substep(kSweep + ("--out " + out.string())).exit_code, 0);
-  EXPECT_EQ(figures(out / "results.jsonl"), whole);
+  EXPECT_EQ(killed, 6);
+  ASSERT_EQ(substep(sweep + out.string()).exit_code, 0);
+  EXPECT_EQ(figures(file), whole);
 }
 
 TEST(SweepCommand, InterruptedItSaysSoAndGoesOn) {
   const fs::path out = fresh("interrupted");
-  // Long enough that it cannot be over, short enough for a test.
-  const std::string sweep = "sweep swinging_box --seconds 5 --jobs 2 --out " + out.string();
-  const Outcome run = substep(sweep, "timeout -s INT 0.5");
-  EXPECT_EQ(run.exit_code, 124) << "what `timeout` makes of it";
+  const Outcome run = substep("sweep swinging_box --seconds 5 --jobs 2 --out " + out.string(),
+                              signalled("TERM", out / "results.jsonl", 2));
+  EXPECT_EQ(run.exit_code, 130);
   EXPECT_NE(run.err.find("cancelled"), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("goes on from there"), std::string::npos);
 }

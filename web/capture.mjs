@@ -1,6 +1,8 @@
 // Pictures and videos of the canvas.
 
-const formats = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm", "video/mp4"];
+// VP8 first: a processor that draws and simulates has little time left to encode.
+const formats = ["video/webm;codecs=vp8", "video/webm;codecs=vp9", "video/webm", "video/mp4"];
+const patience = 10000; // for the first pictures of a video to be encoded [ms]
 
 /** A part of the canvas as a PNG. @param part {x, y, width, height} in CSS pixels */
 function toPng(canvas, part) {
@@ -17,6 +19,8 @@ export function makeCapture(frame, wasm, host, save) {
   const name = () => JSON.parse(wasm.report()).scene;
   const wanted = []; // what is done with the pixels when they are there
   let recorder = null;
+  let ending = false;
+  let started = () => false;
 
   /** @param part as above, or undefined for all of it */
   function picture(part) {
@@ -34,7 +38,12 @@ export function makeCapture(frame, wasm, host, save) {
     if (!mimeType || recorder) return null;
     recorder = new MediaRecorder(canvas.captureStream(60), { mimeType, videoBitsPerSecond: 8e6 });
     const parts = [];
-    recorder.addEventListener("dataavailable", (event) => parts.push(event.data));
+    recorder.addEventListener("dataavailable", (event) => {
+      if (event.data.size > 0) parts.push(event.data);
+      if (ending && parts.length > 0) stop();
+    });
+    ending = false;
+    started = () => parts.length > 0;
     const video = new Promise((done) => {
       recorder.addEventListener("stop", () => {
         recorder = null;
@@ -43,14 +52,25 @@ export function makeCapture(frame, wasm, host, save) {
         done(new Blob(parts, { type: mimeType.split(";")[0] }));
       });
     });
-    recorder.start(1000);
+    recorder.start(250);
     wasm.recording(1);
+    host.changed?.(); // a run that rests is drawn again
     return video;
   }
 
-  function end() {
-    recorder?.stop();
+  function stop() {
+    if (recorder?.state === "recording") recorder.stop();
     recorder?.stream.getTracks().forEach((track) => track.stop());
+  }
+
+  /** Ends the video, but not before something of it was encoded. */
+  function end() {
+    ending = true;
+    if (started()) stop();
+    else {
+      const waitedFor = recorder;
+      setTimeout(() => { if (recorder === waitedFor) stop(); }, patience);
+    }
   }
 
   host.record = async (on) => {

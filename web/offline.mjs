@@ -37,9 +37,12 @@ export async function keepOffline() {
     if (!hadOne) return; // the first visit: nothing to replace
     // A version that came while an older one ran has waited for a start like this.
     if (registration.waiting) await replace(registration.waiting, registration, () => used);
-    registration.addEventListener("updatefound", () => {
-      replace(registration.installing, registration, isUsed);
-    });
+    const next = () => {
+      if (registration.installing) replace(registration.installing, registration, isUsed);
+    };
+    registration.addEventListener("updatefound", next);
+    next(); // the browser may have found it before this page did
+    registration.update().catch(() => {}); // or look later than people wait; there may be no network
   } catch (error) {
     console.info("substep: no copy for use without a network:", error.message);
   }

@@ -39,7 +39,7 @@ class Clock {
     this.before = performance.now();
     this.awakeUntil = 0;
     this.lost = false; // the graphics context
-    this.seen = true;
+    this.seen = false; // until the watcher says so
     this.watcher = new IntersectionObserver(([entry]) => {
       this.seen = entry.isIntersecting;
       this.wake();

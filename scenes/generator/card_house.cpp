@@ -50,11 +50,7 @@ Scene card_house(int storeys) {
                       " storeys high. Friction and balance are all that holds it.";
   scene.look_for = "It stands. Throw a ball at it, or pull out a card.";
   scene.effects = {.gravity = true, .contact = true, .friction = true};
-  scene.contact.compliance = 1e-8;
-  scene.contact.friction_compliance = 1e-8;
-  scene.contact.margin = 0.004;
-  scene.bodies.push_back(floor_plane());
-  scene.bodies.back().friction = kMu;
+  add_ground(kMu, 0.004, scene);
   double y = 0.0;
   for (int pairs = storeys; pairs >= 1; --pairs) {
     const double first = -0.5 * (pairs - 1) * kPitch;

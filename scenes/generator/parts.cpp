@@ -26,6 +26,14 @@ Body floor_plane(double height) {
   return body;
 }
 
+void add_ground(double friction, double margin, Scene& scene) {
+  scene.contact.compliance = 1e-8;
+  scene.contact.friction_compliance = 1e-8;
+  scene.contact.margin = margin;
+  scene.bodies.push_back(floor_plane());
+  scene.bodies.back().friction = friction;
+}
+
 Quat turn_about_z(double c, double s) {
   // cos(a/2) = sqrt((1 + cos a)/2), sin(a/2) = sin a / (2 cos(a/2)).
   const double half_cosine = std::sqrt(0.5 * (1.0 + c));

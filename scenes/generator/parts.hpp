@@ -30,6 +30,11 @@ Box box(double x, double y, double z);
 /// A static plane y = height, facing up [m].
 Body floor_plane(double height = 0.0);
 
+/// What the playground stands on: a floor to begin with, and contacts that give way a little, since
+/// piles have more of their points than they need.
+/// @param margin gap below which a contact has rows [m]
+void add_ground(double friction, double margin, Scene& scene);
+
 /// The orientation that turns +x to (c, s, 0): a turn about z by an angle between -180 and 180 deg.
 /// @param c its cosine  @param s its sine
 Quat turn_about_z(double c, double s);

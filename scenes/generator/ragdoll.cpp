@@ -94,11 +94,7 @@ Scene ragdoll_drop() {
       "Joints and contacts together: a landing asks for many sub-steps, a tumble for few.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
-  scene.contact.compliance = 1e-8;
-  scene.contact.friction_compliance = 1e-8;
-  scene.contact.margin = 0.01;
-  scene.bodies.push_back(floor_plane());
-  scene.bodies.back().friction = kMu;
+  add_ground(kMu, 0.01, scene);
   constexpr int kSteps = 4;
   for (int i = 0; i < kSteps; ++i) {
     const double height = 0.4 * (kSteps - i);

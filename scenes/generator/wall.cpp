@@ -35,12 +35,8 @@ Scene wall(const WallOptions& options) {
       "the "
       "largest force among them.";
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
-  scene.contact.compliance = 1e-8;
-  scene.contact.friction_compliance = 1e-8;
-  scene.contact.margin = 0.01;
   scene.criteria.duration = 5.0;
-  scene.bodies.push_back(floor_plane());
-  scene.bodies.back().friction = kMu;
+  add_ground(kMu, 0.01, scene);
   const double width = options.bricks * kLength;
   for (int course = 0; course < options.courses; ++course) {
     const double y = (course + 0.5) * kHeight;

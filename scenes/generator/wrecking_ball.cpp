@@ -59,11 +59,7 @@ Scene wrecking_ball() {
       "tower.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
-  scene.contact.compliance = 1e-8;
-  scene.contact.friction_compliance = 1e-8;
-  scene.contact.margin = 0.01;
-  scene.bodies.push_back(floor_plane());
-  scene.bodies.back().friction = kMu;
+  add_ground(kMu, 0.01, scene);
   add_chain(scene);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 2; ++x) {

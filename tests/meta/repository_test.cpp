@@ -169,6 +169,22 @@ TEST(Repository, HeadersAreIncludedOnce) {
   }
 }
 
+TEST(Repository, EverySceneHasGoldenLines) {
+  std::set<std::string> golden;
+  for (const char* file : {"golden_hashes.txt", "golden_work.txt"}) {
+    for (const std::string& line : lines_of(std::string("tests/reference/") + file)) {
+      golden.insert(std::string(file) + " " + line.substr(0, line.find(' ')));
+    }
+  }
+  for (const std::string& file : files()) {
+    if (!file.starts_with("scenes/") || !file.ends_with(".json")) continue;
+    if (file == "scenes/scene.schema.json") continue;
+    const std::string name = fs::path(file).stem().string();
+    EXPECT_TRUE(golden.contains("golden_hashes.txt " + name)) << name;
+    EXPECT_TRUE(golden.contains("golden_work.txt " + name)) << name;
+  }
+}
+
 TEST(Tests, AreNamedSubjectAndLaw) {
   const std::regex test(R"(^(TYPED_)?TEST(_[FP])?\()");
   const std::regex named(R"(^(TYPED_)?TEST(_[FP])?\(([A-Z][A-Za-z0-9]*), ([A-Z][A-Za-z0-9]*)\))");

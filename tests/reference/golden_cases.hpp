@@ -1,0 +1,57 @@
+#pragma once
+// The runs whose bits and work all builds must share.
+
+#include <cstdio>
+#include <functional>
+#include <string>
+
+#include "core/io/scene_reader.hpp"
+#include "core/model/names.hpp"
+#include "core/sim/simulator.hpp"
+
+namespace substep::golden {
+
+struct Case {
+  std::string name;  // scene, mode and solver
+  Simulator simulator;
+};
+
+inline constexpr const char* kScenes[] = {
+    "swinging_box",   "bridge",     "heavy_stack",        "heavy_stack_tall",
+    "bouncing_balls", "card_house", "heavy_stack_stress", "heavy_stack_stress_tall",
+    "free_fall",      "pendulum",   "ragdoll_drop",       "sliding_box",
+    "spinning_top",   "wall",       "wrecking_ball"};
+
+/// A program that is given the folder of the scenes, and goes through every shipped scene, adaptive
+/// and with 16 sub-steps, with either solver.
+/// @return main()'s
+inline int for_every_case(int argc, char** argv, const std::function<void(Case&)>& what) {
+  if (argc != 2) {
+    std::fprintf(stderr, "usage: %s FOLDER_OF_SCENES\n", argv[0]);
+    return 2;
+  }
+  for (const char* name : kScenes) {
+    const SceneResult read = read_scene_file(std::string(argv[1]) + "/" + name + ".json");
+    for (const Problem& problem : read.problems) {
+      std::fprintf(stderr, "%s: %s\n", name, to_string(problem).c_str());
+    }
+    if (!read.scene) return 2;
+    for (const Mode mode : {Mode::kAdaptive, Mode::kConst}) {
+      for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+        Settings settings = read.scene->settings;
+        settings.mode = mode;
+        settings.n = 16;
+        settings.solver = solver;
+        Case c{std::string(name) + " " + std::string(name_of(mode)) + " " +
+                   std::string(name_of(solver)),
+               Simulator(read.scene)};
+        c.simulator.set_settings(settings);
+        what(c);
+        std::fflush(stdout);
+      }
+    }
+  }
+  return 0;
+}
+
+}  // namespace substep::golden

@@ -3,9 +3,9 @@
 //   node web/finish.mjs SOURCE FOLDER FILE...
 // The files are all that the build put into the folder. What an earlier build left there is removed.
 // version.mjs  sizes of what is downloaded, for the progress bar
-// service_worker.js  with the version, a hash of all files, and their list
+// files.json  the version, a hash of all files, and their list: for service_worker.js
 import { createHash } from "node:crypto";
-import { readdir, readFile, rm, stat, writeFile } from "node:fs/promises";
+import { copyFile, readdir, readFile, rm, stat, writeFile } from "node:fs/promises";
 import { join, relative } from "node:path";
 
 const [source, folder, ...built] = process.argv.slice(2);
@@ -22,9 +22,7 @@ for (const entry of await readdir(folder, { recursive: true, withFileTypes: true
 }
 const hash = createHash("sha256");
 for (const name of files) hash.update(name).update(await readFile(join(folder, name)));
-const worker = await readFile(join(source, "service_worker.js"), "utf8");
 // A folder is asked for by its name as well as by its page's.
-const asked = ["./", ...files];
-await writeFile(join(folder, "service_worker.js"), worker
-  .replace("@VERSION@", hash.digest("hex").slice(0, 16))
-  .replace('["@FILES@"]', JSON.stringify(asked, null, 1)));
+await copyFile(join(source, "service_worker.js"), join(folder, "service_worker.js"));
+await writeFile(join(folder, "files.json"),
+  JSON.stringify({ version: hash.digest("hex").slice(0, 16), files: ["./", ...files] }, null, 1));

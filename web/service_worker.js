@@ -1,35 +1,64 @@
-// Serves the laboratory from a copy in the browser. The build fills in the version, a hash of all
-// files: a new version is fetched as a whole into a copy of its own, so that no page ever mixes two.
-const version = "@VERSION@";
-const files = ["@FILES@"];
-
+// Serves the laboratory from a copy in the browser. Each version is fetched as a whole into a copy of
+// its own, so that no page ever mixes two; the oldest copy is the one in use.
+//
+// The worker looks for new versions itself: a browser does only when the page has rested for two
+// seconds, or after a minute, and this page draws all the time.
 const prefix = `substep ${self.registration.scope} `; // a site may hold several laboratories
-const copy = prefix + version;
 
-self.addEventListener("install", (event) => {
-  const fresh = files.map((file) => new Request(file, { cache: "no-cache" }));
-  event.waitUntil(caches.open(copy).then((cache) => cache.addAll(fresh)));
-});
+/** Names of the copies, the one in use first. */
+const copies = async () => (await caches.keys()).filter((name) => name.startsWith(prefix));
 
-self.addEventListener("activate", (event) => {
-  event.waitUntil((async () => {
-    for (const name of await caches.keys()) {
-      if (name.startsWith(prefix) && name !== copy) await caches.delete(name);
-    }
-    await self.clients.claim();
-  })());
-});
+/** Whether all files of a copy are there: they come together or not at all. */
+async function isWhole(name) {
+  return await caches.has(name) && (await (await caches.open(name)).keys()).length > 0;
+}
 
-self.addEventListener("message", (event) => {
-  if (event.data === "take over") self.skipWaiting();
-});
+/** Fetches the version that the server has now. @returns whether it is another than the one in use */
+async function look() {
+  const { version, files } = await (await fetch("files.json", { cache: "no-store" })).json();
+  const newest = prefix + version;
+  if (!await isWhole(newest)) {
+    const fresh = files.map((file) => new Request(file, { cache: "no-cache" }));
+    await (await caches.open(newest)).addAll(fresh);
+  }
+  const [inUse, ...waiting] = await copies();
+  for (const name of waiting) if (name !== newest) await caches.delete(name);
+  return inUse !== newest;
+}
+
+/** Puts the newest version in the place of the one in use, if there is one. */
+async function takeOver() {
+  const names = await copies();
+  const newest = names.pop();
+  if (names.length === 0 || !await isWhole(newest)) return;
+  for (const name of names) await caches.delete(name);
+}
 
 async function answer(request) {
-  const cache = await caches.open(copy);
-  const found = await cache.match(request, { ignoreSearch: true });
+  const starts = request.mode === "navigate";
+  if (starts && (await self.clients.matchAll({ type: "window" })).length === 0) await takeOver();
+  const [inUse] = await copies();
+  const found = inUse && await (await caches.open(inUse)).match(request, { ignoreSearch: true });
   return found ?? fetch(request);
 }
 
+/** What a page may ask for; what it is told. */
+const asked = {
+  "look": async () => (await look() ? "there is a new version" : ""),
+  "take over": async () => {
+    await takeOver();
+    return "it has taken over";
+  },
+};
+
+self.addEventListener("install", (event) => event.waitUntil(look()));
+self.addEventListener("activate", (event) => event.waitUntil(self.clients.claim()));
 self.addEventListener("fetch", (event) => {
   if (event.request.method === "GET") event.respondWith(answer(event.request));
+});
+self.addEventListener("message", (event) => {
+  if (!Object.hasOwn(asked, event.data)) return;
+  event.waitUntil(asked[event.data]().then(
+    (told) => { if (told) event.source.postMessage(told); },
+    () => {})); // there may be no network
 });

@@ -1,7 +1,7 @@
 // Hosting, loading and living without a network:
 // node tests/web/offline_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
-import { cp, mkdtemp, rm } from "node:fs/promises";
+import { cp, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -90,6 +90,65 @@ test("a tab in the background builds no backlog", async () => {
   assert.ok(after.time - before <= 0.11, `${after.time - before} s were made up for`);
   assert.ok(after.took < 2000, `${after.took} ms`);
   quiet(page);
+  await page.context().close();
+});
+
+/** The copies of the page that are kept. */
+const kept = (page) => page.evaluate(async () => (await caches.keys()).join());
+
+test("a new version takes the place of the one that was kept", async () => {
+  const page = await openPage(session, { offline: true });
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  await page.waitForFunction(() => navigator.serviceWorker.controller);
+  assert.match(await kept(page), /^substep .*some\/path\/ [0-9a-f]{16}$/);
+
+  const list = join(folder, "files.json");
+  const old = await readFile(list, "utf8");
+  await writeFile(list, old.replace(/"version": "[0-9a-f]+"/, '"version": "0123456789abcdef"'));
+  const index = join(folder, "index.html");
+  await writeFile(index, (await readFile(index, "utf8")).replace("<head>", '<head data-version="new">'));
+
+  // The next start is the old version's, which finds the new one. Nobody has touched the page.
+  await page.goto("about:blank");
+  await page.goto(session.address);
+  await page.waitForFunction(() => document.head.dataset.version === "new", null, { timeout: 30000 });
+  await running(page);
+  assert.match(await kept(page), /^substep .*some\/path\/ 0123456789abcdef$/);
+
+  // A page in somebody's hands goes on: what came meanwhile is there at the start after it.
+  await writeFile(list, old);
+  await writeFile(index, (await readFile(index, "utf8")).replace('"new"', '"newer"'));
+  await page.goto("about:blank");
+  await page.goto(session.address, { waitUntil: "domcontentloaded" });
+  await page.keyboard.press("Shift");
+  await running(page);
+  await page.waitForFunction(async () => (await caches.keys()).length === 2, null, { timeout: 30000 });
+  assert.equal(await page.evaluate(() => document.head.dataset.version), "new");
+  await page.close();
+  const next = await openPage(session, { context: page.context() });
+  assert.equal(await next.evaluate(() => document.head.dataset.version), "newer");
+  assert.equal((await kept(next)).split(",").length, 1);
+  await next.context().close();
+});
+
+test("a version that cannot be fetched whole leaves the one that was kept", async () => {
+  const page = await openPage(session, { offline: true });
+  await page.evaluate(() => navigator.serviceWorker.ready);
+  await page.waitForFunction(() => navigator.serviceWorker.controller);
+  const list = join(folder, "files.json");
+  const old = await readFile(list, "utf8");
+  await writeFile(list, old.replace(/"version": "[0-9a-f]+"/, '"version": "00000000deadbeef"')
+    .replace('"twin.mjs"', '"twin.mjs", "not_uploaded_yet.mjs"'));
+  const failed = new Promise((done) => {
+    session.server.on("request", ({ url }) => { if (url.endsWith("not_uploaded_yet.mjs")) done(); });
+  });
+  await page.goto(session.address);
+  await failed;
+  await page.goto("about:blank");
+  await page.goto(session.address);
+  await running(page);
+  assert.equal((await call(page, "report")).scene, "swinging_box");
+  await writeFile(list, old);
   await page.context().close();
 });
 

@@ -7,6 +7,7 @@
 
 #include "core/io/number_text.hpp"
 #include "core/model/names.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep::cli {
 namespace {
@@ -80,15 +81,24 @@ std::string settings_line(const Settings& s) {
   line += ", ";
   line += name_of(s.mode);
   if (s.mode == Mode::kConst) line += " " + std::to_string(s.n);
-  if (s.mode == Mode::kCapped) line += " at " + std::to_string(s.n_cap);
-  if (s.mode != Mode::kNone && s.mode != Mode::kConst) line += ", alpha " + number_text(s.alpha);
-  if (s.mode == Mode::kAdaptive || s.mode == Mode::kCapped) {
+  if (chooses_substeps(s.mode) && s.mode != Mode::kAdaptive) {
+    line += " at " + std::to_string(s.n_cap);
+  }
+  if (chooses_substeps(s.mode) || s.mode == Mode::kDamping) {
+    line += ", alpha " + number_text(s.alpha);
+  }
+  if (s.mode == Mode::kInertia || s.mode == Mode::kBlend) {
+    line += ", alpha_m " + number_text(s.alpha_m);
+  }
+  if (s.mode == Mode::kBlend) line += ", beta " + number_text(s.beta);
+  if (chooses_substeps(s.mode)) {
     line += s.policy == Policy::kFrame ? ", decided per frame" : ", decided per sub-step";
   }
   line += ", ";
   line += name_of(s.integrator);
   line += ", drift ";
   line += name_of(drift_law(s));
+  if (s.drift_order == 2) line += " of second order";
   return line;
 }
 

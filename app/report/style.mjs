@@ -7,11 +7,17 @@ const modes = [
   ["const", "orange", "square", "constant N"],
   ["damping", "teal", "diamond", "damping"],
   ["capped", "amber", "star", "capped + damping"],
+  ["stiffness", "grey", "cross", "full geometric stiffness"],
+  ["inertia", "text", "hexagon", "capped + geometric inertia"],
+  ["blend", "grey", "wye", "capped + blend"],
 ];
 
 const shapes = {
   circle: '<circle cx="17" cy="7" r="4"/>', square: '<rect x="13.3" y="3.3" width="7.4" height="7.4"/>',
   triangle: '<path d="M17 2L21.6 10.4H12.4Z"/>', diamond: '<path d="M17 1.6L21 7L17 12.4L13 7Z"/>',
+  hexagon: '<path d="M17 2.2L21.2 4.6V9.4L17 11.8L12.8 9.4V4.6Z"/>',
+  cross: '<path d="M15.6 2H18.4V5.6H22V8.4H18.4V12H15.6V8.4H12V5.6H15.6Z"/>',
+  wye: '<path d="M15.6 12V7.8L12 5.7L13.4 3.3L17 5.4L20.6 3.3L22 5.7L18.4 7.8V12Z"/>',
   star: '<path d="M17 1.5L18.6 5.2L22.4 5.5L19.5 8L20.4 12L17 9.8L13.6 12L14.5 8L11.6 5.5L15.4 5.2Z"/>',
 };
 

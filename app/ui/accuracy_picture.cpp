@@ -234,6 +234,21 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
       style.corners = 6;
       style.name = "capped + damping";
       break;
+    case Mode::kStiffness:
+      style.color = theme.dim;
+      style.corners = 4;
+      style.name = "full geometric stiffness";
+      break;
+    case Mode::kInertia:
+      style.color = theme.text;
+      style.corners = 3;
+      style.name = "capped + geometric inertia";
+      break;
+    case Mode::kBlend:
+      style.color = theme.purple;
+      style.corners = 6;
+      style.name = "capped + blend";
+      break;
   }
   style.hollow = s.integrator == Integrator::kLeapfrog;
   style.dashed = s.solver == SolverKind::kPgs;

@@ -9,6 +9,7 @@
 #include "app/ui/widgets.hpp"
 #include "core/io/effect_names.hpp"
 #include "core/model/names.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
 namespace {
@@ -28,11 +29,23 @@ constexpr std::array<Choice, 5> kModes{
      {"capped",
       "Adaptive up to a cap, damping for what is left over: the combination that the "
       "paper leaves for future work."}}};
+// What stands beside and beyond the paper: the modes that follow those.
+constexpr std::array<Choice, 3> kFurtherModes{
+    {{"stiffness",
+      "One step per frame with the geometric stiffness itself in the mass: M - h² K, its "
+      "stabilising part (Tournier et al. 2015). Damps more than damping does."},
+     {"inertia",
+      "Adaptive up to a cap; what is left over turns with a larger inertia, dt² k/(4 αm), that "
+      "neither gains nor loses energy."},
+     {"blend",
+      "Adaptive up to a cap, then geometric inertia of which a share 1 - β damps: steadier where "
+      "contacts come and go."}}};
 
-constexpr std::array<const char*, 5> kModeLines{
-    "One step a frame, unprotected.", "The same N in every frame.",
+constexpr std::array<const char*, 8> kModeLines{
+    "One step a frame, unprotected.",          "The same N in every frame.",
     "One step a frame; less α, more damping.", "N ~ 1/√α: a quarter of α, twice the N.",
-    "Adaptive up to a cap, then damping."};
+    "Adaptive up to a cap, then damping.",     "One step a frame, K in the mass.",
+    "Adaptive up to a cap, then inertia.",     "Adaptive up to a cap, then both."};
 
 constexpr std::array<Choice, 2> kSolvers{
     {{"PGS", "Projected Gauss-Seidel: a fixed number of sweeps over the rows of Eq. 3."},
@@ -96,11 +109,15 @@ void stabilisation(const Look& look, Settings& s) {
   const Mode mode = s.mode;
   section(look, "Stabilisation");
   int index = static_cast<int>(mode);
-  segmented(look, "mode", kModes, index, ImGui::GetContentRegionAvail().x);
+  constexpr int kFirst = static_cast<int>(kModes.size());
+  const float width = ImGui::GetContentRegionAvail().x;
+  segmented(look, "mode", kModes, index, width);
+  int further = index - kFirst;
+  if (segmented(look, "further mode", kFurtherModes, further, width)) index = kFirst + further;
   s.mode = static_cast<Mode>(index);
   label(look.fonts.small, look.theme->dim, kModeLines[static_cast<std::size_t>(index)]);
 
-  if (s.mode == Mode::kDamping || s.mode == Mode::kAdaptive || s.mode == Mode::kCapped) {
+  if (s.mode == Mode::kDamping || chooses_substeps(s.mode)) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
            "Stability threshold of Eq. 5: 1 is the limit itself, less keeps a distance from it. "
            "N goes with 1/√α (Eq. 10): a quarter of alpha doubles N.");
@@ -110,9 +127,18 @@ void stabilisation(const Look& look, Settings& s) {
   } else if (s.mode == Mode::kAdaptive) {
     slider(look, "N at most", s.n_max, 1, 512, true,
            "An impact or a start that does not fit asks for thousands: this many are given.");
-  } else if (s.mode == Mode::kCapped) {
+  } else if (chooses_substeps(s.mode)) {
     slider(look, "N cap", s.n_cap, 1, 64, true,
-           "Sub-steps up to here; damping (Eq. 6) at dt = h/N cap for what they do not reach.");
+           "Sub-steps up to here; at dt = h/N cap the mode takes over what they do not reach.");
+  }
+  if (s.mode == Mode::kInertia || s.mode == Mode::kBlend) {
+    slider(look, "Alpha m  αm", s.alpha_m, 0.1, 0.99, false, "%.2f",
+           "How near to the limit of stability the larger inertia goes: forces may grow by 1/αm "
+           "from one sub-step to the next. Less is safer and less exact.");
+  }
+  if (s.mode == Mode::kBlend) {
+    slider(look, "Beta  β", s.beta, 0.0, 1.0, false, "%.3f",
+           "Share of the velocity that is not damped: 1 is geometric inertia, 0 is damping.");
   }
 }
 
@@ -128,7 +154,7 @@ void solving(const Look& look, Settings& s) {
 // What most people never touch; only what acts in this scene, mode and solver.
 void finer_points(const Look& look, const Effects& effects, Settings& s) {
   const float width = ImGui::GetContentRegionAvail().x;
-  if (s.mode == Mode::kAdaptive || s.mode == Mode::kCapped) {
+  if (chooses_substeps(s.mode)) {
     choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
     if (s.policy == Policy::kSubstep) {
       slider(look, "Memory", s.memory, 0.0, 0.99, false, "%.2f",
@@ -152,6 +178,14 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
                "Time constant of the soft law: bias phi dt/tau² for dt below tau.")) {
       s.drift_tau = 1e-3 * tau_ms;
     }
+  }
+  if (effects.joints) {
+    bool second = s.drift_order == 2;
+    checkbox(look, "correct for curvature", second, width,
+             "Second order: joints are also corrected for what turning will have bent by the end "
+             "of the sub-step, dt²/2 phi''. Up to eight times less error where joints are stiff; "
+             "noise where they are soft.");
+    s.drift_order = second ? 2 : 1;
   }
   if (s.solver == SolverKind::kPgs) {
     checkbox(look, "warm start", s.warm_start, width,

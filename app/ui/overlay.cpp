@@ -32,6 +32,15 @@ std::string method_line(const Settings& s) {
     case Mode::kCapped:
       line = "N up to " + std::to_string(s.n_cap) + ", then damping";
       break;
+    case Mode::kStiffness:
+      line = "full geometric stiffness";
+      break;
+    case Mode::kInertia:
+      line = "N up to " + std::to_string(s.n_cap) + ", then geometric inertia";
+      break;
+    case Mode::kBlend:
+      line = "N up to " + std::to_string(s.n_cap) + ", then inertia and damping";
+      break;
   }
   line += s.solver == SolverKind::kBpp ? "  ·  BPP" : "  ·  PGS " + std::to_string(s.iterations);
   line += s.integrator == Integrator::kEuler ? "  ·  Euler" : "  ·  leapfrog";

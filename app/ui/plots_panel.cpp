@@ -10,6 +10,7 @@
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
 namespace {
@@ -126,7 +127,7 @@ void substeps_plot(App& app, float height, bool last) {
         {static_cast<double>(beat), "constant N to beat " + grouped(beat), t.amber});
   }
   // A cap is worth a line once N comes near it.
-  const int cap = s.mode == Mode::kAdaptive ? s.n_max : s.mode == Mode::kCapped ? s.n_cap : 0;
+  const int cap = s.mode == Mode::kAdaptive ? s.n_max : chooses_substeps(s.mode) ? s.n_cap : 0;
   const std::size_t recent = h.size() - std::min<std::size_t>(h.size(), 600);
   const Extent taken = h.samples(Channel::kSubsteps).extent(recent, h.size());
   if (cap > 0 && taken.high >= 0.7F * static_cast<float>(cap)) {

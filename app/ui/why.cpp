@@ -126,8 +126,17 @@ std::string taken_note(const Session& session) {
     case Mode::kAdaptive:
       if (report.capped) return "N at most is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
       return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
+    case Mode::kStiffness:
+      return "Mode stiffness takes 1: K itself resists what is too stiff for it.";
     case Mode::kCapped:
-      if (report.capped) return "The cap bit: " + cap_note(report) + "; damping does the rest.";
+    case Mode::kInertia:
+    case Mode::kBlend:
+      if (report.capped) {
+        return "The cap bit: " + cap_note(report) + "; " +
+               (s.mode == Mode::kCapped    ? "damping does the rest."
+                : s.mode == Mode::kInertia ? "geometric inertia does the rest."
+                                           : "inertia and damping do the rest.");
+      }
       return "The cap of " + grouped(s.n_cap) + " did not bite.";
   }
   return "";

@@ -26,6 +26,13 @@ void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& bloc
   }
 }
 
+// An arm r that turns with omega: r'' = omega x (omega x r).
+void ball_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
+                    double* curvature) {
+  const Vec3 c = omega_a.cross(omega_a.cross(block.r_a)) - omega_b.cross(omega_b.cross(block.r_b));
+  for (int i = 0; i < 3; ++i) curvature[i] = c[i];
+}
+
 // The force l acts on a at r_a. Turning a by theta moves the arm by theta x r_a, so the torque
 // r_a x l changes by (theta x r_a) x l = l x (r_a x theta) = [l][r_a] theta.
 void ball_stiffness(const Block& block, StiffnessMatrix& K) {

@@ -16,6 +16,11 @@ struct Side {
 /// Rows 0..2: phi = x_a + r_a - x_b - r_b, world axes [m].
 void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block);
 
+/// How rows 0..2 curve while both bodies turn on as they do: d2phi/dt2 at constant velocities
+/// [m/s^2]. @param omega_a, omega_b world [rad/s], zero for the world  @param curvature out
+void ball_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
+                    double* curvature);
+
 /// d(J^T lambda)/dq of rows 0..2 (method: K_aa = [l][r_a], K_bb = -[l][r_b]).
 void ball_stiffness(const Block& block, StiffnessMatrix& K);
 

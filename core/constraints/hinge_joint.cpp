@@ -33,6 +33,20 @@ void hinge_rows(const HingeJoint& joint, const Vec3& v1_B, const Vec3& v2_B, con
   }
 }
 
+// (u . v)'' = u'' . v + 2 u' . v' + u . v''
+void hinge_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
+                     double* curvature) {
+  ball_curvature(block, omega_a, omega_b, curvature);
+  const Vec3& u = block.axis;
+  const Vec3 u_dot = omega_a.cross(u);
+  const Vec3 u_ddot = omega_a.cross(u_dot);
+  for (int k = 0; k < 2; ++k) {
+    const Vec3& v = k == 0 ? block.v1 : block.v2;
+    const Vec3 v_dot = omega_b.cross(v);
+    curvature[3 + k] = u_ddot.dot(v) + 2.0 * u_dot.dot(v_dot) + u.dot(omega_b.cross(v_dot));
+  }
+}
+
 // Torque on a: l u x v. Turning a: l (theta x u) x v = l [v][u] theta. Turning b:
 // l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite.
 void hinge_stiffness(const Block& block, StiffnessMatrix& K) {

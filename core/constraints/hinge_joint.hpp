@@ -13,6 +13,10 @@ void across(const Vec3& axis, Vec3& v1, Vec3& v2);
 void hinge_rows(const HingeJoint& joint, const Vec3& v1_B, const Vec3& v2_B, const Side& a,
                 const Side& b, Block& block);
 
+/// As ball_curvature, with rows 3, 4 [1/s^2].
+void hinge_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
+                     double* curvature);
+
 void hinge_stiffness(const Block& block, StiffnessMatrix& K);
 
 }  // namespace substep

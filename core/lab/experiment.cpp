@@ -87,16 +87,20 @@ std::string series_name(const Settings& s) {
   name += ", ";
   name += name_of(s.integrator);
   if (s.drift != Drift::kAuto) name += ", drift " + std::string(name_of(s.drift));
+  if (s.drift_order == 2) name += ", drift order 2";
   return name;
 }
 
 SeriesParameter series_parameter(const Settings& s) {
   switch (s.mode) {
     case Mode::kNone:
+    case Mode::kStiffness:
       return {"n", 1.0};
     case Mode::kConst:
       return {"n", static_cast<double>(s.n)};
     case Mode::kCapped:
+    case Mode::kInertia:
+    case Mode::kBlend:
       return {"n_cap", static_cast<double>(s.n_cap)};
     case Mode::kDamping:
     case Mode::kAdaptive:

@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/stepping/effective_mass.hpp"
+#include "core/stepping/substep_clock.hpp"
+
 namespace substep {
 namespace {
 
@@ -28,12 +31,15 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
   };
   switch (mode) {
     case Mode::kNone:
+    case Mode::kStiffness:
       all.push_back(settings);
       break;
     case Mode::kConst:
       along(kConstant, &Settings::n);
       break;
     case Mode::kCapped:
+    case Mode::kInertia:
+    case Mode::kBlend:
       along(kCaps, &Settings::n_cap);
       break;
     case Mode::kDamping:
@@ -83,7 +89,10 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
     settings.policy = Policy::kSubstep;
     if (solver == SolverKind::kBpp) append_curve(settings, Mode::kAdaptive, all);
     settings.policy = Policy::kFrame;
+    append_curve(settings, Mode::kInertia, all);
+    append_curve(settings, Mode::kBlend, all);
     if (integrator == Integrator::kLeapfrog) return;
+    append_curve(settings, Mode::kStiffness, all);
     append_curve(settings, Mode::kDamping, all);
     append_curve(settings, Mode::kCapped, all);
   };
@@ -100,7 +109,7 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
   const Settings& s = experiment.settings;
   double n = 1.0;
   if (s.mode == Mode::kConst) n = s.n;
-  if (s.mode == Mode::kCapped) n = s.n_cap;
+  if (changes_mass(s.mode) && chooses_substeps(s.mode)) n = s.n_cap;
   if (s.mode == Mode::kAdaptive) n = std::min<double>(s.n_max, 5.0 / std::sqrt(s.alpha));
   const double per_substep = s.solver == SolverKind::kPgs ? 0.15 * s.iterations : 1.0;
   const double per_frame = 0.5;  // errors and energies, whatever N

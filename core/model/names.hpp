@@ -28,7 +28,8 @@ struct NameTable<Mode> {
   static constexpr std::array entries{
       Named<Mode>{"none", Mode::kNone}, Named<Mode>{"const", Mode::kConst},
       Named<Mode>{"damping", Mode::kDamping}, Named<Mode>{"adaptive", Mode::kAdaptive},
-      Named<Mode>{"capped", Mode::kCapped}};
+      Named<Mode>{"capped", Mode::kCapped}, Named<Mode>{"stiffness", Mode::kStiffness},
+      Named<Mode>{"inertia", Mode::kInertia}, Named<Mode>{"blend", Mode::kBlend}};
 };
 template <>
 struct NameTable<Policy> {

@@ -6,7 +6,16 @@ namespace substep {
 
 enum class SolverKind : std::uint8_t { kPgs, kBpp };
 /// How a step is kept stable (the stabilisation mode).
-enum class Mode : std::uint8_t { kNone, kConst, kDamping, kAdaptive, kCapped };
+enum class Mode : std::uint8_t {
+  kNone,       // one sub-step
+  kConst,      // n of them
+  kDamping,    // one, and adaptive damping (Eq. 6)
+  kAdaptive,   // N by Eq. 11
+  kCapped,     // N by Eq. 11 up to n_cap, and damping for what they do not reach
+  kStiffness,  // one, and full geometric stiffness
+  kInertia,    // N by Eq. 11 up to n_cap, and geometric inertia for what they do not reach
+  kBlend,      // the same, with some damping
+};
 /// How often the number of sub-steps is decided.
 enum class Policy : std::uint8_t { kFrame, kSubstep };
 enum class Integrator : std::uint8_t { kEuler, kLeapfrog };
@@ -24,10 +33,12 @@ struct Settings {
   int pivots = 20;          // block pivoting steps of BPP before its single-pivot fallback, >= 1
 
   Mode mode = Mode::kAdaptive;
-  double alpha = 0.1;  // stability threshold of Eq. 5, in (0, 1] [-]; N goes with alpha^-1/2
-  int n = 16;          // sub-steps per frame in mode kConst, >= 1
-  int n_max = 64;      // most sub-steps per frame in mode kAdaptive, >= 1
-  int n_cap = 4;       // most sub-steps per frame in mode kCapped, damping beyond, >= 1
+  double alpha = 0.1;    // stability threshold of Eq. 5, in (0, 1] [-]; N goes with alpha^-1/2
+  int n = 16;            // sub-steps per frame in mode kConst, >= 1
+  int n_max = 64;        // most sub-steps per frame in mode kAdaptive, >= 1
+  int n_cap = 4;         // most sub-steps per frame in modes kCapped, kInertia and kBlend, >= 1
+  double alpha_m = 0.7;  // kInertia, kBlend: dt^2 k/(4 Mt) is kept below it, in (0, 1) [-]
+  double beta = 0.95;    // kBlend: share of the velocity that nothing damps, in [0, 1] [-]
   Policy policy = Policy::kFrame;
   double memory = 0.9;  // decay of r from sub-step to sub-step in policy kSubstep, in [0, 1) [-]
   bool probe = true;    // one solve before the first frame tells the forces that N needs
@@ -36,6 +47,7 @@ struct Settings {
   Gyroscopic gyroscopic = Gyroscopic::kImplicit;
   Drift drift = Drift::kAuto;
   double drift_tau = 1.0 / 480.0;  // time constant of the soft drift law, > 0 [s]
+  int drift_order = 1;  // 2: the correction also sees how the joints' rows curve, drift.hpp
   ContactStiffness contact_stiffness = ContactStiffness::kPaper;
   bool watch_stiffness = false;  // evaluate K even where the mode does not need it, for a view
 

@@ -58,7 +58,7 @@ struct StagesRun {
   bool friction = false;
   bool restitution = false;
   bool stiffness = false;
-  bool damping = false;
+  bool effective_mass = false;  // a mode put another mass in the place of M
   bool probe = false;
 };
 

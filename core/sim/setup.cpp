@@ -5,6 +5,7 @@
 
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
+#include "core/stepping/effective_mass.hpp"
 
 namespace substep {
 
@@ -31,8 +32,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
 }
 
 bool Simulator::Impl::probe_due() const {
-  const bool reads_stiffness = settings.mode == Mode::kDamping ||
-                               settings.mode == Mode::kAdaptive || settings.mode == Mode::kCapped;
+  const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
   return settings.probe && reads_stiffness && !state.stiffness_known;
 }
 
@@ -87,6 +87,7 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
     state.stiffness_known = report.stages.stiffness;
     if (!state.stiffness_known) {  // an old K must not be taken for this frame's
       state.k.clear();
+      state.K_resisting.clear();
       state.r = 0.0;
     }
     ++state.frame;

@@ -7,14 +7,13 @@
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 
 namespace substep {
 
 namespace {
-
-bool damps(Mode mode) { return mode == Mode::kDamping || mode == Mode::kCapped; }
 
 bool has_gyroscopic_torque(const Body& body) {
   const Vec3& I = body.inertia;
@@ -70,11 +69,10 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
     }
     report.stages.gravity = true;
   }
-  if (damps(settings.mode)) {
-    damped_inverse_mass(*scene, R_WB, state.k, settings.alpha, dt, inverse_mass, state.u);
-    report.stages.damping = true;
-  } else {
-    substep::inverse_mass(*scene, R_WB, inverse_mass);
+  substep::inverse_mass(*scene, R_WB, inverse_mass);
+  if (changes_mass(settings.mode)) {
+    effective_mass(*scene, settings, R_WB, u_start, dt, state, inverse_mass);
+    report.stages.effective_mass = true;
   }
   clock.lap(report.times.mass);
 }
@@ -85,6 +83,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
     set_probe_bias(rows, dt);
   } else {
     set_drift_bias(rows, drift_law(settings), settings.drift_tau, dt);
+    if (settings.drift_order == 2) add_curvature_bias(rows, u_start, dt);
     if (restitution) restitution->apply(*scene, u_before, dt, rows);
   }
   const double per_dt2 = 1.0 / (dt * dt);
@@ -133,7 +132,17 @@ bool Simulator::Impl::finite(FrameReport& report) {
 
 void Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
-  stiffness->evaluate(blocks.all(), settings.contact_stiffness, R_WB, state.k);
+  const bool full = settings.mode == Mode::kStiffness;
+  // The paper's contact block is no derivative: it may steer N, and must not enter Mt.
+  const ContactStiffness form = full ? ContactStiffness::kExact : settings.contact_stiffness;
+  stiffness->evaluate(blocks.all(), form, R_WB, state.k);
+  state.K_resisting.clear();
+  if (full) {
+    for (int i = 0; i < static_cast<int>(state.k.size()); ++i) {
+      state.K_resisting.push_back(
+          resisting(stiffness->matrix().block(i, i).bottomRightCorner<3, 3>()));
+    }
+  }
   bound = StiffnessStage::bound(*scene, state.k);
   report.stages.stiffness = true;
   clock.lap(report.times.stiffness);

@@ -14,6 +14,15 @@ namespace substep {
 /// @param dt [s]
 void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt);
 
+/// Second order: a sub-step is solved with the gradients at its start, while the joints' rows
+/// curve,
+///   phi(dt) = phi + dt J u + dt^2/2 phi'' + ...,
+/// so that what was solved leaves dt^2/2 phi'' for the next correction to find. This adds
+/// dt/2 phi'' to the bias of every joint, phi'' as the bodies turned when the sub-step began.
+/// It feeds on velocities: where those are noisy, as under soft or redundant joints, it is noise.
+/// @param u velocities at the start of the sub-step  @param dt [s]
+void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double dt);
+
 /// For the probe: no error is taken back, open contacts stay open. @param dt [s]
 void set_probe_bias(std::span<Block> blocks, double dt);
 

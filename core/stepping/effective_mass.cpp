@@ -1,6 +1,7 @@
 #include "core/stepping/effective_mass.hpp"
 
-#include <algorithm>
+#include "core/stepping/damping.hpp"
+#include "core/stepping/geometric_inertia.hpp"
 
 namespace substep {
 
@@ -38,26 +39,62 @@ void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::vector<In
   }
 }
 
-void damped_inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::span<const Vec6> k,
-                         double alpha, double dt, std::vector<InverseMass>& out,
-                         std::span<Vec6> u) {
-  inverse_mass(scene, R_WB, out);
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.is_static || i >= k.size()) continue;
-    Vec3 damped = body.inertia;  // I + dt b
-    bool any = false;
-    for (int j = 0; j < 3; ++j) {
-      const double dt_b = dt * dt * k[i][3 + j] - 4.0 * alpha * body.inertia[j];
-      if (dt_b <= 0.0) continue;
-      damped[j] += dt_b;
-      any = true;
-    }
-    if (!any) continue;
+bool changes_mass(Mode mode) {
+  switch (mode) {
+    case Mode::kNone:
+    case Mode::kConst:
+    case Mode::kAdaptive:
+      return false;
+    case Mode::kDamping:
+    case Mode::kCapped:
+    case Mode::kStiffness:
+    case Mode::kInertia:
+    case Mode::kBlend:
+      return true;
+  }
+  return false;
+}
+
+namespace {
+
+/// Mt about the principal axes of body i. @return whether it is another than I
+bool principal_mass(const Settings& s, const Vec3& I, const Vec6& k, double dt, Vec3& Mt) {
+  const bool damps = s.mode == Mode::kDamping || s.mode == Mode::kCapped;
+  for (int j = 0; j < 3; ++j) {
+    Mt[j] = damps ? damped_mass(I[j], k[3 + j], s.alpha, dt)
+                  : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
+  }
+  return Mt != I;
+}
+
+}  // namespace
+
+// S = Mt^-1 M turns what M made of u and the forces into what Mt makes of them:
+//   u* = beta u + (1 - beta) S u + Mt^-1 dt f = S (u_M - beta u) + beta u.
+void effective_mass(const Scene& scene, const Settings& settings, std::span<const Mat3> R_WB,
+                    std::span<const Vec6> u_start, double dt, State& state,
+                    std::span<InverseMass> inverse) {
+  const double beta = settings.mode == Mode::kInertia ? 1.0
+                      : settings.mode == Mode::kBlend ? settings.beta
+                                                      : 0.0;
+  for (std::size_t i = 0; i < scene.bodies.size() && i < state.k.size(); ++i) {
+    const Vec3& I = scene.bodies[i].inertia;
+    if (scene.bodies[i].is_static) continue;
     const Mat3& R = R_WB[i];
-    out[i].angular = turned(R, damped.cwiseInverse());
-    const Vec3 omega_B = R.transpose() * u[i].tail<3>();
-    u[i].tail<3>() = R * omega_B.cwiseProduct(body.inertia).cwiseQuotient(damped);
+    auto omega = state.u[i].tail<3>();
+    if (settings.mode == Mode::kStiffness) {
+      if (state.K_resisting.empty()) return;
+      const Mat3 M = turned(R, I);
+      inverse[i].angular = (M + dt * dt * state.K_resisting[i]).inverse();
+      omega = inverse[i].angular * (M * omega);
+      continue;
+    }
+    Vec3 Mt;
+    if (!principal_mass(settings, I, state.k[i], dt, Mt)) continue;
+    inverse[i].angular = turned(R, Mt.cwiseInverse());
+    const Vec3 kept = beta * u_start[i].tail<3>();
+    const Vec3 rest_B = R.transpose() * (omega - kept);
+    omega = kept + R * rest_B.cwiseProduct(I).cwiseQuotient(Mt);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "core/model/scene.hpp"
+#include "core/model/settings.hpp"
+#include "core/model/state.hpp"
 #include "core/solver/system.hpp"
 
 namespace substep {
@@ -11,10 +13,18 @@ namespace substep {
 /// Mt^-1 = M^-1 of every body, world axes.
 void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::vector<InverseMass>& out);
 
-/// Adaptive damping (Eq. 6): Mt = M + dt B with b_i = max(0, (dt^2 k_i - 4 alpha M_ii)/dt) on the
-/// angular degrees of freedom, in the principal frame. Also replaces u by Mt^-1 M u.
-/// @param k diagonal of K per body (Eq. 4)  @param dt [s]
-void damped_inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::span<const Vec6> k,
-                         double alpha, double dt, std::vector<InverseMass>& out, std::span<Vec6> u);
+/// Whether a mode puts another mass in the place of M.
+bool changes_mass(Mode mode);
+
+/// Puts Mt in the place of M, on the rotations of the bodies that are too stiff for dt by the
+/// measure of the mode, and u* = Mt^-1 (beta Mt u + (1 - beta) M u + dt f) in the place of
+/// M^-1 (M u + dt f). What a mode keeps of the velocity, beta, is what tells damping (0) from
+/// geometric inertia (1).
+/// @param state with k (and K of mode stiffness) of the last sub-step; u as M makes it, replaced
+/// @param u_start velocities at the start of the sub-step  @param dt [s]
+/// @param inverse in: M^-1  out: Mt^-1
+void effective_mass(const Scene& scene, const Settings& settings, std::span<const Mat3> R_WB,
+                    std::span<const Vec6> u_start, double dt, State& state,
+                    std::span<InverseMass> inverse);
 
 }  // namespace substep

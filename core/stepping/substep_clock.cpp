@@ -11,6 +11,11 @@ double stable_step(double alpha, double r) {
   return r > 0.0 ? 2.0 * std::sqrt(alpha / r) : std::numeric_limits<double>::infinity();
 }
 
+bool chooses_substeps(Mode mode) {
+  return mode == Mode::kAdaptive || mode == Mode::kCapped || mode == Mode::kInertia ||
+         mode == Mode::kBlend;
+}
+
 int wanted_substeps(double h, double dt_max) {
   constexpr double kMost = 1e9;  // an impulsive force can ask for more than an int holds
   const double n = std::ceil(h / dt_max);
@@ -27,14 +32,17 @@ void SubstepClock::decide() {
   switch (settings_.mode) {
     case Mode::kNone:
     case Mode::kDamping:
+    case Mode::kStiffness:
       left_ = 1;
       break;
     case Mode::kConst:
       left_ = settings_.n;
       break;
     case Mode::kAdaptive:
-    case Mode::kCapped: {
-      limit_ = settings_.mode == Mode::kCapped ? settings_.n_cap : settings_.n_max;
+    case Mode::kCapped:
+    case Mode::kInertia:
+    case Mode::kBlend: {
+      limit_ = settings_.mode == Mode::kAdaptive ? settings_.n_max : settings_.n_cap;
       const double dt_max = stable_step(settings_.alpha, r_);
       const int wanted = wanted_substeps(h_, dt_max);
       n_wanted_ = std::max(n_wanted_, wanted);
@@ -54,6 +62,9 @@ bool SubstepClock::needs_stiffness() const {
       return settings_.watch_stiffness && left_ == 1;
     case Mode::kDamping:
     case Mode::kCapped:
+    case Mode::kStiffness:
+    case Mode::kInertia:
+    case Mode::kBlend:
       return true;
     case Mode::kAdaptive:
       return left_ == 1 || settings_.policy == Policy::kSubstep;
@@ -62,8 +73,8 @@ bool SubstepClock::needs_stiffness() const {
 }
 
 void SubstepClock::advance(double r) {
-  const bool decides_again = settings_.policy == Policy::kSubstep &&
-                             (settings_.mode == Mode::kAdaptive || settings_.mode == Mode::kCapped);
+  const bool decides_again =
+      settings_.policy == Policy::kSubstep && chooses_substeps(settings_.mode);
   if (needs_stiffness()) r_ = decides_again ? std::max(r, settings_.memory * r_) : r;
   ++taken_;
   if (--left_ == 0) return;

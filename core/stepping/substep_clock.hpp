@@ -7,15 +7,19 @@ namespace substep {
 /// dt_max = 2 sqrt(alpha / r), Eq. 10. @param r [1/s^2] @return [s], infinite for r = 0
 double stable_step(double alpha, double r);
 
+/// Whether N follows from r.
+bool chooses_substeps(Mode mode);
+
 /// N = ceil(h / dt_max), Eq. 11, at least 1.
 int wanted_substeps(double h, double dt_max);
 
 /// Deals out one frame of length h in sub-steps.
-///   none, damping    one sub-step
-///   const            n
-///   adaptive         N by Eq. 11 from r, at most n_max; decided once (policy frame) or again after
-///                    every sub-step, with r decaying by `memory` (policy substep)
-///   capped           the same, at most n_cap
+///   none, damping, stiffness    one sub-step
+///   const                       n
+///   adaptive                    N by Eq. 11 from r, at most n_max; decided once (policy frame) or
+///                               again after every sub-step, with r decaying by `memory` (policy
+///                               substep)
+///   capped, inertia, blend      the same, at most n_cap
 class SubstepClock {
  public:
   /// @param r largest k_i/M_ii known at the start of the frame [1/s^2]

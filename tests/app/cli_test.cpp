@@ -120,16 +120,19 @@ TEST(CommandLine, EverySettingIsAFlag) {
   const Outcome run = substep(
       "run free_fall --frames 1 --json - --solver pgs --iterations 3 --warm-start --pivots 4 "
       "--mode "
-      "capped --alpha 0.2 --n 5 --n-max 6 --n-cap 7 --policy substep --memory 0.5 --no-probe "
-      "--integrator leapfrog --gyroscopic explicit --drift full --tau 0.01 --contact-stiffness "
+      "capped --alpha 0.2 --n 5 --n-max 6 --n-cap 7 --alpha-m 0.5 --beta 0.8 --policy substep "
+      "--memory 0.5 --no-probe "
+      "--integrator leapfrog --gyroscopic explicit --drift full --tau 0.01 --drift-order 2 "
+      "--contact-stiffness "
       "exact "
       "--watch-stiffness");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json expected = Json::parse(
       R"({"solver": "pgs", "iterations": 3, "warm_start": true, "pivots": 4, "mode": "capped",
-          "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "policy": "substep", "memory": 0.5,
-          "probe": false, "integrator": "leapfrog", "gyroscopic": "explicit", "drift": "full",
-          "tau": 0.01, "contact_stiffness": "exact", "watch_stiffness": true})");
+          "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "alpha_m": 0.5, "beta": 0.8,
+          "policy": "substep", "memory": 0.5, "probe": false, "integrator": "leapfrog",
+          "gyroscopic": "explicit", "drift": "full", "tau": 0.01, "drift_order": 2,
+          "contact_stiffness": "exact", "watch_stiffness": true})");
   EXPECT_EQ(Json::parse(run.out, nullptr, false)["settings"], expected);
 }
 
@@ -175,7 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "--n-max: 0 is not a whole number from 1 to 10000"},
         BadCall{"SolverOfNoKind", "run bridge --solver xpbd", "--solver: xpbd is not pgs or bpp"},
         BadCall{"ModeOfNoKind", "hash bridge --mode fast",
-                "--mode: fast is not none, const, damping, adaptive or capped"},
+                "--mode: fast is not none, const, damping, adaptive, capped, stiffness, "
+                "inertia or blend"},
         BadCall{"NegativeSeconds", "run bridge --seconds -1", "not in range"},
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},

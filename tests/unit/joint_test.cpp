@@ -44,6 +44,48 @@ TEST(HingeJoint, GradientAndStiffnessMatchFiniteDifferences) {
   gradient_and_stiffness<HingeJoint>();
 }
 
+/// d2phi/dt2 of a joint against its errors a little earlier and later, at constant velocities.
+template <class JointType>
+void curvature() {
+  Random random(4);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Scene scene = joined<JointType>(random, trial % 4 == 0);
+    const std::size_t n = scene.bodies.size();
+    State state = initial_state(scene);
+    for (Vec6& u : state.u) u << random_vector(random), random_vector(random);
+    const auto phi_at = [&](double t) {
+      State then = state;
+      for (std::size_t i = 0; i < n; ++i) {
+        const Vec3 omega = state.u[i].tail<3>();
+        then.x[i] += t * state.u[i].head<3>();
+        then.q[i] = Quat(Eigen::AngleAxisd(t * omega.norm(), omega.normalized())) * state.q[i];
+      }
+      Blocks blocks;
+      JointStage(scene).append(scene, then, rotations(then), blocks);
+      return blocks.all()[0];
+    };
+    const double t = 1e-4;
+    const Block now = phi_at(0.0);
+    const Block before = phi_at(-t);
+    const Block after = phi_at(t);
+    const Vec3 omega_a = state.u[0].tail<3>();
+    const Vec3 omega_b = n > 1 ? Vec3(state.u[1].tail<3>()) : Vec3(Vec3::Zero());
+    double found[kMaxRows];
+    if constexpr (std::is_same_v<JointType, HingeJoint>) {
+      hinge_curvature(now, omega_a, omega_b, found);
+    } else {
+      ball_curvature(now, omega_a, omega_b, found);
+    }
+    for (int row = 0; row < now.rows; ++row) {
+      const double expected = (before.phi[row] - 2.0 * now.phi[row] + after.phi[row]) / (t * t);
+      EXPECT_NEAR(found[row], expected, 1e-6) << row;
+    }
+  }
+}
+
+TEST(BallJoint, CurvatureMatchesFiniteDifferences) { curvature<BallJoint>(); }
+TEST(HingeJoint, CurvatureMatchesFiniteDifferences) { curvature<HingeJoint>(); }
+
 TEST(HingeJoint, VectorsAcrossTheAxisAreOrthonormal) {
   Random random(2);
   for (int trial = 0; trial < 100; ++trial) {

@@ -35,6 +35,8 @@ Settings unusual() {
   s.n = 9;
   s.n_max = 99;
   s.n_cap = 5;
+  s.alpha_m = 0.6;
+  s.beta = 0.9;
   s.policy = Policy::kSubstep;
   s.memory = 0.8;
   s.probe = false;
@@ -42,6 +44,7 @@ Settings unusual() {
   s.gyroscopic = Gyroscopic::kExplicit;
   s.drift = Drift::kFull;
   s.drift_tau = 0.001;
+  s.drift_order = 2;
   s.contact_stiffness = ContactStiffness::kExact;
   return s;
 }
@@ -269,6 +272,7 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
   for (const char* name :
        {"bpp, const, euler", "bpp, const, leapfrog", "bpp, adaptive per frame, euler",
         "bpp, adaptive per sub-step, leapfrog", "bpp, damping, euler", "bpp, capped, euler",
+        "bpp, stiffness, euler", "bpp, inertia, leapfrog", "bpp, blend, euler",
         "pgs 25, const, euler", "pgs 25, adaptive per frame, euler", "pgs 25, damping, euler"}) {
     EXPECT_TRUE(series.contains(name)) << name;
   }

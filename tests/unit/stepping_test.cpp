@@ -1,8 +1,13 @@
 #include <cmath>
 
+#include "core/model/names.hpp"
+#include "core/stepping/damping.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/full_stiffness.hpp"
+#include "core/stepping/geometric_inertia.hpp"
 #include "core/stepping/gyroscopic.hpp"
+#include "core/stepping/integrate.hpp"
 #include "core/stepping/substep_clock.hpp"
 #include "tests/unit/support.hpp"
 
@@ -27,8 +32,8 @@ int deal(const Settings& settings, double r, double* sum = nullptr) {
 
 TEST(SubstepClock, DealsOutTheWholeFrame) {
   Random random(1);
-  for (const Mode mode :
-       {Mode::kNone, Mode::kConst, Mode::kDamping, Mode::kAdaptive, Mode::kCapped}) {
+  for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kDamping, Mode::kAdaptive, Mode::kCapped,
+                          Mode::kStiffness, Mode::kInertia, Mode::kBlend}) {
     for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
       for (int trial = 0; trial < 200; ++trial) {
         Settings settings;
@@ -62,7 +67,7 @@ TEST(SubstepClock, TakesTheCeilingOfEq11) {
 }
 
 TEST(SubstepClock, NeverPassesTheCapWhateverItIs) {
-  for (const Mode mode : {Mode::kAdaptive, Mode::kCapped}) {
+  for (const Mode mode : {Mode::kAdaptive, Mode::kCapped, Mode::kInertia, Mode::kBlend}) {
     for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
       for (int limit = 1; limit <= 512; ++limit) {
         Settings settings;
@@ -90,31 +95,135 @@ TEST(SubstepClock, PerSubstepTheMemoryFades) {
   EXPECT_DOUBLE_EQ(clock.r(), 8e5);
 }
 
-TEST(Damping, IsEq6OnTheAngularDegreesOfFreedomOnly) {
+/// One body that K holds back, as effective_mass() is given it.
+struct StiffBody {
+  StiffBody(const Settings& chosen, const Vec3& k_angular) : settings(chosen) {
+    scene.bodies = {moving(Box{Vec3{0.3, 0.2, 0.5}}, 2.0)};
+    scene.bodies[0].orientation = Quat(0.5, 0.5, 0.5, 0.5);
+    state = initial_state(scene);
+    Vec6 k;
+    k << 1e9, 1e9, 1e9, k_angular;  // what holds the body's place is the solver's
+    state.k = {k};
+    R = rotations(state);
+    // A torque against the angle, about the principal axes.
+    const Mat3 K = -R[0] * k_angular.asDiagonal() * R[0].transpose();
+    if (settings.mode == Mode::kStiffness) state.K_resisting = {resisting(K)};
+  }
+  [[nodiscard]] const Vec3& I() const { return scene.bodies[0].inertia; }
+
+  Settings settings;
   Scene scene;
-  scene.bodies = {moving(Box{Vec3{0.3, 0.2, 0.5}}, 2.0)};
-  scene.bodies[0].orientation = Quat(0.5, 0.5, 0.5, 0.5);
-  const State state = initial_state(scene);
-  const Vec3 I = scene.bodies[0].inertia;
-  const double alpha = 0.1;
-  const double dt = 0.01;
-  Vec6 k;
-  k << 1e9, 1e9, 1e9, 1e5, 2e5, 0.0;  // the last is below the threshold
-  std::vector<Vec6> ks{k};
-  std::vector<Vec6> u(1);
-  u[0] << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
-  const Vec3 omega_B = scene.bodies[0].orientation.conjugate() * Vec3(4.0, 5.0, 6.0);
+  State state;
+  std::vector<Mat3> R;
   std::vector<InverseMass> inverse;
-  damped_inverse_mass(scene, rotations(state), ks, alpha, dt, inverse, u);
-  EXPECT_DOUBLE_EQ(inverse[0].linear, 0.5);
-  EXPECT_EQ(Vec3(u[0].head<3>()), Vec3(1.0, 2.0, 3.0));
-  const Mat3 R = state.q[0].toRotationMatrix();
-  const Mat3 local = R.transpose() * inverse[0].angular * R;
-  const Vec3 turned = R.transpose() * Vec3(u[0].tail<3>());
+};
+
+TEST(Damping, IsEq6OnTheAngularDegreesOfFreedomOnly) {
+  Settings settings;
+  settings.mode = Mode::kDamping;
+  const double dt = 0.01;
+  StiffBody body(settings, {1e5, 2e5, 0.0});  // the last is below the threshold
+  body.state.u[0] << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
+  const std::vector<Vec6> before{Vec6::Constant(7.0)};  // damping keeps nothing of it
+  const Vec3 omega_B = body.R[0].transpose() * Vec3(4.0, 5.0, 6.0);
+  inverse_mass(body.scene, body.R, body.inverse);
+  effective_mass(body.scene, settings, body.R, before, dt, body.state, body.inverse);
+  EXPECT_DOUBLE_EQ(body.inverse[0].linear, 0.5);
+  EXPECT_EQ(Vec3(body.state.u[0].head<3>()), Vec3(1.0, 2.0, 3.0));
+  const Mat3 local = body.R[0].transpose() * body.inverse[0].angular * body.R[0];
+  const Vec3 turned = body.R[0].transpose() * Vec3(body.state.u[0].tail<3>());
   for (int i = 0; i < 3; ++i) {
-    const double b = std::max(0.0, (dt * dt * k[3 + i] - 4.0 * alpha * I[i]) / dt);
-    EXPECT_NEAR(local(i, i), 1.0 / (I[i] + dt * b), 1e-12);
-    EXPECT_NEAR(turned[i], omega_B[i] * I[i] / (I[i] + dt * b), 1e-12);
+    const double k = body.state.k[0][3 + i];
+    const double I = body.I()[i];
+    const double b = std::max(0.0, (dt * dt * k - 4.0 * settings.alpha * I) / dt);
+    EXPECT_NEAR(local(i, i), 1.0 / (I + dt * b), 1e-12);
+    EXPECT_NEAR(turned[i], omega_B[i] * I / (I + dt * b), 1e-12);
+  }
+}
+
+/// An oscillator of one body about a principal axis: torque -growth k angle, while the mode knows
+/// only of k. @return largest |angle| of the last tenth of the steps over that of the first
+double growth_of_swing(const Settings& settings, double kappa, double growth) {
+  constexpr double kDt = 0.01;
+  constexpr int kSteps = 4000;
+  const double I = StiffBody(settings, Vec3::Zero()).I()[1];
+  const double k = kappa * I / (kDt * kDt);
+  StiffBody body(settings, {0.0, k, 0.0});
+  const Vec3 axis = body.R[0].col(1);
+  double angle = 1.0;
+  double dt_previous = 0.0;
+  double first = 0.0;
+  double last = 0.0;
+  for (int step = 0; step < kSteps; ++step) {
+    const std::vector<Vec6> u_start = body.state.u;
+    inverse_mass(body.scene, body.R, body.inverse);
+    const double time = force_time(settings.integrator, dt_previous, kDt);
+    body.state.u[0].tail<3>() -= axis * (time * growth * k * angle / I);
+    if (changes_mass(settings.mode)) {
+      effective_mass(body.scene, settings, body.R, u_start, kDt, body.state, body.inverse);
+    }
+    angle += kDt * axis.dot(body.state.u[0].tail<3>());
+    dt_previous = kDt;
+    if (!(std::abs(angle) < 1e30)) return 1e30;
+    if (step < kSteps / 10) first = std::max(first, std::abs(angle));
+    if (step >= kSteps - kSteps / 10) last = std::max(last, std::abs(angle));
+  }
+  return last / first;
+}
+
+/// By how much the force may grow past the k that a mode knows before the swing grows.
+double largest_growth(const Settings& settings, double kappa) {
+  double holds = 0.0;
+  double fails = 1e4;
+  while (fails - holds > 1e-4 * fails) {
+    const double middle = 0.5 * (holds + fails);
+    (growth_of_swing(settings, kappa, middle) < 2.0 ? holds : fails) = middle;
+  }
+  return holds;
+}
+
+// Eq. 5's model and the arguments of damping.hpp and geometric_inertia.hpp: predicted and measured.
+TEST(Oscillator, EveryModeIsStableJustAsFarAsItsArgumentSays) {
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+    for (const double kappa : {0.5, 5.0, 300.0}) {  // dt^2 k/M; without a mode 4 is the limit
+      const auto expect = [&](Mode mode, double Mt, double kept) {
+        Settings settings;
+        settings.mode = mode;
+        settings.integrator = integrator;
+        settings.alpha = 0.4;
+        settings.beta = 0.9;
+        const double predicted = 2.0 * (1.0 + kept) * Mt / kappa;
+        EXPECT_NEAR(largest_growth(settings, kappa) / predicted, 1.0, 2e-3)
+            << name_of(mode) << " kappa " << kappa;
+        EXPECT_TRUE(mode == Mode::kNone || kappa < 1.0 || predicted > 1.0);
+      };
+      const Settings defaults;
+      expect(Mode::kNone, 1.0, 1.0);
+      const double damped = damped_mass(1.0, kappa, 0.4, 1.0);
+      expect(Mode::kDamping, damped, 1.0 / damped);
+      expect(Mode::kStiffness, 1.0 + kappa, 1.0 / (1.0 + kappa));
+      const double stiffened = stiffened_mass(1.0, kappa, defaults.alpha_m, 1.0);
+      expect(Mode::kInertia, stiffened, 1.0);
+      expect(Mode::kBlend, stiffened, 0.9 + 0.1 / stiffened);
+    }
+  }
+}
+
+TEST(FullStiffness, KeepsWhatResistsARotation) {
+  Random random(8);
+  for (int trial = 0; trial < 200; ++trial) {
+    Mat3 K;
+    for (int i = 0; i < 9; ++i) K(i % 3, i / 3) = uniform(random);
+    const Mat3 P = resisting(K);
+    EXPECT_LT((P - P.transpose()).norm(), 1e-14);
+    // P >= 0, P + K_sym >= 0, and nothing more than is needed: P (P + K_sym) = 0.
+    const Mat3 S = 0.5 * (K + K.transpose());
+    for (int probe = 0; probe < 20; ++probe) {
+      const Vec3 x = random_vector(random);
+      EXPECT_GE(x.dot(P * x), -1e-14);
+      EXPECT_GE(x.dot((P + S) * x), -1e-14);
+    }
+    EXPECT_LT((P * (P + S)).norm(), 1e-13);
   }
 }
 

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <algorithm>
+
+namespace substep {
+
+// A degree of freedom with mass M and a spring k, as semi-implicit Euler steps it (Eq. 5's model):
+//   u+ = u - dt k x / M,  x+ = x + dt u+,  so  u++ - (2 - kappa) u+ + u = 0,  kappa = dt^2 k/M.
+// The roots leave the unit circle at kappa = 4. A mass Mt in the place of M on the left alone,
+//   Mt u+ = M u - dt k x,  gives  z^2 - (1 + M/Mt - dt^2 k/Mt) z + M/Mt = 0,
+// whose roots stay within it while dt^2 k <= 2 (M + Mt), and lose the factor sqrt(M/Mt) a step.
+
+/// Adaptive damping (Andrews et al. 2017; Eq. 6): Mt = M + dt b with
+/// b = max(0, (dt^2 k - 4 alpha M)/dt). Stable for every k and alpha <= 1: where b > 0,
+/// 2 (M + Mt) - dt^2 k = dt^2 k + 4 M (1 - 2 alpha) > 4 M (1 - alpha). @param mass of the degree of
+/// freedom [kg m^2]  @param k [N m/rad]  @param dt [s]
+inline double damped_mass(double mass, double k, double alpha, double dt) {
+  return mass + std::max(0.0, dt * dt * k - 4.0 * alpha * mass);
+}
+
+}  // namespace substep

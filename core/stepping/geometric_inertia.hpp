@@ -1,0 +1,20 @@
+#pragma once
+
+#include <algorithm>
+
+namespace substep {
+
+// With Mt in the place of M on both sides, Mt (u+ - u) = -dt k x, a step is that of a body of mass
+// Mt: it turns more slowly and loses nothing, and it is stable while dt^2 k/Mt < 4 (see
+// damping.hpp). Between the two, a share beta of the velocity term taken with Mt and the rest with
+// M,
+//   Mt u+ = (beta Mt + (1 - beta) M) u - dt k x,
+// the step loses the factor sqrt(beta + (1 - beta) M/Mt).
+
+/// Geometric inertia: the least mass >= M with dt^2 k/Mt <= 4 alpha_m. Stable for every k where
+/// alpha_m < 1. @param mass of the degree of freedom [kg m^2]  @param k [N m/rad]  @param dt [s]
+inline double stiffened_mass(double mass, double k, double alpha_m, double dt) {
+  return std::max(mass, dt * dt * k / (4.0 * alpha_m));
+}
+
+}  // namespace substep

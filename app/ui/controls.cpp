@@ -132,7 +132,7 @@ void stabilisation(const Look& look, Settings& s) {
            "Sub-steps up to here; at dt = h/N cap the mode takes over what they do not reach.");
   }
   if (s.mode == Mode::kInertia || s.mode == Mode::kBlend) {
-    slider(look, "Alpha m  αm", s.alpha_m, 0.1, 0.99, false, "%.2f",
+    slider(look, "Alpha m", s.alpha_m, 0.1, 0.99, false, "%.2f",
            "How near to the limit of stability the larger inertia goes: forces may grow by 1/αm "
            "from one sub-step to the next. Less is safer and less exact.");
   }

@@ -1,0 +1,223 @@
+// Which nodes there are, what each is coupled to, and by which way it is factored. Found anew only
+// where constraints come or go.
+
+#include <algorithm>
+
+#include "core/solver/saddle_ldlt.hpp"
+
+namespace substep {
+
+namespace {
+
+// A row is folded if 1/s exceeds what the row sees of its bodies' inertia by at most this: as many
+// digits of the inertia are lost.
+constexpr double kFold = 1e7;
+constexpr int kBareRows = 8;  // more rows are cheaper when folded
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// Largest J Mt^-1 J^T that a row can have on one body.
+double mobility(const double (&J)[6], const InverseMass& mass) {
+  return mass.linear * (J[0] * J[0] + J[1] * J[1] + J[2] * J[2]) +
+         mass.angular.trace() * (J[3] * J[3] + J[4] * J[4] + J[5] * J[5]);
+}
+
+}  // namespace
+
+void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
+  constexpr std::size_t kCoupled = 4;  // typical of a body
+  constexpr std::size_t kRows = 8;
+  constexpr std::size_t kWidth = 6 * kCoupled;
+  order_.reserve(bodies, blocks);
+  keys_.reserve(blocks);
+  found_.reserve(blocks);
+  nodes_.reserve(bodies);
+  node_of_block_.reserve(blocks);
+  attached_.reserve(blocks);
+  coupled_.reserve(bodies * kCoupled);
+  place_.reserve(bodies * kCoupled);
+  children_.reserve(bodies);
+  rows_.reserve(blocks * kMaxRows);
+  joints_.reserve(bodies);
+  values_.reserve(bodies * (42 + 6 * kWidth + kRows * (7 + kRows + kWidth) + kWidth * kWidth));
+  inverse_mass_.reserve(bodies);
+  u_star_.reserve(bodies);
+  w_.reserve(blocks * kMaxRows);
+  v_.reserve(bodies);
+  c_.reserve(blocks * kMaxRows);
+}
+
+bool SaddleLdlt::foldable(const Block& block, const System& system) const {
+  for (int row = 0; row < block.rows; ++row) {
+    const double s = block.softness[row];
+    if (s == 0.0) return false;
+    double most = 0.0;
+    if (block.a >= 0) most += mobility(block.J_a[row], system.inverse_mass[index(block.a)]);
+    if (block.b >= 0) most += mobility(block.J_b[row], system.inverse_mass[index(block.b)]);
+    if (!(most <= kFold * s)) return false;
+  }
+  return true;
+}
+
+void SaddleLdlt::begin(const System& system) {
+  flops_ = 0;
+  inverse_mass_.assign(system.inverse_mass.begin(), system.inverse_mass.end());
+  u_star_.assign(system.u.begin(), system.u.end());
+  if (!layout_is_the_same(system)) lay_out(system);
+  w_.resize(system.blocks.size() * kMaxRows);
+  for (Node& node : nodes_) {
+    node.dirty = true;
+    if (node.way == Way::kArticulated) {
+      const Attached& attached = attached_[node.first_attached];
+      joints_[node.joint].read(system.blocks[index(attached.block)], attached.is_a, u_star_);
+    } else {
+      read_rows(node, system);
+    }
+  }
+}
+
+void SaddleLdlt::read_rows(const Node& node, const System& system) {
+  for (std::size_t k = 0; k < node.n_attached; ++k) {
+    const int i = attached_[node.first_attached + k].block;
+    const Block& block = system.blocks[index(i)];
+    double* w = w_.data() + index(i) * kMaxRows;
+    row_speeds(block, system.u, w);
+    for (int row = 0; row < block.rows; ++row) w[row] += block.bias[row];
+  }
+}
+
+bool SaddleLdlt::layout_is_the_same(const System& system) {
+  found_.clear();
+  for (const Block& block : system.blocks) found_.push_back({block.a, block.b, block.rows});
+  const bool other_graph = order_.update(system.blocks, system.u.size());
+  if (other_graph || found_ != keys_) {
+    std::swap(found_, keys_);
+    return false;
+  }
+  for (const Node& node : nodes_) {
+    if (node.way != Way::kGeneral) continue;
+    for (std::size_t k = 0; k < node.n_attached; ++k) {
+      const Attached& attached = attached_[node.first_attached + k];
+      if (attached.foldable != foldable(system.blocks[index(attached.block)], system)) return false;
+    }
+  }
+  return true;
+}
+
+void SaddleLdlt::lay_out(const System& system) {
+  nodes_.clear();
+  coupled_.clear();
+  for (const int body : order_.order()) {
+    Node node;
+    node.body = body;
+    node.first_coupled = coupled_.size();
+    for (const int other : order_.coupled(body)) coupled_.push_back(order_.position(other));
+    node.coupled = static_cast<int>(coupled_.size() - node.first_coupled);
+    if (node.coupled > 0) node.parent = coupled_[node.first_coupled];
+    nodes_.push_back(node);
+  }
+  // What a node leaves goes to the first of its coupled bodies, and with it to its coupled bodies.
+  place_.resize(coupled_.size());
+  for (const Node& node : nodes_) {
+    if (node.parent < 0) continue;
+    Node& parent = nodes_[index(node.parent)];
+    ++parent.n_children;
+    const int* own = coupled_.data() + node.first_coupled;
+    const int* others = coupled_.data() + parent.first_coupled;
+    int at = 0;
+    place_[node.first_coupled] = -1;
+    for (int i = 1; i < node.coupled; ++i) {
+      while (others[at] != own[i]) ++at;
+      place_[node.first_coupled + index(i)] = at;
+    }
+  }
+  children_.resize(nodes_.size());
+  std::size_t first_child = 0;
+  for (Node& node : nodes_) {
+    node.first_child = first_child;
+    first_child += node.n_children;
+    node.n_children = 0;
+  }
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].parent < 0) continue;
+    Node& parent = nodes_[index(nodes_[i].parent)];
+    children_[parent.first_child + parent.n_children++] = static_cast<int>(i);
+  }
+
+  attach(system.blocks);
+  joints_.clear();
+  std::size_t values = 0;
+  std::size_t rows = 0;
+  for (Node& node : nodes_) {
+    choose_way(node, system);
+    const std::size_t w = index(width(node));
+    const std::size_t r = index(node.most_rows);
+    node.values = values;
+    if (node.way != Way::kArticulated) values += 42 + 6 * w + r * (7 + r + w);
+    node.update = values;
+    values += w * w;
+    node.first_row = rows;
+    rows += r;
+  }
+  values_.resize(values);
+  rows_.resize(rows);
+  c_.resize(rows);
+  v_.resize(nodes_.size());
+}
+
+void SaddleLdlt::attach(std::span<const Block> blocks) {
+  node_of_block_.resize(blocks.size());
+  attached_.resize(blocks.size());
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const Block& block = blocks[i];
+    const int a = block.a < 0 ? -1 : order_.position(block.a);
+    const int b = block.b < 0 ? -1 : order_.position(block.b);
+    node_of_block_[i] = a < 0 ? b : b < 0 ? a : std::min(a, b);
+    ++nodes_[index(node_of_block_[i])].n_attached;
+  }
+  std::size_t first = 0;
+  for (Node& node : nodes_) {
+    node.first_attached = first;
+    first += node.n_attached;
+    node.n_attached = 0;
+  }
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Node& node = nodes_[index(node_of_block_[i])];
+    Attached attached;
+    attached.block = static_cast<int>(i);
+    attached.is_a = blocks[i].a == node.body;
+    const int other = attached.is_a ? blocks[i].b : blocks[i].a;
+    if (other >= 0) {
+      const int* list = coupled_.data() + node.first_coupled;
+      attached.other =
+          static_cast<int>(std::find(list, list + node.coupled, order_.position(other)) - list);
+    }
+    attached_[node.first_attached + node.n_attached++] = attached;
+  }
+}
+
+void SaddleLdlt::choose_way(Node& node, const System& system) {
+  const std::span<const Block> blocks = system.blocks;
+  Attached* attached = attached_.data() + node.first_attached;
+  const int* children = children_.data() + node.first_child;
+  const bool in_tree = std::all_of(children, children + node.n_children,
+                                   [&](int child) { return nodes_[index(child)].coupled == 1; });
+  if (in_tree && node.n_attached == 1 && blocks[index(attached[0].block)].pinned &&
+      node.coupled == (attached[0].other < 0 ? 0 : 1)) {
+    node.way = Way::kArticulated;
+    node.joint = joints_.size();
+    joints_.emplace_back();
+    return;
+  }
+  int rows = 0;
+  for (std::size_t k = 0; k < node.n_attached; ++k) rows += blocks[index(attached[k].block)].rows;
+  node.way = node.n_children == 0 && rows <= kBareRows ? Way::kBare : Way::kGeneral;
+  for (std::size_t k = 0; k < node.n_attached; ++k) {
+    const Block& block = blocks[index(attached[k].block)];
+    attached[k].foldable = foldable(block, system);
+    attached[k].folded = node.way == Way::kGeneral && attached[k].foldable;
+    if (!attached[k].folded) node.most_rows += block.rows;
+  }
+}
+
+}  // namespace substep

@@ -15,6 +15,7 @@ inline constexpr int kCancelled = 130;  // as shells have it for Ctrl-C
 // Each adds its subcommand. The result is the exit code of the one that ran.
 void add_run(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
+void add_cost(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);

@@ -14,8 +14,9 @@
 #include "core/io/experiment.hpp"
 #include "core/io/frame_columns.hpp"
 #include "core/io/json.hpp"
+#include "core/io/result.hpp"
 #include "core/lab/experiment.hpp"
-#include "core/lab/verdict.hpp"
+#include "core/lab/metrics.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep::cli {
@@ -49,12 +50,13 @@ std::string json_head(const Scene& scene, const Settings& settings) {
   return text + "},\n  \"frames\": [";
 }
 
-std::string json_tail(const Verdict& verdict, const State& state) {
+std::string json_tail(const Metrics& metrics) {
   char hash[32];
-  std::snprintf(hash, sizeof hash, "%016" PRIx64, state_hash(state));
-  return std::string("\n  ],\n  \"hash\": \"") + hash +
-         "\",\n  \"holds\": " + (verdict.holds() ? "true" : "false") +
-         ",\n  \"verdict\": " + json_text(verdict.text()) + "\n}\n";
+  std::snprintf(hash, sizeof hash, "%016" PRIx64, metrics.hash);
+  return "\n  ],\n  \"work\": " + work_json(metrics.work).dump() +
+         ",\n  \"timing\": " + timing_json(metrics.timing).dump() + ",\n  \"hash\": \"" + hash +
+         "\",\n  \"holds\": " + (metrics.holds ? "true" : "false") +
+         ",\n  \"verdict\": " + json_text(metrics.verdict) + "\n}\n";
 }
 
 int run(const Options& options) {
@@ -69,7 +71,9 @@ int run(const Options& options) {
   Simulator simulator(scene);
   simulator.set_settings(options.settings.applied_to(scene->settings));
   const FrameReport start = simulator.observe();
-  Verdict verdict(*scene, simulator.state(), start);
+  const Reference no_reference;
+  Measure measure(*scene, simulator.state(), start, no_reference);
+  const Verdict& verdict = measure.verdict();
   RunReport report(*scene, start);
   ProgressLine progress(!options.quiet && stderr_is_terminal());
   const auto columns = frame_columns(*scene);
@@ -80,7 +84,7 @@ int run(const Options& options) {
   const char* separator = "\n    ";
   for (std::int64_t i = 0; i < frames && !verdict.not_finite(); ++i) {
     const FrameReport frame = simulator.step();
-    verdict.add(*scene, simulator.state(), frame);
+    measure.add(*scene, simulator.state(), frame, frame.times.total);
     report.add(frame);
     if (progress.due()) progress.show(report.progress(frames));
     const FrameView view{*scene, frame, simulator.state()};
@@ -91,7 +95,7 @@ int run(const Options& options) {
     }
   }
   progress.clear();
-  if (json.is_open()) json.write(json_tail(verdict, simulator.state()));
+  if (json.is_open()) json.write(json_tail(measure.metrics(*scene, simulator.state())));
   if (!csv.close() || !json.close()) return kBadInput;
 
   // Where a result takes standard output, words for people go to stderr.
@@ -113,7 +117,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
   options->length.add_to(*command);
   command->add_option("--csv", options->csv, "write one line per frame to this file, - for stdout");
-  command->add_option("--json", options->json, "the same as JSON, with settings and verdict");
+  command->add_option("--json", options->json,
+                      "the same as JSON, with settings, verdict, and work and time by stage");
   command->add_option("--load", options->load, "factor on the mass of the heaviest body")
       ->check(CLI::Range(kLoadRange.least, kLoadRange.most));
   command->add_option("--seed", options->seed, "nudge the start by up to 1e-9 m/s")

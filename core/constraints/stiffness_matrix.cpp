@@ -38,6 +38,13 @@ Mat6 StiffnessMatrix::block(int row, int col) const {
   return Mat6::Zero();
 }
 
+// Of every block its columns are turned, squared and summed; of every column one root is taken.
+std::int64_t StiffnessMatrix::norm_flops() const {
+  constexpr std::int64_t kOfBlock = 2 * 6 * 3 * (3 + 2) + 2 * 6 * 6;
+  const auto bodies = static_cast<std::int64_t>(diagonal_.size());
+  return (bodies + static_cast<std::int64_t>(entries_.size())) * kOfBlock + 6 * bodies;
+}
+
 void StiffnessMatrix::column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const {
   // A norm does not change with the axes of the rows, so only the columns are turned.
   const auto add_squares = [](const Mat6& K, const Mat3& R, Vec6& sum) {

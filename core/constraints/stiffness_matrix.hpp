@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,6 +26,9 @@ class StiffnessMatrix {
   /// K_d (Eq. 4): the 2-norm of every column, columns taken along the body's principal axes.
   /// @param R_WB rotation per body  @param k out, 6 per body [N/m, N m/rad], >= 0
   void column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const;
+
+  /// Floating-point operations of column_norms, additions, multiplications and roots.
+  [[nodiscard]] std::int64_t norm_flops() const;
 
   /// The block of one pair, zero where there is none.
   [[nodiscard]] Mat6 block(int row, int col) const;

@@ -41,6 +41,12 @@ Json reference_json(const ReferenceSummary& r) {
           {"energy_scale_source", r.energy_scale_source}};
 }
 
+Json rows_json(const RowCounts& r) {
+  return {{"joint", r.joint}, {"contact", r.contact}, {"friction", r.friction}};
+}
+
+}  // namespace
+
 Json work_json(const Work& w) {
   return {{"frames", w.frames},
           {"substeps", w.substeps},
@@ -51,6 +57,8 @@ Json work_json(const Work& w) {
           {"unsettled", w.unsettled},
           {"unsolved", w.unsolved},
           {"flops", w.flops},
+          {"rows", rows_json(w.rows)},
+          {"criterion", {{"evaluations", w.criterion.evaluations}, {"flops", w.criterion.flops}}},
           {"n_min", w.n_min},
           {"n_median", w.n_median},
           {"n_max", w.n_max}};
@@ -72,7 +80,15 @@ Json timing_json(const Timing& t) {
             {"total", s.total}}}};
 }
 
-}  // namespace
+Json costs_json(const CostBreakdown& costs) {
+  Json json{{"work", work_json(costs.run.work)}, {"timing", timing_json(costs.run.timing)}};
+  Json& effects = json["effects"] = Json::object();
+  for (const EffectCost& effect : costs.effects) {
+    effects[std::string(effect.effect)] = {
+        {"ms", effect.ms}, {"flops", effect.flops}, {"row_updates", effect.row_updates}};
+  }
+  return json;
+}
 
 std::string results_header() {
   Json json;

@@ -8,6 +8,7 @@
 
 #include "core/io/json.hpp"
 #include "core/io/problem.hpp"
+#include "core/lab/effect_cost.hpp"
 #include "core/lab/experiment_run.hpp"
 
 namespace substep {
@@ -22,6 +23,13 @@ void check_results_header(std::string_view line, Problems& problems);
 /// One result as a line, without line feed. The part "timing" is this machine's; all else is the
 /// same everywhere.
 Json result_json(const Result& result);
+
+/// Its parts "work" and "timing".
+Json work_json(const Work& work);
+Json timing_json(const Timing& timing);
+
+/// Work and times of a run by stage and by row kind, and what each effect adds to a frame.
+Json costs_json(const CostBreakdown& costs);
 
 /// The id of a line that has the parts of a result. Notes what is wrong with it otherwise.
 std::optional<std::string> result_id(const Json& line, Problems& problems);

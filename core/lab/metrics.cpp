@@ -38,8 +38,9 @@ bool is_isolated(const Scene& scene) {
 
 void add_times(const StageTimes& frame, StageTimes& sum) {
   for (double StageTimes::*stage :
-       {&StageTimes::joints, &StageTimes::contact, &StageTimes::friction, &StageTimes::mass,
-        &StageTimes::solve, &StageTimes::stiffness, &StageTimes::integrate, &StageTimes::total}) {
+       {&StageTimes::joints, &StageTimes::contact, &StageTimes::friction, &StageTimes::grab,
+        &StageTimes::mass, &StageTimes::solve, &StageTimes::stiffness, &StageTimes::integrate,
+        &StageTimes::total}) {
     sum.*stage += frame.*stage;
   }
 }
@@ -81,6 +82,8 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
   work_.unsettled += report.work.unsettled;
   work_.unsolved += report.work.unsolved;
   work_.flops += report.work.flops;
+  work_.rows += report.work.rows;
+  work_.criterion += report.criterion;
   n_.push_back(report.n_substeps);
   seconds_.push_back(seconds);
   add_times(report.times, stages_);

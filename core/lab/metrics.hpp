@@ -47,7 +47,9 @@ struct Work {
   std::int64_t unsettled = 0;
   std::int64_t unsolved = 0;
   std::int64_t flops = 0;  // of the solver
-  int n_min = 0;           // sub-steps of a frame
+  RowCounts rows;          // of all solves, by kind
+  CriterionWork criterion;
+  int n_min = 0;  // sub-steps of a frame
   int n_median = 0;
   int n_max = 0;
 

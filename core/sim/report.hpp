@@ -22,9 +22,27 @@ struct StiffnessLeader {
   double r = 0.0;     // k / mass [1/s^2]
 };
 
+/// Rows by kind.
+struct RowCounts {
+  std::int64_t joint = 0;
+  std::int64_t contact = 0;  // normals
+  std::int64_t friction = 0;
+  std::int64_t grab = 0;  // a hand
+
+  RowCounts& operator+=(const RowCounts& other) {
+    joint += other.joint;
+    contact += other.contact;
+    friction += other.friction;
+    grab += other.grab;
+    return *this;
+  }
+  friend bool operator==(const RowCounts&, const RowCounts&) = default;
+};
+
 /// What the solver did, summed over the sub-steps of a frame.
 struct SolverWork {
   std::int64_t solves = 0;
+  RowCounts rows;  // of all solves: what a kind of row costs, PGS visits each once an iteration
   std::int64_t iterations = 0;   // PGS sweeps
   std::int64_t row_updates = 0;  // PGS: rows visited
   std::int64_t pivots = 0;       // BPP: changes of the active set
@@ -37,11 +55,25 @@ struct SolverWork {
                                // complementarity [m/s]
 };
 
+/// What the criterion costs: K, its column norms and r, as often as they were evaluated.
+struct CriterionWork {
+  std::int64_t evaluations = 0;
+  std::int64_t flops = 0;  // counted as the solver's are
+
+  CriterionWork& operator+=(const CriterionWork& other) {
+    evaluations += other.evaluations;
+    flops += other.flops;
+    return *this;
+  }
+  friend bool operator==(const CriterionWork&, const CriterionWork&) = default;
+};
+
 /// Wall time by stage [s]. A stage that the scene does not call for stays 0.
 struct StageTimes {
   double joints = 0.0;
   double contact = 0.0;
   double friction = 0.0;
+  double grab = 0.0;
   double mass = 0.0;
   double solve = 0.0;
   double stiffness = 0.0;
@@ -90,6 +122,7 @@ struct FrameReport {
   int contact_rows = 0;   // normals, in the last sub-step
   int friction_rows = 0;  // in the last sub-step
   SolverWork work;
+  CriterionWork criterion;
   StageTimes times;
   StagesRun stages;
 };

@@ -31,6 +31,24 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   u_before.resize(n);
 }
 
+RowCounts Simulator::Impl::rows_by_kind() const {
+  RowCounts rows;
+  for (const Block& block : blocks.all()) {
+    if (block.is_contact()) {
+      ++rows.contact;
+      rows.friction += block.rows - 1;
+    } else {
+      rows.joint += block.rows;
+    }
+  }
+  if (grab && blocks.size() > 0) {  // the last block is the hand's
+    const int held = blocks.all().back().rows;
+    rows.joint -= held;
+    rows.grab = held;
+  }
+  return rows;
+}
+
 bool Simulator::Impl::probe_due() const {
   const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
   return settings.probe && reads_stiffness && !state.stiffness_known;
@@ -98,14 +116,10 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
   report.stages.friction = friction != nullptr;
   report.stages.restitution = restitution != nullptr;
   report.work.residual = lcp_residual({blocks.all(), inverse_mass, state.u});
-  for (const Block& block : blocks.all()) {
-    if (block.is_contact()) {
-      ++report.contact_rows;
-      report.friction_rows += block.rows - 1;
-    } else {
-      report.joint_rows += block.rows;
-    }
-  }
+  const RowCounts rows = rows_by_kind();
+  report.joint_rows = static_cast<int>(rows.joint + rows.grab);
+  report.contact_rows = static_cast<int>(rows.contact);
+  report.friction_rows = static_cast<int>(rows.friction);
   observe(report);
   if (report.status != StepStatus::kOk) stopped = report;
 }

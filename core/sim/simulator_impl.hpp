@@ -31,6 +31,7 @@ struct Simulator::Impl {
   void evaluate_stiffness(FrameReport& report);
   void advance_poses(double dt, FrameReport& report);
 
+  RowCounts rows_by_kind() const;
   bool probe_due() const;
   void probe(FrameReport& report);
   void seed_forces();

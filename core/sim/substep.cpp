@@ -46,6 +46,7 @@ void Simulator::Impl::append_rows(FrameReport& report) {
   if (grab) {
     const auto body = static_cast<std::size_t>(grab->body);
     grab_rows(*grab, {state.x[body], R_WB[body]}, blocks.append());
+    clock.lap(report.times.grab);
   }
 }
 
@@ -105,6 +106,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
 
   SolverWork& work = report.work;
   ++work.solves;
+  work.rows += rows_by_kind();
   work.iterations += solved.iterations;
   work.row_updates += solved.row_updates;
   work.pivots += solved.pivots;
@@ -144,6 +146,8 @@ void Simulator::Impl::evaluate_stiffness(FrameReport& report) {
     }
   }
   bound = StiffnessStage::bound(*scene, state.k);
+  ++report.criterion.evaluations;
+  report.criterion.flops += stiffness->flops(blocks.all(), settings.contact_stiffness);
   report.stages.stiffness = true;
   clock.lap(report.times.stiffness);
 }

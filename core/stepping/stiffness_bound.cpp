@@ -3,8 +3,38 @@
 #include "core/constraints/ball_joint.hpp"
 #include "core/constraints/contact.hpp"
 #include "core/constraints/hinge_joint.hpp"
+#include "core/solver/flops.hpp"
 
 namespace substep {
+namespace {
+
+constexpr std::int64_t kProduct = product_flops(3, 3, 3);
+constexpr std::int64_t kSum = 9;
+
+std::int64_t exact_contact_flops(std::int64_t bodies) {
+  const std::int64_t normal = 2 * kProduct + kSum;  // N_b, H r
+  const std::int64_t torques =
+      4 * product_flops(3, 3, 6) + 2 * kProduct + 5 * kSum;  // by each body
+  return normal + torques + bodies * bodies * 2 * 36;        // scaled, added
+}
+
+/// Of adding one block to K, as core/constraints/ does it.
+std::int64_t block_flops(const Block& block, ContactStiffness form) {
+  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+  const std::int64_t ball = bodies * (kProduct + kSum);
+  switch (block.kind) {
+    case BlockKind::kBall:
+      return ball;
+    case BlockKind::kHinge:  // V U and U V of two rows, on each body and between both
+      return ball + 2 * (2 * (kProduct + kSum) + bodies * bodies * kSum);
+    case BlockKind::kContact:
+      if (form == ContactStiffness::kPaper) return 3 + (block.rows == 3 ? 12 : 0) + ball;
+      return block.lambda[0] == 0.0 ? 0 : exact_contact_flops(bodies);
+  }
+  return 0;
+}
+
+}  // namespace
 
 StiffnessStage::StiffnessStage(const Scene& scene) {
   K_.reserve(scene.bodies.size(), 2 * scene.joints.size() + 4 * scene.bodies.size());
@@ -32,6 +62,12 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness fo
   }
   k.resize(R_WB.size());
   K_.column_norms(R_WB, k);
+}
+
+std::int64_t StiffnessStage::flops(std::span<const Block> blocks, ContactStiffness form) const {
+  std::int64_t sum = K_.norm_flops();
+  for (const Block& block : blocks) sum += block_flops(block, form);
+  return sum;
 }
 
 StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const Vec6> k) {

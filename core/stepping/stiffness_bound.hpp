@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "core/constraints/block.hpp"
@@ -28,6 +29,8 @@ class StiffnessStage {
                 std::vector<Vec6>& k);
   /// r = max k_i / M_ii over the moving bodies (Eq. 9).
   [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const Vec6> k);
+  /// Floating-point operations of the last evaluate(), which had these blocks.
+  [[nodiscard]] std::int64_t flops(std::span<const Block> blocks, ContactStiffness form) const;
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
 
  private:

@@ -111,9 +111,30 @@ TEST(CommandLine, JsonHasSettingsFramesAndVerdict) {
   EXPECT_EQ(json["frames"].size(), 3U);
   EXPECT_EQ(json["frames"][2]["substeps"], 2);
   EXPECT_TRUE(json["frames"][0]["dt_stable"].is_null());
+  EXPECT_EQ(json["work"]["substeps"], 6);
+  EXPECT_GT(json["timing"]["stages"]["total"], 0.0);
   EXPECT_EQ(json["holds"], true);
   EXPECT_EQ(json["verdict"], "holds");
   EXPECT_EQ(json["hash"].get<std::string>().size(), 16U);
+}
+
+TEST(CommandLine, CostTellsStagesRowsEffectsAndTheCriterion) {
+  const Outcome people = substep("cost bridge --seconds 0.5");
+  ASSERT_EQ(people.exit_code, 0) << people.err;
+  for (const char* line : {"\njoint rows ", "\nsolve ", "\ncriterion ", "\nfriction ",
+                           "The criterion: ", "\nholds\n"}) {
+    EXPECT_NE(people.out.find(line), std::string::npos) << line << people.out;
+  }
+  const Outcome run = substep("cost bridge --seconds 0.5 --solver pgs --json -");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const Json json = Json::parse(run.out, nullptr, false);
+  ASSERT_TRUE(json.is_object()) << run.out;
+  EXPECT_EQ(json["settings"]["solver"], "pgs");
+  EXPECT_GT(json["work"]["rows"]["friction"], 0);
+  EXPECT_GT(json["work"]["criterion"]["flops"], 0);
+  EXPECT_GT(json["timing"]["stages"]["solve"], 0.0);
+  EXPECT_GT(json["effects"]["friction"]["flops"], 0.0);
+  EXPECT_FALSE(json["effects"].contains("restitution"));
 }
 
 TEST(CommandLine, EverySettingIsAFlag) {
@@ -184,7 +205,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
         BadCall{"UnknownCommand", "chek",
-                "chek is not run, sweep, merge, reproduce, check, hash, scenes or generate (did "
+                "chek is not run, sweep, cost, merge, reproduce, check, hash, scenes or generate (did "
                 "you mean \"check\"?)"},
         BadCall{"NoCommand", "", "subcommand"},
         BadCall{"NoScene", "run", "scene or --experiments is required"},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 #include <random>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "core/io/result.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/io/setting_fields.hpp"
+#include "core/lab/effect_cost.hpp"
 #include "core/lab/pareto.hpp"
 #include "core/lab/sweep.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -229,18 +231,21 @@ TEST(Metrics, AFailedRunEndsThereAndHasNoTrajectoryError) {
   EXPECT_EQ(result_id(json, problems), experiment_id(run.experiment()));
 }
 
+Work work_of(const Scene& scene, const Settings& settings, double seconds) {
+  Experiment experiment = experiment_of(scene, settings);
+  experiment.duration = seconds;
+  const Reference reference;
+  ExperimentRun run(scene, experiment, reference);
+  while (run.advance()) {
+  }
+  return run.result().metrics.work;
+}
+
 TEST(Work, FlopsFollowFromSizesAlone) {
   // Pinned hinges in a row: a run's flops are a constant per solve.
   const Scene scene = scenes::rope_of_n({.n = 6});
-  const auto held = shared(scene);
-  const Reference reference = find_reference(held, 0.1);
   const auto work = [&](const Settings& settings, double seconds) {
-    Experiment experiment = experiment_of(scene, settings);
-    experiment.duration = seconds;
-    ExperimentRun run(scene, experiment, reference);
-    while (run.advance()) {
-    }
-    return run.result().metrics.work;
+    return work_of(scene, settings, seconds);
   };
   Settings settings;
   settings.mode = Mode::kConst;
@@ -257,6 +262,88 @@ TEST(Work, FlopsFollowFromSizesAlone) {
     EXPECT_EQ(once.substeps, 18);
   }
   EXPECT_EQ(work(settings, 0.1), work(settings, 0.1)) << "run to run";
+}
+
+TEST(Work, GaussSeidelVisitsEveryRowOnceAnIteration) {
+  Settings settings;
+  settings.solver = SolverKind::kPgs;
+  settings.iterations = 7;
+  const Work work = work_of(scenes::bridge(), settings, 0.5);
+  EXPECT_GT(work.rows.joint, 0);
+  EXPECT_GT(work.rows.contact, 0);
+  EXPECT_EQ(work.rows.friction, 2 * work.rows.contact);
+  EXPECT_EQ(work.rows.grab, 0);
+  EXPECT_EQ(work.row_updates, 7 * (work.rows.joint + work.rows.contact + work.rows.friction));
+  EXPECT_EQ(work_of(scenes::swinging_box(), settings, 0.1).rows.joint % 130, 0);
+}
+
+TEST(Work, AHandHasRowsOfItsOwn) {
+  const Scene scene = scenes::rope_of_n({.n = 4});
+  Simulator simulator(shared(scene));
+  const auto rows = [&] { return simulator.step().work.rows; };
+  Settings settings;
+  settings.mode = Mode::kConst;
+  settings.n = 2;
+  simulator.set_settings(settings);
+  const RowCounts free = rows();
+  simulator.set_grab(Grab{.body = 2});
+  const RowCounts held = rows();
+  EXPECT_EQ(free.grab, 0);
+  EXPECT_EQ(held.grab, 2 * 3);
+  EXPECT_EQ(held.joint, free.joint);
+}
+
+TEST(Work, TheCriterionIsCountedAsOftenAsItsPolicyAsks) {
+  const Scene scene = scenes::swinging_box();
+  Settings settings;
+  settings.mode = Mode::kConst;
+  EXPECT_EQ(work_of(scene, settings, 0.5).criterion, CriterionWork{});
+  settings.mode = Mode::kAdaptive;
+  const Work by_frame = work_of(scene, settings, 0.5);
+  EXPECT_EQ(by_frame.criterion.evaluations, by_frame.frames + 1) << "and the probe's";
+  settings.policy = Policy::kSubstep;
+  const Work by_substep = work_of(scene, settings, 0.5);
+  EXPECT_EQ(by_substep.criterion.evaluations, by_substep.substeps + 1);
+  EXPECT_EQ(by_substep.criterion.flops / by_substep.criterion.evaluations,
+            by_frame.criterion.flops / by_frame.criterion.evaluations);
+}
+
+TEST(EffectCost, WhatAnEffectAddsIsWhatItsAbsenceSpares) {
+  Scene scene = scenes::bridge();
+  Experiment experiment = experiment_of(scene, scene.settings);
+  experiment.settings.solver = SolverKind::kPgs;
+  experiment.duration = 0.5;
+  const CostBreakdown costs = cost_of_effects(shared(scene), experiment);
+  ASSERT_EQ(costs.effects.size(), 4U);  // gravity, joints, contact, friction
+  std::map<std::string_view, EffectCost> by_name;
+  for (const EffectCost& cost : costs.effects) by_name[cost.effect] = cost;
+  EXPECT_GT(by_name["friction"].row_updates, 0.0);
+  EXPECT_GT(by_name["contact"].row_updates, by_name["friction"].row_updates)
+      << "without contact there is no friction";
+  EXPECT_GT(by_name["joints"].flops, by_name["contact"].flops);
+
+  experiment.settings.solver = SolverKind::kBpp;
+  const CostBreakdown direct = cost_of_effects(shared(scene), experiment);
+  const CostBreakdown again = cost_of_effects(shared(scene), experiment);
+  for (std::size_t i = 0; i < direct.effects.size(); ++i) {
+    EXPECT_EQ(direct.effects[i].flops, again.effects[i].flops) << direct.effects[i].effect;
+  }
+}
+
+TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
+  const Scene scene = scenes::swinging_box();
+  Experiment experiment = experiment_of(scene, scene.settings);
+  experiment.settings.solver = SolverKind::kPgs;
+  experiment.duration = 0.1;
+  const CostBreakdown costs = cost_of_effects(shared(scene), experiment);
+  const Work& work = costs.run.work;
+  const auto frames = static_cast<double>(work.frames);
+  ASSERT_EQ(costs.effects.size(), 2U);
+  EXPECT_EQ(costs.effects[0].effect, "gravity");
+  EXPECT_EQ(costs.effects[0].row_updates, 0.0);
+  EXPECT_EQ(costs.effects[1].effect, "joints");
+  EXPECT_DOUBLE_EQ(costs.effects[1].row_updates * frames,
+                   25.0 * 130.0 * static_cast<double>(work.substeps));  // the probe is no frame's
 }
 
 TEST(Sweep, DefaultHasEveryMethodOnce) {

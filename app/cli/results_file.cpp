@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -84,6 +85,11 @@ bool ResultsFile::take_lock() {
   descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) {
     complain(path_, std::strerror(errno));
+    return false;
+  }
+  struct stat about {};
+  if (::fstat(descriptor_, &about) != 0 || !S_ISREG(about.st_mode)) {
+    complain(path_, "is no regular file");
     return false;
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {

@@ -12,6 +12,7 @@
 #include "app/report/page.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/number_text.hpp"
+#include "core/io/result.hpp"
 
 namespace substep::cli {
 namespace {
@@ -40,6 +41,24 @@ std::optional<Experiment> experiment_in(const Json& result, const Scene& scene) 
 }
 
 /// Picture 2: adaptive against the smallest constant N that holds, and energy by mode.
+/// What stages, rows, effects and the criterion cost, with each solver.
+Json costs_of(const Scene& scene) {
+  constexpr double kSeconds = 2.0;  // enough frames for a median
+  const auto held = std::make_shared<const Scene>(scene);
+  Json list = Json::array();
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    Settings settings = scene.settings;
+    settings.solver = solver;
+    settings.drift = Drift::kAuto;
+    Experiment experiment = experiment_of(scene, settings);
+    experiment.duration = std::min(kSeconds, scene.criteria.duration);
+    Json costs = costs_json(cost_of_effects(held, experiment));
+    costs["series"] = series_name(settings);
+    list.push_back(std::move(costs));
+  }
+  return list;
+}
+
 Json time_charts(const Scene& scene, const std::vector<Json>& results) {
   int least = 0;  // constant N that holds
   for (const Json& result : results) {
@@ -178,18 +197,23 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
     const Json& reference = data["reference"];
     char text[400];
     std::snprintf(text, sizeof text,
-                  "Errors are measured from: %s, uncertain by %.2g m, over %g s. 100 %% of the "
-                  "energy drift are %g J, %s.",
+                  "Errors are measured from: %s, uncertain by %.2g m, over %g s.",
                   reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
-                  reference.value("window", 0.0), reference.value("energy_scale", 0.0),
-                  reference.value("energy_scale_source", "").c_str());
-    about.push_back(text);
+                  reference.value("window", 0.0));
+    std::string line = text;
+    if (const double scale = reference.value("energy_scale", 0.0); scale > 0.0) {
+      std::snprintf(text, sizeof text, " 100 %% of the energy drift are %g J, %s.", scale,
+                    reference.value("energy_scale_source", "").c_str());
+      line += text;
+    }
+    about.push_back(line);
   }
   data["about"] = std::move(about);
   data["results"] = std::move(own);
   if (scene) {
     data["mass_ratio"] = mass_ratio(*scene);
     data["charts"] = time_charts(*scene, results);
+    data["costs"] = costs_of(*scene);
     data["settings"] =
         Json::array({"The scene's own settings: " + settings_line(scene->settings) +
                          ". Every run differs from them by its method and its parameter alone.",

@@ -1,6 +1,6 @@
 // Pictures 2 to 4: curves over time, the stability map, and where the time goes.
 import * as Plot from "@observablehq/plot";
-import { el, figure, number } from "./dom.mjs";
+import { choice, el, figure, number } from "./dom.mjs";
 import { colour, styleOf } from "./style.mjs";
 
 const tones = ["blue", "orange", "teal", "purple", "amber", "grey"];
@@ -9,21 +9,24 @@ const tones = ["blue", "orange", "teal", "purple", "amber", "grey"];
 export function timeChart(chart, index) {
   const rows = chart.curves.flatMap(c => c.points.map(([x, y]) => ({ curve: c.name, x, y })));
   const tone = i => colour(tones[i % tones.length]);
+  const dashed = (c, i) => c.dashed || i >= tones.length; // a tone that comes again
+  const ys = rows.map(r => r.y);
+  const fromZero = Math.min(...ys) < 0.5 * Math.max(...ys); // else what happens would lie on a line
   const draw = width => [
     Plot.plot({
       width, height: Math.min(360, 0.45 * width + 60), marginLeft: 64, marginBottom: 44, marginTop: 28, marginRight: 20,
       style: { background: "transparent", color: "inherit", fontSize: "12px" },
       x: { label: chart.x + " →", labelAnchor: "center", labelOffset: 38 },
-      y: { label: "↑ " + chart.y, type: chart.log ? "log" : "linear", grid: true, tickFormat: number, zero: !chart.log, labelOffset: 58 },
+      y: { label: "↑ " + chart.y, type: chart.log ? "log" : "linear", grid: true, tickFormat: number, zero: !chart.log && fromZero, labelOffset: 58 },
       marks: [
-        ...chart.curves.map((c, i) => Plot.line(c.points.filter(([, y]) => !chart.log || y > 0), { x: d => d[0], y: d => d[1], stroke: tone(i), strokeWidth: 1.6, strokeDasharray: c.dashed ? "6 4" : undefined, curve: c.step ? "step-after" : "linear" })),
+        ...chart.curves.map((c, i) => Plot.line(c.points.filter(([, y]) => !chart.log || y > 0), { x: d => d[0], y: d => d[1], stroke: tone(i), strokeWidth: 1.6, strokeDasharray: dashed(c, i) ? "6 4" : undefined, curve: c.step ? "step-after" : "linear" })),
         ...chart.curves.map((c, i) => (c.failed_at === undefined ? null : Plot.dot([c.points[c.points.length - 1]], { x: d => d[0], y: d => d[1], symbol: "times", r: 6, strokeWidth: 2.4, stroke: tone(i) }))),
         Plot.ruleX(rows, Plot.pointerX({ x: "x", stroke: colour("dim"), strokeOpacity: 0.4 })),
         Plot.tip(rows, Plot.pointer({ x: "x", y: "y", title: d => `${d.curve}\n${number(d.x)} ${chart.x}\n${number(d.y)} ${chart.y}`, fill: colour("raised"), stroke: colour("border"), fontSize: 12 })),
       ],
     }),
     el("div", { class: "legend" }, ...chart.curves.map((c, i) => el("span", { class: "key" },
-      el("i", { class: "line", style: `border-top: 2px ${c.dashed ? "dashed" : "solid"} ${tone(i)}` }), el("span", {}, c.name),
+      el("i", { class: "line", style: `border-top: 2px ${dashed(c, i) ? "dashed" : "solid"} ${tone(i)}` }), el("span", {}, c.name),
       c.note && el("small", {}, c.note)))),
   ];
   return figure(chart.title, chart.note, { name: `chart-${index + 1}`, draw, data: () => rows });
@@ -93,4 +96,52 @@ export function timeByStage(results) {
   return figure("Where the time goes",
     "Stages that a scene does not call for take none. The criterion is what it costs to evaluate the geometric stiffness: once a frame, or once a sub-step.",
     { name: "stages", draw, data: () => bars.map(({ method, stage, us, share }) => ({ method, stage, us, share })) });
+}
+
+// What each effect adds to a frame, and what choosing the sub-steps costs, with each solver.
+const units = [
+  { key: "flops", label: "solver operations per frame" },
+  { key: "ms", label: "median time per frame [ms], this machine" },
+];
+export function effectCosts(costs) {
+  if (!costs || costs.length === 0) return null;
+  const solver = c => styleOf(c.series).name.includes("PGS") ? "Gauss-Seidel" : "direct solver";
+  const bars = costs.flatMap(c => [
+    ...Object.entries(c.effects).map(([effect, cost]) => ({ solver: solver(c), part: effect, tone: "blue", flops: cost.flops, ms: cost.ms })),
+    { solver: solver(c), part: "criterion: K, r, N", tone: "teal", flops: c.work.criterion.flops / c.work.frames, ms: 1e3 * c.timing.stages.stiffness / c.work.frames },
+  ]);
+  let unit = units[0];
+  const parts = [...new Set(bars.map(b => b.part))];
+  const channels = () => ({ fy: "solver", y: "part", x: unit.key });
+  const draw = width => [
+    Plot.plot({
+      width, height: 60 + costs.length * (24 + 28 * parts.length), marginLeft: 130, marginBottom: 44, marginRight: 90,
+      style: { background: "transparent", color: "inherit", fontSize: "12px" },
+      x: { label: unit.label + " →", labelAnchor: "center", labelOffset: 38, grid: true, tickFormat: number, ticks: Math.max(3, width / 140) },
+      y: { label: null, domain: parts }, fy: { label: null, domain: costs.map(solver) },
+      marks: [
+        Plot.barX(bars, { ...channels(), fill: b => colour(b.tone), insetTop: 3, insetBottom: 3, rx: 1 }),
+        Plot.ruleX([0], { stroke: colour("dim") }),
+        Plot.tip(bars, Plot.pointer({ ...channels(), title: b => `${b.part}, ${b.solver}\n${number(b.flops)} operations per frame\n${number(b.ms)} ms per frame`, fill: colour("raised"), stroke: colour("border"), fontSize: 12 })),
+      ],
+    }),
+    rowTable(costs, solver),
+  ];
+  const fig = figure("What each effect costs",
+    "Every frame is stepped again from the same state without the effect, with the same number of sub-steps; the difference is what the effect adds. The criterion is K, its column norms and r, from which N follows.",
+    { name: "effects", draw, data: () => bars.map(({ solver, part, flops, ms }) => ({ solver, part, flops, ms })),
+      controls: [choice("cost", units, unit.key, key => { unit = units.find(u => u.key === key); fig.redraw(); })] });
+  return fig;
+}
+
+// Rows of a solve by kind, and how often Gauss-Seidel visited them.
+function rowTable(costs, solver) {
+  const kinds = [["joint", "joint rows"], ["contact", "contact normals"], ["friction", "friction rows"]]
+    .filter(([key]) => costs.some(c => c.work.rows[key] > 0));
+  const all = c => kinds.reduce((sum, [key]) => sum + c.work.rows[key], 0);
+  return el("div", { class: "scroll" }, el("table", {},
+    el("thead", {}, el("tr", {}, el("th", {}, "rows of a solve"), ...kinds.map(([, label]) => el("th", {}, label)))),
+    el("tbody", {}, ...costs.map(c => el("tr", {}, el("th", { scope: "row" }, solver(c)),
+      ...kinds.map(([key]) => el("td", {}, number(c.work.rows[key] / c.work.solves),
+        c.work.row_updates > 0 && el("small", {}, `, ${number(c.work.row_updates / c.work.frames * c.work.rows[key] / all(c))} updates a frame`))))))));
 }

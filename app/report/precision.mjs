@@ -5,6 +5,9 @@ import { choice, el, figure, number } from "./dom.mjs";
 import { paretoFront } from "./pareto.mjs";
 import { colour, styleOf, swatchText } from "./style.mjs";
 
+// Errors that rounding or chaos decides fall at no method's order.
+const isOrder = slope => slope > 0.5 && slope < 4;
+
 // Slope of log error over log cost, from the runs whose error stands clear of the reference's own.
 export function observedOrder(runs, uncertainty) {
   const clear = runs.filter(p => p.error > 10 * uncertainty);
@@ -77,7 +80,8 @@ export function workPrecision(results, reference, select) {
         if (own.length < 3) continue;
         const guide = orderGuide(own, order, 1.25 * low);
         marks.push(Plot.line(guide, { x: "cost", y: "error", stroke: colour("dim"), strokeDasharray: "1 4", clip: true }),
-          Plot.text([guide[1]], { x: "cost", y: "error", text: () => `order ${order}`, fill: colour("dim"), dx: -8, dy: 12, textAnchor: "end", clip: true }));
+          // Under the line, or beside its end where it leaves at the bottom.
+          Plot.text([guide[1]], { x: "cost", y: "error", text: () => `order ${order}`, fill: colour("dim"), ...(guide[1].error < 2 * low ? { dx: 6, dy: -5, textAnchor: "start" } : { dx: -8, dy: 12, textAnchor: "end" }), clip: true }));
       }
     }
     for (const s of series.filter(s => shown.has(s))) {
@@ -119,7 +123,7 @@ export function workPrecision(results, reference, select) {
         onmouseenter: () => { hovered = s; redrawPlot(); },
         onmouseleave: () => { hovered = null; redrawPlot(); },
       }, swatch(styleOf(s)), el("span", {}, styleOf(s).name),
-        el("small", {}, [`${own.length - lost} of ${own.length} hold`, Number.isNaN(order) ? "" : `order ${order.toFixed(2)}`].filter(Boolean).join(", ")));
+        el("small", {}, [`${own.length - lost} of ${own.length} hold`, !isOrder(order) ? "" : `order ${order.toFixed(2)}`].filter(Boolean).join(", ")));
     }));
   }
 

@@ -1,6 +1,6 @@
 // The report of a sweep or of the reproduction: reads the data that stand in the page, draws them.
 import { el, number, save } from "./dom.mjs";
-import { stabilityMap, timeByStage, timeChart } from "./pictures.mjs";
+import { effectCosts, stabilityMap, timeByStage, timeChart } from "./pictures.mjs";
 import { priceTable, workPrecision } from "./precision.mjs";
 
 const data = JSON.parse(document.getElementById("data").textContent);
@@ -72,6 +72,7 @@ for (const [i, c] of (data.cards ?? []).entries()) {
 if (results.length > 0) {
   add(stabilityMap(results, data.mass_ratio ?? 1, select));
   add(timeByStage(results));
+  add(effectCosts(data.costs));
 }
 root.append(el("footer", {}, ...(data.settings ?? []).map(text => el("p", {}, text))));
 redrawAll();

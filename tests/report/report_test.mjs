@@ -41,7 +41,7 @@ for (const [name, options] of Object.entries({
   test(`it opens from disk without a complaint: ${name}`, async () => {
     const page = await openFile(browser, report, options);
     assert.deepEqual(page.complaints, []);
-    assert.equal(await page.locator(".figure").count(), 6);
+    assert.equal(await page.locator(".figure").count(), 7);
     const wider = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wider <= 0, `${wider} pixels wider than the window`);
     if (shots) await page.screenshot({ path: join(shots, `report-${name}.png`), fullPage: true });
@@ -66,6 +66,22 @@ test("every point has a read-out, and a click tells its command", async () => {
   await page.mouse.click(...places[20]);
   const details = page.locator(".details");
   assert.match(await details.textContent(), /substep run swinging_box .*--seconds 1/);
+  assert.deepEqual(page.complaints, []);
+  await page.context().close();
+});
+
+test("what effects and the criterion cost has a bar each, by operations or by time", async () => {
+  const page = await openFile(browser, report);
+  const figure = page.locator(".figure").last();
+  assert.equal(await figure.locator("h2").textContent(), "What each effect costs");
+  assert.equal(await figure.locator('g[aria-label="bar"] rect, g[aria-label="bar"] path').count(), 2 * 3, "gravity, joints and the criterion, with two solvers");
+  const axis = () => figure.locator('g[aria-label="x-axis label"]').textContent();
+  assert.match(await axis(), /operations/);
+  await figure.locator("select").selectOption("ms");
+  assert.match(await axis(), /ms/);
+  const cells = await figure.locator("td").allTextContents();
+  assert.equal(cells[0], "130", "joint rows of a solve");
+  assert.match(cells[1], /^130, .* updates a frame$/);
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });

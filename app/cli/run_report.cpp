@@ -2,27 +2,13 @@
 
 #include <algorithm>
 #include <cinttypes>
-#include <cstdarg>
-#include <cstdio>
 
+#include "app/cli/format_text.hpp"
 #include "core/io/number_text.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep::cli {
-namespace {
-
-/// printf into a string.
-[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
-  char text[200];
-  std::va_list values;
-  va_start(values, pattern);
-  std::vsnprintf(text, sizeof text, pattern, values);
-  va_end(values);
-  return text;
-}
-
-}  // namespace
 
 RunReport::RunReport(const Scene& scene, const FrameReport& start)
     : scene_(scene), energy_at_start_(start.energy), last_(start) {}
@@ -39,39 +25,40 @@ void RunReport::add(const FrameReport& report) {
 
 std::string RunReport::energy_text() const {
   const double change = last_.energy - energy_at_start_;
-  if (!scene_.criteria.energy_scale) return format("%+.6g J", change);
-  return format("%+.3g %% of %g J", 100.0 * change / *scene_.criteria.energy_scale,
-                *scene_.criteria.energy_scale);
+  if (!scene_.criteria.energy_scale) return format_text("%+.6g J", change);
+  return format_text("%+.3g %% of %g J", 100.0 * change / *scene_.criteria.energy_scale,
+                     *scene_.criteria.energy_scale);
 }
 
 std::string RunReport::progress(std::int64_t frames) const {
   const double done =
       frames > 0 ? 100.0 * static_cast<double>(last_.frame) / static_cast<double>(frames) : 100.0;
-  std::string line = format("%3.0f %%  %7.2f s  %3d sub-steps", done, last_.time, last_.n_substeps);
+  std::string line =
+      format_text("%3.0f %%  %7.2f s  %3d sub-steps", done, last_.time, last_.n_substeps);
   line += "  energy " + energy_text();
-  if (scene_.effects.joints) line += format("  gap %.1e m", last_.joint_gap);
+  if (scene_.effects.joints) line += format_text("  gap %.1e m", last_.joint_gap);
   return line;
 }
 
 std::string RunReport::summary(std::uint64_t state_hash) const {
   std::string text;
-  text += format("time         %.3f s in %" PRId64 " frames\n", last_.time, last_.frame);
+  text += format_text("time         %.3f s in %" PRId64 " frames\n", last_.time, last_.frame);
   if (!substeps_.empty()) {
     std::vector<int> sorted = substeps_;
     std::sort(sorted.begin(), sorted.end());
-    text += format("sub-steps    %" PRId64 "; %d / %d / %d a frame (least, median, most)\n",
-                   total_substeps_, sorted.front(), sorted[sorted.size() / 2], sorted.back());
+    text += format_text("sub-steps    %" PRId64 "; %d / %d / %d a frame (least, median, most)\n",
+                        total_substeps_, sorted.front(), sorted[sorted.size() / 2], sorted.back());
   }
-  if (capped_frames_ > 0) text += format("capped       %" PRId64 " frames\n", capped_frames_);
+  if (capped_frames_ > 0) text += format_text("capped       %" PRId64 " frames\n", capped_frames_);
   text += "energy       " + energy_text() + "\n";
-  if (scene_.effects.joints) text += format("joint gap    %.2e m at most\n", joint_gap_);
-  if (scene_.effects.contact) text += format("penetration  %.2e m at most\n", penetration_);
+  if (scene_.effects.joints) text += format_text("joint gap    %.2e m at most\n", joint_gap_);
+  if (scene_.effects.contact) text += format_text("penetration  %.2e m at most\n", penetration_);
   if (total_substeps_ > 0) {
-    text += format("computing    %.3f s; %.3f ms a frame, %.1f us a sub-step\n", computing_,
-                   1e3 * computing_ / static_cast<double>(substeps_.size()),
-                   1e6 * computing_ / static_cast<double>(total_substeps_));
+    text += format_text("computing    %.3f s; %.3f ms a frame, %.1f us a sub-step\n", computing_,
+                        1e3 * computing_ / static_cast<double>(substeps_.size()),
+                        1e6 * computing_ / static_cast<double>(total_substeps_));
   }
-  text += format("state hash   %016" PRIx64 "\n", state_hash);
+  text += format_text("state hash   %016" PRIx64 "\n", state_hash);
   return text;
 }
 

@@ -27,7 +27,8 @@ RunTrace trace_run(const std::shared_ptr<const Scene>& scene, const Settings& se
     trace.constraint_error.push_back(report.constraint_error);
     trace.joint_gap.push_back(report.joint_gap);
     if (scene->criteria.track) {
-      trace.track.push_back(simulator.state().x[static_cast<std::size_t>(*scene->criteria.track)]);
+      const auto tracked = static_cast<std::size_t>(*scene->criteria.track);
+      trace.height.push_back(simulator.state().x[tracked].y());
     }
   };
   note();

@@ -16,7 +16,7 @@ struct RunTrace {
   std::vector<double> energy;            // [J]
   std::vector<double> constraint_error;  // [m, rad]
   std::vector<double> joint_gap;         // [m]
-  std::vector<Vec3> track;               // the tracked body [m]
+  std::vector<double> height;            // of the tracked body's centre [m]
   bool holds = true;
   double failed_at = 0.0;  // [s]
   std::string verdict;

@@ -1,0 +1,49 @@
+#pragma once
+// What the cards of the reproduction are made of: runs side by side, and words and curves of them.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/cli/report.hpp"
+#include "app/cli/reproduction.hpp"
+#include "app/cli/run_trace.hpp"
+
+namespace substep::cli {
+
+struct Run {
+  std::string name;
+  std::shared_ptr<const Scene> scene;
+  Settings settings;
+  double seconds;  // [s]
+};
+
+/// The paper's settings with the direct solver. Constant 1 is mode none.
+Settings direct(Mode mode, int n = 16, double alpha = 0.1);
+/// The same with Gauss-Seidel.
+Settings pgs(Mode mode, Drift drift = Drift::kAuto, int iterations = 25);
+
+std::shared_ptr<const Scene> shared(Scene scene);
+
+/// All runs, on as many threads as the options say, in their order.
+std::vector<RunTrace> trace_all(const std::vector<Run>& runs, const Reproduction& options);
+
+/// Over time, one value of each run.
+std::vector<Curve> curves_of(const std::vector<Run>& runs, const std::vector<RunTrace>& traces,
+                             std::vector<double> RunTrace::*value);
+
+/// "holds", "fails at 0.35 s"
+std::string life(const RunTrace& trace);
+/// "none fails at 0.90 s, adaptive holds": of so many runs from the first on.
+std::string lives(const std::vector<Run>& runs, const std::vector<RunTrace>& traces,
+                  std::size_t first, std::size_t count);
+
+double peak(const std::vector<double>& values);
+/// The value that a share of all does not exceed.
+double quantile(std::vector<double> values, double share);
+/// Sub-steps of the frames; the start has none.
+std::vector<double> by_frame(const RunTrace& trace);
+/// Change of energy over the run, as a percentage of the scene's scale [%].
+double energy_change(const Scene& scene, const RunTrace& trace);
+
+}  // namespace substep::cli

@@ -1,10 +1,20 @@
-// The README's picture of what accuracy costs: node tests/report/picture.mjs REPORT.html
+// The README's pictures: node tests/report/picture.mjs SWEEP/report.html REPRODUCTION/report.html
 import { fileURLToPath } from "node:url";
 import { launch, openFile } from "./browser.mjs";
 
+const [sweep, reproduction] = process.argv.slice(2);
 const browser = await launch();
-const page = await openFile(browser, process.argv[2], { width: 1000, height: 1000, ratio: 1.5 });
-const picture = page.locator(".figure").first().locator(".picture");
-await picture.scrollIntoViewIfNeeded();
-await picture.screenshot({ path: fileURLToPath(new URL("../../app/report/picture.png", import.meta.url)) });
+
+async function shoot(page, title, name) {
+  const picture = page.locator(".figure", { has: page.getByRole("heading", { name: title, exact: true }) }).locator(".picture");
+  await picture.scrollIntoViewIfNeeded();
+  await picture.screenshot({ path: fileURLToPath(new URL(`../../app/report/${name}.png`, import.meta.url)) });
+}
+
+const accuracy = await openFile(browser, sweep, { width: 1000, height: 1000, ratio: 1.5 });
+await shoot(accuracy, "Error against cost", "picture");
+const figures = await openFile(browser, reproduction, { width: 680, height: 1000, ratio: 1.5 });
+await shoot(figures, "Swinging box, direct solver", "figure-2");
+await shoot(figures, "Largest kinetic energy of every swing", "figure-3");
+await shoot(figures, "Height of the heavy box, heavy_stack_stress", "figure-4");
 await browser.close();

@@ -10,7 +10,9 @@
 namespace substep {
 namespace {
 
-/// The curves grow evenly when every fourth value comes first, then every second, then the rest.
+/// The curves grow evenly when every fourth value comes first, then every second, then the rest;
+/// the map of loads comes last.
+constexpr int kMapRound = 3;
 int round_of(std::size_t along_curve) {
   if (along_curve % 4 == 0) return 0;
   return along_curve % 2 == 0 ? 1 : 2;
@@ -27,9 +29,11 @@ std::vector<Experiment> plan(const Scene& scene) {
   std::vector<Step> steps;
   std::map<std::string, std::size_t> along;
   for (const SweepPoint& point : default_sweep(scene)) {
-    if (point.load != 1.0) continue;  // the map of loads is the command line's
-    Step& step = steps.emplace_back(Step{round_of(along[series_name(point.settings)]++), plain});
+    const int round =
+        point.load == 1.0 ? round_of(along[series_name(point.settings)]++) : kMapRound;
+    Step& step = steps.emplace_back(Step{round, plain});
     step.experiment.settings = point.settings;
+    step.experiment.load = point.load;
   }
   std::stable_sort(steps.begin(), steps.end(),
                    [](const Step& a, const Step& b) { return a.round < b.round; });
@@ -51,6 +55,7 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
   elapsed_ = 0.0;
   last_ = -1.0;
   if (!scene_->criteria.track) error = ErrorAxis::kEnergy;
+  if (!has_map()) picture = AccuracyPicture::kErrorAgainstCost;
 }
 
 void Accuracy::cancel() { cancelled_ = true; }
@@ -76,7 +81,15 @@ const std::vector<Result>& Accuracy::results() const {
   return sweep_ ? sweep_->results() : none;
 }
 
-std::size_t Accuracy::planned() const { return sweep_ ? sweep_->experiments().size() : 0; }
+const std::vector<Experiment>& Accuracy::experiments() const {
+  static const std::vector<Experiment> none;
+  return sweep_ ? sweep_->experiments() : none;
+}
+
+bool Accuracy::has_map() const {
+  return std::any_of(experiments().begin(), experiments().end(),
+                     [](const Experiment& e) { return e.load != 1.0; });
+}
 
 const Reference* Accuracy::reference() const { return sweep_ ? sweep_->reference() : nullptr; }
 
@@ -84,6 +97,7 @@ std::vector<Accuracy::Point> Accuracy::points() const {
   std::vector<Point> list;
   std::vector<CostAndError> values;
   for (std::size_t i = 0; i < results().size(); ++i) {
+    if (results()[i].experiment.load != 1.0) continue;  // on the map
     const auto value = error_of(results()[i], error);
     const double price = cost_of(results()[i], cost);
     if (!value || !(*value > 0.0) || !(price > 0.0)) continue;
@@ -98,7 +112,8 @@ std::vector<Accuracy::Point> Accuracy::points() const {
 std::vector<Accuracy::Point> Accuracy::failed() const {
   std::vector<Point> list;
   for (std::size_t i = 0; i < results().size(); ++i) {
-    if (!results()[i].metrics.holds) list.push_back({i, cost_of(results()[i], cost), 0.0, false});
+    if (!results()[i].metrics.holds && results()[i].experiment.load == 1.0)
+      list.push_back({i, cost_of(results()[i], cost), 0.0, false});
   }
   return list;
 }

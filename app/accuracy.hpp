@@ -10,6 +10,8 @@
 
 namespace substep {
 
+/// What the panel shows of a sweep.
+enum class AccuracyPicture : unsigned char { kErrorAgainstCost, kStabilityMap };
 /// What errors are drawn against.
 enum class CostAxis : unsigned char { kSubsteps, kOperations, kTime, kCount };
 /// What is drawn of the errors.
@@ -43,17 +45,21 @@ class Accuracy {
   /// The scene of the results, or null.
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
   [[nodiscard]] const std::vector<Result>& results() const;
-  [[nodiscard]] std::size_t planned() const;
+  [[nodiscard]] std::size_t planned() const { return experiments().size(); }
+  [[nodiscard]] const std::vector<Experiment>& experiments() const;
+  /// Whether the heaviest body's mass is varied: bodies of one mass have no map.
+  [[nodiscard]] bool has_map() const;
   /// Null until it is found.
   [[nodiscard]] const Reference* reference() const;
 
-  /// Runs that hold, with a positive error, by the axes.
+  /// Runs of the scene as it stands that hold, with a positive error, by the axes.
   [[nodiscard]] std::vector<Point> points() const;
-  /// Runs that failed.
+  /// Runs of the scene as it stands that failed.
   [[nodiscard]] std::vector<Point> failed() const;
   /// Whether two runs or more have such an error.
   [[nodiscard]] bool has(ErrorAxis axis) const;
 
+  AccuracyPicture picture = AccuracyPicture::kErrorAgainstCost;
   CostAxis cost = CostAxis::kSubsteps;
   ErrorAxis error = ErrorAxis::kTrajectory;
 

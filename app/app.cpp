@@ -288,6 +288,7 @@ void App::vary(double new_load, int new_seed) {
 
 void App::run_result(const Result& result) {
   if (session.loaded_scene() != accuracy.scene()) run(accuracy.scene());
+  if (result.experiment.load != 1.0) vary(result.experiment.load, 0);
   change(result.experiment.settings);
   reset();
   session.play();
@@ -335,10 +336,17 @@ std::string App::set(std::string_view key, std::string_view value) {
     return "";
   }
   if (key == "accuracy") {
-    bool on = accuracy.running();
-    const std::string problem = choose(value, {"cancel", "run"}, on);
-    if (!problem.empty()) return problem;
-    on ? accuracy.start(session.loaded_scene()) : accuracy.cancel();
+    if (value == "run") {
+      accuracy.start(plain_scene);
+    } else if (value == "cancel") {
+      accuracy.cancel();
+    } else if (value == "map") {
+      accuracy.picture = AccuracyPicture::kStabilityMap;
+    } else if (value == "error") {
+      accuracy.picture = AccuracyPicture::kErrorAgainstCost;
+    } else {
+      return "'" + std::string(value) + "' is not run, cancel, map or error";
+    }
     return "";
   }
   if (key == "compare") {

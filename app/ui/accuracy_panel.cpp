@@ -10,6 +10,7 @@
 #include "app/format.hpp"
 #include "app/ui/accuracy_picture.hpp"
 #include "app/ui/panels.hpp"
+#include "app/ui/stability_map.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -31,8 +32,8 @@ void sweep_bar(App& app) {
     const bool again = !accuracy.results().empty();
     if (button(look, "sweep", Icon::kPlay, again ? "Run it again" : "Run all methods",
                again ? ButtonKind::kPlain : ButtonKind::kPrimary, width, look.m.row + 4.0F,
-               "Over 130 runs of this scene from its start, in the background")) {
-      accuracy.start(app.session.loaded_scene());
+               "Every method over this scene from its start, in the background")) {
+      accuracy.start(app.plain_scene);
     }
     return;
   }
@@ -87,8 +88,28 @@ void axes_row(App& app) {
   }
 }
 
-/// The picture with the name of what goes up; a click on a point runs it.
+bool shows_map(const Accuracy& accuracy) {
+  return accuracy.picture == AccuracyPicture::kStabilityMap;
+}
+
+void picture_row(App& app) {
+  constexpr std::array<Choice, 2> kPictures{
+      {{"Error", "Error against cost, a curve for every method"},
+       {"Where it holds", "How long runs survive as the mass of the heaviest body varies"}}};
+  int current = static_cast<int>(app.accuracy.picture);
+  if (segmented_row(app.look, "Show", kPictures, current, "Which picture of the runs")) {
+    app.accuracy.picture = static_cast<AccuracyPicture>(current);
+  }
+}
+
+/// The map, or the picture with the name of what goes up; a click on a run runs it.
 void picture(App& app, ImVec2 size) {
+  if (shows_map(app.accuracy)) {
+    if (const auto chosen = stability_map(app.look, app.accuracy, size.x)) {
+      app.run_result(app.accuracy.results()[*chosen]);
+    }
+    return;
+  }
   label(app.look.fonts.small, app.look.theme->dim, axis_name(app.accuracy.error));
   if (const auto chosen = accuracy_picture(app.look, app.accuracy, app.session.settings(), size)) {
     app.run_result(app.accuracy.results()[*chosen]);
@@ -106,6 +127,7 @@ void legend(const App& app) {
   std::map<std::string, Entry> entries;
   std::vector<std::string> order;
   for (const Result& result : app.accuracy.results()) {
+    if (result.experiment.load != 1.0) continue;
     const Settings& s = result.experiment.settings;
     const auto [entry, is_new] =
         entries.try_emplace(series_name(s), Entry{curve_style(*look.theme, s)});
@@ -137,7 +159,7 @@ void accuracy(App& app) {
   const Look& look = app.look;
   Accuracy& accuracy = app.accuracy;
   section(look, "What does accuracy cost?");
-  const bool other = accuracy.scene() && accuracy.scene() != app.session.loaded_scene();
+  const bool other = accuracy.scene() && accuracy.scene() != app.plain_scene;
   if (accuracy.planned() == 0 || other) {
     label(look.fonts.small, look.theme->dim,
           other ? "The picture below is of another scene."
@@ -149,7 +171,8 @@ void accuracy(App& app) {
   if (accuracy.planned() == 0) return;
   label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
   space(8.0F);
-  axes_row(app);
+  if (accuracy.has_map()) picture_row(app);
+  if (!shows_map(accuracy)) axes_row(app);
   const float width = ImGui::GetContentRegionAvail().x;
   if (!app.desk.accuracy_large) picture(app, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
   if (ImGui::GetIO().DisplaySize.x >= 900.0F &&
@@ -157,6 +180,15 @@ void accuracy(App& app) {
              app.desk.accuracy_large ? "Back into the panel" : "Larger", ButtonKind::kGhost, 0.0F,
              look.m.row, "The picture over the view")) {
     app.desk.accuracy_large = !app.desk.accuracy_large;
+  }
+  if (shows_map(accuracy)) {
+    label(
+        look.fonts.small, look.theme->dim,
+        ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
+         "cell tells when the run fails, in seconds, the paler the later; blue ones hold for all " +
+         plain_number(accuracy.experiments().front().duration) + " s.")
+            .c_str());
+    return;
   }
   if (const Reference* reference = accuracy.reference()) {
     label(look.fonts.small, look.theme->dim,

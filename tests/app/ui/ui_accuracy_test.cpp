@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <set>
 
+#include "scenes/generator/scenes.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -102,6 +104,59 @@ TEST(Accuracy, PointsAreFoundUnderThePointer) {
   EXPECT_GT(chosen.size(), 10U);
 }
 
+/// Three links under a heavy box, for half a second: quick, and bodies of different mass.
+void sweep_a_rope(Headless& h) {
+  Scene scene = scenes::rope_of_n({.n = 3});
+  scene.criteria.duration = 0.5;
+  h.app->run(std::make_shared<const Scene>(std::move(scene)));
+  h.app->set("panel", "accuracy");
+  h.app->set("accuracy", "run");
+  finish(h);
+}
+
+TEST(Accuracy, TheMapComesLastAndACellGivesItsFiguresAgain) {
+  Headless h;
+  sweep_a_rope(h);
+  ASSERT_TRUE(h.app->accuracy.has_map());
+  const std::vector<Result> results = h.app->accuracy.results();
+  const auto is_varied = [](const Result& r) { return r.experiment.load != 1.0; };
+  const auto first = std::find_if(results.begin(), results.end(), is_varied);
+  EXPECT_TRUE(std::all_of(first, results.end(), is_varied)) << "the curves come first";
+  for (const auto& point : h.app->accuracy.points()) {
+    EXPECT_EQ(results[point.result].experiment.load, 1.0);
+  }
+  int failed = 0;
+  for (auto r = first; r < results.end(); r += 3) {
+    h.app->run_result(*r);
+    h.app->session.pause();
+    EXPECT_EQ(h.app->load, r->experiment.load);
+    for (std::int64_t f = 0; f < r->metrics.work.frames; ++f) h.app->session.step();
+    EXPECT_EQ(h.app->session.hash(), r->metrics.hash) << r->experiment.load;
+    failed += r->metrics.holds ? 0 : 1;
+  }
+  EXPECT_GT(failed, 0) << "of a map where all holds no cell tells anything";
+  h.app->run_result(results.front());
+  EXPECT_EQ(h.app->load, 1.0);
+}
+
+TEST(Accuracy, CellsOfTheMapAreFoundUnderThePointer) {
+  Headless h;
+  sweep_a_rope(h);
+  h.app->accuracy.picture = AccuracyPicture::kStabilityMap;
+  h.frames(2);
+  std::set<std::pair<double, double>> chosen;  // load and parameter
+  for (float y = 240.0F; y < 660.0F; y += 11.0F) {
+    for (float x = 1000.0F; x < 1260.0F; x += 20.0F) {
+      h.click(x, y);
+      chosen.insert({h.app->load, series_parameter(h.app->session.settings()).value});
+    }
+  }
+  std::set<double> loads;
+  for (const auto& [load, value] : chosen) loads.insert(load);
+  EXPECT_EQ(loads.size(), 6U);
+  EXPECT_GT(chosen.size(), 40U);
+}
+
 TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
   Headless h;
   h.app->open("pendulum");
@@ -126,20 +181,19 @@ TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
 
 TEST(Accuracy, ThePanelIsDrawnInEveryLayout) {
   Headless h;
-  h.app->open("pendulum");
-  h.app->set("panel", "accuracy");
-  h.app->set("accuracy", "run");
-  finish(h);
+  sweep_a_rope(h);
   for (const auto& [width, height] : {std::pair{1280.0F, 720.0F}, std::pair{1920.0F, 1080.0F},
                                       std::pair{390.0F, 844.0F}, std::pair{844.0F, 390.0F}}) {
     h.resize(width, height, 2.0F);
-    for (const bool large : {false, true}) {
+    for (const int shown : {0, 1, 2, 3}) {
+      const bool large = shown % 2 == 1;
+      h.app->accuracy.picture = static_cast<AccuracyPicture>(shown / 2);
       h.app->desk.accuracy_large = large;
       h.frames(3);
       const ImGuiWindow* card = ImGui::FindWindowByName("##accuracy");
-      const bool shown = card != nullptr && card->Active;
-      EXPECT_EQ(shown, large && width >= 900.0F) << width;
-      if (shown) {
+      const bool drawn = card != nullptr && card->Active;
+      EXPECT_EQ(drawn, large && width >= 900.0F) << width;
+      if (drawn) {
         const ViewRect& v = h.app->view_rect;
         EXPECT_GE(card->Pos.x, v.x);
         EXPECT_LE(card->Pos.x + card->Size.x, v.x + v.width);

@@ -204,9 +204,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NegativeSeconds", "run bridge --seconds -1", "not in range"},
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
-        BadCall{"UnknownCommand", "chek",
-                "chek is not run, sweep, cost, merge, reproduce, check, hash, scenes or generate (did "
-                "you mean \"check\"?)"},
+        BadCall{
+            "UnknownCommand", "chek",
+            "chek is not run, sweep, cost, merge, reproduce, check, hash, scenes or generate (did "
+            "you mean \"check\"?)"},
         BadCall{"NoCommand", "", "subcommand"},
         BadCall{"NoScene", "run", "scene or --experiments is required"},
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},

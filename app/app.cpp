@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "app/link.hpp"
 #include "app/png.hpp"
 #include "app/tour.hpp"
+#include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
 #include "core/io/number_text.hpp"
 #include "core/io/saved_scene.hpp"
@@ -444,6 +446,8 @@ void frame(App& app, double wall_dt) {
   if (app.pixel_ratio == 0.0F) recall_arrangement(app);  // the shell is there now
   const Scaled scaled(app);
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
+  app.quality.observe(wall_dt, app.own_time);
+  const auto begun = std::chrono::steady_clock::now();
   app.session.advance(wall_dt);
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
     app.session.pause();
@@ -451,11 +455,13 @@ void frame(App& app, double wall_dt) {
   }
   // Beside a run that plays the sweep takes what a frame can spare.
   app.accuracy.advance(app.session.playing() ? 0.003 : 0.008);
+  app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;
 
   update_look(app);
   app.renderer->begin_frame();
   ImGui::NewFrame();
+  ui::forget_handles();
   handle_keys(app);
   app.desk.time.hover = app.desk.time.hover_next;
   app.desk.time.hover_next.reset();
@@ -482,7 +488,7 @@ void frame(App& app, double wall_dt) {
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
-  app.renderer->draw(app.picture, *ImGui::GetDrawData(), width, height);
+  app.renderer->draw(app.picture, *ImGui::GetDrawData(), width, height, app.quality.quality());
   if (app.capture) take_capture(app, width, height);
 
   remember_arrangement(app);

@@ -12,6 +12,7 @@
 #include "app/compare.hpp"
 #include "app/library.hpp"
 #include "app/own_scenes.hpp"
+#include "app/quality.hpp"
 #include "app/render/renderer.hpp"
 #include "app/render/scene_view.hpp"
 #include "app/session.hpp"
@@ -166,6 +167,8 @@ struct App {
   ui::Look look;
   float pixel_ratio = 0.0F;        // that the fonts were made for
   double frame_time = 1.0 / 60.0;  // smoothed [s]
+  double own_time = 0.0;           // that the last frame took to simulate [s]
+  QualityGovernor quality;
   ViewRect view_rect;
   Picture picture;
   Hand hand;

@@ -11,7 +11,7 @@ const partsOf = (fragment) => fragment.replace(/^#/, "").split("&").filter((part
 
 const isScene = (part) => part.startsWith("scene=");
 
-export function makeAddress(wasm, host, keep) {
+export function makeAddress(wasm, host, keep, signal) {
   const packed = { text: "", letters: "" }; // the last own scene
   let written = ""; // the fragment that this wrote, or read, last
   let timer = 0;
@@ -94,7 +94,7 @@ export function makeAddress(wasm, host, keep) {
         if (location.hash === written) return;
         clearTimeout(timer);
         await read();
-      });
+      }, { signal });
     },
     stop() {
       keep = false;

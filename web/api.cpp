@@ -1,6 +1,8 @@
 // What window.substep is made of: each call takes and gives text, JSON where there is structure.
 
 #include <emscripten.h>
+#include <emscripten/heap.h>
+#include <malloc.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,6 +11,7 @@
 
 #include "app/export.hpp"
 #include "app/format.hpp"
+#include "app/ui/handles.hpp"
 #include "core/io/saved_scene.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
@@ -216,6 +219,39 @@ EMSCRIPTEN_KEEPALIVE const char* substep_report() {
                      {"mass", number(r.leader.mass)}};
   }
   return keep(out);
+}
+
+/// Where the controls of the last picture lie, and the bodies in it, in CSS pixels of the canvas.
+EMSCRIPTEN_KEEPALIVE const char* substep_widgets() {
+  const auto scale = static_cast<float>(app().desk.scale);
+  json list = json::array();
+  for (const substep::ui::Handle& h : substep::ui::handles()) {
+    list.push_back({{"group", h.group},
+                    {"label", h.label},
+                    {"x", scale * h.min.x},
+                    {"y", scale * h.min.y},
+                    {"width", scale * (h.max.x - h.min.x)},
+                    {"height", scale * (h.max.y - h.min.y)}});
+  }
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const auto& poses = app().session.poses();
+  for (std::size_t i = 0; i < app().session.scene().bodies.size(); ++i) {
+    const Eigen::Vector4f p =
+        app().picture.view_projection * poses.x[i].cast<float>().homogeneous();
+    if (!(p.w() > 0.0F)) continue;  // behind the eye
+    list.push_back({{"group", "body"},
+                    {"label", app().session.scene().bodies[i].name},
+                    {"x", 0.5F * size.x * (1.0F + p.x() / p.w())},
+                    {"y", 0.5F * size.y * (1.0F - p.y() / p.w())},
+                    {"width", 0.0F},
+                    {"height", 0.0F}});
+  }
+  return keep(list);
+}
+
+/// Bytes of the heap that are in use, and that it has.
+EMSCRIPTEN_KEEPALIVE const char* substep_memory() {
+  return keep({{"used", mallinfo().uordblks}, {"heap", emscripten_get_heap_size()}});
 }
 
 /// Names and titles of the scenes that there are.

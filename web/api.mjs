@@ -92,6 +92,8 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
     report,
     settings: () => parse(wasm.settings()),
     scenes: () => parse(wasm.scenes()),
+    widgets: () => parse(wasm.widgets()),
+    memory: () => parse(wasm.memory()),
     hash: () => wasm.hash(),
     command: () => wasm.command(),
     link: () => address.url(),
@@ -128,7 +130,7 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
       clock.stop();
       address.stop();
       wasm.close();
-      frame.element.replaceChildren();
+      frame.end();
     },
   };
   for (const [name, call] of Object.entries(changing)) {

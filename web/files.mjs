@@ -97,10 +97,11 @@ export function makeFiles(frame, wasm, host) {
     }
   };
 
-  frame.element.addEventListener("dragover", (event) => event.preventDefault());
+  frame.element.addEventListener("dragover", (event) => event.preventDefault(),
+    { signal: frame.signal });
   frame.element.addEventListener("drop", (event) => {
     event.preventDefault();
     open(event.dataTransfer?.files[0]);
-  });
+  }, { signal: frame.signal });
   return { save };
 }

@@ -29,6 +29,7 @@ export function makeFrame(element, wholePage) {
   element.classList.add("substep");
   element.classList.toggle("substep-shares", !wholePage); // wheel and fingers, with the page
   element.innerHTML = markup(`substep-${++instances}`);
+  const ending = new AbortController();
   const canvas = element.querySelector("canvas");
   const overlay = element.querySelector(".substep-overlay");
   const heading = overlay.querySelector("h2");
@@ -49,6 +50,7 @@ export function makeFrame(element, wholePage) {
     element,
     canvas,
     wholePage,
+    signal: ending.signal, // for what listens beyond the canvas
     twin: element.querySelector(".substep-twin"),
     say,
     /** Says it and waits for the button to be pressed. */
@@ -58,6 +60,11 @@ export function makeFrame(element, wholePage) {
     },
     progress(share) { bar.value = share; },
     clear() { overlay.hidden = true; },
+    /** Leaves the element as it was. */
+    end() {
+      ending.abort();
+      element.replaceChildren();
+    },
 
     /** The drawing buffer has as many pixels as the screen shows. @returns whether it changed */
     fit(wasm) {

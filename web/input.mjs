@@ -4,8 +4,9 @@
  * @param wasm what runtime.mjs start() gave
  * @param {boolean} shares whether wheel and fingers are the page's until the canvas has the focus
  * @param {() => void} wake called with every event: something is to be drawn again
+ * @param {AbortSignal} signal ends what listens beyond the canvas, which would keep it all alive
  */
-export function listen(canvas, wasm, wake, shares) {
+export function listen(canvas, wasm, wake, shares, signal) {
   const fingers = new Map(); // pointer id -> where it is
   let pressed = false; // whether the application believes in a finger down
 
@@ -103,20 +104,21 @@ export function listen(canvas, wasm, wake, shares) {
     wasm.pasted(event.clipboardData?.getData("text/plain") ?? "");
     for (const down of [1, 0]) wasm.key("v", down, down, 0, 0, 0);
     wake();
-  });
+  }, { signal });
   // A ring around the page shows where the keyboard is, for those who came with Tab.
   let tab = false;
-  window.addEventListener("keydown", (event) => { tab = event.key === "Tab"; }, true);
+  window.addEventListener("keydown", (event) => { tab = event.key === "Tab"; },
+    { capture: true, signal });
   window.addEventListener("pointerdown", () => {
     tab = false;
     delete canvas.dataset.keyboard;
-  }, true);
+  }, { capture: true, signal });
   canvas.addEventListener("focus", () => { if (tab) canvas.dataset.keyboard = ""; });
   canvas.addEventListener("keydown", (event) => key(event, 1));
   canvas.addEventListener("keyup", (event) => key(event, 0));
   canvas.addEventListener("focus", () => wasm.focus(1));
   canvas.addEventListener("blur", () => wasm.focus(0));
-  window.addEventListener("blur", () => wasm.focus(0));
+  window.addEventListener("blur", () => wasm.focus(0), { signal });
   for (const type of ["pointerdown", "pointermove", "pointerup", "pointercancel", "pointerleave",
     "wheel", "keydown", "keyup", "focus", "blur"]) {
     canvas.addEventListener(type, wake, { passive: true });

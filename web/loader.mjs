@@ -70,6 +70,7 @@ const exported = {
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", playing: "n", reset: "v",
   open_link: "ss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
   trouble: "vss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
+  widgets: "s", memory: "s",
 };
 
 /** A function of the module. Texts go through the heap: a file does not fit on the stack. */
@@ -124,7 +125,7 @@ export async function makeEngine(engine, canvas, host) {
   }
   wasm.run = (keeps) => {
     const context = module.GL.createContext(canvas,
-      { majorVersion: 2, minorVersion: 0, alpha: false, antialias: true, depth: true });
+      { majorVersion: 2, minorVersion: 0, alpha: false, antialias: false, depth: false });
     if (!context) throw new Error("The browser gave no WebGL 2 context");
     const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);

@@ -132,7 +132,7 @@ async function open(frame, options) {
   const host = {}; // what the application may ask of the page: web/host.cpp calls it
   const wasm = await makeEngine(engine, frame.canvas, host);
   const files = makeFiles(frame, wasm, host);
-  const address = makeAddress(wasm, host, options.address === true);
+  const address = makeAddress(wasm, host, options.address === true, frame.signal);
   const capture = makeCapture(frame, wasm, host, files.save);
   wasm.run(frame.wholePage);
 
@@ -161,7 +161,7 @@ async function open(frame, options) {
   await address.start();
   twin = makeTwin(frame.twin, calls);
 
-  listen(frame.canvas, wasm, wake, !frame.wholePage);
+  listen(frame.canvas, wasm, wake, !frame.wholePage, frame.signal);
   watchContext(wasm, frame, clock);
   clock.draw(0);
   frame.clear();

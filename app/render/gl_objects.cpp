@@ -197,4 +197,61 @@ void ShadowMap::bind_texture() const {
   glBindTexture(GL_TEXTURE_2D, texture_);
 }
 
+void Canvas::fit(int width, int height, int samples) {
+  if (width == width_ && height == height_ && samples == samples_) return;
+  release();
+  width_ = width;
+  height_ = height;
+  samples_ = samples;
+  glGenFramebuffers(2, frame_buffers_.data());
+  glGenRenderbuffers(3, buffers_.data());
+  const auto attach = [&](std::size_t target, std::size_t buffer, GLenum format, GLenum point,
+                          int n) {
+    glBindFramebuffer(GL_FRAMEBUFFER, frame_buffers_.at(target));
+    glBindRenderbuffer(GL_RENDERBUFFER, buffers_.at(buffer));
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, n > 1 ? n : 0, format, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffers_.at(buffer));
+  };
+  attach(0, 0, GL_RGBA8, GL_COLOR_ATTACHMENT0, samples);
+  attach(0, 2, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT, samples);
+  if (samples > 1) attach(1, 1, GL_RGBA8, GL_COLOR_ATTACHMENT0, 1);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Canvas::release() {
+  glDeleteFramebuffers(2, frame_buffers_.data());
+  glDeleteRenderbuffers(3, buffers_.data());
+  frame_buffers_ = {};
+  buffers_ = {};
+}
+
+void Canvas::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, frame_buffers_[0]);
+  glViewport(0, 0, width_, height_);
+}
+
+void Canvas::resolve() const {
+  // At their own size and format: WebGL allows no enlarging at once.
+  if (samples_ > 1) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffers_[0]);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_buffers_[1]);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Canvas::show(int width, int height) const {
+  // Chromium clears what was shown before the first call that draws, and does not count a copy as
+  // one: without this the panels would clear the picture.
+  glClear(GL_COLOR_BUFFER_BIT);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffers_[samples_ > 1 ? 1 : 0]);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  const bool same = width == width_ && height == height_;
+  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                    same ? GL_NEAREST : GL_LINEAR);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  glViewport(0, 0, width, height);
+}
+
 }  // namespace substep::gl

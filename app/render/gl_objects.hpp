@@ -4,6 +4,7 @@
 // <epoxy/gl.h> natively, <GLES3/gl3.h> on the web: the build says which.
 #include SUBSTEP_GL_HEADER
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -90,6 +91,32 @@ class ShadowMap {
   GLuint texture_ = 0;
   GLuint frame_buffer_ = 0;
   bool complete_ = false;
+};
+
+/// Where the picture is drawn before the panels come over it; it stays there for the next frame.
+class Canvas {
+ public:
+  Canvas() = default;
+  ~Canvas() { release(); }
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// Makes it anew where it differs. @param width, height [pixel]; @param samples per pixel
+  void fit(int width, int height, int samples);
+  void bind() const;
+  /// Puts the samples together, once all is drawn.
+  void resolve() const;
+  /// Copies it to the window's frame buffer, enlarged to its size [pixel].
+  void show(int width, int height) const;
+
+ private:
+  void release();
+
+  int width_ = 0;
+  int height_ = 0;
+  int samples_ = 0;
+  std::array<GLuint, 2> frame_buffers_{};  // drawn to; of single samples, where there are more
+  std::array<GLuint, 3> buffers_{};        // their colours, and the depth
 };
 
 }  // namespace substep::gl

@@ -17,22 +17,30 @@ using Eigen::Matrix4f;
 using Eigen::Vector3f;
 
 constexpr int kShadowSize = 1536;
+constexpr int kSamples = 4;                 // per pixel of a fine picture
+constexpr double kCoarseScale = 2.0 / 3.0;  // of a coarse picture's width and height [-]
 
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
 class GlRenderer final : public Renderer {
  public:
-  ~GlRenderer() override { ImGui_ImplOpenGL3_Shutdown(); }
+  ~GlRenderer() override {
+    glDeleteVertexArrays(1, &empty_array_);
+    glDeleteVertexArrays(1, &ribbon_array_);
+    ImGui_ImplOpenGL3_Shutdown();
+  }
 
   bool build(std::string& error);
   void begin_frame() override { ImGui_ImplOpenGL3_NewFrame(); }
-  void draw(const Picture& picture, const ImDrawData& panels, int width, int height) override;
+  void draw(const Picture& picture, const ImDrawData& panels, int width, int height,
+            Quality moving) override;
   std::vector<std::uint8_t> pixels(int x, int y, int width, int height) override;
   void fonts_changed() override { ImGui_ImplOpenGL3_DestroyFontsTexture(); }
 
  private:
   // World to the light's clip space: a box around the focus, seen from far along the light.
   static Matrix4f light_matrix(const Picture& picture);
+  void draw_picture(const Picture& picture, Quality quality, int width, int height);
   void draw_shadows(const Picture& picture, const Matrix4f& light);
   void draw_bodies(const Picture& picture, const Matrix4f& light);
   void draw_ghosts(const Picture& picture);
@@ -52,7 +60,13 @@ class GlRenderer final : public Renderer {
   gl::Program ribbon_;
   GLuint empty_array_ = 0;
   GLuint ribbon_array_ = 0;
-  int height_ = 0;  // of the frame buffer [pixel]
+  gl::Canvas canvas_;
+  float shadow_taps_ = 4.0F;
+  Picture drawn_;                     // what is on the canvas
+  Quality quality_ = Quality::kFine;  // of it
+  int unchanged_ = 0;                 // frames since it changed
+  int width_ = 0;                     // of the frame buffer [pixel]
+  int height_ = 0;
 };
 
 bool GlRenderer::build(std::string& error) {
@@ -134,6 +148,7 @@ void GlRenderer::draw_bodies(const Picture& picture, const Matrix4f& light) {
   body_.set_matrix("view_projection", picture.view_projection.data());
   body_.set_matrix("world_to_shadow", light.data());
   body_.set("shadow_map", 0);
+  body_.set("shadow_taps", shadow_taps_);
   body_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
   body_.set3("eye", picture.eye.data());
   body_.set3("to_light", picture.to_light.data());
@@ -176,6 +191,7 @@ void GlRenderer::draw_ground(const Picture& picture, const Matrix4f& light) {
   ground_.set_matrix("view_projection", picture.view_projection.data());
   ground_.set_matrix("world_to_shadow", light.data());
   ground_.set("shadow_map", 0);
+  ground_.set("shadow_taps", shadow_taps_);
   ground_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
   ground_.set3("origin", centre.data());
   ground_.set3("axis_u", u.data());
@@ -199,8 +215,11 @@ void GlRenderer::draw_ribbons(const Picture& picture) {
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(picture.ribbons.size()));
 }
 
-void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int width, int height) {
-  height_ = height;
+void GlRenderer::draw_picture(const Picture& picture, Quality quality, int width, int height) {
+  const double scale = quality == Quality::kCoarse ? kCoarseScale : 1.0;
+  const auto scaled = [scale](int length) { return static_cast<int>(std::ceil(scale * length)); };
+  canvas_.fit(scaled(width), scaled(height), quality == Quality::kFine ? kSamples : 1);
+  shadow_taps_ = quality == Quality::kFine ? 4.0F : 1.0F;
   const Matrix4f light = light_matrix(picture);
   box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
   ball_instances_.upload(picture.balls.data(), picture.balls.size() * sizeof(Instance));
@@ -213,7 +232,7 @@ void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int widt
   draw_shadows(picture, light);
   shadow_map_.bind_texture();
 
-  glViewport(0, 0, width, height);
+  canvas_.bind();
   glClear(GL_DEPTH_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
   background_.use();
@@ -235,7 +254,24 @@ void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int widt
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
+  canvas_.resolve();
+}
 
+void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int width, int height,
+                      Quality moving) {
+  const bool same = width == width_ && height == height_ && picture == drawn_;
+  unchanged_ = same ? unchanged_ + 1 : 0;
+  // Between two events of a mouse that turns the view there is a frame without a change.
+  const Quality quality = unchanged_ < 2 ? moving : Quality::kFine;
+  if (!same || quality > quality_) {
+    draw_picture(picture, quality, width, height);
+    drawn_ = picture;
+    quality_ = quality;
+    width_ = width;
+    height_ = height;
+  }
+  glDisable(GL_SCISSOR_TEST);
+  canvas_.show(width, height);
   // Dear ImGui only reads the lists that it is given.
   ImGui_ImplOpenGL3_RenderDrawData(const_cast<ImDrawData*>(&panels));
 }

@@ -8,7 +8,7 @@ namespace substep {
 class NullRenderer final : public Renderer {
  public:
   void begin_frame() override { ++begun; }
-  void draw(const Picture& p, const ImDrawData&, int, int) override {
+  void draw(const Picture& p, const ImDrawData&, int, int, Quality) override {
     ++drawn;
     picture = p;
   }

@@ -14,6 +14,8 @@ struct Color {
   float g = 0.0F;
   float b = 0.0F;
   float a = 1.0F;
+
+  bool operator==(const Color&) const = default;
 };
 
 /// One box or ball: sixteen floats, as the graphics card reads them.
@@ -24,12 +26,16 @@ struct Instance {
   std::array<float, 3> half_extents{};  // of a box; radius, three times, of a ball [m]
   float pattern = 0.0F;                 // 1: quartered, so that turning is seen
   Color color;
+
+  bool operator==(const Instance&) const = default;
 };
 
 /// One corner of a ribbon that faces the camera.
 struct RibbonVertex {
   std::array<float, 3> position{};
   Color color;
+
+  bool operator==(const RibbonVertex&) const = default;
 };
 
 /// An endless floor: a grid that fades into the distance, and the shadows that fall on it.
@@ -40,6 +46,8 @@ struct Ground {
   std::array<float, 3> along{1, 0, 0};  // one of the grid's directions
   float cell = 1.0F;                    // [m]
   float fade = 30.0F;                   // where it has gone, from `focus` [m]
+
+  bool operator==(const Ground&) const = default;
 };
 
 struct Picture {
@@ -59,6 +67,8 @@ struct Picture {
   std::vector<Instance> ghost_balls;
   std::vector<RibbonVertex> ribbons;  // triangles
   Ground ground;
+
+  bool operator==(const Picture&) const = default;
 };
 
 }  // namespace substep

@@ -9,6 +9,13 @@ struct ImDrawData;
 
 namespace substep {
 
+/// How finely the picture is drawn; the panels over it are always as sharp as the screen.
+enum class Quality : unsigned char {
+  kCoarse,  // of fewer pixels
+  kPlain,   // edges in steps
+  kFine     // smooth edges
+};
+
 /// Draws a picture and the panels over it. The window system belongs to the shell.
 class Renderer {
  public:
@@ -17,7 +24,9 @@ class Renderer {
   /// Before the panels are built: makes ready what Dear ImGui needs.
   virtual void begin_frame() = 0;
   /// @param width, height of the frame buffer [pixel]
-  virtual void draw(const Picture& picture, const ImDrawData& panels, int width, int height) = 0;
+  /// @param moving how finely while the picture changes; one that rests is drawn at its best
+  virtual void draw(const Picture& picture, const ImDrawData& panels, int width, int height,
+                    Quality moving) = 0;
   /// What was drawn last, as RGB rows from the top; asked for right after draw().
   /// @param x, y from the top left corner [pixel]
   [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;

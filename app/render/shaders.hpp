@@ -42,20 +42,22 @@ void main() {
 }
 )";
 
-/// Shared by what receives shadows: how much of the light arrives, softened over four samples that
-/// the hardware filters once more.
+/// Shared by what receives shadows: how much of the light arrives, softened over four samples, or in
+/// a hurry one, that the hardware filters once more.
 inline constexpr const char* kShadowFunction = R"(
 uniform sampler2DShadow shadow_map;
 uniform float shadow_texel;
+uniform float shadow_taps;
 float lit(vec4 p, float softness) {
   vec3 q = p.xyz * 0.5 + 0.5;
   if (any(greaterThan(abs(q - 0.5), vec3(0.498)))) return 1.0;
+  vec2 edge = smoothstep(vec2(0.5), vec2(0.4), abs(q.xy - 0.5));
+  if (shadow_taps < 2.0) return mix(1.0, texture(shadow_map, q), edge.x * edge.y);
   vec2 d = vec2(0.5, 1.0) * shadow_texel * softness;
   float sum = texture(shadow_map, vec3(q.xy + d, q.z)) +
               texture(shadow_map, vec3(q.xy - d, q.z)) +
               texture(shadow_map, vec3(q.xy + vec2(d.y, -d.x), q.z)) +
               texture(shadow_map, vec3(q.xy - vec2(d.y, -d.x), q.z));
-  vec2 edge = smoothstep(vec2(0.5), vec2(0.4), abs(q.xy - 0.5));
   return mix(1.0, 0.25 * sum, edge.x * edge.y);
 }
 )";

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/format.hpp"
+#include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
 
@@ -297,6 +298,8 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   float reach = kReach;
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const auto consider = [&](const Point& p, ImVec2 at) {
+    mark(std::to_string(p.result).c_str(), {at.x - 1.0F, at.y - 1.0F}, {at.x + 1.0F, at.y + 1.0F},
+         "accuracy picture");
     const Settings& s = accuracy.results()[p.result].experiment.settings;
     Settings same = current;
     same.watch_stiffness = s.watch_stiffness;

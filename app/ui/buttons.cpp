@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -17,6 +18,7 @@ bool button(const Look& look, const char* id, Icon icon, const char* text, Butto
   if (width <= 0.0F) width = size.x > 0.0F ? content + 24.0F : height;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(id, {width, height});
+  mark(*text != '\0' ? text : id, origin, {origin.x + width, origin.y + height});
   const bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImRect box(origin, {origin.x + width, origin.y + height});
@@ -79,6 +81,7 @@ bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool fi
   }
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(name, {width, height});
+  ui::mark(name, origin, {origin.x + width, origin.y + height});
   if (pressed) value = !value;
   const bool hovered = ImGui::IsItemHovered();
   const ImVec2 end(origin.x + width, origin.y + height);
@@ -102,6 +105,7 @@ void fold(const Look& look, const char* title, bool& open, const char* tip) {
   constexpr float kHeight = 24.0F;
   ImGui::PushID(title);
   if (ImGui::InvisibleButton("fold", {width, kHeight})) open = !open;
+  mark(title, origin, {origin.x + width, origin.y + kHeight});
   ImGui::PopID();
   const bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -120,6 +124,7 @@ bool menu_button(const Look& look, const char* id, const char* text, float width
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   ImGui::PushID(id);
   const bool pressed = ImGui::InvisibleButton("open", {width, height});
+  mark(id, origin, {origin.x + width, origin.y + height});
   const bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImRect box(origin, {origin.x + width, origin.y + height});
@@ -142,6 +147,7 @@ bool icon_menu(const Look& look, const char* id, Icon icon, ButtonKind kind, flo
   ImGui::PushID(id);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   if (button(look, "open", icon, "", kind, size, size, tip)) ImGui::OpenPopup("menu");
+  mark(id, at, {at.x + size, at.y + size});
   const bool open = open_menu({at, {at.x + size, at.y + size}}, menu);
   ImGui::PopID();
   return open;
@@ -156,6 +162,7 @@ bool menu_item(const Look& look, const char* text, const char* note, bool curren
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float height = look.m.row + 2.0F;
   const bool pressed = ImGui::InvisibleButton(text, {width, height});
+  mark(text, origin, {origin.x + width, origin.y + height});
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (ImGui::IsItemHovered() || ImGui::IsItemFocused()) {
     draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, t.control, look.m.radius);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/format.hpp"
+#include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -58,6 +59,7 @@ void scrubber(App& app, ImVec2 at, float width, float height) {
   const Timeline& past = session.timeline();
   ImGui::SetCursorScreenPos(at);
   ImGui::InvisibleButton("past", {width, height});
+  mark("past", {at.x + kKnob, at.y}, {at.x + width - kKnob, at.y + height});
   const bool hovered = ImGui::IsItemHovered();
   const bool active = ImGui::IsItemActive();
   const Track track{at.x + kKnob, at.x + width - kKnob, past[0].state.time,

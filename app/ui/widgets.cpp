@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "app/ui/handles.hpp"
+
 namespace substep::ui {
 namespace {
 
@@ -42,6 +44,7 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, b
   frame.Max.x = value_x - 8.0F;
   ImGui::ItemSize(all);
   if (!ImGui::ItemAdd(all, id, &all, ImGuiItemFlags_Inputable)) return false;
+  mark(name, all.Min, all.Max);
 
   const bool hovered = ImGui::ItemHoverable(all, id, ImGuiItemFlags_None);
   const ImGuiIO& io = ImGui::GetIO();
@@ -257,6 +260,7 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
     ImGui::SetCursorScreenPos(box.Min);
     ImGui::PushID(i);
     const bool pressed = ImGui::InvisibleButton("choice", box.GetSize());
+    mark(choice.name, box.Min, box.Max, id);
     const bool hovered = ImGui::IsItemHovered();
     ImGui::PopID();
     if (pressed && i != current) {
@@ -310,6 +314,7 @@ bool checkbox(const Look& look, const char* name, bool& value, float width, cons
   const Theme& t = *look.theme;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const bool pressed = ImGui::InvisibleButton(name, {width, look.m.row});
+  mark(name, origin, {origin.x + width, origin.y + look.m.row});
   const bool hovered = ImGui::IsItemHovered();
   if (pressed) value = !value;
   ImDrawList& draw = *ImGui::GetWindowDrawList();

@@ -119,21 +119,37 @@ export async function drop(page, name, bytes) {
   await drawn(page);
 }
 
-// The menu of links, files and pictures at 1280 x 720: its button, and the middles of its entries.
-const menu = { button: [1208, 680], link: 440, command: 470, open: 510, save: 540, window: 580,
-  view: 610, video: 640 };
+/**
+ * Where a control is, in CSS pixels of a canvas that fills the page.
+ * @param label what is written on it, or the name of a body
+ * @param group of a row of choices: "tabs", "Method"; "body" for a body
+ */
+export async function find(page, label, group) {
+  const all = await call(page, "widgets");
+  const found = all.find((w) => w.label === label && (group === undefined || w.group === group));
+  assert.ok(found, `there is no "${label}" among: ${all.map((w) => w.label).join(", ")}`);
+  return found;
+}
 
-/** Opens the menu. */
-export async function openMenu(page) {
-  await page.mouse.click(...menu.button);
+/** A place on a control. @param along 0 at its left end to 1 at its right one */
+export const place = ({ x, y, width, height }, along = 0.5) => [x + along * width, y + height / 2];
+
+/** Clicks a control by what is written on it, and waits for what it does. */
+export async function click(page, label, group) {
+  await page.mouse.click(...place(await find(page, label, group)));
   await drawn(page);
+}
+
+/** Opens the menu of links, files and pictures. */
+export async function openMenu(page) {
+  await click(page, "share");
   await drawn(page); // it fades in
 }
 
-/** Picks an entry of the menu: "link", "command", ... */
+/** Picks an entry of that menu: "Copy link", ... */
 export async function pick(page, entry) {
   await openMenu(page);
-  await page.mouse.click(menu.button[0] - 40, menu[entry]);
+  await page.mouse.click(...place(await find(page, entry)));
 }
 
 /** Waits until the page has drawn what it was told: a panel that opens takes a few frames. */

@@ -84,7 +84,7 @@ test("a huge file is refused without being read", async () => {
 });
 
 test("the menu opens a file", async () => {
-  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), pick(page, "open")]);
+  const [chooser] = await Promise.all([page.waitForEvent("filechooser"), pick(page, "Open scene …")]);
   await chooser.setFiles({ name: "chosen.json", mimeType: "application/json",
     buffer: Buffer.from(mine.replace('"mine"', '"chosen"')) });
   await page.waitForFunction(() => window.substep.report().scene === "chosen");
@@ -96,7 +96,7 @@ test("the run as it is now is saved, and goes on from its file", async () => {
   await call(page, "pause");
   await call(page, "reset");
   await call(page, "step", 60);
-  const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "save")]);
+  const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "Save scene as it is now")]);
   assert.equal(download.suggestedFilename(), "heavy_stack_at_1000ms.json");
   const text = (await read(download)).toString();
   assert.equal(text, await call(page, "saved"));
@@ -111,7 +111,7 @@ test("the run as it is now is saved, and goes on from its file", async () => {
 
 test("pictures of window and view are what is seen", async () => {
   for (const entry of ["window", "view"]) {
-    const [download] = await Promise.all([page.waitForEvent("download"), pick(page, entry)]);
+    const [download] = await Promise.all([page.waitForEvent("download"), pick(page, `Picture of the ${entry}`)]);
     assert.match(download.suggestedFilename(), /^heavy_stack.*\.png$/);
     const png = PNG.sync.read(await read(download));
     assert.ok(entry === "window" ? png.width === 1280 && png.height === 720 : png.width < 1280);
@@ -122,10 +122,10 @@ test("pictures of window and view are what is seen", async () => {
 
 test("a video is recorded", async () => {
   await call(page, "play");
-  await pick(page, "video");
+  await pick(page, "Record a video");
   await page.waitForTimeout(2500);
   await save(page, "recording");
-  const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "video")]);
+  const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "Stop the video")]);
   assert.match(download.suggestedFilename(), /\.webm$/);
   const bytes = await read(download);
   assert.deepEqual([...bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]); // EBML

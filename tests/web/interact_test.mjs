@@ -1,13 +1,10 @@
 // Hands on the picture and the past: node tests/web/interact_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { call, drawn, open, openPage, picture, quiet, save } from "./browser.mjs";
+import { call, click, drawn, find, open, openPage, picture, place, quiet, save } from "./browser.mjs";
 import { difference, part } from "./pixels.mjs";
 
 // Where things are at 1280 x 720.
-const box = [932, 302]; // the swinging box at the start
-const track = { left: 307, right: 724, y: 680 }; // of the past
-const tabs = { plots: [1021, 41], why: [1107, 41], compare: [1206, 41] };
 const side = { x: 980, y: 60, width: 280, height: 560 };
 
 let session;
@@ -33,6 +30,7 @@ test("a body is grabbed, pulled and let go", async () => {
   await run(0);
   await call(page, "set", { speed: 0.01 }); // bodies are held while the run plays
   await call(page, "play");
+  const box = place(await find(page, "box", "body"));
   await page.mouse.move(...box);
   await drawn(page);
   await page.mouse.down();
@@ -66,9 +64,10 @@ test("a ball is thrown with its key", async () => {
 
 test("the past is looked at by dragging along it", async () => {
   const end = await run(60);
-  await page.mouse.move(track.right, track.y);
+  const track = await find(page, "past");
+  await page.mouse.move(...place(track, 1));
   await page.mouse.down();
-  await page.mouse.move((track.left + track.right) / 2, track.y, { steps: 4 });
+  await page.mouse.move(...place(track, 0.5), { steps: 4 });
   await drawn(page);
   await page.mouse.up();
   await drawn(page);
@@ -83,18 +82,15 @@ test("the past is looked at by dragging along it", async () => {
 
 test("other methods run beside it, in the picture and in the plots", async () => {
   await run(0);
-  await page.mouse.click(...tabs.compare);
-  await drawn(page);
+  await click(page, "Compare", "tabs");
   const empty = await picture(page, side);
-  await page.mouse.click(1117, 159); // none, damping, adaptive
-  await drawn(page);
+  await click(page, "None, damping, adaptive");
   await call(page, "step", 40);
   await page.waitForTimeout(1000);
   await drawn(page);
   await save(page, "compare");
   assert.ok(difference(empty, await picture(page, side)) > 0.05);
-  await page.mouse.click(...tabs.plots);
-  await drawn(page);
+  await click(page, "Plots", "tabs");
   await save(page, "compare-plots");
   quiet(page);
 });
@@ -102,11 +98,10 @@ test("other methods run beside it, in the picture and in the plots", async () =>
 test("why this N has a page of its own", async () => {
   await run(30);
   const plots = await picture(page, side);
-  await page.mouse.click(...tabs.why);
-  await drawn(page);
+  await click(page, "Why N", "tabs");
   assert.ok(difference(plots, await picture(page, side)) > 0.03);
   await save(page, "why");
-  await page.mouse.click(...tabs.plots);
+  await click(page, "Plots", "tabs");
   quiet(page);
 });
 

@@ -142,9 +142,9 @@ test("and the command are copied from the menu", async () => {
     await page.waitForFunction(async () => (await navigator.clipboard.readText()) !== "nothing yet");
     return page.evaluate(() => navigator.clipboard.readText());
   };
-  assert.equal(await copied("link"), page.url());
+  assert.equal(await copied("Copy link"), page.url());
   assert.match((await call(page, "report")).notice, /Link copied/);
-  assert.equal(await copied("command"), "./dev cli run swinging_box --mode const --n 9");
+  assert.equal(await copied("Copy command"), "./dev cli run swinging_box --mode const --n 9");
   assert.equal(await call(page, "command"), "./dev cli run swinging_box --mode const --n 9");
   quiet(page);
   await page.context().close();

@@ -1,7 +1,7 @@
 // The page in a browser: node tests/web/page_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { call, drawn, open, openPage, picture, quiet as isQuiet, save } from "./browser.mjs";
+import { call, click, drawn, find, open, openPage, picture, place, quiet as isQuiet, save } from "./browser.mjs";
 import { difference, part, variance } from "./pixels.mjs";
 
 const scenes = ["swinging_box", "bridge", "heavy_stack"];
@@ -78,10 +78,10 @@ for (const scene of scenes) {
 }
 
 test("changes by mouse and keys, and the address follows", async () => {
+  await api("pause");
   await api("set", { scene: "swinging_box", mode: "adaptive" });
   await drawn(page);
-  await page.mouse.click(136, 200); // "damping" of the five modes
-  await drawn(page);
+  await click(page, "damping");
   assert.equal((await api("report")).mode, "damping");
   await page.waitForURL(/mode=damping/);
   await page.keyboard.press("1");
@@ -108,12 +108,60 @@ test("changes by mouse and keys, and the address follows", async () => {
   quiet();
 });
 
+for (const solver of ["PGS", "BPP"]) {
+  test(`runs every scene of the paper in every mode by clicks, with ${solver}`, async () => {
+    for (const scene of scenes) {
+      await api("set", { scene });
+      await click(page, solver, "Method");
+      for (const mode of modes) {
+        await click(page, mode, "mode");
+        const report = await api("report");
+        assert.deepEqual([report.scene, report.solver, report.mode], [scene, solver.toLowerCase(), mode]);
+      }
+    }
+    quiet();
+  });
+}
+
+test("alpha follows the drag of its slider", async () => {
+  await api("set", { scene: "swinging_box", mode: "adaptive", alpha: 0.1 });
+  await drawn(page);
+  const slider = await find(page, "Alpha  α");
+  await page.mouse.move(...place(slider, 0.4));
+  await page.mouse.down();
+  await drawn(page);
+  const first = (await api("report")).alpha;
+  await page.mouse.move(...place(slider, 0.65), { steps: 4 });
+  await drawn(page);
+  await page.mouse.up();
+  assert.ok((await api("report")).alpha > 2 * first, `${first}, then ${(await api("report")).alpha}`);
+  quiet();
+});
+
+test("a sweep is begun, cancelled and a point of it run, by clicks", async () => {
+  await api("set", { scene: "pendulum", panel: "accuracy", accuracy: "run" });
+  await page.waitForFunction(() =>
+    window.substep.widgets().filter((w) => w.group === "accuracy picture").length > 3, null, { timeout: 60000 });
+  await api("set", { accuracy: "cancel" });
+  await drawn(page);
+  const before = (await api("settings")).map((s) => s.value).join();
+  const points = (await api("widgets")).filter((w) => w.group === "accuracy picture");
+  await page.mouse.move(...place(points[0]));
+  await drawn(page);
+  await page.mouse.click(...place(points[0]));
+  await drawn(page);
+  const report = await api("report");
+  assert.ok(report.playing && report.time < 5, JSON.stringify(report));
+  assert.notEqual((await api("settings")).map((s) => s.value).join(), before);
+  await api("set", { panel: "plots" });
+  await api("pause");
+  quiet();
+});
+
 test("picks a scene from the menu", async () => {
-  await page.mouse.click(150, 67);
-  await drawn(page);
+  await click(page, "scene");
   await save(page, "scene-menu");
-  await page.mouse.click(150, 160); // the second of the first group
-  await drawn(page);
+  await click(page, "Bridge");
   assert.equal((await api("report")).scene, "bridge");
   quiet();
 });
@@ -161,7 +209,7 @@ test("fits a phone, at two pixels to one", async () => {
   }), [780, 1688, 390]);
   assert.ok(variance(await picture(phone, { x: 0, y: 60, width: 390, height: 300 })) > 20);
   await save(phone, "phone");
-  await phone.touchscreen.tap(190, 474); // the tab with the plots
+  await phone.touchscreen.tap(...place(await find(phone, "Plots")));
   await drawn(phone);
   await save(phone, "phone-plots");
   quiet(phone);

@@ -1,0 +1,35 @@
+#include "app/quality.hpp"
+
+#include <algorithm>
+
+namespace substep {
+namespace {
+
+constexpr int kWindow = 12;          // frames that are judged together
+constexpr double kSlow = 1.0 / 30;   // a frame that took longer to draw is slow [s]
+constexpr double kAsleep = 1.0;      // a tab in the background: says nothing about drawing [s]
+constexpr double kMostWait = 256.0;  // between attempts at a finer picture [s]
+
+}  // namespace
+
+void QualityGovernor::observe(double wall_dt, double own) {
+  if (wall_dt > kAsleep) return;
+  steady_ += wall_dt;
+  ++seen_;
+  if (wall_dt - own > kSlow) ++slow_;
+  if (seen_ < kWindow) return;
+  const bool slow = 2 * slow_ > seen_;
+  const bool quick = slow_ == 0;
+  seen_ = slow_ = 0;
+  if (slow && quality_ != Quality::kCoarse) {
+    // A finer picture that failed at once is not tried again soon.
+    if (steady_ < 4.0) patience_ = std::min(2.0 * patience_, kMostWait);
+    quality_ = static_cast<Quality>(static_cast<int>(quality_) - 1);
+    steady_ = 0.0;
+  } else if (quick && quality_ != Quality::kFine && steady_ > patience_) {
+    quality_ = static_cast<Quality>(static_cast<int>(quality_) + 1);
+    steady_ = 0.0;
+  }
+}
+
+}  // namespace substep

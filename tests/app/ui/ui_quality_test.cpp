@@ -1,0 +1,111 @@
+// How finely a picture that moves is drawn, and where the controls lie.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "app/quality.hpp"
+#include "app/ui/handles.hpp"
+#include "core/model/names.hpp"
+#include "tests/app/ui/ui_fixture.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kQuick = 1.0 / 60;  // [s]
+constexpr double kSlow = 0.08;       // [s]
+
+void observe(QualityGovernor& governor, double dt, double seconds, double own = 0.002) {
+  for (double t = 0.0; t < seconds; t += dt) governor.observe(dt, own);
+}
+
+// A machine whose drawing takes so long at each quality, for a while.
+// @return how often the quality changed
+int live_with(QualityGovernor& governor, double coarse, double plain, double fine, double seconds) {
+  int changes = 0;
+  for (double t = 0.0; t < seconds;) {
+    const Quality before = governor.quality();
+    const double dt = before == Quality::kCoarse  ? coarse
+                      : before == Quality::kPlain ? plain
+                                                  : fine;
+    governor.observe(dt, 0.002);
+    t += dt;
+    if (governor.quality() != before) ++changes;
+  }
+  return changes;
+}
+
+TEST(Quality, StaysFineWhereFramesAreQuick) {
+  QualityGovernor governor;
+  observe(governor, kQuick, 60.0);
+  EXPECT_EQ(governor.quality(), Quality::kFine);
+}
+
+TEST(Quality, GoesDownStepByStepWhereDrawingIsSlow) {
+  QualityGovernor governor;
+  observe(governor, kSlow, 1.0);
+  EXPECT_EQ(governor.quality(), Quality::kPlain);
+  observe(governor, kSlow, 1.0);
+  EXPECT_EQ(governor.quality(), Quality::kCoarse);
+}
+
+TEST(Quality, StaysFineWhereSimulatingIsSlow) {
+  QualityGovernor governor;
+  observe(governor, kSlow, 10.0, kSlow - 0.01);
+  EXPECT_EQ(governor.quality(), Quality::kFine);
+}
+
+TEST(Quality, ComesBackWhenFramesAreQuickAgain) {
+  QualityGovernor governor;
+  observe(governor, kSlow, 3.0);
+  ASSERT_EQ(governor.quality(), Quality::kCoarse);
+  observe(governor, kQuick, 120.0);
+  EXPECT_EQ(governor.quality(), Quality::kFine);
+}
+
+TEST(Quality, SettlesWhereOnlyACoarserPictureIsQuick) {
+  QualityGovernor governor;
+  live_with(governor, kQuick, kQuick, kSlow, 60.0);
+  // Attempts at a finer picture become rare.
+  EXPECT_LE(live_with(governor, kQuick, kQuick, kSlow, 600.0), 10);
+}
+
+TEST(Quality, TabThatSleptSaysNothing) {
+  QualityGovernor governor;
+  for (int i = 0; i < 100; ++i) governor.observe(60.0, 0.0);
+  EXPECT_EQ(governor.quality(), Quality::kFine);
+}
+
+const ui::Handle* find(std::string_view label) {
+  const auto& all = ui::handles();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.label == label; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+TEST(Handles, ControlIsWhereItsNameSaysAtAnyScale) {
+  Headless h;
+  for (const double scale : {1.0, 1.3}) {
+    h.app->desk.scale = scale;
+    h.frames(3);
+    for (const char* mode : {"none", "damping", "adaptive"}) {
+      const ui::Handle* handle = find(mode);
+      ASSERT_NE(handle, nullptr) << mode;
+      const auto s = static_cast<float>(scale);
+      h.click(0.5F * s * (handle->min.x + handle->max.x),
+              0.5F * s * (handle->min.y + handle->max.y));
+      EXPECT_EQ(name_of(h.app->session.settings().mode), std::string_view(mode));
+    }
+  }
+}
+
+TEST(Handles, HiddenControlHasNone) {
+  Headless h;
+  ASSERT_NE(find("adaptive"), nullptr);
+  h.app->desk.panels = false;
+  h.frames(3);
+  EXPECT_EQ(find("adaptive"), nullptr);
+}
+
+}  // namespace
+}  // namespace substep

@@ -1,0 +1,88 @@
+// What the page costs here: node tests/web/measure.mjs [FOLDER] [minutes of memory, 0]
+// Frames a second of the page and of an empty one, the main thread's time of a frame without physics
+// with 200 s of plots, a sweep beside the run, and how memory goes.
+import { call, drawn, open, openPage } from "./browser.mjs";
+
+const minutes = Number(process.argv[3] ?? 0);
+const session = await open();
+
+/** Frames a second, and times of the calls that draw one [ms]. */
+const frames = (page, seconds) => page.evaluate(async (s) => {
+  const start = performance.now();
+  let count = 0;
+  while (performance.now() - start < 1000 * s) {
+    await new Promise(requestAnimationFrame);
+    ++count;
+  }
+  return 1000 * count / (performance.now() - start);
+}, seconds);
+
+async function empty() {
+  const page = await session.browser.newPage();
+  await page.goto("about:blank");
+  const rate = await frames(page, 3);
+  await page.close();
+  return rate;
+}
+
+/** Times of wasm.frame, which builds the panels and hands all to the graphics [ms]. */
+const patch = `
+const begin = window.requestAnimationFrame;
+window.frameTimes = [];
+window.requestAnimationFrame = (draw) => begin.call(window, (now) => {
+  const start = performance.now();
+  draw(now);
+  window.frameTimes.push(performance.now() - start);
+});`;
+
+const middle = (list, share = 0.5) => [...list].sort((a, b) => a - b)[Math.floor(share * list.length)];
+
+console.log(`empty page: ${(await empty()).toFixed(1)} frames/s`);
+for (const scene of ["swinging_box", "bridge", "heavy_stack"]) {
+  const page = await openPage(session, { fragment: `scene=${scene}`, before: patch });
+  await page.waitForFunction(() => window.substep);
+  await page.waitForTimeout(4000); // until the quality of the picture has settled
+  const rate = await frames(page, 6);
+  const report = await call(page, "report");
+  console.log(`${scene}: ${rate.toFixed(1)} frames/s, ${report.milliseconds.toFixed(2)} ms to simulate one`);
+  if (scene === "swinging_box") {
+    await call(page, "pause");
+    await call(page, "step", 12000); // 200 s
+    // At rest, with events that keep it drawing: no physics, all plots.
+    await page.evaluate(() => { window.frameTimes.length = 0; });
+    for (let i = 0; i < 60; ++i) {
+      await page.mouse.move(1100, 100 + i);
+      await drawn(page);
+    }
+    const times = await page.evaluate(() => window.frameTimes);
+    console.log(`200 s of plots, without physics: ${middle(times).toFixed(2)} ms a frame, ` +
+      `95 % below ${middle(times, 0.95).toFixed(2)} ms, ${times.length} frames`);
+    await call(page, "set", { mode: "adaptive", panel: "accuracy" });
+    await call(page, "reset");
+    await call(page, "play");
+    await page.waitForTimeout(2000);
+    const without = await frames(page, 6);
+    await call(page, "set", { accuracy: "run" });
+    const beside = await frames(page, 6);
+    await call(page, "set", { accuracy: "cancel" });
+    console.log(`a sweep beside it: ${beside.toFixed(1)} of ${without.toFixed(1)} frames/s`);
+  }
+  await page.context().close();
+}
+
+if (minutes > 0) {
+  const page = await openPage(session);
+  const scenes = (await call(page, "scenes")).map((s) => s.name);
+  console.log("minute  scene                heap used MB  heap MB  JS MB");
+  for (let i = 0; i <= 2 * minutes; ++i) {
+    const scene = scenes[i % scenes.length];
+    await call(page, "set", { scene });
+    await call(page, "play");
+    await page.waitForTimeout(30000);
+    const { used, heap } = await call(page, "memory");
+    const js = await page.evaluate(() => performance.memory?.usedJSHeapSize ?? 0);
+    console.log(`${(i / 2).toFixed(1).padStart(6)}  ${scene.padEnd(20)} ${(used / 1e6).toFixed(2).padStart(12)}` +
+      ` ${(heap / 1e6).toFixed(1).padStart(8)} ${(js / 1e6).toFixed(1).padStart(6)}`);
+  }
+}
+await session.close();

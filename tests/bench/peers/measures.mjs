@@ -1,0 +1,154 @@
+// What a run is judged by, from its poses alone and the same for every engine.
+
+import { readFileSync } from "node:fs";
+import { add, conjugate, length, rotate, subtract } from "./rotation.mjs";
+
+const kNumbers = 7; // of a body's pose: x y z, w x y z
+
+/** @param text lines of "milliseconds pose pose ..." @return {ms, poses} of every frame */
+export function readFrames(text) {
+  return text
+    .trim()
+    .split("\n")
+    .map((line) => {
+      const [ms, ...poses] = line.split(" ").map(Number);
+      return { ms, poses };
+    });
+}
+
+export function median(values) {
+  const sorted = [...values].sort((a, b) => a - b);
+  const half = sorted.length >> 1;
+  return sorted.length % 2 ? sorted[half] : (sorted[half - 1] + sorted[half]) / 2;
+}
+
+const position = (poses, body) => poses.slice(kNumbers * body, kNumbers * body + 3);
+const orientation = (poses, body) => poses.slice(kNumbers * body + 3, kNumbers * (body + 1));
+
+function placed(poses, body, point) {
+  if (body < 0) return point;
+  return add(position(poses, body), rotate(orientation(poses, body), point));
+}
+
+/** Largest distance between the two anchors of a joint [m]. */
+function jointGap(scene, poses) {
+  const gaps = scene.joints.map(({ a, b, anchorA, anchorB }) =>
+    length(subtract(placed(poses, a, anchorA), placed(poses, b, anchorB))),
+  );
+  return Math.max(0, ...gaps);
+}
+
+/** How deep a sphere is in a plane or box whose surface it has not passed with its centre [m]. */
+function depth(sphere, centre, other, poses, i) {
+  const local = rotate(conjugate(orientation(poses, i)), subtract(centre, position(poses, i)));
+  if (other.shape.type === "plane") return sphere.shape.radius - local[1];
+  const half = other.shape.size.map((edge) => edge / 2);
+  const outside = local.map((x, k) => Math.max(0, Math.abs(x) - half[k]));
+  const distance = length(outside);
+  if (distance > 0) return sphere.shape.radius - distance;
+  return sphere.shape.radius + Math.min(...local.map((x, k) => half[k] - Math.abs(x)));
+}
+
+/** Deepest overlap of a sphere with a plane or a box [m]. */
+function penetration(scene, poses) {
+  let deepest = 0;
+  scene.bodies.forEach((sphere, s) => {
+    if (sphere.shape.type !== "sphere") return;
+    const centre = position(poses, s);
+    scene.bodies.forEach((other, o) => {
+      if (other.shape.type !== "sphere") {
+        deepest = Math.max(deepest, depth(sphere, centre, other, poses, o));
+      }
+    });
+  });
+  return deepest;
+}
+
+const largest = (frames, measure) => frames.reduce((most, f) => Math.max(most, measure(f.poses)), 0);
+const indexOf = (scene, name) => scene.bodies.findIndex((body) => body.name === name);
+
+/** Of the heavy box at the end of every frame [m]. */
+function exactPath(reference) {
+  const [, , ...lines] = readFileSync(reference, "utf8").trim().split("\n"); // from frame 1 on
+  return lines.map((line) => {
+    const [, x, y] = line.split(",").map(Number);
+    return [x, y, 0];
+  });
+}
+
+/** How a scene broke by its own criteria, as a word; null where it did not. */
+export function broken(scene, poses) {
+  const { joint_gap, displacement } = scene.criteria;
+  if (!poses.every((x) => Math.abs(x) < 1e6)) return "explodes";
+  if (jointGap(scene, poses) > joint_gap) return "torn";
+  if (!displacement) return null;
+  const i = indexOf(scene, displacement.body);
+  const moved = length(subtract(position(poses, i), scene.bodies[i].x));
+  return moved > displacement.distance ? "falls" : null;
+}
+
+const seconds = (scene, frame) => `${((frame + 1) * scene.frame).toFixed(2)} s`;
+
+function whyBroken(scene, frames) {
+  for (let i = 0; i < frames.length; ++i) {
+    const how = broken(scene, frames[i].poses);
+    if (how) return `${how} at ${seconds(scene, i)}`;
+  }
+  return null;
+}
+
+/** Error: the heavy box from the exact motion at 3 s. */
+function swingingBox(scene, frames, reference) {
+  const kTime = 3.0; // [s]
+  const kLost = 0.5; // off by more is another motion: how reduced coordinates explode [m]
+  const box = indexOf(scene, scene.criteria.track);
+  const exact = exactPath(reference);
+  const off = frames.map(({ poses }, i) => length(subtract(position(poses, box), exact[i])));
+  const lost = off.findIndex((distance) => distance > kLost);
+  return {
+    failure: lost < 0 ? null : `another motion at ${seconds(scene, lost)}`,
+    error: off[Math.round(kTime / scene.frame) - 1],
+    other: largest(frames, (poses) => jointGap(scene, poses)),
+    costFrames: frames,
+  };
+}
+
+/** The ball crosses; error: the largest joint gap. */
+function bridge(scene, frames) {
+  const kFarEnd = 4.9; // [m]
+  const ball = indexOf(scene, scene.criteria.track);
+  const left = frames.findIndex(({ poses }) => position(poses, ball)[0] > kFarEnd);
+  // Below the end of the bridge the ball has fallen through it, however far it rolls on.
+  const crosses = left >= 0 && position(frames[left].poses, ball)[1] > 4;
+  const crossing = crosses ? frames.slice(0, left) : frames;
+  return {
+    failure: crosses ? null : "the ball does not cross",
+    error: largest(frames, (poses) => jointGap(scene, poses)),
+    other: largest(crossing, (poses) => penetration(scene, poses)),
+    costFrames: crossing, // the rest is an empty bridge
+  };
+}
+
+/** Error: the deepest overlap. */
+function stack(scene, frames) {
+  const i = indexOf(scene, scene.criteria.displacement.body);
+  const moved = (poses) => length(subtract(position(poses, i), scene.bodies[i].x));
+  return {
+    failure: null,
+    error: largest(frames, (poses) => penetration(scene, poses)),
+    other: largest(frames, moved),
+    costFrames: frames,
+  };
+}
+
+/**
+ * @param kind swinging_box, bridge or stack
+ * @return failure (null where the scene holds), error [m], other [m], ms: median cost of a frame
+ */
+export function judge(kind, scene, frames, reference) {
+  const failure = whyBroken(scene, frames);
+  if (failure) return { failure };
+  const rules = { swinging_box: swingingBox, bridge, stack };
+  const { costFrames, ...result } = rules[kind](scene, frames, reference);
+  return { ...result, ms: median(costFrames.map(({ ms }) => ms)) };
+}

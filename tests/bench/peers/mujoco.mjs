@@ -1,0 +1,153 @@
+// MuJoCo: Newton's method on soft constraints, in reduced coordinates where the joints are a tree,
+// or in maximal ones (free bodies and equality constraints).
+
+import loadMujoco from "@mujoco/mujoco";
+import { collisionBits, jointTree } from "./scene.mjs";
+import { between, conjugate, multiply, rotate, subtract } from "./rotation.mjs";
+
+export const title = "MuJoCo";
+
+const reduced = (integrator, ...counts) =>
+  counts.map((substeps) => ({ substeps, coordinates: "reduced", integrator }));
+/** @param timeconst in which an error decays [sub-steps]
+ *  @param impedance the part of a constraint that is enforced, the rest is soft */
+const maximal = (timeconst, impedance, ...counts) =>
+  counts.map((substeps) => ({
+    substeps,
+    coordinates: "maximal",
+    integrator: "Euler",
+    timeconst,
+    impedance,
+  }));
+
+export const ladder = {
+  swinging_box: [
+    ...reduced("Euler", 6, 7, 8, 16),
+    ...reduced("implicit", 4, 6),
+    ...reduced("RK4", 3, 4, 5),
+    ...maximal(2, 0.9999, 8),
+  ],
+  bridge: [
+    ...maximal(2, 0.99, 8, 12, 16),
+    ...maximal(4, 0.99, 6, 8, 12),
+    ...maximal(4, 0.999, 12, 16, 24),
+  ],
+  stack: [...maximal(2, 0.9999, 8, 12, 16, 32), ...maximal(2, 0.99999, 8, 16), ...maximal(4, 0.9999, 32)],
+};
+
+const text = (numbers) => numbers.map((x) => x.toPrecision(17)).join(" ");
+
+function geom(body, collides) {
+  if (!collides) return "";
+  const { bit, mask } = collisionBits(body);
+  // A plane's normal is its z here and its y in our scenes.
+  const shape = {
+    plane: () => `type="plane" size="0 0 1" quat="${text(between([0, 0, 1], [0, 1, 0]))}"`,
+    box: () => `type="box" size="${text(body.shape.size.map((edge) => edge / 2))}"`,
+    sphere: () => `type="sphere" size="${body.shape.radius}"`,
+  }[body.shape.type]();
+  const condim = body.friction > 0 ? 3 : 1;
+  return `<geom ${shape} condim="${condim}" friction="${body.friction} 0 0"
+    contype="${bit}" conaffinity="${mask}"/>`;
+}
+
+const inertial = (body) =>
+  `<inertial pos="0 0 0" mass="${body.mass}" diaginertia="${text(body.inertia)}"/>`;
+
+function fixedBody(body, i, collides) {
+  return `<body name="b${i}" pos="${text(body.x)}" quat="${text(body.q)}">${geom(body, collides)}</body>`;
+}
+
+function freeBody(body, i, collides) {
+  return `<body name="b${i}" pos="${text(body.x)}" quat="${text(body.q)}">
+    <freejoint/>${inertial(body)}${geom(body, collides)}</body>`;
+}
+
+/** A body of the joint tree within its parent, and all that hangs on it. */
+function nestedBody(scene, tree, link) {
+  const { body: i, parent, joint, flipped } = link;
+  const body = scene.bodies[i];
+  if (!joint) return freeBody(body, i, scene.collides);
+  if (Math.hypot(...body.v, ...body.w) > 0) throw new Error("a jointed body starts at speed");
+  const origin = parent < 0 ? { x: [0, 0, 0], q: [1, 0, 0, 0] } : scene.bodies[parent];
+  const back = conjugate(origin.q);
+  const anchor = flipped ? joint.anchorB : joint.anchorA;
+  const axis = flipped ? joint.axisB : joint.axisA;
+  const kind = joint.hinge ? `type="hinge" axis="${text(axis)}"` : `type="ball"`;
+  return `<body name="b${i}" pos="${text(rotate(back, subtract(body.x, origin.x)))}"
+    quat="${text(multiply(back, body.q))}"><joint ${kind} pos="${text(anchor)}"/>
+    ${inertial(body)}${geom(body, scene.collides)}
+    ${tree.filter((child) => child.parent === i).map((child) => nestedBody(scene, tree, child)).join("\n")}
+    </body>`;
+}
+
+function reducedWorld(scene) {
+  const tree = jointTree(scene);
+  const roots = tree.filter(({ parent }) => parent < 0 || scene.bodies[parent].fixed);
+  return roots.map((link) => nestedBody(scene, tree, link)).join("\n");
+}
+
+/** One point a ball joint; two on the axis hold a hinge. */
+function equalities(scene) {
+  const name = (i) => (i < 0 ? "world" : `b${i}`);
+  return scene.joints.flatMap(({ hinge, a, b, anchorA, axisA }) =>
+    (hinge ? [-0.5, 0.5] : [0]).map((along) => {
+      const point = anchorA.map((x, i) => x + along * (axisA?.[i] ?? 0));
+      return `<connect body1="${name(a)}" body2="${name(b)}" anchor="${text(point)}"/>`;
+    }),
+  );
+}
+
+function xml(scene, setting) {
+  const dt = scene.frame / setting.substeps;
+  const isReduced = setting.coordinates === "reduced";
+  const moving = isReduced
+    ? reducedWorld(scene)
+    : scene.bodies.map((b, i) => (b.fixed ? "" : freeBody(b, i, scene.collides))).join("\n");
+  const fixed = scene.bodies.map((b, i) => (b.fixed ? fixedBody(b, i, scene.collides) : "")).join("\n");
+  const { timeconst = 2, impedance = 0.9999 } = setting;
+  const soft = `solref="${timeconst * dt} 1" solimp="${impedance} ${impedance} 0.001"`;
+  return `<mujoco>
+    <compiler angle="radian" autolimits="false" boundmass="0" boundinertia="0"/>
+    <option timestep="${dt}" gravity="${text(scene.gravity)}" integrator="${setting.integrator}"
+      solver="Newton" cone="elliptic" iterations="100" tolerance="1e-10">
+      <flag refsafe="disable"/></option>
+    <default><geom ${soft}/><equality ${soft}/></default>
+    <worldbody>${fixed}${moving}</worldbody>
+    ${isReduced ? "" : `<equality>${equalities(scene).join("\n")}</equality>`}
+  </mujoco>`;
+}
+
+let mujoco;
+
+export async function build(scene, setting) {
+  mujoco ??= await loadMujoco();
+  const model = mujoco.MjModel.from_xml_string(xml(scene, setting));
+  const data = new mujoco.MjData(model);
+  const id = scene.bodies.map((_, i) =>
+    mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY.value, `b${i}`),
+  );
+  scene.bodies.forEach((body, i) => {
+    if (body.fixed || Math.hypot(...body.v, ...body.w) === 0) return;
+    const at = model.body_dofadr[id[i]];
+    data.qvel.set([...body.v, ...rotate(conjugate(body.q), body.w)], at);
+  });
+  return {
+    step() {
+      for (let i = 0; i < setting.substeps; ++i) mujoco.mj_step(model, data);
+    },
+    /** Bodies are where the last step began until asked for. */
+    poses() {
+      mujoco.mj_kinematics(model, data);
+      const { xpos, xquat } = data;
+      return id.flatMap((b) => [
+        ...xpos.subarray(3 * b, 3 * b + 3),
+        ...xquat.subarray(4 * b, 4 * b + 4),
+      ]);
+    },
+    free() {
+      data.delete();
+      model.delete();
+    },
+  };
+}

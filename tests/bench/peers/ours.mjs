@@ -1,0 +1,29 @@
+// This project's settings, for its native program and the same compiled to WebAssembly.
+
+const kPaper = { mode: "adaptive", alpha: 0.1 };
+const leapfrog = (n) => ({ mode: "const", n, integrator: "leapfrog", drift_order: 2 });
+const euler = (n) => ({ mode: "const", n });
+const blend = (n_cap, more) => ({ mode: "blend", n_cap, ...more });
+const inertia = (n_cap) => ({ mode: "inertia", n_cap, integrator: "leapfrog" });
+const kExact = { beta: 0.995, drift_order: 2, integrator: "leapfrog" };
+
+export const ladder = {
+  swinging_box: [
+    kPaper,
+    ...[6, 7, 8, 15].map(leapfrog),
+    blend(1, kExact),
+    blend(2, kExact),
+    inertia(1),
+    inertia(4),
+    { mode: "capped", n_cap: 4 },
+  ],
+  bridge: [
+    kPaper,
+    ...[4, 8, 16].map(euler),
+    ...[1, 2, 3, 4, 5, 6, 8].map((n) => blend(n)),
+    { mode: "capped", n_cap: 4 },
+    { mode: "capped", n_cap: 8 },
+    { mode: "damping" },
+  ],
+  stack: [...[1, 2, 4, 8].map(euler), { mode: "damping" }, blend(1), blend(4), kPaper],
+};

@@ -1,0 +1,186 @@
+// ./dev bench --peers: the same scenes on this project and on the engines that people would pick
+// instead. Every setting of every engine's ladder runs once; those that hold and that no other
+// setting of the engine beats in both cost and error are timed again, in turns, so that whatever
+// else the machine does falls on all alike.
+
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
+import { parseArgs } from "node:util";
+import { judge, median, readFrames } from "./measures.mjs";
+import { ladder as ourLadder } from "./ours.mjs";
+import { readScene } from "./scene.mjs";
+import { factorLines, sceneLines } from "./table.mjs";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const root = path.resolve(here, "../../..");
+const out = path.join(root, "build/peers");
+const reference = path.join(root, "tests/reference/reference_swinging_box.csv");
+
+const { values: options } = parseArgs({
+  options: {
+    scene: { type: "string", multiple: true },
+    engine: { type: "string", multiple: true },
+    repeats: { type: "string", default: "3" },
+  },
+});
+
+const kWarmUp = { search: 60, timing: 600 }; // frames
+// WebAssembly compiled once and well, not twice: which code a frame runs in is then no question.
+const kNode = [process.execPath, "--no-liftoff"];
+const kSlack = 0.2; // of the costs found in the search, each of one run
+const kLimit = 120e3; // of one run [ms]
+
+/** The scenes, each with its kind: by what it is judged. The moved stacks lose the regularisation
+ *  that stands for finite precision: it is this project's own, and only makes its answer worse. */
+const kScenes = [
+  { title: "Swinging box", kind: "swinging_box", file: "swinging_box" },
+  { title: "Bridge", kind: "bridge", file: "bridge" },
+  { title: "Heavy stack", kind: "stack", file: "heavy_stack" },
+  { title: "Heavy stack, balls moved by up to 2 mm", kind: "stack", file: "heavy_stack_stress" },
+  { title: "Tall stack, balls moved by up to 2 mm", kind: "stack", file: "heavy_stack_stress_tall" },
+];
+
+function sceneFile(name) {
+  const scene = JSON.parse(readFileSync(path.join(root, "scenes", `${name}.json`), "utf8"));
+  delete scene.regularisation;
+  const file = path.join(out, `${name}.json`);
+  writeFileSync(file, JSON.stringify(scene));
+  return file;
+}
+
+const assignments = (setting) => Object.entries(setting).map(([name, value]) => `${name}=${value}`);
+
+/** An engine is its ladder and the command line of one run. */
+const ours = (name, title, ...program) => ({
+  name,
+  title,
+  ours: true,
+  ladder: ourLadder,
+  command: (file, frames, warmUp, setting) => [
+    ...program,
+    ...[file, frames, warmUp],
+    ...assignments(setting),
+  ],
+});
+
+async function peer(name, platform) {
+  const module = `./${name}.mjs`;
+  const { title, ladder } = await import(module);
+  return {
+    title: `${title}, ${platform}`,
+    name,
+    ladder,
+    command: (file, frames, warmUp, setting) => [
+      ...kNode,
+      ...[path.join(here, "run.mjs"), name, file, frames, warmUp, JSON.stringify(setting)],
+    ],
+  };
+}
+
+const kPeers = ["mujoco", "rapier", "jolt", "physx"];
+
+async function engines() {
+  const program = "tests/bench/peers/substep_peer";
+  const all = [
+    ours("native", "substep, native", path.join(root, "build/release", program)),
+    ours("wasm", "substep, WASM", ...kNode, path.join(root, "build/web", `${program}.js`)),
+  ];
+  for (const name of kPeers) {
+    all.push(await peer(name, "WASM"));
+  }
+  return options.engine ? all.filter(({ name }) => options.engine.includes(name)) : all;
+}
+
+/** One run in a process of its own: an engine that aborts takes nothing with it. */
+function run(entry, warmUp) {
+  const { engine, scene, setting, kind } = entry;
+  const frames = Math.round(scene.criteria.duration / scene.frame);
+  const [command, ...args] = engine.command(scene.path, frames, warmUp, setting).map(String);
+  const result = spawnSync(command, args, { encoding: "utf8", maxBuffer: 1 << 28, timeout: kLimit });
+  if (result.error?.code === "ETIMEDOUT") return { failure: `over ${kLimit / 1e3} s` };
+  if (result.status !== 0) {
+    const why = (result.stderr || String(result.error ?? result.signal)).trim().split("\n");
+    return { failure: `stops: ${why.find((line) => /error/i.test(line)) ?? why[0]}` };
+  }
+  return judge(kind, scene, readFrames(result.stdout), reference);
+}
+
+/**
+ * The settings that hold and that no other of the same engine beats in cost and error.
+ * @param slack by which a cost may be wrong [-]
+ */
+function frontier(entries, slack) {
+  const holding = entries.filter((entry) => !entry.failure);
+  const beats = (one, two) =>
+    one.engine === two.engine && one.ms * (1 + slack) < two.ms && one.error <= two.error;
+  return holding.filter((entry) => !holding.some((other) => beats(other, entry)));
+}
+
+function progress(text) {
+  if (process.stderr.isTTY) process.stderr.write(`\r${text.slice(0, 110)}\x1b[K`);
+}
+
+function search({ title, kind, file }, list) {
+  const scene = readScene(sceneFile(file));
+  return list.flatMap((engine) =>
+    engine.ladder[kind].map((setting) => {
+      progress(`${title}: ${engine.title}, ${assignments(setting).join(" ")}`);
+      const entry = { engine, scene, setting, kind };
+      return Object.assign(entry, run(entry, kWarmUp.search));
+    }),
+  );
+}
+
+function time(entries, repeats) {
+  for (const entry of entries) entry.medians = [];
+  for (let i = 0; i < repeats; ++i) {
+    for (const entry of entries) {
+      progress(`timing, round ${i + 1} of ${repeats}: ${entry.engine.title}`);
+      entry.medians.push(run(entry, kWarmUp.timing).ms);
+    }
+  }
+  for (const entry of entries) {
+    entry.ms = median(entry.medians);
+    entry.least = Math.min(...entry.medians);
+    entry.most = Math.max(...entry.medians);
+  }
+}
+
+/** As it goes into peers.json: lengths in metres, costs in milliseconds a frame. */
+function record(entry, best) {
+  const { engine, setting, failure, error, other, ms, medians } = entry;
+  return { engine: engine.title, setting, failure, error, other, ms, medians, best: best.includes(entry) };
+}
+
+async function main() {
+  mkdirSync(out, { recursive: true });
+  const list = await engines();
+  const scenes = kScenes.filter(({ file }) => !options.scene || options.scene.includes(file));
+  const results = [];
+  for (const scene of scenes) {
+    const entries = search(scene, list);
+    const candidates = frontier(entries, kSlack);
+    time(candidates, Number(options.repeats));
+    const best = frontier(candidates, 0);
+    progress("");
+    console.log(sceneLines(scene, entries, best).join("\n"));
+    console.log(factorLines(best).join("\n"));
+    results.push({
+      scene: scene.file,
+      runs: entries.map((entry) => record(entry, best)),
+    });
+  }
+  const lock = JSON.parse(readFileSync(path.join(here, "package-lock.json"), "utf8"));
+  const versions = Object.fromEntries(
+    Object.entries(lock.packages)
+      .filter(([name]) => name)
+      .map(([name, { version }]) => [name.replace("node_modules/", ""), version]),
+  );
+  const json = { node: process.version, versions, results };
+  writeFileSync(path.join(out, "peers.json"), JSON.stringify(json, null, 1) + "\n");
+  console.log(`All runs, failures included: build/peers/peers.json`);
+}
+
+await main();

@@ -1,0 +1,197 @@
+// PhysX: articulations (Featherstone's algorithm, reduced coordinates) where the joints are a tree,
+// or joints between free bodies under its two Gauss-Seidel solvers, PGS and TGS; single precision.
+
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import loadPhysX from "physx-js-webidl";
+import { collisionBits, jointTree } from "./scene.mjs";
+import { between, conjugate, multiply } from "./rotation.mjs";
+
+export const title = "PhysX";
+
+const articulation = (...counts) =>
+  counts.map((steps) => ({ steps, joints: "articulation", solver: "TGS", iterations: 1 }));
+const maximal = (solver, iterations, ...counts) =>
+  counts.map((steps) => ({ steps, joints: "maximal", solver, iterations }));
+
+export const ladder = {
+  swinging_box: [...articulation(6, 7, 8, 16), ...maximal("TGS", 32, 4, 8)],
+  bridge: [...maximal("TGS", 32, 4, 8, 16), ...maximal("TGS", 8, 8, 16, 32), ...maximal("PGS", 32, 16)],
+  stack: [...maximal("TGS", 32, 4, 16), ...maximal("PGS", 32, 16), ...maximal("TGS", 250, 8)],
+};
+
+let PhysX;
+let physics;
+let dispatcher;
+let tolerances;
+
+/** The package is built for pages and refuses Node.js: while it loads it sees a window instead. */
+async function loadAsInPage() {
+  const path = createRequire(import.meta.url).resolve("physx-js-webidl/physx-js-webidl.wasm");
+  const wasmBinary = readFileSync(path);
+  const { process } = globalThis;
+  globalThis.window = globalThis;
+  globalThis.process = undefined;
+  try {
+    return await loadPhysX({ wasmBinary });
+  } finally {
+    globalThis.process = process;
+  }
+}
+
+async function start() {
+  if (PhysX) return;
+  PhysX = await loadAsInPage();
+  const top = PhysX.PxTopLevelFunctions.prototype;
+  const errors = new PhysX.PxDefaultErrorCallback();
+  const foundation = top.CreateFoundation(top.PHYSICS_VERSION, new PhysX.PxDefaultAllocator(), errors);
+  tolerances = new PhysX.PxTolerancesScale();
+  physics = top.CreatePhysics(top.PHYSICS_VERSION, foundation, tolerances);
+  top.InitExtensions(physics);
+  dispatcher = top.DefaultCpuDispatcherCreate(0); // in the thread that calls
+}
+
+const vector = (v) => new PhysX.PxVec3(...v);
+const transform = (x, [w, qx, qy, qz]) =>
+  new PhysX.PxTransform(vector(x), new PhysX.PxQuat(qx, qy, qz, w));
+const kNoTurn = [1, 0, 0, 0];
+
+/** PhysX turns about x. @return what turns x into a joint's axis, if it has one */
+const axisFrame = (axis) => (axis ? between([1, 0, 0], axis) : kNoTurn);
+const frame = (anchor, axis) => transform(anchor, axisFrame(axis));
+
+function geometry({ shape }) {
+  if (shape.type === "sphere") return new PhysX.PxSphereGeometry(shape.radius);
+  if (shape.type === "box") return new PhysX.PxBoxGeometry(...shape.size.map((edge) => edge / 2));
+  return new PhysX.PxPlaneGeometry(); // its normal is x
+}
+
+function attachShape(actor, body) {
+  const material = physics.createMaterial(body.friction, body.friction, 0);
+  const flags = new PhysX.PxShapeFlags(PhysX.PxShapeFlagEnum.eSIMULATION_SHAPE);
+  const shape = physics.createShape(geometry(body), material, true, flags);
+  const { bit, mask } = collisionBits(body);
+  shape.setSimulationFilterData(new PhysX.PxFilterData(bit, mask, 0, 0));
+  shape.setContactOffset(0.02); // [m]
+  shape.setRestOffset(0);
+  if (body.shape.type === "plane") {
+    shape.setLocalPose(transform([0, 0, 0], between([1, 0, 0], [0, 1, 0])));
+  }
+  actor.attachShape(shape);
+}
+
+function setMass(rigid, body) {
+  rigid.setMass(body.mass);
+  rigid.setMassSpaceInertiaTensor(vector(body.inertia));
+  rigid.setLinearDamping(0);
+  rigid.setAngularDamping(0);
+  rigid.setMaxAngularVelocity(1e4);
+  rigid.setMaxDepenetrationVelocity(1e3);
+}
+
+/** A body that no articulation holds. */
+function addBody(scene, body, setting, world) {
+  const pose = transform(body.x, body.q);
+  const rigid = body.fixed ? physics.createRigidStatic(pose) : physics.createRigidDynamic(pose);
+  if (world.collides) attachShape(rigid, body);
+  if (!body.fixed) {
+    setMass(rigid, body);
+    rigid.setLinearVelocity(vector(body.v));
+    rigid.setAngularVelocity(vector(body.w));
+    rigid.setSleepThreshold(0);
+    rigid.setStabilizationThreshold(0);
+    rigid.setSolverIterationCounts(setting.iterations, 1);
+  }
+  scene.addActor(rigid);
+  return rigid;
+}
+
+function addJoints(world, rigid) {
+  const top = PhysX.PxTopLevelFunctions.prototype;
+  for (const joint of world.joints) {
+    const at = (i) => (i < 0 ? null : rigid[i]);
+    const create = joint.hinge ? top.RevoluteJointCreate : top.SphericalJointCreate;
+    create.call(
+      top,
+      physics,
+      at(joint.a),
+      frame(joint.anchorA, joint.axisA),
+      at(joint.b),
+      frame(joint.anchorB, joint.axisB),
+    );
+  }
+}
+
+function tuneJoint(inbound, joint, flipped, parentTurn, childTurn) {
+  const { PxArticulationAxisEnum: axes, PxArticulationMotionEnum: motion } = PhysX;
+  const [parentAnchor, childAnchor] = flipped
+    ? [joint.anchorA, joint.anchorB]
+    : [joint.anchorB, joint.anchorA];
+  // The start is where all joint angles are zero: both frames lie alike in the world.
+  const childFrame = axisFrame(flipped ? joint.axisB : joint.axisA);
+  const parentFrame = multiply(multiply(conjugate(parentTurn), childTurn), childFrame);
+  inbound.setParentPose(transform(parentAnchor, parentFrame));
+  inbound.setChildPose(transform(childAnchor, childFrame));
+  const types = PhysX.PxArticulationJointTypeEnum;
+  inbound.setJointType(joint.hinge ? types.eREVOLUTE : types.eSPHERICAL);
+  const free = joint.hinge ? [axes.eTWIST] : [axes.eTWIST, axes.eSWING1, axes.eSWING2];
+  for (const axis of free) inbound.setMotion(axis, motion.eFREE);
+  inbound.setFrictionCoefficient(0);
+  inbound.setMaxJointVelocity(1e4);
+}
+
+/** All jointed bodies as one tree on a base that stays at the origin. */
+function addArticulation(scene, world, setting) {
+  const articulation = physics.createArticulationReducedCoordinate();
+  articulation.setArticulationFlag(PhysX.PxArticulationFlagEnum.eFIX_BASE, true);
+  articulation.setSolverIterationCounts(setting.iterations, 1);
+  articulation.setSleepThreshold(0);
+  const base = articulation.createLink(null, transform([0, 0, 0], kNoTurn));
+  base.setMass(1);
+  base.setMassSpaceInertiaTensor(vector([1, 1, 1]));
+  const links = [];
+  for (const { body, parent, joint, flipped } of jointTree(world)) {
+    if (!joint) throw new Error("a free body beside an articulation is not made here");
+    const { x, q } = world.bodies[body];
+    links[body] = articulation.createLink(parent < 0 ? base : links[parent], transform(x, q));
+    setMass(links[body], world.bodies[body]);
+    const parentTurn = parent < 0 ? kNoTurn : world.bodies[parent].q;
+    tuneJoint(links[body].getInboundJoint(), joint, flipped, parentTurn, q);
+  }
+  scene.addArticulation(articulation);
+  return links;
+}
+
+function createScene(world, setting) {
+  const desc = new PhysX.PxSceneDesc(tolerances);
+  desc.gravity = vector(world.gravity);
+  desc.cpuDispatcher = dispatcher;
+  desc.filterShader = PhysX.PxTopLevelFunctions.prototype.DefaultFilterShader();
+  const { eTGS, ePGS } = PhysX.PxSolverTypeEnum;
+  desc.solverType = setting.solver === "TGS" ? eTGS : ePGS;
+  return physics.createScene(desc);
+}
+
+export async function build(world, setting) {
+  await start();
+  const scene = createScene(world, setting);
+  const links = setting.joints === "articulation" ? addArticulation(scene, world, setting) : [];
+  const rigid = world.bodies.map((body, i) => links[i] ?? addBody(scene, body, setting, world));
+  if (setting.joints === "maximal") addJoints(world, rigid);
+  const dt = world.frame / setting.steps;
+  return {
+    step() {
+      for (let i = 0; i < setting.steps; ++i) {
+        scene.simulate(dt);
+        scene.fetchResults(true);
+      }
+    },
+    poses() {
+      return rigid.flatMap((body) => {
+        const { p, q } = body.getGlobalPose();
+        return [p.x, p.y, p.z, q.w, q.x, q.y, q.z];
+      });
+    },
+    free: () => scene.release(),
+  };
+}

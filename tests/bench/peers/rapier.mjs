@@ -1,0 +1,129 @@
+// Rapier: sub-stepped Gauss-Seidel on soft constraints (iterations are its sub-steps, each with
+// `inner` sweeps), joints as impulses or as multibodies (reduced coordinates).
+
+import RAPIER from "@dimforge/rapier3d-compat";
+import { collisionBits, jointTree } from "./scene.mjs";
+
+export const title = "Rapier";
+
+const impulse = (steps, iterations, inner, contactHz = 30) => ({
+  steps,
+  iterations,
+  inner,
+  contactHz,
+  joints: "impulse",
+});
+const multibody = (steps, iterations) => ({ steps, iterations, inner: 1, joints: "multibody" });
+
+export const ladder = {
+  swinging_box: [
+    ...[8, 16].map((iterations) => impulse(1, iterations, 4)),
+    ...[16, 32].map((iterations) => impulse(1, iterations, 8)),
+    ...[4, 8].map((steps) => impulse(steps, 8, 8)),
+    ...[8, 32].map((steps) => multibody(steps, 1)),
+  ],
+  bridge: [
+    ...[16, 32].map((iterations) => impulse(1, iterations, 8, 1000)),
+    ...[4, 8, 16].map((steps) => impulse(steps, 4, 8, 1000)),
+    ...[4, 8, 16, 32].map((steps) => impulse(steps, 8, 1, 1000)),
+  ],
+  stack: [impulse(1, 32, 8, 1000), impulse(8, 8, 8, 1000), impulse(16, 100, 8, 1000)],
+};
+
+const vector = ([x, y, z]) => ({ x, y, z });
+const quaternion = ([w, x, y, z]) => ({ w, x, y, z });
+const kOrigin = vector([0, 0, 0]);
+const kNoTurn = quaternion([1, 0, 0, 0]);
+
+function shape(body) {
+  if (body.shape.type === "sphere") return RAPIER.ColliderDesc.ball(body.shape.radius);
+  if (body.shape.type === "box") {
+    return RAPIER.ColliderDesc.cuboid(...body.shape.size.map((edge) => edge / 2));
+  }
+  return new RAPIER.ColliderDesc(new RAPIER.HalfSpace(vector([0, 1, 0])));
+}
+
+function addCollider(world, body, rigid) {
+  const { bit, mask } = collisionBits(body);
+  world.createCollider(
+    shape(body).setDensity(0).setFriction(body.friction).setCollisionGroups((bit << 16) | mask),
+    rigid,
+  );
+}
+
+function addBody(world, body) {
+  const desc = body.fixed
+    ? RAPIER.RigidBodyDesc.fixed()
+    : RAPIER.RigidBodyDesc.dynamic()
+        .setAdditionalMassProperties(body.mass, kOrigin, vector(body.inertia), kNoTurn)
+        .setLinvel(...body.v)
+        .setAngvel(vector(body.w));
+  desc.setTranslation(...body.x).setRotation(quaternion(body.q)).setCanSleep(false);
+  return world.createRigidBody(desc);
+}
+
+/** From b to a, or the other way round. */
+function jointData(joint, flipped) {
+  const anchors = [joint.anchorB, joint.anchorA].map(vector);
+  if (flipped) anchors.reverse();
+  if (!joint.hinge) return RAPIER.JointData.spherical(...anchors);
+  const axes = [joint.axisB, joint.axisA].map(vector);
+  if (flipped) axes.reverse();
+  return RAPIER.JointData.revoluteWithAxes(...anchors, ...axes);
+}
+
+/**
+ * Multibodies start with all their joint angles at zero, that is with the frames of both bodies
+ * turned alike: what hangs from the world hangs from a fixed body that lies where it does.
+ */
+function addTree(world, scene, rigid) {
+  for (const { body, parent, joint, flipped } of jointTree(scene)) {
+    if (!joint) continue;
+    if (parent >= 0) {
+      world.createMultibodyJoint(jointData(joint, flipped), rigid[parent], rigid[body], true);
+      continue;
+    }
+    const ground = addBody(world, { ...scene.bodies[body], fixed: true });
+    const anchor = flipped ? joint.anchorB : joint.anchorA;
+    const axis = flipped ? joint.axisB : joint.axisA;
+    const own = { ...joint, anchorA: anchor, anchorB: anchor, axisA: axis, axisB: axis };
+    world.createMultibodyJoint(jointData(own, false), ground, rigid[body], true);
+  }
+}
+
+function addJoints(world, scene, rigid) {
+  const ground = world.createRigidBody(RAPIER.RigidBodyDesc.fixed());
+  const at = (i) => (i < 0 ? ground : rigid[i]);
+  for (const joint of scene.joints) {
+    world
+      .createImpulseJoint(jointData(joint, false), at(joint.b), at(joint.a), true)
+      .setContactsEnabled(scene.collides);
+  }
+}
+
+export async function build(scene, setting) {
+  await RAPIER.init();
+  const world = new RAPIER.World(vector(scene.gravity));
+  world.timestep = scene.frame / setting.steps;
+  const parameters = world.integrationParameters;
+  parameters.numSolverIterations = setting.iterations;
+  parameters.numInternalPgsIterations = setting.inner;
+  parameters.normalizedAllowedLinearError = 1e-6; // [m]; no overlap is left on purpose
+  if (setting.contactHz) parameters.contact_natural_frequency = setting.contactHz;
+  const rigid = scene.bodies.map((body) => addBody(world, body));
+  if (scene.collides) scene.bodies.forEach((body, i) => addCollider(world, body, rigid[i]));
+  (setting.joints === "impulse" ? addJoints : addTree)(world, scene, rigid);
+  return {
+    step() {
+      for (let i = 0; i < setting.steps; ++i) world.step();
+    },
+    poses() {
+      return rigid.flatMap((body) => {
+        const x = body.translation();
+        const q = body.rotation();
+        return [x.x, x.y, x.z, q.w, q.x, q.y, q.z];
+      });
+    },
+    free: () => world.free(),
+  };
+}

@@ -1,0 +1,95 @@
+// A scene file of this project as plain numbers, for every engine to build the same world from.
+
+import { readFileSync } from "node:fs";
+
+/** Principal moments of inertia of the solid shape [kg m^2]. */
+function solidInertia(mass, shape) {
+  if (shape.type === "sphere") return Array(3).fill(0.4 * mass * shape.radius ** 2);
+  if (shape.type === "box") {
+    const [x, y, z] = shape.size.map((edge) => edge * edge);
+    return [y + z, x + z, x + y].map((sum) => (mass * sum) / 12);
+  }
+  throw new Error(`no solid inertia of a ${shape.type}`);
+}
+
+function readBody(body) {
+  return {
+    name: body.name,
+    fixed: body.static ?? false,
+    shape: body.shape,
+    mass: body.mass ?? 0, // [kg]
+    inertia: body.static ? [0, 0, 0] : (body.inertia ?? solidInertia(body.mass, body.shape)),
+    x: body.position, // [m]
+    q: body.orientation ?? [1, 0, 0, 0], // w x y z, body to world
+    v: body.velocity ?? [0, 0, 0], // [m/s]
+    w: body.angular_velocity ?? [0, 0, 0], // in the world's axes [rad/s]
+    friction: body.friction ?? 0,
+    group: body.collision_group ?? null, // bodies of one group do not collide
+  };
+}
+
+/**
+ * @return bodies and joints by index, -1 for the world; anchors and axes in their bodies' frames.
+ * Effects that a scene does not list are off: without "contact" nothing collides.
+ */
+export function readScene(path) {
+  const file = JSON.parse(readFileSync(path, "utf8"));
+  const index = new Map(file.bodies.map((body, i) => [body.name, i]));
+  index.set("world", -1);
+  return {
+    path,
+    name: file.name,
+    frame: file.frame,
+    gravity: file.gravity,
+    collides: file.effects.includes("contact"),
+    criteria: file.criteria,
+    settings: file.settings,
+    bodies: file.bodies.map(readBody),
+    joints: (file.joints ?? []).map((joint) => ({
+      hinge: joint.type === "hinge",
+      a: index.get(joint.a),
+      b: index.get(joint.b),
+      anchorA: joint.anchor_a,
+      anchorB: joint.anchor_b,
+      axisA: joint.axis_a,
+      axisB: joint.axis_b,
+    })),
+  };
+}
+
+/** Bits for engines that filter pairs by "my bit is in your mask": one bit a group, 1 for none. */
+export function collisionBits(body) {
+  if (body.group === null) return { bit: 1, mask: 0x7fff };
+  const bit = 2 << body.group;
+  return { bit, mask: 0x7fff & ~bit };
+}
+
+/**
+ * The joints as a tree that hangs from the world: for every moving body the joint to its parent.
+ * What a reduced formulation starts from.
+ * @return in an order with parents first: {body, parent, joint, flipped}, flipped where the joint's
+ * a is the parent; joint null where the body is free. Throws where joints close a loop.
+ */
+export function jointTree(scene) {
+  const placed = new Set([-1]);
+  scene.bodies.forEach((body, i) => body.fixed && placed.add(i));
+  const open = new Set(scene.joints);
+  const tree = [];
+  for (let grown = true; grown; ) {
+    grown = false;
+    for (const joint of open) {
+      const a = placed.has(joint.a);
+      const b = placed.has(joint.b);
+      if (!a && !b) continue;
+      if (a && b) throw new Error("the joints close a loop: not a tree");
+      tree.push({ body: a ? joint.b : joint.a, parent: a ? joint.a : joint.b, joint, flipped: a });
+      placed.add(a ? joint.b : joint.a);
+      open.delete(joint);
+      grown = true;
+    }
+  }
+  scene.bodies.forEach((body, i) => {
+    if (!placed.has(i)) tree.push({ body: i, parent: -1, joint: null, flipped: false });
+  });
+  return tree;
+}

@@ -1,0 +1,72 @@
+// The peer bench on a terminal.
+
+const kColumns = {
+  swinging_box: ["off at 3 s", "joint gap"],
+  bridge: ["joint gap", "ball sinks"],
+  stack: ["penetration", "box moved"],
+};
+
+const settingText = (setting) =>
+  Object.entries(setting)
+    .map(([name, value]) => `${name} ${value}`)
+    .join(", ");
+
+/** Metres as millimetres, with three digits. */
+function millimetres(x) {
+  const mm = 1e3 * x;
+  if (mm > 0 && mm < 1e-3) return mm.toExponential(1);
+  return mm >= 100 ? mm.toFixed(0) : String(Number(mm.toPrecision(3)));
+}
+
+const row = (cells) =>
+  cells.map((cell, i) => (i === 0 ? cell.padEnd(20) : i === 4 ? cell : cell.padStart(12))).join("  ");
+
+function timedRow(entry) {
+  const spread = `${entry.least.toPrecision(3)}..${entry.most.toPrecision(3)}`;
+  return row([
+    entry.engine.title,
+    entry.ms.toPrecision(3),
+    millimetres(entry.error),
+    millimetres(entry.other),
+    `${settingText(entry.setting)}  [${spread} ms]`,
+  ]);
+}
+
+/** Those that hold, cheapest first within an engine, then those that fail. */
+export function sceneLines({ title, kind }, entries, best) {
+  const lines = ["", title, row(["engine", "ms a frame", ...kColumns[kind].map((c) => `${c} mm`), "setting"])];
+  const engines = [...new Set(entries.map(({ engine }) => engine))];
+  for (const engine of engines) {
+    const own = best.filter((entry) => entry.engine === engine).sort((a, b) => a.ms - b.ms);
+    lines.push(...own.map(timedRow));
+    if (own.length === 0) lines.push(row([engine.title, "none holds", "", "", ""]));
+  }
+  for (const engine of engines) {
+    const failed = entries.filter((entry) => entry.engine === engine && entry.failure);
+    for (const { setting, failure } of failed) {
+      lines.push(`  fails: ${engine.title}, ${settingText(setting)}: ${failure}`);
+    }
+  }
+  return lines;
+}
+
+const platform = ({ engine }) => engine.title.split(", ").at(-1);
+
+/** For every timed setting of a peer: how many times cheaper we are at an error no larger. */
+export function factorLines(best) {
+  const lines = [];
+  for (const peer of best.filter(({ engine }) => !engine.ours)) {
+    const ours = best.filter(
+      (entry) =>
+        entry.engine.ours && platform(entry) === platform(peer) && entry.error <= peer.error,
+    );
+    const cheapest = ours.sort((a, b) => a.ms - b.ms)[0];
+    const verdict = cheapest
+      ? `${(peer.ms / cheapest.ms).toFixed(1)} times our cost (${settingText(cheapest.setting)})`
+      : "more exact than we are at any setting tried";
+    lines.push(
+      `  ${peer.engine.title} at ${millimetres(peer.error)} mm, ${peer.ms.toPrecision(3)} ms: ${verdict}`,
+    );
+  }
+  return lines;
+}

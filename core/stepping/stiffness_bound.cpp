@@ -37,7 +37,9 @@ std::int64_t block_flops(const Block& block, ContactStiffness form) {
 }  // namespace
 
 StiffnessStage::StiffnessStage(const Scene& scene) {
-  K_.reserve(scene.bodies.size(), 2 * scene.joints.size() + 4 * scene.bodies.size());
+  const std::size_t joints = scene.effects.joints ? 2 * scene.joints.size() : 0;
+  const std::size_t contacts = scene.effects.contact ? 4 * scene.bodies.size() : 0;
+  K_.reserve(scene.bodies.size(), joints + contacts);
 }
 
 void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness form,

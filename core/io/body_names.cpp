@@ -1,6 +1,6 @@
 #include "core/io/body_names.hpp"
 
-#include "core/io/body_reader.hpp"
+#include "core/io/scene_limits.hpp"
 
 namespace substep {
 

@@ -8,8 +8,6 @@
 
 namespace substep {
 
-inline constexpr std::size_t kMaxNameSize = 100;  // [bytes]
-
 /// One entry of "bodies". @return the body; where problems were added, as far as it could be read
 Body read_body(const Json& json, const std::string& pointer, Problems& problems);
 

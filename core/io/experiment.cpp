@@ -38,6 +38,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   bare.group.clear();
   bare.description.clear();
   bare.look_for.clear();
+  bare.verdicts.clear();
   bare.camera = Camera{};
   bare.settings = Settings{};
   // Not the text of settings either: a setting added later must leave the hash.

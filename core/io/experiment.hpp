@@ -17,8 +17,8 @@ namespace substep {
 inline constexpr int kMostSeed = 1'000'000;
 inline constexpr Range kLoadRange{1e-6, 1e6};
 
-/// Hash of what the scene holds: bodies, joints, contact, gravity, criteria. Not of words, camera
-/// and settings, which make no other run or are the experiment's own.
+/// Hash of what the scene holds: bodies, joints, contact, gravity, criteria. Not of words, camera,
+/// verdict table and settings, which make no other run or are the experiment's own.
 std::uint64_t scene_hash(const Scene& scene);
 
 /// The experiment of a scene with the scene's own duration.

@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "core/io/body_reader.hpp"
 #include "core/io/scene_limits.hpp"
 
 namespace substep {
@@ -23,6 +22,7 @@ void tell_when(std::string& text, const std::string& mark, const std::string& wh
 Scene saved_scene(const Scene& scene, const State& state, const Settings& settings) {
   Scene saved = scene;
   saved.settings = settings;
+  saved.verdicts.clear();
   for (std::size_t i = 0; i < saved.bodies.size(); ++i) {
     Body& body = saved.bodies[i];
     if (body.is_static) continue;

@@ -10,6 +10,8 @@ namespace substep {
 
 inline constexpr std::size_t kMaxBodies = 20000;
 inline constexpr std::size_t kMaxJoints = 20000;
+inline constexpr std::size_t kMaxVerdictRules = 100;
+inline constexpr std::size_t kMaxNameSize = 100;   // [bytes]
 inline constexpr std::size_t kMaxTitle = 200;      // [bytes]
 inline constexpr std::size_t kMaxProse = 2000;     // [bytes]
 inline constexpr std::size_t kMaxProblems = 1000;  // told of one file

@@ -16,6 +16,7 @@
 #include "core/io/scene_checks.hpp"
 #include "core/io/scene_limits.hpp"
 #include "core/io/settings_json.hpp"
+#include "core/io/verdicts_json.hpp"
 
 namespace substep {
 namespace {
@@ -227,6 +228,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   read_bodies(in, scene, sound, problems);
   const BodyNames names(scene.bodies, problems);
   read_criteria(in, names, scene, problems);
+  scene.verdicts = read_verdicts(in, problems);
   read_joints(in, names, scene, sound, problems);
   in.finish();
 

@@ -8,6 +8,7 @@
 #include "core/io/json.hpp"
 #include "core/io/number_text.hpp"
 #include "core/io/settings_json.hpp"
+#include "core/io/verdicts_json.hpp"
 
 namespace substep {
 namespace {
@@ -132,6 +133,7 @@ Json scene_json(const Scene& scene) {
   if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
   json["settings"] = settings_json(scene.settings);
   json["criteria"] = criteria_json(scene);
+  if (!scene.verdicts.empty()) json["verdicts"] = verdicts_json(scene.verdicts);
   Json& bodies = json["bodies"] = Json::array();
   for (const Body& body : scene.bodies) bodies.push_back(body_json(body));
   if (!scene.joints.empty()) {

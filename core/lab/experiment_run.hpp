@@ -27,6 +27,7 @@ class ExperimentRun {
   bool advance();
   [[nodiscard]] double progress() const;  ///< 0 to 1
   [[nodiscard]] Result result() const;
+  [[nodiscard]] const Verdict& verdict() const { return measure_.verdict(); }
   [[nodiscard]] const Experiment& experiment() const { return experiment_; }
   [[nodiscard]] const Simulator& simulator() const { return simulator_; }
   [[nodiscard]] const FrameReport& report() const { return report_; }

@@ -1,5 +1,6 @@
 #include "core/lab/verdict.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -27,22 +28,29 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   if (failed_) return;
   const Criteria& criteria = scene.criteria;
   std::string why;
+  // The first criterion that is passed is the reason; all of them strain.
+  const auto judge = [&](const char* what, double value, double limit, const char* unit,
+                         const std::string& who) {
+    strain_ = std::max(strain_, value / limit);
+    if (!(value > limit) || !why.empty()) return;
+    why = exceeds(what, value, limit, unit);
+    if (!who.empty()) why += " (" + who + ")";
+  };
   if (report.status == StepStatus::kNotFinite) {
     not_finite_ = true;
     why = "not finite (" + scene.bodies[static_cast<std::size_t>(report.failed_body)].name + ")";
-  } else if (report.joint_gap > criteria.joint_gap) {
-    why = exceeds("joint gap", report.joint_gap, criteria.joint_gap, "m") + " (" +
-          base(scene.joints[static_cast<std::size_t>(report.joint_gap_joint)]).name + ")";
-  } else if (!disturbed_ && criteria.energy_gain &&
-             report.energy - energy_at_start_ > *criteria.energy_gain) {
-    why = exceeds("energy gain", report.energy - energy_at_start_, *criteria.energy_gain, "J");
-  } else if (!disturbed_ && criteria.displacement) {
+  }
+  if (report.joint_gap_joint >= 0) {
+    const auto joint = static_cast<std::size_t>(report.joint_gap_joint);
+    judge("joint gap", report.joint_gap, criteria.joint_gap, "m", base(scene.joints[joint]).name);
+  }
+  if (!disturbed_ && criteria.energy_gain) {
+    judge("energy gain", report.energy - energy_at_start_, *criteria.energy_gain, "J", {});
+  }
+  if (!disturbed_ && criteria.displacement) {
     const auto body = static_cast<std::size_t>(criteria.displacement->body);
-    const double moved = (state.x[body] - watched_start_).norm();
-    if (moved > criteria.displacement->distance) {
-      why = exceeds("moved", moved, criteria.displacement->distance, "m") + " (" +
-            scene.bodies[body].name + ")";
-    }
+    judge("moved", (state.x[body] - watched_start_).norm(), criteria.displacement->distance, "m",
+          scene.bodies[body].name);
   }
   if (why.empty()) return;
   failed_ = true;

@@ -25,6 +25,8 @@ class Verdict {
   [[nodiscard]] bool disturbed() const { return disturbed_; }
   [[nodiscard]] double failed_at() const { return failed_at_; }  ///< [s], of a failed run
   [[nodiscard]] bool not_finite() const { return not_finite_; }
+  /// The largest share of a criterion's limit that was used so far [-]; 1 is at the limit.
+  [[nodiscard]] double strain() const { return strain_; }
   /// "holds", "disturbed at 1.20 s", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
   [[nodiscard]] const std::string& text() const { return text_; }
 
@@ -33,6 +35,7 @@ class Verdict {
   bool disturbed_ = false;
   bool not_finite_ = false;
   double failed_at_ = 0.0;
+  double strain_ = 0.0;
   double energy_at_start_ = 0.0;
   Vec3 watched_start_ = Vec3::Zero();
   std::string text_ = "holds";

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "core/model/expectation.hpp"
 #include "core/model/settings.hpp"
 
 namespace substep {
@@ -56,6 +57,13 @@ template <>
 struct NameTable<Gyroscopic> {
   static constexpr std::array entries{Named<Gyroscopic>{"explicit", Gyroscopic::kExplicit},
                                       Named<Gyroscopic>{"implicit", Gyroscopic::kImplicit}};
+};
+
+template <>
+struct NameTable<Expected> {
+  static constexpr std::array entries{Named<Expected>{"holds", Expected::kHolds},
+                                      Named<Expected>{"fails", Expected::kFails},
+                                      Named<Expected>{"depends", Expected::kDepends}};
 };
 
 template <class Enum>

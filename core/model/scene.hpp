@@ -6,6 +6,7 @@
 
 #include "core/model/body.hpp"
 #include "core/model/effects.hpp"
+#include "core/model/expectation.hpp"
 #include "core/model/joint.hpp"
 #include "core/model/settings.hpp"
 
@@ -57,6 +58,7 @@ struct Scene {
   double regularisation = 0.0;  // added to the diagonal of J M^-1 J^T whatever the step [1/kg]
   Settings settings;            // to start with
   Criteria criteria;
+  Expectations verdicts;  // the verdict table by its rules, or empty
   Camera camera;
 };
 

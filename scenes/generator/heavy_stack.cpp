@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/math/random.hpp"
 #include "scenes/generator/parts.hpp"
 #include "scenes/generator/scenes.hpp"
 
@@ -11,24 +12,6 @@ constexpr double kRadius = 0.15;       // of a ball [m]
 constexpr double kPlate = 0.05;        // thickness of a plate [m]
 constexpr double kJitter = 0.002;      // of the balls in the stress stacks [m]
 constexpr std::uint64_t kSeed = 2024;  // of the jitter
-
-/// SplitMix64 (Steele, Lea and Flood 2014): a few lines that give the same numbers everywhere.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  /// Uniform in [-1, 1).
-  double next() {
-    state_ += 0x9e3779b97f4a7c15ULL;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    z ^= z >> 31;
-    return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 void add_layer(int layer, double bottom, double jitter, Random& random, Scene& scene) {
   const std::string number = std::to_string(layer);

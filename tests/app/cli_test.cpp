@@ -239,13 +239,14 @@ TEST(CommandLine, CheckComparesWithTheExpectedVerdict) {
   std::string text = text_of(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json");
   text.replace(text.find("\"mode\": \"adaptive\""), 18, "\"mode\": \"none\"");
   std::ofstream(path) << text;
-  const Outcome unexpected = substep("check pendulum \"" + path.string() + "\"");
+  const Outcome unexpected = substep("check --own pendulum \"" + path.string() + "\"");
   EXPECT_EQ(unexpected.exit_code, 1);
-  EXPECT_NE(unexpected.out.find(", expected: holds"), std::string::npos) << unexpected.out;
+  EXPECT_NE(unexpected.out.find("FAILED swinging_box"), std::string::npos) << unexpected.out;
+  EXPECT_NE(unexpected.out.find("1 not as expected"), std::string::npos) << unexpected.out;
 
   text.replace(text.find("\"expected\": \"holds\""), 19, "\"expected\": \"fails\"");
   std::ofstream(path) << text;
-  const Outcome expected = substep("check --json \"" + path.string() + "\"");
+  const Outcome expected = substep("check --own --json \"" + path.string() + "\"");
   EXPECT_EQ(expected.exit_code, 0);
   const Json json = Json::parse(expected.out, nullptr, false);
   EXPECT_EQ(json[0]["ok"], true);

@@ -52,6 +52,7 @@ TEST(SceneFiles, ReadBackBitForBit) {
     const Scene read = read_back(write_scene(scene));
     EXPECT_TRUE(test::bits_of(read) == test::bits_of(scene)) << scene.name;
     EXPECT_TRUE(read.settings == scene.settings) << scene.name;
+    EXPECT_TRUE(read.verdicts == scene.verdicts) << scene.name;
   }
 }
 
@@ -86,6 +87,14 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .displacement = Criteria::Displacement{2, 0.25},
                     .track = 3,
                     .holds = false};
+  scene.verdicts = {{.solver = SolverKind::kPgs,
+                     .mode = Mode::kConst,
+                     .n = 3,
+                     .integrator = Integrator::kLeapfrog,
+                     .verdict = Expected::kFails,
+                     .before = 0.25,
+                     .why = "It is three."},
+                    {.verdict = Expected::kDepends, .why = "Chance."}};
   Body& body = scene.bodies[4];
   body.inertia *= 1.1;
   body.velocity = {1.0, 2.0, 3.0};
@@ -96,6 +105,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   const Scene read = read_back(write_scene(scene));
   EXPECT_TRUE(test::bits_of(read) == test::bits_of(scene));
   EXPECT_TRUE(read.settings == scene.settings);
+  EXPECT_TRUE(read.verdicts == scene.verdicts);
 }
 
 TEST(NumberText, ReadsBackToTheSameBits) {

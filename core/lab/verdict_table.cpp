@@ -1,0 +1,87 @@
+#include "core/lab/verdict_table.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/model/names.hpp"
+
+namespace substep {
+namespace {
+
+bool selects(const Expectation& rule, const Settings& s) {
+  return (!rule.solver || *rule.solver == s.solver) && (!rule.mode || *rule.mode == s.mode) &&
+         (!rule.n || *rule.n == s.n) && (!rule.integrator || *rule.integrator == s.integrator);
+}
+
+/// The scene's settings in every mode of the table.
+std::vector<Settings> modes_of(const Scene& scene) {
+  std::set<int> numbers{4, 16};
+  for (const Expectation& rule : scene.verdicts) {
+    if (rule.n) numbers.insert(*rule.n);
+  }
+  std::vector<Settings> all;
+  const auto add = [&](Mode mode) -> Settings& {
+    Settings& settings = all.emplace_back(scene.settings);
+    settings.mode = mode;
+    return settings;
+  };
+  add(Mode::kNone);
+  for (const int n : numbers) add(Mode::kConst).n = n;
+  for (const Mode mode : {Mode::kDamping, Mode::kAdaptive, Mode::kCapped}) add(mode);
+  return all;
+}
+
+Expectation own_expectation(const Criteria& criteria) {
+  return {.verdict = criteria.holds ? Expected::kHolds : Expected::kFails};
+}
+
+}  // namespace
+
+std::vector<VerdictCell> verdict_table(const Scene& scene) {
+  if (scene.verdicts.empty()) return {{scene.settings, own_expectation(scene.criteria)}};
+  std::vector<VerdictCell> table;
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+      for (Settings settings : modes_of(scene)) {
+        settings.solver = solver;
+        settings.integrator = integrator;
+        const auto rule = std::find_if(scene.verdicts.rbegin(), scene.verdicts.rend(),
+                                       [&](const Expectation& r) { return selects(r, settings); });
+        if (rule != scene.verdicts.rend()) table.push_back({settings, *rule});
+      }
+    }
+  }
+  return table;
+}
+
+std::string cell_name(const Settings& settings) {
+  std::string name(name_of(settings.solver));
+  name += ' ';
+  name += name_of(settings.mode);
+  if (settings.mode == Mode::kConst) name += ' ' + std::to_string(settings.n);
+  name += ' ';
+  name += name_of(settings.integrator);
+  return name;
+}
+
+Judgement judge(const Scene& scene, const Expectation& expected, const ExperimentRun& run) {
+  const Verdict& verdict = run.verdict();
+  Judgement judgement;
+  const double latest = expected.before.value_or(scene.criteria.duration);
+  judgement.margin =
+      verdict.holds() ? 1.0 - verdict.strain() : std::max(0.0, 1.0 - verdict.failed_at() / latest);
+  switch (expected.verdict) {
+    case Expected::kHolds:
+      judgement.as_expected = verdict.holds();
+      break;
+    case Expected::kFails:
+      judgement.as_expected = !verdict.holds() && verdict.failed_at() <= latest;
+      break;
+    case Expected::kDepends:
+      judgement.as_expected = true;
+      break;
+  }
+  return judgement;
+}
+
+}  // namespace substep

@@ -27,7 +27,9 @@ std::vector<Settings> modes_of(const Scene& scene) {
   };
   add(Mode::kNone);
   for (const int n : numbers) add(Mode::kConst).n = n;
-  for (const Mode mode : {Mode::kDamping, Mode::kAdaptive, Mode::kCapped}) add(mode);
+  for (const auto& mode : NameTable<Mode>::entries) {
+    if (mode.value != Mode::kNone && mode.value != Mode::kConst) add(mode.value);
+  }
   return all;
 }
 

@@ -4,6 +4,8 @@
 
 #include "scenes/generator/verdicts.hpp"
 
+#include <array>
+#include <string>
 #include <utility>
 
 namespace substep::scenes {
@@ -23,6 +25,26 @@ Expectation fails(SolverKind solver, Mode mode, double before, std::string why =
           .why = std::move(why)};
 }
 
+/// One step a frame, with something put against the stiffness.
+constexpr std::array kOneStep{Mode::kDamping, Mode::kStiffness};
+/// Up to n_cap steps a frame, and something against what they do not reach.
+constexpr std::array kUpToTheCap{Mode::kCapped, Mode::kInertia, Mode::kBlend};
+
+/// A rule for each of several modes.
+template <std::size_t Size>
+void add_fails(Expectations& rules, SolverKind solver, const std::array<Mode, Size>& modes,
+               double before, const std::string& why) {
+  for (const Mode mode : modes) rules.push_back(fails(solver, mode, before, why));
+}
+
+template <std::size_t Size>
+void add_depends(Expectations& rules, SolverKind solver, const std::array<Mode, Size>& modes,
+                 const std::string& why) {
+  for (const Mode mode : modes) {
+    rules.push_back({.solver = solver, .mode = mode, .verdict = Expected::kDepends, .why = why});
+  }
+}
+
 Expectation const_fails(SolverKind solver, int n, double before, std::string why = {}) {
   Expectation rule = fails(solver, Mode::kConst, before, std::move(why));
   rule.n = n;
@@ -38,26 +60,27 @@ Expectation all_fail(SolverKind solver, double before, std::string why) {
 }
 
 Expectations swinging_box() {
-  return {all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
-          fails(kBpp, Mode::kNone, 1.0, "The step is seven times the stable one."),
-          const_fails(kBpp, 4, 4.0, "The stable step is a seventh of a frame."),
-          const_fails(kBpp, 6, 10.0, "The stable step is a seventh of a frame."),
-          const_holds(kBpp, 7, "The stable step, to the last sub-step: alpha = 1 predicts 7."),
-          fails(kPgs, Mode::kNone, 1.0),
-          const_fails(kPgs, 4, 4.0),
-          fails(kPgs, Mode::kDamping, 3.0, "Damping does not make 25 sweeps converge."),
-          fails(kPgs, Mode::kCapped, 4.0,
-                "At four sub-steps the links stretch by what 25 sweeps leave over.")};
+  Expectations rules{
+      all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
+      fails(kBpp, Mode::kNone, 1.0, "The step is seven times the stable one."),
+      const_fails(kBpp, 4, 4.0, "The stable step is a seventh of a frame."),
+      const_fails(kBpp, 6, 10.0, "The stable step is a seventh of a frame."),
+      const_holds(kBpp, 7, "The stable step, to the last sub-step: alpha = 1 predicts 7."),
+      fails(kPgs, Mode::kNone, 1.0),
+      const_fails(kPgs, 4, 4.0)};
+  add_fails(rules, kPgs, kOneStep, 3.0, "25 sweeps of a whole frame do not converge.");
+  return rules;
 }
 
 Expectations bridge() {
-  return {all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
-          fails(kBpp, Mode::kNone, 1.0, "The planks tear once the ball loads them."),
-          const_fails(kBpp, 4, 3.0),
-          fails(kPgs, Mode::kNone, 1.0),
-          const_fails(kPgs, 4, 3.0),
-          fails(kPgs, Mode::kDamping, 3.0, "Damping does not make 25 sweeps converge."),
-          fails(kPgs, Mode::kCapped, 3.0, "Four sub-steps of 25 sweeps do not carry 1000 kg.")};
+  Expectations rules{
+      all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
+      fails(kBpp, Mode::kNone, 1.0, "The planks tear once the ball loads them."),
+      const_fails(kBpp, 4, 3.0), fails(kPgs, Mode::kNone, 1.0), const_fails(kPgs, 4, 3.0)};
+  add_fails(rules, kPgs, kOneStep, 3.0, "25 sweeps of a whole frame do not converge.");
+  add_fails(rules, kPgs, std::array{Mode::kInertia, Mode::kBlend}, 3.0,
+            "Four sub-steps of 25 sweeps do not carry 1000 kg, but for the damped mode, just.");
+  return rules;
 }
 
 Expectations heavy_stack() {
@@ -66,38 +89,73 @@ Expectations heavy_stack() {
       all_fail(kPgs, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg.")};
 }
 
+Expectations heavy_stack_tall() {
+  Expectations rules = heavy_stack();
+  rules.push_back(fails(kBpp, Mode::kNone, 10.0,
+                        "Rounding breaks the symmetry of ten layers, and a step a frame lets it "
+                        "grow: it falls at nine seconds."));
+  return rules;
+}
+
 Expectations heavy_stack_stress() {
-  return {all_hold("Small steps cure by conditioning what the regularisation takes away."),
-          fails(kBpp, Mode::kNone, 1.5),
-          fails(kBpp, Mode::kDamping, 1.5, "Damping slows a spin, and the stack does not spin."),
-          const_fails(kBpp, 4, 4.0),
-          const_fails(kBpp, 8, 8.0),
-          fails(kBpp, Mode::kCapped, 4.0, "A cap of four is four sub-steps, damped in vain."),
-          all_fail(kPgs, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg.")};
+  Expectations rules{all_hold("Small steps cure by conditioning what the regularisation takes."),
+                     fails(kBpp, Mode::kNone, 1.5), const_fails(kBpp, 4, 4.0),
+                     const_fails(kBpp, 8, 8.0)};
+  add_fails(rules, kBpp, kOneStep, 1.5, "One step a frame; it does not fall by turning.");
+  add_fails(rules, kBpp, kUpToTheCap, 4.0, "A cap of four is four sub-steps.");
+  rules.push_back(all_fail(kPgs, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg."));
+  return rules;
 }
 
 Expectations heavy_stack_stress_tall() {
-  return {all_hold("alpha = 0.05, by a hair: 0.1 falls."),
-          fails(kBpp, Mode::kNone, 1.5),
-          fails(kBpp, Mode::kDamping, 1.5),
-          const_fails(kBpp, 4, 4.0),
-          const_fails(kBpp, 16, 10.0, "Fewer than alpha = 0.1 takes, and that falls."),
-          fails(kBpp, Mode::kCapped, 4.0),
-          all_fail(kPgs, 2.0, "25 sweeps do not carry twenty tonnes up ten layers of 1 kg.")};
+  Expectations rules{all_hold("alpha = 0.05, by a hair: 0.1 falls."), fails(kBpp, Mode::kNone, 1.5),
+                     const_fails(kBpp, 4, 4.0),
+                     const_fails(kBpp, 16, 10.0, "Fewer than alpha = 0.1 takes, and that falls.")};
+  add_fails(rules, kBpp, kOneStep, 1.5, "One step a frame; it does not fall by turning.");
+  add_fails(rules, kBpp, kUpToTheCap, 4.0, "A cap of four is four sub-steps.");
+  rules.push_back(
+      all_fail(kPgs, 2.0, "25 sweeps do not carry twenty tonnes up ten layers of 1 kg."));
+  return rules;
 }
 
 Expectations wrecking_ball() {
-  return {all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
-          fails(kBpp, Mode::kNone, 2.0, "The stable step is a sixth of a frame."),
-          const_fails(kBpp, 4, 5.0, "The stable step is a sixth of a frame."),
-          fails(kPgs, Mode::kNone, 2.0),
-          const_fails(kPgs, 4, 5.0),
-          fails(kPgs, Mode::kDamping, 3.0, "Damping does not make 25 sweeps converge.")};
+  Expectations rules{
+      all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
+      fails(kBpp, Mode::kNone, 2.0, "The stable step is a sixth of a frame."),
+      const_fails(kBpp, 4, 5.0, "The stable step is a sixth of a frame."),
+      fails(kPgs, Mode::kNone, 2.0), const_fails(kPgs, 4, 5.0)};
+  add_depends(
+      rules, kBpp, std::array{Mode::kInertia, Mode::kBlend},
+      "The links come to lie among the crates, where four sub-steps lose a joint after 4 to "
+      "9 s: rounding decides when.");
+  add_depends(rules, kPgs, kOneStep,
+              "The joints stretch to nine tenths of what they may: where the crates fall decides.");
+  return rules;
+}
+
+Expectations ragdoll_drop() {
+  Expectations rules{
+      all_hold("Masses of one order, but a landing turns a limb by far in a whole frame."),
+      fails(kBpp, Mode::kNone, 2.0, "At a landing a limb turns too far in a whole frame.")};
+  for (const SolverKind solver : {kBpp, kPgs}) {
+    add_depends(rules, solver, kOneStep,
+                "A joint opens at a landing or not: how the dolls tumble decides.");
+  }
+  return rules;
 }
 
 Expectations card_house() {
-  return {all_hold("At rest in friction: nothing to be unstable."),
-          all_fail(kPgs, 10.0, "What 25 sweeps leave over lets the cards creep.")};
+  // A fault of the solver, not of the house: pivoting gives up on the first, cold solve of a long
+  // step, and the few sweeps that follow leave impulses that nobody gave.
+  const std::string kick = "The pivots of the first solve run out, and what is left is a kick.";
+  Expectations rules{all_hold("At rest in friction: nothing to be unstable."),
+                     fails(kBpp, Mode::kNone, 1.0, kick)};
+  add_fails(rules, kBpp, kOneStep, 1.0, kick);
+  add_fails(rules, kBpp, kUpToTheCap, 1.0, kick);
+  rules.push_back(all_fail(kPgs, 10.0, "What 25 sweeps leave over lets the cards creep."));
+  rules.push_back(
+      const_holds(kPgs, 16, "25 sweeps at 16 sub-steps are 400 a frame: they creep slowly."));
+  return rules;
 }
 
 }  // namespace
@@ -105,12 +163,13 @@ Expectations card_house() {
 Expectations verdicts_of(const std::string& name) {
   if (name == "swinging_box") return swinging_box();
   if (name == "bridge") return bridge();
-  if (name == "heavy_stack" || name == "heavy_stack_tall") return heavy_stack();
+  if (name == "heavy_stack") return heavy_stack();
+  if (name == "heavy_stack_tall") return heavy_stack_tall();
   if (name == "heavy_stack_stress") return heavy_stack_stress();
   if (name == "heavy_stack_stress_tall") return heavy_stack_stress_tall();
   if (name == "wrecking_ball") return wrecking_ball();
   if (name == "card_house") return card_house();
-  if (name == "ragdoll_drop") return {all_hold("Masses of one order: no stiffness to speak of.")};
+  if (name == "ragdoll_drop") return ragdoll_drop();
   if (name == "wall") return {all_hold("No joint to tear: all numbers stay finite.")};
   return {all_hold("One body, or bodies that do not load each other.")};
 }

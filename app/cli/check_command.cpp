@@ -5,6 +5,7 @@
 
 #include "app/cli/checks.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/hard_table.hpp"
 #include "app/cli/scene_source.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/json.hpp"
@@ -18,6 +19,7 @@ struct Options {
   std::vector<std::string> scenes;
   bool all = false;
   bool own = false;
+  bool hard = false;
   bool json = false;
   int seed = 0;
   int jobs = 0;  // 0: one for each processor
@@ -100,6 +102,10 @@ void add_check(CLI::App& app, int& exit_code) {
   auto* scenes = command->add_option("scene", options->scenes, "names or files of scenes");
   auto* all = command->add_flag("--all", options->all, "all shipped scenes");
   scenes->excludes(all);
+  auto* hard =
+      command->add_flag("--hard", options->hard,
+                        "the hard set under all settings that could be recommended (minutes)");
+  hard->excludes(scenes)->excludes(all);
   command->add_flag("--own", options->own, "only the scenes' own settings");
   command->add_option("--seed", options->seed, "of a nudge of the start by up to 1e-9 m/s; 0: none")
       ->check(CLI::Range(0, kMostSeed));
@@ -111,6 +117,10 @@ void add_check(CLI::App& app, int& exit_code) {
       "criterion (or, where it fails, of the time) that was left; sub-steps; wall time.\n"
       "Example:\n  substep check swinging_box bridge");
   command->callback([options, &exit_code] {
+    if (options->hard) {
+      print_hard_table(options->jobs);
+      return;
+    }
     if (options->scenes.empty() && !options->all) {
       throw CLI::RequiredError("scene or --all");
     }

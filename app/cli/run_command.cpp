@@ -1,6 +1,8 @@
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "app/cli/commands.hpp"
@@ -14,9 +16,12 @@
 #include "core/io/experiment.hpp"
 #include "core/io/frame_columns.hpp"
 #include "core/io/json.hpp"
+#include "core/io/number_text.hpp"
 #include "core/io/result.hpp"
 #include "core/lab/experiment.hpp"
+#include "core/lab/forecast.hpp"
 #include "core/lab/metrics.hpp"
+#include "core/lab/remedy.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep::cli {
@@ -59,6 +64,25 @@ std::string json_tail(const Metrics& metrics) {
          ",\n  \"verdict\": " + json_text(metrics.verdict) + "\n}\n";
 }
 
+/// What the scene will ask for, told before it moves.
+std::string forecast_line(const Scene& scene, const Settings& settings) {
+  const Forecast told = forecast(scene, settings);
+  std::string text = "foretold     " + std::to_string(told.at_start) + " sub-steps at the start";
+  if (told.body >= 0) text += ", " + std::to_string(told.hanging) + " hanging still";
+  text += "; masses 1 to " + number_text(std::round(told.mass_ratio)) + "\n";
+  return text;
+}
+
+/// "would help   adaptive sub-steps (--mode adaptive)", a line for each remedy.
+std::string remedy_lines(const Settings& settings, const FrameReport& failed) {
+  std::string text;
+  for (const Remedy& remedy : remedies(settings, failed)) {
+    text += (text.empty() ? "would help   " : "             ") + remedy.text + " (" +
+            setting_flags(remedy.settings, settings).substr(1) + ")\n";
+  }
+  return text;
+}
+
 int run(const Options& options) {
   auto scene = load_scene(options.scene);
   Output csv;
@@ -80,12 +104,22 @@ int run(const Options& options) {
   if (csv.is_open()) csv.write(csv_header(columns));
   if (json.is_open()) json.write(json_head(*scene, simulator.settings()));
 
+  // Where a result takes standard output, words for people go to stderr.
+  std::FILE* words = options.csv == "-" || options.json == "-" ? stderr : stdout;
+  if (!options.quiet) {
+    std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
+                 settings_line(simulator.settings()).c_str(),
+                 forecast_line(*scene, simulator.settings()).c_str());
+    std::fflush(words);
+  }
   const std::int64_t frames = options.length.count(*scene);
   const char* separator = "\n    ";
+  std::optional<FrameReport> failed;  // the frame in which it failed
   for (std::int64_t i = 0; i < frames && !verdict.not_finite(); ++i) {
     const FrameReport frame = simulator.step();
     measure.add(*scene, simulator.state(), frame, frame.times.total);
     report.add(frame);
+    if (!failed && !verdict.holds()) failed = frame;
     if (progress.due()) progress.show(report.progress(frames));
     const FrameView view{*scene, frame, simulator.state()};
     if (csv.is_open()) csv.write(csv_line(columns, view));
@@ -98,12 +132,9 @@ int run(const Options& options) {
   if (json.is_open()) json.write(json_tail(measure.metrics(*scene, simulator.state())));
   if (!csv.close() || !json.close()) return kBadInput;
 
-  // Where a result takes standard output, words for people go to stderr.
-  std::FILE* words = options.csv == "-" || options.json == "-" ? stderr : stdout;
   if (!options.quiet) {
-    std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
-                 settings_line(simulator.settings()).c_str(),
-                 report.summary(state_hash(simulator.state())).c_str());
+    std::fprintf(words, "%s%s", report.summary(state_hash(simulator.state())).c_str(),
+                 failed ? remedy_lines(simulator.settings(), *failed).c_str() : "");
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());
   return verdict.not_finite() ? kNotFinite : kOk;

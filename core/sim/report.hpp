@@ -97,7 +97,8 @@ struct StagesRun {
 /// All that a frame tells. Plots, CSV, verdicts and scripts read only this.
 struct FrameReport {
   std::int64_t frame = 0;  // frames done
-  double time = 0.0;       // [s], at the end of the frame
+  double time = 0.0;       // [s], at the end of the frame; of a failed one, of its last finite
+                           // sub-step
   StepStatus status = StepStatus::kOk;
   int failed_body = -1;  // where the first number that is not finite appeared
 
@@ -106,6 +107,7 @@ struct FrameReport {
   bool capped = false;                                         // n_wanted was more than allowed
   double dt_min = 0.0;                                         // shortest sub-step [s]
   double dt_max = 0.0;                                         // longest sub-step [s]
+  double advanced = 0.0;                                       // sum of the sub-steps taken [s]
   double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10, at the
                                                                // end of the frame [s]
   StiffnessLeader leader;                                      // who set r

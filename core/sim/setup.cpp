@@ -110,6 +110,8 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
     }
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
+  } else {
+    state.time += report.advanced;  // the poses are of the last finite sub-step
   }
   report.stages.joints = joints != nullptr;
   report.stages.contact = contact != nullptr;

@@ -171,6 +171,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   }
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
   report.dt_max = std::max(report.dt_max, dt);
+  report.advanced += dt;
   clock.lap(report.times.integrate);
 }
 

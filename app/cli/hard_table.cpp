@@ -1,0 +1,124 @@
+#include "app/cli/hard_table.hpp"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "app/cli/checks.hpp"
+#include "core/lab/presets.hpp"
+#include "scenes/generator/hard_set.hpp"
+
+namespace substep::cli {
+namespace {
+
+struct Candidate {
+  std::string name;
+  Settings settings;
+};
+
+std::vector<Candidate> candidates() {
+  std::vector<Candidate> all;
+  for (const Preset& preset : presets()) all.push_back({std::string(preset.name), preset.settings});
+  const auto add = [&](const char* name, Settings settings) { all.push_back({name, settings}); };
+  const Integrator leapfrog = Integrator::kLeapfrog;
+  const Drift soft = Drift::kSoft;
+  add("adaptive 0.1, soft", {.drift = soft});
+  add("adaptive 0.3, leapfrog, soft", {.alpha = 0.3, .integrator = leapfrog, .drift = soft});
+  add("capped 16 + damping, 0.3, soft",
+      {.mode = Mode::kCapped, .alpha = 0.3, .n_cap = 16, .drift = soft});
+  add("inertia from 8, 0.3, leapfrog, soft",
+      {.mode = Mode::kInertia, .alpha = 0.3, .n_cap = 8, .integrator = leapfrog, .drift = soft});
+  add("damping", {.mode = Mode::kDamping});
+  add("const 16", {.mode = Mode::kConst, .n = 16});
+  add("const 32", {.mode = Mode::kConst, .n = 32});
+  return all;
+}
+
+class HardTable {
+ public:
+  explicit HardTable(int jobs) : set_(scenes::hard_set()), candidates_(candidates()) {
+    for (const scenes::HardCase& hard : set_) {
+      const auto scene = std::make_shared<const Scene>(hard.scene);
+      for (const Candidate& candidate : candidates_) {
+        checks_.push_back({.scene = scene, .cell = {candidate.settings, {}}});
+      }
+    }
+    run_checks(checks_, jobs, [&](const Check& check) {
+      const auto i = static_cast<std::size_t>(&check - checks_.data());
+      std::fprintf(stderr, "%4zu of %zu  %-26s %-38s %6.1f s  %s\n", i + 1, checks_.size(),
+                   check.scene->name.c_str(), candidates_[i % candidates_.size()].name.c_str(),
+                   check.seconds, check.metrics.verdict.c_str());
+    });
+  }
+
+  void print_settings() const {
+    std::printf(
+        "| setting | holds | sub-steps a frame | work beside const 32 | does not hold |\n"
+        "|---|---|---|---|---|\n");
+    const std::size_t reference = candidates_.size() - 1;
+    for (std::size_t j = 0; j < candidates_.size(); ++j) {
+      std::size_t holds = 0;
+      double substeps = 0.0;
+      double frames = 0.0;
+      double flops = 0.0;
+      double reference_flops = 0.0;
+      std::string fallen;
+      for (std::size_t i = 0; i < set_.size(); ++i) {
+        const Metrics& m = at(i, j).metrics;
+        if (!m.holds) {
+          fallen += (fallen.empty() ? "" : ", ") + set_[i].scene.name;
+          continue;
+        }
+        ++holds;
+        substeps += static_cast<double>(m.work.substeps);
+        frames += static_cast<double>(m.work.frames);
+        if (!at(i, reference).metrics.holds) continue;
+        flops += static_cast<double>(m.work.flops);
+        reference_flops += static_cast<double>(at(i, reference).metrics.work.flops);
+      }
+      std::printf("| %s | %zu of %zu | %.1f | %.0f %% | %s |\n", candidates_[j].name.c_str(), holds,
+                  set_.size(), frames > 0.0 ? substeps / frames : 0.0,
+                  reference_flops > 0.0 ? 100.0 * flops / reference_flops : 0.0, fallen.c_str());
+    }
+  }
+
+  /// A line for every scene: sub-steps a frame of what holds, the time of what fails.
+  void print_scenes() const {
+    std::printf("\n| family | scene |");
+    for (const Candidate& candidate : candidates_) std::printf(" %s |", candidate.name.c_str());
+    std::printf("\n|---|---|");
+    for (std::size_t j = 0; j < candidates_.size(); ++j) std::printf("---|");
+    for (std::size_t i = 0; i < set_.size(); ++i) {
+      std::printf("\n| %s | %s |", set_[i].family.c_str(), set_[i].scene.name.c_str());
+      for (std::size_t j = 0; j < candidates_.size(); ++j) {
+        const Metrics& m = at(i, j).metrics;
+        if (m.holds) {
+          std::printf(" %.1f |",
+                      static_cast<double>(m.work.substeps) / static_cast<double>(m.work.frames));
+        } else {
+          std::printf(" *%.2f s* |", m.failed_at);
+        }
+      }
+    }
+    std::printf("\n");
+  }
+
+ private:
+  [[nodiscard]] const Check& at(std::size_t scene, std::size_t candidate) const {
+    return checks_[scene * candidates_.size() + candidate];
+  }
+
+  std::vector<scenes::HardCase> set_;
+  std::vector<Candidate> candidates_;
+  std::vector<Check> checks_;
+};
+
+}  // namespace
+
+void print_hard_table(int jobs) {
+  const HardTable table(jobs);
+  table.print_settings();
+  table.print_scenes();
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,158 @@
+#include "core/lab/forecast.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "core/lab/experiment.hpp"
+#include "core/sim/simulator.hpp"
+#include "core/stepping/substep_clock.hpp"
+
+namespace substep {
+namespace {
+
+using Pair = std::pair<int, int>;  // of bodies, the smaller first; 0 is the world, i + 1 body i
+
+/// Bodies and the pairs that joints make of them. All that never moves is one node, the world.
+class JointGraph {
+ public:
+  explicit JointGraph(const Scene& scene)
+      : scene_(scene), edges_(scene.bodies.size() + 1), seen_(edges_.size(), 0) {
+    for (const Joint& joint : scene.joints) {
+      const Pair pair = pair_of(joint);
+      if (pair.first != pair.second && joints_[pair]++ == 0) {
+        edges_[static_cast<std::size_t>(pair.first)].push_back(pair.second);
+        edges_[static_cast<std::size_t>(pair.second)].push_back(pair.first);
+      }
+    }
+    hang();
+  }
+
+  /// The mass that one joint carries [kg].
+  [[nodiscard]] double load(const Joint& joint) const {
+    const Pair pair = pair_of(joint);
+    const auto found = load_.find(pair);
+    return found == load_.end() ? 0.0 : found->second / joints_.at(pair);
+  }
+
+ private:
+  struct Visit {
+    int node;
+    int parent;
+    std::size_t next = 0;  // edge to look at
+    int order = 0;         // when it was found
+    int low = 0;           // the earliest node that it and those below it reach otherwise
+    double mass = 0.0;     // with those below it [kg]
+  };
+
+  [[nodiscard]] int node(int body) const {
+    if (body == kWorld || scene_.bodies[static_cast<std::size_t>(body)].is_static) return 0;
+    return body + 1;
+  }
+  [[nodiscard]] Pair pair_of(const Joint& joint) const {
+    return std::minmax({node(base(joint).a), node(base(joint).b)});
+  }
+
+  /// Tarjan's search for the edges whose loss cuts the graph, from the world on. What is below such
+  /// an edge hangs on it. Iterative: a rope may have thousands of links.
+  void hang() {
+    std::vector<Visit> path;
+    std::vector<Pair> in_loops;
+    int count = 0;
+    double loose = 0.0;  // mass joined to the world [kg]
+    const auto enter = [&](int n, int parent) {
+      seen_[static_cast<std::size_t>(n)] = ++count;
+      const double mass = n == 0 ? 0.0 : scene_.bodies[static_cast<std::size_t>(n - 1)].mass;
+      loose += mass;
+      path.push_back({n, parent, 0, count, count, mass});
+    };
+    enter(0, -1);
+    while (!path.empty()) {
+      Visit& here = path.back();
+      const auto& edges = edges_[static_cast<std::size_t>(here.node)];
+      if (here.next < edges.size()) {
+        const int other = edges[here.next++];
+        if (other == here.parent) continue;
+        if (const int order = seen_[static_cast<std::size_t>(other)]) {
+          here.low = std::min(here.low, order);
+          in_loops.push_back(std::minmax(here.node, other));
+        } else {
+          enter(other, here.node);
+        }
+        continue;
+      }
+      const Visit done = here;
+      path.pop_back();
+      if (path.empty()) break;
+      Visit& parent = path.back();
+      parent.low = std::min(parent.low, done.low);
+      parent.mass += done.mass;
+      const Pair pair = std::minmax(done.node, parent.node);
+      if (done.low > parent.order) {
+        load_[pair] = done.mass;
+      } else {
+        in_loops.push_back(pair);
+      }
+    }
+    for (const Pair& pair : in_loops) load_[pair] = 0.5 * loose;
+  }
+
+  const Scene& scene_;
+  std::vector<std::vector<int>> edges_;
+  std::vector<int> seen_;  // order of the search, 0: not yet
+  std::map<Pair, int> joints_;
+  std::map<Pair, double> load_;  // mass that a pair carries [kg]
+};
+
+/// Largest k/I where every joint carries its load, and whose it is.
+std::pair<double, int> hanging_bound(const Scene& scene) {
+  const JointGraph graph(scene);
+  const double g = scene.effects.gravity ? scene.gravity.norm() : 0.0;
+  std::vector<Vec3> k(scene.bodies.size(), Vec3::Zero());  // about the principal axes [N m/rad]
+  const auto add = [&](int body, const Vec3& arm, double force) {
+    if (body == kWorld) return;
+    for (int e = 0; e < 3; ++e) {
+      k[static_cast<std::size_t>(body)][e] += force * arm.cross(Vec3::Unit(e)).norm();
+    }
+  };
+  for (const Joint& joint : scene.joints) {
+    const JointBase& j = base(joint);
+    const double force = graph.load(joint) * g;
+    add(j.a, j.anchor_a, force);
+    add(j.b, j.anchor_b, force);
+  }
+  std::pair<double, int> most{0.0, -1};
+  for (std::size_t i = 0; i < k.size(); ++i) {
+    if (scene.bodies[i].is_static) continue;
+    const double r = k[i].cwiseQuotient(scene.bodies[i].inertia).maxCoeff();
+    if (r > most.first) most = {r, static_cast<int>(i)};
+  }
+  return most;
+}
+
+/// N that the first frame asks for.
+int wanted_at_start(const Scene& scene, Settings settings) {
+  settings.mode = Mode::kAdaptive;
+  settings.policy = Policy::kFrame;
+  settings.n_max = 1;  // only its probe is of interest
+  settings.probe = true;
+  Simulator simulator(std::make_shared<const Scene>(scene));
+  simulator.set_settings(settings);
+  return simulator.step().n_wanted;
+}
+
+}  // namespace
+
+Forecast forecast(const Scene& scene, const Settings& settings) {
+  Forecast told;
+  told.mass_ratio = mass_ratio(scene);
+  told.at_start = wanted_at_start(scene, settings);
+  const auto [r, body] = hanging_bound(scene);
+  told.hanging = wanted_substeps(scene.frame, stable_step(settings.alpha, r));
+  told.body = body;
+  return told;
+}
+
+}  // namespace substep

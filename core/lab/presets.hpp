@@ -1,0 +1,20 @@
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "core/model/settings.hpp"
+
+namespace substep {
+
+/// Settings with a name, to begin with.
+struct Preset {
+  std::string_view name;   // "recommended"
+  std::string_view about;  // for people, in a sentence
+  Settings settings;
+};
+
+/// The paper's settings, and those that hold most of the hard set at the least work.
+std::span<const Preset> presets();
+
+}  // namespace substep

@@ -1,0 +1,52 @@
+#include "core/lab/remedy.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace substep {
+namespace {
+
+constexpr int kMostCap = 1024;        // a larger one costs more than it can give
+constexpr double kLeastAlpha = 1e-3;  // 10 times the sub-steps of 0.1
+
+/// Of a cap: as much as was asked for, at least twice and at most 16 times as much as now.
+int larger(int cap, int wanted) {
+  return std::min(std::clamp(wanted, 2 * cap, 16 * cap), std::max(cap, kMostCap));
+}
+
+}  // namespace
+
+std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) {
+  std::vector<Remedy> all;
+  const auto add = [&](const std::string& text) -> Settings& {
+    return all.emplace_back(Remedy{text, settings}).settings;
+  };
+  const bool adaptive = settings.mode == Mode::kAdaptive;
+  if (!adaptive) {
+    Settings& s = add("adaptive sub-steps");
+    s.mode = Mode::kAdaptive;
+  }
+  if (adaptive && last.capped) {
+    const int n_max = larger(settings.n_max, last.n_wanted);
+    if (n_max > settings.n_max) {
+      add("a larger cap, " + std::to_string(n_max) + " sub-steps a frame; " +
+          std::to_string(last.n_wanted) + " were wanted")
+          .n_max = n_max;
+    }
+  }
+  if (settings.solver == SolverKind::kPgs) {
+    add("the direct solver").solver = SolverKind::kBpp;
+  }
+  if (adaptive && !last.capped && settings.alpha > kLeastAlpha) {
+    const double alpha = std::max(kLeastAlpha, 0.5 * settings.alpha);
+    char text[40];
+    std::snprintf(text, sizeof text, "a smaller alpha, %.3g", alpha);
+    add(text).alpha = alpha;
+  }
+  if (adaptive && settings.policy == Policy::kFrame) {
+    add("a decision after every sub-step").policy = Policy::kSubstep;
+  }
+  return all;
+}
+
+}  // namespace substep

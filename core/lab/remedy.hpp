@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/model/settings.hpp"
+#include "core/sim/report.hpp"
+
+namespace substep {
+
+/// A change of settings that should help a run that failed.
+struct Remedy {
+  std::string text;  // "a smaller alpha, 0.05"
+  Settings settings;
+};
+
+/// What would help, the most likely first: adaptive sub-steps where there are none, a larger cap
+/// where the cap was in force, the direct solver in place of Gauss-Seidel, a smaller alpha.
+/// @param last the report of the frame that failed  @return empty where nothing is left to turn
+std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last);
+
+}  // namespace substep

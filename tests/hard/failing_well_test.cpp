@@ -1,0 +1,86 @@
+// A run that fails stops in order, and what is said to help helps.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/lab/remedy.hpp"
+#include "scenes/generator/scenes.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep::test {
+namespace {
+
+bool all_finite(const State& state) {
+  double sum = state.time + state.dt_previous + state.r;
+  for (std::size_t i = 0; i < state.x.size(); ++i) {
+    sum += state.x[i].sum() + state.q[i].coeffs().sum() + state.u[i].sum();
+    sum += state.u_synchronised[i].sum();
+  }
+  return std::isfinite(sum);
+}
+
+TEST(Divergence, TellsTheTimeOfThePosesThatItStopsAt) {
+  Scene scene = scenes::swinging_box();
+  scene.bodies.back().velocity = {1e200, 0.0, 0.0};  // a speed whose square is no number
+  Simulator simulator(std::make_shared<const Scene>(scene));
+  FrameReport report;
+  for (int frame = 0; frame < 100 && report.status == StepStatus::kOk; ++frame) {
+    report = simulator.step();
+    ASSERT_TRUE(all_finite(simulator.state())) << frame;
+  }
+  ASSERT_EQ(report.status, StepStatus::kNotFinite);
+  EXPECT_GE(report.failed_body, 0);
+  const double frames = static_cast<double>(simulator.state().frame) * scene.frame;
+  EXPECT_EQ(report.time, simulator.state().time);
+  EXPECT_NEAR(report.time, frames + report.advanced, 1e-15);
+  EXPECT_LT(report.advanced, scene.frame);
+}
+
+/// What comes of the first remedy for a run that fails.
+void expect_helped(const Scene& scene, const Settings& settings) {
+  FrameReport failed;
+  const Outcome before = run(scene, settings, scene.criteria.duration,
+                             [&](const Simulator&, const FrameReport& report) { failed = report; });
+  ASSERT_FALSE(before.holds) << scene.name;
+  const auto all = remedies(settings, failed);
+  ASSERT_FALSE(all.empty());
+  const Outcome after = run(scene, all.front().settings, scene.criteria.duration);
+  EXPECT_TRUE(after.holds) << scene.name << ": " << all.front().text << ": " << after.verdict;
+}
+
+TEST(Remedies, AdaptiveSubstepsHelpWhereThereAreTooFew) {
+  for (const Scene& scene : {scenes::swinging_box(), scenes::bridge()}) {
+    for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+      expect_helped(scene, {.solver = solver, .mode = Mode::kNone});
+    }
+    expect_helped(scene, {.mode = Mode::kConst, .n = 4});
+  }
+}
+
+TEST(Remedies, ALargerCapHelpsWhereItWasInForce) {
+  expect_helped(scenes::swinging_box(), {.n_max = 4});
+}
+
+TEST(Remedies, ASmallerAlphaHelpsTheTallStack) {
+  Scene scene = scenes::heavy_stack_stress_tall();
+  expect_helped(scene, {.alpha = 0.1});
+}
+
+TEST(Remedies, TheDirectSolverIsOneWhereSweepsAreNotEnough) {
+  Settings settings{.solver = SolverKind::kPgs};
+  const auto all = remedies(settings, {});
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Remedy& remedy) {
+    return remedy.settings.solver == SolverKind::kBpp;
+  }));
+  const Outcome after = run(scenes::heavy_stack(), all.front().settings, 2.0);
+  EXPECT_TRUE(after.holds) << after.verdict;
+}
+
+TEST(Remedies, EndWhereNothingIsLeftToTurn) {
+  const Settings settings{.alpha = 1e-3, .policy = Policy::kSubstep};
+  EXPECT_TRUE(remedies(settings, {}).empty());
+}
+
+}  // namespace
+}  // namespace substep::test

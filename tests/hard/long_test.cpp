@@ -1,0 +1,89 @@
+// Long runs: nothing drifts past its bound, and memory does not grow. 50,000 frames by default;
+// SUBSTEP_LONG_FRAMES=1000000 is the form for a night.
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+#include "scenes/generator/scenes.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep::test {
+namespace {
+
+std::int64_t frames() {
+  const char* text = std::getenv("SUBSTEP_LONG_FRAMES");
+  return text ? std::atoll(text) : 50000;
+}
+
+/// The most memory that the program had so far [KiB].
+long peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+struct LongRun {
+  double energy_after_warm_up = 0.0;  // [J]
+  double energy_highest = 0.0;        // after it [J]
+  double energy_lowest = 0.0;         // after it [J]
+  double joint_gap = 0.0;             // largest after it [m]
+  long memory_growth = 0;             // after it [KiB]
+  StepStatus status = StepStatus::kOk;
+};
+
+/// @param warm_up frames that are not judged
+LongRun run_long(const Scene& scene, const Settings& settings, std::int64_t warm_up) {
+  Simulator simulator(std::make_shared<const Scene>(scene));
+  simulator.set_settings(settings);
+  LongRun out;
+  long memory = 0;
+  for (std::int64_t i = 0; i < frames() && out.status == StepStatus::kOk; ++i) {
+    const FrameReport report = simulator.step();
+    out.status = report.status;
+    if (i < warm_up) continue;
+    if (i == warm_up) {
+      memory = peak_memory();
+      out.energy_after_warm_up = out.energy_highest = out.energy_lowest = report.energy;
+    }
+    out.energy_highest = std::max(out.energy_highest, report.energy);
+    out.energy_lowest = std::min(out.energy_lowest, report.energy);
+    out.joint_gap = std::max(out.joint_gap, report.joint_gap);
+  }
+  out.memory_growth = peak_memory() - memory;
+  std::printf("%s, %lld frames: energy %+.6g to %+.6g J of %.6g J, gap %.3g m, %ld KiB more\n",
+              scene.name.c_str(), static_cast<long long>(frames()),
+              out.energy_lowest - out.energy_after_warm_up,
+              out.energy_highest - out.energy_after_warm_up, out.energy_after_warm_up,
+              out.joint_gap, out.memory_growth);
+  return out;
+}
+
+constexpr long kMemoryRoom = 1024;  // what the test's own output and the allocator may take [KiB]
+
+TEST(LongRun, TheSwingingBoxKeepsItsEnergyWithLeapfrog) {
+  const Scene scene = scenes::swinging_box();
+  const LongRun r = run_long(scene, {.integrator = Integrator::kLeapfrog}, 60);
+  ASSERT_EQ(r.status, StepStatus::kOk);
+  // 200 s keep it within 0.001 % of the exchanged energy; this is as much each 200 s, twice over.
+  const double bound = 2.0 * 1e-5 * *scene.criteria.energy_scale *
+                       (1.0 + static_cast<double>(frames()) * scene.frame / 200.0);
+  EXPECT_LT(r.energy_highest - r.energy_after_warm_up, bound);
+  EXPECT_GT(r.energy_lowest - r.energy_after_warm_up, -bound);
+  EXPECT_LT(r.joint_gap, 1e-3);
+  EXPECT_LT(r.memory_growth, kMemoryRoom);
+}
+
+TEST(LongRun, TheBridgeComesToRestAndStaysWhole) {
+  const Scene scene = scenes::bridge();
+  const LongRun r = run_long(scene, scene.settings, 600);  // the ball has left and landed
+  ASSERT_EQ(r.status, StepStatus::kOk);
+  EXPECT_LT(r.energy_highest - r.energy_after_warm_up, 1.0) << "nobody puts energy in";
+  EXPECT_LT(r.joint_gap, 2e-3);
+  EXPECT_LT(r.memory_growth, kMemoryRoom);
+}
+
+}  // namespace
+}  // namespace substep::test

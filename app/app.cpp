@@ -130,6 +130,10 @@ void handle_key(App& app, ImWchar c) {
     case '-':
       change_scale(app, -0.1);
       break;
+    case 'v':
+    case 'V':
+      app.desk.split = !app.desk.split;
+      break;
     case '?':
       app.desk.help = !app.desk.help;
       break;
@@ -209,6 +213,7 @@ Desk::Desk() {
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : library(std::move(shipped)), session(library.scenes().front()), renderer(std::move(draws)) {
   session.frame_taken = [this] { compare.take_frame(session); };
+  session.scene_edited = [this](const SceneEdit& edit) { compare.edit(session, edit); };
   run(library.scenes().front());
 }
 
@@ -315,6 +320,7 @@ std::string App::set(std::string_view key, std::string_view value) {
   for (const ViewSwitch& option : kViewSwitches) {
     if (key == option.key) return choose(value, {"off", "on"}, desk.view.*option.member);
   }
+  if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
   if (key == "panel") return choose_panel(value, desk.tab);
   if (key == "tour") return go_on_tour(*this, value);
   if (key == "scale") {
@@ -394,6 +400,14 @@ ImU32 App::compare_color(std::size_t run) const {
   return std::array<ImU32, Compare::kMost>{t.orange, t.teal, t.purple}.at(run);
 }
 
+const Scene& App::scene_in(std::size_t pane) const {
+  return pane == 0 ? session.scene() : *compare.runs()[pane - 1].scene;
+}
+
+const Poses& App::poses_in(std::size_t pane) const {
+  return pane == 0 ? session.poses() : compare.runs()[pane - 1].poses;
+}
+
 std::string App::command() const {
   return make_command(session.scene(), session.settings(), session.state().frame,
                       is_own(session.scene()));
@@ -430,6 +444,25 @@ class Scaled {
   ImVec2 ratio_;
 };
 
+// This run, and what it is compared with: each in a pane of its own, or over it as ghosts.
+void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
+  app.panes = ui::view_panes(app);
+  app.pictures.resize(app.panes.size());
+  for (std::size_t i = 0; i < app.panes.size(); ++i) {
+    Seen seen{&app.scene_in(i), &app.poses_in(i), nullptr, nullptr};
+    if (i == 0) seen = {seen.scene, seen.poses, &app.session.state(), &app.session.trail()};
+    app.view.build(seen, options, app.look.theme->view, app.panes[i],
+                   static_cast<double>(display.x), static_cast<double>(display.y), app.pictures[i]);
+    app.pictures[i].part = ui::part_of_window(app, i);
+  }
+  if (app.panes.size() > 1) return;
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    const Compare::Run& run = app.compare.runs()[i];
+    const ImVec4 c = ui::to_vec4(app.compare_color(i));
+    SceneView::add_ghost(*run.scene, run.poses, {c.x, c.y, c.z, 0.5F}, app.pictures.front());
+  }
+}
+
 }  // namespace
 
 void frame(App& app, double wall_dt) {
@@ -462,19 +495,12 @@ void frame(App& app, double wall_dt) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewOptions shown = app.desk.view;
   if (app.compare.open()) shown.tint = false;  // colours say who is who then
-  app.view.build(app.session, shown, app.look.theme->view, app.view_rect,
-                 static_cast<double>(io.DisplaySize.x), static_cast<double>(io.DisplaySize.y),
-                 app.picture);
-  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
-    const ImVec4 c = ui::to_vec4(app.compare_color(i));
-    SceneView::add_ghost(app.session.scene(), app.compare.runs()[i].poses, {c.x, c.y, c.z, 0.5F},
-                         app.picture);
-  }
+  draw_pictures(app, shown, io.DisplaySize);
   ui::draw_over_picture(app);
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
-  app.renderer->draw(app.picture, *ImGui::GetDrawData(), width, height);
+  app.renderer->draw(app.pictures, *ImGui::GetDrawData(), width, height);
   if (app.capture) take_capture(app, width, height);
 
   remember_arrangement(app);

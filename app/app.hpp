@@ -65,6 +65,7 @@ struct Notice {
 
 /// What the pointer does in the picture while its button is down.
 struct Hand {
+  std::size_t pane = 0;        // that it went down in
   int body = -1;               // that it went down on, or -1
   Vec3 anchor = Vec3::Zero();  // where on it, body frame [m]
   Vec3 point = Vec3::Zero();   // the same in the world; it moves in the plane of view there [m]
@@ -96,6 +97,7 @@ struct Desk {
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // where the plots were drawn last
   bool accuracy_large = false;  // its picture lies over the view
+  bool split = false;           // what is compared is seen side by side, not as ghosts
   int compare_open = -1;        // of which of the compared the settings are shown
   int dismissed_failure = 0;    // of which run the failure was put aside
 };
@@ -167,7 +169,11 @@ struct App {
   float pixel_ratio = 0.0F;        // that the fonts were made for
   double frame_time = 1.0 / 60.0;  // smoothed [s]
   ViewRect view_rect;
-  Picture picture;
+  /// Where runs are seen: this one in the first or only pane, those compared in the others.
+  std::vector<ViewRect> panes{1};
+  std::vector<Picture> pictures{1};  // of the panes
+  [[nodiscard]] const Scene& scene_in(std::size_t pane) const;
+  [[nodiscard]] const Poses& poses_in(std::size_t pane) const;
   Hand hand;
   bool pointer_on_picture = false;
   std::string last_link;

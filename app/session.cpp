@@ -104,6 +104,7 @@ void Session::forget_future() {
 }
 
 void Session::grab(int body, const Vec3& anchor, const Vec3& target) {
+  forget_future();
   simulator_->set_grab(Grab{body, anchor, target, joined_mass(*scene_, body)});
   verdict_->disturb(state().time);
 }
@@ -116,14 +117,17 @@ void Session::pull_to(const Vec3& target) {
 }
 
 // Another scene from the present frame on: the run is no longer that of the one loaded.
-void Session::go_on_in(Scene scene, State state) {
+void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   forget_future();
   const std::optional<Grab> holding = held();
+  const std::shared_ptr<const Scene> from = scene_;
+  State carried = carry(state());
   use_scene(std::make_shared<const Scene>(std::move(scene)));
-  simulator_->set_state(std::move(state));
+  simulator_->set_state(std::move(carried));
   simulator_->set_grab(holding);
-  verdict_->disturb(this->state().time);
+  verdict_->disturb(state().time);
   show_present();
+  if (scene_edited) scene_edited({from, scene_, state().frame, std::move(carry)});
 }
 
 void Session::throw_ball(const Ball& ball) {
@@ -131,7 +135,8 @@ void Session::throw_ball(const Ball& ball) {
   if (stopped()) return;
   const std::size_t slot =
       loaded_->bodies.size() + static_cast<std::size_t>(thrown_++ % Ball::kMost);
-  go_on_in(with_ball(*scene_, ball, slot), with_ball(state(), ball, slot));
+  go_on_in(with_ball(*scene_, ball, slot),
+           [ball, slot](State state) { return with_ball(std::move(state), ball, slot); });
 }
 
 void Session::set_effects(const Effects& effects) {
@@ -139,7 +144,7 @@ void Session::set_effects(const Effects& effects) {
   if (stopped() || effects == scene_->effects) return;
   Scene scene = *scene_;
   scene.effects = effects;
-  go_on_in(std::move(scene), state());
+  go_on_in(std::move(scene), [](State state) { return state; });
 }
 
 void Session::extend_trail() {

@@ -22,6 +22,14 @@ struct Poses {
   std::vector<Quat> q;
 };
 
+/// A scene that became another one while it ran: a ball was thrown into it, an effect switched off.
+struct SceneEdit {
+  std::shared_ptr<const Scene> from;
+  std::shared_ptr<const Scene> to;
+  std::int64_t frame = 0;             // after which
+  std::function<State(State)> carry;  // takes a state of `from` over to `to`
+};
+
 /// One scene running: simulator, judge, history, past and clock. Knows nothing of windows.
 class Session {
  public:
@@ -103,6 +111,8 @@ class Session {
   [[nodiscard]] double between() const;
   /// Called after every frame: what runs beside this session keeps step with it.
   std::function<void()> frame_taken;
+  /// Called after the scene was edited, for the same to be done there.
+  std::function<void(const SceneEdit&)> scene_edited;
   /// Where the tracked body was in the last frames, oldest first; empty where none is tracked.
   [[nodiscard]] const std::deque<Vec3>& trail() const { return trail_; }
   /// Wall times by stage, smoothed over about half a second: a browser's clock is coarse.
@@ -111,7 +121,7 @@ class Session {
  private:
   void restart();
   void use_scene(std::shared_ptr<const Scene> scene);
-  void go_on_in(Scene scene, State state);
+  void go_on_in(Scene scene, std::function<State(State)> carry);
   void take_frame();
   void end_frame();
   void forget_future();

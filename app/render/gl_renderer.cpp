@@ -26,13 +26,15 @@ class GlRenderer final : public Renderer {
 
   bool build(std::string& error);
   void begin_frame() override { ImGui_ImplOpenGL3_NewFrame(); }
-  void draw(const Picture& picture, const ImDrawData& panels, int width, int height) override;
+  void draw(std::span<const Picture> pictures, const ImDrawData& panels, int width,
+            int height) override;
   std::vector<std::uint8_t> pixels(int x, int y, int width, int height) override;
   void fonts_changed() override { ImGui_ImplOpenGL3_DestroyFontsTexture(); }
 
  private:
   // World to the light's clip space: a box around the focus, seen from far along the light.
   static Matrix4f light_matrix(const Picture& picture);
+  void draw_picture(const Picture& picture, int width, int height);
   void draw_shadows(const Picture& picture, const Matrix4f& light);
   void draw_bodies(const Picture& picture, const Matrix4f& light);
   void draw_ghosts(const Picture& picture);
@@ -199,8 +201,19 @@ void GlRenderer::draw_ribbons(const Picture& picture) {
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(picture.ribbons.size()));
 }
 
-void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int width, int height) {
-  height_ = height;
+// The graphics card cuts off what is not in the picture's part of the window.
+void limit_to(const Part& part, int width, int height) {
+  const auto pixel = [](float share, int size) {
+    return static_cast<int>(std::lround(share * static_cast<float>(size)));
+  };
+  const int x = pixel(part.x, width);
+  const int top = pixel(part.y, height);
+  const int bottom = pixel(part.y + part.height, height);
+  glScissor(x, height - bottom, pixel(part.x + part.width, width) - x, bottom - top);
+  glEnable(GL_SCISSOR_TEST);
+}
+
+void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   const Matrix4f light = light_matrix(picture);
   box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
   ball_instances_.upload(picture.balls.data(), picture.balls.size() * sizeof(Instance));
@@ -214,6 +227,7 @@ void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int widt
   shadow_map_.bind_texture();
 
   glViewport(0, 0, width, height);
+  limit_to(picture.part, width, height);
   glClear(GL_DEPTH_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
   background_.use();
@@ -235,7 +249,13 @@ void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int widt
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
+  glDisable(GL_SCISSOR_TEST);
+}
 
+void GlRenderer::draw(std::span<const Picture> pictures, const ImDrawData& panels, int width,
+                      int height) {
+  height_ = height;
+  for (const Picture& picture : pictures) draw_picture(picture, width, height);
   // Dear ImGui only reads the lists that it is given.
   ImGui_ImplOpenGL3_RenderDrawData(const_cast<ImDrawData*>(&panels));
 }

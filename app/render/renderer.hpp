@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "app/render/picture.hpp"
@@ -9,7 +10,7 @@ struct ImDrawData;
 
 namespace substep {
 
-/// Draws a picture and the panels over it. The window system belongs to the shell.
+/// Draws pictures side by side and the panels over them. The window system belongs to the shell.
 class Renderer {
  public:
   virtual ~Renderer() = default;
@@ -17,7 +18,8 @@ class Renderer {
   /// Before the panels are built: makes ready what Dear ImGui needs.
   virtual void begin_frame() = 0;
   /// @param width, height of the frame buffer [pixel]
-  virtual void draw(const Picture& picture, const ImDrawData& panels, int width, int height) = 0;
+  virtual void draw(std::span<const Picture> pictures, const ImDrawData& panels, int width,
+                    int height) = 0;
   /// What was drawn last, as RGB rows from the top; asked for right after draw().
   /// @param x, y from the top left corner [pixel]
   [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;

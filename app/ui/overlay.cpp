@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/format.hpp"
+#include "app/stiffness.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -102,8 +103,8 @@ void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU3
   draw_text(draw, font, at, color, text);
 }
 
-bool project(const App& app, const Vec3& x, ImVec2& out) {
-  const Eigen::Vector4f p = app.picture.view_projection * x.cast<float>().homogeneous();
+bool project(const App& app, const Vec3& x, ImVec2& out, std::size_t pane) {
+  const Eigen::Vector4f p = app.pictures[pane].view_projection * x.cast<float>().homogeneous();
   if (p.w() <= 0.0F) return false;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   out = {(0.5F + 0.5F * p.x() / p.w()) * size.x, (0.5F - 0.5F * p.y() / p.w()) * size.y};
@@ -111,10 +112,10 @@ bool project(const App& app, const Vec3& x, ImVec2& out) {
 }
 
 double pixel_size(const App& app, const Vec3& x) {
-  const auto depth =
-      static_cast<double>(app.picture.view_projection.row(3).dot(x.cast<float>().homogeneous()));
+  const auto depth = static_cast<double>(
+      app.pictures.front().view_projection.row(3).dot(x.cast<float>().homogeneous()));
   return 2.0 * std::max(0.0, depth) * std::tan(0.5 * OrbitCamera::kFieldOfView) /
-         std::max(1.0, static_cast<double>(app.view_rect.height));
+         std::max(1.0, static_cast<double>(app.panes.front().height));
 }
 
 void caption(App& app, bool phone) {
@@ -132,7 +133,7 @@ void caption(App& app, bool phone) {
             fitted(look.fonts.title, app.session.scene().title, room).c_str());
   draw_over(look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
             fitted(look.fonts.regular, method_line(app.session.settings()), room).c_str());
-  if (report.n_substeps == 0) return;
+  if (report.n_substeps == 0 || app.panes.size() > 1) return;  // each pane has its own N
   const float right = v.x + v.width - pad;
   draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n.c_str());
   const int left = app.session.substeps_left();
@@ -155,7 +156,7 @@ void body_labels(App& app) {
     if (!body.is_static && (lightest == 0.0 || body.mass < lightest)) lightest = body.mass;
   }
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const ViewRect& v = app.view_rect;
+  const ViewRect& v = app.panes.front();
   const std::size_t own = app.session.loaded().bodies.size();  // a thrown ball has no label
   for (std::size_t i = 0; i < own; ++i) {
     const Body& body = scene.bodies[i];
@@ -309,7 +310,7 @@ void help_card(App& app) {
     const char* key;
     const char* what;
   };
-  static constexpr std::array<Key, 24> kKeys{{{"Space", "play, pause"},
+  static constexpr std::array<Key, 25> kKeys{{{"Space", "play, pause"},
                                               {",  .", "one frame back, one forward"},
                                               {";", "one sub-step"},
                                               {"Home, End", "first and last saved frame"},
@@ -319,6 +320,7 @@ void help_card(App& app) {
                                               {"F", "show everything"},
                                               {"H", "panels on or off"},
                                               {"T", "light or dark"},
+                                              {"V", "compared: ghosts or side by side"},
                                               {"+  −", "larger or smaller interface"},
                                               {"?", "this list"},
                                               {"", ""},

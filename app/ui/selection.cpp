@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/format.hpp"
+#include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -37,12 +38,6 @@ std::string newtons(double force) {
   return short_number(force / unit.factor) + ' ' + unit.prefix + 'N';
 }
 
-// What the body alone would ask for: its largest k/M [1/s^2].
-double own_ratio(const Body& body, const Vec6& k) {
-  return std::max({0.0, k.head<3>().maxCoeff() / body.mass,
-                   k.tail<3>().cwiseQuotient(body.inertia).maxCoeff()});
-}
-
 void motion_rows(const App& app, std::size_t i, bool phone) {
   const Look& look = app.look;
   const State& state = app.session.state();
@@ -55,7 +50,7 @@ void motion_rows(const App& app, std::size_t i, bool phone) {
 void stiffness_row(const App& app, std::size_t i) {
   const State& state = app.session.state();
   if (state.k.size() <= i || !(state.r > 0.0)) return;
-  const double r = own_ratio(app.session.scene().bodies[i], state.k[i]);
+  const double r = stiffest_of(app.session.scene(), state, i).r;
   const int n =
       wanted_substeps(app.session.scene().frame, stable_step(app.session.settings().alpha, r));
   row(app.look, "k/M",

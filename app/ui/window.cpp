@@ -266,8 +266,7 @@ void draw_over_picture(App& app) {
   annotations(app);
   body_labels(app);
   caption(app, small);
-  const float pad = small ? 12.0F : 16.0F;
-  compare_legend(app, app.view_rect.x + pad + 8.0F, app.view_rect.y + pad + 56.0F);
+  compare_legend(app);
   if (!small) tint_scale(app);
   notice(app);
 }

@@ -10,6 +10,7 @@
 
 #include "app/accuracy.hpp"
 #include "app/compare.hpp"
+#include "app/file_browser.hpp"
 #include "app/library.hpp"
 #include "app/own_scenes.hpp"
 #include "app/render/renderer.hpp"
@@ -25,6 +26,7 @@ namespace substep {
 struct Host {
   std::function<void(const std::string& fragment)> link_changed;  // keeps the address up to date
   std::function<void()> copy_link;  // puts the address that holds the experiment on the clipboard
+  std::function<void()> open_link;  // follows the link on the clipboard
   std::function<void()> open_file;  // lets the person choose a scene file, and opens it
   std::function<void(bool on)> record;  // begins and ends a video of the window
   /// Hands a file to the person: into the working folder natively, a download in the page.
@@ -81,7 +83,8 @@ struct Desk {
   bool dark = true;
   bool panels = true;  // off: nothing but the picture
   bool help = false;
-  bool more = false;  // the finer points of the method are unfolded
+  bool more = false;             // the finer points of the method are unfolded
+  bool open_share_menu = false;  // at the next frame
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
   PanelSide left;
@@ -128,6 +131,9 @@ struct App {
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
   void open_link(std::string_view fragment);
   [[nodiscard]] std::string link() const;
+  /// The scene that a link starts from: the loaded one, or, where it was edited since (a ball
+  /// thrown, an effect switched off), the scene as it stood at the last edit.
+  [[nodiscard]] const Scene& link_scene() const;
   /// What to type for the same run on the command line.
   [[nodiscard]] std::string command() const;
   void reset();
@@ -153,6 +159,7 @@ struct App {
   Notice notice;
   std::optional<Capture> capture;
   OwnScenes own;
+  FileBrowser browser;
   bool recording = false;  // a video, see Host::record
   // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
   std::shared_ptr<const Scene> plain_scene;

@@ -4,10 +4,29 @@
 #include <chrono>
 #include <utility>
 
+#include "app/library.hpp"
+#include "core/io/saved_scene.hpp"
+
 namespace substep {
 namespace {
 
 constexpr std::size_t kTrailFrames = 150;
+
+// The run as a scene that a file can hold: what only acts through an effect that is off is left
+// out.
+Scene edition_of(const Scene& scene, const State& state, const Settings& settings) {
+  Scene out = saved_scene(scene, state, settings);
+  out.group = kOwnGroup;
+  Effects& effects = out.effects;
+  effects.friction = effects.friction && effects.contact;
+  effects.restitution = effects.restitution && effects.contact;
+  if (!effects.joints) out.joints.clear();
+  for (Body& body : out.bodies) {
+    if (!effects.friction) body.friction = 0.0;
+    if (!effects.restitution) body.restitution = 0.0;
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -37,6 +56,7 @@ void Session::restart() {
   history_.start(report_, scene_->frame);
   timeline_.start(moment());
   thrown_ = 0;
+  editions_.clear();
   trail_.clear();
   extend_trail();
   times_ = {};
@@ -126,8 +146,18 @@ void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   simulator_->set_state(std::move(carried));
   simulator_->set_grab(holding);
   verdict_->disturb(state().time);
+  editions_.push_back({scene_, std::make_shared<const Scene>(as_scene()), state().frame});
   show_present();
   if (scene_edited) scene_edited({from, scene_, state().frame, std::move(carry)});
+}
+
+Scene Session::as_scene() const { return edition_of(*scene_, state(), settings()); }
+
+const Session::Edition* Session::edition() const {
+  for (const Edition& edition : editions_) {
+    if (edition.of == scene_) return &edition;
+  }
+  return nullptr;
 }
 
 void Session::throw_ball(const Ball& ball) {

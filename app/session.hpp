@@ -73,6 +73,16 @@ class Session {
   void set_effects(const Effects& effects);
   /// The scene as it was loaded; scene() differs where a hand was in it.
   [[nodiscard]] const Scene& loaded() const { return *loaded_; }
+  /// A run at the last edit of its scene, as a scene of its own.
+  struct Edition {
+    std::shared_ptr<const Scene> of;     // what the run is in since
+    std::shared_ptr<const Scene> start;  // the same with the state that it had then
+    std::int64_t frame = 0;              // of the run then
+  };
+  /// The run as it is now as a scene of its own, to be written to a file.
+  [[nodiscard]] Scene as_scene() const;
+  /// Of the scene that runs now; null where it is the loaded one.
+  [[nodiscard]] const Edition* edition() const;
   /// Balls that were thrown and are still there.
   [[nodiscard]] std::size_t balls() const { return scene_->bodies.size() - loaded_->bodies.size(); }
 
@@ -133,6 +143,7 @@ class Session {
 
   std::shared_ptr<const Scene> loaded_;
   std::shared_ptr<const Scene> scene_;  // what was loaded, and the balls
+  std::vector<Edition> editions_;
   std::unique_ptr<Simulator> simulator_;
   std::unique_ptr<Verdict> verdict_;
   FrameReport report_;

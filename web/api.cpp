@@ -9,7 +9,6 @@
 
 #include "app/export.hpp"
 #include "app/format.hpp"
-#include "core/io/saved_scene.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
@@ -120,16 +119,16 @@ EMSCRIPTEN_KEEPALIVE const char* substep_link() { return keep_text(app().link())
 
 EMSCRIPTEN_KEEPALIVE const char* substep_command() { return keep_text(app().command()); }
 
-/// The scene as it started, as a file; "" where it is a shipped one, which a link can name.
+/// The scene that the link starts from, as a file; "" where it is a shipped one, which a link
+/// names.
 EMSCRIPTEN_KEEPALIVE const char* substep_own_scene() {
-  const substep::Scene& scene = app().session.scene();
+  const substep::Scene& scene = app().link_scene();
   return keep_text(substep::is_own(scene) ? substep::write_scene(scene) : "");
 }
 
 /// The run as it is now, as a scene file.
 EMSCRIPTEN_KEEPALIVE const char* substep_saved_scene() {
-  const substep::Session& s = app().session;
-  return keep_text(substep::write_scene(substep::saved_scene(s.scene(), s.state(), s.settings())));
+  return keep_text(substep::write_scene(app().session.as_scene()));
 }
 
 /// What the plots remember, as CSV: one line a frame.

@@ -62,6 +62,14 @@ void transport(App& app, bool phone);
 void scrubber(App& app, ImVec2 at, float width, float height);
 /// The button with the menu of links, files and pictures.
 void share_menu(App& app, float size);
+void copy_link(App& app);
+void copy_command(App& app);
+/// A picture of the whole window, when this frame has been drawn.
+void capture_window(App& app);
+/// Begins the tour, or goes to its next step; after the last one it ends.
+void go_on_with_tour(App& app);
+/// The folder that a scene file is chosen from, while one is.
+void file_card(App& app);
 
 /// Over the picture: what runs, N, the scale of the tint, masses, and what went wrong.
 void caption(App& app, bool phone);

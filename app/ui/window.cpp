@@ -257,8 +257,9 @@ void draw_window(App& app) {
   tour(app);
   if (!small) accuracy_card(app);
   failure_card(app);
-  trouble_card(app);
   help_card(app);
+  file_card(app);
+  trouble_card(app);
 }
 
 void draw_over_picture(App& app) {

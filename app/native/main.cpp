@@ -157,6 +157,7 @@ int run(const Options& options) {
     if (!renderer || library.scenes().empty()) {
       std::fprintf(stderr, "substep: %s\n",
                    renderer ? ("no scenes in " + options.scenes).c_str() : error.c_str());
+      renderer.reset();  // while its context is there
       ImGui_ImplGlfw_Shutdown();
       glfwTerminate();
       return 2;

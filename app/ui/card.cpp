@@ -21,6 +21,12 @@ bool begin_card(App& app, const char* id, float width, float centre_y, float piv
   return open;
 }
 
+float card_middle(const App& app) {
+  constexpr float kRoom = 560.0F;
+  const ViewRect& v = app.view_rect;
+  return v.height > kRoom ? v.y + 0.5F * v.height : 0.5F * ImGui::GetIO().DisplaySize.y;
+}
+
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;

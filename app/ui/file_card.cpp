@@ -48,9 +48,8 @@ void path_field(App& app) {
 void file_card(App& app) {
   if (!app.browser.open()) return;
   const Look& look = app.look;
-  const ViewRect& v = app.view_rect;
   bool close = app.trouble.title.empty() && ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(app, "##open_file", 480.0F, v.y + 0.5F * v.height, 0.5F)) {
+  if (begin_card(app, "##open_file", 480.0F, card_middle(app), 0.5F)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
     card_title(look, 0, Icon::kNone, "Open a scene file");
     path_field(app);

@@ -55,10 +55,9 @@ void help_card(App& app) {
   std::size_t count = 0;
   for (const KeyAction& action : key_actions()) keys.at(count++) = {action.shown, action.what};
   const Look& look = app.look;
-  const ViewRect& v = app.view_rect;
   const bool two = ImGui::GetIO().DisplaySize.x > 760.0F;  // columns
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(app, "##help", two ? 720.0F : 400.0F, v.y + 0.5F * v.height, 0.5F)) {
+  if (begin_card(app, "##help", two ? 720.0F : 400.0F, card_middle(app), 0.5F)) {
     card_title(look, 0, Icon::kNone, "Keys and gestures");
     const ImVec2 at = ImGui::GetCursorScreenPos();
     float height = draw_lines(look, at, 72.0F, std::span(keys).first(count));

@@ -68,6 +68,20 @@ TEST(Keys, TypedIntoAFieldTheyAreText) {
   EXPECT_EQ(h.app->desk.dark, dark);
 }
 
+TEST(Keys, TheListStaysOnTheDisplay) {
+  for (const ImVec2 display : {ImVec2(1280, 720), ImVec2(390, 844), ImVec2(844, 390)}) {
+    Headless h(display.x, display.y);
+    h.app->desk.help = true;
+    h.frames(4);
+    const ImGuiWindow* card = ImGui::FindWindowByName("##help");
+    ASSERT_NE(card, nullptr);
+    EXPECT_GE(card->Pos.x, 0.0F);
+    EXPECT_GE(card->Pos.y, 0.0F);
+    EXPECT_LE(card->Pos.x + card->Size.x, display.x);
+    EXPECT_LE(card->Pos.y + card->Size.y, display.y);
+  }
+}
+
 void press(Headless& h, ImGuiKey key, bool shift = false) {
   ImGuiIO& io = ImGui::GetIO();
   if (shift) io.AddKeyEvent(ImGuiMod_Shift, true);

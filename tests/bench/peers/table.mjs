@@ -34,7 +34,8 @@ function timedRow(entry) {
 
 /** Those that hold, cheapest first within an engine, then those that fail. */
 export function sceneLines({ title, kind }, entries, best) {
-  const lines = ["", title, row(["engine", "ms a frame", ...kColumns[kind].map((c) => `${c} mm`), "setting"])];
+  const columns = kColumns[kind].map((column) => `${column} mm`);
+  const lines = ["", title, row(["engine", "ms a frame", ...columns, "setting"])];
   const engines = [...new Set(entries.map(({ engine }) => engine))];
   for (const engine of engines) {
     const own = best.filter((entry) => entry.engine === engine).sort((a, b) => a.ms - b.ms);
@@ -68,14 +69,20 @@ export function factorLines({ aim }, best) {
     const verdict = ours
       ? `${(peer.ms / ours.ms).toFixed(1)} times our cost (${settingText(ours.setting)})`
       : "more exact than we are at any setting tried";
-    return `  ${peer.engine.title} at ${millimetres(peer.error)} mm, ${peer.ms.toPrecision(3)} ms: ${verdict}`;
+    const cost = `${millimetres(peer.error)} mm, ${peer.ms.toPrecision(3)} ms`;
+    return `  ${peer.engine.title} at ${cost}: ${verdict}`;
   });
   for (const name of new Set(peers.map(platform))) {
-    const here = pairs.filter(({ peer, ours }) => ours && platform(peer) === name);
-    if (here.length === 0) continue; // all more exact than we are, as told above
-    const least = Math.min(...here.map(({ peer, ours }) => peer.ms / ours.ms));
+    const here = pairs.filter(({ peer }) => platform(peer) === name);
+    const answered = here.filter(({ ours }) => ours);
+    if (answered.length < here.length) {
+      lines.push(`  ${name}: more exact than we are: ${here.length - answered.length} settings`);
+    }
+    if (answered.length === 0) continue;
+    const least = Math.min(...answered.map(({ peer, ours }) => peer.ms / ours.ms));
     const verdict = least >= aim ? "reached" : `missed by a factor of ${(aim / least).toFixed(1)}`;
-    lines.push(`  ${name}: every peer costs at least ${least.toFixed(1)} times as much; aim ${aim}: ${verdict}`);
+    const times = `${least.toFixed(1)} times as much`;
+    lines.push(`  ${name}: the others cost at least ${times}; aim ${aim}: ${verdict}`);
   }
   return lines;
 }

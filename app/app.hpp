@@ -10,6 +10,7 @@
 
 #include "app/accuracy.hpp"
 #include "app/compare.hpp"
+#include "app/file_browser.hpp"
 #include "app/library.hpp"
 #include "app/own_scenes.hpp"
 #include "app/quality.hpp"
@@ -26,6 +27,7 @@ namespace substep {
 struct Host {
   std::function<void(const std::string& fragment)> link_changed;  // keeps the address up to date
   std::function<void()> copy_link;  // puts the address that holds the experiment on the clipboard
+  std::function<void()> open_link;  // follows the link on the clipboard
   std::function<void()> open_file;  // lets the person choose a scene file, and opens it
   std::function<void(bool on)> record;  // begins and ends a video of the window
   /// Hands a file to the person: into the working folder natively, a download in the page.
@@ -66,6 +68,7 @@ struct Notice {
 
 /// What the pointer does in the picture while its button is down.
 struct Hand {
+  std::size_t pane = 0;        // that it went down in
   int body = -1;               // that it went down on, or -1
   Vec3 anchor = Vec3::Zero();  // where on it, body frame [m]
   Vec3 point = Vec3::Zero();   // the same in the world; it moves in the plane of view there [m]
@@ -81,7 +84,8 @@ struct Desk {
   bool dark = true;
   bool panels = true;  // off: nothing but the picture
   bool help = false;
-  bool more = false;  // the finer points of the method are unfolded
+  bool more = false;             // the finer points of the method are unfolded
+  bool open_share_menu = false;  // at the next frame
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
   PanelSide left;
@@ -97,6 +101,7 @@ struct Desk {
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // where the plots were drawn last
   bool accuracy_large = false;  // its picture lies over the view
+  bool split = false;           // what is compared is seen side by side, not as ghosts
   int compare_open = -1;        // of which of the compared the settings are shown
   int dismissed_failure = 0;    // of which run the failure was put aside
 };
@@ -127,6 +132,9 @@ struct App {
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
   void open_link(std::string_view fragment);
   [[nodiscard]] std::string link() const;
+  /// The scene that a link starts from: the loaded one, or, where it was edited since (a ball
+  /// thrown, an effect switched off), the scene as it stood at the last edit.
+  [[nodiscard]] const Scene& link_scene() const;
   /// What to type for the same run on the command line.
   [[nodiscard]] std::string command() const;
   void reset();
@@ -152,6 +160,7 @@ struct App {
   Notice notice;
   std::optional<Capture> capture;
   OwnScenes own;
+  FileBrowser browser;
   bool recording = false;  // a video, see Host::record
   // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
   std::shared_ptr<const Scene> plain_scene;
@@ -170,7 +179,11 @@ struct App {
   double own_time = 0.0;           // that the last frame took to simulate [s]
   QualityGovernor quality;
   ViewRect view_rect;
-  Picture picture;
+  /// Where runs are seen: this one in the first or only pane, those compared in the others.
+  std::vector<ViewRect> panes{1};
+  std::vector<Picture> pictures{1};  // of the panes
+  [[nodiscard]] const Scene& scene_in(std::size_t pane) const;
+  [[nodiscard]] const Poses& poses_in(std::size_t pane) const;
   Hand hand;
   bool pointer_on_picture = false;
   std::string last_link;

@@ -14,11 +14,12 @@ constexpr const char* kKey = "arrangement";
 
 std::string text_of(const App& app) {
   const Desk& d = app.desk;
-  std::string text =
-      "left=" + number_text(static_cast<double>(d.left.width)) +
-      "&right=" + number_text(static_cast<double>(d.right.width)) +
-      "&left_open=" + (d.left.open ? "1" : "0") + "&right_open=" + (d.right.open ? "1" : "0") +
-      "&scale=" + number_text(d.scale) + "&tour=" + (d.tour_hint ? "new" : "seen") + "&plots=";
+  std::string text = "left=" + number_text(static_cast<double>(d.left.width)) +
+                     "&right=" + number_text(static_cast<double>(d.right.width)) +
+                     "&left_open=" + (d.left.open ? "1" : "0") +
+                     "&right_open=" + (d.right.open ? "1" : "0") +
+                     "&scale=" + number_text(d.scale) + "&tour=" + (d.tour_hint ? "new" : "seen") +
+                     "&views=" + (d.split ? "split" : "ghosts") + "&plots=";
   for (const ui::PlotState& plot : d.plots) {
     text += plot.shown ? 's' : 'h';
     text += plot.logarithmic ? 'g' : 'n';
@@ -37,6 +38,7 @@ void take(Desk& d, const LinkPart& part) {
   if (part.key == "right_open") d.right.open = part.value != "0";
   if (part.key == "scale" && number) d.scale = std::clamp(*number, 0.8, 1.5);
   if (part.key == "tour") d.tour_hint = part.value != "seen";
+  if (part.key == "views") d.split = part.value == "split";
   if (part.key == "plots" && part.value.size() == 2 * d.plots.size()) {
     for (std::size_t i = 0; i < d.plots.size(); ++i) {
       d.plots[i].shown = part.value[2 * i] == 's';

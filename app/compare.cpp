@@ -1,6 +1,7 @@
 #include "app/compare.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/io/setting_fields.hpp"
@@ -65,25 +66,50 @@ void Compare::start(const Session& session, std::vector<Overrides> runs) {
 }
 
 void Compare::restart(const Session& session) {
-  scene_ = &session.scene();
+  scene_ = session.shared_scene();
+  start_ = session.state().time;
   frame_ = session.state().frame;
   settings_ = session.settings();
-  cost_ = {};
+  edits_.clear();
+  hands_.clear();
   for (Run& run : runs_) begin(run, session);
 }
 
 void Compare::begin(Run& run, const Session& session) {
-  run.simulator = std::make_unique<Simulator>(session.shared_scene());
+  use_scene(run, scene_);
   run.simulator->set_settings(settings_of(run.overrides, session.settings()));
   run.simulator->set_state(session.state());
   run.report = run.simulator->observe();
-  run.verdict.emplace(session.scene(), session.state(), run.report);
-  run.history.start(run.report, session.scene().frame);
+  run.verdict.emplace(*scene_, session.state(), run.report);
+  run.history.start(run.report, scene_->frame);
   run.previous = {session.state().x, session.state().q};
   run.poses = run.previous;
   run.cost = {};
   run.divergence.reset();
-  run.checkpoints.assign(1, {session.state(), *run.verdict, run.cost});
+  run.checkpoints.assign(1, {scene_, session.state(), *run.verdict, run.cost});
+}
+
+void Compare::use_scene(Run& run, const std::shared_ptr<const Scene>& scene) const {
+  if (run.scene == scene && run.simulator) return;
+  run.scene = scene;
+  run.simulator = std::make_unique<Simulator>(scene);
+  run.simulator->set_settings(settings_of(run.overrides, settings_));
+}
+
+Cost Compare::cost(const Session& session) const {
+  const History& history = session.history();
+  const auto substeps = history[Channel::kSubsteps];
+  const auto times = history[Channel::kTime];
+  Cost cost;
+  // A little later than the frame before, so that it is left out.
+  const double first = std::max(start_, history.start_time()) + 0.5 * history.frame();
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    if (history.time(i) < first || history.time(i) > session.state().time + 1e-9) continue;
+    ++cost.frames;
+    cost.substeps += std::lround(substeps[i]);
+    cost.seconds += 1e-3 * static_cast<double>(times[i]);
+  }
+  return cost;
 }
 
 void Compare::add(const Session& session, Overrides overrides) {
@@ -108,8 +134,10 @@ void Compare::step(Run& run) {
   const State& state = run.simulator->state();
   if (run.report.status != StepStatus::kOk) return;
   run.previous = {state.x, state.q};
+  run.simulator->set_grab(hand_at(state.frame));
+  if (run.simulator->grab()) run.verdict->disturb(state.time);
   run.report = run.simulator->step();
-  run.verdict->add(*scene_, state, run.report);
+  run.verdict->add(*run.scene, state, run.report);
   if (run.report.status != StepStatus::kOk) return;
   run.history.add(run.report);
   add_frame(run.cost, run.report);
@@ -122,14 +150,14 @@ void Compare::step(Run& run) {
     }
     run.checkpoints = std::move(kept);
   }
-  run.checkpoints.push_back({state, *run.verdict, run.cost});
+  run.checkpoints.push_back({run.scene, state, *run.verdict, run.cost});
 }
 
 void Compare::watch(Run& run, const Session& session) {
   if (run.divergence) return;
   const State& here = run.simulator->state();
   const State& there = session.state();
-  if (here.frame != there.frame) return;  // it stopped
+  if (here.frame != there.frame || here.x.size() != there.x.size()) return;  // it stopped
   Divergence most;
   for (std::size_t i = 0; i < here.x.size(); ++i) {
     const double distance = (here.x[i] - there.x[i]).norm();
@@ -138,52 +166,119 @@ void Compare::watch(Run& run, const Session& session) {
   if (most.distance > kThreshold) run.divergence = most;
 }
 
+// The hand that the session's last frame was taken with. What is known of later frames, and of this
+// one, is of a future that was forgotten.
+void Compare::note_hand(const Session& session) {
+  const std::int64_t frame = session.state().frame - 1;
+  while (!hands_.empty() && hands_.back().frame >= frame) hands_.pop_back();
+  const bool held = !hands_.empty() && hands_.back().grab.has_value();
+  if (held || session.held()) hands_.push_back({frame, session.held()});
+}
+
+const std::optional<Grab>& Compare::hand_at(std::int64_t frame) const {
+  static const std::optional<Grab> kNone;
+  const auto later =
+      std::upper_bound(hands_.begin(), hands_.end(), frame,
+                       [](std::int64_t value, const Hold& hold) { return value < hold.frame; });
+  return later == hands_.begin() ? kNone : std::prev(later)->grab;
+}
+
 void Compare::take_frame(const Session& session) {
-  if (!open() || scene_ != &session.scene() || session.state().frame != frame_ + 1) return;
+  if (!open()) return;
+  if (session.state().frame != frame_ + 1) {  // it was set back since it was looked at
+    for (Run& run : runs_) seek(run, session, session.state().frame - 1);
+  }
   frame_ = session.state().frame;
-  add_frame(cost_, session.report());
+  note_hand(session);
   for (Run& run : runs_) {
     step(run);
     watch(run, session);
   }
 }
 
-// Back to the last checkpoint before, and on from there.
-void Compare::seek(Run& run, const Session& session) {
-  const std::int64_t frame = session.state().frame;
-  if (run.simulator->state().frame > frame) {
+void Compare::edit(const Session& session, const SceneEdit& edit) {
+  if (!open()) return;
+  edits_.push_back(edit);
+  follow(session);
+}
+
+// What made a scene out of the one that the comparison began with, in order.
+std::vector<const SceneEdit*> Compare::edits_up_to(const Scene& scene) const {
+  std::vector<const SceneEdit*> path;
+  const Scene* to = &scene;
+  for (std::size_t i = edits_.size(); i-- > 0;) {
+    if (edits_[i].to.get() != to) continue;
+    path.push_back(&edits_[i]);
+    to = edits_[i].from.get();
+  }
+  std::reverse(path.begin(), path.end());
+  return path;
+}
+
+// To a frame of the session's run: on from where it is if that is on the way, from the last
+// checkpoint that is otherwise. A checkpoint later than the edit of its scene is of another future.
+void Compare::seek(Run& run, const Session& session, std::int64_t frame) {
+  const std::vector<const SceneEdit*> path = edits_up_to(session.scene());
+  const auto edit_of = [&](const std::shared_ptr<const Scene>& scene) -> const SceneEdit* {
+    for (const SceneEdit* edit : path) {
+      if (edit->from == scene) return edit;
+    }
+    return nullptr;
+  };
+  const auto on_the_way = [&](const std::shared_ptr<const Scene>& scene, std::int64_t at) {
+    const SceneEdit* edit = edit_of(scene);
+    return at <= frame && (edit != nullptr ? at <= edit->frame : scene == session.shared_scene());
+  };
+  if (!on_the_way(run.scene, run.simulator->state().frame)) {
     auto& list = run.checkpoints;
-    while (list.size() > 1 && list.back().state.frame > frame) list.pop_back();
+    while (list.size() > 1 && !on_the_way(list.back().scene, list.back().state.frame)) {
+      list.pop_back();
+    }
+    use_scene(run, list.back().scene);
     run.simulator->set_state(list.back().state);
     run.verdict = list.back().verdict;
     run.cost = list.back().cost;
     run.report = run.simulator->observe();
+    run.previous = {list.back().state.x, list.back().state.q};
     run.history.cut(list.back().state.time);
     if (run.divergence && run.divergence->time > session.state().time) run.divergence.reset();
   }
-  while (run.simulator->state().frame < frame && run.report.status == StepStatus::kOk) step(run);
+  while (run.report.status == StepStatus::kOk) {
+    const SceneEdit* edit = edit_of(run.scene);
+    const bool now = edit != nullptr && edit->frame == run.simulator->state().frame;
+    if (now) {
+      State carried = edit->carry(run.simulator->state());
+      use_scene(run, edit->to);
+      run.simulator->set_state(std::move(carried));
+      run.verdict->disturb(run.simulator->state().time);
+      run.previous = {run.simulator->state().x, run.simulator->state().q};
+    } else if (run.simulator->state().frame < frame) {
+      step(run);
+    } else {
+      break;
+    }
+  }
 }
 
 void Compare::follow(const Session& session) {
   if (!open()) return;
+  const std::vector<const SceneEdit*> path = edits_up_to(session.scene());
+  const Scene* first = path.empty() ? &session.scene() : path.front()->from.get();
   const bool before = session.state().frame < runs_[0].checkpoints.front().state.frame;
-  if (scene_ != &session.scene() || before) {
-    restart(session);
-  }
+  if (first != scene_.get() || before) restart(session);
   if (settings_ != session.settings()) {
     settings_ = session.settings();
     for (Run& run : runs_) run.simulator->set_settings(settings_of(run.overrides, settings_));
   }
-  if (session.state().frame != frame_) {
-    frame_ = session.state().frame;
-    for (Run& run : runs_) {
-      seek(run, session);
-      watch(run, session);
-    }
+  frame_ = session.state().frame;
+  for (Run& run : runs_) {
+    seek(run, session, frame_);
+    watch(run, session);
   }
   const double t = session.between();
   for (Run& run : runs_) {
     const State& now = run.simulator->state();
+    run.poses = run.previous;
     for (std::size_t i = 0; i < now.x.size(); ++i) {
       run.poses.x[i] = run.previous.x[i] + t * (now.x[i] - run.previous.x[i]);
       run.poses.q[i] = run.previous.q[i].slerp(t, now.q[i]);

@@ -34,7 +34,8 @@ struct Divergence {
 };
 
 /// Other methods on the same scene and the same clock: each of a session's frames is taken by all
-/// of them, from the same state on.
+/// of them, from the same state on. What a person does to the session is done to all of them: a
+/// hand pulls each one's own body to the same place, a ball is thrown into each.
 class Compare {
  public:
   static constexpr std::size_t kMost = 3;     // beside the session itself
@@ -43,6 +44,7 @@ class Compare {
   /// One of the other methods.
   struct Run {
     Overrides overrides;
+    std::shared_ptr<const Scene> scene;  // the session's, or one that it came from
     std::unique_ptr<Simulator> simulator;
     std::optional<Verdict> verdict;
     FrameReport report;
@@ -55,6 +57,7 @@ class Compare {
     friend class Compare;
     Poses previous;
     struct Checkpoint {
+      std::shared_ptr<const Scene> scene;
       State state;
       Verdict verdict;
       Cost cost;
@@ -65,7 +68,7 @@ class Compare {
   [[nodiscard]] bool open() const { return !runs_.empty(); }
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
   /// Of the session, since the comparison began.
-  [[nodiscard]] const Cost& cost() const { return cost_; }
+  [[nodiscard]] Cost cost(const Session& session) const;
 
   /// Runs these beside the session, from its present state on. None closes the comparison.
   void start(const Session& session, std::vector<Overrides> runs);
@@ -80,6 +83,8 @@ class Compare {
 
   /// The session has taken a frame: so do the others.
   void take_frame(const Session& session);
+  /// The session's scene was edited: so are the others'.
+  void edit(const Session& session, const SceneEdit& edit);
   /// Once a picture: follows the session where it was set back or changed, and sets the poses.
   void follow(const Session& session);
 
@@ -87,16 +92,28 @@ class Compare {
   [[nodiscard]] static Settings settings_of(const Overrides& overrides, const Settings& session);
 
  private:
+  /// A hand on a body from a frame on, or none.
+  struct Hold {
+    std::int64_t frame = 0;
+    std::optional<Grab> grab;
+  };
+
   void begin(Run& run, const Session& session);
+  void use_scene(Run& run, const std::shared_ptr<const Scene>& scene) const;
   void step(Run& run);
-  void seek(Run& run, const Session& session);
+  void seek(Run& run, const Session& session, std::int64_t frame);
   static void watch(Run& run, const Session& session);
+  void note_hand(const Session& session);
+  [[nodiscard]] const std::optional<Grab>& hand_at(std::int64_t frame) const;
+  [[nodiscard]] std::vector<const SceneEdit*> edits_up_to(const Scene& scene) const;
 
   std::vector<Run> runs_;
-  Cost cost_;
-  const Scene* scene_ = nullptr;
-  std::int64_t frame_ = 0;  // of the session when it was looked at last
-  Settings settings_;       // of the session then
+  std::vector<SceneEdit> edits_;  // since the comparison began, those of forgotten futures too
+  std::vector<Hold> hands_;       // by frame
+  std::shared_ptr<const Scene> scene_;  // that the comparison began with
+  double start_ = 0.0;                  // when it began [s]
+  std::int64_t frame_ = 0;              // of the session when it was looked at last
+  Settings settings_;                   // of the session then
 };
 
 /// "mode:none;mode:damping,alpha:0.2": the runs of a comparison as links spell them.

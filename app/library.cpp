@@ -13,8 +13,7 @@ struct Group {
   std::string_view name;
   std::string_view title;
 };
-constexpr std::string_view kOwn = "own";
-constexpr std::array<Group, 6> kGroups{{{kOwn, "Your own"},
+constexpr std::array<Group, 6> kGroups{{{kOwnGroup, "Your own"},
                                         {"paper", "From the paper"},
                                         {"authors", "The authors' constants"},
                                         {"stress", "Stress"},
@@ -61,7 +60,7 @@ std::shared_ptr<const Scene> Library::find(std::string_view name) const {
 
 std::shared_ptr<const Scene> Library::add(const Scene& scene) {
   auto own = std::make_shared<Scene>(scene);
-  own->group = kOwn;
+  own->group = kOwnGroup;
   const auto shipped = find(own->name);
   if (shipped && !is_own(*shipped)) own->name += "_own";
   std::erase_if(scenes_, [&](const auto& old) { return old->name == own->name; });
@@ -70,7 +69,7 @@ std::shared_ptr<const Scene> Library::add(const Scene& scene) {
   return own;
 }
 
-bool is_own(const Scene& scene) { return scene.group == kOwn; }
+bool is_own(const Scene& scene) { return scene.group == kOwnGroup; }
 
 std::string group_title(std::string_view group) {
   const std::size_t i = group_rank(group);

@@ -31,6 +31,7 @@ class Library {
 
 /// Whether a scene of the library was added by the person.
 bool is_own(const Scene& scene);
+inline constexpr std::string_view kOwnGroup = "own";  // of their scenes
 
 /// What the picker calls a group of scenes: "From the paper" for "paper".
 std::string group_title(std::string_view group);

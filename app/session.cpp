@@ -4,10 +4,29 @@
 #include <chrono>
 #include <utility>
 
+#include "app/library.hpp"
+#include "core/io/saved_scene.hpp"
+
 namespace substep {
 namespace {
 
 constexpr std::size_t kTrailFrames = 150;
+
+// The run as a scene that a file can hold: what only acts through an effect that is off is left
+// out.
+Scene edition_of(const Scene& scene, const State& state, const Settings& settings) {
+  Scene out = saved_scene(scene, state, settings);
+  out.group = kOwnGroup;
+  Effects& effects = out.effects;
+  effects.friction = effects.friction && effects.contact;
+  effects.restitution = effects.restitution && effects.contact;
+  if (!effects.joints) out.joints.clear();
+  for (Body& body : out.bodies) {
+    if (!effects.friction) body.friction = 0.0;
+    if (!effects.restitution) body.restitution = 0.0;
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -37,6 +56,7 @@ void Session::restart() {
   history_.start(report_, scene_->frame);
   timeline_.start(moment());
   thrown_ = 0;
+  editions_.clear();
   trail_.clear();
   extend_trail();
   times_ = {};
@@ -104,6 +124,7 @@ void Session::forget_future() {
 }
 
 void Session::grab(int body, const Vec3& anchor, const Vec3& target) {
+  forget_future();
   simulator_->set_grab(Grab{body, anchor, target, joined_mass(*scene_, body)});
   verdict_->disturb(state().time);
 }
@@ -116,14 +137,27 @@ void Session::pull_to(const Vec3& target) {
 }
 
 // Another scene from the present frame on: the run is no longer that of the one loaded.
-void Session::go_on_in(Scene scene, State state) {
+void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   forget_future();
   const std::optional<Grab> holding = held();
+  const std::shared_ptr<const Scene> from = scene_;
+  State carried = carry(state());
   use_scene(std::make_shared<const Scene>(std::move(scene)));
-  simulator_->set_state(std::move(state));
+  simulator_->set_state(std::move(carried));
   simulator_->set_grab(holding);
-  verdict_->disturb(this->state().time);
+  verdict_->disturb(state().time);
+  editions_.push_back({scene_, std::make_shared<const Scene>(as_scene()), state().frame});
   show_present();
+  if (scene_edited) scene_edited({from, scene_, state().frame, std::move(carry)});
+}
+
+Scene Session::as_scene() const { return edition_of(*scene_, state(), settings()); }
+
+const Session::Edition* Session::edition() const {
+  for (const Edition& edition : editions_) {
+    if (edition.of == scene_) return &edition;
+  }
+  return nullptr;
 }
 
 void Session::throw_ball(const Ball& ball) {
@@ -131,7 +165,8 @@ void Session::throw_ball(const Ball& ball) {
   if (stopped()) return;
   const std::size_t slot =
       loaded_->bodies.size() + static_cast<std::size_t>(thrown_++ % Ball::kMost);
-  go_on_in(with_ball(*scene_, ball, slot), with_ball(state(), ball, slot));
+  go_on_in(with_ball(*scene_, ball, slot),
+           [ball, slot](State state) { return with_ball(std::move(state), ball, slot); });
 }
 
 void Session::set_effects(const Effects& effects) {
@@ -139,7 +174,7 @@ void Session::set_effects(const Effects& effects) {
   if (stopped() || effects == scene_->effects) return;
   Scene scene = *scene_;
   scene.effects = effects;
-  go_on_in(std::move(scene), state());
+  go_on_in(std::move(scene), [](State state) { return state; });
 }
 
 void Session::extend_trail() {

@@ -22,6 +22,14 @@ struct Poses {
   std::vector<Quat> q;
 };
 
+/// A scene that became another one while it ran: a ball was thrown into it, an effect switched off.
+struct SceneEdit {
+  std::shared_ptr<const Scene> from;
+  std::shared_ptr<const Scene> to;
+  std::int64_t frame = 0;             // after which
+  std::function<State(State)> carry;  // takes a state of `from` over to `to`
+};
+
 /// One scene running: simulator, judge, history, past and clock. Knows nothing of windows.
 class Session {
  public:
@@ -65,6 +73,16 @@ class Session {
   void set_effects(const Effects& effects);
   /// The scene as it was loaded; scene() differs where a hand was in it.
   [[nodiscard]] const Scene& loaded() const { return *loaded_; }
+  /// A run at the last edit of its scene, as a scene of its own.
+  struct Edition {
+    std::shared_ptr<const Scene> of;     // what the run is in since
+    std::shared_ptr<const Scene> start;  // the same with the state that it had then
+    std::int64_t frame = 0;              // of the run then
+  };
+  /// The run as it is now as a scene of its own, to be written to a file.
+  [[nodiscard]] Scene as_scene() const;
+  /// Of the scene that runs now; null where it is the loaded one.
+  [[nodiscard]] const Edition* edition() const;
   /// Balls that were thrown and are still there.
   [[nodiscard]] std::size_t balls() const { return scene_->bodies.size() - loaded_->bodies.size(); }
 
@@ -103,6 +121,8 @@ class Session {
   [[nodiscard]] double between() const;
   /// Called after every frame: what runs beside this session keeps step with it.
   std::function<void()> frame_taken;
+  /// Called after the scene was edited, for the same to be done there.
+  std::function<void(const SceneEdit&)> scene_edited;
   /// Where the tracked body was in the last frames, oldest first; empty where none is tracked.
   [[nodiscard]] const std::deque<Vec3>& trail() const { return trail_; }
   /// Wall times by stage, smoothed over about half a second: a browser's clock is coarse.
@@ -111,7 +131,7 @@ class Session {
  private:
   void restart();
   void use_scene(std::shared_ptr<const Scene> scene);
-  void go_on_in(Scene scene, State state);
+  void go_on_in(Scene scene, std::function<State(State)> carry);
   void take_frame();
   void end_frame();
   void forget_future();
@@ -123,6 +143,7 @@ class Session {
 
   std::shared_ptr<const Scene> loaded_;
   std::shared_ptr<const Scene> scene_;  // what was loaded, and the balls
+  std::vector<Edition> editions_;
   std::unique_ptr<Simulator> simulator_;
   std::unique_ptr<Verdict> verdict_;
   FrameReport report_;

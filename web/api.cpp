@@ -12,7 +12,6 @@
 #include "app/export.hpp"
 #include "app/format.hpp"
 #include "app/ui/handles.hpp"
-#include "core/io/saved_scene.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
@@ -123,16 +122,16 @@ EMSCRIPTEN_KEEPALIVE const char* substep_link() { return keep_text(app().link())
 
 EMSCRIPTEN_KEEPALIVE const char* substep_command() { return keep_text(app().command()); }
 
-/// The scene as it started, as a file; "" where it is a shipped one, which a link can name.
+/// The scene that the link starts from, as a file; "" where it is a shipped one, which a link
+/// names.
 EMSCRIPTEN_KEEPALIVE const char* substep_own_scene() {
-  const substep::Scene& scene = app().session.scene();
+  const substep::Scene& scene = app().link_scene();
   return keep_text(substep::is_own(scene) ? substep::write_scene(scene) : "");
 }
 
 /// The run as it is now, as a scene file.
 EMSCRIPTEN_KEEPALIVE const char* substep_saved_scene() {
-  const substep::Session& s = app().session;
-  return keep_text(substep::write_scene(substep::saved_scene(s.scene(), s.state(), s.settings())));
+  return keep_text(substep::write_scene(app().session.as_scene()));
 }
 
 /// What the plots remember, as CSV: one line a frame.
@@ -237,7 +236,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_widgets() {
   const auto& poses = app().session.poses();
   for (std::size_t i = 0; i < app().session.scene().bodies.size(); ++i) {
     const Eigen::Vector4f p =
-        app().picture.view_projection * poses.x[i].cast<float>().homogeneous();
+        app().pictures.front().view_projection * poses.x[i].cast<float>().homogeneous();
     if (!(p.w() > 0.0F)) continue;  // behind the eye
     list.push_back({{"group", "body"},
                     {"label", app().session.scene().bodies[i].name},

@@ -67,7 +67,7 @@ EMSCRIPTEN_KEEPALIVE void substep_pinching(int on) { instance->pinching = on != 
 /// Two fingers on the picture.
 EMSCRIPTEN_KEEPALIVE void substep_pinch(double factor, double dx, double dy) {
   instance->app->view.camera.zoom(factor);
-  instance->app->view.camera.pan(dx, dy, instance->app->view_rect);
+  instance->app->view.camera.pan(dx, dy, instance->app->panes.front());
 }
 
 /// @return whether the application wants to hear it, so that the page should not act on it

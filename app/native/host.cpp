@@ -1,5 +1,7 @@
 #include "app/native/host.hpp"
 
+#include <imgui.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -11,6 +13,8 @@ namespace substep {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kFolder = "scene_folder";  // that a scene file was opened from last
 
 // A path in the working folder that is not taken: bridge.png, bridge-2.png, ...
 fs::path free_path(const std::string& name) {
@@ -73,6 +77,13 @@ NativeHost::NativeHost(App& app) : app_(app) {
     save(name, bytes);
   };
   app.host.record = [this](bool on) { record(on); };
+  app.host.copy_link = [this] { copy_link(); };
+  app.host.open_link = [this] { open_link(); };
+  app.host.open_file = [this] {
+    const std::string last = recall(kFolder);
+    app_.browser.show(last.empty() ? fs::path(".") : fs::path(last));
+    if (!app_.browser.problem().empty()) app_.browser.show(".");
+  };
   app.host.remember = remember;
   app.host.recall = recall;
 }
@@ -80,6 +91,33 @@ NativeHost::NativeHost(App& app) : app_(app) {
 void NativeHost::save(const std::string& name, const std::string& bytes) {
   const fs::path path = free_path(name);
   app_.tell(path.string() + (write_file(path, bytes) ? " was written" : " could not be written"));
+}
+
+// The page that a link opens is somewhere on the web, where a build knows it: CMake's
+// SUBSTEP_PAGE_URL. Without it the link is what follows the address of any copy of the page.
+void NativeHost::copy_link() {
+  const std::string page = SUBSTEP_PAGE_URL;
+  ImGui::SetClipboardText((page + "#" + app_.link()).c_str());
+  std::string said = "Link copied";
+  if (is_own(app_.link_scene())) {
+    said += ": it only names this scene, send its file too";
+  } else if (page.empty()) {
+    said += ": put it behind the page's address, or open it here";
+  }
+  app_.tell(said);
+}
+
+void NativeHost::open_link() {
+  const char* text = ImGui::GetClipboardText();
+  const std::string link = text != nullptr ? text : "";
+  const std::size_t mark = link.find('#');
+  const std::string fragment = link.substr(mark == std::string::npos ? 0 : mark + 1);
+  if (!fragment.starts_with("scene=")) {
+    app_.tell("There is no link to an experiment on the clipboard");
+    return;
+  }
+  app_.open_link(fragment);
+  app_.session.play();
 }
 
 void NativeHost::record(bool on) {
@@ -96,6 +134,10 @@ void NativeHost::record(bool on) {
 }
 
 void NativeHost::after_frame(int width, int height) {
+  if (app_.browser.folder() != folder_) {
+    folder_ = app_.browser.folder();
+    if (app_.host.remember) app_.host.remember(kFolder, folder_.string());
+  }
   if (!app_.recording) return;
   char name[32];
   std::snprintf(name, sizeof name, "%05d.png", count_ + 1);

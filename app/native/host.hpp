@@ -21,8 +21,11 @@ class NativeHost {
  private:
   void save(const std::string& name, const std::string& bytes);
   void record(bool on);
+  void copy_link();
+  void open_link();
 
   App& app_;
+  std::filesystem::path folder_;    // that scene files were looked for in last
   std::filesystem::path pictures_;  // folder of the video
   int count_ = 0;                   // pictures of the video
 };

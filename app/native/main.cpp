@@ -30,6 +30,8 @@ struct Options {
   std::string scene;
   std::string scenes = SUBSTEP_SCENES_DIR;
   std::vector<std::string> settings;  // "alpha=0.2"
+  std::string open;                   // a scene file, as if it were dropped on the window
+  std::string link;                   // a copied link's part from '#' on
   std::string screenshot;
   int frames = 60;
   int width = 1280;
@@ -107,6 +109,11 @@ std::string apply(const Options& options, App& app) {
     const std::string problem = app.set(key, value);
     if (!problem.empty()) return key + ": " + problem + "\n";
   }
+  if (!options.open.empty()) {
+    const std::filesystem::path path = options.open;
+    app.open_result(read_scene_file(options.open), path.filename().string());
+  }
+  if (!options.link.empty()) app.open_link(options.link);
   app.desk.dark = !options.light;
   app.desk.panels = !options.bare;
   app.session.play();
@@ -149,6 +156,7 @@ int run(const Options& options) {
     if (!renderer || library.scenes().empty()) {
       std::fprintf(stderr, "substep: %s\n",
                    renderer ? ("no scenes in " + options.scenes).c_str() : error.c_str());
+      renderer.reset();  // while its context is there
       ImGui_ImplGlfw_Shutdown();
       glfwTerminate();
       return 2;
@@ -210,6 +218,8 @@ int start(int argc, char** argv) {
   CLI::App cli{"substep: a laboratory for stable constrained rigid bodies"};
   cli.add_option("--scene", options.scene, "name of a shipped scene, or a scene file");
   cli.add_option("--scenes", options.scenes, "folder of the shipped scenes")->capture_default_str();
+  cli.add_option("--open", options.open, "a scene file; what is wrong with it is shown in a panel");
+  cli.add_option("--link", options.link, "the experiment of a link: what follows its #");
   cli.add_option("--set", options.settings, "a setting, as --set alpha=0.2");
   for (const SettingField& field : setting_fields()) {
     std::string flag(field.name);

@@ -21,6 +21,10 @@ double OrbitCamera::fit(const ViewRect& view) const {
   return std::max(1.0, aspect_ * static_cast<double>(view.height) / width);
 }
 
+double OrbitCamera::magnification(const ViewRect& view) const {
+  return static_cast<double>(view.height) / fit(view);
+}
+
 Vec3 OrbitCamera::right_of(const Camera& camera) {
   const Vec3 right = Vec3::UnitY().cross(camera.eye - camera.target);
   return right.norm() > 1e-9 ? right.normalized() : Vec3::UnitX();

@@ -40,6 +40,8 @@ class OrbitCamera {
   void update(double dt, bool jump);
 
   [[nodiscard]] Vec3 eye(const ViewRect& view) const;
+  /// How large things are seen in a view, up to a common factor: by which views are compared.
+  [[nodiscard]] double magnification(const ViewRect& view) const;
   [[nodiscard]] Vec3 target() const { return now_.target; }
   /// World to clip space of a window, the target in the middle of the view rectangle.
   [[nodiscard]] Eigen::Matrix4d view_projection(const ViewRect& view, double window_width,

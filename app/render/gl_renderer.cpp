@@ -32,7 +32,7 @@ class GlRenderer final : public Renderer {
 
   bool build(std::string& error);
   void begin_frame() override { ImGui_ImplOpenGL3_NewFrame(); }
-  void draw(const Picture& picture, const ImDrawData& panels, int width, int height,
+  void draw(std::span<const Picture> pictures, const ImDrawData& panels, int width, int height,
             Quality moving) override;
   std::vector<std::uint8_t> pixels(int x, int y, int width, int height) override;
   void fonts_changed() override { ImGui_ImplOpenGL3_DestroyFontsTexture(); }
@@ -40,7 +40,8 @@ class GlRenderer final : public Renderer {
  private:
   // World to the light's clip space: a box around the focus, seen from far along the light.
   static Matrix4f light_matrix(const Picture& picture);
-  void draw_picture(const Picture& picture, Quality quality, int width, int height);
+  void draw_pictures(std::span<const Picture> pictures, Quality quality, int width, int height);
+  void draw_picture(const Picture& picture, int width, int height);
   void draw_shadows(const Picture& picture, const Matrix4f& light);
   void draw_bodies(const Picture& picture, const Matrix4f& light);
   void draw_ghosts(const Picture& picture);
@@ -62,7 +63,7 @@ class GlRenderer final : public Renderer {
   GLuint ribbon_array_ = 0;
   gl::Canvas canvas_;
   float shadow_taps_ = 4.0F;
-  Picture drawn_;                     // what is on the canvas
+  std::vector<Picture> drawn_;        // what is on the canvas
   Quality quality_ = Quality::kFine;  // of it
   int unchanged_ = 0;                 // frames since it changed
   int width_ = 0;                     // of the frame buffer [pixel]
@@ -215,11 +216,31 @@ void GlRenderer::draw_ribbons(const Picture& picture) {
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(picture.ribbons.size()));
 }
 
-void GlRenderer::draw_picture(const Picture& picture, Quality quality, int width, int height) {
+// The graphics card cuts off what is not in the picture's part of the window.
+void limit_to(const Part& part, int width, int height) {
+  const auto pixel = [](float share, int size) {
+    return static_cast<int>(std::lround(share * static_cast<float>(size)));
+  };
+  const int x = pixel(part.x, width);
+  const int top = pixel(part.y, height);
+  const int bottom = pixel(part.y + part.height, height);
+  glScissor(x, height - bottom, pixel(part.x + part.width, width) - x, bottom - top);
+  glEnable(GL_SCISSOR_TEST);
+}
+
+void GlRenderer::draw_pictures(std::span<const Picture> pictures, Quality quality, int width,
+                               int height) {
   const double scale = quality == Quality::kCoarse ? kCoarseScale : 1.0;
-  const auto scaled = [scale](int length) { return static_cast<int>(std::ceil(scale * length)); };
-  canvas_.fit(scaled(width), scaled(height), quality == Quality::kFine ? kSamples : 1);
+  const int w = static_cast<int>(std::ceil(scale * width));
+  const int h = static_cast<int>(std::ceil(scale * height));
+  canvas_.fit(w, h, quality == Quality::kFine ? kSamples : 1);
   shadow_taps_ = quality == Quality::kFine ? 4.0F : 1.0F;
+  for (const Picture& picture : pictures) draw_picture(picture, w, h);
+  canvas_.resolve();
+}
+
+// @param width, height of the canvas [pixel]
+void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   const Matrix4f light = light_matrix(picture);
   box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
   ball_instances_.upload(picture.balls.data(), picture.balls.size() * sizeof(Instance));
@@ -233,6 +254,7 @@ void GlRenderer::draw_picture(const Picture& picture, Quality quality, int width
   shadow_map_.bind_texture();
 
   canvas_.bind();
+  limit_to(picture.part, width, height);
   glClear(GL_DEPTH_BUFFER_BIT);
   glDisable(GL_DEPTH_TEST);
   background_.use();
@@ -254,18 +276,19 @@ void GlRenderer::draw_picture(const Picture& picture, Quality quality, int width
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);
-  canvas_.resolve();
+  glDisable(GL_SCISSOR_TEST);
 }
 
-void GlRenderer::draw(const Picture& picture, const ImDrawData& panels, int width, int height,
-                      Quality moving) {
-  const bool same = width == width_ && height == height_ && picture == drawn_;
+void GlRenderer::draw(std::span<const Picture> pictures, const ImDrawData& panels, int width,
+                      int height, Quality moving) {
+  const bool same = width == width_ && height == height_ &&
+                    std::equal(pictures.begin(), pictures.end(), drawn_.begin(), drawn_.end());
   unchanged_ = same ? unchanged_ + 1 : 0;
   // Between two events of a mouse that turns the view there is a frame without a change.
   const Quality quality = unchanged_ < 2 ? moving : Quality::kFine;
   if (!same || quality > quality_) {
-    draw_picture(picture, quality, width, height);
-    drawn_ = picture;
+    draw_pictures(pictures, quality, width, height);
+    drawn_.assign(pictures.begin(), pictures.end());
     quality_ = quality;
     width_ = width;
     height_ = height;

@@ -8,9 +8,10 @@ namespace substep {
 class NullRenderer final : public Renderer {
  public:
   void begin_frame() override { ++begun; }
-  void draw(const Picture& p, const ImDrawData&, int, int, Quality) override {
+  void draw(std::span<const Picture> p, const ImDrawData&, int, int, Quality) override {
     ++drawn;
-    picture = p;
+    pictures.assign(p.begin(), p.end());
+    picture = pictures.front();
   }
   std::vector<std::uint8_t> pixels(int, int, int width, int height) override {
     return std::vector<std::uint8_t>(
@@ -21,7 +22,8 @@ class NullRenderer final : public Renderer {
   int begun = 0;
   int drawn = 0;
   int fonts = 0;
-  Picture picture;
+  Picture picture;  // the first
+  std::vector<Picture> pictures;
 };
 
 }  // namespace substep

@@ -38,6 +38,16 @@ struct RibbonVertex {
   bool operator==(const RibbonVertex&) const = default;
 };
 
+/// A part of the window, as shares of its width and height from the top left corner.
+struct Part {
+  float x = 0.0F;
+  float y = 0.0F;
+  float width = 1.0F;
+  float height = 1.0F;
+
+  bool operator==(const Part&) const = default;
+};
+
 /// An endless floor: a grid that fades into the distance, and the shadows that fall on it.
 struct Ground {
   bool visible = true;
@@ -51,6 +61,7 @@ struct Ground {
 };
 
 struct Picture {
+  Part part;  // of the window that is drawn; the projection is that of the whole window
   Eigen::Matrix4f view_projection = Eigen::Matrix4f::Identity();
   std::array<float, 3> eye{};
   std::array<float, 3> focus{};                     // what the shadows are sharpest around [m]

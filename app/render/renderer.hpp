@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "app/render/picture.hpp"
@@ -16,7 +17,7 @@ enum class Quality : unsigned char {
   kFine     // smooth edges
 };
 
-/// Draws a picture and the panels over it. The window system belongs to the shell.
+/// Draws pictures side by side and the panels over them. The window system belongs to the shell.
 class Renderer {
  public:
   virtual ~Renderer() = default;
@@ -24,9 +25,9 @@ class Renderer {
   /// Before the panels are built: makes ready what Dear ImGui needs.
   virtual void begin_frame() = 0;
   /// @param width, height of the frame buffer [pixel]
-  /// @param moving how finely while the picture changes; one that rests is drawn at its best
-  virtual void draw(const Picture& picture, const ImDrawData& panels, int width, int height,
-                    Quality moving) = 0;
+  /// @param moving how finely while a picture changes; what rests is drawn at its best
+  virtual void draw(std::span<const Picture> pictures, const ImDrawData& panels, int width,
+                    int height, Quality moving) = 0;
   /// What was drawn last, as RGB rows from the top; asked for right after draw().
   /// @param x, y from the top left corner [pixel]
   [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;

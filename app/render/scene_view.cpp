@@ -4,8 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "app/stiffness.hpp"
+
 namespace substep {
 namespace {
+
+constexpr double kAway = 1e6;  // what exploded is not drawn any more [m]
 
 std::array<float, 3> floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -109,24 +113,6 @@ double half_width(const Scene& scene, const Poses& poses) {
 
 }  // namespace
 
-std::vector<double> stiffness_shares(const Scene& scene, const State& state) {
-  std::vector<double> shares;
-  if (state.k.size() != scene.bodies.size()) return shares;
-  shares.resize(scene.bodies.size(), 0.0);
-  double most = 0.0;
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.is_static) continue;
-    const double linear = state.k[i].head<3>().maxCoeff() / body.mass;
-    const double angular = state.k[i].tail<3>().cwiseQuotient(body.inertia).maxCoeff();
-    shares[i] = std::max({0.0, linear, angular});
-    most = std::max(most, shares[i]);
-  }
-  if (!(most > 0.0)) return {};
-  for (double& share : shares) share /= most;
-  return shares;
-}
-
 void SceneView::follow(const Session& session) {
   if (session.generation() != generation_) {
     generation_ = session.generation();
@@ -136,15 +122,17 @@ void SceneView::follow(const Session& session) {
   }
 }
 
-Bounds SceneView::bounds(const Session& session) const {
-  return ball_around(session.scene(), session.poses(), &home_);
+Bounds SceneView::bounds(const Scene& scene, const Poses& poses) const {
+  return ball_around(scene, poses, &home_);
 }
 
-void SceneView::frame_all(const Session& session) { camera.frame(bounds(session)); }
+void SceneView::frame_all(const Session& session) {
+  camera.frame(bounds(session.scene(), session.poses()));
+}
 
-void SceneView::build(const Session& session, const ViewOptions& options,
-                      const ViewPalette& palette, const ViewRect& view, double window_width,
-                      double window_height, Picture& out) const {
+void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
+                      const ViewRect& view, double window_width, double window_height,
+                      Picture& out) const {
   out.boxes.clear();
   out.balls.clear();
   out.ghost_boxes.clear();
@@ -160,17 +148,17 @@ void SceneView::build(const Session& session, const ViewOptions& options,
   const Vec3 light = Vec3(0.42, 0.74, 0.52).normalized();
   out.to_light = floats(light);
 
-  add_bodies(session, options, palette, out);
-  add_joints(session, options, palette, out);
-  if (options.trail) {
+  add_bodies(seen, options, palette, out);
+  add_joints(seen, options, palette, out);
+  if (options.trail && seen.trail != nullptr) {
     const double pixel = 2.0 * std::tan(0.5 * OrbitCamera::kFieldOfView) /
                          std::max(1.0, static_cast<double>(view.height));
-    add_trail(session.trail(), palette.trail, camera.eye(view), pixel, out);
+    add_trail(*seen.trail, palette.trail, camera.eye(view), pixel, out);
   }
-  place_ground(session, out);
+  place_ground(*seen.scene, out);
 
   // Shadows fall from the bodies down to the floor: both must be within the light's view.
-  const Bounds around = bounds(session);
+  const Bounds around = bounds(*seen.scene, *seen.poses);
   const double floor = static_cast<double>(out.ground.origin[1]);
   const double bottom = std::min(floor, around.centre.y() - around.radius);
   const double drop = std::max(0.0, around.centre.y() - bottom);
@@ -181,14 +169,15 @@ void SceneView::build(const Session& session, const ViewOptions& options,
   out.focus_radius = static_cast<float>(around.radius + 0.35 * drop);
 }
 
-void SceneView::add_bodies(const Session& session, const ViewOptions& options,
-                           const ViewPalette& palette, Picture& out) const {
-  const Scene& scene = session.scene();
-  const Poses& poses = session.poses();
+void SceneView::add_bodies(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
+                           Picture& out) {
+  const Scene& scene = *seen.scene;
+  const Poses& poses = *seen.poses;
   std::vector<double> shares;
-  if (options.tint) shares = stiffness_shares(scene, session.state());
+  if (options.tint && seen.state != nullptr) shares = stiffness_shares(scene, *seen.state);
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
+    if (!(poses.x[i].norm() < kAway)) continue;
     Color color = body.is_static ? palette.fixture : palette.body;
     if (body.color) color = from_rgb(*body.color);
     if (!shares.empty() && !body.is_static) {
@@ -209,8 +198,8 @@ void SceneView::add_ghost(const Scene& scene, const Poses& poses, const Color& c
                           Picture& out) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    if (body.is_static) continue;              // it stands where the session's own does
-    if (!(poses.x[i].norm() < 1e6)) continue;  // it exploded
+    if (body.is_static) continue;  // it stands where the session's own does
+    if (!(poses.x[i].norm() < kAway)) continue;
     if (const auto* box = std::get_if<Box>(&body.shape)) {
       add_box(out.ghost_boxes, poses.x[i], poses.q[i], box->half_extents, color);
     } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
@@ -219,10 +208,10 @@ void SceneView::add_ghost(const Scene& scene, const Poses& poses, const Color& c
   }
 }
 
-void SceneView::add_joints(const Session& session, const ViewOptions& options,
-                           const ViewPalette& palette, Picture& out) const {
-  const Scene& scene = session.scene();
-  const Poses& poses = session.poses();
+void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
+                           Picture& out) const {
+  const Scene& scene = *seen.scene;
+  const Poses& poses = *seen.poses;
   const double bracket = std::clamp(0.018 * home_.radius, 0.04, 0.4);
   for (const Joint& joint : scene.joints) {
     const JointBase& j = base(joint);
@@ -270,8 +259,7 @@ void SceneView::add_trail(const std::deque<Vec3>& trail, const Color& color, con
   }
 }
 
-void SceneView::place_ground(const Session& session, Picture& out) const {
-  const Scene& scene = session.scene();
+void SceneView::place_ground(const Scene& scene, Picture& out) const {
   out.ground = {};
   // Most scenes stand above y = 0; where nothing says where the floor is, it lies below them.
   const double floor = lowest_ > -0.6 * home_.radius ? 0.0 : lowest_ - 0.3 * home_.radius;

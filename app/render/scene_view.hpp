@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <string_view>
 #include <vector>
 
@@ -54,9 +55,13 @@ struct ViewPalette {
   float shadow = 0.5F;
 };
 
-/// What each body asks for: its largest k/M over that of the whole scene, 0..1. Empty where K is
-/// not known.
-std::vector<double> stiffness_shares(const Scene& scene, const State& state);
+/// A run as it is looked at: what is seen of it, and what its bodies are tinted by.
+struct Seen {
+  const Scene* scene = nullptr;
+  const Poses* poses = nullptr;
+  const State* state = nullptr;             // with K, for the tint; null: no tint
+  const std::deque<Vec3>* trail = nullptr;  // null: none
+};
 
 /// Looks at a session: keeps the camera and makes the picture.
 class SceneView {
@@ -66,20 +71,21 @@ class SceneView {
   /// The camera starts anew with a new scene.
   void follow(const Session& session);
   void frame_all(const Session& session);
-  void build(const Session& session, const ViewOptions& options, const ViewPalette& palette,
+  /// @param view where the run is seen in the window
+  void build(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
              const ViewRect& view, double window_width, double window_height, Picture& out) const;
   /// The bodies of another run over the same picture, in one colour that is seen through.
   static void add_ghost(const Scene& scene, const Poses& poses, const Color& color, Picture& out);
 
  private:
-  void add_bodies(const Session& session, const ViewOptions& options, const ViewPalette& palette,
-                  Picture& out) const;
-  void add_joints(const Session& session, const ViewOptions& options, const ViewPalette& palette,
+  static void add_bodies(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
+                         Picture& out);
+  void add_joints(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
                   Picture& out) const;
   static void add_trail(const std::deque<Vec3>& trail, const Color& color, const Vec3& eye,
                         double pixel, Picture& out);
-  void place_ground(const Session& session, Picture& out) const;
-  [[nodiscard]] Bounds bounds(const Session& session) const;
+  void place_ground(const Scene& scene, Picture& out) const;
+  [[nodiscard]] Bounds bounds(const Scene& scene, const Poses& poses) const;
 
   Bounds home_;          // of the scene at its start
   double lowest_ = 0.0;  // of the bodies at the start [m]

@@ -42,8 +42,8 @@ void main() {
 }
 )";
 
-/// Shared by what receives shadows: how much of the light arrives, softened over four samples, or in
-/// a hurry one, that the hardware filters once more.
+/// Shared by what receives shadows: how much of the light arrives, softened over four samples, or
+/// in a hurry one, that the hardware filters once more.
 inline constexpr const char* kShadowFunction = R"(
 uniform sampler2DShadow shadow_map;
 uniform float shadow_texel;

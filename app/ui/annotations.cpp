@@ -22,9 +22,10 @@ struct Segment {
   ImVec2 to;
 };
 
-std::optional<Segment> seen(const App& app, const Vec3& from, const Vec3& to) {
+std::optional<Segment> seen(const App& app, const Vec3& from, const Vec3& to,
+                            std::size_t pane = 0) {
   Segment s;
-  if (!project(app, from, s.from) || !project(app, to, s.to)) return std::nullopt;
+  if (!project(app, from, s.from, pane) || !project(app, to, s.to, pane)) return std::nullopt;
   return s;
 }
 
@@ -205,7 +206,7 @@ std::vector<ImVec2> outline(const App& app, std::size_t body) {
     }
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     // The rim is the circle that rays from the eye touch.
-    const Vec3 to_eye = app.view.camera.eye(app.view_rect) - x;
+    const Vec3 to_eye = app.view.camera.eye(app.panes.front()) - x;
     const double distance = to_eye.norm();
     if (distance <= sphere->radius) return points;
     const Vec3 back = to_eye / distance;
@@ -251,12 +252,13 @@ void draw_outline(const App& app, ImDrawList& draw, int body, ImU32 color) {
   draw.AddPolyline(hull.data(), count, color, ImDrawFlags_Closed, 2.0F);
 }
 
-void draw_hand(const App& app, ImDrawList& draw) {
+void draw_hand(const App& app, ImDrawList& draw, std::size_t pane) {
   const auto& held = app.session.held();
   if (!held) return;
   const auto i = static_cast<std::size_t>(held->body);
-  const Poses& poses = app.session.poses();
-  const auto s = seen(app, poses.x[i] + poses.q[i] * held->anchor, held->target);
+  const Poses& poses = app.poses_in(pane);
+  if (i >= poses.x.size()) return;
+  const auto s = seen(app, poses.x[i] + poses.q[i] * held->anchor, held->target, pane);
   if (!s) return;
   const ImU32 color = app.look.theme->accent_hover;
   draw_line(app.look, draw, *s, color, 2.0F);
@@ -269,6 +271,10 @@ void draw_hand(const App& app, ImDrawList& draw) {
 void annotations(App& app) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ViewOptions& show = app.desk.view;
+  const auto clip = [&](const ViewRect& r) {
+    draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
+  };
+  clip(app.panes.front());
   if (app.desk.selected >= 0) {
     draw_outline(app, draw, app.desk.selected, app.look.theme->accent_hover);
   }
@@ -277,7 +283,12 @@ void annotations(App& app) {
   if (show.contacts) draw_contacts(app, draw);
   if (show.forces) draw_forces(app, draw);
   if (show.errors) draw_errors(app, draw);
-  draw_hand(app, draw);
+  draw.PopClipRect();
+  for (std::size_t pane = 0; pane < app.panes.size(); ++pane) {
+    clip(app.panes[pane]);
+    draw_hand(app, draw, pane);
+    draw.PopClipRect();
+  }
 }
 
 }  // namespace substep::ui

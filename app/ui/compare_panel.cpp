@@ -49,11 +49,6 @@ std::string mean_time(const Cost& cost) {
   return cost.frames == 0 ? "" : duration(cost.seconds / static_cast<double>(cost.frames));
 }
 
-// "holds", or when it failed.
-std::string verdict_note(const Verdict& verdict) {
-  return verdict.holds() ? "holds" : "fails at " + fixed(verdict.failed_at(), 2) + " s";
-}
-
 struct Line {
   std::string name;
   ImU32 color;
@@ -123,7 +118,7 @@ void presets(App& app) {
   const Look& look = app.look;
   label(look.fonts.small, look.theme->dim,
         "Other methods beside this run: the same scene, the same clock, the same start. They are "
-        "drawn as ghosts and in the plots.");
+        "seen as ghosts or side by side, and in the plots. A hand or a ball reaches all of them.");
   space(look.m.section);
   for (const Preset& preset : kPresets) {
     if (button(look, preset.title, Icon::kNone, preset.title, ButtonKind::kPlain,
@@ -164,6 +159,16 @@ void restart_buttons(App& app) {
   }
 }
 
+// Over each other, or each in a view of its own.
+void views_row(App& app) {
+  static constexpr std::array<Choice, 2> kViews{
+      {{"Ghosts", "All in one view: this run as it is, the others in their colours (V)"},
+       {"Side by side", "Each in a view of its own, from the same place (V)"}}};
+  int split = app.desk.split ? 1 : 0;
+  segmented(app.look, "views", kViews, split, ImGui::GetContentRegionAvail().x);
+  app.desk.split = split == 1;
+}
+
 }  // namespace
 
 std::string run_title(const App& app) {
@@ -191,8 +196,10 @@ void compare(App& app) {
     return;
   }
   restart_buttons(app);
+  views_row(app);
   space(look.m.section);
-  draw_line(look, {run_title(app), look.theme->blue, &app.session.verdict(), &app.compare.cost()},
+  const Cost cost = app.compare.cost(app.session);
+  draw_line(look, {run_title(app), look.theme->blue, &app.session.verdict(), &cost},
             ImGui::GetCursorScreenPos().x + width);
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
@@ -210,29 +217,6 @@ void compare(App& app) {
   if (gone) {
     app.desk.compare_open = -1;
     app.compare.remove(app.session, *gone);
-  }
-}
-
-void compare_legend(App& app, float x, float y) {
-  if (!app.compare.open()) return;
-  const Look& look = app.look;
-  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const auto line = [&](const std::string& name, ImU32 color, const Verdict& verdict,
-                        const FrameReport& report) {
-    const std::string text =
-        name + "  ·  " +
-        (verdict.holds() ? "N " + std::to_string(report.n_substeps) : verdict_note(verdict));
-    const ImVec2 size = text_size(look.fonts.regular, text.c_str());
-    draw.AddRectFilled({x - 8.0F, y - 2.0F}, {x + size.x + 28.0F, y + size.y + 2.0F},
-                       fade(look.theme->panel, 0.8F), look.m.radius);
-    draw.AddCircleFilled({x + 5.0F, y + 0.5F * size.y}, 5.0F, color);
-    draw_text(draw, look.fonts.regular, {x + 18.0F, y}, look.theme->text, text.c_str());
-    y += size.y + 8.0F;
-  };
-  line(run_title(app), look.theme->blue, app.session.verdict(), app.session.report());
-  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
-    const Compare::Run& run = app.compare.runs()[i];
-    line(overrides_title(run.overrides), app.compare_color(i), *run.verdict, run.report);
   }
 }
 

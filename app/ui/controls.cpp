@@ -239,9 +239,11 @@ void showing(App& app) {
   }
   if (effects.joints) toggle(look, "joints", v.joints, 0, false, "Pins where bodies are joined.");
   if (effects.joints || effects.contact) {
-    toggle(look, "forces", v.forces, t.amber, false,
-           "λ of Eq. 3: of joints on their first body in amber, of contacts with friction in "
-           "green. Arrows grow with the root of the force; a long one is the weight of all.");
+    toggle(
+        look, "forces", v.forces, t.amber, false,
+        "λ of Eq. 3: of joints on their first body in amber, of contacts with friction in "
+        "green. Arrows grow with the root of the force; a long one is the weight of all. As they "
+        "are at the end of the frame, in its last sub-step: an impact within it is not seen.");
   }
   if (effects.contact) {
     toggle(look, "contacts", v.contacts, t.teal, false,

@@ -7,8 +7,9 @@
 
 namespace substep::ui {
 
-/// World to the display, by the matrices of the picture that is shown. @return false behind the eye
-bool project(const App& app, const Vec3& x, ImVec2& out);
+/// World to the display, by the matrices of the picture that is shown in a pane.
+/// @return false behind the eye
+bool project(const App& app, const Vec3& x, ImVec2& out, std::size_t pane = 0);
 
 /// How long a logical pixel is at a point of the world [m].
 double pixel_size(const App& app, const Vec3& x);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "app/format.hpp"
+#include "app/stiffness.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -47,49 +48,6 @@ std::string method_line(const Settings& s) {
   return line;
 }
 
-// A card in the middle of the picture. Closes with a click on its cross.
-bool begin_card(App& app, const char* id, float width, float centre_y, float pivot_y) {
-  const ViewRect& v = app.view_rect;
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  width = std::min(width, display.x - 24.0F);
-  const float x =
-      std::clamp(v.x + 0.5F * v.width, 12.0F + 0.5F * width, display.x - 12.0F - 0.5F * width);
-  ImGui::SetNextWindowPos({x, centre_y}, ImGuiCond_Always, {0.5F, pivot_y});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, display.y - 96.0F});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, app.look.theme->raised);
-  const bool open =
-      ImGui::Begin(id, nullptr,
-                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
-                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
-  ImGui::PopStyleColor();
-  return open;
-}
-
-void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x;
-  float x = at.x;
-  if (icon != Icon::kNone) {
-    draw_icon(*ImGui::GetWindowDrawList(), icon, {x + 8.0F, at.y + 10.0F}, 16.0F, mark);
-    x += 24.0F;
-  }
-  const std::string shown = fitted(look.fonts.medium, title, width - (x - at.x) - 28.0F);
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {x, at.y + 2.0F}, look.theme->text,
-            shown.c_str());
-  ImGui::Dummy({width, 20.0F});
-}
-
-bool card_closed(const Look& look) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 corner(ImGui::GetWindowPos().x + ImGui::GetWindowSize().x - 38.0F,
-                      ImGui::GetWindowPos().y + 12.0F);
-  ImGui::SetCursorScreenPos(corner);
-  const bool closed =
-      button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 26.0F, 26.0F, "Close (Esc)");
-  ImGui::SetCursorScreenPos(at);
-  return closed;
-}
-
 }  // namespace
 
 void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
@@ -102,8 +60,8 @@ void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU3
   draw_text(draw, font, at, color, text);
 }
 
-bool project(const App& app, const Vec3& x, ImVec2& out) {
-  const Eigen::Vector4f p = app.picture.view_projection * x.cast<float>().homogeneous();
+bool project(const App& app, const Vec3& x, ImVec2& out, std::size_t pane) {
+  const Eigen::Vector4f p = app.pictures[pane].view_projection * x.cast<float>().homogeneous();
   if (p.w() <= 0.0F) return false;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   out = {(0.5F + 0.5F * p.x() / p.w()) * size.x, (0.5F - 0.5F * p.y() / p.w()) * size.y};
@@ -111,10 +69,10 @@ bool project(const App& app, const Vec3& x, ImVec2& out) {
 }
 
 double pixel_size(const App& app, const Vec3& x) {
-  const auto depth =
-      static_cast<double>(app.picture.view_projection.row(3).dot(x.cast<float>().homogeneous()));
+  const auto depth = static_cast<double>(
+      app.pictures.front().view_projection.row(3).dot(x.cast<float>().homogeneous()));
   return 2.0 * std::max(0.0, depth) * std::tan(0.5 * OrbitCamera::kFieldOfView) /
-         std::max(1.0, static_cast<double>(app.view_rect.height));
+         std::max(1.0, static_cast<double>(app.panes.front().height));
 }
 
 void caption(App& app, bool phone) {
@@ -132,7 +90,7 @@ void caption(App& app, bool phone) {
             fitted(look.fonts.title, app.session.scene().title, room).c_str());
   draw_over(look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
             fitted(look.fonts.regular, method_line(app.session.settings()), room).c_str());
-  if (report.n_substeps == 0) return;
+  if (report.n_substeps == 0 || app.panes.size() > 1) return;  // each pane has its own N
   const float right = v.x + v.width - pad;
   draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n.c_str());
   const int left = app.session.substeps_left();
@@ -155,7 +113,7 @@ void body_labels(App& app) {
     if (!body.is_static && (lightest == 0.0 || body.mass < lightest)) lightest = body.mass;
   }
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const ViewRect& v = app.view_rect;
+  const ViewRect& v = app.panes.front();
   const std::size_t own = app.session.loaded().bodies.size();  // a thrown ball has no label
   for (std::size_t i = 0; i < own; ++i) {
     const Body& body = scene.bodies[i];
@@ -213,142 +171,6 @@ void tint_scale(App& app) {
   draw.AddRect(at, {at.x + 2 * kHalf, at.y + 6.0F}, fade(look.theme->faint, 0.6F));
   draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->dim,
             "k/M: orange asks for small steps");
-}
-
-void failure_card(App& app) {
-  const Verdict& verdict = app.session.verdict();
-  if (verdict.holds() || app.desk.dismissed_failure == app.run_count) return;
-  const Look& look = app.look;
-  const bool stopped = app.session.stopped();
-  const ViewRect& v = app.view_rect;
-  if (begin_card(app, "##failure", 380.0F, v.y + 76.0F, 0.0F)) {
-    card_title(look, look.theme->orange, Icon::kCross,
-               stopped ? "The run stopped at " + fixed(app.session.state().time, 2) + " s"
-                       : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
-    const FrameReport& report = app.session.report();
-    std::string what = verdict.text();
-    if (const std::size_t colon = what.find(": "); colon != std::string::npos)
-      what.erase(0, colon + 2);
-    if (stopped) {
-      what = "A velocity";
-      if (report.failed_body >= 0) {
-        what +=
-            " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
-      }
-      what += " is no longer a finite number. What you see is the last state that was.";
-    }
-    label(look.fonts.small, look.theme->dim, what.c_str());
-    const Mode mode = app.session.settings().mode;
-    const char* advice = mode == Mode::kAdaptive
-                             ? "A smaller alpha, or a higher limit on N, would help."
-                             : "More sub-steps would help: adaptive finds how many.";
-    if (v.height > 400.0F) label(look.fonts.small, look.theme->dim, advice);
-    ImGui::Dummy({1.0F, 0.0F});
-    if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPrimary, 0.0F, 28.0F,
-               "Back to the start (R)")) {
-      app.reset();
-    }
-    if (mode != Mode::kAdaptive) {
-      ImGui::SameLine();
-      if (button(look, "adaptive", Icon::kNone, "Reset, adaptive", ButtonKind::kPlain, 0.0F, 28.0F,
-                 "The same scene with adaptive sub-steps")) {
-        Settings s = app.session.settings();
-        s.mode = Mode::kAdaptive;
-        app.change(s);
-        app.reset();
-      }
-    }
-    if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
-               "Back to the last frame that held; it goes on from there")) {
-      app.session.go_to_last_good();
-    }
-    ImGui::SameLine();
-    if (button(look, "second", Icon::kNone, "1 s before", ButtonKind::kPlain, 0.0F, 28.0F,
-               "Back to one second before it failed; change something and go on from there")) {
-      app.session.go_to_last_good(1.0);
-    }
-    if (card_closed(look)) app.desk.dismissed_failure = app.run_count;
-  }
-  ImGui::End();
-}
-
-void trouble_card(App& app) {
-  if (app.trouble.title.empty()) return;
-  const Look& look = app.look;
-  const ViewRect& v = app.view_rect;
-  bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  ImGui::SetNextWindowFocus();
-  if (begin_card(app, "##trouble", 520.0F, v.y + 0.5F * v.height, 0.5F)) {
-    card_title(look, look.theme->orange, Icon::kCross, app.trouble.title);
-    const std::size_t count = app.trouble.problems.size();
-    const std::string note =
-        (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
-        std::string("The scene that runs was kept.");
-    label(look.fonts.small, look.theme->dim, note.c_str());
-    ImGui::Dummy({1.0F, 0.0F});
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {1e4F, display.y - 260.0F});
-    if (ImGui::BeginChild("list", {0, 0}, ImGuiChildFlags_AutoResizeY)) {
-      for (const Problem& problem : app.trouble.problems) {
-        label(look.fonts.medium, look.theme->text,
-              problem.pointer.empty() ? "whole file" : problem.pointer.c_str());
-        ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6.0F);
-        label(look.fonts.small, look.theme->dim, problem.message.c_str());
-      }
-    }
-    ImGui::EndChild();
-    close |= card_closed(look);
-  }
-  ImGui::End();
-  if (close) app.trouble = {};
-}
-
-void help_card(App& app) {
-  if (!app.desk.help) return;
-  struct Key {
-    const char* key;
-    const char* what;
-  };
-  static constexpr std::array<Key, 24> kKeys{{{"Space", "play, pause"},
-                                              {",  .", "one frame back, one forward"},
-                                              {";", "one sub-step"},
-                                              {"Home, End", "first and last saved frame"},
-                                              {"R", "back to the start"},
-                                              {"[  ]", "slower, faster"},
-                                              {"1 … 5", "the five ways to keep it stable"},
-                                              {"F", "show everything"},
-                                              {"H", "panels on or off"},
-                                              {"T", "light or dark"},
-                                              {"+  −", "larger or smaller interface"},
-                                              {"?", "this list"},
-                                              {"", ""},
-                                              {"B", "throw a ball at the pointer"},
-                                              {"click a body", "what it is and does"},
-                                              {"drag a body", "pull it, while it plays"},
-                                              {"drag beside", "turn the view"},
-                                              {"right drag, Shift drag", "move the view"},
-                                              {"wheel, pinch", "closer, farther"},
-                                              {"wheel on a plot", "more or less time"},
-                                              {"drag, click on a plot", "that range, that moment"},
-                                              {"Ctrl click on a slider", "type the value"},
-                                              {"Tab, arrows", "controls by keyboard"},
-                                              {"drop a file", "run your own scene"}}};
-  const Look& look = app.look;
-  const ViewRect& v = app.view_rect;
-  bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(app, "##help", 420.0F, v.y + 0.5F * v.height, 0.5F)) {
-    card_title(look, 0, Icon::kNone, "Keys and gestures");
-    for (const Key& key : kKeys) {
-      const ImVec2 at = ImGui::GetCursorScreenPos();
-      draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, at, look.theme->text, key.key);
-      draw_text(*ImGui::GetWindowDrawList(), look.fonts.regular, {at.x + 168.0F, at.y},
-                look.theme->dim, key.what);
-      ImGui::Dummy({1.0F, *key.key != '\0' ? 14.0F : 2.0F});
-    }
-    close |= card_closed(look);
-  }
-  ImGui::End();
-  if (close) app.desk.help = false;
 }
 
 }  // namespace substep::ui

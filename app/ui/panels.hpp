@@ -3,6 +3,9 @@
 
 #include <imgui.h>
 
+#include <string>
+#include <vector>
+
 #include "app/app.hpp"
 
 namespace substep::ui {
@@ -37,8 +40,15 @@ void compare(App& app);
 void accuracy(App& app);
 /// Its picture over the view, where that was asked for.
 void accuracy_card(App& app);
-/// Who is who in the picture, at a place on the screen; nothing where nothing is compared.
-void compare_legend(App& app, float x, float y);
+/// Where runs are seen: all of the view, or equal parts of it side by side or one over the other,
+/// whichever shows the scene larger.
+std::vector<ViewRect> view_panes(const App& app);
+/// The part of the window that a pane's picture covers.
+Part part_of_window(const App& app, std::size_t pane);
+/// Who is who in the picture; nothing where nothing is compared.
+void compare_legend(const App& app);
+/// "holds", or when it failed.
+std::string verdict_note(const Verdict& verdict);
 /// The guided tour's card, or the button that opens it.
 void tour(App& app);
 /// What this run is called beside others.
@@ -52,6 +62,14 @@ void transport(App& app, bool phone);
 void scrubber(App& app, ImVec2 at, float width, float height);
 /// The button with the menu of links, files and pictures.
 void share_menu(App& app, float size);
+void copy_link(App& app);
+void copy_command(App& app);
+/// A picture of the whole window, when this frame has been drawn.
+void capture_window(App& app);
+/// Begins the tour, or goes to its next step; after the last one it ends.
+void go_on_with_tour(App& app);
+/// The folder that a scene file is chosen from, while one is.
+void file_card(App& app);
 
 /// Over the picture: what runs, N, the scale of the tint, masses, and what went wrong.
 void caption(App& app, bool phone);

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "app/format.hpp"
+#include "app/ui/plot_curves.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -17,39 +18,6 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr float kGutter = 40.0F;  // left of the curves, for the labels of the values
 constexpr float kToggle = 16.0F;  // height of "log" at its top, there while one points at the plot
 
-// Where time and values lie on the screen.
-struct Frame {
-  ImVec2 min;
-  ImVec2 max;
-  double t0 = 0.0;
-  double t1 = 1.0;
-  double low = 0.0;  // already the logarithm on a logarithmic axis
-  double high = 1.0;
-  bool logarithmic = false;
-
-  [[nodiscard]] float x(double time) const {
-    return min.x + static_cast<float>((time - t0) / (t1 - t0)) * (max.x - min.x);
-  }
-  [[nodiscard]] double time(float x) const {
-    return t0 + (t1 - t0) * static_cast<double>((x - min.x) / (max.x - min.x));
-  }
-  [[nodiscard]] float y(double value) const {
-    const double v = logarithmic ? std::log10(std::max(value, 1e-300)) : value;
-    const double share = std::clamp((v - low) / (high - low), -0.02, 1.02);
-    return max.y - static_cast<float>(share) * (max.y - min.y);
-  }
-};
-
-// What of a history is shown: within the axis, and not cleared.
-History::Slice visible(const History& history, const Frame& f, double from) {
-  History::Slice slice = history.between(f.t0, f.t1);
-  if (from > history.start_time()) {
-    slice.first = std::max(slice.first, history.between(from + history.frame(), f.t1).first);
-  }
-  slice.last = std::max(slice.first, slice.last);
-  return slice;
-}
-
 // 1, 2 or 5 times a power of ten, so that about `count` fit into the range.
 double nice_step(double range, int count) {
   const double rough = range / std::max(1, count);
@@ -58,6 +26,11 @@ double nice_step(double range, int count) {
     if (m * power >= rough) return m * power;
   }
   return 10.0 * power;
+}
+
+// How many multiples of a step lie in a range.
+int multiples(double low, double high, double step) {
+  return static_cast<int>(std::floor(high / step) - std::ceil(low / step)) + 1;
 }
 
 struct Range {
@@ -93,7 +66,7 @@ Range logarithmic_range(const Extent& all) {
   return {low, std::max(high, low + 2.0)};
 }
 
-void find_range(const PlotSpec& spec, const Frame& f, double from, PlotState& state) {
+void find_range(const PlotSpec& spec, const PlotFrame& f, double from, PlotState& state) {
   Extent all;
   for (const Series& series : spec.series) {
     const History::Slice slice = visible(*series.history, f, from);
@@ -115,7 +88,7 @@ void find_range(const PlotSpec& spec, const Frame& f, double from, PlotState& st
   settle(state.high, goal.high, goal.high > state.high);
 }
 
-std::string label_of(const PlotSpec& spec, const Frame& f, double v, int digits) {
+std::string label_of(const PlotSpec& spec, const PlotFrame& f, double v, int digits) {
   if (f.logarithmic) return power_of_ten(static_cast<int>(std::lround(v)));
   if (std::abs(v) >= 1e4 * spec.factor || digits > 4) return coarse_number(v / spec.factor);
   return fixed(v / spec.factor, digits);
@@ -123,13 +96,17 @@ std::string label_of(const PlotSpec& spec, const Frame& f, double v, int digits)
 
 // Lines at round values, and in the gutter what they stand for.
 /// @param taken of the gutter's top
-void draw_values(const Look& look, const PlotSpec& spec, const Frame& f, float taken,
+void draw_values(const Look& look, const PlotSpec& spec, const PlotFrame& f, float taken,
                  ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.28F : 0.4F);
   const double lines = static_cast<double>(f.max.y - f.min.y) / 32.0;
   double step = f.logarithmic ? std::max(1.0, std::ceil((f.high - f.low) / std::max(lines, 2.0)))
                               : spec.factor * nice_step((f.high - f.low) / spec.factor,
                                                         static_cast<int>(std::max(lines, 2.0)));
+  // One line says nothing about the scale: in a low plot they stand closer.
+  while (!f.logarithmic && multiples(f.low, f.high, step) < 2) {
+    step = spec.factor * nice_step(0.39 * step / spec.factor, 1);
+  }
   if (spec.counts && !f.logarithmic) step = std::max(step, 1.0);
   const double first = std::ceil(f.low / step - 1e-9) * step;
   const int digits =
@@ -151,7 +128,7 @@ void draw_values(const Look& look, const PlotSpec& spec, const Frame& f, float t
   }
 }
 
-void draw_time(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
+void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.16F : 0.25F);
   const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 50.0F));
   const int digits = step < 0.1 ? 2 : step < 1.0 ? 1 : 0;
@@ -171,83 +148,6 @@ void draw_time(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLis
   }
 }
 
-// Least and greatest value of one pixel column, or one sample where there is room for each.
-struct Column {
-  float x = 0.0F;
-  float low = 0.0F;  // on the screen
-  float high = 0.0F;
-  float last = 0.0F;
-  bool many = false;  // more than one sample
-  bool gap = false;   // nothing to draw between the one before and this one
-};
-
-bool drawable(float value, const Frame& f) {
-  return std::isfinite(value) && !(f.logarithmic && value <= 0.0F);
-}
-
-std::vector<Column> samples_of(const Series& series, const History::Slice& slice, const Frame& f) {
-  const auto values = (*series.history)[series.channel];
-  std::vector<Column> columns;
-  columns.reserve(slice.last - slice.first);
-  bool gap = false;
-  for (std::size_t i = slice.first; i < slice.last; ++i) {
-    if (!drawable(values[i], f)) {
-      gap = true;
-      continue;
-    }
-    // A stepped series holds from the start of its frame.
-    const double time = series.history->time(i) - (series.steps ? series.history->frame() : 0.0);
-    const float y = f.y(static_cast<double>(values[i]));
-    columns.push_back({f.x(time), y, y, y, false, gap});
-    gap = false;
-  }
-  return columns;
-}
-
-std::vector<Column> decimated(const Series& series, const History::Slice& slice, const Frame& f,
-                              float pixel) {
-  const History& history = *series.history;
-  const Samples& samples = history.samples(series.channel);
-  // The columns are fixed in time and move with it: edges that did not would flicker.
-  const auto count = static_cast<int>((f.max.x - f.min.x) / pixel);
-  const double width = (f.t1 - f.t0) / count;  // [s]
-  const double k0 = std::floor(f.t0 / width);
-  const auto sample = [&](double time) {  // the first one not before a time
-    const double i = std::ceil((time - history.time(0)) / history.frame() - 1e-6);
-    return static_cast<std::size_t>(
-        std::clamp(i, static_cast<double>(slice.first), static_cast<double>(slice.last)));
-  };
-  std::vector<Column> columns;
-  columns.reserve(static_cast<std::size_t>(count) + 2);
-  bool gap = false;
-  for (int c = 0; c <= count; ++c) {
-    const double time = (k0 + c) * width;
-    const std::size_t first = sample(time);
-    const std::size_t last = sample(time + width);
-    if (first >= last) continue;
-    const Extent extent = samples.extent(first, last);
-    const float low = f.logarithmic ? extent.least_positive : extent.low;
-    if (!drawable(low, f)) {
-      gap = true;
-      continue;
-    }
-    const float newest = samples.values()[last - 1];
-    columns.push_back({f.x(time), f.y(static_cast<double>(low)),
-                       f.y(static_cast<double>(extent.high)),
-                       f.y(static_cast<double>(drawable(newest, f) ? newest : low)), true, gap});
-    gap = false;
-  }
-  return columns;
-}
-
-std::vector<Column> columns_of(const Series& series, double from, const Frame& f) {
-  const History::Slice slice = visible(*series.history, f, from);
-  const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
-  const double shown = (f.t1 - f.t0) / series.history->frame();
-  const bool many = shown > 3.0 * static_cast<double>((f.max.x - f.min.x) / pixel);
-  return many ? decimated(series, slice, f, pixel) : samples_of(series, slice, f);
-}
-
 void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width) {
   constexpr float kOn = 5.0F;
   constexpr float kPeriod = 9.0F;
@@ -260,52 +160,7 @@ void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width)
   }
 }
 
-// Down to zero, slice by slice. Soft edges between the slices would show as stripes.
-void fill_series(const Series& series, const std::vector<Column>& columns, float zero, float end,
-                 ImDrawList& draw) {
-  const ImDrawListFlags flags = draw.Flags;
-  draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Column& c = columns[i];
-    const bool more = i + 1 < columns.size();
-    const float right = more ? columns[i + 1].x : series.steps ? end : c.x;
-    const float right_y = more && !series.steps ? columns[i + 1].last : c.last;
-    draw.AddQuadFilled({c.x, c.last}, {right, right_y}, {right, zero}, {c.x, zero},
-                       fade(series.color, 0.14F));
-  }
-  draw.Flags = flags;
-}
-
-void draw_series(const Series& series, double from, const Frame& f, ImDrawList& draw) {
-  const std::vector<Column> columns = columns_of(series, from, f);
-  if (columns.empty()) return;
-  const float end = f.x(series.history->end_time());  // a stepped series holds until here
-  if (series.filled && !f.logarithmic) {
-    fill_series(series, columns, std::clamp(f.y(0.0), f.min.y, f.max.y), end, draw);
-  }
-  std::vector<ImVec2> points;
-  points.reserve(3 * columns.size() + 1);
-  const auto flush = [&] {
-    draw.AddPolyline(points.data(), static_cast<int>(points.size()), series.color, 0, series.width);
-    points.clear();
-  };
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    const Column& c = columns[i];
-    if (c.gap) flush();
-    if (series.steps && !points.empty()) points.emplace_back(c.x, columns[i - 1].last);
-    if (c.many) {  // down and up, ending at the last
-      points.emplace_back(c.x, c.low);
-      points.emplace_back(c.x, c.high);
-    }
-    points.emplace_back(c.x, c.last);
-  }
-  if (series.steps) points.emplace_back(end, columns.back().last);
-  const ImVec2 newest = points.back();
-  flush();
-  if (!series.steps) draw.AddCircleFilled(newest, 2.5F, series.color);
-}
-
-void draw_levels(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
+void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
   for (const Level& level : spec.levels) {
     const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
     const bool above = v > f.high;  // off the picture: named at its edge
@@ -318,7 +173,7 @@ void draw_levels(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawL
   }
 }
 
-void draw_marks(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawList& draw) {
+void draw_marks(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
   float below = f.min.y + 2.0F;
   for (const Mark& mark : spec.marks) {
     if (mark.time < f.t0 || mark.time > f.t1) continue;
@@ -332,7 +187,7 @@ void draw_marks(const Look& look, const PlotSpec& spec, const Frame& f, ImDrawLi
   }
 }
 
-void draw_hover(const Look& look, const PlotSpec& spec, const Frame& f, const TimeAxis& axis,
+void draw_hover(const Look& look, const PlotSpec& spec, const PlotFrame& f, const TimeAxis& axis,
                 ImDrawList& draw) {
   if (!axis.hover || *axis.hover < f.t0 || *axis.hover > f.t1) return;
   const float x = std::round(f.x(*axis.hover)) + 0.5F;
@@ -349,7 +204,7 @@ void draw_hover(const Look& look, const PlotSpec& spec, const Frame& f, const Ti
   }
 }
 
-void interact(const Frame& f, double now, TimeAxis& axis) {
+void interact(const PlotFrame& f, double now, TimeAxis& axis) {
   const ImGuiIO& io = ImGui::GetIO();
   const double t = f.time(io.MousePos.x);
   const bool moved = ImGui::IsMouseDragPastThreshold(ImGuiMouseButton_Left, 4.0F);
@@ -455,7 +310,7 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
 
-  Frame f;
+  PlotFrame f;
   f.min = {origin.x + kGutter, origin.y};
   f.max = {origin.x + size.x, origin.y + size.y - below};
   std::tie(f.t0, f.t1) = axis.window(now);

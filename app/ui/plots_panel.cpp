@@ -8,6 +8,7 @@
 #include "app/export.hpp"
 #include "app/format.hpp"
 #include "app/ui/panels.hpp"
+#include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -15,7 +16,6 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kHeading = 24.0F;  // a section's heading with the gap below it
 constexpr float kLeastPlot = 56.0F;
 
 struct PlotInfo {
@@ -63,17 +63,55 @@ void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps = false)
   }
 }
 
-// The value of each run that is compared, right-aligned. @param text of a value
-template <class Text>
-void compared_values(App& app, float right, float y, Channel channel, Text text) {
-  const auto value = [&](const History& history, ImU32 color) {
-    const double v = shown_value(history, channel, app.desk.time);
-    right = legend(app.look, right, y, color, std::isfinite(v) ? text(v) : "–");
+// "10⁻⁸"
+std::string order_of_magnitude(double value) {
+  if (!(value > 0.0)) return "0";
+  return power_of_ten(static_cast<int>(std::lround(std::log10(value))));
+}
+
+// The value of each run that is compared, right-aligned. @param left where the heading ends
+// @param text of a value; @param brief the same where there is little room
+template <class Text, class Brief>
+void compared_values(App& app, ImVec2 heading, float left, Channel channel, Text text,
+                     Brief brief) {
+  struct Value {
+    ImU32 color;
+    std::string full;
+    std::string brief;
   };
-  for (std::size_t i = app.compare.runs().size(); i-- > 0;) {
-    value(app.compare.runs()[i].history, app.compare_color(i));
+  std::vector<Value> values;
+  float full_width = 0.0F;
+  const auto add = [&](const History& history, ImU32 color) {
+    const double v = shown_value(history, channel, app.desk.time);
+    const bool known = std::isfinite(v);
+    values.push_back({color, known ? text(v) : "–", known ? brief(v) : "–"});
+    full_width += text_size(app.look.fonts.small, values.back().full.c_str()).x + 22.0F;
+  };
+  add(app.session.history(), app.look.theme->blue);
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    add(app.compare.runs()[i].history, app.compare_color(i));
   }
-  value(app.session.history(), app.look.theme->blue);
+  float right = heading.x + ImGui::GetContentRegionAvail().x;
+  const bool fits = right - full_width >= left;
+  for (std::size_t i = values.size(); i-- > 0;) {
+    const std::string& shown = fits ? values[i].full : values[i].brief;
+    right = legend(app.look, right, heading.y, values[i].color, shown);
+  }
+}
+
+// A plot's heading: with its value, or with the values of all that is compared.
+template <class Text>
+void count_heading(App& app, const char* name, const char* name_of_several, Channel channel,
+                   const char* before, const char* after, Text text) {
+  const double now = shown_value(app.session.history(), channel, app.desk.time);
+  const bool several = app.compare.open();
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const std::string value = several || !std::isfinite(now) ? "" : before + text(now) + after;
+  section(app.look, several ? name_of_several : name, value.c_str());
+  if (several) {
+    compared_values(app, origin, origin.x + heading_width(app.look, name_of_several), channel, text,
+                    text);
+  }
 }
 
 void draw_plot(App& app, Plot which, PlotSpec spec, float height) {
@@ -101,15 +139,9 @@ void substeps_plot(App& app, float height, bool last) {
   const Theme& t = *look.theme;
   const History& h = app.session.history();
   const Settings& s = app.session.settings();
-  const double n = shown_value(h, Channel::kSubsteps, app.desk.time);
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
   const bool several = app.compare.open();
-  section(look, several ? "Sub-steps" : "Sub-steps per frame",
-          several || !std::isfinite(n) ? "" : ("N = " + fixed(n, 0)).c_str());
-  if (several) {
-    compared_values(app, origin.x + ImGui::GetContentRegionAvail().x, origin.y, Channel::kSubsteps,
-                    [](double v) { return fixed(v, 0); });
-  }
+  count_heading(app, "Sub-steps per frame", "Sub-steps", Channel::kSubsteps, "N = ", "",
+                [](double v) { return fixed(v, 0); });
   tooltip(look, "Sub-steps per frame",
           "The N taken in each frame (Eq. 11). Dashed: the constant N that would have held so far, "
           "the largest h √r / 2, which is N at alpha = 1. Adaptive pays it only where it must.");
@@ -169,11 +201,16 @@ void energy_plot(App& app, float height, bool last) {
   if (app.compare.open()) {
     // What each has lost or gained; one that explodes must not make the others a line at zero.
     const double exchange = whole > 0.0 ? whole : 1.0;
-    compared_values(app, right, origin.y, Channel::kTotal, [exchange](double joules) {
+    const auto share_text = [exchange](double joules, double most, int digits) {
       const double share = 100.0 * joules / exchange;
-      if (std::abs(share) > 999.0) return std::string(share > 0.0 ? "> 999" : "< −999");
-      return fixed(share, std::abs(share) < 9.95 ? 2 : 0);
-    });
+      const std::string limit = fixed(most, 0);
+      if (std::abs(share) > most) return share > 0.0 ? ">" + limit : "<−" + limit;
+      return fixed(share, std::abs(share) < 9.95 ? digits : 0);
+    };
+    compared_values(
+        app, origin, origin.x + heading_width(look, "Energy, %"), Channel::kTotal,
+        [&](double joules) { return share_text(joules, 999.0, 2); },
+        [&](double joules) { return share_text(joules, 99.0, 1); });
     spec.factor = 0.01 * exchange;
     spec.least_span = 1e-4 * exchange;
     spec.most = 1.5 * exchange;
@@ -215,7 +252,8 @@ void error_plot(App& app, float height, bool last) {
   };
   if (app.compare.open()) {
     const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;
-    compared_values(app, right, origin.y, channel, coarse_number);
+    compared_values(app, origin, origin.x + heading_width(look, "Error, m"), channel, coarse_number,
+                    order_of_magnitude);
     spec.series.push_back({&h, channel, t.blue});
     add_compared(app, spec, channel);
   } else {
@@ -225,37 +263,12 @@ void error_plot(App& app, float height, bool last) {
   draw_plot(app, Plot::kError, spec, height);
 }
 
-struct Stage {
-  const char* name;
-  double seconds;
-  ImU32 color;
-  Channel channel;
-};
-
-std::vector<Stage> stages(const App& app) {
-  const Theme& t = *app.look.theme;
-  const StageTimes& times = app.session.times();
-  const Effects& effects = app.session.scene().effects;
-  std::vector<Stage> list{{"solve", times.solve, t.blue, Channel::kTimeSolve}};
-  if (effects.joints) list.push_back({"joints", times.joints, t.teal, Channel::kTimeJoints});
-  if (effects.contact) list.push_back({"contact", times.contact, t.amber, Channel::kTimeContact});
-  if (effects.friction)
-    list.push_back({"friction", times.friction, t.orange, Channel::kTimeFriction});
-  list.push_back({"stiffness", times.stiffness, t.purple, Channel::kTimeStiffness});
-  double known = 0.0;
-  for (const Stage& stage : list) known += stage.seconds;
-  list.push_back({"rest", std::max(0.0, times.total - known), t.grey, Channel::kTime});
-  return list;
-}
-
 void time_plot(App& app, float height, bool last) {
   const Look& look = app.look;
   const History& h = app.session.history();
-  const double now = shown_value(h, Channel::kTime, app.desk.time);
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
   const bool several = app.compare.open();
-  section(look, several ? "Time, ms" : "Time per frame, ms",
-          several || !std::isfinite(now) ? "" : (fixed(now, 2) + " ms").c_str());
+  count_heading(app, "Time per frame, ms", "Time, ms", Channel::kTime, "", " ms",
+                [](double v) { return fixed(v, 2); });
   tooltip(look, "Time per frame",
           "Wall time of the simulation, frame by frame: the whole in grey, its stages in the "
           "colours that the list below names.");
@@ -265,8 +278,6 @@ void time_plot(App& app, float height, bool last) {
   spec.from_zero = true;
   spec.least_span = 0.01;
   if (several) {
-    compared_values(app, origin.x + ImGui::GetContentRegionAvail().x, origin.y, Channel::kTime,
-                    [](double v) { return fixed(v, 2); });
     spec.series.push_back({&h, Channel::kTime, look.theme->blue});
     add_compared(app, spec, Channel::kTime);
   } else {
@@ -389,11 +400,6 @@ void toolbar(App& app) {
 
 }  // namespace
 
-float timing_height(const App& app, bool brief) {
-  const std::size_t rows = brief ? 0 : (stages(app).size() + 1) / 2;
-  return kHeading + 12.0F + (rows > 0 ? 8.0F + 20.0F * static_cast<float>(rows) : 0.0F);
-}
-
 std::string file_stem(const App& app) {
   return app.session.scene().name + "-" + std::string(name_of(app.session.settings().mode));
 }
@@ -433,48 +439,6 @@ void plots(App& app, float height) {
   }
   app.desk.plots_area = {from.x - 8.0F, from.y - 4.0F, width + 16.0F,
                          ImGui::GetCursorScreenPos().y - from.y + 4.0F};
-}
-
-void timing(App& app, bool brief) {
-  const Look& look = app.look;
-  const Theme& t = *look.theme;
-  const std::vector<Stage> list = stages(app);
-  const double total = app.session.times().total;
-  section(look, "Time per frame", total > 0.0 ? duration(total).c_str() : "");
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(origin, {origin.x + width, origin.y + 12.0F}, t.well, 3.0F);
-  float x = origin.x;
-  for (const Stage& stage : list) {
-    if (!(total > 0.0)) break;
-    const float w = static_cast<float>(stage.seconds / total) * width;
-    if (w >= 1.0F) {
-      draw.AddRectFilled({x, origin.y}, {x + w - 1.0F, origin.y + 12.0F}, stage.color, 2.0F);
-    }
-    x += w;
-  }
-  std::string listed;  // for the tooltip
-  // Two to a row: name at the left, time at the right of its half.
-  const float half = 0.5F * (width + 24.0F);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string value = total > 0.0 ? duration(list[i].seconds) : "";
-    listed.append("\n").append(list[i].name).append("  ").append(value);
-    if (brief) continue;
-    const float left = origin.x + half * static_cast<float>(i % 2);
-    const std::size_t row = i / 2;
-    const float y = origin.y + 20.0F + 20.0F * static_cast<float>(row);
-    draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
-    draw_text(draw, look.fonts.small, {left + 12.0F, y}, t.dim, list[i].name);
-    const float w = text_size(look.fonts.small, value.c_str()).x;
-    draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, t.text, value.c_str());
-  }
-  ImGui::Dummy({width, timing_height(app, brief) - kHeading});
-  const std::string tip =
-      "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
-      "does not call for does not exist." +
-      (brief ? listed : "");
-  tooltip(look, "Time per frame", tip.c_str());
 }
 
 }  // namespace substep::ui

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/format.hpp"
+#include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -37,12 +38,6 @@ std::string newtons(double force) {
   return short_number(force / unit.factor) + ' ' + unit.prefix + 'N';
 }
 
-// What the body alone would ask for: its largest k/M [1/s^2].
-double own_ratio(const Body& body, const Vec6& k) {
-  return std::max({0.0, k.head<3>().maxCoeff() / body.mass,
-                   k.tail<3>().cwiseQuotient(body.inertia).maxCoeff()});
-}
-
 void motion_rows(const App& app, std::size_t i, bool phone) {
   const Look& look = app.look;
   const State& state = app.session.state();
@@ -55,7 +50,7 @@ void motion_rows(const App& app, std::size_t i, bool phone) {
 void stiffness_row(const App& app, std::size_t i) {
   const State& state = app.session.state();
   if (state.k.size() <= i || !(state.r > 0.0)) return;
-  const double r = own_ratio(app.session.scene().bodies[i], state.k[i]);
+  const double r = stiffest_of(app.session.scene(), state, i).r;
   const int n =
       wanted_substeps(app.session.scene().frame, stable_step(app.session.settings().alpha, r));
   row(app.look, "k/M",
@@ -83,7 +78,7 @@ void force_rows(const App& app, int body) {
   constexpr std::size_t kShown = 4;
   for (std::size_t j = 0; j < std::min(kShown, pulls.size()); ++j) {
     row(app.look, pulls[j].joint->c_str(), newtons(pulls[j].force),
-        "Force in this joint in the last sub-step.");
+        "Force in this joint at the end of the frame: in its last sub-step.");
   }
   int touching = 0;
   double pressed = 0.0;
@@ -94,7 +89,8 @@ void force_rows(const App& app, int body) {
   }
   if (touching == 0) return;
   const std::string name = std::to_string(touching) + (touching == 1 ? " contact" : " contacts");
-  row(app.look, name.c_str(), newtons(pressed), "Sum of the normal forces in the last sub-step.");
+  row(app.look, name.c_str(), newtons(pressed),
+      "Sum of the normal forces at the end of the frame: in its last sub-step.");
 }
 
 }  // namespace
@@ -109,10 +105,12 @@ void selection_card(App& app, bool phone) {
   const Body& body = app.session.scene().bodies[i];
   const float width = phone ? 188.0F : 232.0F;
   const bool left = app.desk.card_left;
-  const float up = phone ? 12.0F : 48.0F;  // over the scale of the tint, and the tour's button
+  // Over the tour's button, and over the scale of the tint.
+  const float up = 24.0F + look.m.row + 2.0F - (app.desk.tour >= 0 && phone ? look.m.row : 0.0F);
   ImGui::SetNextWindowPos({left ? v.x + 12.0F : v.x + v.width - 12.0F, v.y + v.height - up},
                           ImGuiCond_Always, {left ? 0.0F : 1.0F, 1.0F});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, v.height - 96.0F});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0F},
+                                      {width, v.height - up - (phone ? 60.0F : 68.0F)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 3.0F});
   bool close = false;

@@ -117,6 +117,14 @@ void invitation(App& app) {
 
 }  // namespace
 
+void go_on_with_tour(App& app) {
+  if (app.desk.tour + 1 < static_cast<int>(tour_steps().size())) {
+    go_to(app, app.desk.tour + 1);
+  } else {
+    end(app);
+  }
+}
+
 void tour(App& app) {
   if (app.desk.tour < 0) app.desk.tour_height = 0.0F;
   if (app.desk.tour >= 0) {

@@ -12,6 +12,7 @@
 namespace substep::ui {
 namespace {
 
+constexpr float kTooltip = 300.0F;   // width of its text at most
 constexpr float kNameWidth = 76.0F;  // of the names at the left of rows
 
 ImVec2 snapped(ImVec2 p) {
@@ -178,27 +179,42 @@ void space(float height) {
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + height - ImGui::GetStyle().ItemSpacing.y);
 }
 
-void section(const Look& look, const char* title, const char* value, ImU32 value_color) {
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float width = available_width();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  constexpr float kHeight = 16.0F;
-  // Not the unit after the comma: a kilojoule is no kelvin joule, a millijoule no megajoule.
+namespace {
+
+// Not the unit after the comma: a kilojoule is no kelvin joule, a millijoule no megajoule.
+std::string capitals(const char* title) {
   std::string caps(title);
   for (char& c : caps) {
     if (c == ',') break;
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
   }
-  // Capitals read better a little apart.
-  float x = origin.x;
-  const float y = origin.y + 1.0F;
+  return caps;
+}
+
+// Capitals read better a little apart. @param draw null only measures @return right end
+float draw_capitals(const Look& look, ImVec2 at, const std::string& caps, ImDrawList* draw) {
   for (const char* p = caps.c_str(); *p != '\0';) {
     const char* end = p + 1;
     while ((static_cast<unsigned char>(*end) & 0xc0U) == 0x80U) ++end;
-    draw_text(draw, look.fonts.caps, {x, y}, look.theme->dim, p, end);
-    x += text_size(look.fonts.caps, std::string(p, end).c_str()).x + 0.6F;
+    if (draw != nullptr) draw_text(*draw, look.fonts.caps, at, look.theme->dim, p, end);
+    at.x += text_size(look.fonts.caps, std::string(p, end).c_str()).x + 0.6F;
     p = end;
   }
+  return at.x;
+}
+
+}  // namespace
+
+float heading_width(const Look& look, const char* title) {
+  return draw_capitals(look, {0.0F, 0.0F}, capitals(title), nullptr);
+}
+
+void section(const Look& look, const char* title, const char* value, ImU32 value_color) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = available_width();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  constexpr float kHeight = 16.0F;
+  const float x = draw_capitals(look, {origin.x, origin.y + 1.0F}, capitals(title), &draw);
   if (value != nullptr && *value != '\0') {
     const std::string text = fitted(look.fonts.small, value, origin.x + width - x - 8.0F);
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
@@ -214,15 +230,26 @@ void tooltip(const Look& look, const char* title, const char* text) {
     return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
+  // Dear ImGui places a tooltip by the size that the one before had.
+  const std::string lines = wrapped(look.fonts.regular, text, kTooltip);
+  const ImVec2 body = text_size(look.fonts.regular, lines.c_str());
+  const bool titled = title != nullptr && *title != '\0';
+  const ImVec2 head = titled ? text_size(look.fonts.medium, title) : ImVec2(0.0F, -4.0F);
+  const ImVec2 size(std::max(body.x, head.x) + 24.0F, head.y + 4.0F + body.y + 20.0F);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const bool above = mouse.y + 20.0F + size.y > display.y - 8.0F;
+  ImGui::SetNextWindowPos({std::max(8.0F, std::min(mouse.x + 16.0F, display.x - 8.0F - size.x)),
+                           above ? std::max(8.0F, mouse.y - 8.0F - size.y) : mouse.y + 20.0F});
   if (ImGui::BeginTooltip()) {
-    ImGui::PushTextWrapPos(300.0F);
-    if (title != nullptr && *title != '\0') {
+    ImGui::PushTextWrapPos(kTooltip);
+    if (titled) {
       ImGui::PushFont(look.fonts.medium);
       ImGui::TextUnformatted(title);
       ImGui::PopFont();
     }
     ImGui::PushStyleColor(ImGuiCol_Text, look.theme->dim);
-    ImGui::TextUnformatted(wrapped(look.fonts.regular, text, 300.0F).c_str());
+    ImGui::TextUnformatted(lines.c_str());
     ImGui::PopStyleColor();
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();

@@ -27,6 +27,8 @@ void label(ImFont* font, ImU32 color, const char* text);
 /// Heading of a section, with a value at the right.
 void section(const Look& look, const char* title, const char* value = nullptr,
              ImU32 value_color = 0);
+/// Room that a section's title takes.
+float heading_width(const Look& look, const char* title);
 void space(float height);
 
 /// A ring around the last item where the keyboard is on it.

@@ -257,8 +257,9 @@ void draw_window(App& app) {
   tour(app);
   if (!small) accuracy_card(app);
   failure_card(app);
-  trouble_card(app);
   help_card(app);
+  file_card(app);
+  trouble_card(app);
 }
 
 void draw_over_picture(App& app) {
@@ -266,8 +267,7 @@ void draw_over_picture(App& app) {
   annotations(app);
   body_labels(app);
   caption(app, small);
-  const float pad = small ? 12.0F : 16.0F;
-  compare_legend(app, app.view_rect.x + pad + 8.0F, app.view_rect.y + pad + 56.0F);
+  compare_legend(app);
   if (!small) tint_scale(app);
   notice(app);
 }

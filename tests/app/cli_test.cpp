@@ -15,6 +15,7 @@
 #include "core/io/json.hpp"
 #include "core/io/number_text.hpp"
 #include "core/io/scene_reader.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/app/program.hpp"
 
@@ -279,9 +280,12 @@ TEST(CommandLine, TakesScenesFromTheFolderInTheEnvironment) {
 
 TEST(CommandLine, GeneratesTheShippedFiles) {
   for (const char* name : {"swinging_box", "bridge", "heavy_stack", "sliding_box"}) {
-    EXPECT_TRUE(substep("generate " + std::string(name)).out ==
-                text_of(SUBSTEP_SOURCE_DIR "/scenes/" + std::string(name) + ".json"))
-        << name;
+    const auto shipped =
+        read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/" + std::string(name) + ".json").scene;
+    ASSERT_NE(shipped, nullptr);
+    Scene plain = *shipped;
+    plain.verdicts.clear();  // they are of the shipped start; a variant has others
+    EXPECT_TRUE(substep("generate " + std::string(name)).out == write_scene(plain)) << name;
   }
 }
 

@@ -61,7 +61,7 @@ TEST(Picking, RayMeetsWhatIsSeenThere) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (std::holds_alternative<Plane>(bodies[i].shape)) continue;
       const ImVec2 p = on_display(*h.app, static_cast<int>(i));
-      const Ray ray = ray_through(h.app->picture.view_projection.cast<double>(),
+      const Ray ray = ray_through(h.app->pictures.front().view_projection.cast<double>(),
                                   2.0 * static_cast<double>(p.x) / 1280.0 - 1.0,
                                   1.0 - 2.0 * static_cast<double>(p.y) / 720.0);
       const Vec3 to_centre = session.poses().x[i] - ray.origin;

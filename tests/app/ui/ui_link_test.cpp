@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "app/link.hpp"
+#include "core/io/effect_names.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/lab/experiment_run.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
@@ -102,6 +104,44 @@ TEST(Link, TheWindowRunsTheExperimentOfALink) {
   EXPECT_FALSE(h.app->session.playing()) << "it pauses where the experiment ends";
   EXPECT_EQ(h.app->session.hash(), run.result().metrics.hash);
   EXPECT_NE(h.app->link().find("load=2&seed=3"), std::string::npos) << h.app->link();
+}
+
+// A ball is in no shipped scene: the link starts from the state in which it was thrown.
+TEST(Link, HoldsAThrownBallAndAnEffectSwitchedOff) {
+  for (const char* name : {"swinging_box", "bridge", "heavy_stack", "ragdoll_drop"}) {
+    for (const char* edit : {"ball", "joints", "contact", "friction", "gravity"}) {
+      Headless h;
+      ASSERT_EQ(h.app->set("scene", name), "");
+      Session& session = h.app->session;
+      for (int i = 0; i < 30; ++i) session.step();
+      EXPECT_FALSE(is_own(h.app->link_scene()));
+      Ball ball;
+      ball.position = Vec3(0.0, 9.0, 0.0);
+      if (std::string_view(edit) == "ball") {
+        session.throw_ball(ball);
+      } else {
+        Effects effects = session.scene().effects;
+        for (const NamedEffect& effect : kEffectNames) {
+          if (effect.name == edit) effects.*effect.member = false;
+        }
+        if (effects == session.scene().effects) continue;
+        session.set_effects(effects);
+      }
+      ASSERT_TRUE(is_own(h.app->link_scene())) << name << " " << edit;
+      const std::string link = h.app->link();
+      for (int i = 0; i < 10; ++i) session.step();
+      EXPECT_EQ(h.app->link(), link) << "it does not change with every frame";
+      const SceneResult read = read_scene(write_scene(h.app->link_scene()));
+      ASSERT_TRUE(read.scene) << name << " " << edit << ": " << to_string(read.problems.front());
+      Effects acting = session.scene().effects;
+      if (!acting.contact) acting.friction = acting.restitution = false;  // they act in contacts
+      EXPECT_EQ(read.scene->effects, acting) << name << " " << edit;
+      EXPECT_EQ(read.scene->bodies.size(), session.scene().bodies.size());
+      EXPECT_NE(h.app->command().find(read.scene->name + ".json"), std::string::npos);
+      session.go_to(10);
+      EXPECT_FALSE(is_own(h.app->link_scene())) << "before the edit it is the shipped one";
+    }
+  }
 }
 
 }  // namespace

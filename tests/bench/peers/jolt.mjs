@@ -98,7 +98,9 @@ function addBody(bodies, body, layer) {
 }
 
 function addJoint(system, joint, at) {
-  const settings = joint.hinge ? new Jolt.HingeConstraintSettings() : new Jolt.PointConstraintSettings();
+  const settings = joint.hinge
+    ? new Jolt.HingeConstraintSettings()
+    : new Jolt.PointConstraintSettings();
   settings.mSpace = Jolt.EConstraintSpace_LocalToBodyCOM;
   position(joint.anchorA, (x) => (settings.mPoint1 = x));
   position(joint.anchorB, (x) => (settings.mPoint2 = x));

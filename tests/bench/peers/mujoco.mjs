@@ -32,7 +32,11 @@ export const ladder = {
     ...maximal(4, 0.99, 6, 8, 12),
     ...maximal(4, 0.999, 12, 16, 24),
   ],
-  stack: [...maximal(2, 0.9999, 8, 12, 16, 32), ...maximal(2, 0.99999, 8, 16), ...maximal(4, 0.9999, 32)],
+  stack: [
+    ...maximal(2, 0.9999, 8, 12, 16, 32),
+    ...maximal(2, 0.99999, 8, 16),
+    ...maximal(4, 0.9999, 32),
+  ],
 };
 
 const text = (numbers) => numbers.map((x) => x.toPrecision(17)).join(" ");

@@ -10,7 +10,7 @@ const kExact = { beta: 0.995, drift_order: 2, integrator: "leapfrog" };
 export const ladder = {
   swinging_box: [
     kPaper,
-    ...[6, 7, 8, 15].map(leapfrog),
+    ...[6, 7, 8, 15, 32, 64].map(leapfrog),
     blend(1, kExact),
     blend(2, kExact),
     inertia(1),
@@ -25,5 +25,5 @@ export const ladder = {
     { mode: "capped", n_cap: 8 },
     { mode: "damping" },
   ],
-  stack: [...[1, 2, 4, 8].map(euler), { mode: "damping" }, blend(1), blend(4), kPaper],
+  stack: [...[1, 2, 4].map(euler), { mode: "damping" }, blend(1), kPaper],
 };

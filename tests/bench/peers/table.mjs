@@ -34,7 +34,8 @@ function timedRow(entry) {
 
 /** Those that hold, cheapest first within an engine, then those that fail. */
 export function sceneLines({ title, kind }, entries, best) {
-  const lines = ["", title, row(["engine", "ms a frame", ...kColumns[kind].map((c) => `${c} mm`), "setting"])];
+  const columns = kColumns[kind].map((column) => `${column} mm`);
+  const lines = ["", title, row(["engine", "ms a frame", ...columns, "setting"])];
   const engines = [...new Set(entries.map(({ engine }) => engine))];
   for (const engine of engines) {
     const own = best.filter((entry) => entry.engine === engine).sort((a, b) => a.ms - b.ms);
@@ -52,21 +53,36 @@ export function sceneLines({ title, kind }, entries, best) {
 
 const platform = ({ engine }) => engine.title.split(", ").at(-1);
 
+/** Our cheapest setting on a peer's platform at an error no larger than the peer's. */
+function answer(best, peer) {
+  return best
+    .filter((entry) => entry.engine.ours && platform(entry) === platform(peer))
+    .filter((entry) => entry.error <= peer.error)
+    .sort((a, b) => a.ms - b.ms)[0];
+}
+
 /** For every timed setting of a peer: how many times cheaper we are at an error no larger. */
-export function factorLines(best) {
-  const lines = [];
-  for (const peer of best.filter(({ engine }) => !engine.ours)) {
-    const ours = best.filter(
-      (entry) =>
-        entry.engine.ours && platform(entry) === platform(peer) && entry.error <= peer.error,
-    );
-    const cheapest = ours.sort((a, b) => a.ms - b.ms)[0];
-    const verdict = cheapest
-      ? `${(peer.ms / cheapest.ms).toFixed(1)} times our cost (${settingText(cheapest.setting)})`
+export function factorLines({ aim }, best) {
+  const peers = best.filter(({ engine }) => !engine.ours);
+  const pairs = peers.map((peer) => ({ peer, ours: answer(best, peer) }));
+  const lines = pairs.map(({ peer, ours }) => {
+    const verdict = ours
+      ? `${(peer.ms / ours.ms).toFixed(1)} times our cost (${settingText(ours.setting)})`
       : "more exact than we are at any setting tried";
-    lines.push(
-      `  ${peer.engine.title} at ${millimetres(peer.error)} mm, ${peer.ms.toPrecision(3)} ms: ${verdict}`,
-    );
+    const cost = `${millimetres(peer.error)} mm, ${peer.ms.toPrecision(3)} ms`;
+    return `  ${peer.engine.title} at ${cost}: ${verdict}`;
+  });
+  for (const name of new Set(peers.map(platform))) {
+    const here = pairs.filter(({ peer }) => platform(peer) === name);
+    const answered = here.filter(({ ours }) => ours);
+    if (answered.length < here.length) {
+      lines.push(`  ${name}: more exact than we are: ${here.length - answered.length} settings`);
+    }
+    if (answered.length === 0) continue;
+    const least = Math.min(...answered.map(({ peer, ours }) => peer.ms / ours.ms));
+    const verdict = least >= aim ? "reached" : `missed by a factor of ${(aim / least).toFixed(1)}`;
+    const times = `${least.toFixed(1)} times as much`;
+    lines.push(`  ${name}: the others cost at least ${times}; aim ${aim}: ${verdict}`);
   }
   return lines;
 }

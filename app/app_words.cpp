@@ -1,0 +1,178 @@
+// What can be said to the application in words: the keys of links, scripts and command lines.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/app.hpp"
+#include "app/link.hpp"
+#include "app/tour.hpp"
+#include "core/io/number_text.hpp"
+#include "core/io/scene_limits.hpp"
+#include "core/io/setting_fields.hpp"
+
+namespace substep {
+namespace {
+
+// One of two words. @return what is wrong, or ""
+std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
+  if (value != words[0] && value != words[1]) {
+    return "'" + std::string(value) + "' is not " + std::string(words[0]) + " or " +
+           std::string(words[1]);
+  }
+  on = value == words[1];
+  return "";
+}
+
+std::string choose_panel(std::string_view value, Tab& tab) {
+  static constexpr std::array<std::string_view, 5> kNames{"controls", "plots", "why", "compare",
+                                                          "accuracy"};
+  const auto* const found = std::find(kNames.begin(), kNames.end(), value);
+  if (found == kNames.end()) {
+    return "'" + std::string(value) + "' is not controls, plots, why, compare or accuracy";
+  }
+  tab = static_cast<Tab>(found - kNames.begin());
+  return "";
+}
+
+// A body by its name, or "none".
+std::string select_body(App& app, std::string_view name) {
+  const auto& bodies = app.session.scene().bodies;
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == name; });
+  if (name != "none" && found == bodies.end()) {
+    return "there is no body of the name '" + std::string(name) + "'";
+  }
+  app.desk.selected = name == "none" ? -1 : static_cast<int>(found - bodies.begin());
+  return "";
+}
+
+// "off", or the number of a step: its experiment from the start.
+std::string go_on_tour(App& app, std::string_view value) {
+  const auto steps = tour_steps();
+  const auto step = parse_number(value);
+  const auto count = static_cast<double>(steps.size());
+  if (value != "off" && (!step || *step != std::round(*step) || *step < 1.0 || *step > count)) {
+    return "is not off or a whole number from 1 to " + std::to_string(steps.size());
+  }
+  app.desk.tour_hint = false;
+  if (value == "off") {
+    app.desk.tour = -1;
+    return "";
+  }
+  app.desk.tour = static_cast<int>(*step) - 1;
+  app.open_link(steps[static_cast<std::size_t>(app.desk.tour)].link);
+  app.reset();
+  app.session.play();
+  return "";
+}
+
+}  // namespace
+
+std::string App::set(std::string_view key, std::string_view value) {
+  if (key == "scene") {
+    return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
+  }
+  // What belongs to the window: taken from links and scripts, never written into links.
+  if (key == "speed") {
+    const auto speed = parse_number(value);
+    if (!speed || *speed < 0.01 || *speed > 16.0) return "is not a number from 0.01 to 16";
+    session.set_speed(*speed);
+    return "";
+  }
+  if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
+  if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
+  for (const ViewSwitch& option : kViewSwitches) {
+    if (key == option.key) return choose(value, {"off", "on"}, desk.view.*option.member);
+  }
+  if (key == "help") return choose(value, {"off", "on"}, desk.help);
+  if (key == "more") return choose(value, {"off", "on"}, desk.more);
+  if (key == "menu") return choose(value, {"none", "share"}, desk.open_share_menu);
+  if (key == "select") return select_body(*this, value);
+  if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
+  if (key == "panel") return choose_panel(value, desk.tab);
+  if (key == "tour") return go_on_tour(*this, value);
+  if (key == "scale") {
+    const auto scale = parse_number(value);
+    if (!scale || *scale < 0.8 || *scale > 1.5) return "is not a number from 0.8 to 1.5";
+    desk.scale = *scale;
+    return "";
+  }
+  if (key == "load" || key == "seed" || key == "seconds") {
+    const auto number = parse_number(value);
+    const Range range = key == "load"   ? kLoadRange
+                        : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
+                                        : kDurationRange;
+    if (!number || !range.contains(*number)) return "is not " + range.text();
+    if (key == "load") vary(*number, seed);
+    if (key == "seed") vary(load, static_cast<int>(*number));
+    if (key == "seconds") pause_at = *number;
+    return "";
+  }
+  if (key == "accuracy") {
+    if (value == "run") {
+      accuracy.start(plain_scene);
+    } else if (value == "cancel") {
+      accuracy.cancel();
+    } else if (value == "map") {
+      accuracy.picture = AccuracyPicture::kStabilityMap;
+    } else if (value == "error") {
+      accuracy.picture = AccuracyPicture::kErrorAgainstCost;
+    } else {
+      return "'" + std::string(value) + "' is not run, cancel, map or error";
+    }
+    return "";
+  }
+  if (key == "compare") {
+    std::string problem;
+    const std::vector<Overrides> runs =
+        value == "off" ? std::vector<Overrides>{} : parse_overrides(value, problem);
+    reset();
+    compare.start(session, runs);
+    return problem;
+  }
+  const SettingField* field = find_setting(key);
+  if (field == nullptr) return "is not a setting";
+  Settings s = session.settings();
+  if (const auto problem = set_setting(*field, value, s)) return *problem;
+  change(s);
+  return "";
+}
+
+void App::open_link(std::string_view fragment) {
+  std::vector<Problem> problems;
+  // The scene first: it brings settings of its own, which the others then change.
+  auto parts = parse_link(fragment);
+  std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
+  if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
+    compare.close();
+  }
+  for (const LinkPart& part : parts) {
+    const std::string problem = set(part.key, part.value);
+    if (!problem.empty()) problems.push_back({part.key, problem});
+  }
+  if (!problems.empty()) trouble = {"The link could not be followed in full", std::move(problems)};
+}
+
+const Scene& App::link_scene() const {
+  return session.edition() != nullptr ? *session.edition()->start : session.scene();
+}
+
+std::string App::link() const {
+  Experiment experiment;
+  experiment.settings = session.settings();
+  experiment.duration = session.scene().criteria.duration;
+  if (session.edition() == nullptr) {  // else its bodies have them already
+    experiment.load = load;
+    experiment.seed = seed;
+  }
+  std::string link = make_link(link_scene(), experiment);
+  if (compare.open()) {
+    std::vector<Overrides> runs;
+    for (const Compare::Run& run : compare.runs()) runs.push_back(run.overrides);
+    link += "&compare=" + overrides_text(runs);
+  }
+  return link;
+}
+
+}  // namespace substep

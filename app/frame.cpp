@@ -1,0 +1,160 @@
+// One frame on the screen.
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "app/app.hpp"
+#include "app/arrangement.hpp"
+#include "app/png.hpp"
+#include "app/ui/handles.hpp"
+#include "app/ui/keys.hpp"
+#include "app/ui/panels.hpp"
+
+namespace substep {
+namespace {
+
+// Fonts and colours follow the window that the app finds itself in.
+void update_look(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const float ratio = std::clamp(io.DisplayFramebufferScale.x, 0.5F, 4.0F);
+  bool changed = false;
+  if (std::abs(ratio - app.pixel_ratio) > 1e-3F) {
+    app.look.fonts = ui::build_fonts(ratio);
+    if (app.pixel_ratio != 0.0F) app.renderer->fonts_changed();
+    app.pixel_ratio = ratio;
+    changed = true;
+  }
+  const ui::Theme& theme = app.desk.dark ? ui::dark_theme() : ui::light_theme();
+  const bool touch = io.DisplaySize.x < 900.0F;
+  const float row = touch ? 32.0F : 26.0F;
+  if (changed || app.look.theme != &theme || app.look.m.row != row) {
+    app.look.theme = &theme;
+    app.look.m.row = row;
+    ui::apply_style(app.look);
+  }
+}
+
+// Hands the picture that was asked for to the shell.
+void take_capture(App& app, int width, int height) {
+  const ViewRect& a = app.capture->area;
+  const float ratio = ImGui::GetIO().DisplayFramebufferScale.x;
+  const auto pixel = [ratio](float v, int most) {
+    return std::clamp(static_cast<int>(std::lround(v * ratio)), 0, most);
+  };
+  const int x = pixel(a.x, width - 1);
+  const int y = pixel(a.y, height - 1);
+  const int w = std::max(1, pixel(a.x + a.width, width) - x);
+  const int h = std::max(1, pixel(a.y + a.height, height) - y);
+  const std::string png = encode_png(w, h, app.renderer->pixels(x, y, w, h));
+  if (app.host.save_file) app.host.save_file(app.capture->name, png);
+  app.capture.reset();
+}
+
+// The shell speaks in its own logical pixels, of which the interface's are `scale` times as large.
+class Scaled {
+ public:
+  explicit Scaled(App& app) : size_(ImGui::GetIO().DisplaySize), ratio_(buffer_scale()) {
+    const auto scale = static_cast<float>(app.desk.scale);
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {size_.x / scale, size_.y / scale};
+    io.DisplayFramebufferScale = {ratio_.x * scale, ratio_.y * scale};
+    for (ImGuiInputEvent& event : ImGui::GetCurrentContext()->InputEventsQueue) {
+      if (event.EventId <= app.last_event) continue;  // it waited since an earlier frame
+      app.last_event = event.EventId;
+      if (event.Type != ImGuiInputEventType_MousePos) continue;
+      event.MousePos.PosX /= scale;
+      event.MousePos.PosY /= scale;
+    }
+  }
+  ~Scaled() {
+    ImGui::GetIO().DisplaySize = size_;
+    ImGui::GetIO().DisplayFramebufferScale = ratio_;
+  }
+  Scaled(const Scaled&) = delete;
+  Scaled& operator=(const Scaled&) = delete;
+
+ private:
+  static ImVec2 buffer_scale() { return ImGui::GetIO().DisplayFramebufferScale; }
+  ImVec2 size_;
+  ImVec2 ratio_;
+};
+
+// This run, and what it is compared with: each in a pane of its own, or over it as ghosts.
+void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
+  app.panes = ui::view_panes(app);
+  app.pictures.resize(app.panes.size());
+  for (std::size_t i = 0; i < app.panes.size(); ++i) {
+    Seen seen{&app.scene_in(i), &app.poses_in(i), nullptr, nullptr};
+    if (i == 0) seen = {seen.scene, seen.poses, &app.session.state(), &app.session.trail()};
+    app.view.build(seen, options, app.look.theme->view, app.panes[i],
+                   static_cast<double>(display.x), static_cast<double>(display.y), app.pictures[i]);
+    app.pictures[i].part = ui::part_of_window(app, i);
+  }
+  if (app.panes.size() > 1) return;
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    const Compare::Run& run = app.compare.runs()[i];
+    const ImVec4 c = ui::to_vec4(app.compare_color(i));
+    SceneView::add_ghost(*run.scene, run.poses, {c.x, c.y, c.z, 0.5F}, app.pictures.front());
+  }
+}
+
+}  // namespace
+
+void frame(App& app, double wall_dt) {
+  if (app.pixel_ratio == 0.0F) recall_arrangement(app);  // the shell is there now
+  const Scaled scaled(app);
+  app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
+  app.quality.observe(wall_dt, app.own_time);
+  const auto begun = std::chrono::steady_clock::now();
+  app.session.advance(wall_dt);
+  if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
+    app.session.pause();
+    app.pause_at = 0.0;  // whoever plays on wants to see more
+  }
+  // Beside a run that plays the sweep takes what a frame can spare.
+  app.accuracy.advance(app.session.playing() ? 0.003 : 0.008);
+  app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+  app.notice.left -= wall_dt;
+
+  update_look(app);
+  app.renderer->begin_frame();
+  ImGui::NewFrame();
+  ui::forget_handles();
+  ui::handle_keys(app);
+  app.desk.time.hover = app.desk.time.hover_next;
+  app.desk.time.hover_next.reset();
+  if (app.session.settings().watch_stiffness != app.desk.view.tint) {
+    app.change(app.session.settings());
+  }
+  app.compare.follow(app.session);
+  app.view.follow(app.session);
+  app.view.camera.update(wall_dt, app.desk.reduced_motion);
+  ui::draw_window(app);
+
+  const ImGuiIO& io = ImGui::GetIO();
+  ViewOptions shown = app.desk.view;
+  if (app.compare.open()) shown.tint = false;  // colours say who is who then
+  draw_pictures(app, shown, io.DisplaySize);
+  ui::draw_over_picture(app);
+  ImGui::Render();
+  const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
+  const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
+  app.renderer->draw(app.pictures, *ImGui::GetDrawData(), width, height, app.quality.quality());
+  if (app.capture) take_capture(app, width, height);
+
+  remember_arrangement(app);
+  if (app.host.link_changed) {
+    std::string link = app.link();
+    if (link != app.last_link) {
+      app.last_link = std::move(link);
+      app.host.link_changed(app.last_link);
+    }
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,153 @@
+// What is compared, in the picture: side by side in panes, or as ghosts with a legend.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/format.hpp"
+#include "app/ui/over_picture.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kCaption = 64.0F;  // of the view's top, that title and method take
+constexpr float kPad = 12.0F;
+
+// One of the runs, as it is named in the picture.
+struct Entry {
+  std::string name;
+  ImU32 color = 0;
+  const Verdict* verdict = nullptr;
+  const FrameReport* report = nullptr;
+};
+
+std::vector<Entry> entries(const App& app) {
+  std::vector<Entry> list{
+      {run_title(app), app.look.theme->blue, &app.session.verdict(), &app.session.report()}};
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    const Compare::Run& run = app.compare.runs()[i];
+    list.push_back(
+        {overrides_title(run.overrides), app.compare_color(i), &*run.verdict, &run.report});
+  }
+  return list;
+}
+
+void legend(const App& app) {
+  const Look& look = app.look;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const float x = app.view_rect.x + 24.0F;
+  float y = app.view_rect.y + kCaption + 8.0F;
+  const float room = app.view_rect.width - 64.0F;
+  for (const Entry& entry : entries(app)) {
+    const std::string stands = entry.verdict->holds()
+                                   ? "N " + std::to_string(entry.report->n_substeps)
+                                   : verdict_note(*entry.verdict);
+    const std::string text =
+        fitted(look.fonts.regular, entry.name + "  ·  " + stands, std::max(40.0F, room));
+    const ImVec2 size = text_size(look.fonts.regular, text.c_str());
+    draw.AddRectFilled({x - 8.0F, y - 2.0F}, {x + size.x + 28.0F, y + size.y + 2.0F},
+                       fade(look.theme->panel, 0.8F), look.m.radius);
+    draw.AddCircleFilled({x + 5.0F, y + 0.5F * size.y}, 5.0F, entry.color);
+    draw_text(draw, look.fonts.regular, {x + 18.0F, y}, look.theme->text, text.c_str());
+    y += size.y + 8.0F;
+  }
+}
+
+// Name and verdict at the left of a pane's top, N at its right.
+void pane_label(const App& app, const Entry& entry, const ViewRect& r) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
+  const std::string n = "N " + std::to_string(entry.report->n_substeps);
+  const float n_width = text_size(look.fonts.medium, n.c_str()).x;
+  const ImVec2 at(r.x + kPad, r.y + 8.0F);
+  draw_over(look, draw, look.fonts.medium, {r.x + r.width - kPad - n_width, at.y}, t.text,
+            n.c_str());
+  draw.AddCircleFilled({at.x + 5.0F, at.y + 8.0F}, 5.0F, entry.color);
+  const float room = std::max(24.0F, r.width - 2.0F * kPad - 18.0F - n_width - 12.0F);
+  draw_over(look, draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
+            fitted(look.fonts.medium, entry.name, room).c_str());
+  const ImU32 ink = entry.verdict->holds() ? t.teal : t.orange;
+  draw_icon(draw, entry.verdict->holds() ? Icon::kCheck : Icon::kCross, {at.x + 6.0F, at.y + 26.0F},
+            12.0F, ink);
+  draw_over(look, draw, look.fonts.small, {at.x + 18.0F, at.y + 19.0F}, ink,
+            verdict_note(*entry.verdict).c_str());
+  draw.PopClipRect();
+}
+
+void pane_borders(const App& app) {
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const ImU32 line = fade(app.look.theme->faint, 0.5F);
+  for (std::size_t i = 0; i < app.panes.size(); ++i) {
+    const ViewRect& r = app.panes[i];
+    draw.AddLine({r.x, r.y}, {r.x + r.width, r.y}, line);
+    if (r.x > app.view_rect.x + 1.0F) draw.AddLine({r.x, r.y}, {r.x, r.y + r.height}, line);
+  }
+}
+
+}  // namespace
+
+std::string verdict_note(const Verdict& verdict) {
+  return verdict.holds() ? "holds" : "fails at " + fixed(verdict.failed_at(), 2) + " s";
+}
+
+std::vector<ViewRect> view_panes(const App& app) {
+  const ViewRect& v = app.view_rect;
+  if (!app.desk.split || !app.compare.open()) return {v};
+  const ViewRect all{v.x, v.y + kCaption, v.width, std::max(1.0F, v.height - kCaption)};
+  const std::size_t count = 1 + app.compare.runs().size();
+  const auto cell = [&](std::size_t columns) {
+    const std::size_t rows = count / columns;
+    return ViewRect{all.x, all.y, all.width / static_cast<float>(columns),
+                    all.height / static_cast<float>(rows)};
+  };
+  std::size_t columns = count;
+  for (std::size_t c = count - 1; c > 0; --c) {
+    if (count % c != 0) continue;
+    if (app.view.camera.magnification(cell(c)) > app.view.camera.magnification(cell(columns))) {
+      columns = c;
+    }
+  }
+  std::vector<ViewRect> panes;
+  for (std::size_t i = 0; i < count; ++i) {
+    ViewRect r = cell(columns);
+    r.x += static_cast<float>(i % columns) * r.width;
+    r.y += static_cast<float>(i / columns) * r.height;
+    panes.push_back(r);
+  }
+  return panes;
+}
+
+// The first fills the window, since the others are drawn over it; those at the view's edges go on
+// under the panels.
+Part part_of_window(const App& app, std::size_t pane) {
+  if (pane == 0) return {};
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const ViewRect& r = app.panes[pane];
+  const ViewRect& v = app.view_rect;
+  const bool first = r.x < v.x + 1.0F;
+  const bool last = r.x + r.width > v.x + v.width - 1.0F;
+  const bool lowest = r.y + r.height > v.y + v.height - 1.0F;
+  const float left = first ? 0.0F : r.x / display.x;
+  const float right = last ? 1.0F : (r.x + r.width) / display.x;
+  const float bottom = lowest ? 1.0F : (r.y + r.height) / display.y;
+  return {left, r.y / display.y, right - left, bottom - r.y / display.y};
+}
+
+void compare_legend(const App& app) {
+  if (!app.compare.open()) return;
+  if (app.panes.size() == 1) {
+    legend(app);
+    return;
+  }
+  pane_borders(app);
+  const std::vector<Entry> list = entries(app);
+  for (std::size_t i = 0; i < std::min(list.size(), app.panes.size()); ++i) {
+    pane_label(app, list[i], app.panes[i]);
+  }
+}
+
+}  // namespace substep::ui

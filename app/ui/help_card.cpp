@@ -1,0 +1,74 @@
+// The list under "?": every key, and what fingers and mouse do.
+
+#include <imgui.h>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "app/ui/card.hpp"
+#include "app/ui/keys.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+struct Gesture {
+  std::string_view shown;
+  std::string_view what;
+};
+// What Dear ImGui and the pointer do; the table of keys is keys.cpp's.
+constexpr std::array<Gesture, 13> kGestures{{{"Home, End", "first and last saved frame"},
+                                             {"F6, Shift F6", "next panel, the one before"},
+                                             {"Tab, arrows", "controls of a panel"},
+                                             {"Esc", "close a card"},
+                                             {"click a body", "what it is and does"},
+                                             {"drag a body", "pull it, while it plays"},
+                                             {"drag beside", "turn the view"},
+                                             {"right drag, Shift drag", "move the view"},
+                                             {"wheel, pinch", "closer, farther"},
+                                             {"wheel on a plot", "more or less time"},
+                                             {"drag, click on a plot", "that range, that moment"},
+                                             {"Ctrl click on a slider", "type the value"},
+                                             {"drop a file", "run your own scene"}}};
+
+// Lines of one column. @return its height
+float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const Gesture> lines) {
+  constexpr float kLine = 20.0F;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float top = at.y;
+  for (const Gesture& line : lines) {
+    draw_text(draw, look.fonts.medium, at, look.theme->text, std::string(line.shown).c_str());
+    draw_text(draw, look.fonts.regular, {at.x + key_width, at.y}, look.theme->dim,
+              std::string(line.what).c_str());
+    at.y += kLine;
+  }
+  return at.y - top;
+}
+
+}  // namespace
+
+void help_card(App& app) {
+  if (!app.desk.help) return;
+  std::array<Gesture, 32> keys{};
+  std::size_t count = 0;
+  for (const KeyAction& action : key_actions()) keys.at(count++) = {action.shown, action.what};
+  const Look& look = app.look;
+  const bool two = ImGui::GetIO().DisplaySize.x > 760.0F;  // columns
+  bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+  if (begin_card(app, "##help", two ? 720.0F : 400.0F, card_middle(app), 0.5F)) {
+    card_title(look, 0, Icon::kNone, "Keys and gestures");
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    float height = draw_lines(look, at, 72.0F, std::span(keys).first(count));
+    const ImVec2 second = two ? ImVec2(at.x + 336.0F, at.y) : ImVec2(at.x, at.y + height + 12.0F);
+    const float other = draw_lines(look, second, 172.0F, kGestures);
+    height = two ? std::max(height, other) : height + 12.0F + other;
+    ImGui::Dummy({1.0F, height});
+    close |= card_closed(look);
+  }
+  ImGui::End();
+  if (close) app.desk.help = false;
+}
+
+}  // namespace substep::ui

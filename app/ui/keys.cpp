@@ -1,0 +1,118 @@
+#include "app/ui/keys.hpp"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "app/app.hpp"
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr std::array<double, 7> kSpeeds{0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0};
+
+void change_speed(Session& session, int by) {
+  const auto now = std::lower_bound(kSpeeds.begin(), kSpeeds.end(), session.speed() - 1e-9);
+  const auto i = std::clamp<std::ptrdiff_t>((now - kSpeeds.begin()) + by, 0,
+                                            static_cast<std::ptrdiff_t>(kSpeeds.size()) - 1);
+  session.set_speed(kSpeeds[static_cast<std::size_t>(i)]);
+}
+
+void change_scale(App& app, double by) {
+  app.desk.scale = std::clamp(std::round(10.0 * (app.desk.scale + by)) / 10.0, 0.8, 1.5);
+  app.tell("Interface at " + fixed(100.0 * app.desk.scale, 0) + " %");
+}
+
+void choose_mode(App& app, int index) {
+  Settings s = app.session.settings();
+  s.mode = static_cast<Mode>(index);
+  app.change(s);
+}
+
+constexpr std::array<KeyAction, 19> kActions{
+    {{"Space", " ", "play, pause",
+      [](App& app, char) {
+        // The control that the keyboard is on takes the space bar.
+        if (!ImGui::GetIO().NavVisible) app.session.toggle();
+      }},
+     {",  .", ",.", "one frame back, one forward",
+      [](App& app, char typed) {
+        app.session.pause();
+        typed == '.' ? app.session.step() : app.session.step_back();
+      }},
+     {";", ";", "one sub-step", [](App& app, char) { app.session.substep(); }},
+     {"R", "rR", "back to the start", [](App& app, char) { app.reset(); }},
+     {"[  ]", "[]", "slower, faster",
+      [](App& app, char typed) { change_speed(app.session, typed == ']' ? 1 : -1); }},
+     {"1 … 8", "12345678", "the ways to keep it stable",
+      [](App& app, char typed) { choose_mode(app, typed - '1'); }},
+     {"B", "bB", "throw a ball at the pointer", [](App& app, char) { throw_ball(app); }},
+     {"F", "fF", "show everything", [](App& app, char) { app.view.frame_all(app.session); }},
+     {"V", "vV", "compared: ghosts or side by side",
+      [](App& app, char) { app.desk.split = !app.desk.split; }},
+     {"H", "hH", "panels on or off", [](App& app, char) { app.desk.panels = !app.desk.panels; }},
+     {"T", "tT", "light or dark", [](App& app, char) { app.desk.dark = !app.desk.dark; }},
+     {"+  −", "+=-", "larger or smaller interface",
+      [](App& app, char typed) { change_scale(app, typed == '-' ? -0.1 : 0.1); }},
+     {"G", "gG", "the guided tour, and its next step",
+      [](App& app, char) { go_on_with_tour(app); }},
+     {"L", "lL", "copy the link", [](App& app, char) { copy_link(app); }},
+     {"C", "cC", "copy the command", [](App& app, char) { copy_command(app); }},
+     {"O", "oO", "open a scene file",
+      [](App& app, char) {
+        if (app.host.open_file) app.host.open_file();
+      }},
+     {"S", "sS", "save the scene as it is now", [](App& app, char) { app.save_scene(); }},
+     {"P", "pP", "picture of the window", [](App& app, char) { capture_window(app); }},
+     {"?", "?", "this list", [](App& app, char) { app.desk.help = !app.desk.help; }}}};
+
+}  // namespace
+
+std::span<const KeyAction> key_actions() { return kActions; }
+
+void handle_keys(App& app) {
+  const ImGuiIO& io = ImGui::GetIO();
+  if (io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper) return;
+  const ImVector<ImWchar> typed = io.InputQueueCharacters;
+  for (const ImWchar c : typed) {
+    if (c >= 128) continue;
+    const char key = static_cast<char>(c);
+    for (const KeyAction& action : kActions) {
+      if (action.typed.find(key) != std::string_view::npos) action.act(app, key);
+    }
+  }
+  if (ImGui::IsKeyPressed(ImGuiKey_F6)) focus_next_panel(io.KeyShift);
+  if (ImGui::IsKeyPressed(ImGuiKey_Home)) app.session.go_to(0);
+  if (ImGui::IsKeyPressed(ImGuiKey_End)) app.session.go_to(app.session.timeline().size() - 1);
+}
+
+void focus_next_panel(bool back) {
+  ImGuiContext& g = *ImGui::GetCurrentContext();
+  std::vector<ImGuiWindow*> panels;
+  for (ImGuiWindow* w : g.Windows) {
+    const bool inner = (w->Flags & ImGuiWindowFlags_ChildWindow) != 0;
+    const bool without_keys = (w->Flags & ImGuiWindowFlags_NoNavInputs) != 0;
+    if (w->WasActive && !w->Hidden && !inner && !without_keys) panels.push_back(w);
+  }
+  if (panels.empty()) return;
+  // As they are read: from left to right, then down.
+  std::stable_sort(panels.begin(), panels.end(), [](const ImGuiWindow* a, const ImGuiWindow* b) {
+    return a->Pos.x != b->Pos.x ? a->Pos.x < b->Pos.x : a->Pos.y < b->Pos.y;
+  });
+  const ImGuiWindow* now = g.NavWindow != nullptr ? g.NavWindow->RootWindow : nullptr;
+  const auto at = std::find(panels.begin(), panels.end(), now);
+  const auto count = static_cast<std::ptrdiff_t>(panels.size());
+  std::ptrdiff_t next = back ? count - 1 : 0;
+  if (at != panels.end()) next = ((at - panels.begin()) + (back ? count - 1 : 1)) % count;
+  ImGuiWindow* panel = panels[static_cast<std::size_t>(next)];
+  ImGui::FocusWindow(panel);
+  ImGui::NavInitWindow(panel, true);
+  g.NavDisableHighlight = false;
+}
+
+}  // namespace substep::ui

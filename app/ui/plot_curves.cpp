@@ -1,0 +1,144 @@
+#include "app/ui/plot_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace substep::ui {
+namespace {
+
+// Least and greatest value of one pixel column, or one sample where there is room for each.
+struct Column {
+  float x = 0.0F;
+  float low = 0.0F;  // on the screen
+  float high = 0.0F;
+  float last = 0.0F;
+  bool many = false;  // more than one sample
+  bool gap = false;   // nothing to draw between the one before and this one
+};
+
+std::vector<Column> samples_of(const Series& series, const History::Slice& slice,
+                               const PlotFrame& f) {
+  const auto values = (*series.history)[series.channel];
+  std::vector<Column> columns;
+  columns.reserve(slice.last - slice.first);
+  bool gap = false;
+  for (std::size_t i = slice.first; i < slice.last; ++i) {
+    if (!drawable(values[i], f)) {
+      gap = true;
+      continue;
+    }
+    // A stepped series holds from the start of its frame.
+    const double time = series.history->time(i) - (series.steps ? series.history->frame() : 0.0);
+    const float y = f.y(static_cast<double>(values[i]));
+    columns.push_back({f.x(time), y, y, y, false, gap});
+    gap = false;
+  }
+  return columns;
+}
+
+std::vector<Column> decimated(const Series& series, const History::Slice& slice, const PlotFrame& f,
+                              float pixel) {
+  const History& history = *series.history;
+  const Samples& samples = history.samples(series.channel);
+  // The columns are fixed in time and move with it: edges that did not would flicker.
+  const auto count = static_cast<int>((f.max.x - f.min.x) / pixel);
+  const double width = (f.t1 - f.t0) / count;  // [s]
+  const double k0 = std::floor(f.t0 / width);
+  const auto sample = [&](double time) {  // the first one not before a time
+    const double i = std::ceil((time - history.time(0)) / history.frame() - 1e-6);
+    return static_cast<std::size_t>(
+        std::clamp(i, static_cast<double>(slice.first), static_cast<double>(slice.last)));
+  };
+  std::vector<Column> columns;
+  columns.reserve(static_cast<std::size_t>(count) + 2);
+  bool gap = false;
+  for (int c = 0; c <= count; ++c) {
+    const double time = (k0 + c) * width;
+    const std::size_t first = sample(time);
+    const std::size_t last = sample(time + width);
+    if (first >= last) continue;
+    const Extent extent = samples.extent(first, last);
+    const float low = f.logarithmic ? extent.least_positive : extent.low;
+    if (!drawable(low, f)) {
+      gap = true;
+      continue;
+    }
+    const float newest = samples.values()[last - 1];
+    columns.push_back({f.x(time), f.y(static_cast<double>(low)),
+                       f.y(static_cast<double>(extent.high)),
+                       f.y(static_cast<double>(drawable(newest, f) ? newest : low)), true, gap});
+    gap = false;
+  }
+  return columns;
+}
+
+std::vector<Column> columns_of(const Series& series, double from, const PlotFrame& f) {
+  const History::Slice slice = visible(*series.history, f, from);
+  const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
+  const double shown = (f.t1 - f.t0) / series.history->frame();
+  const bool many = shown > 3.0 * static_cast<double>((f.max.x - f.min.x) / pixel);
+  return many ? decimated(series, slice, f, pixel) : samples_of(series, slice, f);
+}
+
+// Down to zero, slice by slice. Soft edges between the slices would show as stripes.
+void fill_series(const Series& series, const std::vector<Column>& columns, float zero, float end,
+                 ImDrawList& draw) {
+  const ImDrawListFlags flags = draw.Flags;
+  draw.Flags &= ~ImDrawListFlags_AntiAliasedFill;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Column& c = columns[i];
+    const bool more = i + 1 < columns.size();
+    const float right = more ? columns[i + 1].x : series.steps ? end : c.x;
+    const float right_y = more && !series.steps ? columns[i + 1].last : c.last;
+    draw.AddQuadFilled({c.x, c.last}, {right, right_y}, {right, zero}, {c.x, zero},
+                       fade(series.color, 0.14F));
+  }
+  draw.Flags = flags;
+}
+
+}  // namespace
+
+History::Slice visible(const History& history, const PlotFrame& f, double from) {
+  History::Slice slice = history.between(f.t0, f.t1);
+  if (from > history.start_time()) {
+    slice.first = std::max(slice.first, history.between(from + history.frame(), f.t1).first);
+  }
+  slice.last = std::max(slice.first, slice.last);
+  return slice;
+}
+
+bool drawable(float value, const PlotFrame& f) {
+  return std::isfinite(value) && !(f.logarithmic && value <= 0.0F);
+}
+
+void draw_series(const Series& series, double from, const PlotFrame& f, ImDrawList& draw) {
+  const std::vector<Column> columns = columns_of(series, from, f);
+  if (columns.empty()) return;
+  const float end = f.x(series.history->end_time());  // a stepped series holds until here
+  if (series.filled && !f.logarithmic) {
+    fill_series(series, columns, std::clamp(f.y(0.0), f.min.y, f.max.y), end, draw);
+  }
+  std::vector<ImVec2> points;
+  points.reserve(3 * columns.size() + 1);
+  const auto flush = [&] {
+    draw.AddPolyline(points.data(), static_cast<int>(points.size()), series.color, 0, series.width);
+    points.clear();
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Column& c = columns[i];
+    if (c.gap) flush();
+    if (series.steps && !points.empty()) points.emplace_back(c.x, columns[i - 1].last);
+    if (c.many) {  // down and up, ending at the last
+      points.emplace_back(c.x, c.low);
+      points.emplace_back(c.x, c.high);
+    }
+    points.emplace_back(c.x, c.last);
+  }
+  if (series.steps) points.emplace_back(end, columns.back().last);
+  const ImVec2 newest = points.back();
+  flush();
+  if (!series.steps) draw.AddCircleFilled(newest, 2.5F, series.color);
+}
+
+}  // namespace substep::ui

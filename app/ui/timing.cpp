@@ -1,0 +1,119 @@
+// Where the time goes: the stages of a frame, as a bar with its names.
+
+#include "app/ui/timing.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kNameRow = 17.0F;
+
+// Names with their colours, in as many lines as they need. @param draw null only measures
+// @return lines
+int draw_names(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width,
+               ImDrawList* draw) {
+  float x = at.x;
+  int lines = 1;
+  for (const Stage& stage : list) {
+    const float wide = 12.0F + text_size(look.fonts.small, stage.name).x;
+    if (x > at.x && x + wide > at.x + width) {
+      x = at.x;
+      at.y += kNameRow;
+      ++lines;
+    }
+    if (draw != nullptr) {
+      draw->AddRectFilled({x, at.y + 4.0F}, {x + 8.0F, at.y + 12.0F}, stage.color, 2.0F);
+      draw_text(*draw, look.fonts.small, {x + 12.0F, at.y}, look.theme->dim, stage.name);
+    }
+    x += wide + 12.0F;
+  }
+  return lines;
+}
+
+// Two to a row: name at the left, time at the right of its half.
+void draw_list(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width,
+               bool known) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float half = 0.5F * (width + 24.0F);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const float left = at.x + half * static_cast<float>(i % 2);
+    const float y = at.y + 20.0F * static_cast<float>(i / 2);
+    draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
+    draw_text(draw, look.fonts.small, {left + 12.0F, y}, look.theme->dim, list[i].name);
+    const std::string value = known ? duration(list[i].seconds) : "";
+    const float w = text_size(look.fonts.small, value.c_str()).x;
+    draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, look.theme->text,
+              value.c_str());
+  }
+}
+
+}  // namespace
+
+std::vector<Stage> stages(const App& app) {
+  const Theme& t = *app.look.theme;
+  const StageTimes& times = app.session.times();
+  const Effects& effects = app.session.scene().effects;
+  std::vector<Stage> list{{"solve", times.solve, t.blue, Channel::kTimeSolve}};
+  if (effects.joints) list.push_back({"joints", times.joints, t.teal, Channel::kTimeJoints});
+  if (effects.contact) list.push_back({"contact", times.contact, t.amber, Channel::kTimeContact});
+  if (effects.friction)
+    list.push_back({"friction", times.friction, t.orange, Channel::kTimeFriction});
+  list.push_back({"stiffness", times.stiffness, t.purple, Channel::kTimeStiffness});
+  double known = 0.0;
+  for (const Stage& stage : list) known += stage.seconds;
+  list.push_back({"rest", std::max(0.0, times.total - known), t.grey, Channel::kTime});
+  return list;
+}
+
+float timing_height(const App& app, bool brief) {
+  const std::vector<Stage> list = stages(app);
+  if (brief) {
+    const int lines =
+        draw_names(app.look, list, {0.0F, 0.0F}, ImGui::GetContentRegionAvail().x, nullptr);
+    return kHeading + 18.0F + kNameRow * static_cast<float>(lines);
+  }
+  return kHeading + 20.0F + 20.0F * static_cast<float>((list.size() + 1) / 2);
+}
+
+void timing(App& app, bool brief) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const std::vector<Stage> list = stages(app);
+  const double total = app.session.times().total;
+  section(look, "Time per frame", total > 0.0 ? duration(total).c_str() : "");
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(origin, {origin.x + width, origin.y + 12.0F}, t.well, 3.0F);
+  float x = origin.x;
+  for (const Stage& stage : list) {
+    if (!(total > 0.0)) break;
+    const float w = static_cast<float>(stage.seconds / total) * width;
+    if (w >= 1.0F) {
+      draw.AddRectFilled({x, origin.y}, {x + w - 1.0F, origin.y + 12.0F}, stage.color, 2.0F);
+    }
+    x += w;
+  }
+  if (brief) {
+    draw_names(look, list, {origin.x, origin.y + 18.0F}, width, &draw);
+  } else {
+    draw_list(look, list, {origin.x, origin.y + 20.0F}, width, total > 0.0);
+  }
+  ImGui::Dummy({width, timing_height(app, brief) - kHeading});
+  std::string tip =
+      "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
+      "does not call for does not exist.";
+  for (const Stage& stage : list) {
+    if (!brief || !(total > 0.0)) break;
+    tip.append("\n").append(stage.name).append("  ").append(duration(stage.seconds));
+  }
+  tooltip(look, "Time per frame", tip.c_str());
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,101 @@
+// What went wrong: a run that did not hold, outside data that could not be read.
+
+#include <algorithm>
+#include <string>
+
+#include "app/format.hpp"
+#include "app/ui/card.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+
+void failure_card(App& app) {
+  const Verdict& verdict = app.session.verdict();
+  if (verdict.holds() || app.desk.dismissed_failure == app.run_count) return;
+  const Look& look = app.look;
+  const bool stopped = app.session.stopped();
+  const ViewRect& v = app.view_rect;
+  if (begin_card(app, "##failure", 380.0F, v.y + 76.0F, 0.0F)) {
+    card_title(look, look.theme->orange, Icon::kCross,
+               stopped ? "The run stopped at " + fixed(app.session.state().time, 2) + " s"
+                       : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
+    const FrameReport& report = app.session.report();
+    std::string what = verdict.text();
+    if (const std::size_t colon = what.find(": "); colon != std::string::npos)
+      what.erase(0, colon + 2);
+    if (stopped) {
+      what = "A velocity";
+      if (report.failed_body >= 0) {
+        what +=
+            " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
+      }
+      what += " is no longer a finite number. What you see is the last state that was.";
+    }
+    label(look.fonts.small, look.theme->dim, what.c_str());
+    const Mode mode = app.session.settings().mode;
+    const char* advice = mode == Mode::kAdaptive
+                             ? "A smaller alpha, or a higher limit on N, would help."
+                             : "More sub-steps would help: adaptive finds how many.";
+    if (v.height > 400.0F) label(look.fonts.small, look.theme->dim, advice);
+    ImGui::Dummy({1.0F, 0.0F});
+    if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPrimary, 0.0F, 28.0F,
+               "Back to the start (R)")) {
+      app.reset();
+    }
+    if (mode != Mode::kAdaptive) {
+      ImGui::SameLine();
+      if (button(look, "adaptive", Icon::kNone, "Reset, adaptive", ButtonKind::kPlain, 0.0F, 28.0F,
+                 "The same scene with adaptive sub-steps")) {
+        Settings s = app.session.settings();
+        s.mode = Mode::kAdaptive;
+        app.change(s);
+        app.reset();
+      }
+    }
+    if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
+               "Back to the last frame that held; it goes on from there")) {
+      app.session.go_to_last_good();
+    }
+    ImGui::SameLine();
+    if (button(look, "second", Icon::kNone, "1 s before", ButtonKind::kPlain, 0.0F, 28.0F,
+               "Back to one second before it failed; change something and go on from there")) {
+      app.session.go_to_last_good(1.0);
+    }
+    if (card_closed(look)) app.desk.dismissed_failure = app.run_count;
+  }
+  ImGui::End();
+}
+
+void trouble_card(App& app) {
+  if (app.trouble.title.empty()) return;
+  const Look& look = app.look;
+  const ViewRect& v = app.view_rect;
+  bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+  ImGui::SetNextWindowFocus();
+  if (begin_card(app, "##trouble", 520.0F, v.y + 0.5F * v.height, 0.5F)) {
+    card_title(look, look.theme->orange, Icon::kCross, app.trouble.title);
+    const std::size_t count = app.trouble.problems.size();
+    const std::string note =
+        (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
+        std::string("The scene that runs was kept.");
+    label(look.fonts.small, look.theme->dim, note.c_str());
+    ImGui::Dummy({1.0F, 0.0F});
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {1e4F, display.y - 260.0F});
+    if (ImGui::BeginChild("list", {0, 0}, ImGuiChildFlags_AutoResizeY)) {
+      for (const Problem& problem : app.trouble.problems) {
+        label(look.fonts.medium, look.theme->text,
+              problem.pointer.empty() ? "whole file" : problem.pointer.c_str());
+        ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6.0F);
+        label(look.fonts.small, look.theme->dim, problem.message.c_str());
+      }
+    }
+    ImGui::EndChild();
+    close |= card_closed(look);
+  }
+  ImGui::End();
+  if (close) app.trouble = {};
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,123 @@
+// The keyboard: every key of the list does what it says, and panels are reached without a mouse.
+
+#include <gtest/gtest.h>
+#include <imgui_internal.h>
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "app/ui/keys.hpp"
+#include "tests/app/ui/ui_fixture.hpp"
+
+namespace substep {
+namespace {
+
+// What a key may change, as text: a key that changes none of it does nothing.
+std::string look_of(App& app) {
+  const Desk& d = app.desk;
+  const Session& s = app.session;
+  std::string text = app.link() + "|" + std::to_string(s.state().frame) + "|" +
+                     std::to_string(s.substeps_left()) + "|" + std::to_string(s.speed()) + "|" +
+                     std::to_string(s.balls()) + "|" + std::to_string(s.playing()) + "|" +
+                     std::to_string(d.scale) + "|" + std::to_string(d.tour) + "|" +
+                     app.notice.text + "|" + std::to_string(app.run_count);
+  for (const bool flag : {d.dark, d.panels, d.help, d.split}) text += flag ? '1' : '0';
+  const Vec3 eye = app.view.camera.eye(app.view_rect);
+  for (int i = 0; i < 3; ++i) text += std::to_string(eye[i]) + ",";
+  return text;
+}
+
+TEST(Keys, EveryKeyOfTheListDoesSomethingAndNoneTwoThings) {
+  std::set<char> known;
+  for (const ui::KeyAction& action : ui::key_actions()) {
+    EXPECT_FALSE(action.shown.empty());
+    EXPECT_FALSE(action.what.empty());
+    for (const char key : action.typed) {
+      EXPECT_TRUE(known.insert(key).second) << key;
+      Headless h;
+      std::string host;
+      h.app->host.copy_link = [&] { host += "link"; };
+      h.app->host.open_file = [&] { host += "open"; };
+      h.app->host.save_file = [&](const std::string& name, const std::string&) { host += name; };
+      h.app->set("mode", "capped");
+      if (key == '5') h.app->set("mode", "none");
+      for (int i = 0; i < 3; ++i) h.app->session.step();
+      h.app->view.camera.orbit(0.4, 0.1);
+      h.app->view.camera.zoom(0.5);
+      h.app->view.camera.update(1.0, true);
+      h.frames(30);
+      const std::string before = look_of(*h.app) + host;
+      ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(key));
+      h.frames(12);
+      EXPECT_NE(look_of(*h.app) + host, before) << "'" << key << "' " << action.what;
+    }
+  }
+}
+
+TEST(Keys, TypedIntoAFieldTheyAreText) {
+  Headless h;
+  h.app->browser.show(".");
+  h.frames(3);
+  ImGuiWindow* card = ImGui::FindWindowByName("##open_file");
+  ASSERT_NE(card, nullptr);
+  h.click(card->Pos.x + 100.0F, card->Pos.y + 60.0F);
+  ASSERT_TRUE(ImGui::GetIO().WantTextInput);
+  const bool dark = h.app->desk.dark;
+  h.type("t");
+  EXPECT_EQ(h.app->desk.dark, dark);
+}
+
+TEST(Keys, TheListStaysOnTheDisplay) {
+  for (const ImVec2 display : {ImVec2(1280, 720), ImVec2(390, 844), ImVec2(844, 390)}) {
+    Headless h(display.x, display.y);
+    h.app->desk.help = true;
+    h.frames(4);
+    const ImGuiWindow* card = ImGui::FindWindowByName("##help");
+    ASSERT_NE(card, nullptr);
+    EXPECT_GE(card->Pos.x, 0.0F);
+    EXPECT_GE(card->Pos.y, 0.0F);
+    EXPECT_LE(card->Pos.x + card->Size.x, display.x);
+    EXPECT_LE(card->Pos.y + card->Size.y, display.y);
+  }
+}
+
+void press(Headless& h, ImGuiKey key, bool shift = false) {
+  ImGuiIO& io = ImGui::GetIO();
+  if (shift) io.AddKeyEvent(ImGuiMod_Shift, true);
+  io.AddKeyEvent(key, true);
+  h.frames(1);
+  io.AddKeyEvent(key, false);
+  if (shift) io.AddKeyEvent(ImGuiMod_Shift, false);
+  h.frames(2);
+}
+
+std::string focused() {
+  const ImGuiWindow* w = ImGui::GetCurrentContext()->NavWindow;
+  return w == nullptr ? "" : w->RootWindow->Name;
+}
+
+TEST(Keys, F6GoesFromPanelToPanelAndBack) {
+  for (const float width : {1280.0F, 390.0F}) {
+    Headless h(width, width > 900.0F ? 720.0F : 844.0F);
+    std::vector<std::string> way;
+    for (int i = 0; i < 12; ++i) {
+      press(h, ImGuiKey_F6);
+      way.push_back(focused());
+    }
+    const std::set<std::string> panels(way.begin(), way.end());
+    const std::set<std::string> expected =
+        width > 900.0F ? std::set<std::string>{"##controls",    "##plots",     "##transport",
+                                               "##tour_button", "##left_edge", "##right_edge"}
+                       : std::set<std::string>{"##phone", "##tour_button"};
+    EXPECT_EQ(panels, expected);
+    press(h, ImGuiKey_F6, true);
+    EXPECT_EQ(focused(), way[way.size() - 2]);
+    // From there the arrows and the space bar work its controls.
+    EXPECT_NE(ImGui::GetCurrentContext()->NavId, 0U);
+    EXPECT_FALSE(ImGui::GetCurrentContext()->NavDisableHighlight);
+  }
+}
+
+}  // namespace
+}  // namespace substep

@@ -1,0 +1,13 @@
+// ODE: its direct solver where that is the best it has, its Gauss-Seidel one beside it. The program
+// is ode_peer.cpp.
+
+export const title = "ODE";
+
+const direct = (erp, ...counts) => counts.map((substeps) => ({ substeps, solver: "direct", erp }));
+const quick = (substeps, iterations) => ({ substeps, solver: "quick", iterations });
+
+export const ladder = {
+  swinging_box: [...direct(0.2, 6, 7, 8, 16), quick(8, 200)],
+  bridge: [...direct(0.2, 8, 12, 16, 24), ...direct(0.8, 8), quick(16, 100)],
+  stack: [...direct(0.2, 1, 2, 4, 8, 16), ...direct(0.8, 1, 4, 16), quick(8, 200)],
+};

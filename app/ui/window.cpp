@@ -31,16 +31,25 @@ bool begin_panel(const char* id, const Rect& r, ImGuiWindowFlags flags = 0) {
   return ImGui::Begin(id, nullptr, kFixed | flags);
 }
 
-// A finger scrolls a panel by dragging it where there is no control.
+// A finger scrolls a panel by dragging it. Where it began on a control, up or down is meant for the
+// panel, and the control is let go.
 void scroll_by_drag() {
   const ImGuiIO& io = ImGui::GetIO();
   const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (!ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows |
+                              ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) ||
+      !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) {
+    return;
+  }
   // A window's ground is active when it was pressed, as if the window were to be moved.
   const bool on_ground = g.ActiveId == 0 || g.ActiveId == g.ActiveIdWindow->MoveId;
-  if (on_ground && ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows) &&
-      ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) {
-    ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
+  if (!on_ground) {
+    const ImVec2 way = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 4.0F);
+    const bool for_panel = std::abs(way.y) > 10.0F && std::abs(way.y) > 2.0F * std::abs(way.x);
+    if (io.MouseSource != ImGuiMouseSource_TouchScreen || !for_panel) return;
+    ImGui::ClearActiveID();
   }
+  ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
 }
 
 // Tabs as wide as the panel. @param first what the first of the choices stands for

@@ -107,7 +107,6 @@ struct FrameReport {
   bool capped = false;                                         // n_wanted was more than allowed
   double dt_min = 0.0;                                         // shortest sub-step [s]
   double dt_max = 0.0;                                         // longest sub-step [s]
-  double advanced = 0.0;                                       // sum of the sub-steps taken [s]
   double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10, at the
                                                                // end of the frame [s]
   StiffnessLeader leader;                                      // who set r

@@ -51,7 +51,10 @@ RowCounts Simulator::Impl::rows_by_kind() const {
 
 bool Simulator::Impl::probe_due() const {
   const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
-  return settings.probe && reads_stiffness && !state.stiffness_known;
+  // Mode stiffness reads more of K than other modes leave behind.
+  const bool known =
+      state.stiffness_known && (settings.mode != Mode::kStiffness || !state.K_resisting.empty());
+  return settings.probe && reads_stiffness && !known;
 }
 
 // One solve of a whole frame with the errors zeroed: its forces, not its motion, are kept.
@@ -110,8 +113,6 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
     }
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
-  } else {
-    state.time += report.advanced;  // the poses are of the last finite sub-step
   }
   report.stages.joints = joints != nullptr;
   report.stages.contact = contact != nullptr;

@@ -57,7 +57,7 @@ bool changes_mass(Mode mode) {
 
 namespace {
 
-/// Mt about the principal axes of body i. @return whether it is another than I
+/// Mt about the principal axes of a body [kg m^2]. @return whether it is another than I
 bool principal_mass(const Settings& s, const Vec3& I, const Vec6& k, double dt, Vec3& Mt) {
   const bool damps = s.mode == Mode::kDamping || s.mode == Mode::kCapped;
   for (int j = 0; j < 3; ++j) {

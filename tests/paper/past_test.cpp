@@ -103,6 +103,21 @@ TEST(WorkToAnError, IsSixtyAndAThousandTimesLessThanThePapers) {
   EXPECT_GE(times_less(hundredth, 1e-5), 1000.0);
 }
 
+// What other modes leave behind is not the K that this one reads: it is looked for first.
+TEST(FullStiffnessMode, TakesOverInMidSwing) {
+  Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
+  for (int i = 0; i < 60; ++i) simulator.step();
+  Settings settings;
+  settings.mode = Mode::kStiffness;
+  simulator.set_settings(settings);
+  EXPECT_TRUE(simulator.step().stages.probe);
+  for (int i = 0; i < 120; ++i) {
+    const FrameReport report = simulator.step();
+    EXPECT_FALSE(report.stages.probe);
+    ASSERT_LT(report.joint_gap, 0.01) << i;
+  }
+}
+
 struct Crossings {
   int held = 0;
   double mean_n = 0.0;

@@ -178,6 +178,7 @@ struct App {
   double frame_time = 1.0 / 60.0;  // smoothed [s]
   double own_time = 0.0;           // that the last frame took to simulate [s]
   QualityGovernor quality;
+  LayerKeeper keeper;
   ViewRect view_rect;
   /// Where runs are seen: this one in the first or only pane, those compared in the others.
   std::vector<ViewRect> panes{1};

@@ -139,12 +139,18 @@ void frame(App& app, double wall_dt) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewOptions shown = app.desk.view;
   if (app.compare.open()) shown.tint = false;  // colours say who is who then
+  const Eigen::Matrix4f before = app.pictures.front().view_projection;
   draw_pictures(app, shown, io.DisplaySize);
+  const bool moves = app.session.playing() || app.pictures.front().view_projection != before;
   ui::draw_over_picture(app);
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
-  app.renderer->draw(app.pictures, *ImGui::GetDrawData(), width, height, app.quality.quality());
+  const Quality quality = app.quality.quality();
+  std::vector<Layer> layers = layers_of(*ImGui::GetDrawData());
+  // A picture that rests leaves the time to draw all panels.
+  app.keeper.plan(layers, quality == Quality::kCoarse && moves && !app.capture);
+  app.renderer->draw(app.pictures, layers, width, height, quality);
   if (app.capture) take_capture(app, width, height);
 
   remember_arrangement(app);

@@ -166,11 +166,9 @@ void RoundedBox::draw(int instances) const {
   glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_SHORT, nullptr, instances);
 }
 
-ShadowMap::ShadowMap(int size) : size_(size) {
+ShadowMap::ShadowMap() {
   glGenTextures(1, &texture_);
-  bind_texture();
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT,
-               GL_UNSIGNED_INT, nullptr);
+  fit(1);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -183,8 +181,22 @@ ShadowMap::ShadowMap(int size) : size_(size) {
   constexpr GLenum kNone = GL_NONE;
   glDrawBuffers(1, &kNone);
   glReadBuffer(GL_NONE);
-  complete_ = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void ShadowMap::fit(int size) {
+  if (size == size_) return;
+  size_ = size;
+  bind_texture();
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT24, size, size, 0, GL_DEPTH_COMPONENT,
+               GL_UNSIGNED_INT, nullptr);
+}
+
+bool ShadowMap::complete() const {
+  bind_target();
+  const bool complete = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  return complete;
 }
 
 ShadowMap::~ShadowMap() {
@@ -241,17 +253,54 @@ void Canvas::resolve() const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Canvas::show(int width, int height) const {
+void Canvas::show(int width, int height, std::span<const PixelRect> parts) const {
   // Chromium clears what was shown before the first call that draws, and does not count a copy as
   // one: without this the panels would clear the picture.
   glClear(GL_COLOR_BUFFER_BIT);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffers_[samples_ > 1 ? 1 : 0]);
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
   const bool same = width == width_ && height == height_;
-  glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                    same ? GL_NEAREST : GL_LINEAR);
+  glEnable(GL_SCISSOR_TEST);
+  for (const PixelRect& part : parts) {
+    glScissor(part.x, height - part.y - part.height, part.width, part.height);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                      same ? GL_NEAREST : GL_LINEAR);
+  }
+  glDisable(GL_SCISSOR_TEST);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width, height);
+}
+
+void Copy::take(int x, int y, int width, int height) {
+  if (width != width_ || height != height_) {
+    release();
+    width_ = width;
+    height_ = height;
+    glGenFramebuffers(1, &frame_buffer_);
+    glGenRenderbuffers(1, &colors_);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
+    glBindRenderbuffer(GL_RENDERBUFFER, colors_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colors_);
+  }
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_buffer_);
+  glBlitFramebuffer(x, y, x + width, y + height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Copy::put(int x, int y) const {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffer_);
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+  glBlitFramebuffer(0, 0, width_, height_, x, y, x + width_, y + height_, GL_COLOR_BUFFER_BIT,
+                    GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Copy::release() {
+  glDeleteFramebuffers(1, &frame_buffer_);
+  glDeleteRenderbuffers(1, &colors_);
 }
 
 }  // namespace substep::gl

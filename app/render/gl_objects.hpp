@@ -6,8 +6,11 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
+
+#include "app/render/layers.hpp"
 
 namespace substep::gl {
 
@@ -76,13 +79,15 @@ class RoundedBox {
 /// A depth texture to draw the light's view into.
 class ShadowMap {
  public:
-  explicit ShadowMap(int size);
+  ShadowMap();
   ~ShadowMap();
   ShadowMap(const ShadowMap&) = delete;
   ShadowMap& operator=(const ShadowMap&) = delete;
 
+  /// Makes it anew where it differs. @param size of its edges [pixel]
+  void fit(int size);
   [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] bool complete() const { return complete_; }
+  [[nodiscard]] bool complete() const;
   void bind_target() const { glBindFramebuffer(GL_FRAMEBUFFER, frame_buffer_); }
   void bind_texture() const;
 
@@ -90,7 +95,6 @@ class ShadowMap {
   int size_ = 0;
   GLuint texture_ = 0;
   GLuint frame_buffer_ = 0;
-  bool complete_ = false;
 };
 
 /// Where the picture is drawn before the panels come over it; it stays there for the next frame.
@@ -107,7 +111,8 @@ class Canvas {
   /// Puts the samples together, once all is drawn.
   void resolve() const;
   /// Copies it to the window's frame buffer, enlarged to its size [pixel].
-  void show(int width, int height) const;
+  /// @param parts of the window where it is seen
+  void show(int width, int height, std::span<const PixelRect> parts) const;
 
  private:
   void release();
@@ -117,6 +122,28 @@ class Canvas {
   int samples_ = 0;
   std::array<GLuint, 2> frame_buffers_{};  // drawn to; of single samples, where there are more
   std::array<GLuint, 3> buffers_{};        // their colours, and the depth
+};
+
+/// A part of the window's pixels, to be shown again.
+class Copy {
+ public:
+  Copy() = default;
+  ~Copy() { release(); }
+  Copy(const Copy&) = delete;
+  Copy& operator=(const Copy&) = delete;
+
+  /// From the window's frame buffer. @param x, y of the lower left corner [pixel]
+  void take(int x, int y, int width, int height);
+  /// Back to it, at its own size.
+  void put(int x, int y) const;
+
+ private:
+  void release();
+
+  int width_ = 0;
+  int height_ = 0;
+  GLuint frame_buffer_ = 0;
+  GLuint colors_ = 0;
 };
 
 }  // namespace substep::gl

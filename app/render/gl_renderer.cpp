@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/shaders.hpp"
@@ -17,8 +18,15 @@ using Eigen::Matrix4f;
 using Eigen::Vector3f;
 
 constexpr int kShadowSize = 1536;
+constexpr int kCoarseShadowSize = 640;
 constexpr int kSamples = 4;                 // per pixel of a fine picture
 constexpr double kCoarseScale = 2.0 / 3.0;  // of a coarse picture's width and height [-]
+
+// What bodies are made of.
+struct Meshes {
+  gl::RoundedBox box;
+  gl::RoundedBox ball;
+};
 
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
@@ -32,28 +40,32 @@ class GlRenderer final : public Renderer {
 
   bool build(std::string& error);
   void begin_frame() override { ImGui_ImplOpenGL3_NewFrame(); }
-  void draw(std::span<const Picture> pictures, const ImDrawData& panels, int width, int height,
+  void draw(std::span<const Picture> pictures, std::span<const Layer> layers, int width, int height,
             Quality moving) override;
   std::vector<std::uint8_t> pixels(int x, int y, int width, int height) override;
   void fonts_changed() override { ImGui_ImplOpenGL3_DestroyFontsTexture(); }
 
  private:
   // World to the light's clip space: a box around the focus, seen from far along the light.
-  static Matrix4f light_matrix(const Picture& picture);
+  [[nodiscard]] Matrix4f light_matrix(const Picture& picture) const;
   void draw_pictures(std::span<const Picture> pictures, Quality quality, int width, int height);
   void draw_picture(const Picture& picture, int width, int height);
+  void leave_out_covered(double scale, int height) const;
+  void draw_background(const Picture& picture);
   void draw_shadows(const Picture& picture, const Matrix4f& light);
   void draw_bodies(const Picture& picture, const Matrix4f& light);
   void draw_ghosts(const Picture& picture);
   void draw_ground(const Picture& picture, const Matrix4f& light);
   void draw_ribbons(const Picture& picture);
+  void draw_layers(std::span<const Layer> layers);
 
   gl::StreamBuffer box_instances_;
   gl::StreamBuffer ball_instances_;
   gl::StreamBuffer ribbon_vertices_;
-  gl::RoundedBox box_{3, box_instances_};
-  gl::RoundedBox ball_{8, ball_instances_};
-  gl::ShadowMap shadow_map_{kShadowSize};
+  Meshes fine_{{3, box_instances_}, {8, ball_instances_}};
+  Meshes coarse_{{1, box_instances_}, {4, ball_instances_}};
+  const Meshes* meshes_ = &fine_;
+  gl::ShadowMap shadow_map_;
   gl::Program background_;
   gl::Program body_;
   gl::Program shadow_;
@@ -64,6 +76,8 @@ class GlRenderer final : public Renderer {
   gl::Canvas canvas_;
   float shadow_taps_ = 4.0F;
   std::vector<Picture> drawn_;        // what is on the canvas
+  std::vector<PixelRect> covered_;    // and what is not, since it lies under panels
+  std::map<ImGuiID, gl::Copy> kept_;  // panels as they were drawn last
   Quality quality_ = Quality::kFine;  // of it
   int unchanged_ = 0;                 // frames since it changed
   int width_ = 0;                     // of the frame buffer [pixel]
@@ -100,13 +114,13 @@ bool GlRenderer::build(std::string& error) {
   return ok;
 }
 
-Matrix4f GlRenderer::light_matrix(const Picture& picture) {
+Matrix4f GlRenderer::light_matrix(const Picture& picture) const {
   const Vector3f back = vector(picture.to_light).normalized();
   const Vector3f x = Vector3f::UnitZ().cross(back).normalized();
   const Vector3f y = back.cross(x);
   const float radius = std::max(picture.focus_radius, 0.1F);
   // The middle moves by whole texels, or edges of shadows would crawl.
-  const float texel = 2.0F * radius / static_cast<float>(kShadowSize);
+  const float texel = 2.0F * radius / static_cast<float>(shadow_map_.size());
   const Vector3f focus = vector(picture.focus);
   const auto snap = [texel](float v) { return std::floor(v / texel) * texel; };
   Matrix4f m = Matrix4f::Identity();
@@ -128,8 +142,8 @@ void GlRenderer::draw_shadows(const Picture& picture, const Matrix4f& light) {
   shadow_.use();
   shadow_.set_matrix("view_projection", light.data());
   shadow_.set_matrix("world_to_shadow", light.data());
-  box_.draw(static_cast<int>(picture.boxes.size()));
-  ball_.draw(static_cast<int>(picture.balls.size()));
+  meshes_->box.draw(static_cast<int>(picture.boxes.size()));
+  meshes_->ball.draw(static_cast<int>(picture.balls.size()));
   glDisable(GL_POLYGON_OFFSET_FILL);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
@@ -156,8 +170,8 @@ void GlRenderer::draw_bodies(const Picture& picture, const Matrix4f& light) {
   body_.set("ambient", picture.ambient);
   body_.set3("sky", sky.data());
   body_.set3("floor_light", below.data());
-  box_.draw(static_cast<int>(picture.boxes.size()));
-  ball_.draw(static_cast<int>(picture.balls.size()));
+  meshes_->box.draw(static_cast<int>(picture.boxes.size()));
+  meshes_->ball.draw(static_cast<int>(picture.balls.size()));
 }
 
 // After draw_bodies, with its light. A little behind where they are, so that a ghost in the same
@@ -171,8 +185,8 @@ void GlRenderer::draw_ghosts(const Picture& picture) {
   glPolygonOffset(1.0F, 8.0F);
   glDepthMask(GL_TRUE);  // only the nearest face of a ghost is seen
   body_.use();
-  box_.draw(static_cast<int>(picture.ghost_boxes.size()));
-  ball_.draw(static_cast<int>(picture.ghost_balls.size()));
+  meshes_->box.draw(static_cast<int>(picture.ghost_boxes.size()));
+  meshes_->ball.draw(static_cast<int>(picture.ghost_balls.size()));
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
 }
@@ -235,8 +249,34 @@ void GlRenderer::draw_pictures(std::span<const Picture> pictures, Quality qualit
   const int h = static_cast<int>(std::ceil(scale * height));
   canvas_.fit(w, h, quality == Quality::kFine ? kSamples : 1);
   shadow_taps_ = quality == Quality::kFine ? 4.0F : 1.0F;
+  shadow_map_.fit(quality == Quality::kCoarse ? kCoarseShadowSize : kShadowSize);
+  meshes_ = quality == Quality::kCoarse ? &coarse_ : &fine_;
   for (const Picture& picture : pictures) draw_picture(picture, w, h);
   canvas_.resolve();
+}
+
+// What lies under panels is marked as nearer than anything. @param scale, height of the canvas
+void GlRenderer::leave_out_covered(double scale, int height) const {
+  constexpr float kNearest = 0.0F;
+  for (const PixelRect& r : covered_) {
+    const int x = static_cast<int>(std::ceil(scale * r.x));
+    const int y = static_cast<int>(std::ceil(scale * r.y));
+    const int right = static_cast<int>(std::floor(scale * (r.x + r.width)));
+    const int bottom = static_cast<int>(std::floor(scale * (r.y + r.height)));
+    glScissor(x, height - bottom, right - x, bottom - y);
+    glClearBufferfv(GL_DEPTH, 0, &kNearest);
+  }
+}
+
+// Behind everything.
+void GlRenderer::draw_background(const Picture& picture) {
+  glDepthFunc(GL_LEQUAL);
+  background_.use();
+  background_.set3("top", &picture.background_top.r);
+  background_.set3("bottom", &picture.background_bottom.r);
+  glBindVertexArray(empty_array_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthFunc(GL_LESS);
 }
 
 // @param width, height of the canvas [pixel]
@@ -256,15 +296,10 @@ void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   canvas_.bind();
   limit_to(picture.part, width, height);
   glClear(GL_DEPTH_BUFFER_BIT);
-  glDisable(GL_DEPTH_TEST);
-  background_.use();
-  background_.set3("top", &picture.background_top.r);
-  background_.set3("bottom", &picture.background_bottom.r);
-  glBindVertexArray(empty_array_);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-
-  glEnable(GL_DEPTH_TEST);
+  leave_out_covered(static_cast<double>(width) / width_, height);
+  limit_to(picture.part, width, height);
   draw_bodies(picture, light);
+  draw_background(picture);
 
   glDisable(GL_CULL_FACE);
   glEnable(GL_BLEND);
@@ -279,24 +314,61 @@ void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   glDisable(GL_SCISSOR_TEST);
 }
 
-void GlRenderer::draw(std::span<const Picture> pictures, const ImDrawData& panels, int width,
+void GlRenderer::draw_layers(std::span<const Layer> layers) {
+  std::erase_if(kept_, [&](const auto& kept) {
+    return std::none_of(layers.begin(), layers.end(), [&](const Layer& layer) {
+      return layer.id == kept.first && layer.showing != Showing::kDraw;
+    });
+  });
+  ImDrawData batch;
+  const auto flush = [&batch] {
+    if (batch.CmdListsCount > 0) ImGui_ImplOpenGL3_RenderDrawData(&batch);
+    batch.CmdLists.clear();
+    batch.CmdListsCount = 0;
+  };
+  for (const Layer& layer : layers) {
+    const PixelRect& r = layer.area;
+    const int bottom = height_ - r.y - r.height;
+    const auto kept = kept_.find(layer.id);
+    if (layer.showing == Showing::kKept && kept != kept_.end()) {
+      flush();
+      kept->second.put(r.x, bottom);
+      continue;
+    }
+    if (batch.CmdListsCount == 0)
+      batch = layer.lists;
+    else
+      for (ImDrawList* list : layer.lists.CmdLists) batch.CmdLists.push_back(list);
+    batch.CmdListsCount = batch.CmdLists.Size;
+    if (layer.showing == Showing::kDraw) continue;
+    flush();
+    kept_[layer.id].take(r.x, bottom, r.width, r.height);
+  }
+  flush();
+}
+
+void GlRenderer::draw(std::span<const Picture> pictures, std::span<const Layer> layers, int width,
                       int height, Quality moving) {
   const bool same = width == width_ && height == height_ &&
                     std::equal(pictures.begin(), pictures.end(), drawn_.begin(), drawn_.end());
   unchanged_ = same ? unchanged_ + 1 : 0;
   // Between two events of a mouse that turns the view there is a frame without a change.
   const Quality quality = unchanged_ < 2 ? moving : Quality::kFine;
-  if (!same || quality > quality_) {
-    draw_pictures(pictures, quality, width, height);
-    drawn_.assign(pictures.begin(), pictures.end());
+  std::vector<PixelRect> covered;
+  for (const Layer& layer : layers) {
+    if (layer.covers.width > 0 && layer.covers.height > 0) covered.push_back(layer.covers);
+  }
+  if (!same || quality > quality_ || covered != covered_) {
+    covered_ = std::move(covered);
     quality_ = quality;
     width_ = width;
     height_ = height;
+    draw_pictures(pictures, quality, width, height);
+    drawn_.assign(pictures.begin(), pictures.end());
   }
   glDisable(GL_SCISSOR_TEST);
-  canvas_.show(width, height);
-  // Dear ImGui only reads the lists that it is given.
-  ImGui_ImplOpenGL3_RenderDrawData(const_cast<ImDrawData*>(&panels));
+  canvas_.show(width, height, uncovered({0, 0, width, height}, covered_));
+  draw_layers(layers);
 }
 
 std::vector<std::uint8_t> GlRenderer::pixels(int x, int y, int width, int height) {

@@ -8,8 +8,9 @@ namespace substep {
 class NullRenderer final : public Renderer {
  public:
   void begin_frame() override { ++begun; }
-  void draw(std::span<const Picture> p, const ImDrawData&, int, int, Quality) override {
+  void draw(std::span<const Picture> p, std::span<const Layer> l, int, int, Quality) override {
     ++drawn;
+    layers.assign(l.begin(), l.end());
     pictures.assign(p.begin(), p.end());
     picture = pictures.front();
   }
@@ -24,6 +25,7 @@ class NullRenderer final : public Renderer {
   int fonts = 0;
   Picture picture;  // the first
   std::vector<Picture> pictures;
+  std::vector<Layer> layers;
 };
 
 }  // namespace substep

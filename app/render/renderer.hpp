@@ -4,9 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "app/render/layers.hpp"
 #include "app/render/picture.hpp"
-
-struct ImDrawData;
 
 namespace substep {
 
@@ -26,7 +25,7 @@ class Renderer {
   virtual void begin_frame() = 0;
   /// @param width, height of the frame buffer [pixel]
   /// @param moving how finely while a picture changes; what rests is drawn at its best
-  virtual void draw(std::span<const Picture> pictures, const ImDrawData& panels, int width,
+  virtual void draw(std::span<const Picture> pictures, std::span<const Layer> layers, int width,
                     int height, Quality moving) = 0;
   /// What was drawn last, as RGB rows from the top; asked for right after draw().
   /// @param x, y from the top left corner [pixel]

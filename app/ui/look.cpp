@@ -21,9 +21,9 @@ Color color(unsigned hex, float alpha = 1.0F) {
 Theme make_dark() {
   Theme t;
   t.dark = true;
-  t.panel = rgb(0x181c24, 240);
+  t.panel = rgb(0x181c24);
   t.panel_border = rgb(0x2b313d);
-  t.raised = rgb(0x222835, 250);
+  t.raised = rgb(0x222835);
   t.well = rgb(0x0f1218);
   t.control = rgb(0x2c3341);
   t.control_hover = rgb(0x394253);
@@ -58,9 +58,9 @@ Theme make_dark() {
 Theme make_light() {
   Theme t;
   t.dark = false;
-  t.panel = rgb(0xffffff, 242);
+  t.panel = rgb(0xffffff);
   t.panel_border = rgb(0xd5dbe4);
-  t.raised = rgb(0xffffff, 252);
+  t.raised = rgb(0xffffff);
   t.well = rgb(0xf1f3f7);
   t.control = rgb(0xe6eaf0);
   t.control_hover = rgb(0xd9dfe8);

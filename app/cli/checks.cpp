@@ -14,8 +14,7 @@ namespace {
 void run(Check& check) {
   const auto start = std::chrono::steady_clock::now();
   const Scene& scene = *check.scene;
-  const Reference none;
-  ExperimentRun run(scene, experiment_of(scene, check.cell.settings, check.seed), none);
+  ExperimentRun run(scene, experiment_of(scene, check.cell.settings, check.seed), no_reference());
   while (run.advance()) {
   }
   check.judgement = judge(scene, check.cell.expected, run);

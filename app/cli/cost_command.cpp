@@ -86,7 +86,7 @@ int cost(const Options& options) {
   if (!scene || !json.open(options.json)) return kBadInput;
   Experiment experiment = experiment_of(*scene, options.settings.applied_to(scene->settings));
   experiment.duration = static_cast<double>(options.length.count(*scene)) * scene->frame;
-  const CostBreakdown costs = cost_of_effects(scene, experiment);
+  const CostBreakdown costs = cost_of_effects(*scene, experiment);
   if (json.is_open()) {
     Json all = experiment_json(experiment);
     all.update(costs_json(costs));

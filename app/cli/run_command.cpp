@@ -95,8 +95,7 @@ int run(const Options& options) {
   Simulator simulator(scene);
   simulator.set_settings(options.settings.applied_to(scene->settings));
   const FrameReport start = simulator.observe();
-  const Reference no_reference;
-  Measure measure(*scene, simulator.state(), start, no_reference);
+  Measure measure(*scene, simulator.state(), start, no_reference());
   const Verdict& verdict = measure.verdict();
   RunReport report(*scene, start);
   ProgressLine progress(!options.quiet && stderr_is_terminal());

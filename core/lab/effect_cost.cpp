@@ -1,7 +1,9 @@
 #include "core/lab/effect_cost.hpp"
 
 #include <algorithm>
-#include <functional>
+#include <cstddef>
+#include <numeric>
+#include <utility>
 
 #include "core/sim/simulator.hpp"
 
@@ -24,72 +26,104 @@ std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) 
   return std::make_shared<const Scene>(std::move(less));
 }
 
+/// What one frame cost.
+struct FrameCost {
+  double ms = 0.0;  // [ms]
+  double flops = 0.0;
+  double row_updates = 0.0;
+};
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Mean without an eighth at either end, which interrupts and cold caches made. A median would be 0
+/// in a browser, whose clock has steps longer than many frames.
+double trimmed_mean(std::vector<double> values) {
+  const auto cut = static_cast<std::ptrdiff_t>(values.size() / 8);
+  std::sort(values.begin(), values.end());
+  return mean_of({values.begin() + cut, values.end() - cut});
+}
+
+}  // namespace
+
 /// Single frames of a scene from given states.
-class Again {
+class EffectCostRun::Again {
  public:
-  explicit Again(std::shared_ptr<const Scene> scene) : simulator_(std::move(scene)) {}
+  Again(std::shared_ptr<const Scene> scene, std::string_view without)
+      : simulator_(std::move(scene)), without_(without) {}
 
   void step(const State& state, const Settings& settings) {
     simulator_.set_settings(settings);
     simulator_.set_state(state);
     const FrameReport report = simulator_.step();
-    ms_.push_back(1e3 * report.times.total);
-    flops_ += static_cast<double>(report.work.flops);
-    row_updates_ += static_cast<double>(report.work.row_updates);
+    frames_.push_back({1e3 * report.times.total, static_cast<double>(report.work.flops),
+                       static_cast<double>(report.work.row_updates)});
   }
 
-  /// What this costs more than the other, whose frames are the same.
-  [[nodiscard]] EffectCost over(const Again& other, std::string_view effect) const {
-    EffectCost cost{effect};
-    if (ms_.empty()) return cost;
-    std::vector<double> more(ms_.size());
-    std::transform(ms_.begin(), ms_.end(), other.ms_.begin(), more.begin(), std::minus<>());
-    const auto middle = more.begin() + static_cast<std::ptrdiff_t>(more.size() / 2);
-    std::nth_element(more.begin(), middle, more.end());
-    const auto frames = static_cast<double>(ms_.size());
-    cost.ms = *middle;
-    cost.flops = (flops_ - other.flops_) / frames;
-    cost.row_updates = (row_updates_ - other.row_updates_) / frames;
+  /// What the scene as it is costs more than this, over the frames that both have taken.
+  [[nodiscard]] EffectCost spared(const Again& whole) const {
+    EffectCost cost{without_};
+    if (frames_.empty()) return cost;
+    const auto more = [&](double FrameCost::*part) {
+      std::vector<double> list;
+      for (std::size_t i = 0; i < frames_.size(); ++i) {
+        list.push_back(whole.frames_[i].*part - frames_[i].*part);
+      }
+      return list;
+    };
+    cost.ms = trimmed_mean(more(&FrameCost::ms));
+    cost.flops = mean_of(more(&FrameCost::flops));
+    cost.row_updates = mean_of(more(&FrameCost::row_updates));
     return cost;
   }
 
  private:
   Simulator simulator_;
-  std::vector<double> ms_;  // by frame [ms]
-  double flops_ = 0.0;
-  double row_updates_ = 0.0;
+  std::string_view without_;  // the effect that is off, "" where none is
+  std::vector<FrameCost> frames_;
 };
 
-}  // namespace
-
-CostBreakdown cost_of_effects(const std::shared_ptr<const Scene>& scene,
-                              const Experiment& experiment) {
-  const Reference none;
-  ExperimentRun run(*scene, experiment, none);
-  const Scene& start = run.simulator().scene();
-  Again whole(std::make_shared<const Scene>(start));
-  std::vector<std::string_view> names;
-  std::vector<Again> less;
+EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment)
+    : run_(scene, std::move(experiment), no_reference()) {
+  const Scene& start = run_.simulator().scene();
+  again_.emplace_back(std::make_shared<const Scene>(start), "");
   for (const auto& [name, effect] : kEffects) {
-    if (!(start.effects.*effect)) continue;
-    names.push_back(name);
-    less.emplace_back(without(start, effect));
+    if (start.effects.*effect) again_.emplace_back(without(start, effect), name);
   }
-  Settings same = experiment.settings;
-  same.mode = Mode::kConst;
-  for (bool more = true; more;) {
-    const State before = run.simulator().state();
-    more = run.advance();
-    if (run.simulator().state().frame == before.frame) break;  // it could not be stepped
-    same.n = std::max(1, run.report().n_substeps);
-    whole.step(before, same);
-    for (Again& one : less) one.step(before, same);
+  next_ = again_.size();
+  same_ = run_.experiment().settings;
+  same_.mode = Mode::kConst;
+}
+
+EffectCostRun::~EffectCostRun() = default;
+
+bool EffectCostRun::advance() {
+  if (next_ < again_.size()) {
+    again_[next_++].step(before_, same_);
+  } else if (more_) {
+    before_ = run_.simulator().state();
+    more_ = run_.advance();
+    if (run_.simulator().state().frame == before_.frame) return false;  // it could not be stepped
+    same_.n = std::max(1, run_.report().n_substeps);
+    next_ = 0;
   }
-  CostBreakdown costs{run.result().metrics, {}};
-  for (std::size_t i = 0; i < less.size(); ++i) {
-    costs.effects.push_back(whole.over(less[i], names[i]));
+  return more_ || next_ < again_.size();
+}
+
+CostBreakdown EffectCostRun::costs() const {
+  CostBreakdown costs{run_.result().metrics, {}};
+  for (std::size_t i = 1; i < again_.size(); ++i) {
+    costs.effects.push_back(again_[i].spared(again_.front()));
   }
   return costs;
+}
+
+CostBreakdown cost_of_effects(const Scene& scene, const Experiment& experiment) {
+  EffectCostRun run(scene, experiment);
+  while (run.advance()) {
+  }
+  return run.costs();
 }
 
 }  // namespace substep

@@ -12,7 +12,7 @@ namespace substep {
 /// Negative where the effect spares more than it takes.
 struct EffectCost {
   std::string_view effect;   // as scene files name it
-  double ms = 0.0;           // wall time, median of the frames [ms]
+  double ms = 0.0;           // wall time, mean of the frames but the extreme ones [ms]
   double flops = 0.0;        // of the solver, mean of the frames
   double row_updates = 0.0;  // of PGS, mean of the frames
 };
@@ -25,9 +25,35 @@ struct CostBreakdown {
 /// Runs an experiment and steps each of its frames again, from the same state and with the same
 /// number of sub-steps, once as it is and once without each effect: the motion is the same, so the
 /// difference is the effect's own cost, in the direct solver too, where rows of all kinds are
-/// eliminated together. Without contact there is no friction and no restitution.
-/// @param scene as it stands, without the experiment's load and seed
-CostBreakdown cost_of_effects(const std::shared_ptr<const Scene>& scene,
-                              const Experiment& experiment);
+/// eliminated together. Without contact there is no friction and no restitution. It goes in steps
+/// of a single frame, for a page that must stay alive.
+class EffectCostRun {
+ public:
+  /// @param scene as it stands, without the experiment's load and seed
+  EffectCostRun(const Scene& scene, Experiment experiment);
+  ~EffectCostRun();
+  EffectCostRun(const EffectCostRun&) = delete;
+  EffectCostRun& operator=(const EffectCostRun&) = delete;
+
+  /// Steps one frame of the run, or one again. @return false when all is done
+  bool advance();
+  [[nodiscard]] double progress() const { return run_.progress(); }  ///< 0 to 1
+  /// Of the frames so far.
+  [[nodiscard]] CostBreakdown costs() const;
+  [[nodiscard]] const Experiment& experiment() const { return run_.experiment(); }
+
+ private:
+  class Again;
+
+  ExperimentRun run_;
+  std::vector<Again> again_;  // the scene as it is, then without each of its effects
+  std::size_t next_ = 0;      // of `again_`, from `before_`
+  State before_;              // the frame that is stepped again
+  Settings same_;             // as many sub-steps as the run took in it
+  bool more_ = true;          // frames of the run
+};
+
+/// All of it in one go.
+CostBreakdown cost_of_effects(const Scene& scene, const Experiment& experiment);
 
 }  // namespace substep

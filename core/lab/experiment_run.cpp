@@ -4,21 +4,12 @@
 
 namespace substep {
 
-namespace {
-
-const Reference& none() {
-  static const Reference reference;
-  return reference;
-}
-
-}  // namespace
-
 ExperimentRun::ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference)
     : experiment_(std::move(experiment)),
       scene_(std::make_shared<const Scene>(start_of(scene, experiment_.load, experiment_.seed))),
       simulator_(scene_),
       report_(simulator_.observe()),
-      reference_(experiment_.load == 1.0 ? reference : none()),
+      reference_(experiment_.load == 1.0 ? reference : no_reference()),
       measure_(*scene_, simulator_.state(), report_, reference_),
       frames_(frames_of(*scene_, experiment_.duration)) {
   simulator_.set_settings(experiment_.settings);

@@ -210,6 +210,11 @@ const Reference& ReferenceRun::reference() const {
   return reference_;
 }
 
+const Reference& no_reference() {
+  static const Reference none;
+  return none;
+}
+
 Reference find_reference(const std::shared_ptr<const Scene>& scene, double duration) {
   ReferenceRun run(scene, duration);
   while (run.advance()) {

@@ -24,6 +24,9 @@ struct Reference : ReferenceSummary {
   std::vector<Vec3> track;
 };
 
+/// Of runs whose errors nobody asks for.
+const Reference& no_reference();
+
 /// How long the motion of a scene can be foretold: contact makes it chaotic. [s]
 double predictable_window(const Scene& scene, double duration);
 

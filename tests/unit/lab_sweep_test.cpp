@@ -313,7 +313,7 @@ TEST(EffectCost, WhatAnEffectAddsIsWhatItsAbsenceSpares) {
   Experiment experiment = experiment_of(scene, scene.settings);
   experiment.settings.solver = SolverKind::kPgs;
   experiment.duration = 0.5;
-  const CostBreakdown costs = cost_of_effects(shared(scene), experiment);
+  const CostBreakdown costs = cost_of_effects(scene, experiment);
   ASSERT_EQ(costs.effects.size(), 4U);  // gravity, joints, contact, friction
   std::map<std::string_view, EffectCost> by_name;
   for (const EffectCost& cost : costs.effects) by_name[cost.effect] = cost;
@@ -323,8 +323,8 @@ TEST(EffectCost, WhatAnEffectAddsIsWhatItsAbsenceSpares) {
   EXPECT_GT(by_name["joints"].flops, by_name["contact"].flops);
 
   experiment.settings.solver = SolverKind::kBpp;
-  const CostBreakdown direct = cost_of_effects(shared(scene), experiment);
-  const CostBreakdown again = cost_of_effects(shared(scene), experiment);
+  const CostBreakdown direct = cost_of_effects(scene, experiment);
+  const CostBreakdown again = cost_of_effects(scene, experiment);
   for (std::size_t i = 0; i < direct.effects.size(); ++i) {
     EXPECT_EQ(direct.effects[i].flops, again.effects[i].flops) << direct.effects[i].effect;
   }
@@ -335,7 +335,7 @@ TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
   Experiment experiment = experiment_of(scene, scene.settings);
   experiment.settings.solver = SolverKind::kPgs;
   experiment.duration = 0.1;
-  const CostBreakdown costs = cost_of_effects(shared(scene), experiment);
+  const CostBreakdown costs = cost_of_effects(scene, experiment);
   const Work& work = costs.run.work;
   const auto frames = static_cast<double>(work.frames);
   ASSERT_EQ(costs.effects.size(), 2U);

@@ -60,8 +60,7 @@ Judgement judged(const Expectation& expectation, double limit) {
   Scene scene = scenes::pendulum();
   scene.criteria.duration = 1.0;
   scene.criteria.displacement = Criteria::Displacement{0, limit};
-  const Reference none;
-  ExperimentRun run(scene, experiment_of(scene, scene.settings), none);
+  ExperimentRun run(scene, experiment_of(scene, scene.settings), no_reference());
   while (run.advance()) {
   }
   return judge(scene, expectation, run);

@@ -6,6 +6,18 @@ namespace substep::cli {
 
 void SettingsFlags::add_to(CLI::App& command) {
   constexpr const char* kGroup = "Settings (left out: as the scene has them)";
+  command
+      .add_option_function<std::string>(
+          "--preset",
+          [this](const std::string& name) {
+            preset_ = find_preset(name);
+            if (preset_ == nullptr) {
+              throw CLI::ValidationError("--preset", name + " is not " + preset_names());
+            }
+          },
+          "All settings at once, before the others")
+      ->type_name(preset_names())
+      ->group(kGroup);
   for (const SettingField& field : setting_fields()) {
     std::string name(field.name);
     std::replace(name.begin(), name.end(), '_', '-');
@@ -38,6 +50,7 @@ void SettingsFlags::take(const SettingField& field, const std::string& text) {
 }
 
 Settings SettingsFlags::applied_to(Settings settings) const {
+  if (preset_ != nullptr) settings = preset_->settings;
   for (const auto& [field, text] : given_) set_setting(*field, text, settings);
   return settings;
 }

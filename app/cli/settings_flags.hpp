@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/io/setting_fields.hpp"
+#include "core/lab/presets.hpp"
 
 namespace substep::cli {
 
@@ -15,12 +16,13 @@ class SettingsFlags {
   /// Adds the flags. This object must outlive the parse.
   void add_to(CLI::App& command);
 
-  /// The settings with the flags that were given.
+  /// The settings with the preset and the flags that were given.
   [[nodiscard]] Settings applied_to(Settings settings) const;
 
  private:
   void take(const SettingField& field, const std::string& text);
 
+  const Preset* preset_ = nullptr;
   std::vector<std::pair<const SettingField*, std::string>> given_;
 };
 

@@ -1,20 +1,37 @@
 #include "core/lab/presets.hpp"
 
+#include <algorithm>
 #include <array>
 
 namespace substep {
 namespace {
 
 constexpr std::array kPresets{
-    Preset{"paper", "Adaptive sub-steps as in the paper: alpha 0.1, decided once a frame.", {}},
+    Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once a frame.", {}},
     Preset{"recommended",
-           "At most four sub-steps a frame and adaptive damping for what they do not reach: holds "
-           "most of the hard set at the least work, and slows motions a little.",
+           "Up to four sub-steps, then damping: holds 45 of the 49 hard scenes at 14 % of the "
+           "operations "
+           "of 32 constant ones, and slows motions a little.",
            {.mode = Mode::kCapped, .n_cap = 4}},
 };
 
 }  // namespace
 
 std::span<const Preset> presets() { return kPresets; }
+
+const Preset* find_preset(std::string_view name) {
+  const auto* const found = std::find_if(kPresets.begin(), kPresets.end(),
+                                         [&](const Preset& preset) { return preset.name == name; });
+  return found == kPresets.end() ? nullptr : found;
+}
+
+std::string preset_names() {
+  std::string names;
+  for (const Preset& preset : kPresets) {
+    if (!names.empty()) names += " or ";
+    names += preset.name;
+  }
+  return names;
+}
 
 }  // namespace substep

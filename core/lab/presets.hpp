@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "core/model/settings.hpp"
@@ -16,5 +17,11 @@ struct Preset {
 
 /// The paper's settings, and those that hold most of the hard set at the least work.
 std::span<const Preset> presets();
+
+/// By its name, or null.
+const Preset* find_preset(std::string_view name);
+
+/// "paper or recommended"
+std::string preset_names();
 
 }  // namespace substep

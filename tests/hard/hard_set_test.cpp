@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 
 #include "core/io/scene_reader.hpp"
@@ -17,10 +16,7 @@ namespace substep::test {
 namespace {
 
 const Settings& recommended() {
-  const auto all = presets();
-  return std::find_if(all.begin(), all.end(),
-                      [](const Preset& preset) { return preset.name == "recommended"; })
-      ->settings;
+  return find_preset("recommended")->settings;
 }
 
 TEST(HardSet, EveryCaseIsASceneThatTheLoaderTakes) {

@@ -55,12 +55,18 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
   elapsed_ = 0.0;
   last_ = -1.0;
   if (!scene_->criteria.track) error = ErrorAxis::kEnergy;
-  if (!has_map()) picture = AccuracyPicture::kErrorAgainstCost;
+  if (picture == AccuracyPicture::kStabilityMap && !has_map()) {
+    picture = AccuracyPicture::kErrorAgainstCost;
+  }
 }
 
 void Accuracy::cancel() { cancelled_ = true; }
 
 void Accuracy::advance(double seconds) {
+  if (effects.running()) {
+    effects.advance(seconds);
+    return;
+  }
   if (!running()) return;
   const double now = wall_clock();
   if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // a tab that slept was not at work

@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "app/effect_costs.hpp"
 #include "core/lab/pareto.hpp"
 #include "core/lab/sweep.hpp"
 
 namespace substep {
 
-/// What the panel shows of a sweep.
-enum class AccuracyPicture : unsigned char { kErrorAgainstCost, kStabilityMap };
+/// What the panel shows.
+enum class AccuracyPicture : unsigned char { kErrorAgainstCost, kStabilityMap, kEffectCosts };
 /// What errors are drawn against.
 enum class CostAxis : unsigned char { kSubsteps, kOperations, kTime, kCount };
 /// What is drawn of the errors.
@@ -33,7 +34,7 @@ class Accuracy {
   void start(std::shared_ptr<const Scene> scene);
   /// Stops within the frame. The results so far stay.
   void cancel();
-  /// Goes on for about so long, if a sweep runs. @param seconds of this frame's time
+  /// Goes on for about so long with what runs. @param seconds of this frame's time
   void advance(double seconds);
 
   [[nodiscard]] bool running() const {
@@ -58,6 +59,9 @@ class Accuracy {
   [[nodiscard]] std::vector<Point> failed() const;
   /// Whether two runs or more have such an error.
   [[nodiscard]] bool has(ErrorAxis axis) const;
+
+  /// What the parts of a frame cost; measured before a sweep goes on.
+  EffectCosts effects;
 
   AccuracyPicture picture = AccuracyPicture::kErrorAgainstCost;
   CostAxis cost = CostAxis::kSubsteps;

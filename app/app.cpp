@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/command.hpp"
+#include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 
 namespace substep {
@@ -113,9 +114,29 @@ void App::run_result(const Result& result) {
   session.play();
 }
 
+void App::measure_costs() {
+  Experiment experiment = experiment_of(*plain_scene, session.settings(), seed);
+  experiment.load = load;
+  accuracy.effects.start(plain_scene, std::move(experiment));
+}
+
+const CostBreakdown* App::costs() const {
+  const EffectCosts& measured = accuracy.effects;
+  if (measured.experiment() == nullptr || measured.scene() != plain_scene) return nullptr;
+  const Experiment& of = *measured.experiment();
+  Settings now = session.settings();
+  now.watch_stiffness = of.settings.watch_stiffness;
+  const bool same = of.settings == now && of.load == load && of.seed == seed;
+  return same ? measured.breakdown() : nullptr;
+}
+
 void App::change(const Settings& settings) {
   Settings s = settings;
   s.watch_stiffness = desk.view.tint;
+  // All others act from the next sub-step on.
+  if (s.probe != session.settings().probe && session.state().frame > 0) {
+    tell("The probe acts at a start: reset to see what it does");
+  }
   session.set_settings(s);
 }
 

@@ -142,6 +142,10 @@ struct App {
   void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.
   void run_result(const Result& result);
+  /// Measures what the parts of this run's frames cost, from its start.
+  void measure_costs();
+  /// What was measured of this run with its present settings, or null.
+  [[nodiscard]] const CostBreakdown* costs() const;
   /// New settings for the run, live.
   void change(const Settings& settings);
 

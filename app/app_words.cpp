@@ -10,6 +10,7 @@
 #include "core/io/number_text.hpp"
 #include "core/io/scene_limits.hpp"
 #include "core/io/setting_fields.hpp"
+#include "core/lab/presets.hpp"
 
 namespace substep {
 namespace {
@@ -114,12 +115,17 @@ std::string App::set(std::string_view key, std::string_view value) {
       accuracy.start(plain_scene);
     } else if (value == "cancel") {
       accuracy.cancel();
+      accuracy.effects.cancel();
     } else if (value == "map") {
       accuracy.picture = AccuracyPicture::kStabilityMap;
     } else if (value == "error") {
       accuracy.picture = AccuracyPicture::kErrorAgainstCost;
+    } else if (value == "stages") {
+      accuracy.picture = AccuracyPicture::kEffectCosts;
+    } else if (value == "measure") {
+      measure_costs();
     } else {
-      return "'" + std::string(value) + "' is not run, cancel, map or error";
+      return "'" + std::string(value) + "' is not run, cancel, measure, error, map or stages";
     }
     return "";
   }
@@ -130,6 +136,12 @@ std::string App::set(std::string_view key, std::string_view value) {
     reset();
     compare.start(session, runs);
     return problem;
+  }
+  if (key == "preset") {
+    const Preset* preset = find_preset(value);
+    if (preset == nullptr) return "'" + std::string(value) + "' is not " + preset_names();
+    change(preset->settings);
+    return "";
   }
   const SettingField* field = find_setting(key);
   if (field == nullptr) return "is not a setting";

@@ -37,20 +37,7 @@ void sweep_bar(App& app) {
     }
     return;
   }
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float bar = width - 76.0F;
-  const float y = at.y + 0.5F * look.m.row;
-  draw.AddRectFilled({at.x, y - 3.0F}, {at.x + bar, y + 3.0F}, look.theme->track, 3.0F);
-  draw.AddRectFilled(
-      {at.x, y - 3.0F},
-      {at.x + std::max(6.0F, bar * static_cast<float>(accuracy.progress())), y + 3.0F},
-      look.theme->accent, 3.0F);
-  ImGui::SetCursorScreenPos({at.x + bar + 12.0F, at.y});
-  if (button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, 64.0F, look.m.row,
-             "The results so far stay")) {
-    accuracy.cancel();
-  }
+  if (progress(look, accuracy.progress(), "The results so far stay")) accuracy.cancel();
 }
 
 std::string state_text(const Accuracy& accuracy) {
@@ -92,13 +79,20 @@ bool shows_map(const Accuracy& accuracy) {
   return accuracy.picture == AccuracyPicture::kStabilityMap;
 }
 
+/// Which picture; the map only of scenes that have one.
 void picture_row(App& app) {
-  constexpr std::array<Choice, 2> kPictures{
-      {{"Error", "Error against cost, a curve for every method"},
-       {"Where it holds", "How long runs survive as the mass of the heaviest body varies"}}};
-  int current = static_cast<int>(app.accuracy.picture);
-  if (segmented_row(app.look, "Show", kPictures, current, "Which picture of the runs")) {
-    app.accuracy.picture = static_cast<AccuracyPicture>(current);
+  std::vector<Choice> names{{"Error", "Error against cost, a curve for every method"}};
+  std::vector<AccuracyPicture> pictures{AccuracyPicture::kErrorAgainstCost};
+  if (app.accuracy.has_map()) {
+    names.push_back({"Map", "How long runs survive as the mass of the heaviest body varies"});
+    pictures.push_back(AccuracyPicture::kStabilityMap);
+  }
+  names.push_back({"Stages", "Where the time of a frame goes: stages, effects, the criterion"});
+  pictures.push_back(AccuracyPicture::kEffectCosts);
+  const auto now = std::find(pictures.begin(), pictures.end(), app.accuracy.picture);
+  auto current = static_cast<int>(now - pictures.begin());
+  if (segmented_row(app.look, "Show", names, current, "Which picture of what accuracy costs")) {
+    app.accuracy.picture = pictures[static_cast<std::size_t>(current)];
   }
 }
 
@@ -159,6 +153,11 @@ void accuracy(App& app) {
   const Look& look = app.look;
   Accuracy& accuracy = app.accuracy;
   section(look, "What does accuracy cost?");
+  picture_row(app);
+  if (accuracy.picture == AccuracyPicture::kEffectCosts) {
+    effect_costs(app);
+    return;
+  }
   const bool other = accuracy.scene() && accuracy.scene() != app.plain_scene;
   if (accuracy.planned() == 0 || other) {
     label(look.fonts.small, look.theme->dim,
@@ -171,7 +170,6 @@ void accuracy(App& app) {
   if (accuracy.planned() == 0) return;
   label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
   space(8.0F);
-  if (accuracy.has_map()) picture_row(app);
   if (!shows_map(accuracy)) axes_row(app);
   const float width = ImGui::GetContentRegionAvail().x;
   if (!app.desk.accuracy_large) picture(app, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
@@ -203,7 +201,7 @@ void accuracy(App& app) {
 
 void accuracy_card(App& app) {
   if (!app.desk.accuracy_large || app.desk.tab != Tab::kAccuracy || !app.desk.panels ||
-      app.accuracy.planned() == 0) {
+      app.accuracy.planned() == 0 || app.accuracy.picture == AccuracyPicture::kEffectCosts) {
     return;
   }
   constexpr float kAround = 16.0F;

@@ -41,6 +41,22 @@ bool button(const Look& look, const char* id, Icon icon, const char* text, Butto
   return pressed;
 }
 
+bool progress(const Look& look, double share, const char* tip) {
+  constexpr float kCancel = 64.0F;
+  constexpr float kGap = 12.0F;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float bar = ImGui::GetContentRegionAvail().x - kCancel - kGap;
+  const float y = at.y + 0.5F * look.m.row;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled({at.x, y - 3.0F}, {at.x + bar, y + 3.0F}, look.theme->track, 3.0F);
+  draw.AddRectFilled({at.x, y - 3.0F},
+                     {at.x + std::max(6.0F, bar * static_cast<float>(share)), y + 3.0F},
+                     look.theme->accent, 3.0F);
+  ImGui::SetCursorScreenPos({at.x + bar + kGap, at.y});
+  return button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, kCancel, look.m.row,
+                tip);
+}
+
 namespace {
 
 // What opens below its button, or above where there is more room, never over it.

@@ -4,10 +4,11 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/io/effect_names.hpp"
+#include "core/lab/presets.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
 
@@ -105,9 +106,31 @@ void scene_picker(App& app) {
   if (chosen) app.run(chosen);
 }
 
+// All settings at once, to begin with.
+void preset_row(const Look& look, Settings& s) {
+  std::vector<Choice> choices;
+  int current = -1;  // settings of a person's own
+  for (const Preset& preset : presets()) {
+    Settings same = preset.settings;
+    same.watch_stiffness = s.watch_stiffness;
+    if (same == s) current = static_cast<int>(choices.size());
+    choices.push_back({preset.name.data(), preset.about.data()});
+  }
+  if (segmented_row(look, "Preset", choices, current, "All settings of the method at once.")) {
+    const bool watched = s.watch_stiffness;
+    s = presets()[static_cast<std::size_t>(current)].settings;
+    s.watch_stiffness = watched;
+  }
+  if (current >= 0) {
+    label(look.fonts.small, look.theme->dim,
+          presets()[static_cast<std::size_t>(current)].about.data());
+  }
+}
+
 void stabilisation(const Look& look, Settings& s) {
-  const Mode mode = s.mode;
   section(look, "Stabilisation");
+  preset_row(look, s);
+  const Mode mode = s.mode;
   int index = static_cast<int>(mode);
   constexpr int kFirst = static_cast<int>(kModes.size());
   const float width = ImGui::GetContentRegionAvail().x;
@@ -198,27 +221,6 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   if (effects.gyroscopic) {
     choose(look, "Gyroscopic", kGyroscopics, s.gyroscopic, "How the torque I ω × ω is integrated.");
   }
-}
-
-// The effects of the scene, to be switched off while it runs. An effect that is off has no stage.
-void effect_switches(App& app) {
-  static constexpr std::array<const char*, kEffectNames.size()> kTips{
-      "Weight: m g on every moving body.",
-      "The torque I ω × ω of bodies with unequal moments.",
-      "All joints. Off: everything falls apart.",
-      "Contacts. Off: bodies pass through each other.",
-      "Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.",
-      "Contacts that bounce (Newton's law)."};
-  const Look& look = app.look;
-  Effects effects = app.session.scene().effects;
-  label(look.fonts.small, look.theme->dim, "Effects, until a reset");
-  bool first = true;
-  for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
-    if (!(app.session.loaded().effects.*kEffectNames[i].member)) continue;
-    toggle(look, kEffectNames[i].name.data(), effects.*kEffectNames[i].member, 0, first, kTips[i]);
-    first = false;
-  }
-  if (effects != app.session.scene().effects) app.session.set_effects(effects);
 }
 
 // Only what the scene has can be shown; the dots are the colours that it is drawn in.

@@ -36,6 +36,10 @@ void why_summary(App& app);
 void why(App& app);
 /// What runs beside this run.
 void compare(App& app);
+/// The effects of the scene, to be switched off while it runs, with what each costs.
+void effect_switches(App& app);
+/// Where the time of a frame goes: stages, effects, the criterion.
+void effect_costs(App& app);
 /// What accuracy costs: all methods over this scene.
 void accuracy(App& app);
 /// Its picture over the view, where that was asked for.

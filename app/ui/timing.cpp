@@ -13,6 +13,7 @@ namespace substep::ui {
 namespace {
 
 constexpr float kNameRow = 17.0F;
+constexpr float kListRow = 20.0F;
 
 // Names with their colours, in as many lines as they need. @param draw null only measures
 // @return lines
@@ -36,29 +37,9 @@ int draw_names(const Look& look, const std::vector<Stage>& list, ImVec2 at, floa
   return lines;
 }
 
-// Two to a row: name at the left, time at the right of its half.
-void draw_list(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width,
-               bool known) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float half = 0.5F * (width + 24.0F);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const float left = at.x + half * static_cast<float>(i % 2);
-    const float y = at.y + 20.0F * static_cast<float>(i / 2);
-    draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
-    draw_text(draw, look.fonts.small, {left + 12.0F, y}, look.theme->dim, list[i].name);
-    const std::string value = known ? duration(list[i].seconds) : "";
-    const float w = text_size(look.fonts.small, value.c_str()).x;
-    draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, look.theme->text,
-              value.c_str());
-  }
-}
-
 }  // namespace
 
-std::vector<Stage> stages(const App& app) {
-  const Theme& t = *app.look.theme;
-  const StageTimes& times = app.session.times();
-  const Effects& effects = app.session.scene().effects;
+std::vector<Stage> stages(const Theme& t, const Effects& effects, const StageTimes& times) {
   std::vector<Stage> list{{"solve", times.solve, t.blue, Channel::kTimeSolve}};
   if (effects.joints) list.push_back({"joints", times.joints, t.teal, Channel::kTimeJoints});
   if (effects.contact) list.push_back({"contact", times.contact, t.amber, Channel::kTimeContact});
@@ -71,6 +52,45 @@ std::vector<Stage> stages(const App& app) {
   return list;
 }
 
+std::vector<Stage> stages(const App& app) {
+  return stages(*app.look.theme, app.session.scene().effects, app.session.times());
+}
+
+void stage_bar(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(at, {at.x + width, at.y + kStageBar}, look.theme->well, 3.0F);
+  double total = 0.0;
+  for (const Stage& stage : list) total += stage.seconds;
+  if (!(total > 0.0)) return;
+  float x = at.x;
+  for (const Stage& stage : list) {
+    const float w = static_cast<float>(stage.seconds / total) * width;
+    if (w >= 1.0F) {
+      draw.AddRectFilled({x, at.y}, {x + w - 1.0F, at.y + kStageBar}, stage.color, 2.0F);
+    }
+    x += w;
+  }
+}
+
+void stage_list(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float half = 0.5F * (width + 24.0F);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const float left = at.x + half * static_cast<float>(i % 2);
+    const float y = at.y + kListRow * static_cast<float>(i / 2);
+    draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
+    draw_text(draw, look.fonts.small, {left + 12.0F, y}, look.theme->dim, list[i].name);
+    const std::string value = duration(list[i].seconds);
+    const float w = text_size(look.fonts.small, value.c_str()).x;
+    draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, look.theme->text,
+              value.c_str());
+  }
+}
+
+float stage_list_height(const std::vector<Stage>& list) {
+  return kListRow * static_cast<float>((list.size() + 1) / 2);
+}
+
 float timing_height(const App& app, bool brief) {
   const std::vector<Stage> list = stages(app);
   if (brief) {
@@ -78,32 +98,21 @@ float timing_height(const App& app, bool brief) {
         draw_names(app.look, list, {0.0F, 0.0F}, ImGui::GetContentRegionAvail().x, nullptr);
     return kHeading + 18.0F + kNameRow * static_cast<float>(lines);
   }
-  return kHeading + 20.0F + 20.0F * static_cast<float>((list.size() + 1) / 2);
+  return kHeading + 20.0F + stage_list_height(list);
 }
 
 void timing(App& app, bool brief) {
   const Look& look = app.look;
-  const Theme& t = *look.theme;
   const std::vector<Stage> list = stages(app);
   const double total = app.session.times().total;
   section(look, "Time per frame", total > 0.0 ? duration(total).c_str() : "");
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddRectFilled(origin, {origin.x + width, origin.y + 12.0F}, t.well, 3.0F);
-  float x = origin.x;
-  for (const Stage& stage : list) {
-    if (!(total > 0.0)) break;
-    const float w = static_cast<float>(stage.seconds / total) * width;
-    if (w >= 1.0F) {
-      draw.AddRectFilled({x, origin.y}, {x + w - 1.0F, origin.y + 12.0F}, stage.color, 2.0F);
-    }
-    x += w;
-  }
+  stage_bar(look, list, origin, width);
   if (brief) {
-    draw_names(look, list, {origin.x, origin.y + 18.0F}, width, &draw);
-  } else {
-    draw_list(look, list, {origin.x, origin.y + 20.0F}, width, total > 0.0);
+    draw_names(look, list, {origin.x, origin.y + 18.0F}, width, ImGui::GetWindowDrawList());
+  } else if (total > 0.0) {
+    stage_list(look, list, {origin.x, origin.y + 20.0F}, width);
   }
   ImGui::Dummy({width, timing_height(app, brief) - kHeading});
   std::string tip =

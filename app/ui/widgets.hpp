@@ -92,6 +92,10 @@ enum class ButtonKind : unsigned char { kPlain, kPrimary, kGhost };
 bool button(const Look& look, const char* id, Icon icon, const char* text, ButtonKind kind,
             float width, float height, const char* tip);
 
+/// How far something is, with a button to cancel it. @param tip of the button @return whether it
+/// was pressed
+bool progress(const Look& look, double share, const char* tip);
+
 /// A button that opens a menu, the current choice on it.
 bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
                  const char* tip, const std::function<void()>& menu);

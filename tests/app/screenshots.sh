@@ -44,6 +44,10 @@ picture split_four --scene heavy_stack --frames 40 --set views=split --set panel
   --set "compare=mode:none;mode:damping;solver:pgs"
 picture tour --set tour=2 --frames 60
 picture accuracy --scene pendulum --set accuracy=run --set panel=accuracy --frames 240
+picture stages --scene bridge --set panel=accuracy --set accuracy=stages --set accuracy=measure \
+  --frames 300
+picture effects --scene bridge --set panel=controls --set more=on --set accuracy=measure \
+  --frames 300
 picture selection "${box[@]}" --set select=box --set forces=on
 picture shown --scene bridge --frames 60 --set select=plank_5 --set forces=on --set contacts=on \
   --set frames=on --set errors=on --set axes=on

@@ -4,13 +4,16 @@
 #include <gtest/gtest.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "app/app.hpp"
 #include "app/render/null_renderer.hpp"
 #include "app/ui/context.hpp"
+#include "app/ui/handles.hpp"
 
 namespace substep {
 
@@ -22,6 +25,14 @@ inline std::shared_ptr<const Scene> shipped(const std::string& name) {
   auto scene = shipped().find(name);
   EXPECT_NE(scene, nullptr) << name;
   return scene;
+}
+
+/// The control of the last frame with this written on it, or null.
+inline const ui::Handle* find_handle(std::string_view label) {
+  const auto& all = ui::handles();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.label == label; });
+  return found == all.end() ? nullptr : &*found;
 }
 
 class Headless {
@@ -54,6 +65,13 @@ class Headless {
     frames(1);
     io.AddMouseButtonEvent(0, false);
     frames(2);
+  }
+  /// A click on the control with this written on it.
+  void press(std::string_view label) {
+    const ui::Handle* handle = find_handle(label);
+    ASSERT_NE(handle, nullptr) << label;
+    const auto s = static_cast<float>(app->desk.scale);
+    click(0.5F * s * (handle->min.x + handle->max.x), 0.5F * s * (handle->min.y + handle->max.y));
   }
   void type(const char* text) {
     ImGui::GetIO().AddInputCharactersUTF8(text);

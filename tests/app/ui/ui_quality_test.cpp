@@ -5,7 +5,6 @@
 #include <string_view>
 
 #include "app/quality.hpp"
-#include "app/ui/handles.hpp"
 #include "core/model/names.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
@@ -76,24 +75,13 @@ TEST(Quality, TabThatSleptSaysNothing) {
   EXPECT_EQ(governor.quality(), Quality::kFine);
 }
 
-const ui::Handle* find(std::string_view label) {
-  const auto& all = ui::handles();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const auto& h) { return h.label == label; });
-  return found == all.end() ? nullptr : &*found;
-}
-
 TEST(Handles, ControlIsWhereItsNameSaysAtAnyScale) {
   Headless h;
   for (const double scale : {1.0, 1.3}) {
     h.app->desk.scale = scale;
     h.frames(3);
     for (const char* mode : {"none", "damping", "adaptive"}) {
-      const ui::Handle* handle = find(mode);
-      ASSERT_NE(handle, nullptr) << mode;
-      const auto s = static_cast<float>(scale);
-      h.click(0.5F * s * (handle->min.x + handle->max.x),
-              0.5F * s * (handle->min.y + handle->max.y));
+      h.press(mode);
       EXPECT_EQ(name_of(h.app->session.settings().mode), std::string_view(mode));
     }
   }
@@ -101,10 +89,10 @@ TEST(Handles, ControlIsWhereItsNameSaysAtAnyScale) {
 
 TEST(Handles, HiddenControlHasNone) {
   Headless h;
-  ASSERT_NE(find("adaptive"), nullptr);
+  ASSERT_NE(find_handle("adaptive"), nullptr);
   h.app->desk.panels = false;
   h.frames(3);
-  EXPECT_EQ(find("adaptive"), nullptr);
+  EXPECT_EQ(find_handle("adaptive"), nullptr);
 }
 
 }  // namespace

@@ -1,0 +1,196 @@
+// "Where does the time go?": the stages of a frame, what each effect adds to it, and what choosing
+// the number of sub-steps costs.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/format.hpp"
+#include "app/ui/accuracy_picture.hpp"
+#include "app/ui/handles.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/timing.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kRow = 22.0F;
+constexpr float kNames = 66.0F;
+constexpr float kTimes = 60.0F;
+constexpr float kOperations = 64.0F;
+
+/// A part of a frame with what it takes; less than nothing where it spares work.
+struct Part {
+  std::string name;
+  double seconds = 0.0;  // a frame
+  double flops = 0.0;    // a frame
+  ImU32 color = 0;
+  std::string tip;
+};
+
+std::vector<Part> parts_of(const Theme& t, const CostBreakdown& costs) {
+  const Work& work = costs.run.work;
+  const auto frames = static_cast<double>(std::max<std::int64_t>(1, work.frames));
+  std::vector<Part> parts;
+  for (const EffectCost& cost : costs.effects) {
+    Part part{std::string(cost.effect), 1e-3 * cost.ms, cost.flops, t.blue, ""};
+    part.tip =
+        "A frame as it is, less the same frame without this effect, from the same state "
+        "with the same number of sub-steps.";
+    if (part.seconds < 0.0) part.tip += " It spares more than it takes.";
+    if (cost.row_updates > 0.0) {
+      part.tip += "\nRow updates of PGS, a frame: " + short_number(cost.row_updates) + ".";
+    }
+    parts.push_back(std::move(part));
+  }
+  if (work.criterion.evaluations > 0) {
+    const auto flops = static_cast<double>(work.criterion.flops);
+    parts.push_back({"criterion", costs.run.timing.stages.stiffness / frames, flops / frames,
+                     t.purple,
+                     "K, its column norms and r (Eqs. 1, 4, 9): " +
+                         grouped(static_cast<double>(work.criterion.evaluations)) +
+                         " evaluations in " + grouped(frames) + " frames."});
+  }
+  return parts;
+}
+
+/// Bars to either side of nothing, with times and operations at the right.
+void draw_parts(const Look& look, const std::vector<Part>& parts) {
+  const Theme& t = *look.theme;
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float room = width - kNames - kTimes - kOperations - 8.0F;
+  double low = 0.0;
+  double high = 0.0;
+  for (const Part& part : parts) {
+    low = std::min(low, part.seconds);
+    high = std::max(high, part.seconds);
+  }
+  const double scale = high > low ? static_cast<double>(room) / (high - low) : 0.0;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  for (const Part& part : parts) {
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::InvisibleButton(part.name.c_str(), {width, kRow});
+    mark(part.name.c_str(), at, {at.x + width, at.y + kRow}, "effect costs");
+    tooltip(look, part.name.c_str(), part.tip.c_str());
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
+    const float zero = at.x + kNames - static_cast<float>(low * scale);
+    const float end = zero + static_cast<float>(part.seconds * scale);
+    draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, t.dim,
+              fitted(look.fonts.small, part.name, kNames - 6.0F).c_str());
+    draw.AddRectFilled({std::min(zero, end), at.y + 5.0F},
+                       {std::max({zero, end, std::min(zero, end) + 1.0F}), at.y + kRow - 5.0F},
+                       part.color, 2.0F);
+    const auto at_right = [&](float right, ImU32 color, const std::string& text) {
+      const float w = text_size(look.fonts.small, text.c_str()).x;
+      draw_text(draw, look.fonts.small, {right - w, at.y + 3.0F}, color, text.c_str());
+    };
+    at_right(at.x + width - kOperations, t.text, duration(part.seconds));
+    at_right(at.x + width, t.dim, short_number(part.flops));
+  }
+  space(12.0F);
+}
+
+void stages_of_run(const Look& look, const Effects& effects, const CostBreakdown& costs) {
+  StageTimes times = costs.run.timing.stages;
+  const double frames = static_cast<double>(costs.run.work.frames);
+  for (double StageTimes::*part :
+       {&StageTimes::joints, &StageTimes::contact, &StageTimes::friction, &StageTimes::solve,
+        &StageTimes::stiffness, &StageTimes::total}) {
+    times.*part /= frames;
+  }
+  const std::vector<Stage> list = stages(*look.theme, effects, times);
+  section(look, "Stages of a frame", duration(times.total).c_str());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  stage_bar(look, list, at, width);
+  stage_list(look, list, {at.x, at.y + kStageBar + 8.0F}, width);
+  ImGui::Dummy({width, kStageBar + 8.0F + stage_list_height(list)});
+  tooltip(look, "Stages of a frame",
+          "Mean wall time of a frame on this machine. A stage that the scene does not call for "
+          "does not exist. Solving takes the rows of all kinds together.");
+}
+
+/// "75 of joints, 24 of contact, 48 of friction"
+std::string rows_text(const Work& work) {
+  std::string text;
+  const auto add = [&](std::int64_t count, const char* kind) {
+    if (count == 0) return;
+    if (!text.empty()) text += ", ";
+    text +=
+        short_number(static_cast<double>(count) / static_cast<double>(work.solves)) + " of " + kind;
+  };
+  if (work.solves == 0) return text;
+  add(work.rows.joint, "joints");
+  add(work.rows.contact, "contact");
+  add(work.rows.friction, "friction");
+  return text;
+}
+
+std::string summary(const CostBreakdown& costs) {
+  const Work& work = costs.run.work;
+  std::string text =
+      "Means of " + grouped(static_cast<double>(work.frames)) + " frames, " +
+      short_number(static_cast<double>(work.substeps) / static_cast<double>(work.frames)) +
+      " sub-steps each.";
+  const std::string rows = rows_text(work);
+  if (!rows.empty()) text += " Rows of a solve: " + rows + ".";
+  if (work.criterion.evaluations > 0 && work.flops > 0) {
+    text +=
+        " The criterion takes " +
+        fixed(100.0 * static_cast<double>(work.criterion.flops) / static_cast<double>(work.flops),
+              1) +
+        " % of the solver's operations.";
+  }
+  return text;
+}
+
+std::string method_name(const Theme& theme, const Settings& s) {
+  const SeriesParameter parameter = series_parameter(s);
+  return curve_style(theme, s).name + ", " + parameter.name + " = " + plain_number(parameter.value);
+}
+
+}  // namespace
+
+void effect_costs(App& app) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  EffectCosts& measured = app.accuracy.effects;
+  const CostBreakdown* costs = measured.breakdown();
+  const bool of_this_run = app.costs() != nullptr;
+  if (measured.running()) {
+    if (progress(look, measured.progress(), "What was measured so far stays")) measured.cancel();
+  } else {
+    if (costs == nullptr) {
+      label(look.fonts.small, t.dim,
+            "Where the time of a frame goes: its stages, what each effect adds to them, and what "
+            "choosing the number of sub-steps costs, with the present settings.");
+      space(8.0F);
+    }
+    if (button(look, "measure", Icon::kPlay,
+               of_this_run        ? "Measure again"
+               : costs == nullptr ? "Measure this run"
+                                  : "Measure these settings",
+               of_this_run ? ButtonKind::kPlain : ButtonKind::kPrimary,
+               ImGui::GetContentRegionAvail().x, look.m.row + 4.0F,
+               "The run from its start, in the background: every frame once as it is and once "
+               "without each effect")) {
+      app.measure_costs();
+      costs = nullptr;
+    }
+  }
+  if (costs == nullptr) return;
+  space(8.0F);
+  label(look.fonts.medium, t.text, measured.scene()->title.c_str());
+  label(look.fonts.small, t.dim, method_name(t, measured.experiment()->settings).c_str());
+  if (!costs->run.holds) label(look.fonts.small, t.orange, costs->run.verdict.c_str());
+  space(look.m.section);
+  stages_of_run(look, measured.scene()->effects, *costs);
+  space(look.m.section);
+  section(look, "What each adds", "time     operations", t.dim);
+  draw_parts(look, parts_of(t, *costs));
+  label(look.fonts.small, t.dim, summary(*costs).c_str());
+}
+
+}  // namespace substep::ui

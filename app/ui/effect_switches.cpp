@@ -1,0 +1,113 @@
+// The effects of the scene: switched off and on while it runs, each with its rows and its time. An
+// effect that is off has no stage.
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/io/effect_names.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kTimeColumn = 64.0F;
+
+/// What the tips say, and what a frame's report tells of an effect by itself.
+struct EffectFacts {
+  const char* tip;
+  int FrameReport::*rows;       // null where it has none of its own
+  double StageTimes::*seconds;  // null where it has no stage of its own
+};
+constexpr std::array<EffectFacts, kEffectNames.size()> kFacts{
+    {{"Weight: m g on every moving body.", nullptr, nullptr},
+     {"The torque I ω × ω of bodies with unequal moments.", nullptr, nullptr},
+     {"All joints. Off: everything falls apart.", &FrameReport::joint_rows, &StageTimes::joints},
+     {"Contacts. Off: bodies pass through each other.", &FrameReport::contact_rows,
+      &StageTimes::contact},
+     {"Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.", &FrameReport::friction_rows,
+      &StageTimes::friction},
+     {"Contacts that bounce (Newton's law).", nullptr, nullptr}}};
+
+/// Right-aligned in the two columns at the end of a line.
+void columns(const Look& look, ImVec2 at, float width, ImU32 color, const std::string& rows,
+             const std::string& time) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float right = at.x + width;
+  for (const auto& [text, end] : {std::pair{&rows, right - kTimeColumn}, std::pair{&time, right}}) {
+    const float w = text_size(look.fonts.small, text->c_str()).x;
+    draw_text(draw, look.fonts.small, {end - w, at.y}, color, text->c_str());
+  }
+}
+
+const EffectCost* cost_of(const CostBreakdown* costs, std::string_view effect) {
+  if (costs == nullptr) return nullptr;
+  const auto found = std::find_if(costs->effects.begin(), costs->effects.end(),
+                                  [&](const EffectCost& cost) { return cost.effect == effect; });
+  return found == costs->effects.end() ? nullptr : &*found;
+}
+
+/// What an effect takes: all of it where that was measured, else what its own stage does.
+std::string time_text(const App& app, const EffectFacts& facts, const EffectCost* cost) {
+  if (cost != nullptr) return duration(1e-3 * cost->ms);
+  return facts.seconds != nullptr ? duration(app.session.times().*facts.seconds) : "–";
+}
+
+std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
+  std::string tip = facts.tip;
+  if (cost != nullptr) {
+    tip += "\nAdds " + duration(1e-3 * cost->ms) + " and " + short_number(cost->flops) +
+           " operations of the solver to a frame.";
+  } else if (facts.seconds != nullptr) {
+    tip += "\nThe time is that of making its rows; what solving them takes must be measured.";
+  } else {
+    tip += "\nIt has no stage of its own: what it takes must be measured.";
+  }
+  return tip;
+}
+
+}  // namespace
+
+void effect_switches(App& app) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const Session& session = app.session;
+  const CostBreakdown* costs = app.costs();
+  const float width = ImGui::GetContentRegionAvail().x;
+  columns(look, ImGui::GetCursorScreenPos(), width, t.dim, "rows", costs ? "adds" : "builds in");
+  label(look.fonts.small, t.dim, "Effects, until a reset");
+
+  Effects effects = session.scene().effects;
+  for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
+    const auto& [name, member] = kEffectNames[i];
+    if (!(session.loaded().effects.*member)) continue;
+    const EffectCost* cost = cost_of(costs, name);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    toggle(look, name.data(), effects.*member, 0, true, tip_text(kFacts[i], cost).c_str());
+    const bool on = session.scene().effects.*member;
+    int FrameReport::*const rows = kFacts[i].rows;
+    const float text = text_size(look.fonts.small, "0").y;
+    columns(look, {at.x, at.y + 0.5F * (look.m.row - text)}, width, on ? t.text : t.dim,
+            on && rows != nullptr ? grouped(session.report().*rows) : "–",
+            on ? time_text(app, kFacts[i], cost) : "–");
+  }
+  if (effects != session.scene().effects) app.session.set_effects(effects);
+
+  if (app.accuracy.effects.running()) {
+    if (progress(look, app.accuracy.effects.progress(), "What was measured so far stays")) {
+      app.accuracy.effects.cancel();
+    }
+  } else if (costs == nullptr &&
+             button(look, "measure effects", Icon::kPlay, "Measure what each adds",
+                    ButtonKind::kPlain, width, look.m.row,
+                    "The run from its start in the background, every frame once as it is and once "
+                    "without each effect: the difference is the effect's, solving its rows "
+                    "included.")) {
+    app.measure_costs();
+  }
+}
+
+}  // namespace substep::ui

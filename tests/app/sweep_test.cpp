@@ -200,37 +200,58 @@ TEST(SweepCommand, AFullDiskLosesNothingThatIsFinished) {
   EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
 }
 
-// The first recipe of core/lab/README.md. Without GNU Parallel, xargs takes its place.
-TEST(SweepCommand, PartsRunSideBySideMergeToTheWhole) {
+/// GNU Parallel, which ./dev installs for the tests; there is another program of the name.
+bool has_parallel() { return std::system("parallel --version 2>/dev/null | grep -q GNU") == 0; }
+
+/// A recipe of core/lab/README.md as it stands there, with this program and folder in its place.
+void follow(std::string recipe, const fs::path& out) {
+  const auto replace = [&](const std::string& word, const std::string& by) {
+    for (std::size_t at = 0; (at = recipe.find(word, at)) != std::string::npos; at += by.size()) {
+      recipe.replace(at, word.size(), by);
+    }
+  };
+  replace("OUT", out.string());
+  replace("substep ", "\"" SUBSTEP_PROGRAM "\" ");
+  replace("SCENE", "pendulum --seconds 0.5 --quiet");
+  ASSERT_EQ(std::system(recipe.c_str()), 0) << recipe;
+}
+
+TEST(SweepCommand, PartsRunSideBySideWithParallelMergeToTheWhole) {
+  if (!has_parallel()) GTEST_SKIP() << "no GNU Parallel";
   const fs::path out = fresh("parts");
-  const std::string part =
-      "sweep pendulum --seconds 0.5 --quiet --jobs 1 --out " + out.string() + " --shard {}/4";
-  const bool has_parallel = std::system("command -v parallel >/dev/null 2>&1") == 0;
-  const std::string spread = has_parallel
-                                 ? "parallel -j 2 \"" SUBSTEP_PROGRAM "\" " + part + " ::: 1 2 3 4"
-                                 : "seq 4 | xargs -P 2 -I{} \"" SUBSTEP_PROGRAM "\" " + part;
-  ASSERT_EQ(std::system(spread.c_str()), 0) << spread;
+  follow("parallel substep sweep SCENE --out OUT --jobs 1 --shard {}/4 ::: 1 2 3 4", out);
   EXPECT_TRUE(fs::exists(out / "results.3-of-4.jsonl"));
-  const Outcome merged = substep("merge " + out.string());
-  ASSERT_EQ(merged.exit_code, 0) << merged.err;
+  follow("substep merge OUT", out);
   EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
 }
 
-TEST(SweepCommand, ExperimentsGoInAndResultsComeOutOneALine) {
-  const fs::path out = fresh("piped");
+TEST(SweepCommand, PartsRunSideBySideWithXargsMergeToTheWhole) {
+  const fs::path out = fresh("xargs");
+  follow("seq 4 | xargs -P 4 -I{} substep sweep SCENE --out OUT --jobs 1 --shard {}/4", out);
+  follow("substep merge OUT", out);
+  EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
+}
+
+// One experiment a line in, one result a line out, in whatever order.
+TEST(SweepCommand, AListSpreadWithParallelMergesToTheWhole) {
+  if (!has_parallel()) GTEST_SKIP() << "no GNU Parallel";
+  const fs::path out = fresh("list_parallel");
   fs::create_directories(out);
-  const std::string list = (out / "list").string();
-  const Outcome listed = substep(std::string(kSweep) + "--list");
-  ASSERT_EQ(listed.exit_code, 0) << listed.err;
-  std::ofstream(list) << listed.out;
-  const Outcome run = substep("run --experiments - < " + list);
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(lines_of(run.out).size(), lines_of(listed.out).size());
-  std::ofstream(out / "piped.jsonl") << run.out;
-  const fs::path merged = out / "merged";
-  ASSERT_EQ(substep("merge " + merged.string() + " " + (out / "piped.jsonl").string()).exit_code,
-            0);
-  EXPECT_EQ(figures(merged / "results.jsonl"), whole_sweep());
+  follow(
+      "substep sweep SCENE --list | parallel --pipe -N8 substep run --experiments - "
+      "> OUT/more.jsonl",
+      out);
+  follow("substep merge OUT OUT/more.jsonl", out);
+  EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
+}
+
+TEST(SweepCommand, AListSpreadWithSplitMergesToTheWhole) {
+  const fs::path out = fresh("list_split");
+  fs::create_directories(out);
+  follow("substep sweep SCENE --list | split --lines 60 - OUT/list.", out);
+  follow("ls OUT/list.* | xargs -P 2 -I{} sh -c 'substep run --experiments {} > {}.jsonl'", out);
+  follow("substep merge OUT OUT/list.*.jsonl", out);
+  EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
 }
 
 TEST(SweepCommand, WrongExperimentsAreToldByLineAndTheOthersRun) {

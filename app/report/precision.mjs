@@ -2,22 +2,9 @@
 import * as Plot from "@observablehq/plot";
 import { available, costs, errors, positive } from "./axes.mjs";
 import { choice, el, figure, number } from "./dom.mjs";
+import { isOrder, observedOrder } from "./order.mjs";
 import { paretoFront } from "./pareto.mjs";
 import { colour, styleOf, swatchText } from "./style.mjs";
-
-// Errors that rounding or chaos decides fall at no method's order.
-const isOrder = slope => slope > 0.5 && slope < 4;
-
-// Slope of log error over log cost, from the runs whose error stands clear of the reference's own.
-export function observedOrder(runs, uncertainty) {
-  const clear = runs.filter(p => p.error > 10 * uncertainty);
-  if (clear.length < 3) return NaN;
-  const x = clear.map(p => Math.log(p.cost)), y = clear.map(p => Math.log(p.error));
-  const mean = v => v.reduce((a, b) => a + b) / v.length;
-  const mx = mean(x), my = mean(y);
-  const sxx = x.reduce((s, xi) => s + (xi - mx) ** 2, 0);
-  return sxx < 0.05 ? NaN : -x.reduce((s, xi, i) => s + (xi - mx) * (y[i] - my), 0) / sxx;
-}
 
 const swatch = style => document.createRange().createContextualFragment(swatchText(style));
 
@@ -116,9 +103,10 @@ export function workPrecision(results, reference, select) {
     return el("div", { class: "legend" }, ...series.map(s => {
       const own = results.filter(r => r.series === s);
       const lost = own.filter(r => !r.holds).length;
-      const order = observedOrder(points(own), y.key === "trajectory" ? reference?.uncertainty ?? 0 : 0);
+      const { order, floor } = observedOrder(points(own), y.key === "trajectory" ? reference?.uncertainty ?? 0 : 0);
       return el("button", {
         class: "key", "aria-pressed": String(shown.has(s)),
+        title: isOrder(order) && floor > 0 ? `Order of what the error has above ${number(floor)} m, which the reference's uncertainty explains` : undefined,
         onclick: () => { if (!shown.delete(s)) shown.add(s); redraw(); },
         onmouseenter: () => { hovered = s; redrawPlot(); },
         onmouseleave: () => { hovered = null; redrawPlot(); },

@@ -226,7 +226,7 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks) {
     const Attached& attached = attached_[node.first_attached + k];
     if (attached.folded) fold(node, blocks[index(attached.block)], attached, A, f.Y, U);
   }
-  std::copy(A[0], A[0] + 36, f.A);
+  for (std::size_t i = 0; i < 6; ++i) std::copy(A[i], A[i] + 6, f.A + 6 * i);
   std::fill(f.A_inverse, f.A_inverse + 6, 0.0);
   factor_ldlt(f.A, 6, f.A_inverse);
   solve_lower(f.A, 6, n, f.Y);

@@ -29,7 +29,7 @@ std::optional<int> BodyNames::read(ObjectReader& in, std::string_view key,
   if (const auto found = index_.find(name); found != index_.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& entry : index_) names.push_back(entry.first);
-  in.problem(key, "no body is named " + value_text(name) + did_you_mean(name, names));
+  in.problem(key, "no body is named " + value_text(name) + in.guess(name, names));
   return std::nullopt;
 }
 

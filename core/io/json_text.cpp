@@ -52,7 +52,7 @@ class Check {
   bool key(std::string& key) {
     Level& level = levels_.back();
     level.key = key;
-    if (!level.keys.insert(key).second) {
+    if (!level.keys.insert(key).second && problems_.size() <= kMaxProblems) {
       problems_.push_back({pointer(), "the key stands twice in this object"});
     }
     return true;

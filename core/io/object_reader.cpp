@@ -176,11 +176,18 @@ bool ObjectReader::vector(std::string_view key, const Range& range, Vec3& target
 void ObjectReader::finish() {
   if (!json_) return;
   for (const auto& item : json_->items()) {
+    if (problems_.size() > kMaxProblems) return;
     if (std::find(known_.begin(), known_.end(), item.key()) != known_.end()) continue;
-    std::string guess = did_you_mean(item.key(), known_);
-    if (guess.empty()) guess = " (known here: " + one_of(known_) + ")";
-    problem(item.key(), "unknown key" + guess);
+    std::string meant = guess(item.key(), known_);
+    if (meant.empty()) meant = " (known here: " + one_of(known_) + ")";
+    problem(item.key(), "unknown key" + meant);
   }
+}
+
+std::string ObjectReader::guess(std::string_view word,
+                                const std::vector<std::string_view>& candidates) const {
+  constexpr std::size_t kMostGuesses = 20;
+  return problems_.size() < kMostGuesses ? did_you_mean(word, candidates) : "";
 }
 
 }  // namespace substep

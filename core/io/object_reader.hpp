@@ -43,6 +43,9 @@ class ObjectReader {
   void item_problem(std::string_view key, std::size_t item, std::string message);
   /// Notes members that nothing has read, with a guess at what was meant.
   void finish();
+  /// " (did you mean ...?)", or "". Comparing words takes time: only the first problems get one.
+  [[nodiscard]] std::string guess(std::string_view word,
+                                  const std::vector<std::string_view>& candidates) const;
 
   [[nodiscard]] bool is_object() const { return json_ != nullptr; }
   [[nodiscard]] std::string pointer(std::string_view key) const;

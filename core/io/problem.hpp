@@ -1,6 +1,7 @@
 #pragma once
 // What is wrong with outside data, place by place.
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ struct Problem {
   std::string message;  // value and allowed range: "-1 is not > 0 (kg)"
 };
 using Problems = std::vector<Problem>;
+
+/// Told of one document. Readers stop at more, so that a hostile one does not use up memory.
+inline constexpr std::size_t kMaxProblems = 1000;
 
 /// "/bodies/3/mass: -1 is not > 0 (kg)"
 std::string to_string(const Problem& problem);

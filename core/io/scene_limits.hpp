@@ -11,10 +11,9 @@ namespace substep {
 inline constexpr std::size_t kMaxBodies = 20000;
 inline constexpr std::size_t kMaxJoints = 20000;
 inline constexpr std::size_t kMaxVerdictRules = 100;
-inline constexpr std::size_t kMaxNameSize = 100;   // [bytes]
-inline constexpr std::size_t kMaxTitle = 200;      // [bytes]
-inline constexpr std::size_t kMaxProse = 2000;     // [bytes]
-inline constexpr std::size_t kMaxProblems = 1000;  // told of one file
+inline constexpr std::size_t kMaxNameSize = 100;  // [bytes]
+inline constexpr std::size_t kMaxTitle = 200;     // [bytes]
+inline constexpr std::size_t kMaxProse = 2000;    // [bytes]
 inline constexpr int kMaxCollisionGroup = 1'000'000;
 
 inline constexpr double kUnitTolerance = 1e-6;  // of the length of axes and quaternions [-]

@@ -127,7 +127,7 @@ const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, 
 void read_bodies(ObjectReader& in, Scene& scene, SoundParts& sound, Problems& problems) {
   const Json* list = read_list(in, "bodies", kMaxBodies, kRequired);
   if (!list) return;
-  for (std::size_t i = 0; i < list->size(); ++i) {
+  for (std::size_t i = 0; i < list->size() && problems.size() <= kMaxProblems; ++i) {
     const std::size_t before = problems.size();
     scene.bodies.push_back(read_body((*list)[i], pointer_to("/bodies", i), problems));
     sound.bodies.push_back(problems.size() == before);
@@ -143,7 +143,7 @@ void read_joints(ObjectReader& in, const BodyNames& names, Scene& scene, SoundPa
   const Json* list = read_list(in, "joints", kMaxJoints, kOptional);
   if (!list) return;
   std::map<std::string, std::size_t> first;
-  for (std::size_t i = 0; i < list->size(); ++i) {
+  for (std::size_t i = 0; i < list->size() && problems.size() <= kMaxProblems; ++i) {
     const std::string pointer = pointer_to("/joints", i);
     const std::size_t before = problems.size();
     scene.joints.push_back(read_joint((*list)[i], pointer, names, problems));
@@ -263,9 +263,8 @@ SceneResult read_scene(std::string_view text) {
     if (!told.contains(problem.pointer)) problems.push_back(std::move(problem));
   }
   if (problems.size() > kMaxProblems) {
-    const std::size_t more = problems.size() - kMaxProblems;
     problems.resize(kMaxProblems);
-    problems.push_back({"", "and " + std::to_string(more) + " more problems"});
+    problems.push_back({"", "and more: the rest of the file was not looked at"});
   }
   if (problems.empty()) result.scene = std::move(scene);
   return result;

@@ -89,7 +89,15 @@ TEST(SceneReader, CutsALongListOfProblems) {
       R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
       bodies + "]}");
   ASSERT_EQ(problems.size(), kMaxProblems + 1);
-  EXPECT_EQ(problems.back(), "and 19000 more problems");
+  EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
+}
+
+TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
+  std::string keys;
+  for (int i = 0; i < 5000; ++i) keys += "\"key_" + std::to_string(i) + "\": 0, \"twice\": 1, ";
+  const List problems = problems_of(with(R"("mass": 2)", keys + R"("mass": 2)"));
+  ASSERT_EQ(problems.size(), kMaxProblems + 1);
+  EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
 }
 
 TEST(SceneReader, NeedsABodyThatMoves) {

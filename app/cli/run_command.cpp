@@ -114,7 +114,7 @@ int run(const Options& options) {
   const std::int64_t frames = options.length.count(*scene);
   const char* separator = "\n    ";
   std::optional<FrameReport> failed;  // the frame in which it failed
-  for (std::int64_t i = 0; i < frames && !verdict.not_finite(); ++i) {
+  for (std::int64_t i = 0; i < frames && !verdict.stopped(); ++i) {
     const FrameReport frame = simulator.step();
     measure.add(*scene, simulator.state(), frame, frame.times.total);
     report.add(frame);
@@ -136,7 +136,7 @@ int run(const Options& options) {
                  failed ? remedy_lines(simulator.settings(), *failed).c_str() : "");
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());
-  return verdict.not_finite() ? kNotFinite : kOk;
+  return verdict.stopped() ? kNotFinite : kOk;
 }
 
 }  // namespace

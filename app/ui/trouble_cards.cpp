@@ -24,7 +24,7 @@ void failure_card(App& app) {
     std::string what = verdict.text();
     if (const std::size_t colon = what.find(": "); colon != std::string::npos)
       what.erase(0, colon + 2);
-    if (stopped) {
+    if (report.status == StepStatus::kNotFinite) {
       what = "A velocity";
       if (report.failed_body >= 0) {
         what +=

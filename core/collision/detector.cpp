@@ -89,7 +89,7 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& 
   std::sort(intervals_.begin(), intervals_.end(), [](const Interval& p, const Interval& q) {
     return p.lo != q.lo ? p.lo < q.lo : p.body < q.body;
   });
-  for (std::size_t p = 0; p < intervals_.size(); ++p) {
+  for (std::size_t p = 0; p < intervals_.size() && !too_many(); ++p) {
     for (std::size_t q = p + 1; q < intervals_.size() && intervals_[q].lo <= intervals_[p].hi;
          ++q) {
       const int i = std::min(intervals_[p].body, intervals_[q].body);
@@ -107,12 +107,14 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& 
 
   for (const int plane : planes_) {
     for (const int body : solids_) {
+      if (too_many()) return points_;
       if (!may_touch(scene, body, plane)) continue;
       touch_plane(placed(body), scene.bodies[static_cast<std::size_t>(body)].shape, placed(plane),
                   margin, points_);
     }
   }
   for (const Pair& pair : pairs_) {
+    if (too_many()) return points_;
     touch_solids(placed(pair.i), scene.bodies[static_cast<std::size_t>(pair.i)].shape,
                  placed(pair.j), scene.bodies[static_cast<std::size_t>(pair.j)].shape, margin,
                  points_);

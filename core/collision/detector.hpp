@@ -9,15 +9,25 @@
 
 namespace substep {
 
+// What a scene may have at once. Where bodies all overlap there would be billions: that is nothing
+// to give to a solver, and must not use up memory.
+inline constexpr std::size_t kMaxContacts = 200'000;  // contact points
+inline constexpr std::size_t kMaxPairs = 1'000'000;   // bodies whose bounding boxes overlap
+
 /// Finds every contact point of a scene with a gap of at most the scene's margin. The order of the
 /// points depends on the order of bodies in the scene only.
 class Detector {
  public:
   explicit Detector(const Scene& scene);
 
-  /// @param R_WB rotation per body  @return valid until the next call
+  /// @param R_WB rotation per body
+  /// @return valid until the next call; not all of them where there are too_many()
   std::span<const ContactPoint> detect(const Scene& scene, const State& state,
                                        std::span<const Mat3> R_WB);
+  /// Whether the last call stopped at a limit.
+  [[nodiscard]] bool too_many() const {
+    return pairs_.size() > kMaxPairs || points_.size() > kMaxContacts;
+  }
 
  private:
   struct Interval {

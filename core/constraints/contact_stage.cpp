@@ -5,9 +5,11 @@
 
 namespace substep {
 
-void ContactStage::detect_and_append(const Scene& scene, const State& state,
+bool ContactStage::detect_and_append(const Scene& scene, const State& state,
                                      std::span<const Mat3> R_WB, Blocks& blocks) {
-  for (const ContactPoint& point : detector_.detect(scene, state, R_WB)) {
+  const std::span<const ContactPoint> points = detector_.detect(scene, state, R_WB);
+  if (detector_.too_many()) return false;
+  for (const ContactPoint& point : points) {
     const auto a = static_cast<std::size_t>(point.a);
     const auto b = static_cast<std::size_t>(point.b);
     Block& block = blocks.append();
@@ -15,6 +17,7 @@ void ContactStage::detect_and_append(const Scene& scene, const State& state,
     block.b = scene.bodies[b].is_static ? -1 : point.b;
     contact_row(point, scene.contact, state.x[a], state.x[b], block);
   }
+  return true;
 }
 
 double ContactStage::penetration(const Scene& scene, const State& state,

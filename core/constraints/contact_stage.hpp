@@ -12,7 +12,8 @@ namespace substep {
 class ContactStage {
  public:
   explicit ContactStage(const Scene& scene) : detector_(scene) {}
-  void detect_and_append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+  /// @return false where there are too many: then nothing is appended
+  bool detect_and_append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
                          Blocks& blocks);
   /// Largest overlap at a state, >= 0 [m].
   double penetration(const Scene& scene, const State& state, std::span<const Mat3> R_WB);

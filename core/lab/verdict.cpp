@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/collision/detector.hpp"
+
 namespace substep {
 
 namespace {
@@ -37,9 +39,12 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
     if (!who.empty()) why += " (" + who + ")";
   };
   if (report.status == StepStatus::kNotFinite) {
-    not_finite_ = true;
     why = "not finite (" + scene.bodies[static_cast<std::size_t>(report.failed_body)].name + ")";
   }
+  if (report.status == StepStatus::kTooManyContacts) {
+    why = "more than " + std::to_string(kMaxContacts) + " contacts";
+  }
+  stopped_ = report.status != StepStatus::kOk;
   if (report.joint_gap_joint >= 0) {
     const auto joint = static_cast<std::size_t>(report.joint_gap_joint);
     judge("joint gap", report.joint_gap, criteria.joint_gap, "m", base(scene.joints[joint]).name);

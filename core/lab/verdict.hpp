@@ -24,7 +24,8 @@ class Verdict {
   [[nodiscard]] bool holds() const { return !failed_; }
   [[nodiscard]] bool disturbed() const { return disturbed_; }
   [[nodiscard]] double failed_at() const { return failed_at_; }  ///< [s], of a failed run
-  [[nodiscard]] bool not_finite() const { return not_finite_; }
+  /// Whether the simulator can go no further: StepStatus.
+  [[nodiscard]] bool stopped() const { return stopped_; }
   /// The largest share of a criterion's limit that was used so far [-]; 1 is at the limit.
   [[nodiscard]] double strain() const { return strain_; }
   /// "holds", "disturbed at 1.20 s", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
@@ -33,7 +34,7 @@ class Verdict {
  private:
   bool failed_ = false;
   bool disturbed_ = false;
-  bool not_finite_ = false;
+  bool stopped_ = false;
   double failed_at_ = 0.0;
   double strain_ = 0.0;
   double energy_at_start_ = 0.0;

@@ -8,8 +8,9 @@ namespace substep {
 /// How a frame ended.
 enum class StepStatus : std::uint8_t {
   kOk,
-  kNotFinite,  // a velocity left the range of numbers; the state is that of the last finite
-               // sub-step
+  kNotFinite,        // a velocity, or K, left the range of numbers; the state is that of the last
+                     // finite sub-step
+  kTooManyContacts,  // detector.hpp; the state is that of the last sub-step that had fewer
 };
 
 /// The body and degree of freedom with the largest k/M at the end of a frame: what the next frame's

@@ -64,14 +64,13 @@ void Simulator::Impl::probe(FrameReport& report) {
   settings.mode = Mode::kNone;               // Mt = M: there is no k to damp by yet
   settings.integrator = Integrator::kEuler;  // forces act for the whole of h
   begin_substep(report);
-  append_rows(report);
-  external_forces(h, report);
-  solve(h, true, report);
-  settings = chosen;
-  if (finite(report)) {
-    evaluate_stiffness(report);
-    state.r = bound.r;
+  if (append_rows(report)) {
+    external_forces(h, report);
+    solve(h, true, report);
+    settings = chosen;
+    if (finite(report) && evaluate_stiffness(report)) state.r = bound.r;
   }
+  settings = chosen;
   std::copy(u_start.begin(), u_start.end(), state.u.begin());
   state.stiffness_known = true;
   report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will

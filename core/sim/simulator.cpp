@@ -16,13 +16,12 @@ FrameReport Simulator::Impl::advance(int most) {
   while (substeps.running() && most-- > 0) {
     const double dt = substeps.dt();
     begin_substep(report);
-    append_rows(report);          // phi, J
-    external_forces(dt, report);  // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
-    solve(dt, false, report);     // lambda, u+                                       Eq. 3
+    if (!append_rows(report)) break;  // phi, J
+    external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
+    solve(dt, false, report);         // lambda, u+                                       Eq. 3
     if (!finite(report)) break;
-    if (substeps.needs_stiffness()) {
-      evaluate_stiffness(report);  // K, k, r, with the arms that lambda belongs to   Eqs. 1, 4, 9
-    }
+    // K, k, r, with the arms that lambda belongs to                                  Eqs. 1, 4, 9
+    if (substeps.needs_stiffness() && !evaluate_stiffness(report)) break;
     advance_poses(dt, report);
     substeps.advance(bound.r);  // per frame: nothing; per sub-step: decide again
   }

@@ -22,13 +22,15 @@ struct Simulator::Impl {
   /// @param most sub-steps to take, >= 1; the frame that is open goes on, else one begins
   FrameReport advance(int most);
 
-  // The parts of a sub-step, in the order in which advance() calls them.
+  // The parts of a sub-step, in the order in which advance() calls them. Those that can fail tell,
+  // and leave the state and a status that says why.
   void begin_substep(FrameReport& report);
-  void append_rows(FrameReport& report);
+  bool append_rows(FrameReport& report);
   void external_forces(double dt, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
   void solve(double dt, bool probing, FrameReport& report);
   bool finite(FrameReport& report);
-  void evaluate_stiffness(FrameReport& report);
+  void stop(std::size_t body, FrameReport& report);  // of which a number is not finite
+  bool evaluate_stiffness(FrameReport& report);
   void advance_poses(double dt, FrameReport& report);
 
   RowCounts rows_by_kind() const;

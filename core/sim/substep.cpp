@@ -29,14 +29,17 @@ void Simulator::Impl::begin_substep(FrameReport& report) {
   ++report.n_substeps;
 }
 
-void Simulator::Impl::append_rows(FrameReport& report) {
+bool Simulator::Impl::append_rows(FrameReport& report) {
   blocks.clear();
   if (joints) {
     joints->append(*scene, state, R_WB, blocks);
     clock.lap(report.times.joints);
   }
   if (contact) {
-    contact->detect_and_append(*scene, state, R_WB, blocks);
+    if (!contact->detect_and_append(*scene, state, R_WB, blocks)) {
+      report.status = StepStatus::kTooManyContacts;
+      return false;
+    }
     clock.lap(report.times.contact);
   }
   if (friction) {
@@ -48,6 +51,7 @@ void Simulator::Impl::append_rows(FrameReport& report) {
     grab_rows(*grab, {state.x[body], R_WB[body]}, blocks.append());
     clock.lap(report.times.grab);
   }
+  return true;
 }
 
 void Simulator::Impl::external_forces(double dt, FrameReport& report) {
@@ -123,16 +127,20 @@ bool Simulator::Impl::finite(FrameReport& report) {
     double sum = 0.0;
     for (int j = 0; j < 6; ++j) sum += state.u[i][j] * state.u[i][j];
     if (std::isfinite(sum)) continue;
-    report.status = StepStatus::kNotFinite;
-    report.failed_body = static_cast<int>(i);
-    std::copy(u_start.begin(), u_start.end(), state.u.begin());
+    stop(i, report);
     return false;
   }
   store_forces();
   return true;
 }
 
-void Simulator::Impl::evaluate_stiffness(FrameReport& report) {
+void Simulator::Impl::stop(std::size_t body, FrameReport& report) {
+  report.status = StepStatus::kNotFinite;
+  report.failed_body = static_cast<int>(body);
+  std::copy(u_start.begin(), u_start.end(), state.u.begin());
+}
+
+bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
   const bool full = settings.mode == Mode::kStiffness;
   // The paper's contact block is no derivative: it may steer N, and must not enter Mt.
@@ -146,10 +154,19 @@ void Simulator::Impl::evaluate_stiffness(FrameReport& report) {
     }
   }
   bound = StiffnessStage::bound(*scene, state.k);
+  // Forces of a run that diverges can have a K past the range of numbers before velocities are.
+  for (std::size_t i = 0; i < state.k.size(); ++i) {
+    if (state.k[i].allFinite() && (!full || state.K_resisting[i].allFinite())) continue;
+    stop(i, report);
+    state.k.clear();
+    state.K_resisting.clear();
+    return false;
+  }
   ++report.criterion.evaluations;
   report.criterion.flops += stiffness->flops(blocks.all(), form);
   report.stages.stiffness = true;
   clock.lap(report.times.stiffness);
+  return true;
 }
 
 void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
@@ -167,6 +184,8 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
       const Vec3 omega_B = state.q[i].conjugate() * Vec3(state.u[i].tail<3>());
       const Vec3 later = gyroscopic_explicit(scene->bodies[i].inertia, omega_B, 0.5 * dt);
       state.u_synchronised[i].tail<3>() += state.q[i] * (later - omega_B);
+      // It goes with the square of a speed, and may be past the range of numbers before that is.
+      if (!state.u_synchronised[i].allFinite()) state.u_synchronised[i] = state.u[i];
     }
   }
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);

@@ -51,6 +51,29 @@ TEST(Divergence, WithinAFrameTellsTheTimeOfItsPoses) {
   EXPECT_NEAR(report.time, (1.0 + 3.0 / 16.0) * scene->frame, 1e-14);
 }
 
+TEST(TooManyContacts, StopTheRunBeforeTheyTakeMemory) {
+  Scene scene;
+  scene.name = "crowd";
+  scene.effects = {.gravity = true, .contact = true};
+  for (int i = 0; i < 700; ++i) {  // all in one place: 244,650 pairs
+    Body body;
+    body.name = "ball_" + std::to_string(i);
+    body.inertia = solid_inertia(body.shape, body.mass);
+    scene.bodies.push_back(body);
+  }
+  const auto shared = std::make_shared<const Scene>(scene);
+  Simulator simulator(shared);
+  const State start = simulator.state();
+  Verdict verdict(*shared, start, simulator.observe());
+  const FrameReport report = simulator.step();
+  EXPECT_EQ(report.status, StepStatus::kTooManyContacts);
+  EXPECT_EQ(simulator.state().frame, 0);
+  EXPECT_EQ(state_hash(simulator.state()), state_hash(start));
+  verdict.add(*shared, simulator.state(), report);
+  EXPECT_TRUE(verdict.stopped());
+  EXPECT_EQ(verdict.text(), "fails at 0.000 s: more than 200000 contacts");
+}
+
 /// What comes of the first remedy for a run that fails.
 void expect_helped(const Scene& scene, const Settings& settings) {
   FrameReport failed;

@@ -7,7 +7,11 @@ build=${2:?build folder}
 mkdir -p "$build"
 build=$(cd "$build" && pwd)
 copy=$build/source
+tree=$copy/build/release  # as deep as the usual one: then ccache knows what is not changed
 failures=0
+if command -v ccache >/dev/null; then
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_SLOPPINESS=pch_defines,time_macros
+fi
 
 # A copy of what git knows or would add, with times kept, so that only what changed is built again.
 copy_source() {
@@ -16,13 +20,13 @@ copy_source() {
     CMakeLists.txt core scenes tests/CMakeLists.txt tests/unit tests/physics tests/paper \
     tests/support tests/reference | tar --null --ignore-failed-read -cT - 2>/dev/null) |
     tar -x -C "$copy"
-  cmake -S "$copy" -B "$build/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUBSTEP_APP=OFF \
+  cmake -S "$copy" -B "$tree" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSUBSTEP_APP=OFF \
     -DSUBSTEP_TESTS=ON >"$build/configure.log"
 }
 
-build_tests() { cmake --build "$build/build" --target "$@" >"$build/build.log" 2>&1; }
+build_tests() { cmake --build "$tree" --target "$@" >"$build/build.log" 2>&1; }
 
-program() { find "$build/build/tests" -name "$1" -type f -perm -u+x; }
+program() { find "$tree/tests" -name "$1" -type f -perm -u+x; }
 
 # mutate NAME FILE SED-SCRIPT PROGRAM TEST
 mutate() {

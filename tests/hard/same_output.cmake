@@ -1,0 +1,12 @@
+# Runs FIRST and SECOND, each a list of words, and compares what they print.
+cmake_minimum_required(VERSION 3.25)
+foreach(side FIRST SECOND)
+  execute_process(COMMAND ${${side}} OUTPUT_VARIABLE output_${side} RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${${side}} ended with ${result}:\n${output_${side}}")
+  endif()
+endforeach()
+if(NOT output_FIRST STREQUAL output_SECOND)
+  message(FATAL_ERROR "they differ:\n${output_FIRST}\nand\n${output_SECOND}")
+endif()
+message(STATUS "the same:\n${output_FIRST}")

@@ -1,0 +1,90 @@
+#pragma once
+// What every frame of every scene must keep to: numbers stay finite or the run stops with a status,
+// and the work is within the bounds that the settings give it.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/sim/simulator.hpp"
+
+namespace substep::test {
+
+/// Fewer sub-steps, sweeps and pivots, so that a run of any settings is short. All else stays.
+inline Settings shortened(Settings settings, int most_substeps) {
+  settings.n = std::min(settings.n, most_substeps);
+  settings.n_max = std::min(settings.n_max, most_substeps);
+  settings.n_cap = std::min(settings.n_cap, most_substeps);
+  settings.iterations = std::min(settings.iterations, 50);
+  settings.pivots = std::min(settings.pivots, 50);
+  return settings;
+}
+
+/// What of a state is not finite, or "".
+inline std::string not_finite(const State& state) {
+  const auto finite = [](const auto& m) { return m.allFinite(); };
+  const auto all = [&](const auto& list) { return std::all_of(list.begin(), list.end(), finite); };
+  if (!std::isfinite(state.time + state.dt_previous)) return "time";
+  if (!all(state.x)) return "positions";
+  if (!std::all_of(state.q.begin(), state.q.end(),
+                   [&](const Quat& q) { return finite(q.coeffs()); })) {
+    return "orientations";
+  }
+  if (!all(state.u)) return "velocities";
+  if (!all(state.u_synchronised)) return "synchronised velocities";
+  if (!all(state.k) || !all(state.K_resisting)) return "stiffness";
+  if (!std::isfinite(state.r)) return "r";
+  for (const StoredForce& force : state.forces) {
+    if (!std::all_of(force.lambda, force.lambda + 5, [](double f) { return std::isfinite(f); })) {
+      return "forces";
+    }
+  }
+  return "";
+}
+
+inline int most_substeps(const Settings& settings) {
+  switch (settings.mode) {
+    case Mode::kNone:
+    case Mode::kDamping:
+    case Mode::kStiffness:
+      return 1;
+    case Mode::kConst:
+      return settings.n;
+    case Mode::kAdaptive:
+      return settings.n_max;
+    case Mode::kCapped:
+    case Mode::kInertia:
+    case Mode::kBlend:
+      return settings.n_cap;
+  }
+  return 0;
+}
+
+/// The law that a frame broke, or "".
+inline std::string broken_law(const Scene& scene, const Settings& settings, const State& state,
+                              const FrameReport& report) {
+  if (const std::string what = not_finite(state); !what.empty()) {
+    return "the state is finite, not its " + what;
+  }
+  if (report.status == StepStatus::kNotFinite &&
+      (report.failed_body < 0 || report.failed_body >= static_cast<int>(scene.bodies.size()))) {
+    return "a frame that fails names a body";
+  }
+  for (const Quat& q : state.q) {
+    if (std::abs(q.norm() - 1.0) > 1e-5) return "orientations have length 1";
+  }
+  if (report.n_substeps < 1 || report.n_substeps > most_substeps(settings)) {
+    return "1 <= N <= its cap";
+  }
+  const SolverWork& work = report.work;
+  if (work.solves > report.n_substeps + 1) return "a solve a sub-step, and the probe";
+  if (work.passes > 4 * work.solves) return "at most four passes a solve";
+  // bpp.hpp: `pivots` block pivots a pass, then single ones, of which 51 end the solve.
+  if (work.pivots > work.solves * (4L * settings.pivots + 51)) return "pivots are bounded";
+  if (work.iterations > work.solves * settings.iterations) return "iterations are bounded";
+  const auto n = static_cast<std::int64_t>(scene.bodies.size());
+  if (report.contact_rows > 8 * n * (n - 1) / 2) return "at most eight contacts a pair";
+  return "";
+}
+
+}  // namespace substep::test

@@ -22,5 +22,6 @@ void add_check(CLI::App& app, int& exit_code);
 void add_hash(CLI::App& app, int& exit_code);
 void add_scenes(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
+void add_map(CLI::App& app, int& exit_code);
 
 }  // namespace substep::cli

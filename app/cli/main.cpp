@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   add_hash(app, exit_code);
   add_scenes(app, exit_code);
   add_generate(app, exit_code);
+  add_map(app, exit_code);
   if (argc > 1 && !knows_command(app, argv[1])) return kBadInput;
   try {
     app.parse(argc, argv);

@@ -81,6 +81,7 @@ std::string make_link(const Scene& scene, const Experiment& experiment) {
 // Through its JSON form: one reader knows what is allowed.
 ExperimentInput read_experiment_link(std::string_view fragment, const SceneFinder& find,
                                      Problems& problems) {
+  const std::size_t before = problems.size();
   Json json;
   Json settings = Json::object();
   Settings checked;
@@ -103,7 +104,9 @@ ExperimentInput read_experiment_link(std::string_view fragment, const SceneFinde
     }
   }
   json["settings"] = std::move(settings);
-  return read_experiment(json, find, problems);
+  ExperimentInput input = read_experiment(json, find, problems);
+  if (problems.size() > before) input.experiment.reset();  // a setting alone may be wrong
+  return input;
 }
 
 std::vector<LinkPart> parse_link(std::string_view fragment) {

@@ -1,0 +1,64 @@
+// A text as a results file, and each of its lines as an experiment to be run again.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/cli/results_file.hpp"
+#include "core/io/experiment.hpp"
+#include "core/io/json_text.hpp"
+#include "core/io/result.hpp"
+#include "scenes/generator/scenes.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace substep::fuzz {
+namespace {
+
+void read_file(const std::string& text) {
+  std::map<std::string, std::string> lines;
+  std::vector<std::string> order;
+  if (!cli::read_results("input", text, lines, order)) return;
+  require(lines.size() == order.size(), "every result has its place");
+  // What was read is written as `sweep` does and read again.
+  std::string file = results_header();
+  for (const std::string& id : order) file += lines.at(id) + '\n';
+  std::map<std::string, std::string> lines_again;
+  std::vector<std::string> order_again;
+  require(cli::read_results("output", file, lines_again, order_again), "a file can be read again");
+  require(lines_again == lines && order_again == order, "a file is read to the same results");
+}
+
+void read_experiments(const std::string& text) {
+  static const auto pendulum = std::make_shared<const Scene>(scenes::pendulum());
+  const auto find = [](const std::string& name) {
+    return name == pendulum->name ? pendulum : nullptr;
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    Problems problems;
+    const auto json = parse_json(std::string_view(text).substr(at, end - at), problems);
+    at = end + 1;
+    if (!json) continue;
+    problems.clear();
+    const ExperimentInput read = read_experiment(*json, find, problems);
+    require(read.experiment.has_value() == problems.empty(), "either an experiment or problems");
+    if (!read.experiment) continue;
+    const ExperimentInput again =
+        read_experiment(experiment_json(*read.experiment), find, problems);
+    require(again.experiment && experiment_id(*again.experiment) == experiment_id(*read.experiment),
+            "an experiment that was written is the same");
+    require(command_line(*read.experiment, *pendulum).starts_with("substep run pendulum"),
+            "an experiment has a command line");
+  }
+}
+
+}  // namespace
+}  // namespace substep::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text = substep::fuzz::text_of(data, size);
+  substep::fuzz::read_file(text);
+  substep::fuzz::read_experiments(text);
+  return 0;
+}

@@ -5,6 +5,7 @@
 
 #include "app/command.hpp"
 #include "core/io/experiment.hpp"
+#include "core/io/number_text.hpp"
 #include "core/io/scene_writer.hpp"
 
 namespace substep {
@@ -157,8 +158,12 @@ const Poses& App::poses_in(std::size_t pane) const {
 
 std::string App::command() const {
   const std::int64_t since = session.edition() != nullptr ? session.edition()->frame : 0;
-  return make_command(link_scene(), session.settings(), session.state().frame - since,
-                      is_own(link_scene()));
+  std::string command = make_command(link_scene(), session.settings(),
+                                     session.state().frame - since, is_own(link_scene()));
+  if (session.edition() != nullptr) return command;  // its bodies have load and seed already
+  if (load != 1.0) command += " --load " + number_text(load);
+  if (seed != 0) command += " --seed " + std::to_string(seed);
+  return command;
 }
 
 }  // namespace substep

@@ -167,7 +167,8 @@ void App::open_link(std::string_view fragment) {
 }
 
 const Scene& App::link_scene() const {
-  return session.edition() != nullptr ? *session.edition()->start : session.scene();
+  // Without load and seed, which stand beside it: they would act twice.
+  return session.edition() != nullptr ? *session.edition()->start : *plain_scene;
 }
 
 std::string App::link() const {

@@ -83,6 +83,24 @@ TEST(Command, NamesOnlyWhatDiffersFromTheScene) {
   EXPECT_EQ(h.app->command(), "./dev cli run swinging_box --mode const --n-max 99 --frames 1");
 }
 
+TEST(Command, HoldsLoadAndSeed) {
+  Headless h;
+  h.app->open_link("scene=pendulum&load=2&seed=3");
+  h.app->session.pause();
+  EXPECT_EQ(h.app->command(), "./dev cli run pendulum --load 2 --seed 3");
+}
+
+// An own scene goes into the link as a whole: its load stands beside it and must not be in it too.
+TEST(Command, TheLoadOfAnOwnSceneIsNotInItsFileToo) {
+  Headless h;
+  ASSERT_TRUE(h.app->open_text(renamed(*shipped("pendulum"), "mine"), "mine.json"));
+  const double mass = h.app->session.scene().bodies.back().mass;
+  ASSERT_EQ(h.app->set("load", "2"), "");
+  EXPECT_EQ(h.app->session.scene().bodies.back().mass, 2.0 * mass);
+  EXPECT_EQ(h.app->link_scene().bodies.back().mass, mass);
+  EXPECT_NE(h.app->link().find("load=2"), std::string::npos);
+}
+
 TEST(Command, NamesTheFileOfAnOwnScene) {
   Headless h;
   ASSERT_TRUE(h.app->open_text(renamed(*shipped("pendulum"), "mine"), "mine.json"));

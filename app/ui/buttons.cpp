@@ -24,7 +24,8 @@ bool button(const Look& look, const char* id, Icon icon, const char* text, Butto
   const ImRect box(origin, {origin.x + width, origin.y + height});
   ImU32 ink = kind == ButtonKind::kPrimary ? t.on_accent : t.text;
   if (kind == ButtonKind::kPrimary) {
-    draw.AddRectFilled(box.Min, box.Max, hovered ? t.accent_hover : t.accent, look.m.radius);
+    // Less opaque rather than lighter: white stays readable on it in both themes.
+    draw.AddRectFilled(box.Min, box.Max, hovered ? fade(t.accent, 0.88F) : t.accent, look.m.radius);
   } else if (kind == ButtonKind::kPlain || hovered) {
     draw.AddRectFilled(box.Min, box.Max, hovered ? t.control_hover : t.control, look.m.radius);
   } else {

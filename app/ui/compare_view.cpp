@@ -96,8 +96,9 @@ std::string verdict_note(const Verdict& verdict) {
 
 std::vector<ViewRect> view_panes(const App& app) {
   const ViewRect& v = app.view_rect;
-  if (!app.desk.split || !app.compare.open()) return {v};
   const ViewRect all{v.x, v.y + kCaption, v.width, std::max(1.0F, v.height - kCaption)};
+  const bool narrow = v.width < 480.0F;  // there the caption reaches to the middle
+  if (!app.desk.split || !app.compare.open()) return {narrow ? all : v};
   const std::size_t count = 1 + app.compare.runs().size();
   const auto cell = [&](std::size_t columns) {
     const std::size_t rows = count / columns;

@@ -69,7 +69,7 @@ Theme make_light() {
   t.dim = rgb(0x556072);
   t.faint = rgb(0xa4adbb);
   t.accent = rgb(0x1f5fd6);
-  t.accent_hover = rgb(0x3472e4);
+  t.accent_hover = rgb(0x2f6ce0);
   t.on_accent = rgb(0xffffff);
   t.blue = rgb(0x1f6feb);
   t.orange = rgb(0xbc4407);
@@ -80,11 +80,11 @@ Theme make_light() {
   t.view.background_top = color(0xf4f6f9);
   t.view.background_bottom = color(0xdde3eb);
   t.view.grid = color(0x5d6b80, 0.36F);
-  t.view.body = color(0xe9edf2);
+  t.view.body = color(0xc4cdd9);
   t.view.fixture = color(0x8c96a5);
   t.view.joint = color(0x5b6472);
   t.view.trail = color(0x1f6feb, 0.7F);
-  t.view.stiff_low = color(0xdbe4f1);
+  t.view.stiff_low = color(0xc2cfe2);
   t.view.stiff_mid = color(0xf0cfa9);
   t.view.stiff_high = color(0xf07a35);
   t.view.ambient = 0.52F;

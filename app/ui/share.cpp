@@ -29,7 +29,7 @@ void items(App& app) {
   if (host.save_file && item(app, "Save scene as it is now", "S")) app.save_scene();
   line();
   if (host.save_file && item(app, "Picture of the window", "P")) capture_window(app);
-  if (host.save_file && item(app, "Picture of the view", "PNG")) {
+  if (host.save_file && item(app, "Picture of the view")) {
     app.capture = Capture{app.session.scene().name + "_view.png", app.view_rect};
   }
   if (host.record && item(app, app.recording ? "Stop the video" : "Record a video")) {

@@ -88,27 +88,45 @@ void card(App& app, int step) {
   ImGui::PopStyleColor();
 }
 
-// Says more to those who have not been here before, until it is taken or put aside.
+// A button over the picture stands out from it by a line.
+void outline(const Look& look) {
+  ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
+                                      look.theme->track, look.m.radius);
+}
+
+// What to do next, at the picture's corner. It says more to those who have not been here before,
+// until it is taken or put aside.
 void invitation(App& app) {
   const Look& look = app.look;
   const ViewRect& v = app.view_rect;
   const bool fresh = app.desk.tour_hint;
+  const float row = look.m.row + 2.0F;
   ImGui::SetNextWindowPos({v.x + v.width - 12.0F, v.y + v.height - 12.0F}, ImGuiCond_Always,
                           {1.0F, 1.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   if (ImGui::Begin("##tour_button", nullptr, kCard | ImGuiWindowFlags_NoBackground)) {
-    if (button(look, "tour", Icon::kNone, fresh ? "Take the tour: six steps" : "Tour",
-               fresh ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, look.m.row + 2.0F,
+    if (v.width >= 664.0F && app.desk.panels && app.desk.tab != Tab::kAccuracy) {
+      if (button(look, "cost", Icon::kNone, "What does accuracy cost?", ButtonKind::kPlain, 0.0F,
+                 row, "All methods over this scene: error against cost")) {
+        app.set("panel", "accuracy");
+      }
+      outline(look);
+      ImGui::SameLine(0.0F, 8.0F);
+    }
+    if (button(look, "tour", Icon::kNone, fresh ? "Take the tour" : "Tour",
+               fresh ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, row,
                "The paper's story in six steps")) {
       go_to(app, 0);
     }
+    if (!fresh) outline(look);
     if (fresh) {
       ImGui::SameLine(0.0F, 4.0F);
-      if (button(look, "not", Icon::kCross, "", ButtonKind::kPlain, look.m.row + 2.0F,
-                 look.m.row + 2.0F, "Not now; the button stays")) {
+      if (button(look, "not", Icon::kCross, "", ButtonKind::kPlain, row, row,
+                 "Not now; the button stays")) {
         end(app);
       }
+      outline(look);
     }
   }
   ImGui::End();

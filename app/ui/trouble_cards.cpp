@@ -9,14 +9,35 @@
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
+namespace {
+
+struct CardPlace {
+  float y = 0.0F;
+  float pivot = 0.0F;  // of the card, that lies at y: 0 its top, 1 its bottom
+};
+
+// The picture shows what happened: the card lies at its lower edge, or, where panels are below it,
+// on those, under the bar that plays and the tabs.
+CardPlace below_what_failed(const ViewRect& v) {
+  constexpr float kBar = 136.0F;
+  constexpr float kRoom = 200.0F;
+  const float bottom = v.y + v.height;
+  const float below = ImGui::GetIO().DisplaySize.y - bottom;
+  if (below > kBar + kRoom) return {bottom + kBar, 0.0F};
+  return {bottom - 60.0F, 1.0F};
+}
+
+}  // namespace
 
 void failure_card(App& app) {
   const Verdict& verdict = app.session.verdict();
   if (verdict.holds() || app.desk.dismissed_failure == app.run_count) return;
   const Look& look = app.look;
   const bool stopped = app.session.stopped();
+  if (app.desk.tour >= 0 && !stopped) return;  // its card says what is seen
   const ViewRect& v = app.view_rect;
-  if (begin_card(app, "##failure", 380.0F, v.y + 76.0F, 0.0F)) {
+  const CardPlace place = below_what_failed(v);
+  if (begin_card(app, "##failure", 380.0F, place.y, place.pivot)) {
     card_title(look, look.theme->orange, Icon::kCross,
                stopped ? "The run stopped at " + fixed(app.session.state().time, 2) + " s"
                        : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
@@ -39,19 +60,21 @@ void failure_card(App& app) {
                              : "More sub-steps would help: adaptive finds how many.";
     if (v.height > 400.0F) label(look.fonts.small, look.theme->dim, advice);
     ImGui::Dummy({1.0F, 0.0F});
-    if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPrimary, 0.0F, 28.0F,
-               "Back to the start (R)")) {
-      app.reset();
-    }
-    if (mode != Mode::kAdaptive) {
-      ImGui::SameLine();
-      if (button(look, "adaptive", Icon::kNone, "Reset, adaptive", ButtonKind::kPlain, 0.0F, 28.0F,
-                 "The same scene with adaptive sub-steps")) {
+    const bool adaptive = mode == Mode::kAdaptive;
+    if (!adaptive) {  // first what helps
+      if (button(look, "adaptive", Icon::kReset, "Reset, adaptive", ButtonKind::kPrimary, 0.0F,
+                 28.0F, "The same scene with adaptive sub-steps")) {
         Settings s = app.session.settings();
         s.mode = Mode::kAdaptive;
         app.change(s);
         app.reset();
       }
+      ImGui::SameLine();
+    }
+    if (button(look, "again", Icon::kReset, "Reset",
+               adaptive ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, 28.0F,
+               "Back to the start (R)")) {
+      app.reset();
     }
     if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the last frame that held; it goes on from there")) {
@@ -70,10 +93,9 @@ void failure_card(App& app) {
 void trouble_card(App& app) {
   if (app.trouble.title.empty()) return;
   const Look& look = app.look;
-  const ViewRect& v = app.view_rect;
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   ImGui::SetNextWindowFocus();
-  if (begin_card(app, "##trouble", 520.0F, v.y + 0.5F * v.height, 0.5F)) {
+  if (begin_card(app, "##trouble", 520.0F, card_middle(app), 0.5F)) {
     card_title(look, look.theme->orange, Icon::kCross, app.trouble.title);
     const std::size_t count = app.trouble.problems.size();
     const std::string note =

@@ -63,7 +63,12 @@ TEST_P(Contrast, TextIsReadableOnEverySurface) {
     expect(t.text, surface, 7.0, "text");
   }
   for (const ImU32 surface : {t.panel, t.raised, t.well}) expect(t.dim, surface, kText, "dim");
+  expect(t.dim, t.control, kText, "notes of a menu's entry");
+  for (const ImU32 surface : {t.panel, t.raised}) {
+    expect(t.accent_hover, surface, surface == t.panel ? kText : kGraphic, "what is pointed at");
+  }
   expect(t.on_accent, t.accent, kText, "button");
+  expect(t.on_accent, ui::fade(t.accent, 0.88F), kText, "button that is pointed at");
 }
 
 TEST_P(Contrast, TextOverThePictureIsReadable) {
@@ -77,15 +82,20 @@ TEST_P(Contrast, TextOverThePictureIsReadable) {
 TEST_P(Contrast, WordsInColourAreReadableWhereTheyStand) {
   expect(t.amber, t.well, kText, "levels in plots");
   expect(t.orange, t.well, kText, "the cap in plots");
-  expect(t.teal, t.panel, kText, "holds");
-  expect(t.orange, t.panel, kText, "fails");
+  for (const ImU32 surface : {t.panel, t.raised}) {
+    expect(t.teal, surface, kText, "holds");
+    expect(t.orange, surface, kText, "fails");
+  }
 }
 
 TEST_P(Contrast, CurvesStandOutFromTheirGround) {
   for (const ImU32 curve : {t.blue, t.orange, t.teal, t.amber, t.purple, t.grey}) {
     expect(curve, t.well, kGraphic, "curve");
   }
-  expect(t.accent_hover, t.panel, kGraphic, "focus ring");
+  for (const ImU32 surface : {t.panel, t.raised, t.well}) {
+    expect(t.accent_hover, surface, kGraphic, "focus ring");
+  }
+  for (const ImU32 surface : {t.panel, t.well}) expect(t.accent, surface, kGraphic, "what is on");
 }
 
 // Colours of runs that are compared, as people without one of the three kinds of cones see them

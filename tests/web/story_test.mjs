@@ -1,0 +1,96 @@
+// What a visitor does, by clicks alone: node tests/web/story_test.mjs [FOLDER OF THE BUILT PAGE]
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { call, click, drawn, open, openPage, pick, quiet, reports, save } from "./browser.mjs";
+
+let session;
+before(async () => { session = await open(); });
+after(() => session?.close());
+
+const labels = async (page) => (await call(page, "widgets")).map((w) => w.label);
+
+/** Waits until a control is there. */
+const offered = (page, label) => page.waitForFunction(
+  (l) => window.substep.widgets().some((w) => w.label === l), label, { timeout: 20000 });
+
+/** Plays until the run was judged to have failed. */
+const fails = (page) => page.waitForFunction(
+  () => /^fails/.test(window.substep.report().verdict), null, { timeout: 60000 });
+
+test("none tears, adaptive holds, alpha changes N, the link is copied", async () => {
+  const page = await openPage(session);
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  assert.equal((await call(page, "report")).mode, "adaptive");
+  await click(page, "none", "mode");
+  await call(page, "reset");
+  await fails(page);
+  await offered(page, "Reset, adaptive");
+  await save(page, "story-torn");
+  await click(page, "Reset, adaptive");
+  const report = await call(page, "report");
+  assert.deepEqual([report.mode, report.verdict], ["adaptive", "holds"]);
+  assert.ok(report.playing, "it goes on");
+  await click(page, "What does accuracy cost?");
+  await offered(page, "Run all methods");
+  await pick(page, "Copy link");
+  await drawn(page);
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  assert.ok(link.startsWith(session.address), link);
+  assert.match(link, /scene=swinging_box.*mode=adaptive/);
+  quiet(page);
+  await page.context().close();
+});
+
+test("the tour leads through six steps, and each shows what it says", async () => {
+  const page = await openPage(session);
+  await click(page, "Take the tour");
+  const steps = [
+    { mode: "none" }, { mode: "const", n: "7" }, { mode: "damping" }, { mode: "adaptive" },
+    { mode: "adaptive", alpha: "0.1" }, { integrator: "leapfrog" },
+  ];
+  for (const [i, wanted] of steps.entries()) {
+    const settings = Object.fromEntries(
+      (await call(page, "settings")).map((s) => [s.name, String(s.value)]));
+    for (const [name, value] of Object.entries(wanted)) {
+      assert.equal(settings[name], value, `step ${i + 1}, ${name}`);
+    }
+    assert.ok((await call(page, "report")).playing, `step ${i + 1} does not play`);
+    if (i === 0) await fails(page);
+    if (i > 0) assert.ok((await labels(page)).includes("Back"), `step ${i + 1}`);
+    await save(page, `tour-${i + 1}`);
+    await click(page, i < 5 ? "Next" : "Done");
+    await drawn(page);
+  }
+  assert.ok(!(await labels(page)).includes("Done"), "the tour has not ended");
+  await click(page, "Tour"); // the button stays, in few words
+  assert.ok((await labels(page)).includes("Next"));
+  quiet(page);
+  await page.context().close();
+});
+
+test("a run that diverges pauses, explains, and goes back to its last good state", async () => {
+  const page = await openPage(session, { fragment: "scene=spinning_top" });
+  await call(page, "reset");
+  // An explicit gyroscopic torque at this speed gains energy without bound.
+  const wild = JSON.parse(await call(page, "saved"));
+  for (const body of wild.bodies) body.angular_velocity = [300, 2000, 100];
+  Object.assign(wild.settings, { gyroscopic: "explicit", mode: "none" });
+  assert.deepEqual((await call(page, "load", wild)).problems, []);
+  await call(page, "play");
+  await reports(page, "stopped", true);
+  assert.equal((await call(page, "report")).playing, false);
+  await offered(page, "Last good state");
+  await save(page, "diverged");
+  const { time } = await call(page, "report");
+  assert.ok(Number.isFinite(time), `${time}`);
+  assert.equal((await call(page, "history")).includes("nan"), false);
+  await click(page, "Last good state");
+  const good = await call(page, "report");
+  assert.equal(good.stopped, false);
+  assert.ok(good.time <= time);
+  await call(page, "set", { scene: "bridge" }); // nothing else broke
+  await call(page, "step", 10);
+  assert.equal((await call(page, "report")).verdict, "holds");
+  quiet(page);
+  await page.context().close();
+});

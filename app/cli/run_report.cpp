@@ -5,6 +5,7 @@
 
 #include "app/cli/format_text.hpp"
 #include "core/io/number_text.hpp"
+#include "core/lab/experiment.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
 
@@ -63,8 +64,7 @@ std::string RunReport::summary(std::uint64_t state_hash) const {
 }
 
 std::string settings_line(const Settings& s) {
-  std::string line(name_of(s.solver));
-  if (s.solver == SolverKind::kPgs) line += " " + std::to_string(s.iterations);
+  std::string line = solver_text(s);
   line += ", ";
   line += name_of(s.mode);
   if (s.mode == Mode::kConst) line += " " + std::to_string(s.n);

@@ -15,6 +15,20 @@
 namespace substep::ui {
 namespace {
 
+std::string solver_words(const Settings& s) {
+  switch (s.solver) {
+    case SolverKind::kPgs:
+      return "PGS " + std::to_string(s.iterations);
+    case SolverKind::kBpp:
+      return "BPP";
+    case SolverKind::kXpbd:
+      return "XPBD " + std::to_string(s.iterations);
+    case SolverKind::kNewton:
+      return "Newton, forces " + std::string(name_of(s.forces));
+  }
+  return "";
+}
+
 std::string method_line(const Settings& s) {
   std::string line(name_of(s.mode));
   switch (s.mode) {
@@ -43,7 +57,7 @@ std::string method_line(const Settings& s) {
       line = "N up to " + std::to_string(s.n_cap) + ", then inertia and damping";
       break;
   }
-  line += s.solver == SolverKind::kBpp ? "  ·  BPP" : "  ·  PGS " + std::to_string(s.iterations);
+  line += "  ·  " + solver_words(s);
   line += s.integrator == Integrator::kEuler ? "  ·  Euler" : "  ·  leapfrog";
   return line;
 }

@@ -19,12 +19,17 @@ Match(Cases...) -> Match<Cases...>;
 using S = Settings;
 
 constexpr std::array kFields{
-    SettingField{"solver", "bpp solves each step exactly, pgs iterates (Eq. 3)",
-                 ChoiceSetting<SolverKind>{&S::solver}},
-    SettingField{"iterations", "sweeps of pgs per sub-step",
+    SettingField{
+        "solver",
+        "bpp solves each step exactly, pgs iterates (Eq. 3); newton is implicit, xpbd moves "
+        "positions",
+        ChoiceSetting<SolverKind>{&S::solver}},
+    SettingField{"iterations", "sweeps of pgs and xpbd per sub-step, most steps of newton",
                  CountSetting{&S::iterations, 1, 100000}},
     SettingField{"warm_start", "pgs starts from the forces of the last sub-step",
                  FlagSetting{&S::warm_start}},
+    SettingField{"forces", "poses that newton takes the directions of forces from",
+                 ChoiceSetting<Forces>{&S::forces}},
     SettingField{"pivots", "block pivots of bpp before it goes one by one",
                  CountSetting{&S::pivots, 1, 1000}},
     SettingField{"mode", "how a step is kept stable", ChoiceSetting<Mode>{&S::mode}},
@@ -48,7 +53,8 @@ constexpr std::array kFields{
     SettingField{"integrator", "time integration", ChoiceSetting<Integrator>{&S::integrator}},
     SettingField{"gyroscopic", "how the gyroscopic torque is integrated",
                  ChoiceSetting<Gyroscopic>{&S::gyroscopic}},
-    SettingField{"drift", "law of the drift correction; auto is full with bpp and soft with pgs",
+    SettingField{"drift",
+                 "law of the drift correction; auto is soft with pgs and full with the others",
                  ChoiceSetting<Drift>{&S::drift}},
     SettingField{"tau", "time constant of the soft drift law",
                  NumberSetting{&S::drift_tau, {1e-6, 10.0, false, false, "s"}}},

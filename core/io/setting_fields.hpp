@@ -35,8 +35,9 @@ struct SettingField {
   std::string_view name;  // in scene files and links; as a flag with '-' for '_'
   std::string_view help;  // one line, with its equation where it has one
   std::variant<FlagSetting, CountSetting, NumberSetting, ChoiceSetting<SolverKind>,
-               ChoiceSetting<Mode>, ChoiceSetting<Policy>, ChoiceSetting<Integrator>,
-               ChoiceSetting<Gyroscopic>, ChoiceSetting<Drift>, ChoiceSetting<ContactStiffness>>
+               ChoiceSetting<Forces>, ChoiceSetting<Mode>, ChoiceSetting<Policy>,
+               ChoiceSetting<Integrator>, ChoiceSetting<Gyroscopic>, ChoiceSetting<Drift>,
+               ChoiceSetting<ContactStiffness>>
       member;
 };
 

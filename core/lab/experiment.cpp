@@ -59,9 +59,19 @@ std::int64_t frames_of(const Scene& scene, double duration) {
   return std::llround(duration / scene.frame);
 }
 
+std::string solver_text(const Settings& s) {
+  std::string text(name_of(s.solver));
+  if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
+    text += " " + std::to_string(s.iterations);
+  } else if (s.solver == SolverKind::kNewton && s.forces != Forces::kEnd) {
+    text += " ";
+    text += name_of(s.forces);
+  }
+  return text;
+}
+
 std::string series_name(const Settings& s) {
-  std::string name(name_of(s.solver));
-  if (s.solver == SolverKind::kPgs) name += " " + std::to_string(s.iterations);
+  std::string name = solver_text(s);
   name += ", ";
   // One sub-step is where the curve of constant numbers begins.
   name += s.mode == Mode::kNone ? "const" : name_of(s.mode);

@@ -33,6 +33,9 @@ double mass_ratio(const Scene& scene);
 /// Frames of a duration, rounded to whole ones.
 std::int64_t frames_of(const Scene& scene, double duration);
 
+/// The solver and what it is set to: "bpp", "pgs 25", "newton mean".
+std::string solver_text(const Settings& settings);
+
 /// What one curve of a picture shares: "bpp, adaptive per frame, euler". The parameter that runs
 /// along the curve is left out.
 std::string series_name(const Settings& settings);

@@ -22,14 +22,16 @@ struct NameTable;  // specialised below for every enum that people see
 template <>
 struct NameTable<SolverKind> {
   static constexpr std::array entries{Named<SolverKind>{"pgs", SolverKind::kPgs},
-                                      Named<SolverKind>{"bpp", SolverKind::kBpp}};
+                                      Named<SolverKind>{"bpp", SolverKind::kBpp},
+                                      Named<SolverKind>{"xpbd", SolverKind::kXpbd},
+                                      Named<SolverKind>{"newton", SolverKind::kNewton}};
 };
 template <>
 struct NameTable<Mode> {
   static constexpr std::array entries{
-      Named<Mode>{"none", Mode::kNone}, Named<Mode>{"const", Mode::kConst},
+      Named<Mode>{"none", Mode::kNone},       Named<Mode>{"const", Mode::kConst},
       Named<Mode>{"damping", Mode::kDamping}, Named<Mode>{"adaptive", Mode::kAdaptive},
-      Named<Mode>{"capped", Mode::kCapped}, Named<Mode>{"stiffness", Mode::kStiffness},
+      Named<Mode>{"capped", Mode::kCapped},   Named<Mode>{"stiffness", Mode::kStiffness},
       Named<Mode>{"inertia", Mode::kInertia}, Named<Mode>{"blend", Mode::kBlend}};
 };
 template <>
@@ -52,6 +54,12 @@ template <>
 struct NameTable<ContactStiffness> {
   static constexpr std::array entries{Named<ContactStiffness>{"paper", ContactStiffness::kPaper},
                                       Named<ContactStiffness>{"exact", ContactStiffness::kExact}};
+};
+template <>
+struct NameTable<Forces> {
+  static constexpr std::array entries{Named<Forces>{"end", Forces::kEnd},
+                                      Named<Forces>{"mean", Forces::kMean},
+                                      Named<Forces>{"numerov", Forces::kNumerov}};
 };
 template <>
 struct NameTable<Gyroscopic> {

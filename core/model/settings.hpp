@@ -4,7 +4,7 @@
 
 namespace substep {
 
-enum class SolverKind : std::uint8_t { kPgs, kBpp };
+enum class SolverKind : std::uint8_t { kPgs, kBpp, kXpbd, kNewton };
 /// How a step is kept stable (the stabilisation mode).
 enum class Mode : std::uint8_t {
   kNone,       // one sub-step
@@ -16,10 +16,17 @@ enum class Mode : std::uint8_t {
   kInertia,    // N by Eq. 11 up to n_cap, and geometric inertia for what they do not reach
   kBlend,      // the same, with some damping
 };
+/// The poses that Newton takes the directions of constraint forces from, over a sub-step from q to
+/// q+ that follows one from q- to q.
+enum class Forces : std::uint8_t {
+  kEnd,      // q+: implicit Euler
+  kMean,     // q-, q and q+ by 1/4, 1/2 and 1/4: average acceleration
+  kNumerov,  // by 1/12, 10/12 and 1/12, with what the forces gain on the way
+};
 /// How often the number of sub-steps is decided.
 enum class Policy : std::uint8_t { kFrame, kSubstep };
 enum class Integrator : std::uint8_t { kEuler, kLeapfrog };
-/// Law of the drift correction. kAuto is full with the direct solver and soft with PGS.
+/// Law of the drift correction. kAuto is soft with PGS and full with the other solvers.
 enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
 enum class ContactStiffness : std::uint8_t { kPaper, kExact };
@@ -28,9 +35,10 @@ enum class Gyroscopic : std::uint8_t { kExplicit, kImplicit };
 /// Everything a person changes while a scene runs. The defaults are the paper's.
 struct Settings {
   SolverKind solver = SolverKind::kBpp;
-  int iterations = 25;      // PGS sweeps per sub-step, >= 1
-  bool warm_start = false;  // PGS starts from the last sub-step's forces
-  int pivots = 20;          // block pivoting steps of BPP before its single-pivot fallback, >= 1
+  int iterations = 25;           // per sub-step: sweeps of PGS and XPBD, most Newton steps, >= 1
+  bool warm_start = false;       // PGS starts from the last sub-step's forces
+  Forces forces = Forces::kEnd;  // Newton
+  int pivots = 20;  // block pivoting steps of BPP before its single-pivot fallback, >= 1
 
   Mode mode = Mode::kAdaptive;
   double alpha = 0.1;    // stability threshold of Eq. 5, in (0, 1] [-]; N goes with alpha^-1/2
@@ -53,6 +61,11 @@ struct Settings {
 
   friend bool operator==(const Settings&, const Settings&) = default;
 };
+
+/// Whether impulses are seeded with the forces of the last sub-step, those of joints too.
+inline bool starts_from_last_forces(const Settings& s) {
+  return s.warm_start || s.solver == SolverKind::kNewton;
+}
 
 /// kAuto resolved: the law that the solver is used with.
 inline Drift drift_law(const Settings& s) {

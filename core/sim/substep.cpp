@@ -7,7 +7,7 @@
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
-#include "core/stepping/full_stiffness.hpp"
+#include "core/math/resisting.hpp"
 #include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 
@@ -99,7 +99,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   }
   if (grab) soften_grab(*grab, dt, rows.back());
   seed_forces();
-  const System system{rows, inverse_mass, state.u};
+  const System system{rows, inverse_mass, state.u, u_before, dt};
   const SolveReport solved = solver->solve(system, settings);
   smooth = true;
   for (Block& block : rows) {
@@ -201,7 +201,7 @@ void Simulator::Impl::seed_forces() {
     std::fill(block.tight, block.tight + kMaxRows,
               block.is_contact() ? kUnknownSet : std::int8_t{0});
     block.was_closed = false;
-    if (!block.is_contact() && !settings.warm_start) continue;  // not stored
+    if (!block.is_contact() && !starts_from_last_forces(settings)) continue;  // not stored
     for (std::size_t tried = 0; tried < known; ++tried) {
       const StoredForce& force = state.forces[(next + tried) % known];
       if (force.id != block.id) continue;
@@ -219,7 +219,7 @@ void Simulator::Impl::seed_forces() {
 void Simulator::Impl::store_forces() {
   state.forces.clear();
   for (const Block& block : blocks.all()) {
-    if (!block.is_contact() && !settings.warm_start) continue;
+    if (!block.is_contact() && !starts_from_last_forces(settings)) continue;
     StoredForce& force = state.forces.emplace_back();
     force.id = block.id;
     for (int row = 0; row < block.rows; ++row) {

@@ -1,7 +1,9 @@
 #include "core/solver/solver.hpp"
 
 #include "core/solver/bpp.hpp"
+#include "core/solver/newton.hpp"
 #include "core/solver/pgs.hpp"
+#include "core/solver/xpbd.hpp"
 
 namespace substep {
 
@@ -11,6 +13,10 @@ std::unique_ptr<Solver> make_solver(SolverKind kind) {
       return std::make_unique<Pgs>();
     case SolverKind::kBpp:
       return std::make_unique<Bpp>();
+    case SolverKind::kXpbd:
+      return std::make_unique<Xpbd>();
+    case SolverKind::kNewton:
+      return std::make_unique<Newton>();
   }
   return nullptr;  // not reached: the switch is exhaustive
 }

@@ -140,7 +140,8 @@ TEST(CommandLine, CostTellsStagesRowsEffectsAndTheCriterion) {
 
 TEST(CommandLine, EverySettingIsAFlag) {
   const Outcome run = substep(
-      "run free_fall --frames 1 --json - --solver pgs --iterations 3 --warm-start --pivots 4 "
+      "run free_fall --frames 1 --json - --solver pgs --iterations 3 --warm-start --forces mean "
+      "--pivots 4 "
       "--mode "
       "capped --alpha 0.2 --n 5 --n-max 6 --n-cap 7 --alpha-m 0.5 --beta 0.8 --policy substep "
       "--memory 0.5 --no-probe "
@@ -150,8 +151,8 @@ TEST(CommandLine, EverySettingIsAFlag) {
       "--watch-stiffness");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json expected = Json::parse(
-      R"({"solver": "pgs", "iterations": 3, "warm_start": true, "pivots": 4, "mode": "capped",
-          "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "alpha_m": 0.5, "beta": 0.8,
+      R"({"solver": "pgs", "iterations": 3, "warm_start": true, "forces": "mean",
+          "pivots": 4, "mode": "capped", "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "alpha_m": 0.5, "beta": 0.8,
           "policy": "substep", "memory": 0.5, "probe": false, "integrator": "leapfrog",
           "gyroscopic": "explicit", "drift": "full", "tau": 0.01, "drift_order": 2,
           "contact_stiffness": "exact", "watch_stiffness": true})");
@@ -198,17 +199,18 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"AlphaNoNumber", "run bridge --alpha much", "--alpha: much is not > 0 and <= 1"},
         BadCall{"CountZero", "run bridge --n-max 0",
                 "--n-max: 0 is not a whole number from 1 to 10000"},
-        BadCall{"SolverOfNoKind", "run bridge --solver xpbd", "--solver: xpbd is not pgs or bpp"},
+        BadCall{"SolverOfNoKind", "run bridge --solver admm",
+                "--solver: admm is not pgs, bpp, xpbd or newton"},
         BadCall{"ModeOfNoKind", "hash bridge --mode fast",
                 "--mode: fast is not none, const, damping, adaptive, capped, stiffness, "
                 "inertia or blend"},
         BadCall{"NegativeSeconds", "run bridge --seconds -1", "not in range"},
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
-        BadCall{
-            "UnknownCommand", "chek",
-            "chek is not run, sweep, cost, merge, reproduce, check, hash, scenes or generate (did "
-            "you mean \"check\"?)"},
+        BadCall{"UnknownCommand", "chek",
+                "chek is not run, sweep, cost, merge, reproduce, check, hash, scenes, generate or "
+                "map (did "
+                "you mean \"check\"?)"},
         BadCall{"NoCommand", "", "subcommand"},
         BadCall{"NoScene", "run", "scene or --experiments is required"},
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},

@@ -22,8 +22,9 @@ inline constexpr const char* kScenes[] = {
     "free_fall",      "pendulum",   "ragdoll_drop",       "sliding_box",
     "spinning_top",   "wall",       "wrecking_ball"};
 
-/// A program that is given the folder of the scenes, and goes through every shipped scene, adaptive
-/// and with 16 sub-steps, with either solver.
+/// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
+/// and with 16 sub-steps, with BPP and with PGS; and through the paper's scenes of joints with 6
+/// sub-steps of the other solvers.
 /// @return main()'s
 inline int for_every_case(int argc, char** argv, const std::function<void(Case&)>& what) {
   if (argc != 2) {
@@ -36,19 +37,35 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
       std::fprintf(stderr, "%s: %s\n", name, to_string(problem).c_str());
     }
     if (!read.scene) return 2;
+    const auto with = [&](const Settings& settings, std::string_view solver) {
+      Case c{
+          std::string(name) + " " + std::string(name_of(settings.mode)) + " " + std::string(solver),
+          Simulator(read.scene)};
+      c.simulator.set_settings(settings);
+      what(c);
+      std::fflush(stdout);
+    };
     for (const Mode mode : {Mode::kAdaptive, Mode::kConst}) {
       for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
         Settings settings = read.scene->settings;
         settings.mode = mode;
         settings.n = 16;
         settings.solver = solver;
-        Case c{std::string(name) + " " + std::string(name_of(mode)) + " " +
-                   std::string(name_of(solver)),
-               Simulator(read.scene)};
-        c.simulator.set_settings(settings);
-        what(c);
-        std::fflush(stdout);
+        with(settings, name_of(solver));
       }
+    }
+    if (read.scene->group != "paper" || !read.scene->effects.joints) continue;
+    Settings settings = read.scene->settings;
+    settings.mode = Mode::kConst;
+    settings.n = 6;
+    settings.iterations = 4;
+    settings.solver = SolverKind::kXpbd;
+    with(settings, "xpbd");
+    settings.solver = SolverKind::kNewton;
+    for (const Forces forces : {Forces::kEnd, Forces::kMean, Forces::kNumerov}) {
+      if (forces == Forces::kNumerov && read.scene->effects.contact) continue;  // not made for it
+      settings.forces = forces;
+      with(settings, "newton_" + std::string(name_of(forces)));
     }
   }
   return 0;

@@ -31,6 +31,7 @@ Settings unusual() {
   s.solver = SolverKind::kPgs;
   s.iterations = 31;
   s.warm_start = true;
+  s.forces = Forces::kMean;
   s.pivots = 7;
   s.mode = Mode::kCapped;
   s.alpha = 0.1 / 3.0;

@@ -65,6 +65,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   scene.settings = {.solver = SolverKind::kPgs,
                     .iterations = 7,
                     .warm_start = true,
+                    .forces = Forces::kNumerov,
                     .pivots = 3,
                     .mode = Mode::kCapped,
                     .alpha = 0.3,

@@ -165,7 +165,7 @@ TEST(SceneSchema, FindsWhatDoesNotConform) {
   EXPECT_GT(errors("/bodies/1/shape/type", "cone"), 0U);
   EXPECT_GT(errors("/bodies/1/position", Json::array({1, 2})), 0U);
   EXPECT_GT(errors("/joints/0/compliance", "soft"), 0U);
-  EXPECT_GT(errors("/settings/solver", "xpbd"), 0U);
+  EXPECT_GT(errors("/settings/solver", "admm"), 0U);
   EXPECT_GT(errors("/effects/0", "magnetism"), 0U);
   EXPECT_GT(errors("/name", "Very Good"), 0U);
 }

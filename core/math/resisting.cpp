@@ -1,4 +1,4 @@
-#include "core/stepping/full_stiffness.hpp"
+#include "core/math/resisting.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,0 +1,94 @@
+#include "core/constraints/moved_rows.hpp"
+
+#include <cmath>
+
+#include "core/math/turn.hpp"
+
+namespace substep {
+namespace {
+
+Vec3 turned(const Motion& motion, const Vec3& v) { return turn(motion.half, v); }
+Vec3 turned_back(const Motion& motion, const Vec3& v) { return turn(-motion.half, v); }
+
+void set_angular(Block& block, int row, const Vec3& A, const Vec3& B) {
+  for (int j = 0; j < 3; ++j) {
+    block.J_a[row][3 + j] = A[j];
+    block.J_b[row][3 + j] = B[j];
+  }
+}
+
+void move_pin(const Block& start, const Motion& a, const Motion& b, Block& moved) {
+  moved.r_a = turned(a, start.r_a);
+  moved.r_b = turned(b, start.r_b);
+  const Vec3 phi = (a.dx - b.dx) + ((moved.r_a - start.r_a) - (moved.r_b - start.r_b));
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 e = Vec3::Unit(i);
+    moved.phi[i] = phi[i];
+    set_angular(moved, i, moved.r_a.cross(e), -moved.r_b.cross(e));
+  }
+}
+
+void move_hinge_axis(const Block& start, const Motion& a, const Motion& b, Block& moved) {
+  moved.axis = turned(a, start.axis);
+  moved.v1 = turned(b, start.v1);
+  moved.v2 = turned(b, start.v2);
+  for (int k = 0; k < 2; ++k) {
+    const Vec3& v = k == 0 ? moved.v1 : moved.v2;
+    const Vec3& v_start = k == 0 ? start.v1 : start.v2;
+    const Vec3 J = moved.axis.cross(v);
+    moved.phi[3 + k] = moved.axis.dot(v) - start.axis.dot(v_start);
+    set_angular(moved, 3 + k, J, -J);
+  }
+}
+
+// The gap is D(p) - radius with D fixed in b and p fixed in a. Seen from b, p moves by d; then
+// D = D_0 + n . d + d . H d / 2 and grad D = n + H d.
+void move_contact(const Block& start, const Motion& a, const Motion& b, Block& moved) {
+  moved.arm_a = turned(a, start.arm_a);
+  moved.rho = start.rho + (a.dx - b.dx) + (moved.arm_a - start.arm_a);
+  const Vec3 d = turned_back(b, moved.rho) - start.rho;
+  const Vec3 Hd = start.H * d;
+  moved.phi[0] = start.n.dot(d) + 0.5 * d.dot(Hd);
+  moved.n = turned(b, (start.n + Hd).normalized());
+  // The point that both surfaces share keeps its place along the normal from p.
+  const Vec3 along = (start.r_a - start.arm_a).dot(start.n) * moved.n;
+  moved.r_a = moved.arm_a + along;
+  moved.r_b = moved.rho + along;
+  if (start.rows == 3) {
+    // How far the material points that touch have slid, along the tangents of the start.
+    const Vec3 slid =
+        (a.dx - b.dx) + ((turned(a, start.r_a) - start.r_a) - (turned(b, start.r_b) - start.r_b));
+    moved.phi[1] = start.t1.dot(slid);
+    moved.phi[2] = start.t2.dot(slid);
+    const Vec3 t = turned(b, start.t1);
+    moved.t1 = (t - moved.n * moved.n.dot(t)).normalized();
+    moved.t2 = moved.n.cross(moved.t1);
+  }
+  for (int row = 0; row < start.rows; ++row) {
+    const Vec3& direction = row == 0 ? moved.n : row == 1 ? moved.t1 : moved.t2;
+    for (int j = 0; j < 3; ++j) {
+      moved.J_a[row][j] = direction[j];
+      moved.J_b[row][j] = -direction[j];
+    }
+    set_angular(moved, row, moved.r_a.cross(direction), -moved.r_b.cross(direction));
+  }
+}
+
+}  // namespace
+
+void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved) {
+  moved = start;
+  switch (start.kind) {
+    case BlockKind::kHinge:
+      move_hinge_axis(start, a, b, moved);
+      [[fallthrough]];
+    case BlockKind::kBall:
+      move_pin(start, a, b, moved);
+      break;
+    case BlockKind::kContact:
+      move_contact(start, a, b, moved);
+      break;
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,25 @@
+#pragma once
+
+#include "core/constraints/block.hpp"
+
+namespace substep {
+
+/// How a body's pose has changed since its rows were made. The world and static bodies stay.
+struct Motion {
+  Vec3 dx = Vec3::Zero();    // way of the centre of mass, world [m]
+  Vec3 half = Vec3::Zero();  // Cayley vector of the turn, world: tan(angle/2) axis
+};
+
+/// The motion of a sub-step, as integrate() will make it. @param u [m/s, rad/s]  @param dt [s]
+inline Motion motion(const Vec6& u, double dt) {
+  return {dt * u.head<3>(), 0.5 * dt * u.tail<3>()};
+}
+
+/// phi and J of a block after its bodies have moved: for solvers that look at the end of a sub-step
+/// instead of its start. Exact for joints and for points on faces; spheres on spheres to the second
+/// order of H.
+/// @param moved out: a copy of `start` whose J, arms, axes, normal and tangents are those after the
+///        motion, and whose phi is that after LESS that before. Friction counts the way slid.
+void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved);
+
+}  // namespace substep

@@ -1,0 +1,195 @@
+#include "core/solver/newton.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "core/constraints/contact.hpp"
+#include "core/constraints/hinge_joint.hpp"
+#include "core/constraints/moved_rows.hpp"
+#include "core/math/resisting.hpp"
+
+namespace substep {
+
+namespace {
+
+constexpr double kConverged = 1e-9;  // largest change of a velocity in a step, relative
+
+void add_stiffness(const Block& block, StiffnessMatrix& K) {
+  switch (block.kind) {
+    case BlockKind::kBall:
+      return ball_stiffness(block, K);
+    case BlockKind::kHinge:
+      return hinge_stiffness(block, K);
+    case BlockKind::kContact:
+      return contact_stiffness_exact(block, K);
+  }
+}
+
+/// The share of each of the two neighbouring poses, and of q+ in the Hessian.
+double weight_of(Forces forces) {
+  switch (forces) {
+    case Forces::kEnd:
+      return 1.0;
+    case Forces::kMean:
+      return 1.0 / 4.0;
+    case Forces::kNumerov:
+      return 1.0 / 12.0;
+  }
+  return 1.0;
+}
+
+Motion motion_of(int body, std::span<const Vec6> u, double dt) {
+  return body < 0 ? Motion{} : motion(u[static_cast<std::size_t>(body)], dt);
+}
+
+}  // namespace
+
+void Newton::reserve(std::size_t bodies, std::size_t blocks) {
+  linear_.reserve(bodies, blocks);
+  rows_.reserve(blocks);
+  before_.reserve(blocks);
+  K_.reserve(bodies, 2 * blocks);
+}
+
+// Linearised about the iterate u:
+//   phi + dt J (u+ - u) + dt softness * impulse = 0
+// so the linear system has the bias phi/dt - J u. phi is that of the end; J' stands for its J.
+void Newton::relinearise(const System& system, Forces forces) {
+  aim_ = u_star_;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Block& start = system.blocks[i];
+    Block& block = rows_[i];
+    move_rows(start, motion_of(start.a, system.u, system.dt),
+              motion_of(start.b, system.u, system.dt), block);
+    if (forces != Forces::kEnd) {
+      average(system, i, weight_of(forces), forces == Forces::kNumerov);
+    }
+    double speed[kMaxRows];
+    row_speeds(block, system.u, speed);
+    for (int row = 0; row < block.rows; ++row) {
+      block.bias[row] = start.bias[row] + block.phi[row] / system.dt - speed[row];
+    }
+  }
+  if (forces == Forces::kNumerov) straighten_turns(system);
+}
+
+// J' = w J- + (1 - 2 w) J + w J+. Numerov's method has the forces of the neighbours with their own
+// impulses, (J- p- + 10 J p + J+ p+)/12. With p-+ = p -+ g, g what they gain in a sub-step, that is
+// J'^T p + (J+ - J-)^T g/12; what is bent about p acts along J and only changes the multiplier.
+void Newton::average(const System& system, std::size_t index, double w, bool numerov) {
+  const Block& start = system.blocks[index];
+  Block& end = rows_[index];
+  Block back;
+  move_rows(start, motion_of(start.a, system.u_before, -system.dt),
+            motion_of(start.b, system.u_before, -system.dt), back);
+  if (numerov && !start.is_contact()) {
+    Block gained = end;
+    gained.pinned = false;  // no linear part is left in the difference
+    double gain[kMaxRows];
+    for (int row = 0; row < start.rows; ++row) {
+      gain[row] = w * (start.impulse[row] - before_[index].row[row]);
+      for (int j = 0; j < 6; ++j) {
+        gained.J_a[row][j] -= back.J_a[row][j];
+        gained.J_b[row][j] -= back.J_b[row][j];
+      }
+    }
+    apply_impulse(gained, gain, system.inverse_mass, aim_);
+  }
+  for (int row = 0; row < start.rows; ++row) {
+    for (int j = 0; j < 6; ++j) {
+      end.J_a[row][j] =
+          w * (back.J_a[row][j] + end.J_a[row][j]) + (1.0 - 2.0 * w) * start.J_a[row][j];
+      end.J_b[row][j] =
+          w * (back.J_b[row][j] + end.J_b[row][j]) + (1.0 - 2.0 * w) * start.J_b[row][j];
+    }
+  }
+  end.r_a = w * (back.r_a + end.r_a) + (1.0 - 2.0 * w) * start.r_a;
+  end.r_b = w * (back.r_b + end.r_b) + (1.0 - 2.0 * w) * start.r_b;
+}
+
+// u turns a body by the angle 2 atan(dt |omega|/2), so omega is longer than the turn by dt by
+// dt^2 |omega|^2/12, and its change by the derivative of that.
+void Newton::straighten_turns(const System& system) {
+  const double c = system.dt * system.dt / 12.0;
+  for (std::size_t i = 0; i < aim_.size(); ++i) {
+    const Vec3 w = 0.5 * (system.u[i] + system.u_before[i]).tail<3>();
+    const Vec3 change = (system.u[i] - system.u_before[i]).tail<3>();
+    aim_[i].tail<3>() += c * (w.squaredNorm() * change + 2.0 * w.dot(change) * w);
+  }
+}
+
+// The forces turn with q+, so the Hessian is -w dt K(impulse), and what of it resists joins M. With
+// A = (E + w dt M^-1 K)^-1, Mt^-1 = A M^-1 and Mt^-1 M = A:
+//   Mt (u+ - u) = -M (u - u*) + J'^T impulse
+// is the linear system that starts from u - A (u - u*).
+void Newton::stiffen(const System& system, Forces forces) {
+  const double w = weight_of(forces);
+  K_.clear(system.u.size());
+  for (Block& block : rows_) {
+    // K is linear in the forces: dt^2 K(impulse/dt) = dt K(impulse).
+    for (int row = 0; row < block.rows; ++row) {
+      block.lambda[row] = w * system.dt * block.impulse[row];
+    }
+    add_stiffness(block, K_);
+  }
+  for (std::size_t i = 0; i < u_.size(); ++i) {
+    const auto body = static_cast<int>(i);
+    const Mat3 K = resisting(K_.block(body, body).bottomRightCorner<3, 3>());
+    const Mat3& W = system.inverse_mass[i].angular;
+    const Mat3 A = (Mat3::Identity() + W * K).inverse();
+    const Mat3 Mt = A * W;
+    inverse_mass_[i] = {system.inverse_mass[i].linear, 0.5 * (Mt + Mt.transpose())};
+    u_[i].head<3>() = aim_[i].head<3>();
+    u_[i].tail<3>() = system.u[i].tail<3>() - A * (system.u[i].tail<3>() - aim_[i].tail<3>());
+  }
+}
+
+double Newton::take(const System& system) {
+  double change = 0.0;
+  for (std::size_t i = 0; i < u_.size(); ++i) {
+    change = std::max(change, (u_[i] - system.u[i]).norm() / (1.0 + u_[i].norm()));
+    system.u[i] = u_[i];
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Block& block = system.blocks[i];
+    std::copy(rows_[i].impulse, rows_[i].impulse + block.rows, block.impulse);
+    std::copy(rows_[i].tight, rows_[i].tight + block.rows, block.tight);
+  }
+  return change;
+}
+
+SolveReport Newton::solve(const System& system, const Settings& settings) {
+  u_star_.assign(system.u.begin(), system.u.end());
+  u_.resize(u_star_.size());
+  inverse_mass_.resize(u_star_.size());
+  rows_.resize(system.blocks.size());
+  before_.resize(system.blocks.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    std::copy(system.blocks[i].impulse, system.blocks[i].impulse + kMaxRows, before_[i].row);
+  }
+  // The guess: nothing changes.
+  std::copy(system.u_before.begin(), system.u_before.end(), system.u.begin());
+
+  SolveReport report;
+  for (double change = 1.0; change > kConverged;) {  // false for what is not a number
+    if (report.iterations == settings.iterations) {
+      report.status = SolveStatus::kUnsolved;
+      break;
+    }
+    relinearise(system, settings.forces);
+    stiffen(system, settings.forces);
+    const SolveReport step =
+        linear_.solve({rows_, inverse_mass_, u_, system.u_before, system.dt}, settings);
+    change = take(system);
+    ++report.iterations;
+    report.status = step.status;
+    report.pivots += step.pivots;
+    report.passes += step.passes;
+    report.factorisations += step.factorisations;
+    report.flops += step.flops;
+  }
+  return report;
+}
+
+}  // namespace substep

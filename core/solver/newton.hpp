@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "core/constraints/stiffness_matrix.hpp"
+#include "core/solver/bpp.hpp"
+#include "core/solver/solver.hpp"
+
+namespace substep {
+
+/// Newton's method on the implicit sub-step (Macklin et al. 2019, "Non-smooth Newton methods for
+/// deformable multi-body dynamics"): the errors vanish at the end of the sub-step, and impulses act
+/// along the gradients J' of poses around it,
+///   M (u+ - u*) = J'^T impulse,   phi(q+)/dt + softness * impulse = 0,
+/// complementary for contacts. Settings::forces says which, of those before, at and after q:
+///   end      J' = J+, the source's. Stable for any step, and a damper: implicit Euler.
+///   mean     J' = (J- + 2 J + J+)/4. The same forwards and backwards in time, so that nothing is
+///            damped, and on the model of Eq. 5 stable for any step all the same: the average
+///            acceleration of Newmark's family.
+///   numerov  J' = (J- + 10 J + J+)/12, after Numerov's q+ - 2 q + q- = dt^2 (a- + 10 a + a+)/12.
+///            On the model of Eq. 5 the error is of fourth order, and stable while dt^2 k < 6 M.
+///            The forces of the neighbours differ from this one by what they gain in a sub-step,
+///            and the Cayley vector of a turn from the turn itself; both are put right. Chains that
+///            swing in a plane converge at third order, what tumbles in space at second.
+/// The part of the constraints' Hessian that resists a body's turning joins M in each step, so that
+/// two to five steps do; the source has a diagonal there. At most Settings::iterations steps, from
+/// the last sub-step's velocities and forces.
+class Newton final : public Solver {
+ public:
+  void reserve(std::size_t bodies, std::size_t blocks) override;
+  SolveReport solve(const System& system, const Settings& settings) override;
+
+ private:
+  void relinearise(const System& system, Forces forces);
+  void average(const System& system, std::size_t block, double weight, bool numerov);
+  void straighten_turns(const System& system);
+  void stiffen(const System& system, Forces forces);
+  /// Takes the solution of the linear system. @return the largest change of a velocity, relative
+  double take(const System& system);
+
+  // The linear system of a step.
+  Bpp linear_;
+  std::vector<Block> rows_;
+  std::vector<InverseMass> inverse_mass_;
+  std::vector<Vec6> u_;
+
+  std::vector<Vec6> u_star_;  // per body: before any impulse
+  std::vector<Vec6> aim_;     // per body: u_star_ with what does not depend on this step's impulses
+  struct Impulse {
+    double row[kMaxRows];
+  };
+  std::vector<Impulse> before_;  // per block: of the last sub-step, for the time of this one
+  StiffnessMatrix K_;
+};
+
+}  // namespace substep

@@ -1,0 +1,129 @@
+#include "core/solver/xpbd.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constraints/moved_rows.hpp"
+#include "core/math/turn.hpp"
+#include "core/solver/flops.hpp"
+
+namespace substep {
+
+namespace {
+
+/// A direction in the space of a block's rows, seen by one body: how its pose changes the error.
+Vec6 gradient(const double (&J)[kMaxRows][6], int first, int count, const double* direction) {
+  Vec6 g = Vec6::Zero();
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < 6; ++j) g[j] += direction[i] * J[first + i][j];
+  }
+  return g;
+}
+
+Vec6 response(const InverseMass& mass, const Vec6& g) {
+  Vec6 out;
+  out << mass.linear * g.head<3>(), mass.angular * g.tail<3>();
+  return out;
+}
+
+/// The way of a body, lengthened by du dt and turned by it: u is what integrate() will move it by.
+void push(const Vec6& du, double dt, Vec6& u) {
+  u.head<3>() += du.head<3>();
+  u.tail<3>() = (2.0 / dt) * turn_after(0.5 * dt * u.tail<3>(), 0.5 * dt * du.tail<3>());
+}
+
+/// Of one correction of some rows: the rows at the present poses, the direction, and per body the
+/// gradient, its response and the push.
+std::int64_t correction_flops(const Block& block, int count) {
+  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+  constexpr std::int64_t kMoveRow = 15;  // phi and J of one row at other poses
+  constexpr std::int64_t kMoveBody = 60;
+  constexpr std::int64_t kPush = 50;
+  return count * (kMoveRow + 6) + 6 +
+         bodies * (kMoveBody + product_flops(6, count, 1) + product_flops(3, 3, 1) + 15 + kPush);
+}
+
+}  // namespace
+
+void Xpbd::reserve(std::size_t /*bodies*/, std::size_t /*blocks*/) {}
+
+// The error e of the rows, its length c and direction d; the impulse p along d changes it by
+//   dt (w + softness) p,   w = g M^-1 g^T,   g = d^T J,
+// so p = -(c/dt + softness d . impulse) / (w + softness).
+void Xpbd::correct(const System& system, Block& block, Rows rows, double bound) {
+  Vec6* u_a = block.a < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.a)];
+  Vec6* u_b = block.b < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.b)];
+  move_rows(block, u_a ? motion(*u_a, system.dt) : Motion{},
+            u_b ? motion(*u_b, system.dt) : Motion{}, moved_);
+
+  double direction[kMaxRows] = {1.0};
+  double speed = 0.0;  // the error by dt; signed for a single row
+  for (int i = 0; i < rows.count; ++i) {
+    const int row = rows.first + i;
+    const double e = block.bias[row] + moved_.phi[row] / system.dt;
+    if (rows.count == 1) {
+      speed = e;
+    } else {
+      direction[i] = e;
+      speed += e * e;
+    }
+  }
+  if (rows.count > 1) {
+    speed = std::sqrt(speed);
+    if (speed == 0.0) return;
+    for (int i = 0; i < rows.count; ++i) direction[i] /= speed;
+  }
+
+  double along = 0.0;
+  for (int i = 0; i < rows.count; ++i) along += direction[i] * block.impulse[rows.first + i];
+  const double softness = block.softness[rows.first];
+  double w = softness;
+  Vec6 du_a;
+  Vec6 du_b;
+  if (u_a) {
+    const Vec6 g = gradient(moved_.J_a, rows.first, rows.count, direction);
+    du_a = response(system.inverse_mass[static_cast<std::size_t>(block.a)], g);
+    w += g.dot(du_a);
+  }
+  if (u_b) {
+    const Vec6 g = gradient(moved_.J_b, rows.first, rows.count, direction);
+    du_b = response(system.inverse_mass[static_cast<std::size_t>(block.b)], g);
+    w += g.dot(du_b);
+  }
+  double p = -(speed + softness * along) / w;
+  if (block.is_contact()) {
+    const double lowest = rows.first == 0 ? 0.0 : -bound;
+    p = std::min(bound, std::max(lowest, along + p)) - along;
+  }
+  for (int i = 0; i < rows.count; ++i) block.impulse[rows.first + i] += p * direction[i];
+  if (u_a) push(p * du_a, system.dt, *u_a);
+  if (u_b) push(p * du_b, system.dt, *u_b);
+}
+
+SolveReport Xpbd::solve(const System& system, const Settings& settings) {
+  SolveReport report;
+  report.iterations = settings.iterations;
+  for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
+  for (int iteration = 0; iteration < settings.iterations; ++iteration) {
+    for (Block& block : system.blocks) {
+      report.row_updates += block.rows;
+      if (block.is_contact()) {
+        correct(system, block, {0, 1});
+        report.flops += correction_flops(block, 1) * block.rows;
+        for (int row = 1; row < block.rows; ++row) {
+          correct(system, block, {row, 1}, block.mu * block.impulse[0]);
+        }
+        continue;
+      }
+      correct(system, block, {0, 3});
+      report.flops += correction_flops(block, 3);
+      if (block.kind == BlockKind::kHinge) {
+        correct(system, block, {3, 2});
+        report.flops += correction_flops(block, 2);
+      }
+    }
+  }
+  return report;
+}
+
+}  // namespace substep

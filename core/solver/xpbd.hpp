@@ -1,0 +1,33 @@
+#pragma once
+
+#include "core/solver/solver.hpp"
+
+namespace substep {
+
+/// Extended position-based dynamics of rigid bodies (Mueller et al. 2020, "Detailed rigid body
+/// simulation with extended position based dynamics"): bodies are first moved as if nothing held
+/// them, then the joints and contacts of that pose are set right one after the other, each along
+/// its error as it is at that moment. The velocities are those of the way gone, and stand for the
+/// poses on the way: (x+ - x)/dt and the Cayley vector of the turn. A fixed number of sweeps,
+/// Settings::iterations; the source recommends one, and many sub-steps.
+///
+/// Friction is bounded where positions are corrected, in the place of the source's velocity pass,
+/// and the bodies' inertia keeps the axes of the start of the sub-step.
+class Xpbd final : public Solver {
+ public:
+  void reserve(std::size_t bodies, std::size_t blocks) override;
+  SolveReport solve(const System& system, const Settings& settings) override;
+
+ private:
+  struct Rows {
+    int first = 0;
+    int count = 1;
+  };
+  /// Sets the error of some rows of a block right, with one impulse along it.
+  /// @param bound on the impulse of a single row, symmetric: friction; unbounded else
+  void correct(const System& system, Block& block, Rows rows, double bound = kUnbounded);
+
+  Block moved_;  // the block at the present poses
+};
+
+}  // namespace substep

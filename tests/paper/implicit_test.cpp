@@ -1,0 +1,172 @@
+// The systems that look at the end of a sub-step: non-smooth Newton with forces at its end, at the
+// mean of the poses around it and by Numerov's weights, and extended position-based dynamics.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/lab/planar_chain.hpp"
+#include "scenes/generator/scenes.hpp"
+#include "tests/paper/exact_swing.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep::test {
+namespace {
+
+Settings newton(Forces forces, int n, int steps = 25) {
+  Settings settings;
+  settings.solver = SolverKind::kNewton;
+  settings.forces = forces;
+  settings.iterations = steps;
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  settings.integrator = Integrator::kLeapfrog;
+  return settings;
+}
+
+Outcome swing(const Settings& settings, double seconds = 10.0, double compliance = 1e-12) {
+  scenes::SwingingBoxOptions options;
+  options.compliance = compliance;
+  return run(scenes::swinging_box(options), settings, seconds);
+}
+
+// One step a frame is seven times the stable one of an explicit sub-step: BPP tears at once.
+TEST(NewtonAtTheEnd, StandsAtOneSubstepAndDamps) {
+  double before = -100.0;
+  for (const int n : {1, 2, 4, 8}) {
+    const Outcome r = swing(newton(Forces::kEnd, n));
+    EXPECT_TRUE(r.holds) << r.verdict;
+    EXPECT_EQ(r.unsolved, 0);
+    EXPECT_LT(energy_drift_percent(r), -2.0) << n;
+    EXPECT_GT(energy_drift_percent(r), 0.6 * before) << "first order: half with every doubling";
+    before = energy_drift_percent(r);
+  }
+}
+
+TEST(NewtonAtTheEnd, CrossesTheBridgeFromEveryStartAtOneSubstep) {
+  for (const scenes::BridgeOptions& options : scenes::bridge_starts()) {
+    const Outcome r = run(scenes::bridge(options), newton(Forces::kEnd, 1), 6.0);
+    EXPECT_TRUE(r.holds) << r.verdict;
+    EXPECT_LT(r.joint_gap, 1e-3);
+  }
+}
+
+// 600 sub-steps of two solves each: geometric inertia with as many is ten times further off, the
+// paper's 9,476 sub-steps fifteen times.
+TEST(NewtonAtTheMean, IsMoreExactThanGeometricInertia) {
+  const std::pair<int, double> most[] = {{1, 9e-4}, {2, 2.4e-4}, {4, 7.5e-5}};  // [m]
+  for (const auto& [n, error] : most) {
+    const Outcome r = swing(newton(Forces::kMean, n, 2));
+    EXPECT_TRUE(r.holds) << r.verdict;
+    EXPECT_LE(tip_error(r), error) << n;
+    EXPECT_GT(tip_error(r), 0.5 * error) << n;
+  }
+}
+
+TEST(NewtonAtTheMean, TakesOneSolveFromTwoSubstepsOn) {
+  const Outcome millimetre = swing(newton(Forces::kMean, 2, 1));
+  EXPECT_TRUE(millimetre.holds) << millimetre.verdict;
+  EXPECT_LT(tip_error(millimetre), 2.5e-4);
+  const Outcome hundredth = swing(newton(Forces::kMean, 11, 1));
+  EXPECT_TRUE(hundredth.holds) << hundredth.verdict;
+  EXPECT_LT(tip_error(hundredth), 1e-5);
+}
+
+TEST(NewtonAtTheMean, KeepsEnergyFor200Seconds) {
+  const Outcome r = swing(newton(Forces::kMean, 1), 200.0);
+  EXPECT_TRUE(r.holds) << r.verdict;
+  EXPECT_NEAR(energy_drift_percent(r), 0.0, 0.05);
+}
+
+/// Largest distance of any body of a chain of three, which bends, from the exact motion [m].
+double chain_error(Forces forces, int n) {
+  const Scene scene = scenes::rope_of_n({2, 0.4, 1.0, 0.0});
+  auto exact = PlanarChain::of(scene);
+  double worst = 0.0;
+  run(scene, newton(forces, n), 1.0, [&](const Simulator& simulator, const FrameReport&) {
+    exact->advance(scene.frame);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Vec3 off = exact->centre(static_cast<int>(i)) - simulator.state().x[i];
+      worst = std::max(worst, off.norm());
+    }
+  });
+  return worst;
+}
+
+TEST(NewtonAtTheMean, IsOfSecondOrder) {
+  EXPECT_NEAR(std::log2(chain_error(Forces::kMean, 8) / chain_error(Forces::kMean, 16)), 2.0, 0.05);
+}
+
+TEST(Numerov, IsOfThirdOrder) {
+  const double order =
+      std::log2(chain_error(Forces::kNumerov, 8) / chain_error(Forces::kNumerov, 16));
+  EXPECT_GT(order, 2.8);
+  EXPECT_LT(order, 4.2);
+  EXPECT_LT(chain_error(Forces::kNumerov, 8), chain_error(Forces::kMean, 8) / 50.0);
+}
+
+// Exact joints, so that nothing gives way: a fifth of a micrometre after 4,200 sub-steps, where the
+// same number of leapfrog's with BPP leave a tenth of a millimetre.
+TEST(Numerov, FollowsTheSwingingBoxToAMicrometre) {
+  const Outcome r = swing(newton(Forces::kNumerov, 7), 10.0, 0.0);
+  EXPECT_TRUE(r.holds) << r.verdict;
+  EXPECT_LT(tip_error(r), 1e-6);
+}
+
+// The weight of a neighbour is 1/12: stable while dt^2 k < 6 M, N = 6 here, and not below.
+TEST(Numerov, StandsAsFarAsItsArgumentSays) {
+  EXPECT_TRUE(swing(newton(Forces::kNumerov, 6)).holds);
+  EXPECT_FALSE(swing(newton(Forces::kNumerov, 4)).holds);
+}
+
+TEST(Numerov, KeepsEnergyFor200Seconds) {
+  const Outcome r = swing(newton(Forces::kNumerov, 7), 200.0);
+  EXPECT_TRUE(r.holds) << r.verdict;
+  EXPECT_NEAR(energy_drift_percent(r), 0.0, 0.01);
+}
+
+Settings xpbd(int n, int sweeps) {
+  Settings settings;
+  settings.solver = SolverKind::kXpbd;
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  settings.iterations = sweeps;
+  return settings;
+}
+
+// Macklin et al. 2019, "Small steps in physics simulation": the same sweeps are better spent on
+// sub-steps than on iterations.
+TEST(Xpbd, SubstepsBeatSweeps) {
+  const Scene scene = scenes::rope_of_n({10, 0.4, 1.0});
+  const Outcome sweeps = run(scene, xpbd(1, 16), 2.0, {}, false);
+  const Outcome substeps = run(scene, xpbd(16, 1), 2.0, {}, false);
+  EXPECT_LT(substeps.joint_gap, 0.3 * sweeps.joint_gap);
+}
+
+// Its first claim: a compliant joint stretches by C F, whatever the step and the sweeps.
+TEST(Xpbd, StretchesByTheCompliance) {
+  Scene scene = scenes::rope_of_n({1, 0.4, 1.0, 1e-4, {0.0, 1.0}});  // hangs straight down
+  for (Body& body : scene.bodies) body.velocity.setZero();
+  for (const auto& [n, sweeps] : {std::pair{4, 40}, std::pair{16, 40}, std::pair{16, 200}}) {
+    double mean = 0.0;
+    int frames = 0;
+    run(scene, xpbd(n, sweeps), 10.0, [&](const Simulator& simulator, const FrameReport& report) {
+      if (report.time < 5.0) return;  // implicit in time: the bounce has died down
+      mean += simulator.state().x[0].y();
+      ++frames;
+    });
+    const double stretch = -0.2 - mean / frames;
+    EXPECT_NEAR(stretch, 1e-4 * 2.0 * 9.81, 2e-5) << n << " x " << sweeps;
+  }
+}
+
+// Where the masses are a thousand to one, one sweep a sub-step leaves links that are thrown to and
+// fro between their joints; 25 hold from N = 4 on, and stretch.
+TEST(Xpbd, NeedsManySweepsForTheHeavyBox) {
+  EXPECT_FALSE(swing(xpbd(28, 1)).holds);
+  EXPECT_FALSE(swing(xpbd(1, 25)).holds);
+  EXPECT_TRUE(swing(xpbd(16, 25)).holds);
+}
+
+}  // namespace
+}  // namespace substep::test

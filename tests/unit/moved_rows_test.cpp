@@ -1,0 +1,176 @@
+// Rows carried along with a sub-step against the same rows made anew at its end.
+
+#include "core/constraints/moved_rows.hpp"
+
+#include "core/math/turn.hpp"
+#include "core/stepping/integrate.hpp"
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+TEST(Turn, IsTheOneOfTheQuaternion) {
+  Random random(31);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vec3 c = 0.7 * random_vector(random);
+    const Vec3 d = 0.7 * random_vector(random);
+    const Vec3 v = random_vector(random);
+    const auto quaternion = [](const Vec3& half) {
+      return Quat(1.0, half.x(), half.y(), half.z()).normalized();
+    };
+    EXPECT_LT((turn(c, v) - quaternion(c) * v).norm(), 1e-14);
+    EXPECT_LT((turn(turn_after(c, d), v) - quaternion(d) * (quaternion(c) * v)).norm(), 1e-12);
+  }
+}
+
+/// Largest differences between rows that were moved and rows made anew.
+struct Difference {
+  double phi = 0.0;
+  double J = 0.0;
+};
+
+Difference after(const Scene& scene, State state, const Rows& rows, double dt) {
+  Blocks start;
+  rows(state, start);
+  const std::vector<Vec6> u = state.u;
+  integrate(scene, dt, state);
+  Blocks end;
+  rows(state, end);
+  Difference difference;
+  EXPECT_EQ(start.size(), end.size());
+  for (std::size_t i = 0; i < start.size(); ++i) {
+    const Block& from = start.all()[i];
+    const Block& expected = end.all()[i];
+    EXPECT_EQ(from.id, expected.id);
+    Block block;
+    const auto of = [&](int body) {
+      return body < 0 ? Motion{} : motion(u[static_cast<std::size_t>(body)], dt);
+    };
+    move_rows(from, of(from.a), of(from.b), block);
+    for (int row = 0; row < block.rows; ++row) {
+      const double change = expected.phi[row] - from.phi[row];
+      difference.phi = std::max(difference.phi, std::abs(block.phi[row] - change));
+      for (int j = 0; j < 6; ++j) {
+        const auto differs = [&](int body, double J, double J_expected) {
+          if (body >= 0) difference.J = std::max(difference.J, std::abs(J - J_expected));
+        };
+        differs(block.a, block.J_a[row][j], expected.J_a[row][j]);
+        differs(block.b, block.J_b[row][j], expected.J_b[row][j]);
+      }
+    }
+  }
+  return difference;
+}
+
+void move_at_random(Random& random, const Scene& scene, State& state) {
+  for (std::size_t i = 0; i < state.u.size(); ++i) {
+    if (!scene.bodies[i].is_static) state.u[i] << random_vector(random), random_vector(random);
+  }
+}
+
+Body somewhere(Random& random, Body body) {
+  body.position = random_vector(random);
+  body.orientation = random_rotation(random);
+  return body;
+}
+
+TEST(MovedRows, OfJointsAreThoseOfTheEnd) {
+  Random random(32);
+  for (int trial = 0; trial < 40; ++trial) {
+    Scene scene;
+    scene.effects.joints = true;
+    for (int i = 0; i < 2; ++i) {
+      Body body = somewhere(random, moving(Box{Vec3{0.3, 0.2, 0.5}}, 2.0));
+      body.is_static = i == 1 && trial % 4 == 1;
+      scene.bodies.push_back(body);
+    }
+    HingeJoint hinge;
+    hinge.a = 0;
+    hinge.b = trial % 4 == 0 ? kWorld : 1;
+    hinge.anchor_a = random_vector(random);
+    hinge.anchor_b = random_vector(random);
+    hinge.axis_a = random_vector(random).normalized();
+    hinge.axis_b = random_vector(random).normalized();
+    BallJoint ball;
+    static_cast<JointBase&>(ball) = hinge;
+    scene.joints = {hinge, ball};
+    State state = initial_state(scene);
+    move_at_random(random, scene, state);
+    const Difference difference = after(scene, state, joint_rows(scene), 0.5);
+    EXPECT_LT(difference.phi, 1e-13);
+    EXPECT_LT(difference.J, 1e-13);
+  }
+}
+
+Scene touching(const Body& a, const Body& b, bool friction) {
+  Scene scene;
+  scene.effects.contact = true;
+  scene.effects.friction = friction;
+  scene.contact.margin = 5.0;
+  scene.bodies = {a, b};
+  return scene;
+}
+
+TEST(MovedRows, OfPointsOnFacesAreThoseOfTheEnd) {
+  Random random(33);
+  for (int trial = 0; trial < 40; ++trial) {
+    const Shape shape = trial % 2 == 0 ? Shape(Sphere{0.4}) : Shape(Box{Vec3{0.3, 0.2, 0.5}});
+    const Scene scene =
+        touching(somewhere(random, moving(shape)), somewhere(random, fixed(Plane{})), false);
+    State state = initial_state(scene);
+    move_at_random(random, scene, state);
+    const Difference difference = after(scene, state, contact_rows(scene), 0.3);
+    EXPECT_LT(difference.phi, 1e-13);
+    EXPECT_LT(difference.J, 1e-13);
+  }
+}
+
+// Halving the time makes what the second order leaves out eight times smaller, in J four times.
+TEST(MovedRows, OfSpheresAreOfSecondOrder) {
+  Random random(34);
+  for (int trial = 0; trial < 20; ++trial) {
+    Body a = somewhere(random, moving(Sphere{0.4}));
+    Body b = somewhere(random, moving(Sphere{0.3}));
+    b.position = a.position + random_vector(random).normalized();
+    const Scene scene = touching(a, b, false);
+    State state = initial_state(scene);
+    move_at_random(random, scene, state);
+    const Difference whole = after(scene, state, contact_rows(scene), 2e-3);
+    const Difference half = after(scene, state, contact_rows(scene), 1e-3);
+    EXPECT_GT(whole.phi / half.phi, 7.5);
+    EXPECT_GT(whole.J / half.J, 3.4);  // of the largest entry, which may change
+  }
+}
+
+// Friction counts how far the material points have slid since the start.
+TEST(MovedRows, OfFrictionCountTheWaySlid) {
+  Random random(35);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene = touching(somewhere(random, moving(Box{Vec3{0.3, 0.2, 0.5}})),
+                           somewhere(random, fixed(Plane{})), true);
+    for (Body& body : scene.bodies) body.friction = 0.5;
+    State state = initial_state(scene);
+    move_at_random(random, scene, state);
+    const FrictionStage friction(scene);
+    Blocks blocks;
+    contact_rows(scene)(state, blocks);
+    friction.append(scene, rotations(state), blocks);
+    const double dt = 0.2;
+    State end = state;
+    integrate(scene, dt, end);
+    for (const Block& start : blocks.all()) {
+      Block block;
+      ASSERT_EQ(start.a, 0);
+      move_rows(start, motion(state.u[0], dt), Motion{}, block);
+      const Vec3 r_end = end.q[0] * (state.q[0].conjugate() * start.r_a);
+      const Vec3 slid = (end.x[0] - state.x[0]) + (r_end - start.r_a);
+      EXPECT_NEAR(block.phi[1], start.t1.dot(slid), 1e-13);
+      EXPECT_NEAR(block.phi[2], start.t2.dot(slid), 1e-13);
+      EXPECT_NEAR(block.t1.dot(block.n), 0.0, 1e-15);
+      EXPECT_NEAR(block.t2.norm(), 1.0, 1e-15);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -1,0 +1,226 @@
+// Solvers that look at the end of a sub-step, against the equations that they are to solve.
+
+#include "core/constraints/moved_rows.hpp"
+#include "core/model/names.hpp"
+#include "core/solver/newton.hpp"
+#include "core/solver/xpbd.hpp"
+#include "core/stepping/integrate.hpp"
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+/// A chain of boxes on balls and hinges under a pull, and perhaps a sphere that lies on the last.
+struct Chain {
+  Scene scene;
+  State state;
+  Blocks blocks;
+  std::vector<InverseMass> inverse_mass;
+  std::vector<Vec6> u_before;
+  double dt = 1.0 / 60.0;
+
+  Chain(Random& random, int links, double mass_of_last) {
+    scene.effects.joints = true;
+    for (int i = 0; i < links; ++i) {
+      Body body = moving(Box{Vec3{0.2, 0.1, 0.15}}, i + 1 == links ? mass_of_last : 1.0);
+      body.orientation = random_rotation(random);
+      const Vec3 pivot = i == 0 ? Vec3(Vec3::Zero()) : end_of(i - 1);
+      body.position = pivot - body.orientation * Vec3(-0.2, 0.0, 0.0);
+      HingeJoint hinge;
+      hinge.a = i;
+      hinge.b = i == 0 ? kWorld : i - 1;
+      hinge.anchor_a = {-0.2, 0.0, 0.0};
+      hinge.anchor_b = i == 0 ? Vec3(Vec3::Zero()) : Vec3(0.2, 0.0, 0.0);
+      const Vec3 axis = random_vector(random).normalized();
+      hinge.axis_a = body.orientation.conjugate() * axis;
+      hinge.axis_b =
+          i == 0
+              ? axis
+              : Vec3(scene.bodies[static_cast<std::size_t>(i - 1)].orientation.conjugate() * axis);
+      scene.bodies.push_back(body);
+      if (i % 2 == 0) {
+        scene.joints.emplace_back(hinge);
+      } else {
+        BallJoint ball;
+        static_cast<JointBase&>(ball) = hinge;
+        scene.joints.emplace_back(ball);
+      }
+    }
+    state = initial_state(scene);
+    for (Vec6& u : state.u) u << 0.3 * random_vector(random), random_vector(random);
+    u_before = state.u;
+    for (Vec6& u : state.u) u[1] -= 9.81 * dt;
+    const std::vector<Mat3> R = rotations(state);
+    JointStage(scene).append(scene, state, R, blocks);
+    for (Block& block : blocks.all()) {
+      std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
+      std::fill(block.tight, block.tight + kMaxRows, std::int8_t{0});
+      for (int row = 0; row < block.rows; ++row) {
+        block.softness[row] = 1e-9;
+        block.bias[row] = block.phi[row] / dt;
+      }
+    }
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Vec3 inverse = scene.bodies[i].inertia.cwiseInverse();
+      inverse_mass.push_back(
+          {1.0 / scene.bodies[i].mass, R[i] * inverse.asDiagonal() * R[i].transpose()});
+    }
+  }
+  [[nodiscard]] Vec3 end_of(int i) const {
+    const Body& body = scene.bodies[static_cast<std::size_t>(i)];
+    return body.position + body.orientation * Vec3(0.2, 0.0, 0.0);
+  }
+  System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt}; }
+};
+
+/// What is left of phi(q+)/dt + softness * impulse, largest row [m/s].
+double error_at_end(Chain& chain) {
+  double worst = 0.0;
+  const auto move = [&](int body) {
+    return body < 0 ? Motion{} : motion(chain.state.u[static_cast<std::size_t>(body)], chain.dt);
+  };
+  for (const Block& start : chain.blocks.all()) {
+    Block end;
+    move_rows(start, move(start.a), move(start.b), end);
+    for (int row = 0; row < start.rows; ++row) {
+      worst = std::max(worst, std::abs(start.bias[row] + end.phi[row] / chain.dt +
+                                       start.softness[row] * start.impulse[row]));
+    }
+  }
+  return worst;
+}
+
+/// What is left of u+ - u* - M^-1 J'^T impulse, largest body, relative.
+double error_of_impulses(Chain& chain, const std::vector<Vec6>& u_star, Forces forces) {
+  std::vector<Vec6> u = u_star;
+  const auto move = [&](int body, std::span<const Vec6> velocities, double dt) {
+    return body < 0 ? Motion{} : motion(velocities[static_cast<std::size_t>(body)], dt);
+  };
+  const auto add = [&](const Block& rows, const double* impulse, double weight) {
+    double part[kMaxRows];
+    for (int row = 0; row < rows.rows; ++row) part[row] = weight * impulse[row];
+    apply_impulse(rows, part, chain.inverse_mass, u);
+  };
+  const double w = forces == Forces::kEnd ? 1.0 : 0.25;
+  for (const Block& start : chain.blocks.all()) {
+    Block end;
+    Block back;
+    move_rows(start, move(start.a, chain.state.u, chain.dt), move(start.b, chain.state.u, chain.dt),
+              end);
+    move_rows(start, move(start.a, chain.u_before, -chain.dt),
+              move(start.b, chain.u_before, -chain.dt), back);
+    add(end, start.impulse, w);
+    if (forces == Forces::kEnd) continue;
+    add(start, start.impulse, 1.0 - 2.0 * w);
+    add(back, start.impulse, w);
+  }
+  double worst = 0.0;
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    worst = std::max(worst, (u[i] - chain.state.u[i]).norm() / (1.0 + u[i].norm()));
+  }
+  return worst;
+}
+
+TEST(Newton, SolvesTheImplicitSubstep) {
+  Random random(41);
+  for (const Forces forces : {Forces::kEnd, Forces::kMean}) {
+    for (int trial = 0; trial < 30; ++trial) {
+      Chain chain(random, 1 + trial % 8, trial % 2 == 0 ? 1.0 : 1000.0);
+      const std::vector<Vec6> u_star = chain.state.u;
+      Settings settings;
+      settings.iterations = 100;
+      settings.forces = forces;
+      Newton newton;
+      const SolveReport report = newton.solve(chain.system(), settings);
+      EXPECT_EQ(report.status, SolveStatus::kSolved) << name_of(forces) << " trial " << trial;
+      EXPECT_LT(error_at_end(chain), 1e-7) << name_of(forces) << " trial " << trial;
+      EXPECT_LT(error_of_impulses(chain, u_star, forces), 1e-7)
+          << name_of(forces) << " trial " << trial;
+    }
+  }
+}
+
+// What of the Hessian does not resist, and what couples the two bodies of a hinge, is left out: ten
+// times less error a step, not twice the digits.
+TEST(Newton, ConvergesInAFewSteps) {
+  Random random(42);
+  for (int trial = 0; trial < 20; ++trial) {
+    double error[6];
+    const Chain start(random, 6, 1.0);
+    for (int steps = 1; steps < 6; ++steps) {
+      Chain chain = start;
+      Settings settings;
+      settings.iterations = steps;
+      Newton().solve(chain.system(), settings);
+      error[steps] = error_at_end(chain);
+    }
+    EXPECT_LT(error[5], 1e-3 * error[2]) << "trial " << trial;
+    EXPECT_LT(error[5], 1e-6) << "trial " << trial;
+  }
+}
+
+TEST(Newton, OnBodiesThatDoNotTurnIsTheLinearSolve) {
+  Random random(43);
+  Chain chain(random, 1, 1.0);
+  BallJoint ball;
+  ball.a = 0;
+  ball.b = kWorld;  // at the centre: nothing turns, phi is linear
+  ball.anchor_b = chain.state.x[0];
+  chain.scene.joints = {ball};
+  for (Vec6* u : {&chain.state.u[0], &chain.u_before[0]}) u->tail<3>().setZero();
+  chain.blocks.clear();
+  JointStage(chain.scene).append(chain.scene, chain.state, rotations(chain.state), chain.blocks);
+  Block& block = chain.blocks.all()[0];
+  for (int row = 0; row < 3; ++row) {
+    block.impulse[row] = block.bias[row] = 0.0;
+    block.tight[row] = 0;
+    block.softness[row] = 0.1;
+  }
+  Chain linear = chain;
+  Newton().solve(chain.system(), Settings{});
+  Bpp().solve(linear.system(), Settings{});
+  EXPECT_LT((chain.state.u[0] - linear.state.u[0]).norm(), 1e-14);
+}
+
+// The directions of XPBD's impulses are those of the poses on the way, Newton's those of the end:
+// they differ by the turn of a sub-step, and the velocities by its square.
+TEST(Xpbd, ConvergesToTheEndOfTheSubstepAndNearlyToNewton) {
+  Random random(44);
+  double whole = 0.0;
+  double half = 0.0;
+  for (int trial = 0; trial < 10; ++trial) {
+    for (double* sum : {&whole, &half}) {
+      Random same(100U + static_cast<unsigned>(trial));
+      Chain chain(same, 3, 1.0);
+      if (sum == &half) chain.dt *= 0.5;
+      Chain other = chain;
+      Settings settings;
+      settings.iterations = 3000;
+      Xpbd().solve(chain.system(), settings);
+      EXPECT_LT(error_at_end(chain), 1e-8);
+      Newton().solve(other.system(), settings);
+      for (std::size_t i = 0; i < chain.state.u.size(); ++i) {
+        *sum = std::max(*sum, (chain.state.u[i] - other.state.u[i]).norm());
+      }
+    }
+  }
+  EXPECT_LT(half, 0.6 * whole);
+}
+
+TEST(Xpbd, ImpulsesAreThoseThatTheCentresFeel) {
+  Random random(45);
+  Chain chain(random, 5, 20.0);
+  std::vector<Vec6> u = chain.state.u;
+  Settings settings;
+  settings.iterations = 7;
+  Xpbd().solve(chain.system(), settings);
+  for (const Block& block : chain.blocks.all()) {
+    apply_impulse(block, block.impulse, chain.inverse_mass, u);
+  }
+  for (std::size_t i = 0; i < u.size(); ++i) {
+    EXPECT_LT((u[i] - chain.state.u[i]).head<3>().norm(), 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -60,8 +60,9 @@ constexpr std::array<Choice, 4> kSolvers{
 constexpr std::array<Choice, 3> kForces{
     {{"end", "The end of the sub-step: implicit Euler, which damps. The source's."},
      {"mean", "Before, at and after it by 1/4, 1/2, 1/4: stable for any step, and loses nothing."},
-     {"numerov", "By 1/12, 10/12, 1/12 and with the rate of the forces: third order and better, for "
-                 "scenes of joints, while dt² k < 6 M."}}};
+     {"numerov",
+      "By 1/12, 10/12, 1/12 and with the rate of the forces: third order and better, for "
+      "scenes of joints, while dt² k < 6 M."}}};
 constexpr std::array<Choice, 2> kIntegrators{
     {{"Euler", "Semi-implicit Euler, the paper's: first order, loses energy when N changes."},
      {"leapfrog", "External forces act over (dt before + dt)/2: second order at the same cost."}}};

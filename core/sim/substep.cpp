@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/constraints/grab_rows.hpp"
+#include "core/math/resisting.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
-#include "core/math/resisting.hpp"
 #include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 

@@ -15,9 +15,7 @@
 namespace substep::test {
 namespace {
 
-const Settings& recommended() {
-  return find_preset("recommended")->settings;
-}
+const Settings& recommended() { return find_preset("recommended")->settings; }
 
 TEST(HardSet, EveryCaseIsASceneThatTheLoaderTakes) {
   std::set<std::string> names;

@@ -44,7 +44,8 @@ class SceneBitsWriter {
     if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
   }
   void add(const Effects& e) {
-    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution}) add(b);
+    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution})
+      add(b);
   }
   void add(const Body& b) {
     add(b.name);

@@ -133,10 +133,6 @@ void preset_row(const Look& look, Settings& s) {
     s = presets()[static_cast<std::size_t>(current)].settings;
     s.watch_stiffness = watched;
   }
-  if (current >= 0) {
-    label(look.fonts.small, look.theme->dim,
-          presets()[static_cast<std::size_t>(current)].about.data());
-  }
 }
 
 void stabilisation(const Look& look, Settings& s) {

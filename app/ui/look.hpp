@@ -49,7 +49,7 @@ struct Fonts {
 struct Metrics {
   float row = 26.0F;  // height of a control
   float gap = 8.0F;
-  float section = 16.0F;  // between sections
+  float section = 13.0F;  // between sections
   float pad = 16.0F;      // inside a panel
   float margin = 12.0F;   // around panels
   float radius = 6.0F;

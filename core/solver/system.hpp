@@ -25,8 +25,8 @@ struct System {
   std::span<Vec6> u;                          // per body: u* in, u+ out [m/s, rad/s]
 
   // For solvers that look at other poses than those at the start of the sub-step.
-  std::span<const Vec6> u_before;  // per body: of the last sub-step [m/s, rad/s]
-  double dt = 0.0;                 // of this one [s]
+  std::span<const Vec6> u_before{};  // per body: of the last sub-step [m/s, rad/s]
+  double dt = 0.0;                   // of this one [s]
 };
 
 enum class SolveStatus : std::uint8_t {

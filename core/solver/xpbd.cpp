@@ -78,8 +78,8 @@ void Xpbd::correct(const System& system, Block& block, Rows rows, double bound) 
   for (int i = 0; i < rows.count; ++i) along += direction[i] * block.impulse[rows.first + i];
   const double softness = block.softness[rows.first];
   double w = softness;
-  Vec6 du_a;
-  Vec6 du_b;
+  Vec6 du_a = Vec6::Zero();
+  Vec6 du_b = Vec6::Zero();
   if (u_a) {
     const Vec6 g = gradient(moved_.J_a, rows.first, rows.count, direction);
     du_a = response(system.inverse_mass[static_cast<std::size_t>(block.a)], g);

@@ -129,9 +129,11 @@ Scene in_units(Scene scene, double mass, double length, double time) {
   scene.contact.restitution_speed *= speed;
   scene.regularisation /= mass;
   scene.settings.drift_tau *= time;
-  scene.criteria = Criteria{.duration = scene.criteria.duration,
-                            .joint_gap = scene.criteria.joint_gap * length,
-                            .track = scene.criteria.track};
+  Criteria criteria;
+  criteria.duration = scene.criteria.duration;
+  criteria.joint_gap = scene.criteria.joint_gap * length;
+  criteria.track = scene.criteria.track;
+  scene.criteria = criteria;
   for (Body& body : scene.bodies) {
     if (auto* sphere = std::get_if<Sphere>(&body.shape)) sphere->radius *= length;
     if (auto* box = std::get_if<Box>(&body.shape)) box->half_extents *= length;

@@ -78,9 +78,12 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
   }
   const SolverWork& work = report.work;
   if (work.solves > report.n_substeps + 1) return "a solve a sub-step, and the probe";
-  if (work.passes > 4 * work.solves) return "at most four passes a solve";
+  // Newton solves with BPP in each of its iterations.
+  const std::int64_t linear =
+      work.solves * (settings.solver == SolverKind::kNewton ? settings.iterations : 1);
+  if (work.passes > 4 * linear) return "at most four passes a linear solve";
   // bpp.hpp: `pivots` block pivots a pass, then single ones, of which 51 end the solve.
-  if (work.pivots > work.solves * (4L * settings.pivots + 51)) return "pivots are bounded";
+  if (work.pivots > linear * (4L * settings.pivots + 51)) return "pivots are bounded";
   if (work.iterations > work.solves * settings.iterations) return "iterations are bounded";
   const auto n = static_cast<std::int64_t>(scene.bodies.size());
   if (report.contact_rows > 8 * n * (n - 1) / 2) return "at most eight contacts a pair";

@@ -55,8 +55,8 @@ constexpr std::array<Choice, 4> kSolvers{
       "Extended position-based dynamics (Mueller 2020): sweeps that move the bodies "
       "themselves, each row along its error as it is at that moment."},
      {"Newton",
-      "Non-smooth Newton (Macklin 2019): the forces belong to the end of the sub-step. "
-      "Stable for any step."}}};
+      "Non-smooth Newton (Macklin 2019): errors vanish at the end of the sub-step, and the "
+      "forces belong to poses around it."}}};
 constexpr std::array<Choice, 3> kForces{
     {{"end", "The end of the sub-step: implicit Euler, which damps. The source's."},
      {"mean", "Before, at and after it by 1/4, 1/2, 1/4: stable for any step, and loses nothing."},

@@ -64,13 +64,13 @@ void Simulator::Impl::probe(FrameReport& report) {
   settings.mode = Mode::kNone;               // Mt = M: there is no k to damp by yet
   settings.integrator = Integrator::kEuler;  // forces act for the whole of h
   begin_substep(report);
-  if (append_rows(report)) {
+  const bool has_rows = append_rows(report);
+  if (has_rows) {
     external_forces(h, report);
     solve(h, true, report);
-    settings = chosen;
-    if (finite(report) && evaluate_stiffness(report)) state.r = bound.r;
   }
   settings = chosen;
+  if (has_rows && finite(report) && evaluate_stiffness(report)) state.r = bound.r;
   std::copy(u_start.begin(), u_start.end(), state.u.begin());
   state.stiffness_known = true;
   report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will

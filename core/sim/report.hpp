@@ -44,16 +44,17 @@ struct RowCounts {
 struct SolverWork {
   std::int64_t solves = 0;
   RowCounts rows;  // of all solves: what a kind of row costs, PGS visits each once an iteration
-  std::int64_t iterations = 0;   // PGS sweeps
-  std::int64_t row_updates = 0;  // PGS: rows visited
+  std::int64_t iterations = 0;   // sweeps of PGS and XPBD, steps of Newton
+  std::int64_t row_updates = 0;  // PGS and XPBD: rows visited
   std::int64_t pivots = 0;       // BPP: changes of the active set
   std::int64_t passes = 0;       // BPP: refreshes of the friction bounds, the first included
   std::int64_t factorisations = 0;
   std::int64_t flops = 0;      // floating-point operations of the solver, the same on every machine
   std::int64_t unsettled = 0;  // BPP: solves whose friction bounds still moved after four passes
-  std::int64_t unsolved = 0;   // BPP: solves that ended on the bound of pivots
-  double residual = 0.0;       // of the last sub-step: largest violation of bounds [N s] and
-                               // complementarity [m/s]
+  std::int64_t unsolved =
+      0;                  // solves that ended on a bound: BPP of its pivots, Newton of its steps
+  double residual = 0.0;  // of the last sub-step: largest violation of bounds [N s] and
+                          // complementarity [m/s]
 };
 
 /// What the criterion costs: K, its column norms and r, as often as they were evaluated.

@@ -30,15 +30,16 @@ struct System {
 };
 
 enum class SolveStatus : std::uint8_t {
-  kSolved,     // BPP: complementary to its tolerance. PGS: its iterations are done
+  kSolved,     // BPP, Newton: complementary to their tolerance. PGS, XPBD: the sweeps are done
   kUnsettled,  // BPP: complementary for friction bounds that still move; the next sub-step goes on
-  kUnsolved,   // BPP: the bound of pivots was reached; Gauss-Seidel took over
+  kUnsolved,   // BPP: the bound of pivots was reached; Gauss-Seidel took over. Newton: its steps
+               // ran out before it had converged
 };
 
 struct SolveReport {
   SolveStatus status = SolveStatus::kSolved;
-  int iterations = 0;            // PGS
-  std::int64_t row_updates = 0;  // PGS
+  int iterations = 0;            // sweeps of PGS and XPBD, steps of Newton
+  std::int64_t row_updates = 0;  // PGS, XPBD
   int pivots = 0;                // BPP: changes of the active set
   int passes = 0;                // BPP: refreshes of the friction bounds, the first included
   int factorisations = 0;        // BPP

@@ -51,10 +51,9 @@ struct SolverWork {
   std::int64_t factorisations = 0;
   std::int64_t flops = 0;      // floating-point operations of the solver, the same on every machine
   std::int64_t unsettled = 0;  // BPP: solves whose friction bounds still moved after four passes
-  std::int64_t unsolved =
-      0;                  // solves that ended on a bound: BPP of its pivots, Newton of its steps
-  double residual = 0.0;  // of the last sub-step: largest violation of bounds [N s] and
-                          // complementarity [m/s]
+  std::int64_t unsolved = 0;   // solves that ran out of pivots (BPP) or of steps (Newton)
+  double residual = 0.0;       // of the last sub-step: largest violation of bounds [N s] and
+                               // complementarity [m/s]
 };
 
 /// What the criterion costs: K, its column norms and r, as often as they were evaluated.

@@ -7,6 +7,9 @@
 #include <string>
 #include <tuple>
 
+#include "core/io/scene_reader.hpp"
+#include "core/model/names.hpp"
+#include "core/sim/simulator.hpp"
 #include "tests/bench/allocations.hpp"
 #include "tests/bench/cases.hpp"
 
@@ -34,6 +37,28 @@ TEST_P(Stepping, AllocatesNothingAfterTheFirstFrame) {
     if (first_frame < 0 && loop.allocated() != before) first_frame = frame;
   }
   EXPECT_EQ(loop.allocated() - before, 0) << "the first one in frame " << first_frame;
+}
+
+TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
+  for (const char* name : {"swinging_box", "bridge"}) {
+    const auto scene =
+        read_scene_file(std::string(SUBSTEP_SOURCE_DIR "/scenes/") + name + ".json").scene;
+    ASSERT_NE(scene, nullptr);
+    for (const SolverKind solver : {SolverKind::kXpbd, SolverKind::kNewton}) {
+      for (const Forces forces : {Forces::kEnd, Forces::kMean}) {
+        Settings settings = scene->settings;
+        settings.solver = solver;
+        settings.forces = forces;
+        settings.mode = Mode::kConst;
+        Simulator simulator(scene);
+        simulator.set_settings(settings);
+        simulator.step();
+        const std::int64_t before = bench::allocations();
+        for (int frame = 0; frame < 90; ++frame) simulator.step();
+        EXPECT_EQ(bench::allocations() - before, 0) << name << ", " << name_of(solver);
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(ScenesAndSolvers, Stepping,

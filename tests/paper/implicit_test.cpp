@@ -72,6 +72,31 @@ TEST(NewtonAtTheMean, TakesOneSolveFromTwoSubstepsOn) {
   EXPECT_LT(tip_error(hundredth), 1e-5);
 }
 
+/// Goes 60 frames, turns the last velocity around and goes back. @return how far off the start [m]
+double off_after_return(const Settings& settings) {
+  constexpr int kThere = 60;
+  const auto scene = std::make_shared<const Scene>(scenes::rope_of_n({5, 0.4, 10.0, 0.0}));
+  Simulator simulator(scene);
+  simulator.set_settings(settings);
+  const State start = simulator.state();
+  for (int i = 0; i < kThere; ++i) simulator.step();
+  State back = simulator.state();  // its poses, and the velocity of the sub-step that follows
+  simulator.step();
+  for (std::size_t i = 0; i < back.u.size(); ++i) back.u[i] = -simulator.state().u[i];
+  simulator.set_state(back);
+  for (int i = 0; i < kThere; ++i) simulator.step();
+  double off = 0.0;
+  for (std::size_t i = 0; i < start.x.size(); ++i) {
+    off = std::max(off, (simulator.state().x[i] - start.x[i]).norm());
+  }
+  return off;
+}
+
+TEST(NewtonAtTheMean, IsTheSameForwardsAndBackwardsInTime) {
+  EXPECT_LT(off_after_return(newton(Forces::kMean, 1)), 1e-5);
+  EXPECT_GT(off_after_return(newton(Forces::kEnd, 1)), 1e-2);
+}
+
 TEST(NewtonAtTheMean, KeepsEnergyFor200Seconds) {
   const Outcome r = swing(newton(Forces::kMean, 1), 200.0);
   EXPECT_TRUE(r.holds) << r.verdict;

@@ -6,6 +6,7 @@ namespace substep {
 
 Scene with_ball(const Scene& scene, const Ball& ball, std::size_t slot) {
   Scene out = scene;
+  out.carried.reset();  // it has no place for the ball: with_ball(State) gives it one
   if (!out.effects.contact) {
     out.effects.contact = true;
     for (Body& body : out.bodies) body.collision_group = 0;
@@ -39,6 +40,7 @@ State with_ball(State state, const Ball& ball, std::size_t slot) {
   put(state.u, u);
   put(state.u_synchronised, u);
   if (!state.k.empty()) put(state.k, Vec6(Vec6::Zero()));
+  if (!state.K_resisting.empty()) put(state.K_resisting, Mat3(Mat3::Zero()));
   return state;
 }
 

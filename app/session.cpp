@@ -146,7 +146,10 @@ void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   simulator_->set_state(std::move(carried));
   simulator_->set_grab(holding);
   verdict_->disturb(state().time);
-  editions_.push_back({scene_, std::make_shared<const Scene>(as_scene()), state().frame});
+  // A link has little room: from it the run goes on like any start.
+  Scene edition = as_scene();
+  edition.carried.reset();
+  editions_.push_back({scene_, std::make_shared<const Scene>(std::move(edition)), state().frame});
   show_present();
   if (scene_edited) scene_edited({from, scene_, state().frame, std::move(carry)});
 }

@@ -1,8 +1,4 @@
-// What window.substep is made of: each call takes and gives text, JSON where there is structure.
-
-#include <emscripten.h>
-#include <emscripten/heap.h>
-#include <malloc.h>
+#include "web/api.hpp"
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -55,23 +51,20 @@ std::string text_of(const json& value) {
 
 extern "C" {
 
-/// A scene of the library by its name.
-EMSCRIPTEN_KEEPALIVE const char* substep_open(const char* name) {
+const char* substep_open(const char* name) {
   const std::string problem = app().set("scene", name);
   return keep(
       outcome(problem.empty() ? std::vector<Problem>{} : std::vector<Problem>{{"scene", problem}}));
 }
 
-/// A scene as JSON. @param from what people call it: a file's name
-EMSCRIPTEN_KEEPALIVE const char* substep_open_text(const char* text, const char* from) {
+const char* substep_open_text(const char* text, const char* from) {
   const bool playing = app().session.playing();
   app().open_text(text, from);
   if (!playing) app().session.pause();
   return keep(outcome(app().trouble.problems));
 }
 
-/// Settings by name, as an object. Those that can be read hold, the others are told.
-EMSCRIPTEN_KEEPALIVE const char* substep_set(const char* text) {
+const char* substep_set(const char* text) {
   const json object = json::parse(text, nullptr, false);
   if (!object.is_object()) return keep(outcome({{"", "is not an object of settings"}}));
   std::vector<Problem> problems;
@@ -87,19 +80,15 @@ EMSCRIPTEN_KEEPALIVE const char* substep_set(const char* text) {
   return keep(outcome(problems));
 }
 
-/// Takes frames at once, without waiting for the clock.
-EMSCRIPTEN_KEEPALIVE void substep_step(int frames) {
+void substep_step(int frames) {
   for (int i = 0; i < frames && !app().session.stopped(); ++i) app().session.step();
 }
 
-EMSCRIPTEN_KEEPALIVE void substep_substep() { app().session.substep(); }
+void substep_substep() { app().session.substep(); }
 
-/// Looks at the moment of the past that is closest to a time. @param time [s]
-EMSCRIPTEN_KEEPALIVE void substep_go_to(double time) {
-  app().session.go_to(app().session.timeline().at_time(time));
-}
+void substep_go_to(double time) { app().session.go_to(app().session.timeline().at_time(time)); }
 
-EMSCRIPTEN_KEEPALIVE void substep_play(int on) {
+void substep_play(int on) {
   if (on != 0) {
     app().session.play();
   } else {
@@ -107,35 +96,30 @@ EMSCRIPTEN_KEEPALIVE void substep_play(int on) {
   }
 }
 
-EMSCRIPTEN_KEEPALIVE int substep_playing() { return app().session.playing() ? 1 : 0; }
+int substep_playing() { return app().session.playing() ? 1 : 0; }
 
-EMSCRIPTEN_KEEPALIVE void substep_reset() { app().reset(); }
+void substep_reset() { app().reset(); }
 
-/// @return what of it could not be read
-EMSCRIPTEN_KEEPALIVE const char* substep_open_link(const char* fragment) {
+const char* substep_open_link(const char* fragment) {
   app().trouble = {};
   app().open_link(fragment);
   return keep(outcome(app().trouble.problems));
 }
 
-EMSCRIPTEN_KEEPALIVE const char* substep_link() { return keep_text(app().link()); }
+const char* substep_link() { return keep_text(app().link()); }
 
-EMSCRIPTEN_KEEPALIVE const char* substep_command() { return keep_text(app().command()); }
+const char* substep_command() { return keep_text(app().command()); }
 
-/// The scene that the link starts from, as a file; "" where it is a shipped one, which a link
-/// names.
-EMSCRIPTEN_KEEPALIVE const char* substep_own_scene() {
+const char* substep_own_scene() {
   const substep::Scene& scene = app().link_scene();
   return keep_text(substep::is_own(scene) ? substep::write_scene(scene) : "");
 }
 
-/// The run as it is now, as a scene file.
-EMSCRIPTEN_KEEPALIVE const char* substep_saved_scene() {
+const char* substep_saved_scene() {
   return keep_text(substep::write_scene(app().session.as_scene()));
 }
 
-/// What the plots remember, as CSV: one line a frame.
-EMSCRIPTEN_KEEPALIVE const char* substep_history() {
+const char* substep_history() {
   const substep::Session& s = app().session;
   std::vector<substep::Channel> channels;
   for (int i = 0; i < static_cast<int>(substep::Channel::kCount); ++i) {
@@ -145,8 +129,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_history() {
   return keep_text(substep::history_csv(s.scene(), {&run, 1}, channels, 0.0));
 }
 
-/// Settings with their values now, and what is allowed.
-EMSCRIPTEN_KEEPALIVE const char* substep_settings() {
+const char* substep_settings() {
   json list = json::array();
   for (const substep::SettingField& field : substep::setting_fields()) {
     list.push_back({{"name", field.name},
@@ -157,21 +140,17 @@ EMSCRIPTEN_KEEPALIVE const char* substep_settings() {
   return keep(list);
 }
 
-/// Something that the page found wrong with outside data.
-EMSCRIPTEN_KEEPALIVE void substep_trouble(const char* title, const char* message) {
+void substep_trouble(const char* title, const char* message) {
   app().trouble = {title, {{"", message}}};
 }
 
-EMSCRIPTEN_KEEPALIVE void substep_tell(const char* text) { app().tell(text); }
+void substep_tell(const char* text) { app().tell(text); }
 
-EMSCRIPTEN_KEEPALIVE void substep_recording(int on) { app().recording = on != 0; }
+void substep_recording(int on) { app().recording = on != 0; }
 
-EMSCRIPTEN_KEEPALIVE const char* substep_hash() {
-  return keep_text(substep::hex(app().session.hash()));
-}
+const char* substep_hash() { return keep_text(substep::hex(app().session.hash())); }
 
-/// The last frame and how the run stands.
-EMSCRIPTEN_KEEPALIVE const char* substep_report() {
+const char* substep_report() {
   const substep::Session& s = app().session;
   const substep::FrameReport& r = s.report();
   const substep::Settings& set = s.settings();
@@ -220,8 +199,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_report() {
   return keep(out);
 }
 
-/// Where the controls of the last picture lie, and the bodies in it, in CSS pixels of the canvas.
-EMSCRIPTEN_KEEPALIVE const char* substep_widgets() {
+const char* substep_widgets() {
   const auto scale = static_cast<float>(app().desk.scale);
   json list = json::array();
   for (const substep::ui::Handle& h : substep::ui::handles()) {
@@ -248,13 +226,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_widgets() {
   return keep(list);
 }
 
-/// Bytes of the heap that are in use, and that it has.
-EMSCRIPTEN_KEEPALIVE const char* substep_memory() {
-  return keep({{"used", mallinfo().uordblks}, {"heap", emscripten_get_heap_size()}});
-}
-
-/// Names and titles of the scenes that there are.
-EMSCRIPTEN_KEEPALIVE const char* substep_scenes() {
+const char* substep_scenes() {
   json list = json::array();
   for (const auto& scene : app().library.scenes()) {
     list.push_back({{"name", scene->name}, {"title", scene->title}, {"group", scene->group}});

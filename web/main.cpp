@@ -1,8 +1,10 @@
 // The application in a page: what web/runtime.mjs calls to start it and to let it draw.
 
 #include <emscripten.h>
+#include <emscripten/heap.h>
 #include <emscripten/html5.h>
 #include <imgui.h>
+#include <malloc.h>
 
 #include <string>
 
@@ -85,6 +87,14 @@ EMSCRIPTEN_KEEPALIVE int substep_cursor() {
     default:
       return 0;
   }
+}
+
+/// Bytes of the heap that are in use, and that it has, as JSON.
+EMSCRIPTEN_KEEPALIVE const char* substep_memory() {
+  static std::string text;
+  text = "{\"used\":" + std::to_string(mallinfo().uordblks) +
+         ",\"heap\":" + std::to_string(emscripten_get_heap_size()) + "}";
+  return text.c_str();
 }
 
 }  // extern "C"

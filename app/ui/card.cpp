@@ -42,13 +42,11 @@ void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& titl
 }
 
 bool card_closed(const Look& look) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 corner(ImGui::GetWindowPos().x + ImGui::GetWindowSize().x - 38.0F,
                       ImGui::GetWindowPos().y + 12.0F);
   ImGui::SetCursorScreenPos(corner);
   const bool closed =
       button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 26.0F, 26.0F, "Close (Esc)");
-  ImGui::SetCursorScreenPos(at);
   return closed;
 }
 

@@ -16,7 +16,7 @@ bool begin_card(App& app, const char* id, float width, float centre_y, float piv
 /// Where a tall card's middle lies: in the view, or in the window where the view is low.
 float card_middle(const App& app);
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title);
-/// The cross at its corner. @return whether it was clicked
+/// The cross at its corner, the last thing in a card. @return whether it was clicked
 bool card_closed(const Look& look);
 
 }  // namespace substep::ui

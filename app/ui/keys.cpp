@@ -78,8 +78,7 @@ std::span<const KeyAction> key_actions() { return kActions; }
 void handle_keys(App& app) {
   const ImGuiIO& io = ImGui::GetIO();
   if (io.WantTextInput || io.KeyCtrl || io.KeyAlt || io.KeySuper) return;
-  const ImVector<ImWchar> typed = io.InputQueueCharacters;
-  for (const ImWchar c : typed) {
+  for (const ImWchar c : io.InputQueueCharacters) {
     if (c >= 128) continue;
     const char key = static_cast<char>(c);
     for (const KeyAction& action : kActions) {

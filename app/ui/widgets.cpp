@@ -175,8 +175,10 @@ void label(ImFont* font, ImU32 color, const char* text) {
 }
 
 void space(float height) {
-  // A Dummy brings the item spacing with it.
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + height - ImGui::GetStyle().ItemSpacing.y);
+  // The item above and the Dummy bring the item spacing with them. It must be there: at the end of
+  // a window, no other item would count the space in.
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + height - 2.0F * ImGui::GetStyle().ItemSpacing.y);
+  ImGui::Dummy({0.0F, 0.0F});
 }
 
 namespace {

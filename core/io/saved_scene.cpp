@@ -28,13 +28,14 @@ Scene saved_scene(const Scene& scene, const State& state, const Settings& settin
     if (body.is_static) continue;
     body.position = state.x[i];
     body.orientation = state.q[i];
-    // Leapfrog keeps u at the middle of a sub-step and starts from one at the time of the poses.
+    // Leapfrog keeps u at the middle of a sub-step: what is carried has that one as well.
     const bool leapfrog = settings.integrator == Integrator::kLeapfrog;
     const Vec6& u = leapfrog ? state.u_synchronised[i] : state.u[i];
     body.velocity = u.head<3>();
     body.angular_velocity = u.tail<3>();
   }
   if (state.frame > 0) {
+    saved.carried = state;
     const long long ms = std::llround(1e3 * state.time);
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%.2f", state.time);

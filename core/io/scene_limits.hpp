@@ -10,6 +10,7 @@ namespace substep {
 
 inline constexpr std::size_t kMaxBodies = 20000;
 inline constexpr std::size_t kMaxJoints = 20000;
+inline constexpr std::size_t kMaxForces = 1'000'000;
 inline constexpr std::size_t kMaxVerdictRules = 100;
 inline constexpr std::size_t kMaxNameSize = 100;  // [bytes]
 inline constexpr std::size_t kMaxTitle = 200;     // [bytes]
@@ -36,6 +37,9 @@ inline constexpr Range kGravityRange = symmetric(1e4, "m/s^2");
 inline constexpr Range kFrameRange{1e-5, 1.0, false, false, "s"};
 inline constexpr Range kDurationRange = positive(86400.0, "s");
 inline constexpr Range kDistanceRange = positive(1e6, "m");
+inline constexpr Range kForceRange = symmetric(1e30, "N, N m");
+inline constexpr Range kStiffnessRange = symmetric(1e30, "N/m, N m/rad");
+inline constexpr Range kStiffnessOverMassRange = not_negative(1e60, "1/s^2");
 inline constexpr Range kEnergyRange = positive(1e24, "J");
 
 }  // namespace substep

@@ -9,6 +9,7 @@
 
 #include "core/io/body_names.hpp"
 #include "core/io/body_reader.hpp"
+#include "core/io/carried_json.hpp"
 #include "core/io/effect_names.hpp"
 #include "core/io/effects_of.hpp"
 #include "core/io/joint_reader.hpp"
@@ -230,6 +231,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   read_criteria(in, names, scene, problems);
   scene.verdicts = read_verdicts(in, problems);
   read_joints(in, names, scene, sound, problems);
+  scene.carried = read_carried(in, scene.bodies, problems);
   in.finish();
 
   if (listed) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "core/io/carried_json.hpp"
 #include "core/io/effect_names.hpp"
 #include "core/io/json.hpp"
 #include "core/io/number_text.hpp"
@@ -140,6 +141,7 @@ Json scene_json(const Scene& scene) {
     Json& joints = json["joints"] = Json::array();
     for (const Joint& joint : scene.joints) joints.push_back(joint_json(scene, joint));
   }
+  if (scene.carried) json["carried"] = carried_json(*scene.carried, scene.bodies);
   return json;
 }
 

@@ -39,6 +39,7 @@ void nudge(int seed, Scene& scene) {
 
 Scene start_of(const Scene& scene, double load, int seed) {
   Scene start = scene;
+  if (load != 1.0 || seed != 0) start.carried.reset();  // it was of other masses and velocities
   if (load != 1.0) apply_load(load, start);
   if (seed != 0) nudge(seed, start);
   return start;

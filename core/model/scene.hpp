@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/body.hpp"
+#include "core/model/carried.hpp"
 #include "core/model/effects.hpp"
 #include "core/model/expectation.hpp"
 #include "core/model/joint.hpp"
@@ -60,6 +61,7 @@ struct Scene {
   Criteria criteria;
   Expectations verdicts;  // the verdict table by its rules, or empty
   Camera camera;
+  std::optional<Carried> carried;  // of the run that this scene was saved from
 };
 
 }  // namespace substep

@@ -15,6 +15,7 @@ State initial_state(const Scene& scene) {
     state.u.push_back(u);
   }
   state.u_synchronised = state.u;
+  if (scene.carried) static_cast<Carried&>(state) = *scene.carried;
   return state;
 }
 

@@ -4,36 +4,23 @@
 #include <vector>
 
 #include "core/math/types.hpp"
+#include "core/model/carried.hpp"
 
 namespace substep {
 
 struct Scene;
 
-/// Force of a constraint that outlives its sub-step: seeds friction bounds and warm starts.
-struct StoredForce {
-  std::uint64_t id = 0;       // of the constraint block
-  double lambda[5] = {};      // per row [N or N m]
-  std::int8_t tight[5] = {};  // per row: active set of BPP, -1 at lo, 0 free, +1 at hi
-};
-
 /// Everything that changes while a scene runs. A copy is a snapshot: the motion goes on from it bit
 /// for bit.
-struct State {
+struct State : Carried {
   std::vector<Vec3> x;  // centre of mass, world [m]
   std::vector<Quat> q;  // q_WB, unit [-]
-  std::vector<Vec6> u;  // (velocity [m/s], angular velocity [rad/s]), world
   std::int64_t frame = 0;
-  double time = 0.0;         // [s]
-  double dt_previous = 0.0;  // the last sub-step, 0 at the start [s]
-
-  double r = 0.0;                 // largest k_i/M_ii, Eq. 9 [1/s^2]
-  std::vector<Vec6> k;            // diagonal of K per body, Eq. 4 [N/m, N m/rad], or empty
-  std::vector<Mat3> K_resisting;  // per body, of mode stiffness: math/resisting.hpp, or empty
-  bool stiffness_known = false;   // r and k are of the last frame; where not, a probe is due
-  std::vector<StoredForce> forces;
+  double time = 0.0;                 // [s]
   std::vector<Vec6> u_synchronised;  // u at the time of x, for energies
 };
 
+/// The start: bodies as the scene has them, and what an earlier run left them with.
 State initial_state(const Scene& scene);
 
 /// Hash of the bits of time, poses and velocities.

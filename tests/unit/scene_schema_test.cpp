@@ -90,6 +90,7 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
   Scene scene = scenes::bridge();
   scene.criteria.displacement = Criteria::Displacement{1, 0.1};
   scene.verdicts = {Expectation{}};
+  scene.carried.emplace().forces.emplace_back();
   scene.joints.emplace_back(std::get<HingeJoint>(scenes::pendulum().joints[0]));
   const Json json = Json::parse(write_scene(scene), nullptr, false);
   const std::string hinge = "/joints/" + std::to_string(scene.joints.size() - 1);
@@ -102,6 +103,8 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
       {"/properties/criteria", "/criteria"},
       {"/properties/criteria/properties/displacement", "/criteria/displacement"},
       {"/properties/verdicts/items", "/verdicts/0"},
+      {"/properties/carried", "/carried"},
+      {"/properties/carried/properties/forces/items", "/carried/forces/0"},
       {"/$defs/body", "/bodies/1"},
       {"/$defs/shape/oneOf/0", "/bodies/21/shape"},
       {"/$defs/shape/oneOf/1", "/bodies/1/shape"},

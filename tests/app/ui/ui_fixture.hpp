@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "app/app.hpp"
+#include "app/imgui/complaints.hpp"
 #include "app/render/null_renderer.hpp"
 #include "app/ui/context.hpp"
 #include "app/ui/handles.hpp"
@@ -44,6 +45,11 @@ class Headless {
     app = std::make_unique<App>(shipped(), std::move(null_renderer));
     frames(3);
   }
+  ~Headless() {
+    EXPECT_EQ(imgui::complaints(), complaints) << "Dear ImGui says what, on the error output";
+  }
+  Headless(const Headless&) = delete;
+  Headless& operator=(const Headless&) = delete;
 
   void resize(float width, float height, float ratio) {
     ImGuiIO& io = ImGui::GetIO();
@@ -84,6 +90,7 @@ class Headless {
  public:
   NullRenderer* renderer = nullptr;
   std::unique_ptr<App> app;
+  int complaints = imgui::complaints();  // of Dear ImGui, before and that a test brings about
 };
 
 }  // namespace substep

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "core/model/names.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -280,6 +281,24 @@ TEST(Hand, ThrownBallHitsWhatNeverTouchedAnything) {
   EXPECT_EQ(session.balls(), 0U) << "before the throw there was none";
   session.reset();
   EXPECT_EQ(session.scene().bodies.size(), box + 1);
+}
+
+// What the state holds of each body, it holds of the ball.
+TEST(Hand, ABallIsThrownInEveryMode) {
+  for (const auto& mode : NameTable<Mode>::entries) {
+    Session session(shipped("bridge"));
+    Settings settings = session.settings();
+    settings.mode = mode.value;
+    session.set_settings(settings);
+    take(session, 3);
+    session.throw_ball(ball_at({0.0, 9.0, 2.0}, Vec3::Zero()));
+    const State& state = session.state();
+    for (const std::size_t size : {state.k.size(), state.K_resisting.size()}) {
+      EXPECT_TRUE(size == 0 || size == state.x.size()) << mode.name;
+    }
+    take(session, 3);
+    EXPECT_EQ(session.report().status, StepStatus::kOk) << mode.name;
+  }
 }
 
 TEST(Hand, TheOldestBallGoes) {

@@ -208,5 +208,19 @@ TEST(Trouble, ManyAndLongProblemsStayOnTheDisplay) {
   }
 }
 
+// What Dear ImGui asserts is told in every build, and ends nobody's run.
+TEST(Window, AWrongCallOfDearImguiIsToldAndEndsNothing) {
+  Headless h;
+  ImGui::NewFrame();
+  ImGui::Begin("wrong");
+  ImGui::SetCursorPosY(1000.0F);  // room that no item takes
+  testing::internal::CaptureStderr();
+  ImGui::End();
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("SetCursorPos"), std::string::npos);
+  ImGui::Render();
+  EXPECT_EQ(imgui::complaints(), ++h.complaints);
+  h.frames(2);
+}
+
 }  // namespace
 }  // namespace substep

@@ -1,0 +1,167 @@
+#include "core/io/carried_json.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "core/io/scene_limits.hpp"
+
+namespace substep {
+namespace {
+
+constexpr std::string_view kSides = "-0+?";  // of StoredForce::tight from -1 on; ?: not known
+constexpr std::size_t kRows = std::size(StoredForce{}.lambda);
+
+Vec6 velocity_of(const Body& body) {
+  Vec6 u;
+  u << body.velocity, body.angular_velocity;
+  return u;
+}
+
+/// A list of lists, of as many numbers each as an Item has; by columns where that is a matrix.
+template <class Item>
+void read_items(ObjectReader& in, std::string_view key, const Range& range, std::size_t size,
+                std::vector<Item>& items, Problems& problems) {
+  const Json* list = in.member(key, kOptional);
+  if (!list) return;
+  if (!list->is_array() || list->size() != size) {
+    in.problem(key, value_text(*list) + " is not a list of " + std::to_string(size) +
+                        ", one for each body");
+    return;
+  }
+  for (std::size_t i = 0; i < size && problems.size() <= kMaxProblems; ++i) {
+    Item item = Item::Zero();
+    const Json row = {{"row", (*list)[i]}};
+    Problems of_row;
+    ObjectReader reader(row, "", of_row);
+    reader.numbers("row", range, item.data(), static_cast<std::size_t>(item.size()), kRequired);
+    for (Problem& p : of_row) {
+      p.pointer = pointer_to(in.pointer(key), i) + p.pointer.substr(std::string("/row").size());
+      problems.push_back(std::move(p));
+    }
+    items.push_back(item);
+  }
+}
+
+template <class Item>
+Json items_json(const std::vector<Item>& items) {
+  Json list = Json::array();
+  for (const Item& item : items)
+    list.push_back(std::vector(item.data(), item.data() + item.size()));
+  return list;
+}
+
+std::string id_text(std::uint64_t id) {
+  char text[16];
+  return {text, std::to_chars(text, text + sizeof text, id, 16).ptr};
+}
+
+StoredForce read_force(const Json& json, const std::string& pointer, Problems& problems) {
+  ObjectReader in(json, pointer, problems);
+  StoredForce force;
+  if (!in.is_object()) return force;
+  std::string id;
+  if (in.text("id", kMaxNameSize, id, kRequired)) {
+    const char* end = id.data() + id.size();
+    const auto [read, error] = std::from_chars(id.data(), end, force.id, 16);
+    if (read != end || error != std::errc{}) {
+      in.problem("id", value_text(id) + " is not a hexadecimal number of up to 16 digits");
+    }
+  }
+  if (const Json* list = in.member("lambda", kRequired)) {
+    if (!list->is_array() || list->size() > kRows) {
+      in.problem("lambda", value_text(*list) + " is not a list of up to " + std::to_string(kRows));
+    } else {
+      in.numbers("lambda", kForceRange, force.lambda, list->size(), kRequired);
+    }
+  }
+  std::string tight;
+  if (in.text("tight", kRows, tight, kOptional)) {
+    for (std::size_t row = 0; row < tight.size(); ++row) {
+      const std::size_t side = kSides.find(tight[row]);
+      if (side == std::string_view::npos) {
+        in.problem("tight", value_text(tight) + " is not made of -, 0, + and ?");
+        break;
+      }
+      force.tight[row] = static_cast<std::int8_t>(static_cast<int>(side) - 1);
+    }
+  }
+  in.finish();
+  return force;
+}
+
+Json force_json(const StoredForce& force) {
+  std::size_t rows = kRows;
+  while (rows > 0 && force.lambda[rows - 1] == 0.0) --rows;
+  std::string tight;
+  for (const std::int8_t side : force.tight) tight += kSides[static_cast<std::size_t>(side + 1)];
+  tight.erase(tight.find_last_not_of('0') + 1);
+  Json json;
+  json["id"] = id_text(force.id);
+  json["lambda"] = std::vector(force.lambda, force.lambda + rows);
+  if (!tight.empty()) json["tight"] = tight;
+  return json;
+}
+
+}  // namespace
+
+std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>& bodies,
+                                    Problems& problems) {
+  const Json* json = scene.member("carried", kOptional);
+  if (!json) return std::nullopt;
+  const std::string pointer = scene.pointer("carried");
+  ObjectReader in(*json, pointer, problems);
+  Carried carried;
+  if (!in.is_object()) return std::nullopt;
+  const std::size_t n = bodies.size();
+  in.number("dt_previous", not_negative(1.0, "s"), carried.dt_previous, kRequired);
+  read_items(in, "u", kVelocityRange, n, carried.u, problems);
+  carried.stiffness_known = in.number("r", kStiffnessOverMassRange, carried.r, kOptional);
+  read_items(in, "k", kStiffnessRange, n, carried.k, problems);
+  read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting, problems);
+  for (const char* key : {"k", "k_resisting"}) {
+    if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "needs r");
+  }
+  if (in.member("k_resisting", kOptional) && !in.member("k", kOptional)) {
+    in.problem("k_resisting", "needs k");
+  }
+  if (const Json* forces = in.member("forces", kOptional)) {
+    if (!forces->is_array() || forces->size() > kMaxForces) {
+      in.problem("forces",
+                 value_text(*forces) + " is not a list of up to " + std::to_string(kMaxForces));
+    } else {
+      for (std::size_t i = 0; i < forces->size() && problems.size() <= kMaxProblems; ++i) {
+        carried.forces.push_back(
+            read_force((*forces)[i], pointer_to(in.pointer("forces"), i), problems));
+      }
+    }
+  }
+  in.finish();
+  if (carried.u.empty()) {
+    for (const Body& body : bodies) carried.u.push_back(velocity_of(body));
+  }
+  return carried;
+}
+
+Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
+  Json json;
+  json["dt_previous"] = carried.dt_previous;
+  const bool own =
+      std::equal(bodies.begin(), bodies.end(), carried.u.begin(), carried.u.end(),
+                 [](const Body& body, const Vec6& u) { return velocity_of(body) == u; });
+  if (!own) json["u"] = items_json(carried.u);
+  if (carried.stiffness_known) {
+    json["r"] = carried.r;
+    if (!carried.k.empty()) json["k"] = items_json(carried.k);
+    if (!carried.K_resisting.empty()) json["k_resisting"] = items_json(carried.K_resisting);
+  }
+  if (!carried.forces.empty()) {
+    Json& forces = json["forces"] = Json::array();
+    for (const StoredForce& force : carried.forces) forces.push_back(force_json(force));
+  }
+  return json;
+}
+
+}  // namespace substep

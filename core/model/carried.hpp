@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/math/types.hpp"
+
+namespace substep {
+
+/// Force of a constraint that outlives its sub-step: seeds friction bounds and warm starts.
+struct StoredForce {
+  std::uint64_t id = 0;       // of the constraint block
+  double lambda[5] = {};      // per row [N or N m]
+  std::int8_t tight[5] = {};  // per row: active set of BPP, -1 at lo, 0 free, +1 at hi
+};
+
+/// What a run takes from one sub-step into the next besides poses.
+struct Carried {
+  std::vector<Vec6> u;            // (velocity [m/s], angular velocity [rad/s]), world
+  double dt_previous = 0.0;       // the last sub-step, 0 at the start [s]
+  double r = 0.0;                 // largest k_i/M_ii, Eq. 9 [1/s^2]
+  std::vector<Vec6> k;            // diagonal of K per body, Eq. 4 [N/m, N m/rad], or empty
+  std::vector<Mat3> K_resisting;  // per body, of mode stiffness: math/resisting.hpp, or empty
+  bool stiffness_known = false;   // r and k are of the last frame; where not, a probe is due
+  std::vector<StoredForce> forces;
+};
+
+}  // namespace substep

@@ -1,0 +1,145 @@
+// Lines of text as calls of the page's API, one a line: a word that names the call, a space, its
+// argument. The application goes on after any of them, with a report, settings, a link and a saved
+// scene that can be read.
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "app/app.hpp"
+#include "app/imgui/complaints.hpp"
+#include "app/render/null_renderer.hpp"
+#include "core/io/json_text.hpp"
+#include "core/io/scene_reader.hpp"
+#include "tests/fuzz/target.hpp"
+#include "tests/support/frame_laws.hpp"
+#include "web/api.hpp"
+#include "web/instance.hpp"
+
+namespace substep::web {
+std::unique_ptr<Instance> instance;
+}  // namespace substep::web
+
+namespace substep::fuzz {
+namespace {
+
+constexpr int kCalls = 24;               // of one input
+constexpr int kFrames = 3;               // of one call
+constexpr int kSubsteps = 4;             // of a frame
+constexpr std::size_t kMostBodies = 32;  // of scenes that are run: hundreds of inputs a second
+
+App& app() { return *web::instance->app; }
+
+Library shipped() { return Library(SUBSTEP_SOURCE_DIR "/scenes"); }
+
+/// A page that was just opened. The fonts, which take long, are those of the first.
+void open_page() {
+  static const Library library = shipped();
+  if (!web::instance) {
+    web::instance = std::make_unique<web::Instance>();
+    ImGuiIO& io = ImGui::GetIO();
+    io.DisplaySize = {1280.0F, 720.0F};
+    io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
+  }
+  web::instance->app = std::make_unique<App>(library, std::make_unique<NullRenderer>());
+}
+
+bool small() { return app().session.scene().bodies.size() <= kMostBodies; }
+
+/// Runs stay short; which method runs does not change.
+void limit_work() { app().change(test::shortened(app().session.settings(), kSubsteps)); }
+
+void draw() {
+  if (!small()) substep_play(0);
+  limit_work();
+  ImGui::GetIO().DeltaTime = 1.0F / 60.0F;
+  frame(app(), 1.0 / 60.0);
+}
+
+bool is_json(const char* text) {
+  Problems problems;
+  return parse_json(text, problems).has_value() && problems.empty();
+}
+
+void call(const std::string& line) {
+  const std::size_t space = std::min(line.find(' '), line.size());
+  const std::string name = line.substr(0, space);
+  const std::string text = space < line.size() ? line.substr(space + 1) : "";
+  if (name == "open") {
+    require(is_json(substep_open(text.c_str())), "open answers in JSON");
+  } else if (name == "load") {
+    require(is_json(substep_open_text(text.c_str(), "input")), "load answers in JSON");
+  } else if (name == "set") {
+    require(is_json(substep_set(text.c_str())), "set answers in JSON");
+  } else if (name == "link") {
+    require(is_json(substep_open_link(text.c_str())), "openLink answers in JSON");
+  } else if (name == "step" && small()) {
+    limit_work();
+    substep_step(std::min(std::atoi(text.c_str()), kFrames));
+  } else if (name == "substep" && small()) {
+    limit_work();
+    substep_substep();
+  } else if (name == "goTo") {
+    substep_go_to(std::strtod(text.c_str(), nullptr));
+  } else if (name == "play") {
+    substep_play(1);
+  } else if (name == "pause") {
+    substep_play(0);
+  } else if (name == "reset") {
+    substep_reset();
+  } else if (name == "draw") {
+    draw();
+  } else if (name == "tell") {
+    substep_tell(text.c_str());
+  } else if (name == "trouble") {
+    substep_trouble("input", text.c_str());
+  }
+}
+
+/// What people may ask after anything that was done.
+void look() {
+  require(imgui::complaints() == 0, "Dear ImGui is called as it asks to be");
+  require(is_json(substep_report()), "report is JSON");
+  require(is_json(substep_settings()), "settings are JSON");
+  require(is_json(substep_scenes()), "scenes are JSON");
+  require(is_json(substep_widgets()), "widgets are JSON");
+  require(std::string(substep_hash()).size() == 16, "a hash has 16 digits");
+  require(std::string(substep_history()).find('\n') != std::string::npos, "a history has lines");
+  require(std::string(substep_command()).starts_with("./dev cli run "), "there is a command line");
+  const std::string what = test::not_finite(app().session.state());
+  require(what.empty(), "the state is finite, not its " + what);
+  const SceneResult saved = read_scene(substep_saved_scene());
+  require(saved.scene != nullptr, "the run can be saved and read");
+  const std::string link = substep_link();
+  const std::string own = substep_own_scene();
+  // The page packs a person's own scene into the link; then the engine is given both apart.
+  if (own.empty()) {
+    substep_open_link(link.c_str());
+    require(app().trouble.problems.empty(), "a link that was made can be read");
+    require(substep_link() == link, "a link that was made is the same experiment");
+  } else {
+    require(read_scene(own).scene != nullptr, "the link's own scene can be read");
+  }
+}
+
+}  // namespace
+}  // namespace substep::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace substep::fuzz;
+  const std::string text = text_of(data, size);
+  open_page();
+  std::size_t at = 0;
+  for (int i = 0; i < kCalls && at < text.size(); ++i) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    call(text.substr(at, end - at));
+    at = end + 1;
+  }
+  draw();
+  look();
+  return 0;
+}

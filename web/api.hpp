@@ -1,0 +1,75 @@
+#pragma once
+// What window.substep is made of: each call takes and gives text, JSON where there is structure. A
+// text that is given holds until the next call.
+
+#ifdef __EMSCRIPTEN__
+#include <emscripten.h>
+#define SUBSTEP_EXPORTED EMSCRIPTEN_KEEPALIVE
+#else
+#define SUBSTEP_EXPORTED
+#endif
+
+extern "C" {
+
+/// A scene of the library by its name.
+SUBSTEP_EXPORTED const char* substep_open(const char* name);
+
+/// A scene as JSON. @param from what people call it: a file's name
+SUBSTEP_EXPORTED const char* substep_open_text(const char* text, const char* from);
+
+/// Settings by name, as an object. Those that can be read hold, the others are told.
+SUBSTEP_EXPORTED const char* substep_set(const char* text);
+
+/// Takes frames at once, without waiting for the clock.
+SUBSTEP_EXPORTED void substep_step(int frames);
+
+SUBSTEP_EXPORTED void substep_substep();
+
+/// Looks at the moment of the past that is closest to a time. @param time [s]
+SUBSTEP_EXPORTED void substep_go_to(double time);
+
+SUBSTEP_EXPORTED void substep_play(int on);
+
+SUBSTEP_EXPORTED int substep_playing();
+
+SUBSTEP_EXPORTED void substep_reset();
+
+/// @return what of it could not be read
+SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment);
+
+SUBSTEP_EXPORTED const char* substep_link();
+
+SUBSTEP_EXPORTED const char* substep_command();
+
+/// The scene that the link starts from, as a file; "" where it is a shipped one, which a link
+/// names.
+SUBSTEP_EXPORTED const char* substep_own_scene();
+
+/// The run as it is now, as a scene file.
+SUBSTEP_EXPORTED const char* substep_saved_scene();
+
+/// What the plots remember, as CSV: one line a frame.
+SUBSTEP_EXPORTED const char* substep_history();
+
+/// Settings with their values now, and what is allowed.
+SUBSTEP_EXPORTED const char* substep_settings();
+
+/// Something that the page found wrong with outside data.
+SUBSTEP_EXPORTED void substep_trouble(const char* title, const char* message);
+
+SUBSTEP_EXPORTED void substep_tell(const char* text);
+
+SUBSTEP_EXPORTED void substep_recording(int on);
+
+SUBSTEP_EXPORTED const char* substep_hash();
+
+/// The last frame and how the run stands.
+SUBSTEP_EXPORTED const char* substep_report();
+
+/// Where the controls of the last picture lie, and the bodies in it, in CSS pixels of the canvas.
+SUBSTEP_EXPORTED const char* substep_widgets();
+
+/// Names and titles of the scenes that there are.
+SUBSTEP_EXPORTED const char* substep_scenes();
+
+}  // extern "C"

@@ -5,12 +5,14 @@
 #include <utility>
 
 #include "core/io/setting_fields.hpp"
+#include "core/model/names.hpp"
 
 namespace substep {
 namespace {
 
 constexpr std::int64_t kCheckpointFrames = 32;
 constexpr std::size_t kMostCheckpoints = 200;
+constexpr std::string_view kSame = "same";  // in a link, a run without overrides
 
 // Parts of a text between separators; none of an empty text.
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -290,6 +292,7 @@ std::string overrides_text(const std::vector<Overrides>& runs) {
   std::string text;
   for (const Overrides& overrides : runs) {
     if (&overrides != &runs.front()) text += ';';
+    if (overrides.empty()) text += kSame;
     for (const Override& o : overrides) {
       if (&o != &overrides.front()) text += ',';
       text.append(o.key).append(":").append(o.value);
@@ -301,6 +304,10 @@ std::string overrides_text(const std::vector<Overrides>& runs) {
 std::vector<Overrides> parse_overrides(std::string_view text, std::string& problem) {
   std::vector<Overrides> runs;
   for (const std::string_view part : split(text, ';')) {
+    if (part == kSame) {
+      runs.emplace_back();
+      continue;
+    }
     Overrides overrides;
     for (const std::string_view pair : split(part, ',')) {
       const std::size_t colon = std::min(pair.find(':'), pair.size());
@@ -316,7 +323,7 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
         overrides.push_back({key, value});
       }
     }
-    runs.push_back(std::move(overrides));
+    if (!overrides.empty()) runs.push_back(std::move(overrides));  // else nothing could be read
   }
   if (runs.size() > Compare::kMost) {
     problem = "more than " + std::to_string(Compare::kMost) + " methods beside the run";
@@ -325,13 +332,31 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
   return runs;
 }
 
+namespace {
+
+std::string_view solver_title(std::string_view name) {
+  switch (value_of<SolverKind>(name).value_or(SolverKind::kBpp)) {
+    case SolverKind::kPgs:
+      return "PGS";
+    case SolverKind::kBpp:
+      return "BPP";
+    case SolverKind::kNewton:
+      return "Newton";
+    case SolverKind::kXpbd:
+      return "XPBD";
+  }
+  return name;
+}
+
+}  // namespace
+
 std::string overrides_title(const Overrides& overrides) {
   if (overrides.empty()) return "the same";
   std::string title;
   for (const Override& o : overrides) {
     if (!title.empty()) title += ", ";
     if (o.key == "solver") {
-      title += o.value == "pgs" ? "PGS" : "BPP";
+      title += solver_title(o.value);
     } else if (o.key == "n") {
       title += "constant " + o.value;
     } else {

@@ -149,7 +149,7 @@ void frame(App& app, double wall_dt) {
   const Quality quality = app.quality.quality();
   std::vector<Layer> layers = layers_of(*ImGui::GetDrawData());
   // A picture that rests leaves the time to draw all panels.
-  app.keeper.plan(layers, quality == Quality::kCoarse && moves && !app.capture);
+  app.keeper.plan(layers, quality <= Quality::kCoarse && moves && !app.capture);
   app.renderer->draw(app.pictures, layers, width, height, quality);
   if (app.capture) take_capture(app, width, height);
 

@@ -21,13 +21,15 @@ void QualityGovernor::observe(double wall_dt, double own) {
   const bool slow = 2 * slow_ > seen_;
   const bool quick = slow_ == 0;
   seen_ = slow_ = 0;
-  if (slow && quality_ != Quality::kCoarse) {
+  if (slow && quality_ != Quality::kSketch) {
     // A finer picture that failed at once is not tried again soon.
-    if (steady_ < 4.0) patience_ = std::min(2.0 * patience_, kMostWait);
+    if (tried_ && steady_ < 4.0) patience_ = std::min(2.0 * patience_, kMostWait);
+    tried_ = false;
     quality_ = static_cast<Quality>(static_cast<int>(quality_) - 1);
     steady_ = 0.0;
   } else if (quick && quality_ != Quality::kFine && steady_ > patience_) {
     quality_ = static_cast<Quality>(static_cast<int>(quality_) + 1);
+    tried_ = true;
     steady_ = 0.0;
   }
 }

@@ -15,6 +15,7 @@ class QualityGovernor {
 
  private:
   Quality quality_ = Quality::kFine;
+  bool tried_ = false;     // this quality was reached from a coarser one
   int seen_ = 0;           // frames of the window that is judged
   int slow_ = 0;           // of them
   double steady_ = 0.0;    // since the quality changed [s]

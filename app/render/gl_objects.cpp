@@ -80,7 +80,7 @@ void StreamBuffer::upload(const void* data, std::size_t bytes) const {
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
 }
 
-RoundedBox::RoundedBox(int segments, const StreamBuffer& instances) {
+RoundedBox::RoundedBox(int segments, bool flats, const StreamBuffer& instances) {
   // Every face is a grid. Each of its halves turns from the face's normal (slope 0) to the edge,
   // where the neighbouring face takes over (slope 1); between the two middle lines lies the flat.
   struct Vertex {
@@ -91,6 +91,7 @@ RoundedBox::RoundedBox(int segments, const StreamBuffer& instances) {
   std::vector<std::uint16_t> indices;
   const int lines = 2 * (segments + 1);
   const auto slope = [&](int line) {
+    if (segments == 0) return line == 0 ? -1.0F : 1.0F;
     const int step = line <= segments ? line - segments : line - segments - 1;
     return std::tan(static_cast<float>(step) / static_cast<float>(segments) * 0.785398163F);
   };
@@ -117,6 +118,7 @@ RoundedBox::RoundedBox(int segments, const StreamBuffer& instances) {
       }
       for (int i = 0; i + 1 < lines; ++i) {
         for (int j = 0; j + 1 < lines; ++j) {
+          if (!flats && (i == segments || j == segments)) continue;
           const int p = base + i * lines + j;
           const std::array<int, 6> quad =
               sign > 0.0F
@@ -209,32 +211,56 @@ void ShadowMap::bind_texture() const {
   glBindTexture(GL_TEXTURE_2D, texture_);
 }
 
+namespace {
+
+GLuint color_texture(GLint format, int width, int height, GLint filter) {
+  GLuint texture = 0;
+  glGenTextures(1, &texture);
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture);
+  const GLenum channels = format == GL_RGB8 ? GL_RGB : GL_RGBA;
+  glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, channels, GL_UNSIGNED_BYTE, nullptr);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+}  // namespace
+
 void Canvas::fit(int width, int height, int samples) {
-  if (width == width_ && height == height_ && samples == samples_) return;
+  if (has_size(width, height) && samples == samples_) return;
   release();
   width_ = width;
   height_ = height;
   samples_ = samples;
   glGenFramebuffers(2, frame_buffers_.data());
-  glGenRenderbuffers(3, buffers_.data());
-  const auto attach = [&](std::size_t target, std::size_t buffer, GLenum format, GLenum point,
-                          int n) {
-    glBindFramebuffer(GL_FRAMEBUFFER, frame_buffers_.at(target));
+  glGenRenderbuffers(2, buffers_.data());
+  const auto attach = [&](std::size_t buffer, GLenum format, GLenum point) {
     glBindRenderbuffer(GL_RENDERBUFFER, buffers_.at(buffer));
-    glRenderbufferStorageMultisample(GL_RENDERBUFFER, n > 1 ? n : 0, format, width, height);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples > 1 ? samples : 0, format, width,
+                                     height);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, point, GL_RENDERBUFFER, buffers_.at(buffer));
   };
-  attach(0, 0, GL_RGBA8, GL_COLOR_ATTACHMENT0, samples);
-  attach(0, 2, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT, samples);
-  if (samples > 1) attach(1, 1, GL_RGBA8, GL_COLOR_ATTACHMENT0, 1);
+  glBindFramebuffer(GL_FRAMEBUFFER, frame_buffers_[0]);
+  attach(1, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+  if (samples > 1) {
+    attach(0, GL_RGBA8, GL_COLOR_ATTACHMENT0);
+    glBindFramebuffer(GL_FRAMEBUFFER, frame_buffers_[1]);
+  }
+  texture_ = color_texture(GL_RGBA8, width, height, GL_LINEAR);
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 void Canvas::release() {
   glDeleteFramebuffers(2, frame_buffers_.data());
-  glDeleteRenderbuffers(3, buffers_.data());
+  glDeleteRenderbuffers(2, buffers_.data());
+  glDeleteTextures(1, &texture_);
   frame_buffers_ = {};
   buffers_ = {};
+  texture_ = 0;
 }
 
 void Canvas::bind() const {
@@ -242,8 +268,12 @@ void Canvas::bind() const {
   glViewport(0, 0, width_, height_);
 }
 
+void Canvas::bind_texture() const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture_);
+}
+
 void Canvas::resolve() const {
-  // At their own size and format: WebGL allows no enlarging at once.
   if (samples_ > 1) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffers_[0]);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_buffers_[1]);
@@ -253,54 +283,21 @@ void Canvas::resolve() const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Canvas::show(int width, int height, std::span<const PixelRect> parts) const {
-  // Chromium clears what was shown before the first call that draws, and does not count a copy as
-  // one: without this the panels would clear the picture.
-  glClear(GL_COLOR_BUFFER_BIT);
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffers_[samples_ > 1 ? 1 : 0]);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  const bool same = width == width_ && height == height_;
-  glEnable(GL_SCISSOR_TEST);
-  for (const PixelRect& part : parts) {
-    glScissor(part.x, height - part.y - part.height, part.width, part.height);
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                      same ? GL_NEAREST : GL_LINEAR);
-  }
-  glDisable(GL_SCISSOR_TEST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  glViewport(0, 0, width, height);
-}
-
 void Copy::take(int x, int y, int width, int height) {
   if (width != width_ || height != height_) {
-    release();
+    glDeleteTextures(1, &texture_);
     width_ = width;
     height_ = height;
-    glGenFramebuffers(1, &frame_buffer_);
-    glGenRenderbuffers(1, &colors_);
-    glBindFramebuffer(GL_FRAMEBUFFER, frame_buffer_);
-    glBindRenderbuffer(GL_RENDERBUFFER, colors_);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colors_);
+    // The page's window has no alpha, and WebGL copies to no more channels than there are.
+    texture_ = color_texture(GL_RGB8, width, height, GL_NEAREST);
   }
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, frame_buffer_);
-  glBlitFramebuffer(x, y, x + width, y + height, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  bind_texture();
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, x, y, width, height);
 }
 
-void Copy::put(int x, int y) const {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_buffer_);
-  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-  glBlitFramebuffer(0, 0, width_, height_, x, y, x + width_, y + height_, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
-  glBindFramebuffer(GL_FRAMEBUFFER, 0);
-}
-
-void Copy::release() {
-  glDeleteFramebuffers(1, &frame_buffer_);
-  glDeleteRenderbuffers(1, &colors_);
+void Copy::bind_texture() const {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture_);
 }
 
 }  // namespace substep::gl

@@ -60,9 +60,11 @@ class StreamBuffer {
 /// The unit box with rounded edges: at full rounding it is a ball.
 class RoundedBox {
  public:
-  /// @param segments per quarter of a turn and half edge
+  /// @param segments per quarter of a turn and half edge; 0: the outline alone, of no use where
+  /// faces are lit
+  /// @param flats false: of full rounding only, where the flats between the edges have no size
   /// @param instances where the per-instance attributes come from (struct Instance)
-  RoundedBox(int segments, const StreamBuffer& instances);
+  RoundedBox(int segments, bool flats, const StreamBuffer& instances);
   ~RoundedBox();
   RoundedBox(const RoundedBox&) = delete;
   RoundedBox& operator=(const RoundedBox&) = delete;
@@ -110,40 +112,39 @@ class Canvas {
   void bind() const;
   /// Puts the samples together, once all is drawn.
   void resolve() const;
-  /// Copies it to the window's frame buffer, enlarged to its size [pixel].
-  /// @param parts of the window where it is seen
-  void show(int width, int height, std::span<const PixelRect> parts) const;
+  /// Its colours, smoothly between its pixels; after resolve().
+  void bind_texture() const;
 
  private:
   void release();
+  [[nodiscard]] bool has_size(int width, int height) const {
+    return width == width_ && height == height_;
+  }
 
   int width_ = 0;
   int height_ = 0;
   int samples_ = 0;
   std::array<GLuint, 2> frame_buffers_{};  // drawn to; of single samples, where there are more
-  std::array<GLuint, 3> buffers_{};        // their colours, and the depth
+  std::array<GLuint, 2> buffers_{};        // of many samples: colours; depth
+  GLuint texture_ = 0;                     // of single samples: colours
 };
 
 /// A part of the window's pixels, to be shown again.
 class Copy {
  public:
   Copy() = default;
-  ~Copy() { release(); }
+  ~Copy() { glDeleteTextures(1, &texture_); }
   Copy(const Copy&) = delete;
   Copy& operator=(const Copy&) = delete;
 
   /// From the window's frame buffer. @param x, y of the lower left corner [pixel]
   void take(int x, int y, int width, int height);
-  /// Back to it, at its own size.
-  void put(int x, int y) const;
+  void bind_texture() const;
 
  private:
-  void release();
-
   int width_ = 0;
   int height_ = 0;
-  GLuint frame_buffer_ = 0;
-  GLuint colors_ = 0;
+  GLuint texture_ = 0;
 };
 
 }  // namespace substep::gl

@@ -5,6 +5,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -17,13 +18,21 @@ namespace {
 using Eigen::Matrix4f;
 using Eigen::Vector3f;
 
-constexpr int kShadowSize = 1536;
-constexpr int kCoarseShadowSize = 640;
-constexpr int kSamples = 4;                 // per pixel of a fine picture
-constexpr double kCoarseScale = 2.0 / 3.0;  // of a coarse picture's width and height [-]
+// What a quality is made of.
+struct Grain {
+  double scale;     // of the window's width and height [-]
+  int samples;      // per pixel
+  int shadow_size;  // [texel]
+  float taps;       // of the shadow map per pixel
+};
+constexpr std::array<Grain, 4> kGrains{
+    {{0.5, 1, 384, 1.0F}, {2.0 / 3.0, 1, 640, 1.0F}, {1.0, 1, 1536, 1.0F}, {1.0, 4, 1536, 4.0F}}};
 
 // What bodies are made of.
 struct Meshes {
+  Meshes(int box_segments, const gl::StreamBuffer& boxes, int ball_segments,
+         const gl::StreamBuffer& balls)
+      : box(box_segments, true, boxes), ball(ball_segments, false, balls) {}
   gl::RoundedBox box;
   gl::RoundedBox ball;
 };
@@ -57,20 +66,27 @@ class GlRenderer final : public Renderer {
   void draw_ghosts(const Picture& picture);
   void draw_ground(const Picture& picture, const Matrix4f& light);
   void draw_ribbons(const Picture& picture);
+  void begin_textures() const;
+  void show_canvas() const;
+  void show_kept(const gl::Copy& kept, const PixelRect& area) const;
   void draw_layers(std::span<const Layer> layers);
 
   gl::StreamBuffer box_instances_;
   gl::StreamBuffer ball_instances_;
   gl::StreamBuffer ribbon_vertices_;
-  Meshes fine_{{3, box_instances_}, {8, ball_instances_}};
-  Meshes coarse_{{1, box_instances_}, {4, ball_instances_}};
+  Meshes fine_{3, box_instances_, 8, ball_instances_};
+  Meshes coarse_{1, box_instances_, 3, ball_instances_};
+  Meshes sketch_{1, box_instances_, 2, ball_instances_};
+  Meshes outlines_{0, box_instances_, 2, ball_instances_};  // for shadows, which show no faces
   const Meshes* meshes_ = &fine_;
+  const Meshes* shadow_meshes_ = &fine_;
   gl::ShadowMap shadow_map_;
   gl::Program background_;
   gl::Program body_;
   gl::Program shadow_;
   gl::Program ground_;
   gl::Program ribbon_;
+  gl::Program texture_;
   GLuint empty_array_ = 0;
   GLuint ribbon_array_ = 0;
   gl::Canvas canvas_;
@@ -97,6 +113,7 @@ bool GlRenderer::build(std::string& error) {
   ok &= shadow_.build(header + glsl::kBodyVertex, header + glsl::kShadowFragment, error);
   ok &= ground_.build(header + glsl::kGroundVertex, receiving + glsl::kGroundFragment, error);
   ok &= ribbon_.build(header + glsl::kRibbonVertex, header + glsl::kRibbonFragment, error);
+  ok &= texture_.build(header + glsl::kTextureVertex, header + glsl::kTextureFragment, error);
   if (!shadow_map_.complete()) {
     error += "the frame buffer for shadows is not complete";
     ok = false;
@@ -142,15 +159,15 @@ void GlRenderer::draw_shadows(const Picture& picture, const Matrix4f& light) {
   shadow_.use();
   shadow_.set_matrix("view_projection", light.data());
   shadow_.set_matrix("world_to_shadow", light.data());
-  meshes_->box.draw(static_cast<int>(picture.boxes.size()));
-  meshes_->ball.draw(static_cast<int>(picture.balls.size()));
+  shadow_meshes_->box.draw(static_cast<int>(picture.boxes.size()));
+  shadow_meshes_->ball.draw(static_cast<int>(picture.balls.size()));
   glDisable(GL_POLYGON_OFFSET_FILL);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
 void GlRenderer::draw_bodies(const Picture& picture, const Matrix4f& light) {
   const auto linear = [](const Color& c) {
-    return std::array<float, 3>{std::pow(c.r, 2.2F), std::pow(c.g, 2.2F), std::pow(c.b, 2.2F)};
+    return std::array<float, 3>{c.r * c.r, c.g * c.g, c.b * c.b};
   };
   // The sky lights from above, the floor from below, both with the room's own tint.
   std::array<float, 3> sky = linear(picture.background_top);
@@ -244,13 +261,14 @@ void limit_to(const Part& part, int width, int height) {
 
 void GlRenderer::draw_pictures(std::span<const Picture> pictures, Quality quality, int width,
                                int height) {
-  const double scale = quality == Quality::kCoarse ? kCoarseScale : 1.0;
-  const int w = static_cast<int>(std::ceil(scale * width));
-  const int h = static_cast<int>(std::ceil(scale * height));
-  canvas_.fit(w, h, quality == Quality::kFine ? kSamples : 1);
-  shadow_taps_ = quality == Quality::kFine ? 4.0F : 1.0F;
-  shadow_map_.fit(quality == Quality::kCoarse ? kCoarseShadowSize : kShadowSize);
-  meshes_ = quality == Quality::kCoarse ? &coarse_ : &fine_;
+  const Grain& grain = kGrains.at(static_cast<std::size_t>(quality));
+  const int w = static_cast<int>(std::ceil(grain.scale * width));
+  const int h = static_cast<int>(std::ceil(grain.scale * height));
+  canvas_.fit(w, h, grain.samples);
+  shadow_taps_ = grain.taps;
+  shadow_map_.fit(grain.shadow_size);
+  meshes_ = quality > Quality::kCoarse ? &fine_ : quality == Quality::kCoarse ? &coarse_ : &sketch_;
+  shadow_meshes_ = quality > Quality::kCoarse ? &fine_ : &outlines_;
   for (const Picture& picture : pictures) draw_picture(picture, w, h);
   canvas_.resolve();
 }
@@ -314,6 +332,40 @@ void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   glDisable(GL_SCISSOR_TEST);
 }
 
+// A copy from frame buffer to frame buffer takes a software renderer several times as long as
+// drawing the same.
+void GlRenderer::begin_textures() const {
+  glDisable(GL_BLEND);
+  glDisable(GL_DEPTH_TEST);
+  glDisable(GL_CULL_FACE);
+  texture_.use();
+  texture_.set("picture", 0);
+  glBindVertexArray(empty_array_);
+}
+
+// The canvas over the window, where it is seen.
+void GlRenderer::show_canvas() const {
+  begin_textures();
+  glViewport(0, 0, width_, height_);
+  canvas_.bind_texture();
+  glEnable(GL_SCISSOR_TEST);
+  for (const PixelRect& part : uncovered({0, 0, width_, height_}, covered_)) {
+    glScissor(part.x, height_ - part.y - part.height, part.width, part.height);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  glBindVertexArray(0);
+}
+
+void GlRenderer::show_kept(const gl::Copy& kept, const PixelRect& area) const {
+  begin_textures();
+  glDisable(GL_SCISSOR_TEST);
+  glViewport(area.x, height_ - area.y - area.height, area.width, area.height);
+  kept.bind_texture();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindVertexArray(0);
+}
+
 void GlRenderer::draw_layers(std::span<const Layer> layers) {
   std::erase_if(kept_, [&](const auto& kept) {
     return std::none_of(layers.begin(), layers.end(), [&](const Layer& layer) {
@@ -332,7 +384,7 @@ void GlRenderer::draw_layers(std::span<const Layer> layers) {
     const auto kept = kept_.find(layer.id);
     if (layer.showing == Showing::kKept && kept != kept_.end()) {
       flush();
-      kept->second.put(r.x, bottom);
+      show_kept(kept->second, r);
       continue;
     }
     if (batch.CmdListsCount == 0)
@@ -367,7 +419,7 @@ void GlRenderer::draw(std::span<const Picture> pictures, std::span<const Layer> 
     drawn_.assign(pictures.begin(), pictures.end());
   }
   glDisable(GL_SCISSOR_TEST);
-  canvas_.show(width, height, uncovered({0, 0, width, height}, covered_));
+  show_canvas();
   draw_layers(layers);
 }
 

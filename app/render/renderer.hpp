@@ -11,6 +11,7 @@ namespace substep {
 
 /// How finely the picture is drawn; the panels over it are always as sharp as the screen.
 enum class Quality : unsigned char {
+  kSketch,  // of a quarter of the pixels
   kCoarse,  // of fewer pixels
   kPlain,   // edges in steps
   kFine     // smooth edges

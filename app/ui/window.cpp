@@ -199,8 +199,8 @@ void phone(App& app, ImVec2 display) {
                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
     const ImVec2 origin = ImGui::GetCursorScreenPos();
     transport(app, true);
-    ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
     if (app.desk.panels) {
+      ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
       static constexpr std::array<Choice, 5> kTabs{
           {{"Controls", ""}, {"Plots", ""}, {"Why N", ""}, {"Compare", ""}, {"Accuracy", ""}}};
       tabs(app, kTabs, Tab::kControls);

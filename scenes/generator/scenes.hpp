@@ -55,6 +55,11 @@ Scene heavy_stack_tall();
 Scene heavy_stack_stress();
 Scene heavy_stack_stress_tall();
 
+/// The three with the constants of the authors' public program.
+Scene swinging_box_authors();
+Scene bridge_authors();
+Scene heavy_stack_authors();
+
 /// A rod on a hinge: the physical pendulum, released at rest from the angle with sine 3/5.
 Scene pendulum();
 /// A free asymmetric body that turns about its middle axis and keeps tipping over (Dzhanibekov).

@@ -120,7 +120,8 @@ void look() {
   if (own.empty()) {
     substep_open_link(link.c_str());
     require(app().trouble.problems.empty(), "a link that was made can be read");
-    require(substep_link() == link, "a link that was made is the same experiment");
+    const std::string again = substep_link();
+    require(again == link, "a link that was made is the same experiment: " + link + " " + again);
   } else {
     require(read_scene(own).scene != nullptr, "the link's own scene can be read");
   }

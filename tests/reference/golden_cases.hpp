@@ -16,11 +16,15 @@ struct Case {
   Simulator simulator;
 };
 
-inline constexpr const char* kScenes[] = {
-    "swinging_box",   "bridge",     "heavy_stack",        "heavy_stack_tall",
-    "bouncing_balls", "card_house", "heavy_stack_stress", "heavy_stack_stress_tall",
-    "free_fall",      "pendulum",   "ragdoll_drop",       "sliding_box",
-    "spinning_top",   "wall",       "wrecking_ball"};
+inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
+                                          "heavy_stack",        "heavy_stack_tall",
+                                          "bouncing_balls",     "card_house",
+                                          "heavy_stack_stress", "heavy_stack_stress_tall",
+                                          "free_fall",          "pendulum",
+                                          "ragdoll_drop",       "sliding_box",
+                                          "spinning_top",       "wall",
+                                          "wrecking_ball",      "swinging_box_authors",
+                                          "bridge_authors",     "heavy_stack_authors"};
 
 /// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
 /// and with 16 sub-steps, with BPP and with PGS; and through the paper's scenes of joints with 6

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <set>
 #include <string>
 
 #include "core/io/number_text.hpp"
@@ -14,6 +15,7 @@
 #include "core/io/scene_writer.hpp"
 #include "scenes/generator/parts.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/reference/golden_cases.hpp"
 #include "tests/unit/scene_bits.hpp"
 
 namespace substep {
@@ -224,6 +226,12 @@ TEST(SwingingBox, HasTheChainOfTheDesign) {
   EXPECT_NEAR((box.position - (Vec3{0.0, 12.0, 0.0} + 10.5 * direction)).norm(), 0.0, 1e-14);
   EXPECT_EQ(box.mass, 1000.0);
   EXPECT_FALSE(scene.effects.gyroscopic);
+}
+
+TEST(SceneFiles, EveryOneHasGoldenLines) {
+  std::set<std::string> shipped;
+  for (const Scene& scene : scenes::shipped()) shipped.insert(scene.name);
+  EXPECT_EQ(std::set<std::string>(std::begin(golden::kScenes), std::end(golden::kScenes)), shipped);
 }
 
 }  // namespace

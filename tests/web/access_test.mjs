@@ -14,21 +14,55 @@ after(() => session?.close());
 const focused = (page) => page.evaluate(() =>
   document.activeElement.name || document.activeElement.className || document.activeElement.tagName);
 
+/** Axe's serious and critical findings in a page as it is now, as text. */
+async function findings(page) {
+  const { violations } = await page.evaluate(() => window.axe.run());
+  return violations.filter((v) => ["serious", "critical"].includes(v.impact))
+    .map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`);
+}
+
 for (const light of [false, true]) {
   for (const path of ["", "example/article.html"]) {
     test(`axe finds nothing serious on ${path || "index.html"}, ${light ? "light" : "dark"}`, async () => {
       const page = await openPage(session, { path, light, before: "1" });
       await page.waitForFunction(() => window.substep ?? window.laboratories, null, { timeout: 60000 });
-      const check = async () => {
-        const { violations } = await page.evaluate(() => window.axe.run());
-        const serious = violations.filter((v) => ["serious", "critical"].includes(v.impact));
-        assert.deepEqual(serious.map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`), []);
-      };
       await page.addScriptTag({ path: axe });
-      await check();
+      assert.deepEqual(await findings(page), []);
       await page.locator("select").first().focus(); // the controls come into sight
-      await check();
+      assert.deepEqual(await findings(page), []);
       quiet(page);
+      await page.context().close();
+    });
+  }
+}
+
+// What a person may have before them: the HTML tells more in some, and covers the canvas in others.
+const states = {
+  "a run": (page) => call(page, "set", { mode: "adaptive" }),
+  "a failure": async (page) => {
+    await call(page, "set", { mode: "none" });
+    await call(page, "step", 120);
+  },
+  "a file with problems": (page) => call(page, "load", "{}", "bad.json"),
+  "a link with problems": (page) => call(page, "openLink", "#alpha=9"),
+  help: (page) => call(page, "set", { help: "on" }),
+  accuracy: (page) => call(page, "set", { help: "off", panel: "accuracy" }),
+  comparison: (page) => call(page, "set", { panel: "compare", compare: "mode:none", views: "split" }),
+  "the tour": (page) => call(page, "set", { tour: 2 }),
+  "a lost context": (page) => page.evaluate(() => document.querySelector(".substep-view")
+    .getContext("webgl2").getExtension("WEBGL_lose_context").loseContext()),
+};
+for (const [width, height] of [[1280, 720], [390, 844]]) {
+  for (const light of [false, true]) {
+    test(`axe finds nothing serious in any state, ${width}x${height}, ${light ? "light" : "dark"}`, async () => {
+      const page = await openPage(session, { width, height, light });
+      await call(page, "pause");
+      await page.addScriptTag({ path: axe });
+      for (const [state, reach] of Object.entries(states)) {
+        await reach(page);
+        await page.waitForTimeout(1100); // the twin has followed
+        assert.deepEqual(await findings(page), [], state);
+      }
       await page.context().close();
     });
   }

@@ -96,6 +96,27 @@ TEST(Compare, WhatCannotBeReadIsTold) {
 
 // The compared run has the session's own method: whatever is done to both, they must agree bit for
 // bit, and do so after going back and forth as well.
+TEST(Compare, WhatCannotBeReadIsNoRunAndTheSameIsOne) {
+  Headless h;
+  h.app->open_link("#scene=bridge&compare=mode:const;nothing:3;same");
+  EXPECT_FALSE(h.app->trouble.title.empty());
+  ASSERT_EQ(h.app->compare.runs().size(), 2U);
+  EXPECT_TRUE(h.app->compare.runs()[1].overrides.empty());
+  const std::string link = h.app->link();
+  EXPECT_TRUE(link.ends_with("&compare=mode:const;same")) << link;
+  h.app->trouble = {};
+  h.app->open_link(link);
+  EXPECT_TRUE(h.app->trouble.title.empty());
+  EXPECT_EQ(h.app->link(), link);
+  h.app->open_link("#scene=bridge&compare=nothing:3");
+  EXPECT_FALSE(h.app->compare.open());
+}
+
+TEST(Compare, SolversAreCalledByTheirNames) {
+  EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}), "Newton, none");
+  EXPECT_EQ(overrides_title({{"solver", "xpbd"}}), "XPBD");
+}
+
 TEST(Compare, AHandAndABallReachAllOfThem) {
   Headless h;
   Session& session = h.app->session;

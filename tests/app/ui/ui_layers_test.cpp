@@ -21,7 +21,7 @@ void slow_down(Headless& h) {
     ImGui::GetIO().DeltaTime = 0.08F;
     frame(*h.app, 0.08);
   }
-  ASSERT_EQ(h.app->quality.quality(), Quality::kCoarse);
+  ASSERT_EQ(h.app->quality.quality(), Quality::kSketch);
 }
 
 bool fills(const Layer& layer) { return layer.covers.width > 0; }

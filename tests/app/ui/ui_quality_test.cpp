@@ -24,7 +24,7 @@ int live_with(QualityGovernor& governor, double coarse, double plain, double fin
   int changes = 0;
   for (double t = 0.0; t < seconds;) {
     const Quality before = governor.quality();
-    const double dt = before == Quality::kCoarse  ? coarse
+    const double dt = before <= Quality::kCoarse  ? coarse
                       : before == Quality::kPlain ? plain
                                                   : fine;
     governor.observe(dt, 0.002);
@@ -46,6 +46,8 @@ TEST(Quality, GoesDownStepByStepWhereDrawingIsSlow) {
   EXPECT_EQ(governor.quality(), Quality::kPlain);
   observe(governor, kSlow, 1.0);
   EXPECT_EQ(governor.quality(), Quality::kCoarse);
+  observe(governor, kSlow, 10.0);
+  EXPECT_EQ(governor.quality(), Quality::kSketch);
 }
 
 TEST(Quality, StaysFineWhereSimulatingIsSlow) {
@@ -57,7 +59,7 @@ TEST(Quality, StaysFineWhereSimulatingIsSlow) {
 TEST(Quality, ComesBackWhenFramesAreQuickAgain) {
   QualityGovernor governor;
   observe(governor, kSlow, 3.0);
-  ASSERT_EQ(governor.quality(), Quality::kCoarse);
+  ASSERT_EQ(governor.quality(), Quality::kSketch);
   observe(governor, kQuick, 120.0);
   EXPECT_EQ(governor.quality(), Quality::kFine);
 }

@@ -156,6 +156,7 @@ const char* substep_report() {
   const substep::Settings& set = s.settings();
   json out = {
       {"scene", s.scene().name},
+      {"run", app().run_count},  // counts resets and loads
       {"title", s.scene().title},
       {"solver", substep::name_of(set.solver)},
       {"mode", substep::name_of(set.mode)},

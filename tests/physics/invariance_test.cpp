@@ -336,6 +336,7 @@ TEST(Invariance, ARunGoesOnFromASceneFileBitForBit) {
           FrameReport last;
           for (int i = 0; i < 30; ++i) last = whole.step();
           if (last.status != StepStatus::kOk) continue;  // within a frame, and not between two
+          if (last.joint_gap > 0.09) continue;  // torn: no file may start with joints that far open
           const auto saved = through_a_file(whole);
           ASSERT_NE(saved, nullptr);
           Simulator rest(saved);

@@ -95,23 +95,9 @@ Scene bridge_authors() {
     plank.collision_group = 0;
     scene.bodies.push_back(std::move(plank));
   }
-  // Planks are bodies 1 to 20, after the floor.
-  const auto join = [&](int gap, int a, int b, double end_a, const Vec3& end_b) {
-    for (const double z : {-0.5, 0.5}) {
-      BallJoint joint;
-      joint.name = "pivot_" + std::to_string(gap) + (z < 0.0 ? "_back" : "_front");
-      joint.a = a;
-      joint.b = b;
-      joint.anchor_a = {end_a, 0.0, z};
-      joint.anchor_b = end_b + Vec3{0.0, 0.0, z};
-      joint.compliance = 1e-8;
-      scene.joints.emplace_back(joint);
-    }
-  };
   constexpr double kEnd = 0.5 * kPitch;
-  join(0, 1, kWorld, -kEnd, {place(0) - kEnd, kHeight, 0.0});
-  for (int i = 1; i < kPlanks; ++i) join(i, i + 1, i, -kEnd, {kEnd, 0.0, 0.0});
-  join(kPlanks, kPlanks, kWorld, kEnd, {place(kPlanks - 1) + kEnd, kHeight, 0.0});
+  join_planks(kPlanks, kPitch, 0.5, {place(0) - kEnd, kHeight, 0.0},
+              {place(kPlanks - 1) + kEnd, kHeight, 0.0}, scene);
 
   Body ball = solid("ball", Sphere{0.5}, 1000.0, {place(0), kHeight + 1.0, 0.0});
   ball.velocity = {1.0, 0.0, 0.0};

@@ -99,23 +99,7 @@ void add_planks(double span, Scene& scene) {
     pivot += along * kPitch;
   }
 
-  // Two ball joints in every gap, planks being bodies 1 to 20 after the floor.
-  const auto join = [&](int gap, int a, int b, double end_a, const Vec3& end_b) {
-    for (const double z : {-0.9, 0.9}) {
-      BallJoint joint;
-      joint.name = "pivot_" + std::to_string(gap) + (z < 0.0 ? "_back" : "_front");
-      joint.a = a;
-      joint.b = b;
-      joint.anchor_a = {end_a, 0.0, z};
-      joint.anchor_b = end_b + Vec3{0.0, 0.0, z};
-      joint.compliance = 1e-8;
-      scene.joints.emplace_back(joint);
-    }
-  };
-  const double end = 0.5 * kPitch;
-  join(0, 1, kWorld, -end, left);
-  for (int i = 1; i < kPlanks; ++i) join(i, i + 1, i, -end, {end, 0.0, 0.0});
-  join(kPlanks, kPlanks, kWorld, end, right);
+  join_planks(kPlanks, kPitch, 0.9, left, right, scene);
 }
 
 void add_ball(const BridgeOptions& options, Scene& scene) {

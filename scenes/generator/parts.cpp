@@ -34,6 +34,26 @@ void add_ground(double friction, double margin, Scene& scene) {
   scene.bodies.back().friction = friction;
 }
 
+void join_planks(int planks, double pitch, double half_width, const Vec3& left, const Vec3& right,
+                 Scene& scene) {
+  const auto join = [&](int gap, int a, int b, double end_a, const Vec3& end_b) {
+    for (const double z : {-half_width, half_width}) {
+      BallJoint joint;
+      joint.name = "pivot_" + std::to_string(gap) + (z < 0.0 ? "_back" : "_front");
+      joint.a = a;
+      joint.b = b;
+      joint.anchor_a = {end_a, 0.0, z};
+      joint.anchor_b = end_b + Vec3{0.0, 0.0, z};
+      joint.compliance = 1e-8;
+      scene.joints.emplace_back(joint);
+    }
+  };
+  const double end = 0.5 * pitch;
+  join(0, 1, kWorld, -end, left);
+  for (int i = 1; i < planks; ++i) join(i, i + 1, i, -end, {end, 0.0, 0.0});
+  join(planks, planks, kWorld, end, right);
+}
+
 Quat turn_about_z(double c, double s) {
   // cos(a/2) = sqrt((1 + cos a)/2), sin(a/2) = sin a / (2 cos(a/2)).
   const double half_cosine = std::sqrt(0.5 * (1.0 + c));

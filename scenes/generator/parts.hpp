@@ -35,6 +35,13 @@ Body floor_plane(double height = 0.0);
 /// @param margin gap below which a contact has rows [m]
 void add_ground(double friction, double margin, Scene& scene);
 
+/// Joins the planks of a bridge, bodies 1 to `planks` after the floor, to each other and to the
+/// world by two ball joints in every gap.
+/// @param pitch distance of a plank's two pivots, along its x [m]  @param half_width z of the two
+/// joints [m]  @param left, right the ends of the bridge, world [m]
+void join_planks(int planks, double pitch, double half_width, const Vec3& left, const Vec3& right,
+                 Scene& scene);
+
 /// The orientation that turns +x to (c, s, 0): a turn about z by an angle between -180 and 180 deg.
 /// @param c its cosine  @param s its sine
 Quat turn_about_z(double c, double s);

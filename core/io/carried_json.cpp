@@ -5,6 +5,7 @@
 #include <iterator>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/io/scene_limits.hpp"
 
@@ -20,29 +21,15 @@ Vec6 velocity_of(const Body& body) {
   return u;
 }
 
-/// A list of lists, of as many numbers each as an Item has; by columns where that is a matrix.
+/// An item for every body, of as many numbers as an Item has; by columns where that is a matrix.
 template <class Item>
-void read_items(ObjectReader& in, std::string_view key, const Range& range, std::size_t size,
-                std::vector<Item>& items, Problems& problems) {
-  const Json* list = in.member(key, kOptional);
-  if (!list) return;
-  if (!list->is_array() || list->size() != size) {
-    in.problem(key, value_text(*list) + " is not a list of " + std::to_string(size) +
-                        ", one for each body");
-    return;
-  }
-  for (std::size_t i = 0; i < size && problems.size() <= kMaxProblems; ++i) {
-    Item item = Item::Zero();
-    const Json row = {{"row", (*list)[i]}};
-    Problems of_row;
-    ObjectReader reader(row, "", of_row);
-    reader.numbers("row", range, item.data(), static_cast<std::size_t>(item.size()), kRequired);
-    for (Problem& p : of_row) {
-      p.pointer = pointer_to(in.pointer(key), i) + p.pointer.substr(std::string("/row").size());
-      problems.push_back(std::move(p));
-    }
-    items.push_back(item);
-  }
+void read_items(ObjectReader& in, std::string_view key, const Range& range, std::size_t bodies,
+                std::vector<Item>& items) {
+  std::vector<Item> read(bodies, Item::Zero());
+  const auto size = static_cast<std::size_t>(Item::SizeAtCompileTime);
+  static_assert(sizeof(Item) == Item::SizeAtCompileTime * sizeof(double));
+  double* first = bodies > 0 ? read.front().data() : nullptr;
+  if (in.table(key, range, first, bodies, size, kOptional)) items = std::move(read);
 }
 
 template <class Item>
@@ -117,10 +104,10 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   if (!in.is_object()) return std::nullopt;
   const std::size_t n = bodies.size();
   in.number("dt_previous", not_negative(1.0, "s"), carried.dt_previous, kRequired);
-  read_items(in, "u", kVelocityRange, n, carried.u, problems);
+  read_items(in, "u", kVelocityRange, n, carried.u);
   carried.stiffness_known = in.number("r", kStiffnessOverMassRange, carried.r, kOptional);
-  read_items(in, "k", kStiffnessRange, n, carried.k, problems);
-  read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting, problems);
+  read_items(in, "k", kStiffnessRange, n, carried.k);
+  read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting);
   for (const char* key : {"k", "k_resisting"}) {
     if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "needs r");
   }

@@ -150,21 +150,40 @@ bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& 
   return false;
 }
 
-bool ObjectReader::numbers(std::string_view key, const Range& range, double* target,
-                           std::size_t size, Presence presence) {
-  const Json* value = member(key, presence);
-  if (!value) return false;
-  if (!value->is_array() || value->size() != size) {
-    problem(key, value_text(*value) + " is not a list of " + std::to_string(size) + " numbers" +
-                     range.unit_text());
+bool ObjectReader::row(const Json& value, const std::string& pointer, const Range& range,
+                       double* target, std::size_t size) {
+  if (!value.is_array() || value.size() != size) {
+    problems_.push_back({pointer, value_text(value) + " is not a list of " + std::to_string(size) +
+                                      " numbers" + range.unit_text()});
     return false;
   }
   std::vector<double> read(size);
   bool ok = true;
   for (std::size_t i = 0; i < size; ++i) {
-    ok = one_number((*value)[i], pointer_to(pointer(key), i), range, read[i]) && ok;
+    ok = one_number(value[i], pointer_to(pointer, i), range, read[i]) && ok;
   }
   if (ok) std::copy(read.begin(), read.end(), target);
+  return ok;
+}
+
+bool ObjectReader::numbers(std::string_view key, const Range& range, double* target,
+                           std::size_t size, Presence presence) {
+  const Json* value = member(key, presence);
+  return value && row(*value, pointer(key), range, target, size);
+}
+
+bool ObjectReader::table(std::string_view key, const Range& range, double* target, std::size_t rows,
+                         std::size_t columns, Presence presence) {
+  const Json* value = member(key, presence);
+  if (!value) return false;
+  if (!value->is_array() || value->size() != rows) {
+    problem(key, value_text(*value) + " is not a list of " + std::to_string(rows) + " lists");
+    return false;
+  }
+  bool ok = true;
+  for (std::size_t i = 0; i < rows && problems_.size() <= kMaxProblems; ++i) {
+    ok = row((*value)[i], pointer_to(pointer(key), i), range, target + i * columns, columns) && ok;
+  }
   return ok;
 }
 

@@ -34,6 +34,9 @@ class ObjectReader {
   /// `size` numbers, each in the range.
   bool numbers(std::string_view key, const Range& range, double* target, std::size_t size,
                Presence presence);
+  /// `rows` lists of `columns` numbers each, one after the other.
+  bool table(std::string_view key, const Range& range, double* target, std::size_t rows,
+             std::size_t columns, Presence presence);
   /// The member as it is, or null.
   const Json* member(std::string_view key, Presence presence);
 
@@ -53,6 +56,8 @@ class ObjectReader {
  private:
   bool one_number(const Json& value, const std::string& pointer, const Range& range,
                   double& target);
+  bool row(const Json& value, const std::string& pointer, const Range& range, double* target,
+           std::size_t size);
 
   const Json* json_ = nullptr;
   std::string pointer_;

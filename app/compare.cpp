@@ -41,6 +41,20 @@ std::vector<Overrides> all_overrides(const std::vector<Compare::Run>& runs) {
   return list;
 }
 
+std::string_view solver_title(std::string_view name) {
+  switch (value_of<SolverKind>(name).value_or(SolverKind::kBpp)) {
+    case SolverKind::kPgs:
+      return "PGS";
+    case SolverKind::kBpp:
+      return "BPP";
+    case SolverKind::kNewton:
+      return "Newton";
+    case SolverKind::kXpbd:
+      return "XPBD";
+  }
+  return name;
+}
+
 void add_frame(Cost& cost, const FrameReport& report) {
   ++cost.frames;
   cost.substeps += report.n_substeps;
@@ -331,24 +345,6 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
   }
   return runs;
 }
-
-namespace {
-
-std::string_view solver_title(std::string_view name) {
-  switch (value_of<SolverKind>(name).value_or(SolverKind::kBpp)) {
-    case SolverKind::kPgs:
-      return "PGS";
-    case SolverKind::kBpp:
-      return "BPP";
-    case SolverKind::kNewton:
-      return "Newton";
-    case SolverKind::kXpbd:
-      return "XPBD";
-  }
-  return name;
-}
-
-}  // namespace
 
 std::string overrides_title(const Overrides& overrides) {
   if (overrides.empty()) return "the same";

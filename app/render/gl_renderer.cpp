@@ -332,8 +332,8 @@ void GlRenderer::draw_picture(const Picture& picture, int width, int height) {
   glDisable(GL_SCISSOR_TEST);
 }
 
-// A copy from frame buffer to frame buffer takes a software renderer several times as long as
-// drawing the same.
+// What is on a texture is put on the window by drawing it: to enlarge by copying takes a software
+// renderer longer.
 void GlRenderer::begin_textures() const {
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);

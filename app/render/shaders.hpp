@@ -75,7 +75,7 @@ uniform float ambient;
 uniform vec3 sky;
 uniform vec3 floor_light;
 out vec4 out_color;
-// Products and roots, no powers: a processor that must draw takes ten times as long for those.
+// Products and roots, no powers: those cost a processor that must draw far more.
 float square(float x) { return x * x; }
 void main() {
   vec3 n = normalize(v_normal);

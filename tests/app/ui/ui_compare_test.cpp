@@ -94,8 +94,6 @@ TEST(Compare, WhatCannotBeReadIsTold) {
   EXPECT_FALSE(h.app->compare.open());
 }
 
-// The compared run has the session's own method: whatever is done to both, they must agree bit for
-// bit, and do so after going back and forth as well.
 TEST(Compare, WhatCannotBeReadIsNoRunAndTheSameIsOne) {
   Headless h;
   h.app->open_link("#scene=bridge&compare=mode:const;nothing:3;same");
@@ -117,6 +115,8 @@ TEST(Compare, SolversAreCalledByTheirNames) {
   EXPECT_EQ(overrides_title({{"solver", "xpbd"}}), "XPBD");
 }
 
+// The compared run has the session's own method: whatever is done to both, they must agree bit for
+// bit, and do so after going back and forth as well.
 TEST(Compare, AHandAndABallReachAllOfThem) {
   Headless h;
   Session& session = h.app->session;

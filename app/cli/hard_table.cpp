@@ -82,14 +82,22 @@ class HardTable {
     }
   }
 
-  /// A line for every scene: sub-steps a frame of what holds, the time of what fails.
+  /// A line for every scene: what holds it at the least work, and for every setting the sub-steps a
+  /// frame or the time of the failure.
   void print_scenes() const {
-    std::printf("\n| family | scene |");
+    std::printf("\n| family | scene | least work that holds | kflop a frame |");
     for (const Candidate& candidate : candidates_) std::printf(" %s |", candidate.name.c_str());
-    std::printf("\n|---|---|");
+    std::printf("\n|---|---|---|---|");
     for (std::size_t j = 0; j < candidates_.size(); ++j) std::printf("---|");
     for (std::size_t i = 0; i < set_.size(); ++i) {
       std::printf("\n| %s | %s |", set_[i].family.c_str(), set_[i].scene.name.c_str());
+      const auto least = least_work(i);
+      if (least < candidates_.size()) {
+        std::printf(" %s | %.0f |", candidates_[least].name.c_str(),
+                    flops_per_frame(at(i, least).metrics.work) / 1000.0);
+      } else {
+        std::printf(" none | |");
+      }
       for (std::size_t j = 0; j < candidates_.size(); ++j) {
         const Metrics& m = at(i, j).metrics;
         if (m.holds) {
@@ -106,6 +114,23 @@ class HardTable {
  private:
   [[nodiscard]] const Check& at(std::size_t scene, std::size_t candidate) const {
     return checks_[scene * candidates_.size() + candidate];
+  }
+
+  static double flops_per_frame(const Work& work) {
+    return static_cast<double>(work.flops) / static_cast<double>(work.frames);
+  }
+
+  /// The setting that holds a scene at the least work; the number of settings where none does.
+  [[nodiscard]] std::size_t least_work(std::size_t scene) const {
+    std::size_t least = candidates_.size();
+    for (std::size_t j = 0; j < candidates_.size(); ++j) {
+      const Metrics& m = at(scene, j).metrics;
+      if (!m.holds) continue;
+      if (least == candidates_.size() || m.work.flops < at(scene, least).metrics.work.flops) {
+        least = j;
+      }
+    }
+    return least;
   }
 
   std::vector<scenes::HardCase> set_;

@@ -7,6 +7,7 @@
 
 #include "app/cli/checks.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/map_picture.hpp"
 #include "app/cli/output.hpp"
 #include "core/io/number_text.hpp"
 #include "core/model/names.hpp"
@@ -18,6 +19,7 @@ namespace {
 /// What makes a scene harder, and the scenes that it makes.
 struct Axis {
   const char* name;
+  const char* label;
   std::vector<double> values;
   std::function<Scene(double)> scene;
 };
@@ -33,12 +35,15 @@ std::vector<Axis> axes() {
   using namespace scenes;
   return {
       {"mass_ratio",
+       "mass of the box on 25 links, over a link's",
        {1, 10, 100, 1e3, 1e4, 1e5, 1e6},
        [](double m) { return lasting(rope_of_n({.end_mass = m}), 5.0); }},
       {"chain_length",
+       "links of 1 kg above 1,000 kg",
        {5, 10, 25, 50, 100, 200, 400},
        [](double n) { return lasting(rope_of_n({.n = static_cast<int>(n)}), 4.0); }},
       {"stack_height",
+       "layers under 10 t, balls up to 2 mm off",
        {1, 2, 3, 5, 8, 10, 15},
        [](double n) {
          return lasting(heavy_stack({.layers = static_cast<int>(n), .stress = true}), 5.0);
@@ -46,28 +51,31 @@ std::vector<Axis> axes() {
   };
 }
 
-struct Cell {
-  const char* axis;
-  double value;
-};
-
-void write_line(Output& out, const Cell& cell, const Check& check) {
-  const Metrics& m = check.metrics;
-  out.write(std::string(cell.axis) + ',' + number_text(cell.value) + ',' +
-            number_text(check.cell.settings.alpha) + ',' +
-            std::string(name_of(check.cell.settings.solver)) + ',' + (m.holds ? "1," : "0,") +
-            number_text(check.time) + ',' + std::to_string(m.work.n_median) + ',' +
-            std::to_string(m.work.n_max) + ',' + std::to_string(m.work.substeps) + '\n');
+std::string line_of(const MapCell& c) {
+  return c.map + ',' + number_text(c.value) + ',' + number_text(c.alpha) + ',' +
+         std::string(name_of(c.solver)) + ',' + (c.holds ? "1," : "0,") + number_text(c.seconds) +
+         ',' + std::to_string(c.n_median) + ',' + std::to_string(c.n_max) + ',' +
+         std::to_string(c.substeps) + '\n';
 }
 
-int run_map(const std::string& path, int jobs) {
+struct Options {
+  std::string out = "-";
+  std::string picture;
+  double seconds = 0.0;  // 0: as each axis says
+  int jobs = 0;
+};
+
+int run_map(const Options& options) {
   Output out;
-  if (!out.open(path)) return kBadInput;
+  Output picture;
+  if (!out.open(options.out) || !picture.open(options.picture)) return kBadInput;
   std::vector<Check> checks;
-  std::vector<Cell> cells;
+  std::vector<MapCell> cells;
   for (const Axis& axis : axes()) {
     for (const double value : axis.values) {
-      const auto scene = std::make_shared<const Scene>(axis.scene(value));
+      Scene made = axis.scene(value);
+      if (options.seconds > 0.0) made.criteria.duration = options.seconds;
+      const auto scene = std::make_shared<const Scene>(std::move(made));
       for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
         for (const double alpha : kAlphas) {
           Settings settings = scene->settings;
@@ -76,36 +84,50 @@ int run_map(const std::string& path, int jobs) {
           settings.alpha = alpha;
           settings.n_max = 1000;  // it is alpha that decides
           checks.push_back({.scene = scene, .cell = {settings, {}}});
-          cells.push_back({axis.name, value});
+          cells.push_back({.map = axis.name,
+                           .label = axis.label,
+                           .value = value,
+                           .alpha = alpha,
+                           .solver = solver});
         }
       }
     }
   }
   out.write("map,value,alpha,solver,holds,seconds,n_median,n_max,substeps\n");
-  run_checks(checks, jobs, [&](const Check& check) {
-    write_line(out, cells[static_cast<std::size_t>(&check - checks.data())], check);
+  run_checks(checks, options.jobs, [&](const Check& check) {
+    MapCell& cell = cells[static_cast<std::size_t>(&check - checks.data())];
+    const Metrics& m = check.metrics;
+    cell.holds = m.holds;
+    cell.seconds = check.time;
+    cell.n_median = m.work.n_median;
+    cell.n_max = m.work.n_max;
+    cell.substeps = m.work.substeps;
+    out.write(line_of(cell));
   });
-  return out.close() ? kOk : kBadInput;
+  if (picture.is_open()) picture.write(map_picture(cells));
+  const bool told = out.close();
+  return picture.close() && told ? kOk : kBadInput;
 }
 
 }  // namespace
 
 void add_map(CLI::App& app, int& exit_code) {
-  struct Options {
-    std::string out = "-";
-    int jobs = 0;
-  };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
       "map", "Where adaptive sub-steps hold, by alpha: mass ratio, chain length, stack height");
   command->add_option("--out", options->out, "the table as CSV; - for standard output");
+  command->add_option("--picture", options->picture, "the maps as SVG");
+  command
+      ->add_option("--seconds", options->seconds,
+                   "simulated time of each run; without it 4 or 5 s, as the map is usually drawn")
+      ->check(CLI::Range(0.01, 3600.0));
   command->add_option("--jobs", options->jobs, "runs at a time; 0: one for each processor")
       ->check(CLI::Range(0, 1000));
   command->footer(
       "Columns: what is varied and its value; alpha; solver; whether it holds; how long it ran "
       "[s];\n"
       "sub-steps a frame, their median and most, and all of them.");
-  command->callback([options, &exit_code] { exit_code = run_map(options->out, options->jobs); });
+  command->callback([options, &exit_code] { exit_code = run_map(*options); });
 }
 
 }  // namespace substep::cli

@@ -236,6 +236,26 @@ TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
                          ": /joints/0/type: \"hnige\" is not ball or hinge\n");
 }
 
+TEST(CommandLine, MapIsATableAndAPicture) {
+  const fs::path table = folder() / "map.csv";
+  const fs::path picture = folder() / "map.svg";
+  const Outcome map = substep("map --seconds 0.02 --out \"" + table.string() + "\" --picture \"" +
+                              picture.string() + "\"");
+  ASSERT_EQ(map.exit_code, 0) << map.err;
+  const auto lines = lines_of(text_of(table));
+  ASSERT_EQ(lines.size(), 1U + 3 * 7 * 7 * 2);
+  EXPECT_EQ(lines.front(), "map,value,alpha,solver,holds,seconds,n_median,n_max,substeps");
+  const std::string svg = text_of(picture);
+  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+  const auto count = [&](const std::string& what) {
+    std::size_t n = 0;
+    for (auto at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("class='cell'"), lines.size() - 1);
+  EXPECT_EQ(count("<text"), count("</text>"));
+}
+
 TEST(CommandLine, CheckComparesWithTheExpectedVerdict) {
   EXPECT_EQ(substep("check pendulum free_fall").exit_code, 0);
   const fs::path path = folder() / "fails.json";

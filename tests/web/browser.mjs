@@ -24,13 +24,18 @@ export function distFolder() {
 
 export const screenshots = process.env.SUBSTEP_SCREENSHOTS ?? join(root, "build/artefacts/screenshots");
 
-function chromiumPath() {
+export function chromiumPath() {
   const candidates = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser",
     "/usr/bin/google-chrome"];
   const found = candidates.find((path) => path && existsSync(path));
   if (!found) throw new Error("no Chromium: set CHROMIUM to its path");
   return found;
 }
+
+/** Flags of a browser that draws in software and asks nobody for anything. */
+export const renderer = ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
+  "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run",
+  "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 
 /**
  * A browser with a software renderer, and a server of the page below a sub-path.
@@ -43,9 +48,7 @@ export async function open({ dist = distFolder(), flags = [] } = {}) {
   const server = await serve(folder, 0);
   const browser = await chromium.launch({
     executablePath: chromiumPath(),
-    args: ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
-      "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run",
-      "--disable-background-networking", "--disable-component-update", "--disable-sync", ...flags],
+    args: [...renderer, ...flags],
   });
   return {
     browser,

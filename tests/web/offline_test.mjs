@@ -69,30 +69,6 @@ test("progress is shown while the program comes", async () => {
   await page.context().close();
 });
 
-test("a tab in the background builds no backlog", async () => {
-  const page = await openPage(session, { fragment: "scene=swinging_box" });
-  // As browsers do with a tab that is not seen: no pictures for a minute, by its own clock.
-  await page.evaluate(() => {
-    window.realRequest = window.requestAnimationFrame;
-    window.waiting = [];
-    window.requestAnimationFrame = (draw) => window.waiting.push(draw);
-  });
-  await page.waitForTimeout(1000);
-  const before = (await call(page, "report")).time;
-  const after = await page.evaluate(() => {
-    const start = performance.now();
-    const now = performance.now.bind(performance);
-    performance.now = () => now() + 60000;
-    window.requestAnimationFrame = (draw) => window.realRequest.call(window, () => draw(performance.now()));
-    for (const draw of window.waiting.splice(0)) draw(performance.now());
-    return { time: window.substep.report().time, took: now() - start };
-  });
-  assert.ok(after.time - before <= 0.11, `${after.time - before} s were made up for`);
-  assert.ok(after.took < 2000, `${after.took} ms`);
-  quiet(page);
-  await page.context().close();
-});
-
 /** The copies of the page that are kept. */
 const kept = (page) => page.evaluate(async () => (await caches.keys()).join());
 

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { call, click, drawn, find, open, openPage, picture, place, quiet as isQuiet, save } from "./browser.mjs";
 import { difference, part, variance } from "./pixels.mjs";
+import { openTab } from "./tabs.mjs";
 
 const scenes = ["swinging_box", "bridge", "heavy_stack"];
 const modes = ["none", "const", "damping", "adaptive", "capped"];
@@ -16,15 +17,35 @@ const plots = { x: 980, y: 50, width: 280, height: 330 };
 let session;
 let page; // the one that most tests share
 let last; // its picture at the end of a test
+let tab; // another one, behind a second tab for a minute while the rest is tested
+let minute;
 
 const api = (name, ...args) => call(page, name, ...args);
 const quiet = (p = page) => isQuiet(p);
 
 before(async () => {
   session = await open();
+  tab = await openTab(`${session.address}#scene=swinging_box`);
+  await tab.evaluate(`new Promise((ready) => {
+    window.seen = [];
+    window.faults = [];
+    window.addEventListener("error", ({ message }) => window.faults.push(message));
+    document.addEventListener("visibilitychange", () => window.seen.push(
+      { state: document.visibilityState, at: performance.now(), time: window.substep.report().time }));
+    const wait = setInterval(() => {
+      if (!(window.substep?.report().time > 0.5)) return;
+      clearInterval(wait);
+      ready();
+    }, 50);
+  })`);
+  await tab.leave();
+  minute = new Promise((over) => { setTimeout(over, 60000); });
   page = await openPage(session);
 });
-after(() => session?.close());
+after(async () => {
+  await tab?.close();
+  await session?.close();
+});
 
 test("loads, shows a picture and says nothing on the console", async () => {
   await drawn(page);
@@ -246,3 +267,19 @@ for (const [what, script] of [
     await poor.context().close();
   });
 }
+
+// Last: its minute began before the first of them.
+test("a minute behind another tab costs nothing and leaves no backlog", async () => {
+  await minute;
+  await tab.comeBack();
+  const { seen, then, faults } = await tab.evaluate(`new Promise((done) => {
+    setTimeout(() => done({ seen, faults, then: { at: performance.now(), time: window.substep.report().time } }), 2000);
+  })`);
+  assert.deepEqual(seen.map(({ state }) => state), ["hidden", "visible"]);
+  const [left, back] = seen;
+  assert.ok(back.at - left.at > 59000, `${back.at - left.at} ms away`);
+  assert.ok(back.time - left.time < 0.2, `${back.time - left.time} s were simulated behind the other tab`);
+  assert.ok(then.time > back.time, "it goes on");
+  assert.ok(then.time - back.time < (then.at - back.at) / 1000 + 0.2, "no time is made up for");
+  assert.deepEqual(faults, []);
+});

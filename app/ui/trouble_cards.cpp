@@ -7,6 +7,7 @@
 #include "app/ui/card.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/lab/remedy.hpp"
 
 namespace substep::ui {
 namespace {
@@ -25,6 +26,25 @@ CardPlace below_what_failed(const ViewRect& v) {
   const float below = ImGui::GetIO().DisplaySize.y - bottom;
   if (below > kBar + kRoom) return {bottom + kBar, 0.0F};
   return {bottom - 60.0F, 1.0F};
+}
+
+/// What would have helped the frame that failed, the most likely first.
+std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
+  const Timeline& timeline = session.timeline();
+  const Moment& then = timeline[timeline.at_time(session.verdict().failed_at())];
+  auto all = remedies(then.settings, session.stopped() ? session.report() : then.report);
+  all.resize(std::min(all.size(), most));
+  return all;
+}
+
+/// A button: the same scene from its start, with what would have helped.
+void reset_with(App& app, const Remedy& remedy, ButtonKind kind) {
+  const std::string what = remedy.text.substr(0, remedy.text.find(';'));
+  if (button(app.look, what.c_str(), Icon::kReset, ("Reset with " + what).c_str(), kind, 0.0F,
+             28.0F, ("The same scene with " + remedy.text).c_str())) {
+    app.change(remedy.settings);
+    app.reset();
+  }
 }
 
 }  // namespace
@@ -54,28 +74,16 @@ void failure_card(App& app) {
       what += " is no longer a finite number. What you see is the last state that was.";
     }
     label(look.fonts.small, look.theme->dim, what.c_str());
-    const Mode mode = app.session.settings().mode;
-    const char* advice = mode == Mode::kAdaptive
-                             ? "A smaller alpha, or a higher limit on N, would help."
-                             : "More sub-steps would help: adaptive finds how many.";
-    if (v.height > 400.0F) label(look.fonts.small, look.theme->dim, advice);
-    ImGui::Dummy({1.0F, 0.0F});
-    const bool adaptive = mode == Mode::kAdaptive;
-    if (!adaptive) {  // first what helps
-      if (button(look, "adaptive", Icon::kReset, "Reset, adaptive", ButtonKind::kPrimary, 0.0F,
-                 28.0F, "The same scene with adaptive sub-steps")) {
-        Settings s = app.session.settings();
-        s.mode = Mode::kAdaptive;
-        app.change(s);
-        app.reset();
-      }
-      ImGui::SameLine();
+    auto kind = ButtonKind::kPrimary;  // of what is the most likely to help
+    for (const Remedy& remedy : remedies_of(app.session, v.height > 400.0F ? 3 : 1)) {
+      reset_with(app, remedy, kind);
+      kind = ButtonKind::kPlain;
     }
-    if (button(look, "again", Icon::kReset, "Reset",
-               adaptive ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, 28.0F,
+    if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the start (R)")) {
       app.reset();
     }
+    ImGui::SameLine();
     if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the last frame that held; it goes on from there")) {
       app.session.go_to_last_good();

@@ -18,6 +18,7 @@ int larger(int cap, int wanted) {
 
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) {
   std::vector<Remedy> all;
+  if (last.status == StepStatus::kTooManyContacts) return all;  // it is the scene that has too many
   const auto add = [&](const std::string& text) -> Settings& {
     return all.emplace_back(Remedy{text, settings}).settings;
   };

@@ -16,7 +16,8 @@ struct Remedy {
 
 /// What would help, the most likely first: adaptive sub-steps where there are none, a larger cap
 /// where the cap was in force, the direct solver in place of Gauss-Seidel, a smaller alpha.
-/// @param last the report of the frame that failed  @return empty where nothing is left to turn
+/// @param last the report of the frame that failed  @return empty where nothing is left to turn, or
+/// no setting would help
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last);
 
 }  // namespace substep

@@ -42,7 +42,8 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
     why = "not finite (" + scene.bodies[static_cast<std::size_t>(report.failed_body)].name + ")";
   }
   if (report.status == StepStatus::kTooManyContacts) {
-    why = "more than " + std::to_string(kMaxContacts) + " contacts";
+    why = "more than " + std::to_string(kMaxContacts) + " contacts or " +
+          std::to_string(kMaxPairs) + " pairs of bodies near each other";
   }
   stopped_ = report.status != StepStatus::kOk;
   if (report.joint_gap_joint >= 0) {

@@ -71,7 +71,9 @@ TEST(TooManyContacts, StopTheRunBeforeTheyTakeMemory) {
   EXPECT_EQ(state_hash(simulator.state()), state_hash(start));
   verdict.add(*shared, simulator.state(), report);
   EXPECT_TRUE(verdict.stopped());
-  EXPECT_EQ(verdict.text(), "fails at 0.000 s: more than 200000 contacts");
+  EXPECT_EQ(
+      verdict.text(),
+      "fails at 0.000 s: more than 200000 contacts or 1000000 pairs of bodies near each other");
 }
 
 /// What comes of the first remedy for a run that fails.
@@ -117,6 +119,12 @@ TEST(Remedies, TheDirectSolverIsOneWhereSweepsAreNotEnough) {
 TEST(Remedies, EndWhereNothingIsLeftToTurn) {
   const Settings settings{.alpha = 1e-3, .policy = Policy::kSubstep};
   EXPECT_TRUE(remedies(settings, {}).empty());
+}
+
+TEST(Remedies, ThereAreNoneForTooManyContacts) {
+  FrameReport failed;
+  failed.status = StepStatus::kTooManyContacts;
+  EXPECT_TRUE(remedies({}, failed).empty());
 }
 
 }  // namespace

@@ -251,6 +251,25 @@ TEST(Failure, GoesBackToTheLastGoodStateAndGoesOn) {
   EXPECT_TRUE(h.app->session.verdict().holds()) << h.app->session.verdict().text();
 }
 
+TEST(Failure, OffersWhatWouldHaveHelped) {
+  Headless h;
+  ASSERT_EQ(h.app->set("mode", "none"), "");
+  for (int i = 0; i < 40; ++i) h.app->session.step();
+  h.frames(2);
+  h.press("Reset with adaptive sub-steps");
+  h.frames(1);
+  EXPECT_EQ(h.app->session.settings().mode, Mode::kAdaptive);
+  EXPECT_EQ(h.app->session.state().frame, 0);
+  EXPECT_FALSE(is_open("##failure"));
+
+  ASSERT_EQ(h.app->set("solver", "pgs"), "");
+  ASSERT_EQ(h.app->set("n_max", "2"), "");
+  for (int i = 0; i < 60; ++i) h.app->session.step();
+  h.frames(2);
+  EXPECT_NE(find_handle("Reset with a larger cap, 10 sub-steps a frame"), nullptr);
+  EXPECT_NE(find_handle("Reset with the direct solver"), nullptr);
+}
+
 int vertices_over_the_picture() { return ImGui::GetBackgroundDrawList()->VtxBuffer.Size; }
 
 TEST(Show, DrawsWhatIsSwitchedOnAndNothingElse) {

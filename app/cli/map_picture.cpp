@@ -49,7 +49,7 @@ std::string colour_of(const MapCell& cell) {
 }
 
 std::string label_of(const MapCell& cell) {
-  return cell.holds ? std::to_string(cell.n_median) : format_text("× %.2g s", cell.seconds);
+  return cell.holds ? std::to_string(cell.n_median) : format_text("× %.1f", cell.seconds);
 }
 
 struct Place {

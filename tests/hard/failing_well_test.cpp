@@ -88,6 +88,19 @@ void expect_helped(const Scene& scene, const Settings& settings) {
   EXPECT_TRUE(after.holds) << scene.name << ": " << all.front().text << ": " << after.verdict;
 }
 
+// The first solve of a long step has no active set to begin with, and its pivots run out.
+TEST(PivotsThatRunOut, LeaveAHouseOfCardsStanding) {
+  Simulator simulator(std::make_shared<const Scene>(scenes::card_house()));
+  simulator.set_settings({.mode = Mode::kNone});
+  const double start = simulator.observe().energy;
+  FrameReport report = simulator.step();
+  EXPECT_EQ(report.work.unsolved, 1) << "else this test shows nothing";
+  EXPECT_LT(report.energy, start + 1e-3);
+  for (int frame = 1; frame < 240; ++frame) report = simulator.step();
+  EXPECT_LT(report.energy, start);
+  EXPECT_GT(report.energy, start - 1.0) << "the house has fallen";
+}
+
 TEST(Remedies, AdaptiveSubstepsHelpWhereThereAreTooFew) {
   for (const Scene& scene : {scenes::swinging_box(), scenes::bridge()}) {
     for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {

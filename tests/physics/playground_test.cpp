@@ -28,9 +28,7 @@ TEST(CardHouse, StandsStillWithTheDirectSolver) {
 
 TEST(CardHouse, FallsWithTwentyFiveIterationsOfGaussSeidel) {
   const Scene scene = scenes::card_house();
-  Settings settings = scene.settings;
-  settings.solver = SolverKind::kPgs;
-  const Outcome r = run(scene, settings, 5.0);
+  const Outcome r = run(scene, {.solver = SolverKind::kPgs}, 5.0);
   EXPECT_FALSE(r.holds);
 }
 

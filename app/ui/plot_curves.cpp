@@ -2,20 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace substep::ui {
 namespace {
-
-// Least and greatest value of one pixel column, or one sample where there is room for each.
-struct Column {
-  float x = 0.0F;
-  float low = 0.0F;  // on the screen
-  float high = 0.0F;
-  float last = 0.0F;
-  bool many = false;  // more than one sample
-  bool gap = false;   // nothing to draw between the one before and this one
-};
 
 std::vector<Column> samples_of(const Series& series, const History::Slice& slice,
                                const PlotFrame& f) {
@@ -73,12 +64,16 @@ std::vector<Column> decimated(const Series& series, const History::Slice& slice,
   return columns;
 }
 
+// Less than anybody sees [pixel]: a curve that is drawn anew with each frame must not shimmer.
+constexpr float kUnseen = 0.1F;
+
 std::vector<Column> columns_of(const Series& series, double from, const PlotFrame& f) {
   const History::Slice slice = visible(*series.history, f, from);
   const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
   const double shown = (f.t1 - f.t0) / series.history->frame();
   const bool many = shown > 3.0 * static_cast<double>((f.max.x - f.min.x) / pixel);
-  return many ? decimated(series, slice, f, pixel) : samples_of(series, slice, f);
+  if (many) return decimated(series, slice, f, pixel);
+  return thinned(samples_of(series, slice, f), series.steps, kUnseen * pixel);
 }
 
 // Down to zero, slice by slice. Soft edges between the slices would show as stripes.
@@ -97,7 +92,48 @@ void fill_series(const Series& series, const std::vector<Column>& columns, float
   draw.Flags = flags;
 }
 
+/// Where a line from one sample may point so that it passes the next ones by no more than `room`.
+struct Cone {
+  Column tip;
+  float least = -std::numeric_limits<float>::infinity();  // slopes
+  float greatest = std::numeric_limits<float>::infinity();
+
+  [[nodiscard]] bool reaches(const Column& c) const {
+    const float slope = (c.last - tip.last) / (c.x - tip.x);
+    return slope >= least && slope <= greatest;
+  }
+  void narrow(const Column& c, float room) {
+    least = std::max(least, (c.last - room - tip.last) / (c.x - tip.x));
+    greatest = std::min(greatest, (c.last + room - tip.last) / (c.x - tip.x));
+  }
+};
+
 }  // namespace
+
+std::vector<Column> thinned(const std::vector<Column>& columns, bool steps, float room) {
+  std::vector<Column> kept;
+  Cone cone;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const Column& c = columns[i];
+    const bool last = i + 1 == columns.size() || columns[i + 1].gap;
+    if (kept.empty() || c.gap) {
+      kept.push_back(c);
+      cone = {c};
+      continue;
+    }
+    if (steps) {
+      if (c.last != kept.back().last) kept.push_back(c);
+      continue;
+    }
+    if (!cone.reaches(c)) {
+      kept.push_back(columns[i - 1]);
+      cone = {columns[i - 1]};
+    }
+    cone.narrow(c, room);
+    if (last) kept.push_back(c);
+  }
+  return kept;
+}
 
 History::Slice visible(const History& history, const PlotFrame& f, double from) {
   History::Slice slice = history.between(f.t0, f.t1);

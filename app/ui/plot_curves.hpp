@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "app/ui/plot.hpp"
 
@@ -39,6 +40,20 @@ History::Slice visible(const History& history, const PlotFrame& f, double from);
 
 /// Whether a value has a place on the axis: it is finite, and positive on a logarithmic one.
 bool drawable(float value, const PlotFrame& f);
+
+/// Least and greatest value of one pixel column, or one sample where there is room for each.
+struct Column {
+  float x = 0.0F;
+  float low = 0.0F;  // on the screen
+  float high = 0.0F;
+  float last = 0.0F;
+  bool many = false;  // more than one sample
+  bool gap = false;   // nothing to draw between the one before and this one
+};
+
+/// Those of single samples without which the curve is the same: within `room` of the line between
+/// the ones kept, or of the value before where it is `steps`. @param room [pixel]
+std::vector<Column> thinned(const std::vector<Column>& columns, bool steps, float room);
 
 /// One series, at most one vertical line per pixel column. @param from what is earlier is left out
 void draw_series(const Series& series, double from, const PlotFrame& f, ImDrawList& draw);

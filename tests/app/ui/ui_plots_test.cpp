@@ -9,12 +9,53 @@
 #include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/plot.hpp"
+#include "app/ui/plot_curves.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
 namespace {
 
 using ui::TimeAxis;
+
+ui::Column sample(float x, float y) { return {x, y, y, y, false, false}; }
+
+/// Of the line through the columns at x.
+float between(const std::vector<ui::Column>& columns, float x) {
+  std::size_t i = 1;
+  while (i + 1 < columns.size() && columns[i].x < x) ++i;
+  const ui::Column& a = columns[i - 1];
+  const ui::Column& b = columns[i];
+  return a.last + (x - a.x) / (b.x - a.x) * (b.last - a.last);
+}
+
+TEST(Thinned, CurveIsTheSameAsFarAsCanBeSeen) {
+  std::vector<ui::Column> wave;
+  for (int i = 0; i < 600; ++i) {
+    const float x = 0.4F * static_cast<float>(i);
+    wave.push_back(sample(x, 30.0F * std::sin(0.05F * x) + (i == 311 ? 5.0F : 0.0F)));
+  }
+  const auto kept = ui::thinned(wave, false, 0.1F);
+  EXPECT_LT(kept.size(), wave.size() / 5);
+  EXPECT_EQ(kept.front().x, wave.front().x);
+  EXPECT_EQ(kept.back().x, wave.back().x);
+  for (const ui::Column& c : wave) ASSERT_NEAR(between(kept, c.x), c.last, 0.1001F) << c.x;
+}
+
+TEST(Thinned, GapsAndStepsStay) {
+  std::vector<ui::Column> line;
+  for (int i = 0; i < 100; ++i) line.push_back(sample(static_cast<float>(i), 7.0F));
+  line[40].gap = true;
+  const auto kept = ui::thinned(line, false, 0.1F);
+  ASSERT_EQ(kept.size(), 4U);
+  EXPECT_EQ(kept[1].x, 39.0F);
+  EXPECT_TRUE(kept[2].gap);
+
+  for (std::size_t i = 60; i < 80; ++i) line[i].last = 9.0F;
+  const auto steps = ui::thinned(line, true, 0.1F);
+  ASSERT_EQ(steps.size(), 4U);  // the start, after the gap, up, down
+  EXPECT_EQ(steps[2].x, 60.0F);
+  EXPECT_EQ(steps[3].x, 80.0F);
+}
 
 TEST(TimeAxis, FollowsTheRunAndFillsFromTheLeft) {
   TimeAxis axis;

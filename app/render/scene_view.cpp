@@ -72,6 +72,14 @@ void add_ball(std::vector<Instance>& out, const Vec3& x, const Quat& q, double r
   out.push_back(i);
 }
 
+// What holds a body by a point off its surface. @param half its half thickness [m]
+void add_rod(std::vector<Instance>& out, const Vec3& from, const Vec3& to, double half,
+             const Color& color) {
+  const Vec3 along = to - from;
+  add_box(out, 0.5 * (from + to), Quat::FromTwoVectors(Vec3::UnitY(), along),
+          Vec3(half, 0.5 * along.norm(), half), color);
+}
+
 // A ball around the centres of the moving bodies and what is fixed to them.
 Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -223,9 +231,13 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
     } else {
       thin = std::min(thin, thickness(scene.bodies[static_cast<std::size_t>(j.b)].shape));
     }
+    const Vec3 x = poses.x[a] + poses.q[a] * j.anchor_a;
+    if (j.anchor_a.norm() > 1.05 * radius(scene.bodies[a].shape)) {
+      thin = 0.15 * bracket;
+      add_rod(out.boxes, poses.x[a], x, thin, palette.joint);
+    }
     if (!options.joints) continue;
     const double r = 1.25 * std::min(thin, 0.25 * home_.radius);
-    const Vec3 x = poses.x[a] + poses.q[a] * j.anchor_a;
     if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
       const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * hinge->axis_a);
       add_box(out.boxes, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);

@@ -77,6 +77,7 @@ Scene sliding_box(const SlopeOptions& options = {});
 
 /// Balls fall 2 m and bounce with restitutions from 1 to 0.
 Scene bouncing_balls();
+Scene newtons_cradle();
 
 /// One ball falls 20 m towards nothing.
 Scene free_fall();

@@ -18,6 +18,7 @@ std::vector<Scene> shipped() {
                          sliding_box(),
                          free_fall(),
                          bouncing_balls(),
+                         newtons_cradle(),
                          wrecking_ball(),
                          card_house(),
                          ragdoll_drop(),

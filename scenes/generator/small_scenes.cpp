@@ -84,6 +84,64 @@ Scene bouncing_balls() {
   return scene;
 }
 
+Scene newtons_cradle() {
+  constexpr int kBalls = 5;
+  constexpr double kRadius = 0.1;
+  constexpr double kLength = 1.0;
+  // With no gap a blow would strike all of them at once, and what each takes of it has no one
+  // answer.
+  constexpr double kGap = 0.004;
+  constexpr double kPitch = 2.0 * kRadius + kGap;
+  constexpr double kTop = 1.25;
+
+  Scene scene;
+  scene.name = "newtons_cradle";
+  scene.title = "Newton's cradle";
+  scene.group = "exact";
+  scene.description =
+      "Five equal balls on rods of 1 m, 4 mm apart; the first is let go 36.87 degrees from "
+      "straight "
+      "down. They lose nothing at an impact.";
+  scene.look_for =
+      "One in, one out: the blow passes from ball to ball, one in a sub-step. In a single step a "
+      "frame "
+      "it strikes the whole row, which leaves together.";
+  scene.effects = {.gravity = true, .joints = true, .contact = true, .restitution = true};
+  scene.settings.mode = Mode::kConst;
+  scene.settings.n = 32;  // in a step no ball comes through more than a third of the gap
+  scene.settings.integrator = Integrator::kLeapfrog;
+  scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
+  scene.criteria.track = kBalls;
+  scene.camera.eye = {0.9, 1.0, 3.0};
+  scene.camera.target = {0.0, 0.7, 0.0};
+  const double width = (kBalls - 1) * kPitch;
+  Body beam;
+  beam.name = "beam";
+  beam.shape = box(width + 0.3, 0.04, 0.04);
+  beam.position = {0.0, kTop + 0.02, 0.0};
+  beam.is_static = true;
+  scene.bodies.push_back(beam);
+  for (int i = 0; i < kBalls; ++i) {
+    const Vec3 pivot{i * kPitch - 0.5 * width, kTop, 0.0};
+    const double aside = i == 0 ? -0.6 : 0.0;
+    const double below = i == 0 ? 0.8 : 1.0;
+    Body ball = solid("ball_" + std::to_string(i + 1), Sphere{kRadius}, 1.0,
+                      pivot + kLength * Vec3(aside, -below, 0.0));
+    ball.orientation = turn_about_z(below, aside);
+    ball.restitution = 1.0;
+    HingeJoint rod;
+    rod.name = "rod_" + std::to_string(i + 1);
+    rod.a = static_cast<int>(scene.bodies.size());
+    rod.anchor_a = {0.0, kLength, 0.0};
+    rod.anchor_b = pivot;
+    rod.compliance = 1e-12;
+    rod.angular_compliance = 1e-12;
+    scene.bodies.push_back(std::move(ball));
+    scene.joints.emplace_back(rod);
+  }
+  return scene;
+}
+
 Scene sliding_box(const SlopeOptions& options) {
   const double sine = options.fall / options.length;
   const double cosine = options.run / options.length;

@@ -184,6 +184,14 @@ Expectations card_house() {
   return rules;
 }
 
+Expectations newtons_cradle() {
+  Expectations rules{all_hold("Bodies that do not load each other; a blow sets free no energy.")};
+  for (const SolverKind solver : {kBpp, kPgs}) {
+    rules.push_back(const_holds(solver, 32, "The scene's own steps."));
+  }
+  return rules;
+}
+
 }  // namespace
 
 Expectations verdicts_of(const std::string& name) {
@@ -199,6 +207,7 @@ Expectations verdicts_of(const std::string& name) {
   if (name == "wrecking_ball") return wrecking_ball();
   if (name == "card_house") return card_house();
   if (name == "ragdoll_drop") return ragdoll_drop();
+  if (name == "newtons_cradle") return newtons_cradle();
   if (name == "wall") return {all_hold("No joint to tear: all numbers stay finite.")};
   return {all_hold("One body, or bodies that do not load each other.")};
 }

@@ -128,6 +128,59 @@ TEST(Restitution, SlowApproachesEndAtRest) {
   }
 }
 
+/// The greatest heights that the first and the last ball of the cradle reach in every swing, above
+/// where they hang [m].
+struct Cradle {
+  std::vector<double> first;
+  std::vector<double> last;
+  double middle = 0.0;         // the greatest speed of the others at those moments [m/s]
+  double energy_change = 0.0;  // [J]
+};
+
+Cradle swing(const Settings& settings, double seconds) {
+  Cradle cradle;
+  Vec3 before = Vec3::Ones();
+  Vec3 now = Vec3::Ones();  // heights of the first and the last
+  const auto look = [&](const Simulator& s, const FrameReport&) {
+    const Vec3 next(s.state().x[1].y() - 0.25, s.state().x[5].y() - 0.25, 0.0);
+    for (const int i : {0, 1}) {
+      if (!(now[i] > before[i] && now[i] >= next[i] && now[i] > 0.02)) continue;
+      (i == 0 ? cradle.first : cradle.last).push_back(now[i]);
+      for (const std::size_t body : {2U, 3U, 4U}) {
+        cradle.middle = std::max(cradle.middle, s.state().u[body].head<3>().norm());
+      }
+    }
+    before = now;
+    now = next;
+  };
+  const Outcome r = run(scenes::newtons_cradle(), settings, seconds, look);
+  cradle.energy_change = r.energy_end - r.energy_start;
+  return cradle;
+}
+
+// Equal bodies exchange their speeds: what the first had the last has, blow for blow.
+TEST(NewtonsCradle, OneBallInIsOneBallOut) {
+  const Scene scene = scenes::newtons_cradle();
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    Settings settings = scene.settings;
+    settings.solver = solver;
+    const Cradle cradle = swing(settings, 10.0);
+    ASSERT_GE(cradle.last.size(), 4U);
+    ASSERT_GE(cradle.first.size(), 4U);
+    EXPECT_NEAR(cradle.last.front(), 0.2, 0.002);
+    EXPECT_NEAR(cradle.first.front(), 0.2, 0.004);
+    EXPECT_LT(cradle.middle, 0.2) << "of 1.98 m/s";
+    // What 25 sweeps leave of a blow stays behind.
+    EXPECT_NEAR(cradle.energy_change, 0.0, solver == SolverKind::kBpp ? 1e-4 : 0.1) << "of 1.96 J";
+  }
+}
+
+TEST(NewtonsCradle, InOneStepAFrameTheWholeRowIsStruck) {
+  const Cradle cradle = swing({.mode = Mode::kNone}, 2.0);
+  EXPECT_TRUE(cradle.last.empty() || cradle.last.front() < 0.15);
+  EXPECT_LT(cradle.energy_change, -0.1);
+}
+
 // Two balls head on: momentum stays, and they part with e times the speed of their approach.
 TEST(Restitution, PartsAtETimesTheSpeedOfApproach) {
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {

@@ -24,7 +24,8 @@ inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
                                           "ragdoll_drop",       "sliding_box",
                                           "spinning_top",       "wall",
                                           "wrecking_ball",      "swinging_box_authors",
-                                          "bridge_authors",     "heavy_stack_authors"};
+                                          "bridge_authors",     "heavy_stack_authors",
+                                          "newtons_cradle"};
 
 /// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
 /// and with 16 sub-steps, with BPP and with PGS; and through the paper's scenes of joints with 6

@@ -16,10 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder with scenes good and bad, gone after the test.
+// A folder with scenes good and bad, of the running test alone and gone after it.
 class Folder {
  public:
-  Folder() : path_(fs::temp_directory_path() / fs::path("substep_files_test")) {
+  Folder()
+      : path_(fs::temp_directory_path() / "substep_files_test" /
+              testing::UnitTest::GetInstance()->current_test_info()->name()) {
     fs::remove_all(path_);
     fs::create_directories(path_ / "inner");
     Scene scene = *shipped("pendulum");

@@ -24,9 +24,9 @@ test("none tears, adaptive holds, alpha changes N, the link is copied", async ()
   await click(page, "none", "mode");
   await call(page, "reset");
   await fails(page);
-  await offered(page, "Reset, adaptive");
+  await offered(page, "Reset with adaptive sub-steps");
   await save(page, "story-torn");
-  await click(page, "Reset, adaptive");
+  await click(page, "Reset with adaptive sub-steps");
   const report = await call(page, "report");
   assert.deepEqual([report.mode, report.verdict], ["adaptive", "holds"]);
   assert.ok(report.playing, "it goes on");

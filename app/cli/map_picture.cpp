@@ -123,7 +123,8 @@ std::string map_picture(const std::vector<MapCell>& cells) {
          text(kLeft, 28, "title", "Where adaptive sub-steps hold") +
          text(kLeft, 48, "note",
               "blue: holds, with the median of the sub-steps a frame · orange ×: fails, after so "
-              "long") +
+              "many "
+              "seconds") +
          svg + "</svg>\n";
 }
 

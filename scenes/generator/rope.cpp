@@ -40,14 +40,11 @@ void add_rope(const RopeOptions& options, const Vec3& anchor, Scene& scene) {
   scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
 }
 
-/// What a rope sets free on its way from its angle to straight down [J].
-double fall(const Scene& scene, const RopeOptions& options) {
+/// What a straight rope from the origin sets free on its way from its angle to straight down [J].
+double fall(const Scene& scene, const Angle& angle) {
   double moment = 0.0;  // of its masses about the anchor [kg m]
-  for (std::size_t i = 0; i + 1 < scene.bodies.size(); ++i) {
-    moment += scene.bodies[i].mass * options.link_length * (static_cast<double>(i) + 0.5);
-  }
-  moment += options.end_mass * (options.link_length * options.n + 0.5);
-  return scene.gravity.norm() * moment * (1.0 - options.angle.cosine);
+  for (const Body& body : scene.bodies) moment += body.mass * body.position.norm();
+  return scene.gravity.norm() * moment * (1.0 - angle.cosine);
 }
 
 }  // namespace
@@ -65,7 +62,8 @@ Scene rope_of_n(const RopeOptions& options) {
   scene.camera.eye = {0.0, -0.5 * length, 2.0 * length};
   scene.camera.target = {0.0, -0.5 * length, 0.0};
   add_rope(options, Vec3::Zero(), scene);
-  if (const double all = fall(scene, options); all > 0.0) scene.criteria.energy_gain = 0.1 * all;
+  const double freed = fall(scene, options.angle);
+  if (freed > 0.0) scene.criteria.energy_gain = 0.1 * freed;  // more is no motion of this rope
   return scene;
 }
 

@@ -60,8 +60,10 @@ SolveReport Bpp::solve(const System& system, const Settings& settings) {
   return report;
 }
 
-// Impulses do well as a start as far as they lower the energy whose least the solution is,
-// 1/2 z (w(z) + w(0)). Those of an active set that is far off raise it, by orders of magnitude.
+// With the w of System, linear in the impulses z, the solution is where
+//   1/2 z (w(z) + w(0))   [J]
+// is least within the bounds; z = 0 gives 0. The impulses of an active set that is far off raise
+// it, by orders of magnitude.
 bool Bpp::better_than_none(const System& system) const {
   double energy = 0.0;
   double speed[kMaxRows];

@@ -11,8 +11,8 @@ namespace substep {
 /// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. The impulses of
 /// tight rows sit at their bounds, the others solve the linear system; every row on the wrong side
 /// changes its set at once, for Settings::pivots steps; after that one row at a time (the last one,
-/// Murty's rule), which cannot cycle but can take long: past a bound Gauss-Seidel takes
-/// over. Friction bounds are fixed while it pivots, seeded with the impulses given, and refreshed
+/// Murty's rule), which cannot cycle but can take long: past a bound Gauss-Seidel takes over.
+/// Friction bounds are fixed while it pivots, seeded with the impulses given, and refreshed
 /// outside, at most four times.
 class Bpp final : public Solver {
  public:
@@ -37,7 +37,8 @@ class Bpp final : public Solver {
   int pivot(const System& system, bool one_only);
   void move(std::span<Block> blocks, const Move& move);
   void change_factor(std::size_t block);
-  /// Whether the impulses are a better start than none are. u of the system is spent.
+  /// Whether the impulses are a better start than none are.
+  /// @param system with u at u*, which is spent
   [[nodiscard]] bool better_than_none(const System& system) const;
   /// From the impulses as they stand, clamped to their bounds, or from none. @return its flops
   std::int64_t go_on_with_gauss_seidel(const System& system, const Settings& settings);

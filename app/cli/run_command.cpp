@@ -77,7 +77,8 @@ std::string forecast_line(const Scene& scene, const Settings& settings) {
 std::string remedy_lines(const Settings& settings, const FrameReport& failed) {
   std::string text;
   for (const Remedy& remedy : remedies(settings, failed)) {
-    text += (text.empty() ? "would help   " : "             ") + remedy.text + " (" +
+    text += (text.empty() ? "would help   " : "             ") + remedy.text +
+            (remedy.why.empty() ? "" : "; " + remedy.why) + " (" +
             setting_flags(remedy.settings, settings).substr(1) + ")\n";
   }
   return text;

@@ -39,9 +39,10 @@ std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
 
 /// A button: the same scene from its start, with what would have helped.
 void reset_with(App& app, const Remedy& remedy, ButtonKind kind) {
-  const std::string what = remedy.text.substr(0, remedy.text.find(';'));
-  if (button(app.look, what.c_str(), Icon::kReset, ("Reset with " + what).c_str(), kind, 0.0F,
-             28.0F, ("The same scene with " + remedy.text).c_str())) {
+  const std::string tip =
+      "The same scene with " + remedy.text + (remedy.why.empty() ? "" : "; " + remedy.why);
+  if (button(app.look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text).c_str(),
+             kind, 0.0F, 28.0F, tip.c_str())) {
     app.change(remedy.settings);
     app.reset();
   }

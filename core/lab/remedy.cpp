@@ -19,8 +19,8 @@ int larger(int cap, int wanted) {
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) {
   std::vector<Remedy> all;
   if (last.status == StepStatus::kTooManyContacts) return all;  // it is the scene that has too many
-  const auto add = [&](const std::string& text) -> Settings& {
-    return all.emplace_back(Remedy{text, settings}).settings;
+  const auto add = [&](const std::string& text, const std::string& why = {}) -> Settings& {
+    return all.emplace_back(Remedy{text, why, settings}).settings;
   };
   const bool adaptive = settings.mode == Mode::kAdaptive;
   if (!adaptive) {
@@ -30,7 +30,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   if (adaptive && last.capped) {
     const int n_max = larger(settings.n_max, last.n_wanted);
     if (n_max > settings.n_max) {
-      add("a larger cap, " + std::to_string(n_max) + " sub-steps a frame; " +
+      add("a larger cap, " + std::to_string(n_max) + " sub-steps a frame",
           std::to_string(last.n_wanted) + " were wanted")
           .n_max = n_max;
     }

@@ -11,6 +11,7 @@ namespace substep {
 /// A change of settings that should help a run that failed.
 struct Remedy {
   std::string text;  // "a smaller alpha, 0.05"
+  std::string why;   // what speaks for it: "43 were wanted"; or ""
   Settings settings;
 };
 

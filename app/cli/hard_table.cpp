@@ -52,13 +52,17 @@ class HardTable {
     });
   }
 
-  void print_settings() const {
+  static void print_heading() {
     std::printf(
         "# The hard set, scene by scene\n\n"
         "`substep check --hard` writes this file; README.md says what it is about. Work beside\n"
         "const 32 is the geometric mean over the scenes that both hold of the solver's\n"
         "floating-point operations a frame. A number is the sub-steps a frame of a scene that\n"
-        "holds, an *italic* one the time at which it failed.\n\n"
+        "holds, an *italic* one the time at which it failed.\n\n");
+  }
+
+  void print_settings() const {
+    std::printf(
         "| setting | holds | sub-steps a frame | work beside const 32 | does not hold |\n"
         "|---|---|---|---|---|\n");
     const std::size_t reference = candidates_.size() - 1;
@@ -149,6 +153,7 @@ class HardTable {
 
 void print_hard_table(int jobs) {
   const HardTable table(jobs);
+  HardTable::print_heading();
   table.print_settings();
   table.print_scenes();
 }

@@ -8,13 +8,13 @@ import { join } from "node:path";
 import { chromiumPath, renderer } from "./browser.mjs";
 
 /**
- * @returns {evaluate, leave, comeBack, close}: of its first tab, which shows the address; leave opens
+ * @returns {evaluate, leave, comeBack, close}: of a tab that shows the address; leave opens
  *   another one in front of it
  */
 export async function openTab(address) {
   const profile = await mkdtemp(join(tmpdir(), "substep-tabs-"));
   const browser = spawn(chromiumPath(), ["--headless=new", "--remote-debugging-pipe", `--user-data-dir=${profile}`,
-    ...renderer, "about:blank"], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+    ...renderer], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
   const [, , , input, output] = browser.stdio;
   const waiting = new Map(); // by number of the call
   let heard = "";
@@ -32,8 +32,7 @@ export async function openTab(address) {
     input.write(`${JSON.stringify({ id: calls, method, params, sessionId })}\0`);
   });
 
-  const { targetInfos } = await send("Target.getTargets");
-  const { targetId } = targetInfos.find(({ type }) => type === "page");
+  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
   const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
   await send("Page.navigate", { url: address }, sessionId);
   return {

@@ -166,6 +166,7 @@ struct App {
   OwnScenes own;
   FileBrowser browser;
   bool recording = false;  // a video, see Host::record
+  bool read_back = false;  // the shell reads the next frame's pixels
   // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
   std::shared_ptr<const Scene> plain_scene;
   double load = 1.0;  // [-]

@@ -146,11 +146,12 @@ void frame(App& app, double wall_dt) {
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
-  const Quality quality = app.quality.quality();
+  const DrawOptions drawing{width, height, app.quality.quality(),
+                            app.capture || app.recording || std::exchange(app.read_back, false)};
   std::vector<Layer> layers = layers_of(*ImGui::GetDrawData());
   // A picture that rests leaves the time to draw all panels.
-  app.keeper.plan(layers, quality <= Quality::kCoarse && moves && !app.capture);
-  app.renderer->draw(app.pictures, layers, width, height, quality);
+  app.keeper.plan(layers, drawing.moving <= Quality::kCoarse && moves && !app.capture);
+  app.renderer->draw(app.pictures, layers, drawing);
   if (app.capture) take_capture(app, width, height);
 
   remember_arrangement(app);

@@ -60,6 +60,8 @@ SUBSTEP_EXPORTED void substep_trouble(const char* title, const char* message);
 SUBSTEP_EXPORTED void substep_tell(const char* text);
 
 SUBSTEP_EXPORTED void substep_recording(int on);
+/// The next frame is drawn so that its pixels can be read from the canvas.
+SUBSTEP_EXPORTED void substep_read_back();
 
 SUBSTEP_EXPORTED const char* substep_hash();
 

@@ -28,6 +28,7 @@ export function makeCapture(frame, wasm, host, save) {
     const whole = { x: 0, y: 0, width: box.width, height: box.height };
     return new Promise((done) => {
       wanted.push(() => done(toPng(canvas, part ?? whole)));
+      wasm.readBack();
       host.changed?.();
     });
   }

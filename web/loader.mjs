@@ -1,4 +1,5 @@
 // Loads the WebAssembly and its data with the progress told, and wraps what it exports.
+import { drawsInSoftware, loseContext, makeBackdrop } from "./backdrop.mjs";
 import { sizes } from "./version.mjs";
 
 /** A download that did not come to its end: trying again may help. */
@@ -69,7 +70,7 @@ const exported = {
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", playing: "n", reset: "v",
   open_link: "ss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
-  trouble: "vss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
+  trouble: "vss", tell: "vs", recording: "vn", read_back: "v", hash: "s", report: "s", scenes: "s",
   widgets: "s", memory: "s",
 };
 
@@ -119,17 +120,25 @@ export async function makeEngine(engine, canvas, host) {
     print: (text) => console.log(text),
     printErr: (text) => console.warn(text),
   });
+  const createContext = (on, options) => module.GL.createContext(on,
+    { majorVersion: 2, minorVersion: 0, antialias: false, depth: false, ...options });
   const wasm = {};
   for (const [name, signature] of Object.entries(exported)) {
     wasm[camel(name)] = wrap(module, name, signature);
   }
   wasm.run = (keeps) => {
-    const context = module.GL.createContext(canvas,
-      { majorVersion: 2, minorVersion: 0, alpha: false, antialias: false, depth: false });
+    const software = drawsInSoftware();
+    const context = createContext(canvas, { alpha: software, preserveDrawingBuffer: software });
     if (!context) throw new Error("The browser gave no WebGL 2 context");
+    if (software) {
+      const backdrop = makeBackdrop(canvas, createContext);
+      host.backdrop = backdrop.fit;
+      closing.push(backdrop.close);
+    }
     const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);
   };
-  wasm.close = () => canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
+  const closing = [() => loseContext(canvas)];
+  wasm.close = () => closing.forEach((close) => close());
   return wasm;
 }

@@ -91,7 +91,7 @@ RoundedBox::RoundedBox(int segments, bool flats, const StreamBuffer& instances) 
   std::vector<std::uint16_t> indices;
   const int lines = 2 * (segments + 1);
   const auto slope = [&](int line) {
-    if (segments == 0) return line == 0 ? -1.0F : 1.0F;
+    if (segments == 0) return 0.0F;
     const int step = line <= segments ? line - segments : line - segments - 1;
     return std::tan(static_cast<float>(step) / static_cast<float>(segments) * 0.785398163F);
   };
@@ -261,11 +261,6 @@ void Canvas::release() {
   frame_buffers_ = {};
   buffers_ = {};
   texture_ = 0;
-}
-
-void Canvas::bind() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, frame_buffers_[0]);
-  glViewport(0, 0, width_, height_);
 }
 
 void Canvas::bind_texture() const {

@@ -60,8 +60,7 @@ class StreamBuffer {
 /// The unit box with rounded edges: at full rounding it is a ball.
 class RoundedBox {
  public:
-  /// @param segments per quarter of a turn and half edge; 0: the outline alone, of no use where
-  /// faces are lit
+  /// @param segments per quarter of a turn and half edge; 0: for boxes with sharp edges
   /// @param flats false: of full rounding only, where the flats between the edges have no size
   /// @param instances where the per-instance attributes come from (struct Instance)
   RoundedBox(int segments, bool flats, const StreamBuffer& instances);
@@ -109,8 +108,9 @@ class Canvas {
 
   /// Makes it anew where it differs. @param width, height [pixel]; @param samples per pixel
   void fit(int width, int height, int samples);
-  void bind() const;
-  /// Puts the samples together, once all is drawn.
+  /// To draw to.
+  [[nodiscard]] unsigned frame_buffer() const { return frame_buffers_[0]; }
+  /// Puts the samples together, once all is drawn, and goes back to the window's frame buffer.
   void resolve() const;
   /// Its colours, smoothly between its pixels; after resolve().
   void bind_texture() const;

@@ -8,8 +8,9 @@ namespace substep {
 class NullRenderer final : public Renderer {
  public:
   void begin_frame() override { ++begun; }
-  void draw(std::span<const Picture> p, std::span<const Layer> l, int, int, Quality) override {
+  void draw(std::span<const Picture> p, std::span<const Layer> l, const DrawOptions& o) override {
     ++drawn;
+    options = o;
     layers.assign(l.begin(), l.end());
     pictures.assign(p.begin(), p.end());
     picture = pictures.front();
@@ -23,6 +24,7 @@ class NullRenderer final : public Renderer {
   int begun = 0;
   int drawn = 0;
   int fonts = 0;
+  DrawOptions options;
   Picture picture;  // the first
   std::vector<Picture> pictures;
   std::vector<Layer> layers;

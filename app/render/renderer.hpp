@@ -17,6 +17,14 @@ enum class Quality : unsigned char {
   kFine     // smooth edges
 };
 
+/// What a frame is drawn for.
+struct DrawOptions {
+  int width = 0;  // of the window's frame buffer [pixel]
+  int height = 0;
+  Quality moving = Quality::kFine;  // while a picture changes; what rests is drawn at its best
+  bool read_back = false;           // all of it will be read from the window's frame buffer
+};
+
 /// Draws pictures side by side and the panels over them. The window system belongs to the shell.
 class Renderer {
  public:
@@ -24,11 +32,10 @@ class Renderer {
 
   /// Before the panels are built: makes ready what Dear ImGui needs.
   virtual void begin_frame() = 0;
-  /// @param width, height of the frame buffer [pixel]
-  /// @param moving how finely while a picture changes; what rests is drawn at its best
-  virtual void draw(std::span<const Picture> pictures, std::span<const Layer> layers, int width,
-                    int height, Quality moving) = 0;
-  /// What was drawn last, as RGB rows from the top; asked for right after draw().
+  virtual void draw(std::span<const Picture> pictures, std::span<const Layer> layers,
+                    const DrawOptions& options) = 0;
+  /// What was drawn last, as RGB rows from the top; right after draw() with
+  /// `read_back`.
   /// @param x, y from the top left corner [pixel]
   [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;
   /// The font atlas was rebuilt, for another pixel ratio.

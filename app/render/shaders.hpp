@@ -21,6 +21,7 @@ layout(location = 4) in vec4 half_extents_pattern;
 layout(location = 5) in vec4 color;
 uniform mat4 view_projection;
 uniform mat4 world_to_shadow;
+uniform float rounded;  // 0: edges are sharp
 out vec3 v_position;
 out vec3 v_normal;
 out vec3 v_local;
@@ -30,7 +31,7 @@ out float v_pattern;
 vec3 rotate(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 void main() {
   vec3 half_extents = half_extents_pattern.xyz;
-  float rounding = position_rounding.w;
+  float rounding = position_rounding.w * rounded;
   vec3 local = corner * (half_extents - rounding) + normal * rounding;
   v_position = position_rounding.xyz + rotate(orientation, local);
   v_normal = rotate(orientation, normal);

@@ -1,6 +1,7 @@
 // The page in a browser: node tests/web/page_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
+import { PNG } from "pngjs";
 import { call, click, drawn, find, open, openPage, picture, place, quiet as isQuiet, save } from "./browser.mjs";
 import { difference, part, variance } from "./pixels.mjs";
 import { openTab } from "./tabs.mjs";
@@ -252,6 +253,33 @@ test("comes back when the graphics context was lost", async () => {
   // The browser itself reports the loss.
   page.complaints = page.complaints.filter((text) => !/CONTEXT_LOST|context lost/i.test(text));
   quiet();
+});
+
+test("draws in parts, behind and over, what it draws at once where a processor must", async () => {
+  const slow = await openPage(session, { fragment: "scene=swinging_box" });
+  const tools = await slow.context().newCDPSession(slow);
+  await tools.send("Emulation.setCPUThrottlingRate", { rate: 12 });
+  await slow.waitForSelector(".substep-backdrop", { state: "attached" });
+  await tools.send("Emulation.setCPUThrottlingRate", { rate: 1 });
+  await call(slow, "set", { speed: 0.0625 }); // between two pictures little moves
+  await slow.waitForTimeout(1000);
+  const together = await picture(slow);
+  const width = await slow.evaluate(() => document.querySelector(".substep-backdrop").width);
+  assert.ok(width < 1280, "the picture has fewer pixels");
+  const atOnce = PNG.sync.read(Buffer.from(await slow.evaluate(async () => [
+    ...new Uint8Array(await (await window.substep.screenshot()).arrayBuffer())])));
+  assert.ok(difference(together, atOnce) < 0.02, `${difference(together, atOnce)} differ`);
+  await save(slow, "software");
+  quiet(slow);
+
+  // Without it the laboratory draws on its own canvas.
+  await slow.evaluate(() => document.querySelector(".substep-backdrop").getContext("webgl2")
+    .getExtension("WEBGL_lose_context").loseContext());
+  await slow.waitForSelector(".substep-backdrop", { state: "detached" });
+  await drawn(slow);
+  assert.ok(difference(together, await picture(slow)) < 0.05);
+  assert.ok(variance(await picture(slow, view)) > somethingSeen);
+  await slow.context().close();
 });
 
 for (const [what, script] of [

@@ -1,0 +1,262 @@
+#include "app/render/gl_pictures.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/render/shaders.hpp"
+
+namespace substep {
+
+using Eigen::Matrix4f;
+using Eigen::Vector3f;
+
+namespace {
+
+constexpr std::array<Grain, 4> kGrains{
+    {{0.5, 1, 384, 1.0F}, {2.0 / 3.0, 1, 640, 1.0F}, {1.0, 1, 1536, 1.0F}, {1.0, 4, 1536, 4.0F}}};
+
+Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
+
+// What is hidden is marked as nearer than anything.
+void leave_out(std::span<const PixelRect> hidden, int height) {
+  constexpr float kNearest = 0.0F;
+  for (const PixelRect& r : hidden) {
+    glScissor(r.x, height - r.y - r.height, r.width, r.height);
+    glClearBufferfv(GL_DEPTH, 0, &kNearest);
+  }
+}
+
+// The graphics card cuts off what is not in the picture's part of the window.
+void limit_to(const Part& part, int width, int height) {
+  const auto pixel = [](float share, int size) {
+    return static_cast<int>(std::lround(share * static_cast<float>(size)));
+  };
+  const int x = pixel(part.x, width);
+  const int top = pixel(part.y, height);
+  const int bottom = pixel(part.y + part.height, height);
+  glScissor(x, height - bottom, pixel(part.x + part.width, width) - x, bottom - top);
+  glEnable(GL_SCISSOR_TEST);
+}
+
+}  // namespace
+
+Grain grain_of(Quality quality) { return kGrains.at(static_cast<std::size_t>(quality)); }
+
+PicturePainter::~PicturePainter() {
+  glDeleteVertexArrays(1, &empty_array_);
+  glDeleteVertexArrays(1, &ribbon_array_);
+}
+
+bool PicturePainter::build(std::string& error) {
+  const std::string header = glsl::kHeader;
+  const std::string receiving = header + glsl::kShadowFunction;
+  bool ok = background_.build(header + glsl::kBackgroundVertex, header + glsl::kBackgroundFragment,
+                              error);
+  ok &= body_.build(header + glsl::kBodyVertex, receiving + glsl::kBodyFragment, error);
+  ok &= shadow_.build(header + glsl::kBodyVertex, header + glsl::kShadowFragment, error);
+  ok &= ground_.build(header + glsl::kGroundVertex, receiving + glsl::kGroundFragment, error);
+  ok &= ribbon_.build(header + glsl::kRibbonVertex, header + glsl::kRibbonFragment, error);
+  if (!shadow_map_.complete()) {
+    error += "the frame buffer for shadows is not complete";
+    ok = false;
+  }
+  glGenVertexArrays(1, &empty_array_);
+  glGenVertexArrays(1, &ribbon_array_);
+  glBindVertexArray(ribbon_array_);
+  ribbon_vertices_.bind();
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(RibbonVertex), nullptr);
+  glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, sizeof(RibbonVertex),
+                        gl::at(offsetof(RibbonVertex, color)));
+  glEnableVertexAttribArray(0);
+  glEnableVertexAttribArray(1);
+  glBindVertexArray(0);
+  return ok;
+}
+
+Matrix4f PicturePainter::light_matrix(const Picture& picture) const {
+  const Vector3f back = vector(picture.to_light).normalized();
+  const Vector3f x = Vector3f::UnitZ().cross(back).normalized();
+  const Vector3f y = back.cross(x);
+  const float radius = std::max(picture.focus_radius, 0.1F);
+  // The middle moves by whole texels, or edges of shadows would crawl.
+  const float texel = 2.0F * radius / static_cast<float>(shadow_map_.size());
+  const Vector3f focus = vector(picture.focus);
+  const auto snap = [texel](float v) { return std::floor(v / texel) * texel; };
+  Matrix4f m = Matrix4f::Identity();
+  m.block<1, 3>(0, 0) = x.transpose() / radius;
+  m.block<1, 3>(1, 0) = y.transpose() / radius;
+  m.block<1, 3>(2, 0) = -back.transpose() / (3.0F * radius);
+  m(0, 3) = -snap(x.dot(focus)) / radius;
+  m(1, 3) = -snap(y.dot(focus)) / radius;
+  m(2, 3) = back.dot(focus) / (3.0F * radius);
+  return m;
+}
+
+// Of the instances that were uploaded.
+void PicturePainter::draw_meshes(const Meshes& meshes, const gl::Program& program,
+                                 const std::vector<Instance>& boxes,
+                                 const std::vector<Instance>& balls) {
+  program.set("rounded", meshes.rounded);
+  meshes.box.draw(static_cast<int>(boxes.size()));
+  program.set("rounded", 1.0F);
+  meshes.ball.draw(static_cast<int>(balls.size()));
+}
+
+void PicturePainter::draw_shadows(const Picture& picture, const Matrix4f& light) {
+  shadow_map_.bind_target();
+  glViewport(0, 0, shadow_map_.size(), shadow_map_.size());
+  glClear(GL_DEPTH_BUFFER_BIT);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5F, 4.0F);
+  shadow_.use();
+  shadow_.set_matrix("view_projection", light.data());
+  shadow_.set_matrix("world_to_shadow", light.data());
+  draw_meshes(*shadow_meshes_, shadow_, picture.boxes, picture.balls);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+}
+
+void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) {
+  const auto linear = [](const Color& c) {
+    return std::array<float, 3>{c.r * c.r, c.g * c.g, c.b * c.b};
+  };
+  // The sky lights from above, the floor from below, both with the room's own tint.
+  std::array<float, 3> sky = linear(picture.background_top);
+  std::array<float, 3> below = linear(picture.background_bottom);
+  for (std::size_t i = 0; i < 3; ++i) {
+    sky[i] = 0.82F + 0.35F * sky[i];
+    below[i] = 0.34F + 0.35F * below[i];
+  }
+  body_.use();
+  body_.set_matrix("view_projection", picture.view_projection.data());
+  body_.set_matrix("world_to_shadow", light.data());
+  body_.set("shadow_map", 0);
+  body_.set("shadow_taps", shadow_taps_);
+  body_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  body_.set3("eye", picture.eye.data());
+  body_.set3("to_light", picture.to_light.data());
+  body_.set("ambient", picture.ambient);
+  body_.set3("sky", sky.data());
+  body_.set3("floor_light", below.data());
+  draw_meshes(*meshes_, body_, picture.boxes, picture.balls);
+}
+
+// After draw_bodies, with its light. A little behind where they are, so that a ghost in the same
+// place as its body does not show through it.
+void PicturePainter::draw_ghosts(const Picture& picture) {
+  if (picture.ghost_boxes.empty() && picture.ghost_balls.empty()) return;
+  box_instances_.upload(picture.ghost_boxes.data(), picture.ghost_boxes.size() * sizeof(Instance));
+  ball_instances_.upload(picture.ghost_balls.data(), picture.ghost_balls.size() * sizeof(Instance));
+  glEnable(GL_CULL_FACE);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.0F, 8.0F);
+  glDepthMask(GL_TRUE);  // only the nearest face of a ghost is seen
+  body_.use();
+  draw_meshes(*meshes_, body_, picture.ghost_boxes, picture.ghost_balls);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_CULL_FACE);
+}
+
+void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) {
+  const Ground& ground = picture.ground;
+  if (!ground.visible) return;
+  // The quad is centred below the focus and the grid stays where it is in the world.
+  const Vector3f normal = vector(ground.normal).normalized();
+  const Vector3f u = vector(ground.along).normalized();
+  const Vector3f v = normal.cross(u);
+  const Vector3f to_focus = vector(picture.focus) - vector(ground.origin);
+  const float along_u = to_focus.dot(u);
+  const float along_v = to_focus.dot(v);
+  const Vector3f centre = vector(ground.origin) + along_u * u + along_v * v;
+  ground_.use();
+  ground_.set_matrix("view_projection", picture.view_projection.data());
+  ground_.set_matrix("world_to_shadow", light.data());
+  ground_.set("shadow_map", 0);
+  ground_.set("shadow_taps", shadow_taps_);
+  ground_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  ground_.set3("origin", centre.data());
+  ground_.set3("axis_u", u.data());
+  ground_.set3("axis_v", v.data());
+  ground_.set2("offset", along_u, along_v);
+  ground_.set("fade", ground.fade);
+  ground_.set("cell", ground.cell);
+  ground_.set("shadow", picture.shadow);
+  ground_.set("surface", 0.05F);
+  ground_.set4("grid", &picture.grid.r);
+  glBindVertexArray(empty_array_);
+  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+void PicturePainter::draw_ribbons(const Picture& picture) {
+  if (picture.ribbons.empty()) return;
+  ribbon_vertices_.upload(picture.ribbons.data(), picture.ribbons.size() * sizeof(RibbonVertex));
+  ribbon_.use();
+  ribbon_.set_matrix("view_projection", picture.view_projection.data());
+  glBindVertexArray(ribbon_array_);
+  glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(picture.ribbons.size()));
+}
+
+void PicturePainter::paint(std::span<const Picture> pictures, std::span<const Part> parts,
+                           Quality quality, const Target& target,
+                           std::span<const PixelRect> hidden) {
+  const Grain grain = grain_of(quality);
+  shadow_taps_ = grain.taps;
+  shadow_map_.fit(grain.shadow_size);
+  meshes_ = quality > Quality::kCoarse ? &fine_ : quality == Quality::kCoarse ? &coarse_ : &sketch_;
+  shadow_meshes_ = quality > Quality::kCoarse ? &fine_ : &sketch_;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    if (parts[i].width > 0.0F && parts[i].height > 0.0F) {
+      draw_picture(pictures[i], parts[i], target, hidden);
+    }
+  }
+}
+
+// Behind everything.
+void PicturePainter::draw_background(const Picture& picture) {
+  glDepthFunc(GL_LEQUAL);
+  background_.use();
+  background_.set3("top", &picture.background_top.r);
+  background_.set3("bottom", &picture.background_bottom.r);
+  glBindVertexArray(empty_array_);
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDepthFunc(GL_LESS);
+}
+
+void PicturePainter::draw_picture(const Picture& picture, const Part& part, const Target& target,
+                                  std::span<const PixelRect> hidden) {
+  const Matrix4f light = light_matrix(picture);
+  box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
+  ball_instances_.upload(picture.balls.data(), picture.balls.size() * sizeof(Instance));
+
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+  glEnable(GL_DEPTH_TEST);
+  glDepthMask(GL_TRUE);
+  glEnable(GL_CULL_FACE);
+  draw_shadows(picture, light);
+  shadow_map_.bind_texture();
+
+  glBindFramebuffer(GL_FRAMEBUFFER, target.frame_buffer);
+  glViewport(0, 0, target.width, target.height);
+  limit_to(part, target.width, target.height);
+  glClear(GL_DEPTH_BUFFER_BIT);
+  leave_out(hidden, target.height);
+  limit_to(part, target.width, target.height);
+  draw_bodies(picture, light);
+  draw_background(picture);
+
+  glDisable(GL_CULL_FACE);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  draw_ground(picture, light);
+  draw_ribbons(picture);
+  draw_ghosts(picture);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_DEPTH_TEST);
+  glBindVertexArray(0);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+}  // namespace substep

@@ -1,0 +1,53 @@
+// Where a processor draws: the picture on a small canvas behind the laboratory's own, which the
+// browser enlarges and puts together with the panels far quicker than WebGL would.
+
+/** Whether a processor draws what WebGL is told to. Unknown: no. */
+export function drawsInSoftware() {
+  const context = document.createElement("canvas").getContext("webgl2");
+  if (!context) return false;
+  const named = context.getExtension("WEBGL_debug_renderer_info");
+  const name = context.getParameter(named ? named.UNMASKED_RENDERER_WEBGL : context.RENDERER);
+  context.getExtension("WEBGL_lose_context")?.loseContext(); // browsers give only a few
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name));
+}
+
+export function loseContext(canvas) {
+  canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
+}
+
+/**
+ * @param view the laboratory's canvas, which can be seen through
+ * @param createContext of a canvas, for the WebAssembly: (canvas, options) => number
+ */
+export function makeBackdrop(view, createContext) {
+  let canvas = null;
+  let context = 0;
+  let lost = false;
+
+  function make() {
+    canvas = document.createElement("canvas");
+    canvas.className = "substep-backdrop";
+    canvas.setAttribute("aria-hidden", "true");
+    canvas.addEventListener("webglcontextlost", () => {
+      lost = true; // for good: the laboratory draws on its own canvas from then on
+      canvas.remove();
+    });
+    view.before(canvas);
+    context = createContext(canvas,
+      { alpha: false, depth: true, preserveDrawingBuffer: true });
+  }
+
+  return {
+    /**
+     * @param width, height in pixels
+     * @returns its context; 0: there is none, negative: that was lost
+     */
+    fit(width, height) {
+      if (!canvas) make();
+      if (lost) return -context;
+      if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+      return context;
+    },
+    close() { if (canvas) loseContext(canvas); },
+  };
+}

@@ -288,9 +288,11 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
                   range_of(
                       points, {}, [](const Point& p) { return p.error; }, 0.05)};
   draw_grid(look, accuracy, axes, draw);
-  const float fails = text_size(look.fonts.small, "fails").x;
-  draw_text(draw, look.fonts.small, {axes.min.x - fails - 6.0F, axes.min.y - 18.0F}, t.dim,
-            "fails");
+  if (!failed.empty()) {  // what stands on the rail over the picture
+    const float fails = text_size(look.fonts.small, "fails").x;
+    draw_text(draw, look.fonts.small, {axes.min.x - fails - 6.0F, axes.min.y - 18.0F}, t.dim,
+              "fails");
+  }
   draw_front(look, points, axes, draw);
   draw_curves(look, accuracy, points, axes, draw);
 

@@ -55,7 +55,7 @@ void play_buttons(App& app, float height, float gap) {
     app.reset();
   }
   ImGui::SameLine(0.0F, gap);
-  menu_button(look, "speed", speed_name(app.session.speed()), 72.0F, height,
+  menu_button(look, "speed", speed_name(app.session.speed()), 84.0F, height,
               "Speed of the simulation against the clock ([ and ])", [&] {
                 for (const Speed& s : kSpeeds) {
                   if (menu_item(look, s.name, "", s.value == app.session.speed())) {

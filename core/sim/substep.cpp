@@ -20,6 +20,12 @@ bool has_gyroscopic_torque(const Body& body) {
   return !body.is_static && !(I[0] == I[1] && I[1] == I[2]);
 }
 
+// No less than twice a body's kinetic energy, and finite only where its velocity is [J].
+double most_kinetic(const Body& body, const Vec6& u) {
+  return std::max(1.0, body.mass) * u.head<3>().squaredNorm() +
+         std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
+}
+
 }  // namespace
 
 void Simulator::Impl::begin_substep(FrameReport& report) {
@@ -122,10 +128,11 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   clock.lap(report.times.solve);
 }
 
+// Velocities have their kinetic energy within the range of numbers, which ends long before theirs.
 bool Simulator::Impl::finite(FrameReport& report) {
+  double sum = 0.0;
   for (std::size_t i = 0; i < state.u.size(); ++i) {
-    double sum = 0.0;
-    for (int j = 0; j < 6; ++j) sum += state.u[i][j] * state.u[i][j];
+    sum += most_kinetic(scene->bodies[i], state.u[i]);
     if (std::isfinite(sum)) continue;
     stop(i, report);
     return false;
@@ -185,7 +192,9 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
       const Vec3 later = gyroscopic_explicit(scene->bodies[i].inertia, omega_B, 0.5 * dt);
       state.u_synchronised[i].tail<3>() += state.q[i] * (later - omega_B);
       // It goes with the square of a speed, and may be past the range of numbers before that is.
-      if (!state.u_synchronised[i].allFinite()) state.u_synchronised[i] = state.u[i];
+      if (!std::isfinite(most_kinetic(scene->bodies[i], state.u_synchronised[i]))) {
+        state.u_synchronised[i] = state.u[i];
+      }
     }
   }
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);

@@ -157,6 +157,23 @@ TEST(Failure, StopsAtTheLastFiniteStateAndSaysWho) {
   EXPECT_EQ(simulator.observe().status, StepStatus::kOk);
 }
 
+// An explicit gyroscopic torque at this speed gains energy without bound. Velocities are numbers
+// for some time after their squares are none.
+TEST(Failure, EndsWhileItsEnergyIsANumber) {
+  Scene scene = scenes::spinning_top();
+  for (Body& body : scene.bodies) body.angular_velocity = {300.0, 2000.0, 100.0};
+  scene.settings.gyroscopic = Gyroscopic::kExplicit;
+  scene.settings.mode = Mode::kNone;
+  Simulator simulator(std::make_shared<const Scene>(scene));
+  FrameReport report;
+  for (int i = 0; i < 120; ++i) {
+    report = simulator.step();
+    EXPECT_TRUE(std::isfinite(report.kinetic)) << "frame " << i;
+    if (report.status != StepStatus::kOk) break;
+  }
+  EXPECT_EQ(report.status, StepStatus::kNotFinite);
+}
+
 /// The scene with a frame as short as a sub-step: then every solve is the last of a frame, whose
 /// residual is reported.
 Scene with_short_frames(Scene scene) {

@@ -88,6 +88,7 @@ test("a run that diverges pauses, explains, and goes back to its last good state
   const good = await call(page, "report");
   assert.equal(good.stopped, false);
   assert.ok(good.time <= time);
+  assert.ok(Number.isFinite(good.kinetic) && Number.isFinite(good.energy), `${good.kinetic}`);
   await call(page, "set", { scene: "bridge" }); // nothing else broke
   await call(page, "step", 10);
   assert.equal((await call(page, "report")).verdict, "holds");

@@ -172,6 +172,8 @@ TEST(Failure, RunThatIsNoLongerFinitePausesAndResets) {
   for (const Vec3& x : h.app->session.state().x) EXPECT_TRUE(x.allFinite());
   h.type(" ");
   EXPECT_FALSE(h.app->session.playing());
+  h.app->session.go_to_last_good();
+  EXPECT_FALSE(h.app->session.stopped());
   h.type("r");
   EXPECT_FALSE(h.app->session.stopped());
   h.type(" ");

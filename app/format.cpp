@@ -79,13 +79,15 @@ std::string plain_number(double value) {
 }
 
 Unit unit_for(double scale) {
-  static constexpr std::array<Unit, 7> kUnits{
-      {{"µ", 1e-6}, {"m", 1e-3}, {"", 1.0}, {"k", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}}};
-  Unit best = kUnits[0];
-  for (const Unit& unit : kUnits) {
-    if (scale >= unit.factor) best = unit;
-  }
-  return best;
+  static constexpr std::array<const char*, 7> kPrefixes{"µ", "m", "", "k", "M", "G", "T"};
+  constexpr int kFirst = -2;  // the first's thousands
+  const int last = kFirst + static_cast<int>(kPrefixes.size()) - 1;
+  const int thousands = std::isfinite(scale) && scale > 0.0
+                            ? std::max(kFirst, static_cast<int>(std::floor(std::log10(scale) / 3)))
+                            : 0;
+  const double factor = std::pow(10.0, 3 * thousands);
+  if (thousands > last) return {power_of_ten(3 * thousands) + " ", factor};
+  return {kPrefixes.at(static_cast<std::size_t>(thousands - kFirst)), factor};
 }
 
 std::string percent(double share) {

@@ -57,12 +57,12 @@ void help_card(App& app) {
   const Look& look = app.look;
   const bool two = ImGui::GetIO().DisplaySize.x > 760.0F;  // columns
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(app, "##help", two ? 720.0F : 400.0F, card_middle(app), 0.5F)) {
+  if (begin_card(app, "##help", two ? 656.0F : 400.0F, card_middle(app), 0.5F)) {
     card_title(look, 0, Icon::kNone, "Keys and gestures");
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    float height = draw_lines(look, at, 72.0F, std::span(keys).first(count));
-    const ImVec2 second = two ? ImVec2(at.x + 336.0F, at.y) : ImVec2(at.x, at.y + height + 12.0F);
-    const float other = draw_lines(look, second, 172.0F, kGestures);
+    float height = draw_lines(look, at, 64.0F, std::span(keys).first(count));
+    const ImVec2 second = two ? ImVec2(at.x + 286.0F, at.y) : ImVec2(at.x, at.y + height + 12.0F);
+    const float other = draw_lines(look, second, 166.0F, kGestures);
     height = two ? std::max(height, other) : height + 12.0F + other;
     ImGui::Dummy({1.0F, height});
     close |= card_closed(look);

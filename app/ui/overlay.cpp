@@ -160,7 +160,7 @@ void body_labels(App& app) {
     if (at.y < v.y + kCaption || at.x < v.x || at.x + size.x > v.x + v.width ||
         at.y + size.y > v.y + v.height)
       continue;
-    draw_over(look, draw, look.fonts.small, at, look.theme->dim, text.c_str());
+    draw_over(look, draw, look.fonts.small, at, look.theme->text, text.c_str());
   }
 }
 

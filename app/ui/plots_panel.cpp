@@ -168,6 +168,12 @@ void substeps_plot(App& app, float height, bool last) {
   draw_plot(app, Plot::kSubsteps, spec, height);
 }
 
+// Of the total energy since the start, so far, up or down [J].
+double greatest_change(const History& history) {
+  const Extent total = history.samples(Channel::kTotal).extent(0, history.size());
+  return total.empty() ? 0.0 : static_cast<double>(std::max(-total.low, total.high));
+}
+
 void energy_plot(App& app, float height, bool last) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
@@ -177,16 +183,24 @@ void energy_plot(App& app, float height, bool last) {
   const auto& exchanged = app.session.scene().criteria.energy_scale;
   const bool gravity = app.session.scene().effects.gravity;
   const Unit unit = unit_for(std::max(scale, 1e-3));
+  const bool several = app.compare.open();
+  const double whole = exchanged.value_or(scale);
+  // What stands exchanges nothing, and is compared in joules; other runs by what they exchange.
+  const double changed = greatest_change(h);
+  const bool stands = several && changed > whole;
+  const Unit compared = stands ? unit_for(std::max(changed, 1e-3)) : Unit{};
+  const double one = stands ? compared.factor : 0.01 * (whole > 0.0 ? whole : 1.0);
+  const std::string heading = several && !stands
+                                  ? std::string("Energy, %")
+                                  : "Energy, " + (several ? compared : unit).prefix + "J";
 
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float right = origin.x + ImGui::GetContentRegionAvail().x;
-  section(look,
-          app.compare.open() ? "Energy, %" : (std::string("Energy, ") + unit.prefix + "J").c_str());
+  section(look, heading.c_str());
   tooltip(look, "Energy",
           "Kinetic energy, and how much the potential and the total energy have changed since the "
           "start: the total not at all, ideally. Percentages are of the energy that the motion "
           "exchanges.");
-  const double whole = exchanged.value_or(scale);
   const auto change = [&](double joules) {
     return whole <= 0.0 || std::abs(joules) > 99.0 * whole
                ? coarse_number(joules / unit.factor) + " " + unit.prefix + "J"
@@ -198,22 +212,21 @@ void energy_plot(App& app, float height, bool last) {
   spec.from_zero = true;
   spec.factor = unit.factor;
   spec.least_span = unit.factor;
-  if (app.compare.open()) {
+  if (several) {
     // What each has lost or gained; one that explodes must not make the others a line at zero.
-    const double exchange = whole > 0.0 ? whole : 1.0;
-    const auto share_text = [exchange](double joules, double most, int digits) {
-      const double share = 100.0 * joules / exchange;
+    const auto share_text = [one](double joules, double most, int digits) {
+      const double share = joules / one;
       const std::string limit = fixed(most, 0);
       if (std::abs(share) > most) return share > 0.0 ? ">" + limit : "<−" + limit;
       return fixed(share, std::abs(share) < 9.95 ? digits : 0);
     };
     compared_values(
-        app, origin, origin.x + heading_width(look, "Energy, %"), Channel::kTotal,
+        app, origin, origin.x + heading_width(look, heading.c_str()), Channel::kTotal,
         [&](double joules) { return share_text(joules, 999.0, 2); },
         [&](double joules) { return share_text(joules, 99.0, 1); });
-    spec.factor = 0.01 * exchange;
-    spec.least_span = 1e-4 * exchange;
-    spec.most = 1.5 * exchange;
+    spec.factor = one;
+    spec.least_span = 0.01 * one;
+    spec.most = stands ? 1.5 * changed : 150.0 * one;
     spec.series.push_back({&h, Channel::kTotal, t.blue});
     add_compared(app, spec, Channel::kTotal);
   } else {

@@ -22,8 +22,12 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   const auto add = [&](const std::string& text, const std::string& why = {}) -> Settings& {
     return all.emplace_back(Remedy{text, why, settings}).settings;
   };
+  if (last.stages.gyroscopic && settings.gyroscopic == Gyroscopic::kExplicit) {
+    add("an implicit gyroscopic torque").gyroscopic = Gyroscopic::kImplicit;
+  }
   const bool adaptive = settings.mode == Mode::kAdaptive;
-  if (!adaptive) {
+  const bool has_rows = last.joint_rows + last.contact_rows > 0;
+  if (!adaptive && has_rows) {  // where nothing pulls, N is 1
     Settings& s = add("adaptive sub-steps");
     s.mode = Mode::kAdaptive;
   }

@@ -129,6 +129,12 @@ TEST(Remedies, TheDirectSolverIsOneWhereSweepsAreNotEnough) {
   EXPECT_TRUE(after.holds) << after.verdict;
 }
 
+TEST(Remedies, TheImplicitTorqueHelpsATopThatExplodes) {
+  Scene scene = scenes::spinning_top();
+  for (Body& body : scene.bodies) body.angular_velocity = {300.0, 2000.0, 100.0};
+  expect_helped(scene, {.mode = Mode::kNone, .gyroscopic = Gyroscopic::kExplicit});
+}
+
 TEST(Remedies, EndWhereNothingIsLeftToTurn) {
   const Settings settings{.alpha = 1e-3, .policy = Policy::kSubstep};
   EXPECT_TRUE(remedies(settings, {}).empty());

@@ -44,9 +44,16 @@ TEST(Format, NoMinusZero) {
 }
 
 TEST(Format, UnitKeepsTheScaleBelowAThousand) {
-  EXPECT_STREQ(unit_for(51500.0).prefix, "k");
-  EXPECT_STREQ(unit_for(0.02).prefix, "m");
-  EXPECT_STREQ(unit_for(5.0).prefix, "");
+  EXPECT_EQ(unit_for(51500.0).prefix, "k");
+  EXPECT_EQ(unit_for(1000.0).prefix, "k");
+  EXPECT_EQ(unit_for(999.0).prefix, "");
+  EXPECT_EQ(unit_for(0.02).prefix, "m");
+  EXPECT_EQ(unit_for(5.0).prefix, "");
+  EXPECT_EQ(unit_for(0.0).prefix, "");
+  EXPECT_EQ(unit_for(1e-9).prefix, "µ");
+  EXPECT_EQ(unit_for(2e14).prefix, "T");
+  EXPECT_EQ(unit_for(2e28).prefix, "10²⁷ ");
+  EXPECT_EQ(unit_for(2e28).factor, 1e27);
 }
 
 TEST(Format, DurationPicksItsUnit) {

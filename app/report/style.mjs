@@ -1,7 +1,13 @@
-// What a curve looks like follows from what its method is: colour from the mode, filled or hollow
-// from the integrator, solid or dashed from the solver.
+// What a curve looks like follows from what its method is: colour from the mode, or from the solver
+// where that looks at the end of a sub-step; filled or hollow from the integrator; solid where a
+// sub-step is solved to the end, dashed where sweeps go at it.
 
 const modes = [
+  ["newton numerov, const", "teal", "triangle", "Newton, Numerov"],
+  ["newton mean, const", "teal", "circle", "Newton, mean forces"],
+  ["newton, const", "teal", "circle", "Newton"],
+  ["xpbd 1, const", "purple", "diamond", "XPBD 1"],
+  ["xpbd 25, const", "purple", "cross", "XPBD 25"],
   ["adaptive per sub-step", "purple", "triangle", "adaptive per sub-step"],
   ["adaptive", "blue", "circle", "adaptive per frame"],
   ["const", "orange", "square", "constant N"],
@@ -35,8 +41,9 @@ export function styleOf(series) {
   const [, token, symbol, mode] = modes.find(([part]) => series.includes(part)) ?? ["", "grey", "circle", series];
   const leapfrog = series.includes("leapfrog");
   const pgs = /^pgs (\d+)/.exec(series);
+  const implicit = /^newton/.test(series);
   const drift = /drift (\w+)/.exec(series);
-  const name = [mode, leapfrog ? "leapfrog" : "", pgs ? `PGS ${pgs[1]}` : "", drift ? drift[0] : ""]
+  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", pgs ? `PGS ${pgs[1]}` : "", drift ? drift[0] : ""]
     .filter(Boolean).join(", ");
-  return { token, symbol, name, hollow: leapfrog, dashed: pgs !== null };
+  return { token, symbol, name, hollow: leapfrog, dashed: /^(pgs|xpbd)/.test(series) };
 }

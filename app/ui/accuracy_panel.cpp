@@ -110,6 +110,78 @@ void picture(App& app, ImVec2 size) {
   }
 }
 
+/// "0.82 mm", "3.1 J"
+std::string error_text(double error, ErrorAxis axis) {
+  const Unit unit = unit_for(error);
+  return coarse_number(error / unit.factor) + " " + unit.prefix +
+         (axis == ErrorAxis::kEnergy ? "J" : "m");
+}
+
+std::string cost_text(double cost, CostAxis axis) {
+  switch (axis) {
+    case CostAxis::kSubsteps:
+      return short_number(cost) + " sub-steps a frame";
+    case CostAxis::kOperations:
+      return short_number(cost) + " operations a frame";
+    default:
+      return duration(1e-3 * cost) + " a frame";
+  }
+}
+
+/// What reaches an error at the least cost, with the reason, and a button that runs it.
+void advice(App& app) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  const std::vector<Accuracy::Point> points = accuracy.points();
+  if (points.size() < 2) return;
+  const auto [least, most] = std::minmax_element(
+      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
+  double& wanted = accuracy.wanted.at(static_cast<std::size_t>(accuracy.error));
+  section(look, "Cheapest within");
+  // By its exponent: Dear ImGui's logarithmic sliders end at what their format prints as zero.
+  double exponent = std::log10(wanted);
+  if (slider(look, "Error", exponent, std::min(exponent, std::log10(least->error)),
+             std::max(exponent, std::log10(most->error)), false, "10^%.1f",
+             "The error that is wanted at most. What holds it at the least cost is below")) {
+    wanted = std::pow(10.0, exponent);
+  }
+  const auto best = accuracy.cheapest();
+  if (!best) {
+    label(look.fonts.small, look.theme->dim,
+          ("No method keeps within " + error_text(wanted, accuracy.error) + ".").c_str());
+    space(8.0F);
+    return;
+  }
+  const Result& result = accuracy.results()[best->result];
+  const Settings& s = result.experiment.settings;
+  const CurveStyle style = curve_style(*look.theme, s);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_swatch(style, look.theme->panel | IM_COL32_A_MASK, draw, {at.x + 14.0F, at.y + 10.0F});
+  draw_text(
+      draw, look.fonts.medium, {at.x + 36.0F, at.y + 2.0F}, look.theme->text,
+      fitted(look.fonts.medium, style.name, ImGui::GetContentRegionAvail().x - 36.0F).c_str());
+  ImGui::Dummy({1.0F, 18.0F});
+  const SeriesParameter parameter = series_parameter(s);
+  std::string reason =
+      std::string("With ") + parameter.name + " = " + plain_number(parameter.value) + " within " +
+      error_text(wanted, accuracy.error) + ": " + error_text(best->error, accuracy.error) +
+      " for " + cost_text(best->cost, accuracy.cost) + ". ";
+  const auto paper = accuracy.cheapest_of_paper();
+  if (!paper) {
+    reason += "The paper's method does not get there.";
+  } else if (paper->result != best->result) {
+    reason +=
+        "The paper's method takes " + coarse_number(paper->cost / best->cost) + " times that.";
+  }
+  label(look.fonts.small, look.theme->dim, reason.c_str());
+  if (button(look, "cheapest", Icon::kPlay, "Run it", ButtonKind::kPlain, 0.0F, look.m.row,
+             "This scene from its start with this method")) {
+    app.run_result(Result(result));
+  }
+  space(8.0F);
+}
+
 /// Who is who, and how many of each hold.
 void legend(const App& app) {
   const Look& look = app.look;
@@ -188,6 +260,7 @@ void accuracy(App& app) {
             .c_str());
     return;
   }
+  advice(app);
   if (const Reference* reference = accuracy.reference()) {
     label(look.fonts.small, look.theme->dim,
           ("Measured from: " + reference->source + ", uncertain by " +

@@ -252,9 +252,33 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
       break;
   }
   style.hollow = s.integrator == Integrator::kLeapfrog;
-  style.dashed = s.solver == SolverKind::kPgs;
-  if (style.hollow) style.name += ", leapfrog";
-  if (style.dashed) style.name += ", PGS " + std::to_string(s.iterations);
+  style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
+  const std::string sweeps = std::to_string(s.iterations);
+  // Those that look at the end of a sub-step are called by their names.
+  const bool plain = s.mode == Mode::kNone || s.mode == Mode::kConst;
+  const std::string and_mode = plain ? "" : ", " + style.name;
+  switch (s.solver) {
+    case SolverKind::kBpp:
+      if (style.hollow) style.name += ", leapfrog";
+      break;
+    case SolverKind::kPgs:
+      if (style.hollow) style.name += ", leapfrog";
+      style.name += ", PGS " + sweeps;
+      break;
+    case SolverKind::kXpbd:
+      style.color = theme.purple;
+      style.corners = s.iterations == 1 ? 5 : 4;
+      style.name = "XPBD " + sweeps + and_mode;
+      break;
+    case SolverKind::kNewton:
+      style.color = theme.teal;
+      style.corners = s.forces == Forces::kNumerov ? 3 : 0;
+      style.name = "Newton";
+      if (s.forces == Forces::kMean) style.name += ", mean forces";
+      if (s.forces == Forces::kNumerov) style.name += ", Numerov";
+      style.name += and_mode;
+      break;
+  }
   return style;
 }
 
@@ -295,6 +319,13 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   }
   draw_front(look, points, axes, draw);
   draw_curves(look, accuracy, points, axes, draw);
+  if (const auto best = accuracy.cheapest()) {
+    const double wanted = accuracy.wanted.at(static_cast<std::size_t>(accuracy.error));
+    const float y = std::clamp(axes.y(wanted), axes.min.y, axes.max.y);
+    float phase = 0.0F;
+    draw_dashes(draw, {axes.min.x, y}, {axes.max.x, y}, fade(t.text, 0.5F), 1.0F, phase);
+    draw.AddCircle(axes.at(*best), 8.0F, t.accent, 0, 2.0F);
+  }
 
   std::optional<std::size_t> nearest;
   float reach = kReach;

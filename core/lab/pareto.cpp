@@ -27,4 +27,17 @@ std::vector<bool> pareto_front(std::span<const CostAndError> points) {
   return front;
 }
 
+std::optional<std::size_t> cheapest_within(std::span<const CostAndError> points, double error) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const CostAndError& p = points[i];
+    if (!(p.error <= error)) continue;
+    if (!best || p.cost < points[*best].cost ||
+        (p.cost == points[*best].cost && p.error < points[*best].error)) {
+      best = i;
+    }
+  }
+  return best;
+}
+
 }  // namespace substep

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -13,5 +15,8 @@ struct CostAndError {
 /// Whether each point is on the Pareto front: no other has less cost at no more error, or less
 /// error at no more cost. Of equal points each is. O(n log n).
 std::vector<bool> pareto_front(std::span<const CostAndError> points);
+
+/// The point of least cost whose error is no more than this; of equal costs the more exact one.
+std::optional<std::size_t> cheapest_within(std::span<const CostAndError> points, double error);
 
 }  // namespace substep

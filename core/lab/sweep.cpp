@@ -11,6 +11,7 @@ namespace substep {
 namespace {
 
 constexpr int kConstant[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 40, 56, 80};
+constexpr int kImplicit[] = {1, 2, 3, 4, 6, 8, 11, 16, 28, 56};  // whose point is to need few
 constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 0.0125, 0.00625};
 constexpr double kDampingAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
@@ -52,6 +53,28 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
   }
 }
 
+/// Those that look at the end of a sub-step, by their own N; their sources name no law for it.
+void append_implicit(Settings settings, const Scene& scene, std::vector<Settings>& all) {
+  settings.mode = Mode::kConst;
+  settings.policy = Policy::kFrame;
+  const auto along = [&](SolverKind solver, int iterations, Forces forces) {
+    settings.solver = solver;
+    settings.iterations = iterations;
+    settings.forces = forces;
+    settings.integrator = forces == Forces::kEnd ? Integrator::kEuler : Integrator::kLeapfrog;
+    for (const int n : kImplicit) {
+      settings.n = n;
+      all.push_back(settings);
+    }
+  };
+  along(SolverKind::kXpbd, 1, Forces::kEnd);  // as published: sub-steps in place of sweeps
+  along(SolverKind::kXpbd, scene.settings.iterations, Forces::kEnd);
+  along(SolverKind::kNewton, scene.settings.iterations, Forces::kEnd);
+  along(SolverKind::kNewton, scene.settings.iterations, Forces::kMean);
+  if (scene.effects.contact) return;  // what follows is derived for joints alone
+  along(SolverKind::kNewton, scene.settings.iterations, Forces::kNumerov);
+}
+
 /// Constant N and adaptive along their parameter, with the direct solver, under every other load.
 void append_map(Settings settings, std::vector<SweepPoint>& points) {
   settings.solver = SolverKind::kBpp;
@@ -77,6 +100,7 @@ void append_map(Settings settings, std::vector<SweepPoint>& points) {
 std::vector<SweepPoint> default_sweep(const Scene& scene) {
   std::vector<Settings> all;
   Settings base = scene.settings;
+  base.forces = Forces::kEnd;
   base.watch_stiffness = false;
   base.drift = Drift::kAuto;
   const auto curves = [&](SolverKind solver, Integrator integrator) {
@@ -99,6 +123,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   curves(SolverKind::kBpp, Integrator::kEuler);
   curves(SolverKind::kBpp, Integrator::kLeapfrog);
   curves(SolverKind::kPgs, Integrator::kEuler);
+  append_implicit(base, scene, all);
   std::vector<SweepPoint> points;
   for (const Settings& settings : all) points.push_back({settings, 1.0});
   if (mass_ratio(scene) > 1.0) append_map(base, points);
@@ -111,7 +136,10 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
   if (s.mode == Mode::kConst) n = s.n;
   if (changes_mass(s.mode) && chooses_substeps(s.mode)) n = s.n_cap;
   if (s.mode == Mode::kAdaptive) n = std::min<double>(s.n_max, 5.0 / std::sqrt(s.alpha));
-  const double per_substep = s.solver == SolverKind::kPgs ? 0.15 * s.iterations : 1.0;
+  double per_substep = 1.0;
+  if (s.solver == SolverKind::kPgs) per_substep = 0.15 * s.iterations;
+  if (s.solver == SolverKind::kXpbd) per_substep = 0.3 * s.iterations;
+  if (s.solver == SolverKind::kNewton) per_substep = 4.0;
   const double per_frame = 0.5;  // errors and energies, whatever N
   return static_cast<double>(frames_of(scene, experiment.duration)) * (per_frame + n * per_substep);
 }

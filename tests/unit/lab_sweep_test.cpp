@@ -347,6 +347,21 @@ TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
                    25.0 * 130.0 * static_cast<double>(work.substeps));  // the probe is no frame's
 }
 
+TEST(Pareto, CheapestWithinIsOnTheFront) {
+  const std::vector<CostAndError> points{{1.0, 1.0}, {2.0, 0.1},  {2.0, 0.05},
+                                         {3.0, 0.2}, {4.0, 0.01}, {9.0, 0.01}};
+  EXPECT_EQ(cheapest_within(points, 2.0), 0U);
+  EXPECT_EQ(cheapest_within(points, 0.5), 2U) << "of equal costs the more exact one";
+  EXPECT_EQ(cheapest_within(points, 0.05), 2U) << "no more than this is this too";
+  EXPECT_EQ(cheapest_within(points, 0.02), 4U);
+  EXPECT_EQ(cheapest_within(points, 0.001), std::nullopt);
+  EXPECT_EQ(cheapest_within({}, 1.0), std::nullopt);
+  const std::vector<bool> front = pareto_front(points);
+  for (const double error : {2.0, 0.5, 0.05, 0.02}) {
+    EXPECT_TRUE(front[*cheapest_within(points, error)]);
+  }
+}
+
 TEST(Sweep, DefaultHasEveryMethodOnce) {
   const Scene scene = scenes::swinging_box();
   std::set<std::string> series;
@@ -361,8 +376,13 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
        {"bpp, const, euler", "bpp, const, leapfrog", "bpp, adaptive per frame, euler",
         "bpp, adaptive per sub-step, leapfrog", "bpp, damping, euler", "bpp, capped, euler",
         "bpp, stiffness, euler", "bpp, inertia, leapfrog", "bpp, blend, euler",
-        "pgs 25, const, euler", "pgs 25, adaptive per frame, euler", "pgs 25, damping, euler"}) {
+        "pgs 25, const, euler", "pgs 25, adaptive per frame, euler", "pgs 25, damping, euler",
+        "xpbd 1, const, euler", "xpbd 25, const, euler", "newton, const, euler",
+        "newton mean, const, leapfrog", "newton numerov, const, leapfrog"}) {
     EXPECT_TRUE(series.contains(name)) << name;
+  }
+  for (const SweepPoint& point : default_sweep(scenes::bridge())) {
+    EXPECT_NE(point.settings.forces, Forces::kNumerov) << "which is for joints alone";
   }
 }
 

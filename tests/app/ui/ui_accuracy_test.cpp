@@ -48,6 +48,36 @@ TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
   EXPECT_GE(series.size(), 12U);
 }
 
+TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
+  Headless h;
+  h.app->open("pendulum");
+  ASSERT_EQ(h.app->set("panel", "accuracy"), "");
+  ASSERT_EQ(h.app->set("accuracy", "run"), "");
+  finish(h);
+  Accuracy& accuracy = h.app->accuracy;
+  accuracy.wanted[0] = 1e-4;
+  h.frames(2);
+  const auto best = accuracy.cheapest();
+  const auto paper = accuracy.cheapest_of_paper();
+  ASSERT_TRUE(best.has_value());
+  EXPECT_LE(best->error, 1e-4);
+  for (const Accuracy::Point& p : accuracy.points()) {
+    EXPECT_TRUE(p.error > 1e-4 || best->cost <= p.cost);
+  }
+  EXPECT_FALSE(paper.has_value()) << "Euler is 10 mm off with the one step that it asks for";
+  const Settings wanted = accuracy.results()[best->result].experiment.settings;
+  h.app->desk.tab = Tab::kAccuracy;
+  h.resize(1280.0F, 1600.0F, 1.0F);  // all of the panel
+  h.frames(3);
+  h.press("Run it");
+  EXPECT_EQ(h.app->session.settings().solver, wanted.solver);
+  EXPECT_EQ(h.app->session.settings().n, wanted.n);
+  EXPECT_TRUE(h.app->session.playing());
+  accuracy.wanted[0] = 1e-12;
+  h.frames(2);
+  EXPECT_FALSE(accuracy.cheapest().has_value());
+}
+
 TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {
   Headless h;
   h.app->open("swinging_box");

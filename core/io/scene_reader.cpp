@@ -275,11 +275,13 @@ SceneResult read_scene(std::string_view text) {
 SceneResult read_scene_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text;
-  if (file) {
-    // One byte more than allowed, so that read_scene sees that there is too much.
-    text.resize(kMaxTextSize + 1);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(file.gcount()));
+  constexpr std::size_t kPiece = 1U << 16U;  // [bytes]
+  // To one byte more than allowed, so that read_scene sees that there is too much.
+  while (file && text.size() <= kMaxTextSize) {
+    const std::size_t before = text.size();
+    text.resize(std::min(before + kPiece, kMaxTextSize + 1));
+    file.read(&text[before], static_cast<std::streamsize>(text.size() - before));
+    text.resize(before + static_cast<std::size_t>(file.gcount()));
   }
   if (!file.eof()) {
     if (text.size() > kMaxTextSize) return read_scene(text);

@@ -36,7 +36,10 @@ class GlRenderer final : public Renderer {
   }
 
   bool build(std::string& error);
-  void begin_frame() override { ImGui_ImplOpenGL3_NewFrame(); }
+  void begin_frame() override {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui::GetIO().Fonts->ClearTexData();  // the graphics have it; made again where it is wanted
+  }
   void draw(std::span<const Picture> pictures, std::span<const Layer> layers,
             const DrawOptions& options) override;
   std::vector<std::uint8_t> pixels(int x, int y, int width, int height) override;

@@ -115,23 +115,20 @@ std::vector<Accuracy::Point> Accuracy::points() const {
   return list;
 }
 
-std::optional<Accuracy::Point> Accuracy::cheapest_of(std::vector<Point> points) const {
+std::optional<Accuracy::Point> Accuracy::cheapest(const std::vector<Point>& points) const {
   std::vector<CostAndError> values;
   for (const Point& p : points) values.push_back({p.cost, p.error});
   const auto best = cheapest_within(values, wanted.at(static_cast<std::size_t>(error)));
   return best ? std::optional(points[*best]) : std::nullopt;
 }
 
-std::optional<Accuracy::Point> Accuracy::cheapest() const { return cheapest_of(points()); }
-
-std::optional<Accuracy::Point> Accuracy::cheapest_of_paper() const {
-  std::vector<Point> list = points();
-  std::erase_if(list, [this](const Point& p) {
+std::vector<Accuracy::Point> Accuracy::of_paper(std::vector<Point> points) const {
+  std::erase_if(points, [this](const Point& p) {
     const Settings& s = results()[p.result].experiment.settings;
     return s.solver != SolverKind::kBpp || s.integrator != Integrator::kEuler ||
            s.mode != Mode::kAdaptive || s.policy != Policy::kFrame;
   });
-  return cheapest_of(std::move(list));
+  return points;
 }
 
 std::vector<Accuracy::Point> Accuracy::failed() const {

@@ -56,10 +56,11 @@ class Accuracy {
 
   /// Runs of the scene as it stands that hold, with a positive error, by the axes.
   [[nodiscard]] std::vector<Point> points() const;
-  /// What reaches the wanted error at the least cost. Nothing does where it is empty.
-  [[nodiscard]] std::optional<Point> cheapest() const;
-  /// The same of the paper's method alone: the direct solver, Euler, N decided once a frame.
-  [[nodiscard]] std::optional<Point> cheapest_of_paper() const;
+  /// Of these points, what reaches the wanted error at the least cost. Nothing does where it is
+  /// empty.
+  [[nodiscard]] std::optional<Point> cheapest(const std::vector<Point>& points) const;
+  /// Those of the paper's method: the direct solver, Euler, N decided once a frame.
+  [[nodiscard]] std::vector<Point> of_paper(std::vector<Point> points) const;
   /// Runs of the scene as it stands that failed.
   [[nodiscard]] std::vector<Point> failed() const;
   /// Whether two runs or more have such an error.
@@ -75,8 +76,6 @@ class Accuracy {
   std::array<double, static_cast<std::size_t>(ErrorAxis::kCount)> wanted{1e-3, 1.0, 1e-4, 1e-4};
 
  private:
-  [[nodiscard]] std::optional<Point> cheapest_of(std::vector<Point> points) const;
-
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;
   bool cancelled_ = false;

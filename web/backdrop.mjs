@@ -3,11 +3,15 @@
 
 /** Whether a processor draws what WebGL is told to. Unknown: no. */
 export function drawsInSoftware() {
-  const context = document.createElement("canvas").getContext("webgl2");
+  const canvas = document.createElement("canvas");
+  const context = canvas.getContext("webgl2");
   if (!context) return false;
-  const named = context.getExtension("WEBGL_debug_renderer_info");
-  const name = context.getParameter(named ? named.UNMASKED_RENDERER_WEBGL : context.RENDERER);
-  context.getExtension("WEBGL_lose_context")?.loseContext(); // browsers give only a few
+  let name = context.getParameter(context.RENDERER);
+  if (/^webkit/i.test(name)) { // all that some browsers say without being asked twice
+    const told = context.getExtension("WEBGL_debug_renderer_info");
+    if (told) name = context.getParameter(told.UNMASKED_RENDERER_WEBGL);
+  }
+  loseContext(canvas); // browsers give only a few
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(String(name));
 }
 

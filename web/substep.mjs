@@ -1,6 +1,7 @@
 // A laboratory in an element of any page: the module to import. See README.md.
 import { makeAddress } from "./address.mjs";
 import { makeApi } from "./api.mjs";
+import { loseContext } from "./backdrop.mjs";
 import { makeCapture } from "./capture.mjs";
 import { makeFiles } from "./files.mjs";
 import { makeFrame } from "./frame.mjs";
@@ -11,9 +12,9 @@ import { makeTwin } from "./twin.mjs";
 /** What this browser lacks, or "". */
 function missing() {
   if (typeof WebAssembly !== "object") return "WebAssembly";
-  const context = document.createElement("canvas").getContext("webgl2");
-  if (!context) return "WebGL 2";
-  context.getExtension("WEBGL_lose_context")?.loseContext(); // browsers give only a few
+  const canvas = document.createElement("canvas");
+  if (!canvas.getContext("webgl2")) return "WebGL 2";
+  loseContext(canvas); // browsers give only a few
   return "";
 }
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "app/render/gl_objects.hpp"
 #include "app/render/layers.hpp"

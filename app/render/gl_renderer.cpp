@@ -49,7 +49,10 @@ class GlRenderer final : public Renderer {
   void give_up_backdrop();
   bool paint_behind(std::span<const Picture> pictures, std::span<const Part> parts);
   void paint(std::span<const Picture> pictures, std::span<const Part> parts);
-  [[nodiscard]] std::vector<PixelRect> hidden(double scale) const;
+  // What panels cover, on a canvas of the present quality.
+  [[nodiscard]] std::vector<PixelRect> hidden() const;
+  // A canvas for the window; its frame buffer is the default one.
+  [[nodiscard]] Target target_of(const Grain& grain) const;
   void begin_textures() const;
   void show_canvas() const;
   void show_kept(const gl::Copy& kept, const PixelRect& area) const;
@@ -62,10 +65,10 @@ class GlRenderer final : public Renderer {
   GLuint empty_array_ = 0;
   std::vector<Picture> drawn_;        // what is on the canvas or the backdrop
   std::vector<PixelRect> covered_;    // and what is not, since it lies under panels
-  std::map<ImGuiID, gl::Copy> kept_;  // panels as they were drawn last
-  Quality quality_ = Quality::kFine;  // of it
+  Quality quality_ = Quality::kFine;  // of what is drawn
   int unchanged_ = 0;                 // frames since it changed
-  int width_ = 0;                     // of the frame buffer [pixel]
+  std::map<ImGuiID, gl::Copy> kept_;  // panels as they were drawn last
+  int width_ = 0;                     // of the window's frame buffer [pixel]
   int height_ = 0;
 
   std::unique_ptr<Backdrop> backdrop_;      // null: none
@@ -86,24 +89,27 @@ bool GlRenderer::build(std::string& error) {
   return painter_.build(error) && ok;
 }
 
-std::vector<PixelRect> GlRenderer::hidden(double scale) const {
+std::vector<PixelRect> GlRenderer::hidden() const {
   std::vector<PixelRect> parts;
-  for (const PixelRect& r : covered_) parts.push_back(scaled(r, scale));
+  for (const PixelRect& r : covered_) parts.push_back(scaled(r, grain_of(quality_).scale));
   return parts;
+}
+
+Target GlRenderer::target_of(const Grain& grain) const {
+  return {0, static_cast<int>(std::ceil(grain.scale * width_)),
+          static_cast<int>(std::ceil(grain.scale * height_))};
 }
 
 // @return whether it is seen there
 bool GlRenderer::paint_behind(std::span<const Picture> pictures, std::span<const Part> parts) {
-  const double scale = grain_of(quality_).scale;
-  const Target target{0, static_cast<int>(std::ceil(scale * width_)),
-                      static_cast<int>(std::ceil(scale * height_))};
+  const Target target = target_of(grain_of(quality_));
   bool seen = backdrop_->begin(target.width, target.height);
   if (seen && !behind_) {
     behind_ = std::make_unique<PicturePainter>();
     std::string error;  // the window's own tells, and was built
     seen = behind_->build(error);
   }
-  if (seen) behind_->paint(pictures, parts, quality_, target, hidden(scale));
+  if (seen) behind_->paint(pictures, parts, quality_, target, hidden());
   backdrop_->end();
   if (!seen) give_up_backdrop();
   return seen;
@@ -119,11 +125,10 @@ void GlRenderer::give_up_backdrop() {
 
 void GlRenderer::paint(std::span<const Picture> pictures, std::span<const Part> parts) {
   const Grain grain = grain_of(quality_);
-  const int width = static_cast<int>(std::ceil(grain.scale * width_));
-  const int height = static_cast<int>(std::ceil(grain.scale * height_));
-  canvas_.fit(width, height, grain.samples);
-  painter_.paint(pictures, parts, quality_, {canvas_.frame_buffer(), width, height},
-                 hidden(grain.scale));
+  Target target = target_of(grain);
+  canvas_.fit(target.width, target.height, grain.samples);
+  target.frame_buffer = canvas_.frame_buffer();
+  painter_.paint(pictures, parts, quality_, target, hidden());
   canvas_.resolve();
 }
 
@@ -211,8 +216,9 @@ void GlRenderer::draw_changes(std::span<const Layer> layers) {
 
 void GlRenderer::draw(std::span<const Picture> pictures, std::span<const Layer> layers,
                       const DrawOptions& options) {
-  const bool same = options.width == width_ && options.height == height_ &&
-                    std::equal(pictures.begin(), pictures.end(), drawn_.begin(), drawn_.end());
+  const bool fits = options.width == width_ && options.height == height_;
+  const bool same =
+      fits && std::equal(pictures.begin(), pictures.end(), drawn_.begin(), drawn_.end());
   unchanged_ = same ? unchanged_ + 1 : 0;
   // Between two events of a mouse that turns the view there is a frame without a change.
   const Quality quality = unchanged_ < 2 ? options.moving : Quality::kFine;
@@ -221,16 +227,13 @@ void GlRenderer::draw(std::span<const Picture> pictures, std::span<const Layer> 
     if (layer.covers.width > 0 && layer.covers.height > 0) covered.push_back(layer.covers);
   }
   const bool apart = backdrop_ && quality <= Quality::kCoarse && !options.read_back;
-  const bool painted = same && quality <= quality_ && covered == covered_ && apart == apart_;
-  if (!painted) {
+  // What was drawn can stay, or most of it.
+  const bool stays = fits && covered == covered_ && apart == apart_;
+  if (!(stays && same && quality <= quality_)) {
     std::vector<Part> whole;
-    std::vector<Part> parts;
-    const bool more = options.width == width_ && options.height == height_ && quality == quality_ &&
-                      covered == covered_ && apart == apart_ && pictures.size() == drawn_.size();
-    for (std::size_t i = 0; i < pictures.size(); ++i) {
-      whole.push_back(pictures[i].part);
-      parts.push_back(more ? changed_part(drawn_[i], pictures[i]) : pictures[i].part);
-    }
+    for (const Picture& picture : pictures) whole.push_back(picture.part);
+    const bool most = stays && quality == quality_ && pictures.size() == drawn_.size();
+    const std::vector<Part> parts = most ? changed_parts(drawn_, pictures) : whole;
     covered_ = std::move(covered);
     quality_ = quality;
     width_ = options.width;

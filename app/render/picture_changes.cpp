@@ -51,7 +51,8 @@ class Bounds {
   // What lies between a body and the ground may be in its shadow, to where light ends.
   void add_with_shadow(const Instance& body) {
     add_body(body);
-    constexpr float kSteep = 0.05F;  // below it shadows are too long to tell where they end
+    // Below it, or where there is no ground, nobody can tell where shadows end.
+    constexpr float kSteep = 0.05F;
     if (rise_ < kSteep) {
       anywhere_ = true;
       return;
@@ -99,8 +100,6 @@ class Bounds {
   float bottom_ = -1e9F;
 };
 
-}  // namespace
-
 Part changed_part(const Picture& before, const Picture& now) {
   if (!same_stage(before, now)) return now.part;
   Bounds bounds(now);
@@ -122,6 +121,36 @@ Part changed_part(const Picture& before, const Picture& now) {
     }
   }
   return bounds.part();
+}
+
+bool empty(const Part& p) { return !(p.width > 0.0F && p.height > 0.0F); }
+
+Part between(float left, float top, float right, float bottom) {
+  return {left, top, std::max(0.0F, right - left), std::max(0.0F, bottom - top)};
+}
+
+Part common(const Part& a, const Part& b) {
+  return between(std::max(a.x, b.x), std::max(a.y, b.y), std::min(a.x + a.width, b.x + b.width),
+                 std::min(a.y + a.height, b.y + b.height));
+}
+
+Part around(const Part& a, const Part& b) {
+  if (empty(a)) return b;
+  if (empty(b)) return a;
+  return between(std::min(a.x, b.x), std::min(a.y, b.y), std::max(a.x + a.width, b.x + b.width),
+                 std::max(a.y + a.height, b.y + b.height));
+}
+
+}  // namespace
+
+std::vector<Part> changed_parts(std::span<const Picture> before, std::span<const Picture> now) {
+  std::vector<Part> parts;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    Part part = changed_part(before[i], now[i]);
+    for (const Part& below : parts) part = around(part, common(below, now[i].part));
+    parts.push_back(part);
+  }
+  return parts;
 }
 
 }  // namespace substep

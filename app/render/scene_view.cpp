@@ -175,7 +175,8 @@ void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPa
   focus -= Vec3(light.x(), 0.0, light.z()) * 0.5 * drop / light.y();
   // In steps, so that the light stays where it is from frame to frame: where it moves along with
   // the bodies, the edges of their shadows crawl and all of the picture changes.
-  const double radius = std::exp2(std::ceil(4.0 * std::log2(around.radius + 0.35 * drop)) / 4.0);
+  const double lit = std::max(0.1, around.radius + 0.35 * drop);  // radius of what casts shadows
+  const double radius = std::exp2(std::ceil(4.0 * std::log2(lit)) / 4.0);
   const double step = radius / 8.0;
   out.focus = floats((focus / step).array().round() * step);
   out.focus_radius = static_cast<float>(radius + 0.5 * std::sqrt(3.0) * step);

@@ -142,12 +142,12 @@ std::vector<std::uint64_t> TileRecord::tiles_of(const ImDrawData& lists) const {
 }
 
 std::vector<PixelRect> TileRecord::changes(int width, int height, std::span<const Layer> layers) {
-  const int columns = (width + kTile - 1) / kTile;
-  const int rows = (height + kTile - 1) / kTile;
-  const bool all = columns != columns_ || rows != rows_;
-  columns_ = columns;
-  rows_ = rows;
-  std::vector<bool> changed(static_cast<std::size_t>(columns * rows), all);
+  const bool all = width != width_ || height != height_;  // a window of another size is empty
+  width_ = width;
+  height_ = height;
+  columns_ = (width + kTile - 1) / kTile;
+  rows_ = (height + kTile - 1) / kTile;
+  std::vector<bool> changed(static_cast<std::size_t>(columns_ * rows_), all);
   std::vector<Shown> before;
   std::swap(before, shown_);
   if (all) before.clear();
@@ -184,7 +184,7 @@ std::vector<PixelRect> TileRecord::changes(int width, int height, std::span<cons
       if (changed[t] && shown_[i].tiles[t] != 0) shown_[i].tiles[t] = kUnknown;
     }
   }
-  std::vector<PixelRect> parts = together(changed, columns, rows);
+  std::vector<PixelRect> parts = together(changed, columns_, rows_);
   for (PixelRect& p : parts) {
     p = {p.x * kTile, p.y * kTile, std::min(p.width * kTile, width - p.x * kTile),
          std::min(p.height * kTile, height - p.y * kTile)};

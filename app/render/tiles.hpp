@@ -20,7 +20,7 @@ class TileRecord {
   /// shows them from then on; of a layer that is kept, what it showed.
   std::vector<PixelRect> changes(int width, int height, std::span<const Layer> layers);
   /// The window shows something else.
-  void forget() { shown_.clear(), columns_ = rows_ = 0; }
+  void forget() { width_ = height_ = 0; }
 
  private:
   struct Shown {
@@ -30,7 +30,9 @@ class TileRecord {
   [[nodiscard]] std::vector<std::uint64_t> tiles_of(const ImDrawData& lists) const;
 
   std::vector<Shown> shown_;
-  int columns_ = 0;
+  int width_ = 0;  // of the window [pixel]
+  int height_ = 0;
+  int columns_ = 0;  // of tiles
   int rows_ = 0;
 };
 

@@ -6,8 +6,8 @@ const modes = [
   ["newton numerov, const", "teal", "triangle", "Newton, Numerov"],
   ["newton mean, const", "teal", "circle", "Newton, mean forces"],
   ["newton, const", "teal", "circle", "Newton"],
-  ["xpbd 1, const", "purple", "diamond", "XPBD 1"],
-  ["xpbd 25, const", "purple", "cross", "XPBD 25"],
+  ["xpbd 1, const", "purple", "diamond", "XPBD"],
+  ["xpbd", "purple", "cross", "XPBD"],
   ["adaptive per sub-step", "purple", "triangle", "adaptive per sub-step"],
   ["adaptive", "blue", "circle", "adaptive per frame"],
   ["const", "orange", "square", "constant N"],
@@ -40,10 +40,10 @@ export const colour = name =>
 export function styleOf(series) {
   const [, token, symbol, mode] = modes.find(([part]) => series.includes(part)) ?? ["", "grey", "circle", series];
   const leapfrog = series.includes("leapfrog");
-  const pgs = /^pgs (\d+)/.exec(series);
+  const [, sweeping, sweeps] = /^(pgs|xpbd) (\d+)/.exec(series) ?? [];
   const implicit = /^newton/.test(series);
   const drift = /drift (\w+)/.exec(series);
-  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", pgs ? `PGS ${pgs[1]}` : "", drift ? drift[0] : ""]
+  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", sweeping === "pgs" ? `PGS ${sweeps}` : "", drift ? drift[0] : ""]
     .filter(Boolean).join(", ");
-  return { token, symbol, name, hollow: leapfrog, dashed: /^(pgs|xpbd)/.test(series) };
+  return { token, symbol, name: sweeping === "xpbd" ? `${name} ${sweeps}` : name, hollow: leapfrog, dashed: sweeping !== undefined };
 }

@@ -140,12 +140,13 @@ void advice(App& app) {
   section(look, "Cheapest within");
   // By its exponent: Dear ImGui's logarithmic sliders end at what their format prints as zero.
   double exponent = std::log10(wanted);
-  if (slider(look, "Error", exponent, std::min(exponent, std::log10(least->error)),
+  const char* name = accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m";
+  if (slider(look, name, exponent, std::min(exponent, std::log10(least->error)),
              std::max(exponent, std::log10(most->error)), false, "10^%.1f",
              "The error that is wanted at most. What holds it at the least cost is below")) {
     wanted = std::pow(10.0, exponent);
   }
-  const auto best = accuracy.cheapest();
+  const auto best = accuracy.cheapest(points);
   if (!best) {
     label(look.fonts.small, look.theme->dim,
           ("No method keeps within " + error_text(wanted, accuracy.error) + ".").c_str());
@@ -167,7 +168,7 @@ void advice(App& app) {
       std::string("With ") + parameter.name + " = " + plain_number(parameter.value) + " within " +
       error_text(wanted, accuracy.error) + ": " + error_text(best->error, accuracy.error) +
       " for " + cost_text(best->cost, accuracy.cost) + ". ";
-  const auto paper = accuracy.cheapest_of_paper();
+  const auto paper = accuracy.cheapest(accuracy.of_paper(points));
   if (!paper) {
     reason += "The paper's method does not get there.";
   } else if (paper->result != best->result) {

@@ -319,7 +319,7 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   }
   draw_front(look, points, axes, draw);
   draw_curves(look, accuracy, points, axes, draw);
-  if (const auto best = accuracy.cheapest()) {
+  if (const auto best = accuracy.cheapest(points)) {
     const double wanted = accuracy.wanted.at(static_cast<std::size_t>(accuracy.error));
     const float y = std::clamp(axes.y(wanted), axes.min.y, axes.max.y);
     float phase = 0.0F;

@@ -63,24 +63,24 @@ void pane_label(const App& app, const Entry& entry, const ViewRect& r) {
   draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
   const std::string n = "N " + std::to_string(entry.report->n_substeps);
   const ImVec2 at(r.x + kPad, r.y + 8.0F);
-  constexpr float kNarrow = 150.0F;  // too narrow for both beside each other
+  constexpr float kNarrow = 150.0F;  // there N stands below the name, or when it failed
   const bool narrow = r.width < kNarrow;
-  const float n_width = narrow ? -12.0F : text_size(look.fonts.medium, n.c_str()).x;
+  float right = r.x + r.width - kPad;  // end of what the name has
   if (!narrow) {
-    draw_over(look, draw, look.fonts.medium, {r.x + r.width - kPad - n_width, at.y}, t.text,
-              n.c_str());
+    const float n_width = text_size(look.fonts.medium, n.c_str()).x;
+    draw_over(look, draw, look.fonts.medium, {right - n_width, at.y}, t.text, n.c_str());
+    right -= n_width + 12.0F;
   }
   draw.AddCircleFilled({at.x + 5.0F, at.y + 8.0F}, 5.0F, entry.color);
-  const float room = std::max(24.0F, r.width - 2.0F * kPad - 18.0F - n_width - 12.0F);
+  const float room = std::max(24.0F, right - at.x - 18.0F);
   draw_over(look, draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
             fitted(look.fonts.medium, entry.name, room).c_str());
   const ImU32 ink = entry.verdict->holds() ? t.teal : t.orange;
   draw_icon(draw, entry.verdict->holds() ? Icon::kCheck : Icon::kCross, {at.x + 6.0F, at.y + 26.0F},
             12.0F, ink);
-  draw_over(look, draw, look.fonts.small, {at.x + 18.0F, at.y + 19.0F}, ink,
-            !narrow                  ? verdict_note(*entry.verdict).c_str()
-            : entry.verdict->holds() ? n.c_str()
-                                     : (fixed(entry.verdict->failed_at(), 2) + " s").c_str());
+  std::string note = verdict_note(*entry.verdict);
+  if (narrow) note = entry.verdict->holds() ? n : fixed(entry.verdict->failed_at(), 2) + " s";
+  draw_over(look, draw, look.fonts.small, {at.x + 18.0F, at.y + 19.0F}, ink, note.c_str());
   draw.PopClipRect();
 }
 

@@ -67,12 +67,12 @@ void failure_card(App& app) {
     if (const std::size_t colon = what.find(": "); colon != std::string::npos)
       what.erase(0, colon + 2);
     if (report.status == StepStatus::kNotFinite) {
-      what = "A velocity";
+      what = "The motion";
       if (report.failed_body >= 0) {
         what +=
             " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
       }
-      what += " is no longer a finite number. What you see is the last state that was.";
+      what += " has left the range of numbers. What you see is the last state within it.";
     }
     label(look.fonts.small, look.theme->dim, what.c_str());
     auto kind = ButtonKind::kPrimary;  // of what is the most likely to help

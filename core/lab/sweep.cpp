@@ -136,7 +136,7 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
   if (s.mode == Mode::kConst) n = s.n;
   if (changes_mass(s.mode) && chooses_substeps(s.mode)) n = s.n_cap;
   if (s.mode == Mode::kAdaptive) n = std::min<double>(s.n_max, 5.0 / std::sqrt(s.alpha));
-  double per_substep = 1.0;
+  double per_substep = 1.0;  // of a sub-step with the direct solver, about
   if (s.solver == SolverKind::kPgs) per_substep = 0.15 * s.iterations;
   if (s.solver == SolverKind::kXpbd) per_substep = 0.3 * s.iterations;
   if (s.solver == SolverKind::kNewton) per_substep = 4.0;

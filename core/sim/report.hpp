@@ -8,8 +8,8 @@ namespace substep {
 /// How a frame ended.
 enum class StepStatus : std::uint8_t {
   kOk,
-  kNotFinite,        // a velocity, or K, left the range of numbers; the state is that of the last
-                     // finite sub-step
+  kNotFinite,        // a kinetic energy, or K, left the range of numbers; the state is that of the
+                     // last finite sub-step
   kTooManyContacts,  // detector.hpp; the state is that of the last sub-step that had fewer
 };
 

@@ -13,7 +13,6 @@
 #include "core/io/scene_reader.hpp"
 #include "core/io/setting_fields.hpp"
 #include "core/lab/effect_cost.hpp"
-#include "core/lab/pareto.hpp"
 #include "core/lab/sweep.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/unit/scene_schema_validator.hpp"
@@ -167,25 +166,6 @@ TEST(Experiment, ASeedNudgesEveryMovingBodyAndNoMore) {
   }
   EXPECT_EQ(start_of(scene, 1.0, 5).bodies[1].velocity, nudged.bodies[1].velocity);
   EXPECT_NE(start_of(scene, 1.0, 6).bodies[1].velocity, nudged.bodies[1].velocity);
-}
-
-TEST(Pareto, IsTheFrontOfBruteForce) {
-  std::mt19937 random(7);
-  std::uniform_int_distribution<int> coarse(0, 12);  // ties in both
-  for (int round = 0; round < 200; ++round) {
-    std::vector<CostAndError> points(static_cast<std::size_t>(round % 40));
-    for (auto& p : points) p = {double(coarse(random)), double(coarse(random))};
-    const std::vector<bool> front = pareto_front(points);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      bool beaten = false;
-      for (const auto& q : points) {
-        const auto& p = points[i];
-        beaten = beaten ||
-                 (q.cost <= p.cost && q.error <= p.error && (q.cost < p.cost || q.error < p.error));
-      }
-      EXPECT_EQ(front[i], !beaten) << round << " " << i;
-    }
-  }
 }
 
 TEST(Metrics, AFreeTopKeepsItsMomentumAndAPendulumIsNotAsked) {
@@ -345,21 +325,6 @@ TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
   EXPECT_EQ(costs.effects[1].effect, "joints");
   EXPECT_DOUBLE_EQ(costs.effects[1].row_updates * frames,
                    25.0 * 130.0 * static_cast<double>(work.substeps));  // the probe is no frame's
-}
-
-TEST(Pareto, CheapestWithinIsOnTheFront) {
-  const std::vector<CostAndError> points{{1.0, 1.0}, {2.0, 0.1},  {2.0, 0.05},
-                                         {3.0, 0.2}, {4.0, 0.01}, {9.0, 0.01}};
-  EXPECT_EQ(cheapest_within(points, 2.0), 0U);
-  EXPECT_EQ(cheapest_within(points, 0.5), 2U) << "of equal costs the more exact one";
-  EXPECT_EQ(cheapest_within(points, 0.05), 2U) << "no more than this is this too";
-  EXPECT_EQ(cheapest_within(points, 0.02), 4U);
-  EXPECT_EQ(cheapest_within(points, 0.001), std::nullopt);
-  EXPECT_EQ(cheapest_within({}, 1.0), std::nullopt);
-  const std::vector<bool> front = pareto_front(points);
-  for (const double error : {2.0, 0.5, 0.05, 0.02}) {
-    EXPECT_TRUE(front[*cheapest_within(points, error)]);
-  }
 }
 
 TEST(Sweep, DefaultHasEveryMethodOnce) {

@@ -57,11 +57,12 @@ TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
   Accuracy& accuracy = h.app->accuracy;
   accuracy.wanted[0] = 1e-4;
   h.frames(2);
-  const auto best = accuracy.cheapest();
-  const auto paper = accuracy.cheapest_of_paper();
+  const std::vector<Accuracy::Point> points = accuracy.points();
+  const auto best = accuracy.cheapest(points);
+  const auto paper = accuracy.cheapest(accuracy.of_paper(points));
   ASSERT_TRUE(best.has_value());
   EXPECT_LE(best->error, 1e-4);
-  for (const Accuracy::Point& p : accuracy.points()) {
+  for (const Accuracy::Point& p : points) {
     EXPECT_TRUE(p.error > 1e-4 || best->cost <= p.cost);
   }
   EXPECT_FALSE(paper.has_value()) << "Euler is 10 mm off with the one step that it asks for";
@@ -75,7 +76,7 @@ TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
   EXPECT_TRUE(h.app->session.playing());
   accuracy.wanted[0] = 1e-12;
   h.frames(2);
-  EXPECT_FALSE(accuracy.cheapest().has_value());
+  EXPECT_FALSE(accuracy.cheapest(points).has_value());
 }
 
 TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <random>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -180,6 +178,9 @@ TEST(Tiles, ShowWhatDrawingAllShows) {
     record.forget();
     look("it was forgotten");
     EXPECT_EQ(drawn, whole);
+    const std::vector<PixelRect> grown = record.changes(width + 1, height, h.renderer->layers);
+    ASSERT_EQ(grown.size(), 1U) << "a window of another size is empty";
+    EXPECT_EQ(grown[0], (PixelRect{0, 0, width + 1, height}));
   }
 }
 
@@ -225,13 +226,20 @@ TEST(ChangedPart, HoldsWhatMovedAndItsShadow) {
       const Picture before = h.renderer->picture;
       h.frames(1);
       const Picture now = h.renderer->picture;
-      const Part part = changed_part(before, now);
+      const Part part = changed_parts({&before, 1}, {&now, 1}).front();
       area += static_cast<double>(part.width * part.height);
       ++frames;
       const Eigen::Vector3f light =
           Eigen::Map<const Eigen::Vector3f>(now.to_light.data()).normalized();
       const Eigen::Map<const Eigen::Vector3f> origin(now.ground.origin.data());
       const Eigen::Map<const Eigen::Vector3f> normal(now.ground.normal.data());
+      const auto expect_inside = [&](const Eigen::Vector3f& point) {
+        EXPECT_TRUE(holds(part, now, seen(now, point))) << name;
+        const float height = (point - origin).dot(normal);
+        if (height < 0.0F) return;
+        const Eigen::Vector3f shadow = point - height / normal.dot(light) * light;
+        EXPECT_TRUE(holds(part, now, seen(now, shadow))) << name << ", its shadow";
+      };
       for (std::size_t b = 0; b < now.boxes.size(); ++b) {
         if (before.boxes[b] == now.boxes[b]) continue;
         for (const Instance& box : {before.boxes[b], now.boxes[b]}) {
@@ -241,14 +249,27 @@ TEST(ChangedPart, HoldsWhatMovedAndItsShadow) {
             const Eigen::Vector3f local(share(random) * box.half_extents[0],
                                         share(random) * box.half_extents[1],
                                         share(random) * box.half_extents[2]);
-            const Eigen::Vector3f point =
-                Eigen::Map<const Eigen::Vector3f>(box.position.data()) + q * local;
-            EXPECT_TRUE(holds(part, now, seen(now, point))) << name;
-            const float height = (point - origin).dot(normal);
-            if (height < 0.0F) continue;
-            const Eigen::Vector3f shadow = point - height / normal.dot(light) * light;
-            EXPECT_TRUE(holds(part, now, seen(now, shadow))) << name << ", its shadow";
+            expect_inside(Eigen::Map<const Eigen::Vector3f>(box.position.data()) + q * local);
           }
+        }
+      }
+      for (std::size_t b = 0; b < now.balls.size(); ++b) {
+        if (before.balls[b] == now.balls[b]) continue;
+        for (const Instance& ball : {before.balls[b], now.balls[b]}) {
+          for (int s = 0; s < 20; ++s) {
+            const Eigen::Vector3f out =
+                Eigen::Vector3f(share(random), share(random), share(random)).normalized();
+            expect_inside(Eigen::Map<const Eigen::Vector3f>(ball.position.data()) +
+                          ball.half_extents[0] * out);
+          }
+        }
+      }
+      if (before.ribbons == now.ribbons) continue;
+      for (const Picture* picture : {&before, &now}) {
+        for (const RibbonVertex& v : picture->ribbons) {
+          EXPECT_TRUE(
+              holds(part, now, seen(now, Eigen::Map<const Eigen::Vector3f>(v.position.data()))))
+              << name << ", a ribbon";
         }
       }
     }
@@ -258,17 +279,35 @@ TEST(ChangedPart, HoldsWhatMovedAndItsShadow) {
 
 TEST(ChangedPart, IsAllWhereTheViewMoves) {
   Headless h;
-  Picture before = h.renderer->picture;
+  const Picture before = h.renderer->picture;
   Picture now = before;
-  EXPECT_EQ(changed_part(before, now).width, 0.0F) << "nothing changed";
+  const auto part = [&] { return changed_parts({&before, 1}, {&now, 1}).front(); };
+  EXPECT_EQ(part().width, 0.0F) << "nothing changed";
   now.view_projection(0, 3) += 0.1F;
-  EXPECT_EQ(changed_part(before, now), now.part);
+  EXPECT_EQ(part(), now.part);
   now = before;
   now.boxes.pop_back();
-  EXPECT_EQ(changed_part(before, now), now.part);
+  EXPECT_EQ(part(), now.part);
   now = before;
   now.background_top.r += 0.1F;
-  EXPECT_EQ(changed_part(before, now), now.part);
+  EXPECT_EQ(part(), now.part);
+}
+
+// Pictures side by side: the first is drawn in all of the window, and the others over it.
+TEST(ChangedPart, HoldsWhatAPictureBelowIsDrawnOver) {
+  Headless h;
+  Picture below = h.renderer->picture;
+  Picture over = below;
+  over.part = {0.5F, 0.1F, 0.5F, 0.9F};
+  const std::vector<Picture> before{below, over};
+  below.background_top.r += 0.1F;  // all of it is drawn
+  const std::vector<Picture> now{below, over};
+  const std::vector<Part> parts = changed_parts(before, now);
+  EXPECT_EQ(parts[0], (Part{0.0F, 0.0F, 1.0F, 1.0F}));
+  EXPECT_EQ(parts[1], over.part) << "it did not change, but was drawn over";
+  const std::vector<Part> none = changed_parts(before, before);
+  EXPECT_EQ(none[0].width * none[0].height, 0.0F);
+  EXPECT_EQ(none[1].width * none[1].height, 0.0F);
 }
 
 }  // namespace

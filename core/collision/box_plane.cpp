@@ -14,7 +14,7 @@ void box_plane(const Placed& a, const Box& box, const Placed& b, double margin,
     const Vec3 p = centre + r;
     const double gap = n.dot(p);
     if (gap > margin) continue;
-    ContactPoint point;
+    ContactPoint& point = out.emplace_back();
     point.a = a.body;
     point.b = b.body;
     point.id = contact_id(a.body, b.body, corner);
@@ -23,7 +23,6 @@ void box_plane(const Placed& a, const Box& box, const Placed& b, double margin,
     point.point_a = r;
     point.point_b = p - gap * n;
     point.field_arm = r;
-    out.push_back(point);
   }
 }
 

@@ -1,15 +1,13 @@
 #include "core/collision/detector.hpp"
 
-#include <algorithm>
-
 namespace substep {
 
 namespace {
 
-Vec3 bounding_half_extents(const Shape& shape, const Mat3& R) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return Vec3::Constant(sphere->radius);
-  if (const auto* box = std::get_if<Box>(&shape)) return R.cwiseAbs() * box->half_extents;
-  return Vec3::Zero();
+double radius_around(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.norm();
+  return 0.0;
 }
 
 void touch_plane(const Placed& a, const Shape& shape, const Placed& plane, double margin,
@@ -38,86 +36,42 @@ void touch_solids(const Placed& i, const Shape& shape_i, const Placed& j, const 
 
 }  // namespace
 
-Detector::Detector(const Scene& scene) {
-  const std::size_t n = scene.bodies.size();
-  jointed_.resize(n);
-  reach_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) {
+Detector::Detector(const Scene& scene) : broad_phase_(scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    if (!body.collides) continue;
-    const bool is_plane = std::holds_alternative<Plane>(body.shape);
-    (is_plane ? planes_ : solids_).push_back(static_cast<int>(i));
+    radius_.push_back(radius_around(body.shape));
+    if (!body.collides || !std::holds_alternative<Plane>(body.shape)) continue;
+    Ground ground{static_cast<int>(i), {}};
+    for (const int solid : broad_phase_.solids()) {
+      if (broad_phase_.may_touch(scene, solid, ground.body)) ground.solids.push_back(solid);
+    }
+    grounds_.push_back(std::move(ground));
   }
-  for (const Joint& joint : scene.joints) {
-    const JointBase& j = base(joint);
-    if (j.b == kWorld) continue;
-    jointed_[static_cast<std::size_t>(std::min(j.a, j.b))].push_back(std::max(j.a, j.b));
-  }
-  for (auto& list : jointed_) std::sort(list.begin(), list.end());
-  intervals_.reserve(solids_.size());
-  pairs_.reserve(8 * n + 32);
-  points_.reserve(8 * n + 32);
-}
-
-bool Detector::may_touch(const Scene& scene, int i, int j) const {
-  const Body& a = scene.bodies[static_cast<std::size_t>(i)];
-  const Body& b = scene.bodies[static_cast<std::size_t>(j)];
-  if (a.is_static && b.is_static) return false;
-  if (a.collision_group >= 0 && a.collision_group == b.collision_group) return false;
-  const auto& joined = jointed_[static_cast<std::size_t>(std::min(i, j))];
-  return joined.empty() || !std::binary_search(joined.begin(), joined.end(), std::max(i, j));
+  points_.reserve(8 * scene.bodies.size() + 32);
 }
 
 std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& state,
                                                std::span<const Mat3> R_WB) {
   points_.clear();
-  pairs_.clear();
-  intervals_.clear();
   const double margin = scene.contact.margin;
-  const auto placed = [&](int body) {
-    const auto k = static_cast<std::size_t>(body);
-    return Placed{body, state.x[k], R_WB[k]};
-  };
+  const auto at = [](int body) { return static_cast<std::size_t>(body); };
+  const auto shape = [&](int body) -> const Shape& { return scene.bodies[at(body)].shape; };
+  const auto placed = [&](int body) { return Placed{body, state.x[at(body)], R_WB[at(body)]}; };
 
-  // Sweep along x. Ties in the order do not matter: the pairs are sorted below.
-  for (const int body : solids_) {
-    const auto k = static_cast<std::size_t>(body);
-    reach_[k] =
-        bounding_half_extents(scene.bodies[k].shape, R_WB[k]) + Vec3::Constant(0.5 * margin);
-    intervals_.push_back({state.x[k].x() - reach_[k].x(), state.x[k].x() + reach_[k].x(), body});
-  }
-  std::sort(intervals_.begin(), intervals_.end(), [](const Interval& p, const Interval& q) {
-    return p.lo != q.lo ? p.lo < q.lo : p.body < q.body;
-  });
-  for (std::size_t p = 0; p < intervals_.size() && !too_many(); ++p) {
-    for (std::size_t q = p + 1; q < intervals_.size() && intervals_[q].lo <= intervals_[p].hi;
-         ++q) {
-      const int i = std::min(intervals_[p].body, intervals_[q].body);
-      const int j = std::max(intervals_[p].body, intervals_[q].body);
-      const auto ki = static_cast<std::size_t>(i);
-      const auto kj = static_cast<std::size_t>(j);
-      const Vec3 d = (state.x[ki] - state.x[kj]).cwiseAbs();
-      const Vec3 reach = reach_[ki] + reach_[kj];
-      if (d.y() > reach.y() || d.z() > reach.z()) continue;
-      if (may_touch(scene, i, j)) pairs_.push_back({i, j});
+  for (const Ground& ground : grounds_) {
+    const Placed plane = placed(ground.body);
+    const Vec3 n = plane.R.col(1);
+    for (const int body : ground.solids) {
+      if (points_.size() > kMaxContacts) return points_;
+      if (n.dot(state.x[at(body)] - plane.x) > radius_[at(body)] + margin) continue;
+      touch_plane(placed(body), shape(body), plane, margin, points_);
     }
   }
-  std::sort(pairs_.begin(), pairs_.end(),
-            [](const Pair& p, const Pair& q) { return p.i != q.i ? p.i < q.i : p.j < q.j; });
-
-  for (const int plane : planes_) {
-    for (const int body : solids_) {
-      if (too_many()) return points_;
-      if (!may_touch(scene, body, plane)) continue;
-      touch_plane(placed(body), scene.bodies[static_cast<std::size_t>(body)].shape, placed(plane),
-                  margin, points_);
-    }
-  }
-  for (const Pair& pair : pairs_) {
+  broad_phase_.update(scene, state, R_WB);
+  for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {
     if (too_many()) return points_;
-    touch_solids(placed(pair.i), scene.bodies[static_cast<std::size_t>(pair.i)].shape,
-                 placed(pair.j), scene.bodies[static_cast<std::size_t>(pair.j)].shape, margin,
-                 points_);
+    if (!broad_phase_.overlap(state, pair)) continue;
+    touch_solids(placed(pair.i), shape(pair.i), placed(pair.j), shape(pair.j), margin, points_);
   }
   return points_;
 }

@@ -8,11 +8,11 @@
 
 namespace substep {
 
-/// A shape at its place.
+/// Where the shape of a body is.
 struct Placed {
-  int body = 0;               // index into Scene::bodies
-  Vec3 x = Vec3::Zero();      // centre, world [m]
-  Mat3 R = Mat3::Identity();  // R_WB
+  int body;       // index into Scene::bodies
+  const Vec3& x;  // centre, world [m]
+  const Mat3& R;  // R_WB
 };
 
 using ContactPoints = std::vector<ContactPoint>;

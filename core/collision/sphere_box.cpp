@@ -18,47 +18,49 @@ void sphere_box(const Placed& a, const Sphere& sphere, const Placed& b, const Bo
   const double reach = sphere.radius + margin;
   if (squared > reach * reach) return;
 
-  ContactPoint point;
-  Vec3 n_B = Vec3::Zero();
+  ContactPoint& point = out.emplace_back();
+  int axis = 0;  // of the face, where the nearest point is inside one
+  int outside = 0;
+  for (int i = 0; i < 3; ++i) {
+    if (d[i] == 0.0) continue;
+    axis = i;
+    ++outside;
+  }
   Vec3 surface_B = nearest;
   double distance = 0.0;
-  if (squared > 0.0) {
+  if (outside > 1) {  // an edge or a corner
     distance = std::sqrt(squared);
-    n_B = d / distance;
-    Mat3 H_B = Mat3::Zero();
-    int outside = 0;
+    const Vec3 n_B = d / distance;
+    Mat3 H_B = -n_B * n_B.transpose() / distance;
     for (int i = 0; i < 3; ++i) {
-      if (d[i] != 0.0) {
-        H_B(i, i) = 1.0 / distance;
-        ++outside;
+      if (d[i] != 0.0) H_B(i, i) += 1.0 / distance;
+    }
+    point.n = b.R * n_B;
+    point.H = b.R * H_B * b.R.transpose();
+  } else {
+    double side = d[axis] < 0.0 ? -1.0 : 1.0;
+    distance = std::abs(d[axis]);
+    if (outside == 0) {  // the centre is inside: out through the nearest face
+      double depth = std::numeric_limits<double>::infinity();
+      for (int i = 0; i < 3; ++i) {
+        const double to_face = box.half_extents[i] - std::abs(c[i]);
+        if (to_face < depth) {
+          depth = to_face;
+          axis = i;
+        }
       }
+      side = c[axis] < 0.0 ? -1.0 : 1.0;
+      surface_B[axis] = side * box.half_extents[axis];
+      distance = -depth;
     }
-    if (outside > 1) {  // an edge or a corner
-      H_B -= n_B * n_B.transpose() / distance;
-      point.H = b.R * H_B * b.R.transpose();
-    }
-  } else {  // the centre is inside: out through the nearest face
-    int axis = 0;
-    double depth = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 3; ++i) {
-      const double to_face = box.half_extents[i] - std::abs(c[i]);
-      if (to_face < depth) {
-        depth = to_face;
-        axis = i;
-      }
-    }
-    n_B[axis] = c[axis] < 0.0 ? -1.0 : 1.0;
-    surface_B[axis] = n_B[axis] * box.half_extents[axis];
-    distance = -depth;
+    point.n = side * b.R.col(axis);
   }
   point.a = a.body;
   point.b = b.body;
   point.id = contact_id(a.body, b.body, 0);
-  point.n = b.R * n_B;
   point.gap = distance - sphere.radius;
   point.point_a = -sphere.radius * point.n;
   point.point_b = b.R * surface_B;
-  out.push_back(point);
 }
 
 }  // namespace substep

@@ -4,18 +4,19 @@ namespace substep {
 
 void sphere_plane(const Placed& a, const Sphere& sphere, const Placed& b, double margin,
                   ContactPoints& out) {
-  ContactPoint point;
-  point.n = b.R.col(1);
+  const Vec3 n = b.R.col(1);
   const Vec3 centre = a.x - b.x;
-  const double distance = point.n.dot(centre);
-  point.gap = distance - sphere.radius;
-  if (point.gap > margin) return;
+  const double distance = n.dot(centre);
+  const double gap = distance - sphere.radius;
+  if (gap > margin) return;
+  ContactPoint& point = out.emplace_back();
   point.a = a.body;
   point.b = b.body;
   point.id = contact_id(a.body, b.body, 0);
-  point.point_a = -sphere.radius * point.n;
-  point.point_b = centre - distance * point.n;
-  out.push_back(point);
+  point.n = n;
+  point.gap = gap;
+  point.point_a = -sphere.radius * n;
+  point.point_b = centre - distance * n;
 }
 
 }  // namespace substep

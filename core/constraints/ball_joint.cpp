@@ -37,8 +37,8 @@ void ball_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b
 // r_a x l changes by (theta x r_a) x l = l x (r_a x theta) = [l][r_a] theta.
 void ball_stiffness(const Block& block, StiffnessMatrix& K) {
   const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
-  if (block.a >= 0) K.add_angular(block.a, block.a, skew(l) * skew(block.r_a));
-  if (block.b >= 0) K.add_angular(block.b, block.b, -skew(l) * skew(block.r_b));
+  if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(l, block.r_a));
+  if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
 }
 
 }  // namespace substep

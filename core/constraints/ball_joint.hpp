@@ -7,10 +7,13 @@
 
 namespace substep {
 
-/// World pose of one side of a joint. For kWorld: origin, no rotation.
+inline const Vec3 kOrigin = Vec3::Zero();
+inline const Mat3 kUnturned = Mat3::Identity();
+
+/// World pose of one side of a joint, which has to outlive it. For kWorld: origin, no rotation.
 struct Side {
-  Vec3 x = Vec3::Zero();      // centre of mass, world [m]
-  Mat3 R = Mat3::Identity();  // R_WB
+  const Vec3& x = kOrigin;    // centre of mass, world [m]
+  const Mat3& R = kUnturned;  // R_WB
 };
 
 /// Rows 0..2: phi = x_a + r_a - x_b - r_b, world axes [m].

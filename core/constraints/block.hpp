@@ -28,8 +28,8 @@ struct Block {
   int body_a = -1;       // index into Scene::bodies, moving or not
   int body_b = -1;       // the same, -1 for the world
   std::uint64_t id = 0;  // the same from sub-step to sub-step
-  // Joints: rows 0..2 have the linear parts +E in J_a and -E in J_b, further rows none. Solvers may
-  // leave those products out.
+  // Joints: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]], further rows have no linear part.
+  // Solvers go by that.
   bool pinned = false;
 
   double J_a[kMaxRows][6];      // d phi / d q_a: linear [-], angular [m] (angular rows: [-])

@@ -64,8 +64,8 @@ void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block
 void contact_stiffness_paper(const Block& block, StiffnessMatrix& K) {
   Vec3 l = block.lambda[0] * block.n;
   if (block.rows == 3) l += block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
-  if (block.a >= 0) K.add_angular(block.a, block.a, skew(l) * skew(block.r_a));
-  if (block.b >= 0) K.add_angular(block.b, block.b, -skew(l) * skew(block.r_b));
+  if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(l, block.r_a));
+  if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
 }
 
 // The force on a is l n at p = x_a + r (r = arm_a, turning with a), that on b is -l n with the

@@ -48,21 +48,18 @@ void hinge_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_
 }
 
 // Torque on a: l u x v. Turning a: l (theta x u) x v = l [v][u] theta. Turning b:
-// l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite.
+// l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All of it is linear in v,
+// so both rows go together: w = l_1 v_1 + l_2 v_2.
 void hinge_stiffness(const Block& block, StiffnessMatrix& K) {
   ball_stiffness(block, K);
-  const Mat3 U = skew(block.axis);
-  for (int k = 0; k < 2; ++k) {
-    const double l = block.lambda[3 + k];
-    const Mat3 V = skew(k == 0 ? block.v1 : block.v2);
-    const Mat3 VU = l * (V * U);
-    const Mat3 UV = l * (U * V);
-    if (block.a >= 0) K.add_angular(block.a, block.a, VU);
-    if (block.b >= 0) K.add_angular(block.b, block.b, UV);
-    if (block.a >= 0 && block.b >= 0) {
-      K.add_angular(block.a, block.b, -UV);
-      K.add_angular(block.b, block.a, -VU);
-    }
+  const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
+  const Mat3 WU = skew_product(w, block.axis);
+  const Mat3 UW = WU.transpose();
+  if (block.a >= 0) K.add_angular(block.a, block.a, WU);
+  if (block.b >= 0) K.add_angular(block.b, block.b, UW);
+  if (block.a >= 0 && block.b >= 0) {
+    K.add_angular(block.a, block.b, -UW);
+    K.add_angular(block.b, block.a, -WU);
   }
 }
 

@@ -5,65 +5,91 @@
 namespace substep {
 
 void StiffnessMatrix::reserve(std::size_t bodies, std::size_t pairs) {
-  diagonal_.reserve(bodies);
-  first_.reserve(bodies);
-  entries_.reserve(2 * pairs);
+  pairs_.reserve(bodies + 2 * pairs);
+  angular_.reserve(bodies + 2 * pairs);
 }
 
 void StiffnessMatrix::clear(std::size_t bodies) {
-  diagonal_.assign(bodies, Mat6::Zero());
-  first_.assign(bodies, -1);
-  entries_.clear();
+  bodies_ = bodies;
+  pairs_.clear();
+  for (std::size_t i = 0; i < bodies; ++i) pairs_.push_back({static_cast<int>(i), -1});
+  angular_.assign(bodies, Mat3::Zero());
+  whole_.clear();
 }
 
-Mat6& StiffnessMatrix::at(int row, int col) {
-  const auto c = static_cast<std::size_t>(col);
-  if (row == col) return diagonal_[c];
-  for (int e = first_[c]; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
-    Entry& entry = entries_[static_cast<std::size_t>(e)];
-    if (entry.row == row) return entry.K;
+std::size_t StiffnessMatrix::find(int row, int col) {
+  const auto diagonal = static_cast<std::size_t>(col);
+  for (int e = col; e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
+    if (pairs_[static_cast<std::size_t>(e)].row == row) return static_cast<std::size_t>(e);
   }
-  entries_.push_back({row, first_[c], Mat6::Zero()});
-  first_[c] = static_cast<int>(entries_.size()) - 1;
-  return entries_.back().K;
+  const std::size_t at = pairs_.size();
+  pairs_.push_back({row, pairs_[diagonal].next});
+  pairs_[diagonal].next = static_cast<int>(at);
+  if (whole_.empty()) {
+    angular_.push_back(Mat3::Zero());
+  } else {
+    whole_.push_back(Mat6::Zero());
+  }
+  return at;
+}
+
+void StiffnessMatrix::widen() {
+  whole_.reserve(pairs_.capacity());
+  for (const Mat3& angular : angular_) {
+    whole_.push_back(Mat6::Zero());
+    whole_.back().bottomRightCorner<3, 3>() = angular;
+  }
+}
+
+void StiffnessMatrix::add(int row, int col, const Mat6& block) {
+  if (whole_.empty()) widen();
+  const std::size_t at = find(row, col);
+  whole_[at] += block;
 }
 
 Mat6 StiffnessMatrix::block(int row, int col) const {
-  const auto c = static_cast<std::size_t>(col);
-  if (row == col) return diagonal_[c];
-  for (int e = first_[c]; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
-    const Entry& entry = entries_[static_cast<std::size_t>(e)];
-    if (entry.row == row) return entry.K;
+  Mat6 K = Mat6::Zero();
+  for (int e = col; e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
+    const auto at = static_cast<std::size_t>(e);
+    if (pairs_[at].row != row) continue;
+    if (whole_.empty()) {
+      K.bottomRightCorner<3, 3>() = angular_[at];
+    } else {
+      K = whole_[at];
+    }
   }
-  return Mat6::Zero();
+  return K;
 }
 
 // Of every block its columns are turned, squared and summed; of every column one root is taken.
 std::int64_t StiffnessMatrix::norm_flops() const {
-  constexpr std::int64_t kOfBlock = 2 * 6 * 3 * (3 + 2) + 2 * 6 * 6;
-  const auto bodies = static_cast<std::int64_t>(diagonal_.size());
-  return (bodies + static_cast<std::int64_t>(entries_.size())) * kOfBlock + 6 * bodies;
+  const std::int64_t size = whole_.empty() ? 3 : 6;
+  const std::int64_t of_block = size * size * (5 + 2);
+  return static_cast<std::int64_t>(pairs_.size()) * of_block +
+         size * static_cast<std::int64_t>(bodies_);
 }
 
 void StiffnessMatrix::column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const {
   // A norm does not change with the axes of the rows, so only the columns are turned.
-  const auto add_squares = [](const Mat6& K, const Mat3& R, Vec6& sum) {
-    const Eigen::Matrix<double, 6, 3> linear = K.leftCols<3>() * R;
-    const Eigen::Matrix<double, 6, 3> angular = K.rightCols<3>() * R;
+  const auto add_squares = [](const auto& columns, const Mat3& R, auto&& sum) {
+    const auto turned = (columns * R).eval();
     for (int c = 0; c < 3; ++c) {
-      for (int i = 0; i < 6; ++i) {
-        sum[c] += linear(i, c) * linear(i, c);
-        sum[3 + c] += angular(i, c) * angular(i, c);
-      }
+      for (int i = 0; i < turned.rows(); ++i) sum[c] += turned(i, c) * turned(i, c);
     }
   };
-  for (std::size_t col = 0; col < diagonal_.size(); ++col) {
+  for (std::size_t col = 0; col < bodies_; ++col) {
     Vec6 sum = Vec6::Zero();
-    add_squares(diagonal_[col], R_WB[col], sum);
-    for (int e = first_[col]; e >= 0; e = entries_[static_cast<std::size_t>(e)].next) {
-      add_squares(entries_[static_cast<std::size_t>(e)].K, R_WB[col], sum);
+    for (int e = static_cast<int>(col); e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
+      const auto at = static_cast<std::size_t>(e);
+      if (whole_.empty()) {
+        add_squares(angular_[at], R_WB[col], sum.tail<3>());
+      } else {
+        add_squares(whole_[at].leftCols<3>(), R_WB[col], sum.head<3>());
+        add_squares(whole_[at].rightCols<3>(), R_WB[col], sum.tail<3>());
+      }
     }
-    for (int i = 0; i < 6; ++i) k[col][i] = std::sqrt(sum[i]);
+    for (int i = whole_.empty() ? 3 : 0; i < 6; ++i) sum[i] = std::sqrt(sum[i]);
+    k[col] = sum;
   }
 }
 

@@ -10,7 +10,8 @@ namespace substep {
 
 /// The assembled geometric stiffness K = d(J^T lambda)/dq (Eq. 1) in 6 x 6 blocks, world axes:
 /// rows are forces on a body, columns displacements of a body. Blocks of one pair of bodies are
-/// summed before any norm is taken.
+/// summed before any norm is taken. Joints and the paper's contacts only turn forces with their
+/// arms: until a block with more comes, the angular parts are all there is.
 class StiffnessMatrix {
  public:
   void reserve(std::size_t bodies, std::size_t pairs);
@@ -18,10 +19,15 @@ class StiffnessMatrix {
   void clear(std::size_t bodies);
   /// Adds to the angular-angular part. @param block [N m/rad]
   void add_angular(int row, int col, const Mat3& block) {
-    at(row, col).bottomRightCorner<3, 3>() += block;
+    const std::size_t at = row == col ? static_cast<std::size_t>(col) : find(row, col);
+    if (whole_.empty()) {
+      angular_[at] += block;
+    } else {
+      whole_[at].bottomRightCorner<3, 3>() += block;
+    }
   }
   /// Adds a whole block. @param block [N/m, N/rad; N, N m/rad]
-  void add(int row, int col, const Mat6& block) { at(row, col) += block; }
+  void add(int row, int col, const Mat6& block);
 
   /// K_d (Eq. 4): the 2-norm of every column, columns taken along the body's principal axes.
   /// @param R_WB rotation per body  @param k out, 6 per body [N/m, N m/rad], >= 0
@@ -34,16 +40,19 @@ class StiffnessMatrix {
   [[nodiscard]] Mat6 block(int row, int col) const;
 
  private:
-  struct Entry {
+  /// A pair of bodies that has a block: first the diagonal, body by body, then others as they come.
+  struct Pair {
     int row = 0;
-    int next = -1;  // next entry of the same column
-    Mat6 K;
+    int next = -1;  // next pair of the same column
   };
-  Mat6& at(int row, int col);
+  /// Where the block of a pair is, made where there is none.
+  std::size_t find(int row, int col);
+  void widen();
 
-  std::vector<Mat6> diagonal_;
-  std::vector<int> first_;  // per column body: its first off-diagonal entry, or -1
-  std::vector<Entry> entries_;
+  std::vector<Pair> pairs_;
+  std::vector<Mat3> angular_;  // beside pairs_, while whole_ is empty
+  std::vector<Mat6> whole_;    // beside pairs_, else empty
+  std::size_t bodies_ = 0;
 };
 
 }  // namespace substep

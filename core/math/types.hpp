@@ -20,4 +20,16 @@ inline Mat3 skew(const Vec3& x) {
   return m;
 }
 
+/// [a][b] = b a^T - (a . b) E, the product of two skew matrices.
+inline Mat3 skew_product(const Vec3& a, const Vec3& b) {
+  const double xx = a.x() * b.x();
+  const double yy = a.y() * b.y();
+  const double zz = a.z() * b.z();
+  Mat3 m;
+  m << -(zz + yy), b.x() * a.y(), b.x() * a.z(),  //
+      b.y() * a.x(), -(zz + xx), b.y() * a.z(),   //
+      b.z() * a.x(), b.z() * a.y(), -(yy + xx);
+  return m;
+}
+
 }  // namespace substep

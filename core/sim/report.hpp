@@ -95,6 +95,14 @@ struct StagesRun {
   bool probe = false;
 };
 
+/// What a frame's report measures beside the motion. What is not asked for takes no time, and is no
+/// number in the report.
+struct Measures {
+  bool energies = true;
+  bool errors = true;  // of constraints, and the residual of the last solve
+  bool stages = true;  // wall time by stage; the total is always there
+};
+
 /// All that a frame tells. Plots, CSV, verdicts and scripts read only this.
 struct FrameReport {
   std::int64_t frame = 0;  // frames done

@@ -2,12 +2,26 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
 
 namespace substep {
+
+namespace {
+
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+StageTimes no_times() {
+  StageTimes times;
+  times.joints = times.contact = times.friction = times.grab = kNotMeasured;
+  times.mass = times.solve = times.stiffness = times.integrate = kNotMeasured;
+  return times;
+}
+
+}  // namespace
 
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : scene(std::move(scene_in)), settings(scene->settings), state(initial_state(*scene)) {
@@ -81,6 +95,7 @@ void Simulator::Impl::probe(FrameReport& report) {
 
 void Simulator::Impl::begin_frame() {
   FrameReport report;
+  if (!measures.stages) report.times = no_times();
   if (probe_due()) probe(report);  // the first frame has no lambda yet
   open.emplace(OpenFrame{SubstepClock(settings, scene->frame, state.r), report});
 }
@@ -91,7 +106,7 @@ FrameReport Simulator::Impl::end(StageClock& wall) {
   if (done) {
     close(substeps, report);
   } else {
-    observe(report);
+    observe(measures, report);
   }
   wall.lap(report.times.total);
   const FrameReport result = report;
@@ -117,16 +132,17 @@ void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& rep
   report.stages.contact = contact != nullptr;
   report.stages.friction = friction != nullptr;
   report.stages.restitution = restitution != nullptr;
-  report.work.residual = lcp_residual({blocks.all(), inverse_mass, state.u});
+  report.work.residual =
+      measures.errors ? lcp_residual({blocks.all(), inverse_mass, state.u}) : kNotMeasured;
   const RowCounts rows = rows_by_kind();
   report.joint_rows = static_cast<int>(rows.joint + rows.grab);
   report.contact_rows = static_cast<int>(rows.contact);
   report.friction_rows = static_cast<int>(rows.friction);
-  observe(report);
+  observe(measures, report);
   if (report.status != StepStatus::kOk) stopped = report;
 }
 
-void Simulator::Impl::observe(FrameReport& report) {
+void Simulator::Impl::observe(const Measures& asked, FrameReport& report) {
   report.frame = state.frame;
   report.time = state.time;
   report.dt_stable = stable_step(settings.alpha, state.r);
@@ -134,10 +150,15 @@ void Simulator::Impl::observe(FrameReport& report) {
     const StiffnessBound who = StiffnessStage::bound(*scene, state.k);
     report.leader = {who.body, who.dof, who.k, who.mass, who.r};
   }
-  const Energies energies = energies_of(*scene, state);
+  Energies energies{kNotMeasured, kNotMeasured};
+  if (asked.energies) energies = energies_of(*scene, state);
   report.kinetic = energies.kinetic;
   report.potential = energies.potential;
   report.energy = energies.kinetic + energies.potential;
+  if (!asked.errors) {
+    report.constraint_error = report.joint_gap = report.penetration = kNotMeasured;
+    return;
+  }
   for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
   if (joints) {
     const JointErrors errors = joints->errors(*scene, state, R_WB);
@@ -158,7 +179,7 @@ FrameReport Simulator::observe() const {
   FrameReport report;
   report.status = impl_->stopped.status;
   report.failed_body = impl_->stopped.failed_body;
-  impl_->observe(report);
+  impl_->observe(Measures{}, report);
   return report;
 }
 
@@ -209,6 +230,8 @@ ConstraintForces Simulator::constraint_forces() const {
   }
   return out;
 }
+
+void Simulator::set_measures(const Measures& measures) { impl_->measures = measures; }
 
 const Settings& Simulator::settings() const { return impl_->settings; }
 

@@ -29,6 +29,10 @@ class Simulator {
   /// Sub-steps that the frame begun by substep() still has, as decided so far; 0 between frames.
   [[nodiscard]] int substeps_left() const;
 
+  /// What the reports of frames measure: everything, unless told otherwise. Nothing of it changes
+  /// the motion.
+  void set_measures(const Measures& measures);
+
   /// Energies and errors of the current state, without stepping. Rows and work are a frame's: 0
   /// here.
   [[nodiscard]] FrameReport observe() const;

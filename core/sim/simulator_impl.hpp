@@ -41,10 +41,11 @@ struct Simulator::Impl {
   void begin_frame();
   FrameReport end(StageClock& wall);  // of a call: closes the frame where it is done
   void close(const SubstepClock& clock, FrameReport& report);
-  void observe(FrameReport& report);
+  void observe(const Measures& asked, FrameReport& report);
 
   std::shared_ptr<const Scene> scene;
   Settings settings;
+  Measures measures;
   State state;
   std::optional<Grab> grab;
   struct OpenFrame {

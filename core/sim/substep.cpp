@@ -29,7 +29,7 @@ double most_kinetic(const Body& body, const Vec6& u) {
 }  // namespace
 
 void Simulator::Impl::begin_substep(FrameReport& report) {
-  clock = StageClock();
+  clock = StageClock(measures.stages);
   for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
   std::copy(state.u.begin(), state.u.end(), u_start.begin());
   ++report.n_substeps;

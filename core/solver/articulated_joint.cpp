@@ -104,14 +104,12 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const
   for (int i = 0; i < 3; ++i) w_[i] = speed[i] + sign_ * joint.bias[i];
 
   if (joint.kind == BlockKind::kBall) {
-    n_free_ = 3;
     for (int k = 0; k < 3; ++k) {
       for (int i = 0; i < 3; ++i) free_[k].f[i] = i == k ? 1.0 : 0.0;
     }
     return;
   }
   // The free direction is across both angular rows; e_ is dual to them within their plane.
-  n_free_ = 1;
   double J[2][3];
   for (int k = 0; k < 2; ++k) {
     for (int i = 0; i < 3; ++i) {
@@ -137,33 +135,44 @@ void ArticulatedJoint::refer_to(const double* reference) {
   }
 }
 
-void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, Square6* to_parent) {
-  Symmetric6 A = add_inertia(W, r_, carried);
-  for (int k = 0; k < n_free_; ++k) {
-    Free& free = free_[k];
-    free.column = A.angular_column(free.f);
-    free.inverse = 1.0 / along(free.f, free.column);
-    Pairs6 scaled;
-    for (int p = 0; p < 3; ++p) scaled.p[p] = free.inverse * free.column.p[p];
-    A.subtract(scaled, free.column);
+template <int rows>
+void ArticulatedJoint::eliminate(Symmetric6& A) {
+  for (int k = 0; k < n_free(rows); ++k) {
+    const Pairs6 column = A.angular_column(free_[k].f);
+    const double inverse = 1.0 / along(free_[k].f, column);
+    A.subtract(combine(inverse, column), column);
+    free_[k].column = column;
+    free_[k].inverse = inverse;
   }
   // Exact rows are left as they are.
   const double* s = softness_;
   if (s[0] != 0.0 || s[1] != 0.0 || s[2] != 0.0) A.soften_linear(s);
-  if (rows_ == 5 && (s[3] != 0.0 || s[4] != 0.0)) soften_angular(e_, s + 3, A);
-  P_ = A.rows();
+  if (rows == 5 && (s[3] != 0.0 || s[4] != 0.0)) soften_angular(e_, s + 3, A);
+}
+
+void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, Square6* to_parent) {
+  Symmetric6 A = add_inertia(W, r_, carried);
+  if (rows_ == 5) {
+    eliminate<5>(A);
+  } else {
+    eliminate<3>(A);
+  }
+  A.rows(P_);
   if (to_parent != nullptr) A.shift(to_parent_, *to_parent);
 }
 
-void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
-  double* g = g_;
+// Vectors of a body stay in registers from the first line of a function to its last.
+
+template <int rows>
+void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
   double torque[3];
   cross(r_, g_centre, torque);
+  double g[6];
   for (int i = 0; i < 3; ++i) {
-    g[i] += g_centre[i];
-    g[3 + i] += g_centre[3 + i] - torque[i];
+    g[i] = g_[i] + g_centre[i];
+    g[3 + i] = g_[3 + i] + (g_centre[3 + i] - torque[i]);
   }
-  for (int k = 0; k < n_free_; ++k) {
+  for (int k = 0; k < n_free(rows); ++k) {
     Free& free = free_[k];
     free.momentum = dot(free.f, g + 3);
     const double q = free.inverse * free.momentum;
@@ -171,13 +180,16 @@ void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
   }
   double d[6] = {};  // E w - Sigma g1
   for (int row = 0; row < 3; ++row) d[row] = w_[row] - softness_[row] * g[row];
-  for (int row = 3; row < rows_; ++row) {
+  for (int row = 3; row < rows; ++row) {
     const double* e = e_[row - 3];
     const double y = w_[row] - softness_[row] * dot(e, g + 3);
     for (int i = 0; i < 3; ++i) d[3 + i] += e[i] * y;
   }
   const Pairs6 handed = P_.times(d);
-  for (int i = 0; i < 6; ++i) g[i] += handed[i];
+  for (int i = 0; i < 6; ++i) {
+    g[i] += handed[i];
+    g_[i] = g[i];
+  }
   if (g_parent == nullptr) return;
   cross(to_parent_, g, torque);
   for (int i = 0; i < 3; ++i) {
@@ -186,8 +198,14 @@ void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
   }
 }
 
-void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double* impulse) {
-  double(&v)[6] = v_;
+void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
+  if (rows_ == 5) return forward_rows<5>(g_centre, g_parent);
+  forward_rows<3>(g_centre, g_parent);
+}
+
+template <int rows>
+void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre, double* impulse) {
+  double v[6];
   double R[6];
   if (v_parent != nullptr) {
     cross(to_parent_, v_parent + 3, v);
@@ -207,14 +225,14 @@ void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double
     v[row] -= w_[row] + softness_[row] * R[row];
     impulse[row] = sign_ * R[row];
   }
-  for (int row = 3; row < rows_; ++row) {
+  for (int row = 3; row < rows; ++row) {
     const double* e = e_[row - 3];
     const double x = dot(e, R + 3);
     const double y = w_[row] + softness_[row] * x;
     for (int i = 0; i < 3; ++i) v[3 + i] -= e[i] * y;
     impulse[row] = sign_ * x;
   }
-  for (int k = n_free_; k-- > 0;) {
+  for (int k = n_free(rows); k-- > 0;) {
     const Free& free = free_[k];
     const Pairs6& a = free.column;
     const double sum =
@@ -222,11 +240,18 @@ void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double
     const double q = free.inverse * (free.momentum - sum);
     for (int i = 0; i < 3; ++i) v[3 + i] += free.f[i] * q;
   }
-  cross(r_, v + 3, v_centre);
+  for (int i = 0; i < 6; ++i) v_[i] = v[i];
+  double turned[3];
+  cross(r_, v + 3, turned);
   for (int i = 0; i < 3; ++i) {
-    v_centre[i] += v[i];
+    v_centre[i] = turned[i] + v[i];
     v_centre[3 + i] = v[3 + i];
   }
+}
+
+void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double* impulse) {
+  if (rows_ == 5) return backward_rows<5>(v_parent, v_centre, impulse);
+  backward_rows<3>(v_parent, v_centre, impulse);
 }
 
 }  // namespace substep

@@ -42,6 +42,15 @@ class ArticulatedJoint {
   static std::int64_t solve_flops(int rows) { return 220 + (rows == 3 ? 105 : 35) + 16 * rows; }
 
  private:
+  /// A ball joint leaves three directions of rotation, a hinge one.
+  static constexpr int n_free(int rows) { return rows == 5 ? 1 : 3; }
+  template <int rows>
+  void eliminate(Symmetric6& A);
+  template <int rows>
+  void forward_rows(const double* g_centre, double* g_parent);
+  template <int rows>
+  void backward_rows(const double* v_parent, double* v_centre, double* impulse);
+
   /// A direction of rotation that the joint leaves free.
   struct Free {
     double f[3];
@@ -51,7 +60,6 @@ class ArticulatedJoint {
   };
 
   int rows_;
-  int n_free_;
   double sign_;          // child minus parent against the block's a minus b
   double r_[3];          // pivot from the child's centre [m]
   double r_parent_[3];   // pivot from the parent's centre [m]

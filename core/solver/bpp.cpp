@@ -12,6 +12,10 @@ constexpr int kPasses = 4;            // refreshes of the friction bounds, the f
 constexpr int kSinglePivots = 50;     // per solve: Murty's rule is finite; this bounds its time
 constexpr int kSweeps = 100;  // in place of a direct solve: 25 do not carry a house of cards
 
+bool any_tight(const Block& block) {
+  return std::any_of(block.tight, block.tight + block.rows, [](std::int8_t t) { return t != 0; });
+}
+
 double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
 
 }  // namespace
@@ -194,7 +198,7 @@ int Bpp::pivot(const System& system, bool one_only) {
     Block& block = system.blocks[i];
     if (!block.is_contact()) continue;
     double speed[kMaxRows];
-    row_speeds(block, system.u, speed);
+    if (any_tight(block)) row_speeds(block, system.u, speed);
     for (int row = 0; row < block.rows; ++row) {
       const double hi = row == 0 ? kUnbounded : friction_bound_[i];
       const double lo = row == 0 ? 0.0 : -hi;

@@ -4,6 +4,9 @@
 
 #include <cstddef>
 #include <limits>
+#include <type_traits>
+
+#include "core/solver/symmetric6.hpp"
 
 namespace substep {
 
@@ -23,15 +26,19 @@ void inverse_of(const Matrix& W, double (&out)[3][3]) {
   }
 }
 
+/// A size that the compiler knows: kernels given one are unrolled. Sizes that it does not are ints.
+template <int N>
+using Known = std::integral_constant<int, N>;
+
 /// y -= f x.
-inline void subtract_row(const double* __restrict x, double f, int n, double* __restrict y) {
+inline void subtract_row(const double* __restrict x, double f, auto n, double* __restrict y) {
   for (int j = 0; j < n; ++j) y[j] -= f * x[j];
 }
 
 /// A = L D L^T in place: L below the diagonal, 1/D apart. A zero pivot makes what follows no
 /// number, which is caught.
 /// @param A only on and below the diagonal  @param inverse in: least pivots; out: 1/D
-inline void factor_ldlt(double* A, int n, double* inverse) {
+inline void factor_ldlt(double* A, auto n, double* inverse) {
   for (int j = 0; j < n; ++j) {
     double d = A[j * n + j];
     if (d < inverse[j]) d = inverse[j];
@@ -45,52 +52,81 @@ inline void factor_ldlt(double* A, int n, double* inverse) {
 }
 
 /// X := L^-1 X, X n x width.
-inline void solve_lower(const double* L, int n, int width, double* X) {
+inline void solve_lower(const double* L, auto n, auto width, double* X) {
   for (int i = 1; i < n; ++i) {
     for (int m = 0; m < i; ++m) subtract_row(X + m * width, L[i * n + m], width, X + i * width);
   }
 }
 
 /// x := L^-T x.
-inline void solve_upper(const double* L, int n, double* x) {
+inline void solve_upper(const double* L, auto n, double* x) {
   for (int i = n - 1; i > 0; --i) {
     for (int m = 0; m < i; ++m) x[m] -= L[i * n + m] * x[i];
   }
 }
 
-/// U += sum over k of Z_k^T d_k Z_k for K rows Z_k of `width`, in 6 x 6 blocks on and above the
-/// diagonal.
-template <std::size_t K>
-void add_gram(const double* __restrict Z, const double* d, double sign, int width,
-              double* __restrict U) {
-  const auto stride = static_cast<std::size_t>(width);
-  for (std::size_t i = 0; i < stride; ++i) {
-    double f[K];
-    for (std::size_t k = 0; k < K; ++k) f[k] = sign * (Z[k * stride + i] * d[k]);
-    for (std::size_t j = i - i % 6; j < stride; ++j) {
-      double sum = U[i * stride + j];
-      for (std::size_t k = 0; k < K; ++k) sum += f[k] * Z[k * stride + j];
-      U[i * stride + j] = sum;
+/// A 6 x 6 block of sign * sum over k of Z_k^T d_k Z_k, with Z_k rows of `width`. A block on the
+/// diagonal is symmetric, and is made on and below its diagonal.
+/// @param Z_i, Z_j the columns of the block in the first row  @param to the block, added to
+template <bool on_diagonal>
+void add_gram_block(const double* Z_i, const double* Z_j, const double* d, auto rows, double sign,
+                    auto width, double* to, auto stride) {
+  for (int i = 0; i < 6; ++i) {
+    const int pairs = on_diagonal ? i / 2 + 1 : 3;
+    Pair sum[3] = {};
+    for (int k = 0; k < rows; ++k) {
+      const double f = sign * (Z_i[k * width + i] * d[k]);
+      for (int p = 0; p < pairs; ++p) sum[p] += f * load_pair(Z_j + k * width + 2 * p);
+    }
+    double* row = to + i * stride;
+    for (int p = 0; p < pairs; ++p) store_pair(load_pair(row + 2 * p) + sum[p], row + 2 * p);
+  }
+}
+
+/// All blocks of such a sum on and above the diagonal. @param U width x width, added to
+template <int K, int Width>
+void add_gram(const double* Z, const double* d, Known<K> rows, double sign, Known<Width> width,
+              double* U) {
+  for (int s = 0; s < width; s += 6) {
+    double* row = U + s * width;
+    add_gram_block<true>(Z + s, Z + s, d, rows, sign, width, row + s, width);
+    for (int t = s + 6; t < width; t += 6) {
+      add_gram_block<false>(Z + s, Z + t, d, rows, sign, width, row + t, width);
+    }
+  }
+}
+
+/// The same where rows are wide: the innermost loop runs along all of a row.
+template <int K>
+void add_gram(const double* __restrict Z, const double* d, Known<K> /*rows*/, double sign,
+              int width, double* __restrict U) {
+  for (int i = 0; i < width; ++i) {
+    double f[static_cast<std::size_t>(K)];
+    for (int k = 0; k < K; ++k) f[k] = sign * (Z[k * width + i] * d[k]);
+    for (int j = i - i % 6; j < width; ++j) {
+      double sum = U[i * width + j];
+      for (int k = 0; k < K; ++k) sum += f[k] * Z[k * width + j];
+      U[i * width + j] = sum;
     }
   }
 }
 
 /// The same for any number of rows.
-inline void add_gram(const double* Z, int rows, const double* d, double sign, int width,
+inline void add_gram(const double* Z, const double* d, int rows, double sign, auto width,
                      double* U) {
   int k = 0;
-  for (; k + 6 <= rows; k += 6) add_gram<6>(Z + k * width, d + k, sign, width, U);
+  for (; k + 6 <= rows; k += 6) add_gram(Z + k * width, d + k, Known<6>{}, sign, width, U);
   switch (rows - k) {
     case 1:
-      return add_gram<1>(Z + k * width, d + k, sign, width, U);
+      return add_gram(Z + k * width, d + k, Known<1>{}, sign, width, U);
     case 2:
-      return add_gram<2>(Z + k * width, d + k, sign, width, U);
+      return add_gram(Z + k * width, d + k, Known<2>{}, sign, width, U);
     case 3:
-      return add_gram<3>(Z + k * width, d + k, sign, width, U);
+      return add_gram(Z + k * width, d + k, Known<3>{}, sign, width, U);
     case 4:
-      return add_gram<4>(Z + k * width, d + k, sign, width, U);
+      return add_gram(Z + k * width, d + k, Known<4>{}, sign, width, U);
     case 5:
-      return add_gram<5>(Z + k * width, d + k, sign, width, U);
+      return add_gram(Z + k * width, d + k, Known<5>{}, sign, width, U);
     default:
       return;
   }

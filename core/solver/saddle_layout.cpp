@@ -36,6 +36,7 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   attached_.reserve(blocks);
   coupled_.reserve(bodies * kCoupled);
   place_.reserve(bodies * kCoupled);
+  first_filled_.reserve(bodies * kCoupled);
   children_.reserve(bodies);
   rows_.reserve(blocks * kMaxRows);
   joints_.reserve(bodies);
@@ -48,7 +49,19 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
 }
 
 bool SaddleLdlt::foldable(const Block& block, const System& system) const {
-  for (int row = 0; row < block.rows; ++row) {
+  const auto most_of = [&](int body, const Vec3& r) {
+    if (body < 0) return 0.0;
+    const InverseMass& mass = system.inverse_mass[index(body)];
+    return mass.linear + mass.angular.trace() * r.squaredNorm();
+  };
+  int row = 0;
+  if (block.pinned) {  // the arms bound what its first rows see
+    const double* s = block.softness;
+    const double least = std::min(s[0], std::min(s[1], s[2]));
+    if (!(most_of(block.a, block.r_a) + most_of(block.b, block.r_b) <= kFold * least)) return false;
+    row = 3;
+  }
+  for (; row < block.rows; ++row) {
     const double s = block.softness[row];
     if (s == 0.0) return false;
     double most = 0.0;
@@ -118,6 +131,7 @@ void SaddleLdlt::lay_out(const System& system) {
   }
   // What a node leaves goes to the first of its coupled bodies, and with it to its coupled bodies.
   place_.resize(coupled_.size());
+  first_filled_.resize(coupled_.size());
   for (const Node& node : nodes_) {
     if (node.parent < 0) continue;
     Node& parent = nodes_[index(node.parent)];
@@ -155,7 +169,7 @@ void SaddleLdlt::lay_out(const System& system) {
     node.values = values;
     if (node.way != Way::kArticulated) values += 42 + 6 * w + r * (7 + r + w);
     node.update = values;
-    values += w * w;
+    if (node.way != Way::kBare) values += w * w;
     node.first_row = rows;
     rows += r;
   }

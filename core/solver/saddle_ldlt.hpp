@@ -107,14 +107,16 @@ class SaddleLdlt {
   void factor_articulated(Node& node);
   void factor_bare(Node& node, std::span<const Block> blocks);
   void factor_general(Node& node, std::span<const Block> blocks);
+  void factor_general(Node& node, std::span<const Block> blocks, auto n);
   void gather_rows(Node& node, std::span<const Block> blocks);
   void add_inertia(const Node& node, Square6& A) const;
-  void add_children(const Node& node, Square6& A, double* B, double* U) const;
-  void fold(const Node& node, const Block& block, const Attached& attached, Square6& A, double* B,
-            double* U) const;
+  template <bool on_diagonal>
+  void add_left(const Node& child, int s, int t, double* to, auto stride);
+  void add_children(const Node& node, Square6& A, double* B, double* U, auto n);
   void eliminate_rows(Node& node, std::span<const Block> blocks);
 
   void set_momenta(std::span<const Block> blocks);
+  [[nodiscard]] Vec6* of_body(int body);
   [[nodiscard]] double* momentum(int node);
   [[nodiscard]] const double* velocity(int node) const;
   void forward(const Node& node);
@@ -126,9 +128,11 @@ class SaddleLdlt {
   std::vector<Node> nodes_;
   std::vector<int> node_of_block_;
   std::vector<Attached> attached_;
-  std::vector<int> coupled_;   // nodes
-  std::vector<int> place_;     // beside coupled_: where the parent has it among its own, -1: itself
-  std::vector<int> children_;  // nodes
+  std::vector<int> coupled_;  // nodes
+  std::vector<int> place_;    // beside coupled_: where the parent has it among its own, -1: itself
+  std::vector<int> first_filled_;  // beside coupled_, of bare nodes: the first row of Z with such a
+                                   // part that is not zero
+  std::vector<int> children_;      // nodes
   std::vector<Row> rows_;
   std::vector<ArticulatedJoint> joints_;
   std::vector<double> values_;

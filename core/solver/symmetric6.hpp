@@ -10,12 +10,20 @@ using Square6 = double[6][6];
 
 using Pair [[gnu::vector_size(16)]] = double;
 
+/// Two numbers of a row in memory, wherever it begins.
+inline Pair load_pair(const double* from) { return Pair{from[0], from[1]}; }
+inline void store_pair(const Pair& pair, double* to) {
+  to[0] = pair[0];
+  to[1] = pair[1];
+}
+
 /// A vector of a body: linear part first.
 struct Pairs6 {
   Pair p[3];
   double operator[](int i) const { return p[i / 2][i % 2]; }
 };
 
+inline Pairs6 combine(double f, const Pairs6& a) { return {{f * a.p[0], f * a.p[1], f * a.p[2]}}; }
 inline Pairs6 combine(double f, const Pairs6& a, double g, const Pairs6& b) {
   return {{f * a.p[0] + g * b.p[0], f * a.p[1] + g * b.p[1], f * a.p[2] + g * b.p[2]}};
 }
@@ -104,8 +112,7 @@ class Symmetric6 {
     }
   }
 
-  [[nodiscard]] Rows6 rows() const {
-    Rows6 out;
+  void rows(Rows6& out) const {
     for (int i = 0; i < 6; ++i) {
       for (int p = i / 2; p < 3; ++p) out.row[i].p[p] = row_[i].p[p];
     }
@@ -117,7 +124,6 @@ class Symmetric6 {
         out.row[2 * q + 1].p[p] = Pair{upper[1], lower[1]};
       }
     }
-    return out;
   }
 
   // The inertia about a point moved by r: X^T A X with X = [ E [r]; 0 E ],

@@ -7,64 +7,89 @@ namespace substep {
 
 namespace {
 
-/// f = J^T impulse, with `sign` times the identity in the linear parts of a pinned block.
-void gather(const Block& block, const double (&J)[kMaxRows][6], double sign, const double* impulse,
-            double (&f)[6]) {
-  for (double& component : f) component = 0.0;
+// Rows i of [r] are -r_l at j and r_j at l, zero at i, with i, j, l in turn.
+constexpr int kNext[5] = {0, 1, 2, 0, 1};
+
+/// J^T x of one side, added to a momentum.
+/// @param sign of the side of a pinned block: +1 for a, -1 for b
+void add_push(const Block& block, const double (&J)[kMaxRows][6], double sign, const Vec3& r,
+              const double* x, Vec6& g) {
+  int row = 0;
+  int first = 0;
   if (block.pinned) {
-    for (int j = 0; j < 3; ++j) f[j] = sign * impulse[j];
-    for (int row = 0; row < block.rows; ++row) {
-      for (int j = 3; j < 6; ++j) f[j] += J[row][j] * impulse[row];
+    for (; row < 3; ++row) {
+      const int j = kNext[row + 1];
+      const int l = kNext[row + 2];
+      const double f = sign * x[row];
+      g[row] += f;
+      g[3 + j] += r[l] * f;
+      g[3 + l] -= r[j] * f;
     }
-  } else {
-    for (int row = 0; row < block.rows; ++row) {
-      for (int j = 0; j < 6; ++j) f[j] += J[row][j] * impulse[row];
-    }
+    first = 3;
+  }
+  for (; row < block.rows; ++row) {
+    for (int j = first; j < 6; ++j) g[j] += J[row][j] * x[row];
   }
 }
 
-void kick(const double (&f)[6], const InverseMass& mass, Vec6& u) {
+void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
   for (int i = 0; i < 3; ++i) {
     u[i] += mass.linear * f[i];
     u[3 + i] += mass.angular(i, 0) * f[3] + mass.angular(i, 1) * f[4] + mass.angular(i, 2) * f[5];
   }
 }
 
-void add_speeds(const Block& block, const double (&J)[kMaxRows][6], double sign, const Vec6& u,
-                double* speed) {
-  if (block.pinned) {
-    for (int row = 0; row < block.rows; ++row) {
-      speed[row] += J[row][3] * u[3] + J[row][4] * u[4] + J[row][5] * u[5];
-    }
-    for (int j = 0; j < 3; ++j) speed[j] += sign * u[j];
-  } else {
+/// J u of one side, added to the speeds of the rows.
+void add_speeds(const Block& block, const double (&J)[kMaxRows][6], double sign, const Vec3& r,
+                const Vec6& u, double* speed) {
+  if (!block.pinned) {
     for (int row = 0; row < block.rows; ++row) {
       speed[row] += (J[row][0] * u[0] + J[row][1] * u[1] + J[row][2] * u[2]) +
                     (J[row][3] * u[3] + J[row][4] * u[4] + J[row][5] * u[5]);
     }
+    return;
+  }
+  for (int row = 0; row < 3; ++row) {
+    const int j = kNext[row + 1];
+    const int l = kNext[row + 2];
+    speed[row] += sign * (u[3 + j] * r[l] - u[3 + l] * r[j]);
+    speed[row] += sign * u[row];
+  }
+  for (int row = 3; row < block.rows; ++row) {
+    speed[row] += J[row][3] * u[3] + J[row][4] * u[4] + J[row][5] * u[5];
   }
 }
 
 }  // namespace
 
-void row_speeds(const Block& block, std::span<const Vec6> u, double* speed) {
+void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed) {
   for (int row = 0; row < block.rows; ++row) speed[row] = 0.0;
-  if (block.a >= 0) add_speeds(block, block.J_a, 1.0, u[static_cast<std::size_t>(block.a)], speed);
-  if (block.b >= 0) add_speeds(block, block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], speed);
+  if (a != nullptr) add_speeds(block, block.J_a, 1.0, block.r_a, *a, speed);
+  if (b != nullptr) add_speeds(block, block.J_b, -1.0, block.r_b, *b, speed);
+}
+
+void row_speeds(const Block& block, std::span<const Vec6> u, double* speed) {
+  row_speeds(block, block.a < 0 ? nullptr : &u[static_cast<std::size_t>(block.a)],
+             block.b < 0 ? nullptr : &u[static_cast<std::size_t>(block.b)], speed);
+}
+
+void push(const Block& block, const double* x, Vec6* a, Vec6* b) {
+  if (a != nullptr) add_push(block, block.J_a, 1.0, block.r_a, x, *a);
+  if (b != nullptr) add_push(block, block.J_b, -1.0, block.r_b, x, *b);
 }
 
 void apply_impulse(const Block& block, const double* impulse,
                    std::span<const InverseMass> inverse_mass, std::span<Vec6> u) {
-  double f[6];
+  Vec6 on_a = Vec6::Zero();
+  Vec6 on_b = Vec6::Zero();
+  push(block, impulse, &on_a, &on_b);
   if (block.a >= 0) {
     const auto a = static_cast<std::size_t>(block.a);
-    gather(block, block.J_a, 1.0, impulse, f);
-    kick(f, inverse_mass[a], u[a]);
+    kick(on_a, inverse_mass[a], u[a]);
   }
   if (block.b >= 0) {
     const auto b = static_cast<std::size_t>(block.b);
-    gather(block, block.J_b, -1.0, impulse, f);
-    kick(f, inverse_mass[b], u[b]);
+    kick(on_b, inverse_mass[b], u[b]);
   }
 }
 

@@ -50,6 +50,12 @@ struct SolveReport {
 /// @param speed out, one per row [m/s or rad/s]
 void row_speeds(const Block& block, std::span<const Vec6> u, double* speed);
 
+/// The same from the velocities of both sides; nullptr for a static one.
+void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed);
+
+/// Adds J^T x to the momenta of both sides; nullptr for a static one. @param x one per row
+void push(const Block& block, const double* x, Vec6* a, Vec6* b);
+
 /// u += Mt^-1 J^T impulse for all rows of a block.
 void apply_impulse(const Block& block, const double* impulse,
                    std::span<const InverseMass> inverse_mass, std::span<Vec6> u);

@@ -91,10 +91,11 @@ void effective_mass(const Scene& scene, const Settings& settings, std::span<cons
     }
     Vec3 Mt;
     if (!principal_mass(settings, I, state.k[i], dt, Mt)) continue;
-    inverse[i].angular = turned(R, Mt.cwiseInverse());
+    const Vec3 W = Mt.cwiseInverse();
+    inverse[i].angular = turned(R, W);
     const Vec3 kept = beta * u_start[i].tail<3>();
     const Vec3 rest_B = R.transpose() * (omega - kept);
-    omega = kept + R * rest_B.cwiseProduct(I).cwiseQuotient(Mt);
+    omega = kept + R * rest_B.cwiseProduct(I.cwiseProduct(W));
   }
 }
 

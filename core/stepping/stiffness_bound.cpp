@@ -9,6 +9,7 @@ namespace substep {
 namespace {
 
 constexpr std::int64_t kProduct = product_flops(3, 3, 3);
+constexpr std::int64_t kSkewProduct = 12;
 constexpr std::int64_t kSum = 9;
 
 std::int64_t exact_contact_flops(std::int64_t bodies) {
@@ -21,12 +22,12 @@ std::int64_t exact_contact_flops(std::int64_t bodies) {
 /// Of adding one block to K, as core/constraints/ does it.
 std::int64_t block_flops(const Block& block, ContactStiffness form) {
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  const std::int64_t ball = bodies * (kProduct + kSum);
+  const std::int64_t ball = bodies * (kSkewProduct + kSum);
   switch (block.kind) {
     case BlockKind::kBall:
       return ball;
-    case BlockKind::kHinge:  // V U and U V of two rows, on each body and between both
-      return ball + 2 * (2 * (kProduct + kSum) + bodies * bodies * kSum);
+    case BlockKind::kHinge:  // w, W U, on each body and between both
+      return ball + 9 + kSkewProduct + bodies * bodies * kSum;
     case BlockKind::kContact:
       if (form == ContactStiffness::kPaper) return 3 + (block.rows == 3 ? 12 : 0) + ball;
       return block.lambda[0] == 0.0 ? 0 : exact_contact_flops(bodies);
@@ -79,6 +80,7 @@ StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const Vec6> k
     if (body.is_static) continue;
     for (int dof = 0; dof < 6; ++dof) {
       const double mass = dof < 3 ? body.mass : body.inertia[dof - 3];
+      if (k[i][dof] < 0.999 * best.r * mass) continue;  // a division less
       const double r = k[i][dof] / mass;
       if (r > best.r) best = {r, static_cast<int>(i), dof, k[i][dof], mass};
     }

@@ -28,7 +28,7 @@ Scene rope_of_n(const RopeOptions& options = {});
 /// The rope of 25 links with its anchor at (0, 12, 0), over a floor that is only drawn.
 struct SwingingBoxOptions {
   Angle angle = kSixtyDegrees;  // from straight down
-  double compliance = 1e-12;    // of all joint rows; the tests of order use 0 [m/N, rad/(N m)]
+  double compliance = 0.0;      // of all joint rows: hinges are exact [m/N, rad/(N m)]
 };
 Scene swinging_box(const SwingingBoxOptions& options = {});
 

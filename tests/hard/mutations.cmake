@@ -32,5 +32,5 @@ substep_mutation(compliance_on_redundant_rows core/sim/substep.cpp
 substep_mutation(soft_drift_with_PGS core/sim/substep.cpp "drift_law\\(settings\\)" "Drift::kFull"
   paper_tests SwingingBoxPgs.AdaptiveHoldsWithTheSoftDriftLaw)
 substep_mutation(the_principal_frame_diagonal core/constraints/stiffness_matrix.cpp
-  "(Cols<3>\\(\\)) \\* R;" "\\1 * Mat3::Identity();"
+  "columns \\* R\\)" "columns * Mat3::Identity())"
   physics_tests Invariance.TurnedWithGravitySubstepsAndMotionAreTheSame)

@@ -58,6 +58,30 @@ TEST(Stages, FrictionRowsOnlyWhereBothBodiesHaveFriction) {
   EXPECT_EQ(first_frame(scene).friction_rows, 0);
 }
 
+TEST(Report, WhatIsNotMeasuredIsNoNumberAndDoesNotChangeTheMotion) {
+  for (const Scene& scene : {scenes::swinging_box(), scenes::heavy_stack()}) {
+    Simulator all(std::make_shared<const Scene>(scene));
+    Simulator none(std::make_shared<const Scene>(scene));
+    none.set_measures({.energies = false, .errors = false, .stages = false});
+    for (int frame = 0; frame < 5; ++frame) {
+      const FrameReport with = all.step();
+      const FrameReport without = none.step();
+      EXPECT_EQ(with.n_substeps, without.n_substeps);
+      EXPECT_EQ(with.work.flops, without.work.flops);
+      EXPECT_EQ(with.leader.r, without.leader.r);
+      EXPECT_TRUE(std::isfinite(with.energy) && std::isfinite(with.work.residual));
+      for (const double unknown :
+           {without.kinetic, without.potential, without.energy, without.constraint_error,
+            without.joint_gap, without.penetration, without.work.residual, without.times.solve}) {
+        EXPECT_TRUE(std::isnan(unknown));
+      }
+      EXPECT_TRUE(std::isfinite(without.times.total));
+    }
+    EXPECT_EQ(state_hash(all.state()), state_hash(none.state()));
+    EXPECT_EQ(all.observe().energy, none.observe().energy) << "asked for, it is there";
+  }
+}
+
 TEST(Report, NamesWhoSetR) {
   const Scene scene = scenes::swinging_box();
   Simulator simulator(std::make_shared<const Scene>(scene));

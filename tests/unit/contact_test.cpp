@@ -393,5 +393,84 @@ TEST(Detector, FindsWhatEveryPairTestedAloneFinds) {
   }
 }
 
+// What is kept from sub-step to sub-step must not show: as bodies drift, turn, jump or stay.
+TEST(Detector, FindsWhatOneWithoutAMemoryFinds) {
+  Random random(9);
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene scene;
+    scene.effects.contact = true;
+    scene.bodies.push_back(fixed(Plane{}));
+    for (int i = 0; i < 24; ++i) {
+      Body body = i % 2 == 0 ? moving(Sphere{0.3}) : moving(Box{Vec3{0.2, 0.5, 0.1}});
+      body.position = Vec3{1.5, i % 3 == 0 ? 0.4 : 1.5, 0.5}.cwiseProduct(random_vector(random));
+      body.orientation = random_rotation(random);
+      scene.bodies.push_back(body);
+    }
+    State state = initial_state(scene);
+    const Rows kept = contact_rows(scene);
+    std::size_t found = 0;
+    for (int step = 0; step < 60; ++step) {
+      const double far = step % 20 == 19 ? 2.0 : 0.02;
+      for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
+        if (uniform(random) < 0.0) continue;
+        state.x[i] += far * random_vector(random);
+        const Vec3 turn = far * random_vector(random);
+        state.q[i] = (Quat(1.0, turn.x(), turn.y(), turn.z()) * state.q[i]).normalized();
+      }
+      Blocks with;
+      Blocks without;
+      kept(state, with);
+      contact_rows(scene)(state, without);
+      ASSERT_EQ(with.size(), without.size()) << trial << ", " << step;
+      for (std::size_t i = 0; i < with.size(); ++i) {
+        EXPECT_EQ(with.all()[i].id, without.all()[i].id);
+        EXPECT_EQ(with.all()[i].phi[0], without.all()[i].phi[0]);
+      }
+      found += with.size();
+    }
+    EXPECT_GT(found, 100U);
+  }
+}
+
+// Blocks of a joint are angular, those of an exact contact are not; one pair has both.
+TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
+  Random random(10);
+  const std::vector<Mat3> R{random_rotation(random).toRotationMatrix(),
+                            random_rotation(random).toRotationMatrix()};
+  for (int before = 0; before < 5; ++before) {  // angular blocks before the first whole one
+    StiffnessMatrix K;
+    K.clear(2);
+    Eigen::Matrix<double, 12, 12> dense = Eigen::Matrix<double, 12, 12>::Zero();
+    for (int n = 0; n < 8; ++n) {
+      const int row = n / 2 % 2;
+      const int col = n % 2;
+      if (n < before || n % 3 == 0) {
+        const Mat3 block = random_rotation(random).toRotationMatrix();
+        K.add_angular(row, col, block);
+        dense.block<3, 3>(6 * row + 3, 6 * col + 3) += block;
+      } else {
+        const Mat6 block = Mat6::Random();
+        K.add(row, col, block);
+        dense.block<6, 6>(6 * row, 6 * col) += block;
+      }
+    }
+    std::vector<Vec6> k(2);
+    K.column_norms(R, k);
+    for (int body = 0; body < 2; ++body) {
+      for (int other = 0; other < 2; ++other) {
+        EXPECT_LT((K.block(other, body) - dense.block<6, 6>(6 * other, 6 * body)).norm(), 1e-15);
+      }
+      for (int part = 0; part < 2; ++part) {
+        const auto columns =
+            dense.middleCols<3>(6 * body + 3 * part) * R[static_cast<std::size_t>(body)];
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_NEAR(k[static_cast<std::size_t>(body)][3 * part + c], columns.col(c).norm(),
+                      1e-14);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace substep::test

@@ -19,6 +19,7 @@ class World {
       if (problem) bench::refuse(name + ": " + *problem);
     }
     simulator_.set_settings(settings);
+    simulator_.set_measures({.energies = false, .errors = false, .stages = false});
   }
 
   void step() { simulator_.step(); }

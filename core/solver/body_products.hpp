@@ -1,0 +1,25 @@
+#pragma once
+// Products of the six numbers of a body: linear part first, then angular.
+
+#include "core/solver/system.hpp"
+
+namespace substep {
+
+/// J of one row on one of its bodies.
+inline const double (&gradient(const Block& block, int row, bool of_a))[6] {
+  return of_a ? block.J_a[row] : block.J_b[row];
+}
+
+inline double dot6(const double* a, const double* b) {
+  return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
+}
+
+/// Mt^-1 f.
+inline void weigh(const InverseMass& mass, const double* f, double* out) {
+  for (int i = 0; i < 3; ++i) {
+    out[i] = mass.linear * f[i];
+    out[3 + i] = mass.angular(i, 0) * f[3] + mass.angular(i, 1) * f[4] + mass.angular(i, 2) * f[5];
+  }
+}
+
+}  // namespace substep

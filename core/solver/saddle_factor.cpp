@@ -1,0 +1,283 @@
+// The factor of a node.
+
+#include <algorithm>
+
+#include "core/solver/body_products.hpp"
+#include "core/solver/dense_ldlt.hpp"
+#include "core/solver/flops.hpp"
+#include "core/solver/saddle_ldlt.hpp"
+#include "core/solver/spring.hpp"
+
+namespace substep {
+
+namespace {
+
+// Exact rows that are redundant on the body of their node, as in closed loops of exact joints, need
+// not be redundant in the whole. They are softened by this much of J A^-1 J^T: as much is wrong
+// with the answer, and rounding makes as much again.
+constexpr double kLeastPivot = 1e-8;
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// The upper half from the lower.
+void mirror(Square6& A) {
+  for (int i = 1; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) A[j][i] = A[i][j];
+  }
+}
+
+}  // namespace
+
+Square6& SaddleLdlt::square(std::size_t at) {
+  return *reinterpret_cast<Square6*>(values_.data() + at);
+}
+
+SaddleLdlt::Factor SaddleLdlt::at(const Node& node) {
+  const std::size_t w = index(width(node));
+  const std::size_t r = index(node.most_rows);
+  Factor f;
+  f.A = values_.data() + node.values;
+  f.A_inverse = f.A + 36;
+  f.Y = f.A_inverse + 6;
+  f.V = f.Y + 6 * w;
+  f.S = f.V + 6 * r;
+  f.S_inverse = f.S + r * r;
+  f.Z = f.S_inverse + r;
+  return f;
+}
+
+void SaddleLdlt::count(Node& node) {
+  const std::int64_t n = width(node);
+  const std::int64_t rows = node.n_rows;
+  for (std::size_t c = 0; c < node.n_children; ++c) {
+    const std::int64_t handed = width(nodes_[index(children_[node.first_child + c])]);
+    flops_ += handed * (handed + 6) / 2;
+  }
+  if (node.way == Way::kArticulated) {
+    const Attached& attached = attached_[node.first_attached];
+    flops_ += ArticulatedJoint::factor_flops(keys_[index(attached.block)].rows);
+    node.solve_flops = ArticulatedJoint::solve_flops(keys_[index(attached.block)].rows);
+    return;
+  }
+  const std::int64_t gram = n * (n + 6);  // of one row of Y or Z: two flops on half a square
+  const std::int64_t to_general = node.way == Way::kGeneral ? 1 : 0;
+  flops_ += to_general * (ldlt_flops(6) + unit_triangle_flops(6, n + rows) + 6 * gram +
+                          product_flops(rows, 6, n) + 2 * product_flops(node.n_folded, 6, 9)) +
+            product_flops(rows, 6, rows + 6) / 2 + ldlt_flops(rows) + unit_triangle_flops(rows, n) +
+            rows * gram;
+  node.solve_flops = 2 * (unit_triangle_flops(6) + unit_triangle_flops(rows) +
+                          product_flops(rows, 6, 2) + product_flops(rows + 6, n, 1));
+}
+
+void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
+  switch (node.way) {
+    case Way::kArticulated:
+      return factor_articulated(node);
+    case Way::kBare:
+      return factor_bare(node, blocks);
+    case Way::kGeneral:
+      return factor_general(node, blocks);
+  }
+}
+
+void SaddleLdlt::add_inertia(const Node& node, Square6& A) const {
+  const InverseMass& inverse = inverse_mass_[index(node.body)];
+  double I[3][3];
+  inverse_of(inverse.angular, I);
+  const double mass = 1.0 / inverse.linear;
+  for (int i = 0; i < 3; ++i) {
+    A[i][i] += mass;
+    A[3 + i][3 + i] += I[i][i];
+    for (int j = 0; j < i; ++j) {
+      A[3 + i][3 + j] += I[i][j];
+      A[3 + j][3 + i] += I[i][j];
+    }
+  }
+}
+
+// A bare node keeps only its rows: what they leave is of so low a rank that it is cheaper made
+// where it goes.
+template <bool on_diagonal>
+void SaddleLdlt::add_left(const Node& child, int s, int t, double* to, auto stride) {
+  const int m = width(child);
+  if (child.way == Way::kBare) {
+    const Factor f = at(child);
+    const int* first = first_filled_.data() + child.first_coupled;
+    const int row = std::max(first[s], first[t]);
+    return add_gram_block<on_diagonal>(f.Z + row * m + 6 * s, f.Z + row * m + 6 * t,
+                                       f.S_inverse + row, child.n_rows - row, 1.0, m, to, stride);
+  }
+  const double* from = values_.data() + child.update + 6 * s * m + 6 * t;
+  for (int i = 0; i < 6; ++i) {
+    const int n = on_diagonal ? i + 1 : 6;
+    for (int j = 0; j < n; ++j) to[i * stride + j] += from[i * m + j];
+  }
+}
+
+void SaddleLdlt::add_children(const Node& node, Square6& A, double* B, double* U, auto n) {
+  for (std::size_t c = 0; c < node.n_children; ++c) {
+    const Node& child = nodes_[index(children_[node.first_child + c])];
+    const int* place = place_.data() + child.first_coupled;
+    add_left<true>(child, 0, 0, A[0], Known<6>{});
+    for (int t = 1; t < child.coupled; ++t) {
+      add_left<false>(child, 0, t, B + 6 * place[t], n);
+      for (int s = 1; s < t; ++s) {
+        add_left<false>(child, s, t, U + 6 * (place[s] * n + place[t]), n);
+      }
+      add_left<true>(child, t, t, U + 6 * (place[t] * n + place[t]), n);
+    }
+  }
+}
+
+void SaddleLdlt::factor_articulated(Node& node) {
+  ArticulatedJoint& joint = joints_[node.joint];
+  const int* children = children_.data() + node.first_child;
+  Square6 sum = {};
+  const Square6* carried = &sum;
+  if (node.n_children == 1 && nodes_[index(children[0])].way == Way::kArticulated) {
+    carried = &square(nodes_[index(children[0])].update);
+  } else {
+    for (std::size_t c = 0; c < node.n_children; ++c) {
+      const Node& child = nodes_[index(children[c])];
+      Square6 shifted;
+      const Square6* from = &square(child.update);
+      if (child.way != Way::kArticulated) {
+        Square6 left = {};
+        add_left<true>(child, 0, 0, left[0], Known<6>{});
+        mirror(left);
+        load(left).shift(joint.pivot(), shifted);
+        from = &shifted;
+      }
+      for (int i = 0; i < 6; ++i) {
+        for (int j = i; j < 6; ++j) sum[i][j] += (*from)[i][j];
+      }
+    }
+  }
+  Square6* to_parent = node.parent < 0 ? nullptr : &square(node.update);
+  joint.eliminate(inverse_mass_[index(node.body)], *carried, to_parent);
+  if (to_parent == nullptr || nodes_[index(node.parent)].way == Way::kArticulated) return;
+  for (int i = 1; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) (*to_parent)[i][j] = (*to_parent)[j][i];
+  }
+}
+
+void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
+  node.n_rows = 0;
+  node.n_folded = 0;
+  for (std::size_t k = 0; k < node.n_attached; ++k) {
+    const Attached& attached = attached_[node.first_attached + k];
+    const Block& block = blocks[index(attached.block)];
+    for (int row = 0; row < block.rows; ++row) {
+      if (block.tight[row] != 0) continue;
+      if (attached.folded) {
+        ++node.n_folded;
+        continue;
+      }
+      rows_[node.first_row + index(node.n_rows++)] = {static_cast<int>(k), row};
+    }
+  }
+}
+
+void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
+  gather_rows(node, blocks);
+  const int rows = node.n_rows;
+  const int n = width(node);
+  const Factor f = at(node);
+  int* first = first_filled_.data() + node.first_coupled;
+  std::fill(first, first + node.coupled, rows);
+  if (rows == 0) return;
+  std::fill(f.Z, f.Z + rows * n, 0.0);
+  const InverseMass& inverse = inverse_mass_[index(node.body)];
+  for (int i = 0; i < rows; ++i) {
+    const Row& row = rows_[node.first_row + index(i)];
+    const Attached& attached = attached_[node.first_attached + index(row.attached)];
+    const Block& block = blocks[index(attached.block)];
+    const auto& J = gradient(block, row.row, attached.is_a);
+    weigh(inverse, J, f.V + 6 * i);
+    for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(J, f.V + 6 * j);
+    f.S_inverse[i] = kLeastPivot * f.S[i * rows + i];
+    f.S[i * rows + i] += block.softness[row.row];
+    if (attached.other < 0) continue;
+    const auto& J_other = gradient(block, row.row, !attached.is_a);
+    std::copy(J_other, J_other + 6, f.Z + i * n + 6 * attached.other);
+    first[attached.other] = std::min(first[attached.other], i);
+  }
+  factor_ldlt(f.S, rows, f.S_inverse);
+  solve_lower(f.S, rows, n, f.Z);
+}
+
+void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks) {
+  switch (node.coupled) {  // what chains, bridges and stacks are made of
+    case 0:
+      return factor_general(node, blocks, Known<0>{});
+    case 1:
+      return factor_general(node, blocks, Known<6>{});
+    case 2:
+      return factor_general(node, blocks, Known<12>{});
+    default:
+      return factor_general(node, blocks, width(node));
+  }
+}
+
+void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto n) {
+  const Factor f = at(node);
+  double* U = values_.data() + node.update;
+  std::fill(U, U + n * n, 0.0);
+  std::fill(f.Y, f.Y + 6 * n, 0.0);
+  Square6 A = {};
+  add_inertia(node, A);
+  add_children(node, A, f.Y, U, n);
+  for (std::size_t k = 0; k < node.n_attached; ++k) {
+    const Attached& attached = attached_[node.first_attached + k];
+    if (!attached.folded) continue;
+    SpringTarget to{.A = A};
+    if (attached.other >= 0) {
+      const std::size_t at = index(6 * attached.other);
+      to.B = f.Y + at;
+      to.U = U + at * index(n) + at;
+      to.stride = index(n);
+    }
+    add_springs(blocks[index(attached.block)], attached.is_a, to);
+  }
+  for (std::size_t i = 0; i < 6; ++i) std::copy(A[i], A[i] + 6, f.A + 6 * i);
+  std::fill(f.A_inverse, f.A_inverse + 6, 0.0);
+  factor_ldlt(f.A, Known<6>{}, f.A_inverse);
+  solve_lower(f.A, Known<6>{}, n, f.Y);
+  add_gram(f.Y, f.A_inverse, Known<6>{}, -1.0, n, U);
+  gather_rows(node, blocks);
+  if (node.n_rows > 0) eliminate_rows(node, blocks);
+}
+
+void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
+  const int rows = node.n_rows;
+  const int n = width(node);
+  const Factor f = at(node);
+  std::fill(f.Z, f.Z + rows * n, 0.0);
+  for (int i = 0; i < rows; ++i) {
+    const Row& row = rows_[node.first_row + index(i)];
+    const Attached& attached = attached_[node.first_attached + index(row.attached)];
+    const Block& block = blocks[index(attached.block)];
+    double* V = f.V + 6 * i;
+    const auto& J = gradient(block, row.row, attached.is_a);
+    std::copy(J, J + 6, V);
+    solve_lower(f.A, Known<6>{}, Known<1>{}, V);
+    double weighted[6];
+    for (int j = 0; j < 6; ++j) weighted[j] = f.A_inverse[j] * V[j];
+    for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(weighted, f.V + 6 * j);
+    f.S[i * rows + i] += block.softness[row.row];
+    double on_body[6];
+    weigh(inverse_mass_[index(node.body)], J, on_body);
+    f.S_inverse[i] = kLeastPivot * dot6(J, on_body);
+    double* Z = f.Z + i * n;
+    if (attached.other >= 0) {
+      const auto& J_other = gradient(block, row.row, !attached.is_a);
+      std::copy(J_other, J_other + 6, Z + 6 * attached.other);
+    }
+    for (int j = 0; j < 6; ++j) subtract_row(f.Y + j * n, weighted[j], n, Z);
+  }
+  factor_ldlt(f.S, rows, f.S_inverse);
+  solve_lower(f.S, rows, n, f.Z);
+  add_gram(f.Z, f.S_inverse, rows, 1.0, n, values_.data() + node.update);
+}
+
+}  // namespace substep

@@ -80,10 +80,11 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
     }
     report.stages.gravity = true;
   }
-  substep::inverse_mass(*scene, R_WB, inverse_mass);
   if (changes_mass(settings.mode)) {
     effective_mass(*scene, settings, R_WB, u_start, dt, state, inverse_mass);
     report.stages.effective_mass = true;
+  } else {
+    substep::inverse_mass(*scene, R_WB, inverse_mass);
   }
   clock.lap(report.times.mass);
 }

@@ -65,22 +65,36 @@ inline void solve_upper(const double* L, auto n, double* x) {
   }
 }
 
-/// A 6 x 6 block of sign * sum over k of Z_k^T d_k Z_k, with Z_k rows of `width`. A block on the
-/// diagonal is symmetric, and is made on and below its diagonal.
+/// Two rows of a 6 x 6 block of sign * sum over k of Z_k^T d_k Z_k, with Z_k rows of `width`, as
+/// many pairs of their elements as are asked for.
+template <std::size_t pairs>
+void add_gram_rows(const double* Z_i, const double* Z_j, const double* d, auto rows, double sign,
+                   auto width, double* to, auto stride) {
+  Pair first[pairs] = {};
+  Pair second[pairs] = {};
+  for (int k = 0; k < rows; ++k) {
+    const double f = sign * (Z_i[k * width] * d[k]);
+    const double g = sign * (Z_i[k * width + 1] * d[k]);
+    for (std::size_t p = 0; p < pairs; ++p) {
+      const Pair z = load_pair(Z_j + k * width + 2 * p);
+      first[p] += f * z;
+      second[p] += g * z;
+    }
+  }
+  for (std::size_t p = 0; p < pairs; ++p) {
+    store_pair(load_pair(to + 2 * p) + first[p], to + 2 * p);
+    store_pair(load_pair(to + stride + 2 * p) + second[p], to + stride + 2 * p);
+  }
+}
+
+/// Such a block. One on the diagonal is symmetric, and is made on and below its diagonal.
 /// @param Z_i, Z_j the columns of the block in the first row  @param to the block, added to
 template <bool on_diagonal>
 void add_gram_block(const double* Z_i, const double* Z_j, const double* d, auto rows, double sign,
                     auto width, double* to, auto stride) {
-  for (int i = 0; i < 6; ++i) {
-    const int pairs = on_diagonal ? i / 2 + 1 : 3;
-    Pair sum[3] = {};
-    for (int k = 0; k < rows; ++k) {
-      const double f = sign * (Z_i[k * width + i] * d[k]);
-      for (int p = 0; p < pairs; ++p) sum[p] += f * load_pair(Z_j + k * width + 2 * p);
-    }
-    double* row = to + i * stride;
-    for (int p = 0; p < pairs; ++p) store_pair(load_pair(row + 2 * p) + sum[p], row + 2 * p);
-  }
+  add_gram_rows<on_diagonal ? 1 : 3>(Z_i, Z_j, d, rows, sign, width, to, stride);
+  add_gram_rows<on_diagonal ? 2 : 3>(Z_i + 2, Z_j, d, rows, sign, width, to + 2 * stride, stride);
+  add_gram_rows<3>(Z_i + 4, Z_j, d, rows, sign, width, to + 4 * stride, stride);
 }
 
 /// All blocks of such a sum on and above the diagonal. @param U width x width, added to

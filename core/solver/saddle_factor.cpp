@@ -88,10 +88,7 @@ void SaddleLdlt::add_inertia(const Node& node, Square6& A) const {
   for (int i = 0; i < 3; ++i) {
     A[i][i] += mass;
     A[3 + i][3 + i] += I[i][i];
-    for (int j = 0; j < i; ++j) {
-      A[3 + i][3 + j] += I[i][j];
-      A[3 + j][3 + i] += I[i][j];
-    }
+    for (int j = 0; j < i; ++j) A[3 + i][3 + j] += I[i][j];
   }
 }
 

@@ -3,6 +3,8 @@
 // have such vectors, and every lane computes what scalars would, bit for bit. Numbers do not go
 // through memory between scalar and vector operations: that would stall each of them.
 
+#include <cstring>
+
 namespace substep {
 
 /// A symmetric 6 x 6 matrix of a body in memory, linear part first.
@@ -11,11 +13,12 @@ using Square6 = double[6][6];
 using Pair [[gnu::vector_size(16)]] = double;
 
 /// Two numbers of a row in memory, wherever it begins.
-inline Pair load_pair(const double* from) { return Pair{from[0], from[1]}; }
-inline void store_pair(const Pair& pair, double* to) {
-  to[0] = pair[0];
-  to[1] = pair[1];
+inline Pair load_pair(const double* from) {
+  Pair pair;
+  std::memcpy(&pair, from, sizeof pair);
+  return pair;
 }
+inline void store_pair(const Pair& pair, double* to) { std::memcpy(to, &pair, sizeof pair); }
 
 /// A vector of a body: linear part first.
 struct Pairs6 {

@@ -19,23 +19,24 @@ Mat3 turned(const Mat3& R, const Vec3& d) {
   return m;
 }
 
+InverseMass inverse_mass_of(const Body& body, const Mat3& R) {
+  InverseMass inverse;
+  if (body.is_static) return inverse;
+  inverse.linear = 1.0 / body.mass;
+  const Vec3& I = body.inertia;
+  if (I[0] == I[1] && I[1] == I[2]) {
+    inverse.angular = Mat3::Identity() / I[0];
+  } else {
+    inverse.angular = turned(R, I.cwiseInverse());
+  }
+  return inverse;
+}
+
 }  // namespace
 
-void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::vector<InverseMass>& out) {
-  out.resize(scene.bodies.size());
+void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::span<InverseMass> out) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.is_static) {
-      out[i] = InverseMass{};
-      continue;
-    }
-    out[i].linear = 1.0 / body.mass;
-    const Vec3& I = body.inertia;
-    if (I[0] == I[1] && I[1] == I[2]) {
-      out[i].angular = Mat3::Identity() / I[0];
-    } else {
-      out[i].angular = turned(R_WB[i], I.cwiseInverse());
-    }
+    out[i] = inverse_mass_of(scene.bodies[i], R_WB[i]);
   }
 }
 
@@ -73,26 +74,32 @@ bool principal_mass(const Settings& s, const Vec3& I, const Vec6& k, double dt, 
 //   u* = beta u + (1 - beta) S u + Mt^-1 dt f = S (u_M - beta u) + beta u.
 void effective_mass(const Scene& scene, const Settings& settings, std::span<const Mat3> R_WB,
                     std::span<const Vec6> u_start, double dt, State& state,
-                    std::span<InverseMass> inverse) {
+                    std::span<InverseMass> out) {
   const double beta = settings.mode == Mode::kInertia ? 1.0
                       : settings.mode == Mode::kBlend ? settings.beta
                                                       : 0.0;
-  for (std::size_t i = 0; i < scene.bodies.size() && i < state.k.size(); ++i) {
-    const Vec3& I = scene.bodies[i].inertia;
-    if (scene.bodies[i].is_static) continue;
+  const bool stiffens = settings.mode == Mode::kStiffness;
+  const std::size_t known = stiffens ? state.K_resisting.size() : state.k.size();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const Vec3& I = body.inertia;
     const Mat3& R = R_WB[i];
-    auto omega = state.u[i].tail<3>();
-    if (settings.mode == Mode::kStiffness) {
-      if (state.K_resisting.empty()) return;
-      const Mat3 M = turned(R, I);
-      inverse[i].angular = (M + dt * dt * state.K_resisting[i]).inverse();
-      omega = inverse[i].angular * (M * omega);
+    Vec3 Mt;
+    if (body.is_static || i >= known ||
+        (!stiffens && !principal_mass(settings, I, state.k[i], dt, Mt))) {
+      out[i] = inverse_mass_of(body, R);
       continue;
     }
-    Vec3 Mt;
-    if (!principal_mass(settings, I, state.k[i], dt, Mt)) continue;
+    out[i].linear = 1.0 / body.mass;
+    auto omega = state.u[i].tail<3>();
+    if (stiffens) {
+      const Mat3 M = turned(R, I);
+      out[i].angular = (M + dt * dt * state.K_resisting[i]).inverse();
+      omega = out[i].angular * (M * omega);
+      continue;
+    }
     const Vec3 W = Mt.cwiseInverse();
-    inverse[i].angular = turned(R, W);
+    out[i].angular = turned(R, W);
     const Vec3 kept = beta * u_start[i].tail<3>();
     const Vec3 rest_B = R.transpose() * (omega - kept);
     omega = kept + R * rest_B.cwiseProduct(I.cwiseProduct(W));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "core/model/scene.hpp"
 #include "core/model/settings.hpp"
@@ -11,7 +10,7 @@
 namespace substep {
 
 /// Mt^-1 = M^-1 of every body, world axes.
-void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::vector<InverseMass>& out);
+void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::span<InverseMass> out);
 
 /// Whether a mode puts another mass in the place of M.
 bool changes_mass(Mode mode);
@@ -22,9 +21,9 @@ bool changes_mass(Mode mode);
 /// geometric inertia (1).
 /// @param state with k (and K of mode stiffness) of the last sub-step; u as M makes it, replaced
 /// @param u_start velocities at the start of the sub-step  @param dt [s]
-/// @param inverse in: M^-1  out: Mt^-1
+/// @param out Mt^-1
 void effective_mass(const Scene& scene, const Settings& settings, std::span<const Mat3> R_WB,
                     std::span<const Vec6> u_start, double dt, State& state,
-                    std::span<InverseMass> inverse);
+                    std::span<InverseMass> out);
 
 }  // namespace substep

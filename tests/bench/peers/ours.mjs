@@ -5,6 +5,9 @@ const leapfrog = (n) => ({ mode: "const", n, integrator: "leapfrog", drift_order
 const euler = (n) => ({ mode: "const", n });
 const blend = (n_cap, more) => ({ mode: "blend", n_cap, ...more });
 const inertia = (n_cap) => ({ mode: "inertia", n_cap, integrator: "leapfrog" });
+const newton = (forces, n, iterations) => ({
+  ...{ solver: "newton", forces, mode: "const", n, iterations, integrator: "leapfrog" },
+});
 const kExact = { beta: 0.995, drift_order: 2, integrator: "leapfrog" };
 
 export const ladder = {
@@ -15,6 +18,9 @@ export const ladder = {
     blend(2, kExact),
     inertia(1),
     inertia(4),
+    newton("mean", 1, 2),
+    newton("mean", 2, 1),
+    ...[7, 14].map((n) => newton("numerov", n, 3)),
     { mode: "capped", n_cap: 4 },
   ],
   bridge: [
@@ -24,6 +30,8 @@ export const ladder = {
     { mode: "capped", n_cap: 4 },
     { mode: "capped", n_cap: 8 },
     { mode: "damping" },
+    ...[5, 10].map((steps) => newton("end", 1, steps)),
+    newton("end", 2, 5),
   ],
   stack: [...[1, 2, 4].map(euler), { mode: "damping" }, blend(1), kPaper],
 };

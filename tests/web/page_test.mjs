@@ -266,13 +266,21 @@ test("draws in parts, behind and over, what it draws at once where a processor m
   const width = await slow.evaluate(() => document.querySelector(".substep-backdrop").width);
   assert.ok(width < 1280, "the picture has fewer pixels");
   let together;
-  for (const size of [{ width: 1279, height: 719 }, { width: 1280, height: 720 }]) {
-    await slow.setViewportSize(size); // what was drawn is gone
-    await slow.waitForTimeout(500);
-    together = await picture(slow);
-    const atOnce = PNG.sync.read(Buffer.from(await slow.evaluate(async () => [
-      ...new Uint8Array(await (await window.substep.screenshot()).arrayBuffer())])));
-    assert.ok(difference(together, atOnce) < 0.02, `${difference(together, atOnce)} differ`);
+  const sizes = [{ width: 1280, height: 720 }, { width: 1279, height: 719 }];
+  for (const [before, size] of [sizes, [...sizes].reverse()]) {
+    let differs = 1;
+    // The quality may change between the two pictures; what is left behind is so every time.
+    for (let attempt = 1; differs >= 0.02 && attempt <= 4; ++attempt) {
+      await slow.setViewportSize(before);
+      await slow.waitForTimeout(500 * attempt);
+      await slow.setViewportSize(size); // what was drawn is gone
+      await slow.waitForTimeout(500 * attempt);
+      together = await picture(slow);
+      const atOnce = PNG.sync.read(Buffer.from(await slow.evaluate(async () => [
+        ...new Uint8Array(await (await window.substep.screenshot()).arrayBuffer())])));
+      differs = difference(together, atOnce);
+    }
+    assert.ok(differs < 0.02, `${differs} differ at ${size.width}`);
   }
   await save(slow, "software");
   quiet(slow);

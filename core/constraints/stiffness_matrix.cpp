@@ -1,6 +1,7 @@
 #include "core/constraints/stiffness_matrix.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace substep {
 
@@ -17,14 +18,20 @@ void StiffnessMatrix::clear(std::size_t bodies) {
   whole_.clear();
 }
 
-std::size_t StiffnessMatrix::find(int row, int col) {
-  const auto diagonal = static_cast<std::size_t>(col);
-  for (int e = col; e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
-    if (pairs_[static_cast<std::size_t>(e)].row == row) return static_cast<std::size_t>(e);
+int StiffnessMatrix::find(int row, int col) const {
+  int at = col;
+  while (at >= 0 && pairs_[static_cast<std::size_t>(at)].row != row) {
+    at = pairs_[static_cast<std::size_t>(at)].next;
   }
+  return at;
+}
+
+std::size_t StiffnessMatrix::made(int row, int col) {
+  if (const int at = find(row, col); at >= 0) return static_cast<std::size_t>(at);
   const std::size_t at = pairs_.size();
-  pairs_.push_back({row, pairs_[diagonal].next});
-  pairs_[diagonal].next = static_cast<int>(at);
+  Pair& diagonal = pairs_[static_cast<std::size_t>(col)];
+  const int next = std::exchange(diagonal.next, static_cast<int>(at));
+  pairs_.push_back({row, next});
   if (whole_.empty()) {
     angular_.push_back(Mat3::Zero());
   } else {
@@ -43,21 +50,16 @@ void StiffnessMatrix::widen() {
 
 void StiffnessMatrix::add(int row, int col, const Mat6& block) {
   if (whole_.empty()) widen();
-  const std::size_t at = find(row, col);
+  const std::size_t at = made(row, col);
   whole_[at] += block;
 }
 
 Mat6 StiffnessMatrix::block(int row, int col) const {
   Mat6 K = Mat6::Zero();
-  for (int e = col; e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
-    const auto at = static_cast<std::size_t>(e);
-    if (pairs_[at].row != row) continue;
-    if (whole_.empty()) {
-      K.bottomRightCorner<3, 3>() = angular_[at];
-    } else {
-      K = whole_[at];
-    }
-  }
+  const int at = find(row, col);
+  if (at < 0) return K;
+  if (!whole_.empty()) return whole_[static_cast<std::size_t>(at)];
+  K.bottomRightCorner<3, 3>() = angular_[static_cast<std::size_t>(at)];
   return K;
 }
 

@@ -19,7 +19,7 @@ class StiffnessMatrix {
   void clear(std::size_t bodies);
   /// Adds to the angular-angular part. @param block [N m/rad]
   void add_angular(int row, int col, const Mat3& block) {
-    const std::size_t at = row == col ? static_cast<std::size_t>(col) : find(row, col);
+    const std::size_t at = made(row, col);
     if (whole_.empty()) {
       angular_[at] += block;
     } else {
@@ -45,8 +45,10 @@ class StiffnessMatrix {
     int row = 0;
     int next = -1;  // next pair of the same column
   };
-  /// Where the block of a pair is, made where there is none.
-  std::size_t find(int row, int col);
+  /// Where the block of a pair is, -1 where there is none.
+  [[nodiscard]] int find(int row, int col) const;
+  /// The same, made where there is none.
+  std::size_t made(int row, int col);
   void widen();
 
   std::vector<Pair> pairs_;

@@ -136,7 +136,7 @@ void ArticulatedJoint::refer_to(const double* reference) {
 }
 
 template <int rows>
-void ArticulatedJoint::eliminate(Symmetric6& A) {
+void ArticulatedJoint::eliminate_rows(Symmetric6& A) {
   for (int k = 0; k < n_free(rows); ++k) {
     const Pairs6 column = A.angular_column(free_[k].f);
     const double inverse = 1.0 / along(free_[k].f, column);
@@ -153,9 +153,9 @@ void ArticulatedJoint::eliminate(Symmetric6& A) {
 void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, Square6* to_parent) {
   Symmetric6 A = add_inertia(W, r_, carried);
   if (rows_ == 5) {
-    eliminate<5>(A);
+    eliminate_rows<5>(A);
   } else {
-    eliminate<3>(A);
+    eliminate_rows<3>(A);
   }
   A.rows(P_);
   if (to_parent != nullptr) A.shift(to_parent_, *to_parent);

@@ -45,7 +45,7 @@ class ArticulatedJoint {
   /// A ball joint leaves three directions of rotation, a hinge one.
   static constexpr int n_free(int rows) { return rows == 5 ? 1 : 3; }
   template <int rows>
-  void eliminate(Symmetric6& A);
+  void eliminate_rows(Symmetric6& A);
   template <int rows>
   void forward_rows(const double* g_centre, double* g_parent);
   template <int rows>

@@ -6,7 +6,6 @@
 #include "core/solver/dense_ldlt.hpp"
 #include "core/solver/flops.hpp"
 #include "core/solver/saddle_ldlt.hpp"
-#include "core/solver/spring.hpp"
 
 namespace substep {
 
@@ -59,14 +58,16 @@ void SaddleLdlt::count(Node& node) {
     node.solve_flops = ArticulatedJoint::solve_flops(keys_[index(attached.block)].rows);
     return;
   }
+  // Zero blocks of a bare node are counted as if they were filled: sizes alone are looked at.
   const std::int64_t gram = n * (n + 6);  // of one row of Y or Z: two flops on half a square
   const std::int64_t to_general = node.way == Way::kGeneral ? 1 : 0;
   flops_ += to_general * (ldlt_flops(6) + unit_triangle_flops(6, n + rows) + 6 * gram +
-                          product_flops(rows, 6, n) + 2 * product_flops(node.n_folded, 6, 9)) +
+                          product_flops(rows, 6, n) + node.springs.factor) +
             product_flops(rows, 6, rows + 6) / 2 + ldlt_flops(rows) + unit_triangle_flops(rows, n) +
             rows * gram;
-  node.solve_flops = 2 * (unit_triangle_flops(6) + unit_triangle_flops(rows) +
-                          product_flops(rows, 6, 2) + product_flops(rows + 6, n, 1));
+  node.solve_flops =
+      node.springs.solve + 2 * (unit_triangle_flops(6) + unit_triangle_flops(rows) +
+                                product_flops(rows, 6, 2) + product_flops(rows + 6, n, 1));
 }
 
 void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
@@ -137,13 +138,14 @@ void SaddleLdlt::factor_articulated(Node& node) {
     for (std::size_t c = 0; c < node.n_children; ++c) {
       const Node& child = nodes_[index(children[c])];
       Square6 shifted;
-      const Square6* from = &square(child.update);
-      if (child.way != Way::kArticulated) {
+      const Square6* from = &shifted;
+      if (child.way == Way::kArticulated) {
+        from = &square(child.update);
+      } else {
         Square6 left = {};
         add_left<true>(child, 0, 0, left[0], Known<6>{});
         mirror(left);
         load(left).shift(joint.pivot(), shifted);
-        from = &shifted;
       }
       for (int i = 0; i < 6; ++i) {
         for (int j = i; j < 6; ++j) sum[i][j] += (*from)[i][j];
@@ -160,16 +162,20 @@ void SaddleLdlt::factor_articulated(Node& node) {
 
 void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
   node.n_rows = 0;
-  node.n_folded = 0;
+  node.springs = {};
   for (std::size_t k = 0; k < node.n_attached; ++k) {
     const Attached& attached = attached_[node.first_attached + k];
     const Block& block = blocks[index(attached.block)];
+    if (attached.folded) {
+      const auto free = std::count(block.tight, block.tight + block.rows, std::int8_t{0});
+      const SpringFlops flops =
+          spring_flops(block, static_cast<int>(free), attached.other < 0 ? 1 : 2);
+      node.springs.factor += flops.factor;
+      node.springs.solve += flops.solve;
+      continue;
+    }
     for (int row = 0; row < block.rows; ++row) {
       if (block.tight[row] != 0) continue;
-      if (attached.folded) {
-        ++node.n_folded;
-        continue;
-      }
       rows_[node.first_row + index(node.n_rows++)] = {static_cast<int>(k), row};
     }
   }

@@ -4,7 +4,6 @@
 
 #include "core/solver/body_products.hpp"
 #include "core/solver/dense_ldlt.hpp"
-#include "core/solver/spring.hpp"
 
 namespace substep {
 

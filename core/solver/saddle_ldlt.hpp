@@ -6,6 +6,7 @@
 
 #include "core/solver/articulated_joint.hpp"
 #include "core/solver/elimination_order.hpp"
+#include "core/solver/spring.hpp"
 #include "core/solver/system.hpp"
 
 namespace substep {
@@ -66,12 +67,12 @@ class SaddleLdlt {
     std::size_t n_attached = 0;
     std::size_t first_row = 0;  // into rows_ and c_
     int n_rows = 0;             // free and not folded
-    int n_folded = 0;           // rows
     int most_rows = 0;
+    SpringFlops springs;
     std::int64_t solve_flops = 0;
     std::size_t joint = 0;   // into joints_, of an articulated node
     std::size_t values = 0;  // into values_
-    std::size_t update = 0;  // into values_: what it leaves on the coupled bodies
+    std::size_t update = 0;  // into values_: what it leaves on the coupled bodies, unless bare
   };
   struct Row {
     int attached = 0;

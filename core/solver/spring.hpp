@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "core/constraints/block.hpp"
 #include "core/math/types.hpp"
@@ -8,7 +9,8 @@
 
 namespace substep {
 
-/// Where springs between a body and another add to a matrix of 6 x 6 blocks, row-major.
+/// Where springs between a body and another add to a matrix of 6 x 6 blocks, row-major: mass by
+/// dt^2 times stiffness [kg, kg m; kg m, kg m^2].
 struct SpringTarget {
   Square6& A;           // of the body, on and below the diagonal
   double* B = nullptr;  // between both; nullptr where there is no other moving body
@@ -16,9 +18,17 @@ struct SpringTarget {
   std::size_t stride = 0;
 };
 
-/// Free rows as springs of stiffness 1/s: J^T s^-1 J.
+/// Free rows as springs of stiffness 1/s: J^T s^-1 J. Rows of joints are always free.
 /// @param is_a which side of the block the body is
 void add_springs(const Block& block, bool is_a, const SpringTarget& to);
+
+/// Floating-point operations of springs: to add them, and of one solve.
+struct SpringFlops {
+  std::int64_t factor = 0;
+  std::int64_t solve = 0;
+};
+/// @param rows of the block that are free  @param bodies that move, 1 or 2
+SpringFlops spring_flops(const Block& block, int rows, int bodies);
 
 /// The impulses of free rows, x = -(w + J v)/s.
 /// @param w J u* + bias  @param a, b changes of velocity; nullptr for a static side

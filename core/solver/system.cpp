@@ -7,10 +7,7 @@ namespace substep {
 
 namespace {
 
-// Rows i of [r] are -r_l at j and r_j at l, zero at i, with i, j, l in turn.
-constexpr int kNext[5] = {0, 1, 2, 0, 1};
-
-/// J^T x of one side, added to a momentum.
+/// J^T x of one side, added to a momentum: of a pin x and r x x, row by row.
 /// @param sign of the side of a pinned block: +1 for a, -1 for b
 void add_push(const Block& block, const double (&J)[kMaxRows][6], double sign, const Vec3& r,
               const double* x, Vec6& g) {
@@ -18,8 +15,8 @@ void add_push(const Block& block, const double (&J)[kMaxRows][6], double sign, c
   int first = 0;
   if (block.pinned) {
     for (; row < 3; ++row) {
-      const int j = kNext[row + 1];
-      const int l = kNext[row + 2];
+      const int j = (row + 1) % 3;
+      const int l = (row + 2) % 3;
       const double f = sign * x[row];
       g[row] += f;
       g[3 + j] += r[l] * f;
@@ -49,10 +46,9 @@ void add_speeds(const Block& block, const double (&J)[kMaxRows][6], double sign,
     }
     return;
   }
+  const Vec3 turning = u.tail<3>().cross(r);
   for (int row = 0; row < 3; ++row) {
-    const int j = kNext[row + 1];
-    const int l = kNext[row + 2];
-    speed[row] += sign * (u[3 + j] * r[l] - u[3 + l] * r[j]);
+    speed[row] += sign * turning[row];
     speed[row] += sign * u[row];
   }
   for (int row = 3; row < block.rows; ++row) {

@@ -43,6 +43,14 @@ inline Body fixed(const Shape& shape) {
   return body;
 }
 
+inline Scene pair_of(const Body& a, const Body& b) {
+  Scene scene;
+  scene.effects.contact = true;
+  scene.contact.margin = 1.0;  // the formulas do not care how far the surfaces are apart
+  scene.bodies = {a, b};
+  return scene;
+}
+
 inline std::vector<Mat3> rotations(const State& state) {
   std::vector<Mat3> R;
   for (const Quat& q : state.q) R.push_back(q.toRotationMatrix());

@@ -1,0 +1,47 @@
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+// Blocks of a joint are angular, those of an exact contact are not; one pair has both.
+TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
+  Random random(10);
+  const std::vector<Mat3> R{random_rotation(random).toRotationMatrix(),
+                            random_rotation(random).toRotationMatrix()};
+  for (int before = 0; before < 5; ++before) {  // angular blocks before the first whole one
+    StiffnessMatrix K;
+    K.clear(2);
+    Eigen::Matrix<double, 12, 12> dense = Eigen::Matrix<double, 12, 12>::Zero();
+    for (int n = 0; n < 8; ++n) {
+      const int row = n / 2 % 2;
+      const int col = n % 2;
+      if (n < before || n % 3 == 0) {
+        const Mat3 block = random_rotation(random).toRotationMatrix();
+        K.add_angular(row, col, block);
+        dense.block<3, 3>(6 * row + 3, 6 * col + 3) += block;
+      } else {
+        const Mat6 block = Mat6::Random();
+        K.add(row, col, block);
+        dense.block<6, 6>(6 * row, 6 * col) += block;
+      }
+    }
+    std::vector<Vec6> k(2);
+    K.column_norms(R, k);
+    for (int body = 0; body < 2; ++body) {
+      for (int other = 0; other < 2; ++other) {
+        EXPECT_LT((K.block(other, body) - dense.block<6, 6>(6 * other, 6 * body)).norm(), 1e-15);
+      }
+      for (int part = 0; part < 2; ++part) {
+        const auto columns =
+            dense.middleCols<3>(6 * body + 3 * part) * R[static_cast<std::size_t>(body)];
+        for (int c = 0; c < 3; ++c) {
+          EXPECT_NEAR(k[static_cast<std::size_t>(body)][3 * part + c], columns.col(c).norm(),
+                      1e-14);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

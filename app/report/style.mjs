@@ -6,6 +6,8 @@ const modes = [
   ["newton numerov, const", "teal", "triangle", "Newton, Numerov"],
   ["newton mean, const", "teal", "circle", "Newton, mean forces"],
   ["newton, const", "teal", "circle", "Newton"],
+  [/xpbd \d+ a frame, const/, "purple", "star", "small steps"],
+  [/pgs \d+ a frame, const/, "amber", "triangle", "small steps"],
   ["xpbd 1, const", "purple", "diamond", "XPBD"],
   ["xpbd", "purple", "cross", "XPBD"],
   ["adaptive per sub-step", "purple", "triangle", "adaptive per sub-step"],
@@ -38,12 +40,13 @@ export const colour = name =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 export function styleOf(series) {
-  const [, token, symbol, mode] = modes.find(([part]) => series.includes(part)) ?? ["", "grey", "circle", series];
+  const [, token, symbol, mode] = modes.find(([part]) => series.search(part) >= 0) ?? ["", "grey", "circle", series];
   const leapfrog = series.includes("leapfrog");
-  const [, sweeping, sweeps] = /^(pgs|xpbd) (\d+)/.exec(series) ?? [];
+  const [, sweeping, sweeps, shared] = /^(pgs|xpbd) (\d+)( a frame)?/.exec(series) ?? [];
+  const named = sweeping === "pgs" || shared; // XPBD is its own name otherwise
   const implicit = /^newton/.test(series);
   const drift = /drift (\w+)/.exec(series);
-  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", sweeping === "pgs" ? `PGS ${sweeps}` : "", drift ? drift[0] : ""]
+  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", drift ? drift[0] : ""]
     .filter(Boolean).join(", ");
-  return { token, symbol, name: sweeping === "xpbd" ? `${name} ${sweeps}` : name, hollow: leapfrog, dashed: sweeping !== undefined };
+  return { token, symbol, name: sweeping && !named ? `${name} ${sweeps}` : name, hollow: leapfrog, dashed: sweeping !== undefined };
 }

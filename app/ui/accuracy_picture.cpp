@@ -253,7 +253,7 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
   }
   style.hollow = s.integrator == Integrator::kLeapfrog;
   style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
-  const std::string sweeps = std::to_string(s.iterations);
+  const std::string sweeps = std::to_string(s.iterations) + (s.share_iterations ? " a frame" : "");
   // Those that look at the end of a sub-step are called by their names.
   const bool plain = s.mode == Mode::kNone || s.mode == Mode::kConst;
   const std::string and_mode = plain ? "" : ", " + style.name;
@@ -264,10 +264,11 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
     case SolverKind::kPgs:
       if (style.hollow) style.name += ", leapfrog";
       style.name += ", PGS " + sweeps;
+      if (s.share_iterations) style.corners = 3;
       break;
     case SolverKind::kXpbd:
       style.color = theme.purple;
-      style.corners = s.iterations == 1 ? 5 : 4;
+      style.corners = s.iterations == 1 ? 5 : s.share_iterations ? 3 : 4;
       style.name = "XPBD " + sweeps + and_mode;
       break;
     case SolverKind::kNewton:

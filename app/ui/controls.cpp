@@ -79,6 +79,12 @@ constexpr std::array<Choice, 3> kDrifts{
 constexpr std::array<Choice, 2> kContactStiffnesses{
     {{"paper", "The contact as a ball joint that carries its force: the paper's, steers N."},
      {"exact", "The true derivative of the contact force."}}};
+constexpr std::array<Choice, 2> kDetections{
+    {{"sub-step", "Looked for before every sub-step."},
+     {"frame",
+      "Looked for once a frame, as far ahead as bodies can come, and carried along with them "
+      "(Macklin et al. 2019). Nothing fast gets through, and features that change within the frame "
+      "are seen late."}}};
 constexpr std::array<Choice, 2> kGyroscopics{
     {{"explicit", "Explicit Euler: gains energy."},
      {"implicit", "Half a step explicit, half implicit: keeps energy and angular momentum."}}};
@@ -186,6 +192,11 @@ void solving(const Look& look, Settings& s) {
     slider(look, "Steps", s.iterations, 1, 50, true,
            "Newton steps at most in every sub-step; two are mostly enough.");
   }
+  if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
+    checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
+             "The sweeps are those of a whole frame, shared out over its sub-steps: small steps "
+             "(Macklin et al. 2019).");
+  }
   choose(look, "Integrator", kIntegrators, s.integrator, "How a sub-step advances time.");
 }
 
@@ -206,6 +217,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
              "without it the first N is 1. Acts from a reset on.");
   }
   if (effects.contact) {
+    choose(look, "Contacts", kDetections, s.detection, "When contacts are looked for.");
     choose(look, "K contact", kContactStiffnesses, s.contact_stiffness,
            "Which block of a contact enters K (Eq. 1).");
   }

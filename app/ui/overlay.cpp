@@ -16,13 +16,14 @@ namespace substep::ui {
 namespace {
 
 std::string solver_words(const Settings& s) {
+  const std::string sweeps = std::to_string(s.iterations) + (s.share_iterations ? " a frame" : "");
   switch (s.solver) {
     case SolverKind::kPgs:
-      return "PGS " + std::to_string(s.iterations);
+      return "PGS " + sweeps;
     case SolverKind::kBpp:
       return "BPP";
     case SolverKind::kXpbd:
-      return "XPBD " + std::to_string(s.iterations);
+      return "XPBD " + sweeps;
     case SolverKind::kNewton:
       return "Newton, forces " + std::string(name_of(s.forces));
   }

@@ -72,10 +72,13 @@ bool BroadPhase::has_room(const State& state) const {
          });
 }
 
-void BroadPhase::update(const Scene& scene, const State& state, std::span<const Mat3> R_WB) {
-  const Vec3 margin = Vec3::Constant(0.5 * scene.contact.margin);
+void BroadPhase::update(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+                        std::span<const double> way) {
+  const double margin = 0.5 * scene.contact.margin;
   for (const int body : solids_) {
-    reach_[index(body)] = half_extents(scene.bodies[index(body)].shape, R_WB[index(body)]) + margin;
+    const double around = way.empty() ? margin : margin + way[index(body)];
+    reach_[index(body)] =
+        half_extents(scene.bodies[index(body)].shape, R_WB[index(body)]) + Vec3::Constant(around);
   }
   if (!has_room(state)) sweep(scene, state);
 }

@@ -23,10 +23,13 @@ class BroadPhase {
   explicit BroadPhase(const Scene& scene);
 
   /// Takes the poses. @param R_WB rotation per body
-  void update(const Scene& scene, const State& state, std::span<const Mat3> R_WB);
+  /// @param way that each body may go until it is looked at again [m]; empty: none
+  void update(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+              std::span<const double> way);
   /// Sorted by i, then j; all those of which overlap() is true, and others nearby.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
-  /// Whether the boxes of a pair, each with half of the scene's margin around it, overlap.
+  /// Whether the boxes of a pair, each with half of the scene's margin and its way around it,
+  /// overlap.
   [[nodiscard]] bool overlap(const State& state, const Pair& pair) const;
   /// Whether more pairs were found than a scene may have; then not all are there.
   [[nodiscard]] bool too_many() const;

@@ -48,13 +48,27 @@ Detector::Detector(const Scene& scene) : broad_phase_(scene) {
     grounds_.push_back(std::move(ground));
   }
   points_.reserve(8 * scene.bodies.size() + 32);
+  way_.reserve(scene.bodies.size());
+}
+
+void Detector::look_ahead(const Scene& scene, const State& state, double ahead) {
+  way_.clear();
+  if (ahead == 0.0) return;
+  const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
+  for (std::size_t i = 0; i < radius_.size(); ++i) {
+    const double speed = state.u[i].head<3>().norm() + radius_[i] * state.u[i].tail<3>().norm();
+    way_.push_back(scene.bodies[i].is_static ? 0.0 : ahead * (speed + gained));
+  }
 }
 
 std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& state,
-                                               std::span<const Mat3> R_WB) {
+                                               std::span<const Mat3> R_WB, double ahead) {
   points_.clear();
-  const double margin = scene.contact.margin;
+  look_ahead(scene, state, ahead);
   const auto at = [](int body) { return static_cast<std::size_t>(body); };
+  const auto margin = [&](int i, int j) {
+    return way_.empty() ? scene.contact.margin : scene.contact.margin + way_[at(i)] + way_[at(j)];
+  };
   const auto shape = [&](int body) -> const Shape& { return scene.bodies[at(body)].shape; };
   const auto placed = [&](int body) { return Placed{body, state.x[at(body)], R_WB[at(body)]}; };
 
@@ -63,15 +77,17 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& 
     const Vec3 n = plane.R.col(1);
     for (const int body : ground.solids) {
       if (points_.size() > kMaxContacts) return points_;
-      if (n.dot(state.x[at(body)] - plane.x) > radius_[at(body)] + margin) continue;
-      touch_plane(placed(body), shape(body), plane, margin, points_);
+      const double near = margin(body, ground.body);
+      if (n.dot(state.x[at(body)] - plane.x) > radius_[at(body)] + near) continue;
+      touch_plane(placed(body), shape(body), plane, near, points_);
     }
   }
-  broad_phase_.update(scene, state, R_WB);
+  broad_phase_.update(scene, state, R_WB, way_);
   for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {
     if (too_many()) return points_;
     if (!broad_phase_.overlap(state, pair)) continue;
-    touch_solids(placed(pair.i), shape(pair.i), placed(pair.j), shape(pair.j), margin, points_);
+    touch_solids(placed(pair.i), shape(pair.i), placed(pair.j), shape(pair.j),
+                 margin(pair.i, pair.j), points_);
   }
   return points_;
 }

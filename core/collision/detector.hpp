@@ -20,10 +20,11 @@ class Detector {
  public:
   explicit Detector(const Scene& scene);
 
-  /// @param R_WB rotation per body
+  /// @param R_WB rotation per body  @param ahead time in which nothing is looked for again [s]: the
+  ///        margin of a pair grows by the way that its bodies may go in it, falling freely
   /// @return valid until the next call; not all of them where there are too_many()
   std::span<const ContactPoint> detect(const Scene& scene, const State& state,
-                                       std::span<const Mat3> R_WB);
+                                       std::span<const Mat3> R_WB, double ahead = 0.0);
   /// Whether the last call stopped at a limit.
   [[nodiscard]] bool too_many() const {
     return broad_phase_.too_many() || points_.size() > kMaxContacts;
@@ -36,9 +37,12 @@ class Detector {
     std::vector<int> solids;
   };
 
+  void look_ahead(const Scene& scene, const State& state, double ahead);
+
   BroadPhase broad_phase_;
   std::vector<Ground> grounds_;
   std::vector<double> radius_;  // per body: of the sphere around its shape [m]
+  std::vector<double> way_;     // per body: that its points may go in `ahead` [m]; empty: none
   ContactPoints points_;
 };
 

@@ -3,12 +3,32 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constraints/moved_rows.hpp"
+#include "core/math/turn.hpp"
+
 namespace substep {
 
-bool ContactStage::detect_and_append(const Scene& scene, const State& state,
-                                     std::span<const Mat3> R_WB, Blocks& blocks) {
-  const std::span<const ContactPoint> points = detector_.detect(scene, state, R_WB);
-  if (detector_.too_many()) return false;
+namespace {
+
+Motion motion_since(const Vec3& x_then, const Quat& q_then, const Vec3& x, const Quat& q) {
+  const Quat turn = q * q_then.conjugate();
+  return {x - x_then, turn.vec() / turn.w()};
+}
+
+/// R H R^T.
+Mat3 turned(const Mat3& H, const Vec3& half) {
+  if (H.isZero(0.0)) return H;
+  Mat3 once;
+  for (int i = 0; i < 3; ++i) once.row(i) = turn(half, H.col(i));  // R H, transposed
+  Mat3 twice;
+  for (int i = 0; i < 3; ++i) twice.col(i) = turn(half, once.col(i));
+  return twice;
+}
+
+}  // namespace
+
+void ContactStage::append(std::span<const ContactPoint> points, const Scene& scene,
+                          const State& state, Blocks& blocks) const {
   for (const ContactPoint& point : points) {
     const auto a = static_cast<std::size_t>(point.a);
     const auto b = static_cast<std::size_t>(point.b);
@@ -17,7 +37,40 @@ bool ContactStage::detect_and_append(const Scene& scene, const State& state,
     block.b = scene.bodies[b].is_static ? -1 : point.b;
     contact_row(point, scene.contact, state.x[a], state.x[b], block);
   }
+}
+
+bool ContactStage::detect_and_append(const Scene& scene, const State& state,
+                                     std::span<const Mat3> R_WB, Blocks& blocks) {
+  const std::span<const ContactPoint> points = detector_.detect(scene, state, R_WB);
+  if (detector_.too_many()) return false;
+  append(points, scene, state, blocks);
   return true;
+}
+
+bool ContactStage::foresee_and_append(const Scene& scene, const State& state,
+                                      std::span<const Mat3> R_WB, double ahead, Blocks& blocks) {
+  const std::span<const ContactPoint> points = detector_.detect(scene, state, R_WB, ahead);
+  foreseen_.clear();
+  if (detector_.too_many()) return false;
+  append(points, scene, state, foreseen_);
+  x_.assign(state.x.begin(), state.x.end());
+  q_.assign(state.q.begin(), state.q.end());
+  carry_and_append(state, blocks);
+  return true;
+}
+
+void ContactStage::carry_and_append(const State& state, Blocks& blocks) const {
+  const auto motion = [&](int body) {
+    if (body < 0) return Motion{};
+    const auto i = static_cast<std::size_t>(body);
+    return motion_since(x_[i], q_[i], state.x[i], state.q[i]);
+  };
+  for (const Block& row : foreseen_.all()) {
+    Block& block = blocks.append();
+    move_rows(row, motion(row.a), motion(row.b), block);
+    block.phi[0] += row.phi[0];
+    block.H = turned(row.H, motion(row.b).half);
+  }
 }
 
 double ContactStage::penetration(const Scene& scene, const State& state,

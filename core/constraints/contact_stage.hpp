@@ -15,11 +15,24 @@ class ContactStage {
   /// @return false where there are too many: then nothing is appended
   bool detect_and_append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
                          Blocks& blocks);
+  /// The same, with what may come to touch within a time, all of it kept for carry_and_append().
+  /// Boxes of which no face lies opposite the other are not foreseen.
+  /// @param ahead [s]
+  bool foresee_and_append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+                          double ahead, Blocks& blocks);
+  /// The rows that were foreseen, where their bodies have gone since.
+  void carry_and_append(const State& state, Blocks& blocks) const;
   /// Largest overlap at a state, >= 0 [m].
   double penetration(const Scene& scene, const State& state, std::span<const Mat3> R_WB);
 
  private:
+  void append(std::span<const ContactPoint> points, const Scene& scene, const State& state,
+              Blocks& blocks) const;
+
   Detector detector_;
+  Blocks foreseen_;
+  std::vector<Vec3> x_;  // per body: where rows were foreseen, world [m]
+  std::vector<Quat> q_;
 };
 
 /// Adds two friction rows to every contact of two bodies that both have friction.

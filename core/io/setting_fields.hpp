@@ -37,7 +37,7 @@ struct SettingField {
   std::variant<FlagSetting, CountSetting, NumberSetting, ChoiceSetting<SolverKind>,
                ChoiceSetting<Forces>, ChoiceSetting<Mode>, ChoiceSetting<Policy>,
                ChoiceSetting<Integrator>, ChoiceSetting<Gyroscopic>, ChoiceSetting<Drift>,
-               ChoiceSetting<ContactStiffness>>
+               ChoiceSetting<Detection>, ChoiceSetting<ContactStiffness>>
       member;
 };
 

@@ -64,6 +64,7 @@ std::string solver_text(const Settings& s) {
   std::string text(name_of(s.solver));
   if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
     text += " " + std::to_string(s.iterations);
+    if (s.share_iterations) text += " a frame";
   } else if (s.solver == SolverKind::kNewton && s.forces != Forces::kEnd) {
     text += " ";
     text += name_of(s.forces);
@@ -82,6 +83,7 @@ std::string series_name(const Settings& s) {
   name += name_of(s.integrator);
   if (s.drift != Drift::kAuto) name += ", drift " + std::string(name_of(s.drift));
   if (s.drift_order == 2) name += ", drift order 2";
+  if (s.detection == Detection::kFrame) name += ", contacts once a frame";
   return name;
 }
 

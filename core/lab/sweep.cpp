@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kConstant[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 40, 56, 80};
 constexpr int kImplicit[] = {1, 2, 3, 4, 6, 8, 11, 16, 28, 56};  // whose point is to need few
+constexpr int kSmallSteps[] = {1, 2, 4, 8, 16, 32, 64};  // that share as many sweeps as the last
 constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 0.0125, 0.00625};
 constexpr double kDampingAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
@@ -75,6 +76,24 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
   along(SolverKind::kNewton, scene.settings.iterations, Forces::kNumerov);
 }
 
+/// Small steps (Macklin et al. 2019): the same sweeps a frame, spent on more and more sub-steps,
+/// and contacts found once.
+void append_small_steps(Settings settings, const Scene& scene, std::vector<Settings>& all) {
+  settings.mode = Mode::kConst;
+  settings.policy = Policy::kFrame;
+  settings.integrator = Integrator::kEuler;
+  settings.iterations = *std::rbegin(kSmallSteps);
+  settings.share_iterations = true;
+  if (scene.effects.contact) settings.detection = Detection::kFrame;
+  for (const SolverKind solver : {SolverKind::kPgs, SolverKind::kXpbd}) {
+    settings.solver = solver;
+    for (const int n : kSmallSteps) {
+      settings.n = n;
+      all.push_back(settings);
+    }
+  }
+}
+
 /// Constant N and adaptive along their parameter, with the direct solver, under every other load.
 void append_map(Settings settings, std::vector<SweepPoint>& points) {
   settings.solver = SolverKind::kBpp;
@@ -103,6 +122,8 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   base.forces = Forces::kEnd;
   base.watch_stiffness = false;
   base.drift = Drift::kAuto;
+  base.share_iterations = false;
+  base.detection = Detection::kSubstep;
   const auto curves = [&](SolverKind solver, Integrator integrator) {
     Settings settings = base;
     settings.solver = solver;
@@ -124,6 +145,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   curves(SolverKind::kBpp, Integrator::kLeapfrog);
   curves(SolverKind::kPgs, Integrator::kEuler);
   append_implicit(base, scene, all);
+  append_small_steps(base, scene, all);
   std::vector<SweepPoint> points;
   for (const Settings& settings : all) points.push_back({settings, 1.0});
   if (mass_ratio(scene) > 1.0) append_map(base, points);
@@ -137,8 +159,9 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
   if (changes_mass(s.mode) && chooses_substeps(s.mode)) n = s.n_cap;
   if (s.mode == Mode::kAdaptive) n = std::min<double>(s.n_max, 5.0 / std::sqrt(s.alpha));
   double per_substep = 1.0;  // of a sub-step with the direct solver, about
-  if (s.solver == SolverKind::kPgs) per_substep = 0.15 * s.iterations;
-  if (s.solver == SolverKind::kXpbd) per_substep = 0.3 * s.iterations;
+  const double sweeps = s.share_iterations ? std::max(1.0, s.iterations / n) : s.iterations;
+  if (s.solver == SolverKind::kPgs) per_substep = 0.15 * sweeps;
+  if (s.solver == SolverKind::kXpbd) per_substep = 0.3 * sweeps;
   if (s.solver == SolverKind::kNewton) per_substep = 4.0;
   const double per_frame = 0.5;  // errors and energies, whatever N
   return static_cast<double>(frames_of(scene, experiment.duration)) * (per_frame + n * per_substep);

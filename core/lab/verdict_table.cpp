@@ -13,20 +13,28 @@ bool selects(const Expectation& rule, const Settings& s) {
          (!rule.n || *rule.n == s.n) && (!rule.integrator || *rule.integrator == s.integrator);
 }
 
-/// The scene's settings in every mode of the table.
-std::vector<Settings> modes_of(const Scene& scene) {
+/// Whether a solver looks at the end of a sub-step. Those are run as their sources have them: of
+/// the modes' masses they have no use, and of a law for N they do not speak.
+bool looks_ahead(SolverKind solver) {
+  return solver == SolverKind::kNewton || solver == SolverKind::kXpbd;
+}
+
+/// The scene's settings in every mode of the table that a solver is run in.
+std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   std::set<int> numbers{4, 16};
   for (const Expectation& rule : scene.verdicts) {
-    if (rule.n) numbers.insert(*rule.n);
+    if (rule.n && rule.solver.value_or(solver) == solver) numbers.insert(*rule.n);
   }
   std::vector<Settings> all;
   const auto add = [&](Mode mode) -> Settings& {
     Settings& settings = all.emplace_back(scene.settings);
+    settings.solver = solver;
     settings.mode = mode;
     return settings;
   };
   add(Mode::kNone);
   for (const int n : numbers) add(Mode::kConst).n = n;
+  if (looks_ahead(solver)) return all;
   for (const auto& mode : NameTable<Mode>::entries) {
     if (mode.value != Mode::kNone && mode.value != Mode::kConst) add(mode.value);
   }
@@ -42,10 +50,11 @@ Expectation own_expectation(const Criteria& criteria) {
 std::vector<VerdictCell> verdict_table(const Scene& scene) {
   if (scene.verdicts.empty()) return {{scene.settings, own_expectation(scene.criteria)}};
   std::vector<VerdictCell> table;
-  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+  for (const SolverKind solver :
+       {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton, SolverKind::kXpbd}) {
     for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
-      for (Settings settings : modes_of(scene)) {
-        settings.solver = solver;
+      if (looks_ahead(solver) && integrator != Integrator::kEuler) continue;
+      for (Settings settings : modes_of(scene, solver)) {
         settings.integrator = integrator;
         const auto rule = std::find_if(scene.verdicts.rbegin(), scene.verdicts.rend(),
                                        [&](const Expectation& r) { return selects(r, settings); });

@@ -68,6 +68,12 @@ struct NameTable<Gyroscopic> {
 };
 
 template <>
+struct NameTable<Detection> {
+  static constexpr std::array entries{Named<Detection>{"substep", Detection::kSubstep},
+                                      Named<Detection>{"frame", Detection::kFrame}};
+};
+
+template <>
 struct NameTable<Expected> {
   static constexpr std::array entries{Named<Expected>{"holds", Expected::kHolds},
                                       Named<Expected>{"fails", Expected::kFails},

@@ -31,13 +31,17 @@ enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
 enum class ContactStiffness : std::uint8_t { kPaper, kExact };
 enum class Gyroscopic : std::uint8_t { kExplicit, kImplicit };
+/// When contacts are looked for: before every sub-step, or once a frame, as far ahead as bodies can
+/// come in it; then they are carried along with the bodies.
+enum class Detection : std::uint8_t { kSubstep, kFrame };
 
 /// Everything a person changes while a scene runs. The defaults are the paper's.
 struct Settings {
   SolverKind solver = SolverKind::kBpp;
-  int iterations = 25;           // per sub-step: sweeps of PGS and XPBD, most Newton steps, >= 1
-  bool warm_start = false;       // PGS starts from the last sub-step's forces
-  Forces forces = Forces::kEnd;  // Newton
+  int iterations = 25;            // per sub-step: sweeps of PGS and XPBD, most Newton steps, >= 1
+  bool share_iterations = false;  // they are those of a frame, dealt out over its sub-steps
+  bool warm_start = false;        // PGS starts from the last sub-step's forces
+  Forces forces = Forces::kEnd;   // Newton
   int pivots = 20;  // block pivoting steps of BPP before its single-pivot fallback, >= 1
 
   Mode mode = Mode::kAdaptive;
@@ -56,6 +60,7 @@ struct Settings {
   Drift drift = Drift::kAuto;
   double drift_tau = 1.0 / 480.0;  // time constant of the soft drift law, > 0 [s]
   int drift_order = 1;  // 2: the correction also sees how the joints' rows curve, drift.hpp
+  Detection detection = Detection::kSubstep;
   ContactStiffness contact_stiffness = ContactStiffness::kPaper;
   bool watch_stiffness = false;  // evaluate K even where the mode does not need it, for a view
 

@@ -96,6 +96,7 @@ void Simulator::Impl::probe(FrameReport& report) {
 void Simulator::Impl::begin_frame() {
   FrameReport report;
   if (!measures.stages) report.times = no_times();
+  contacts_foreseen = false;
   if (probe_due()) probe(report);  // the first frame has no lambda yet
   open.emplace(OpenFrame{SubstepClock(settings, scene->frame, state.r), report});
 }

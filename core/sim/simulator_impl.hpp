@@ -26,6 +26,7 @@ struct Simulator::Impl {
   // and leave the state and a status that says why.
   void begin_substep(FrameReport& report);
   bool append_rows(FrameReport& report);
+  bool append_contacts();                                // false where there are too many
   void external_forces(double dt, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
   void solve(double dt, bool probing, FrameReport& report);
   bool finite(FrameReport& report);
@@ -52,8 +53,9 @@ struct Simulator::Impl {
     SubstepClock substeps;
     FrameReport report;
   };
-  std::optional<OpenFrame> open;  // a frame of which some sub-steps are taken
-  FrameReport stopped;            // the report of the frame that failed
+  std::optional<OpenFrame> open;   // a frame of which some sub-steps are taken
+  bool contacts_foreseen = false;  // those of the open frame
+  FrameReport stopped;             // the report of the frame that failed
 
   // Stages: null where the scene does not call for the effect.
   std::unique_ptr<JointStage> joints;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/constraints/grab_rows.hpp"
 #include "core/math/resisting.hpp"
@@ -26,6 +27,12 @@ double most_kinetic(const Body& body, const Vec6& u) {
          std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
 }
 
+/// Of a sub-step that is this share of a frame.
+int iterations_of(const Settings& settings, double share) {
+  if (!settings.share_iterations) return settings.iterations;
+  return std::max(1, static_cast<int>(settings.iterations * share + 0.5));
+}
+
 }  // namespace
 
 void Simulator::Impl::begin_substep(FrameReport& report) {
@@ -42,7 +49,7 @@ bool Simulator::Impl::append_rows(FrameReport& report) {
     clock.lap(report.times.joints);
   }
   if (contact) {
-    if (!contact->detect_and_append(*scene, state, R_WB, blocks)) {
+    if (!append_contacts()) {
       report.status = StepStatus::kTooManyContacts;
       return false;
     }
@@ -58,6 +65,17 @@ bool Simulator::Impl::append_rows(FrameReport& report) {
     clock.lap(report.times.grab);
   }
   return true;
+}
+
+bool Simulator::Impl::append_contacts() {
+  if (settings.detection == Detection::kSubstep || !open) {
+    return contact->detect_and_append(*scene, state, R_WB, blocks);
+  }
+  if (std::exchange(contacts_foreseen, true)) {
+    contact->carry_and_append(state, blocks);
+    return true;
+  }
+  return contact->foresee_and_append(*scene, state, R_WB, scene->frame, blocks);
 }
 
 void Simulator::Impl::external_forces(double dt, FrameReport& report) {
@@ -107,7 +125,9 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   if (grab) soften_grab(*grab, dt, rows.back());
   seed_forces();
   const System system{rows, inverse_mass, state.u, u_before, dt};
-  const SolveReport solved = solver->solve(system, settings);
+  Settings asked = settings;
+  asked.iterations = iterations_of(settings, dt / scene->frame);
+  const SolveReport solved = solver->solve(system, asked);
   smooth = true;
   for (Block& block : rows) {
     if (block.is_contact() && !block.was_closed && block.impulse[0] > 0.0) smooth = false;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr SolverKind kPgs = SolverKind::kPgs;
 constexpr SolverKind kBpp = SolverKind::kBpp;
+constexpr SolverKind kXpbd = SolverKind::kXpbd;
+constexpr SolverKind kNewton = SolverKind::kNewton;
 
 Expectation all_hold(std::string why) { return {.why = std::move(why)}; }
 
@@ -69,6 +71,7 @@ Expectations swinging_box() {
       fails(kPgs, Mode::kNone, 1.0),
       const_fails(kPgs, 4, 4.0)};
   add_fails(rules, kPgs, kOneStep, 3.0, "25 sweeps of a whole frame do not converge.");
+  rules.push_back(fails(kXpbd, Mode::kNone, 2.0, "25 sweeps of a whole frame do not converge."));
   return rules;
 }
 
@@ -80,13 +83,15 @@ Expectations bridge() {
   add_fails(rules, kPgs, kOneStep, 3.0, "25 sweeps of a whole frame do not converge.");
   add_fails(rules, kPgs, std::array{Mode::kInertia, Mode::kBlend}, 3.0,
             "Four sub-steps of 25 sweeps do not carry 1000 kg, but for the damped mode, just.");
+  rules.push_back(fails(kXpbd, Mode::kNone, 3.0, "25 sweeps of a whole frame do not converge."));
   return rules;
 }
 
 Expectations heavy_stack() {
   return {
       all_hold("Symmetric, and exact to double precision: the true constrained stiffness is 0."),
-      all_fail(kPgs, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg.")};
+      all_fail(kPgs, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg."),
+      all_fail(kXpbd, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg.")};
 }
 
 Expectations heavy_stack_tall() {
@@ -99,22 +104,35 @@ Expectations heavy_stack_tall() {
 
 Expectations heavy_stack_stress() {
   Expectations rules{all_hold("Small steps cure by conditioning what the regularisation takes."),
-                     fails(kBpp, Mode::kNone, 1.5), const_fails(kBpp, 4, 4.0),
-                     const_fails(kBpp, 8, 8.0)};
+                     fails(kBpp, Mode::kNone, 1.5),
+                     const_fails(kBpp, 4, 4.0),
+                     const_fails(kBpp, 8, 8.0),
+                     fails(kNewton, Mode::kNone, 1.5),
+                     const_fails(kNewton, 4, 4.0),
+                     const_fails(kNewton, 8, 8.0)};
   add_fails(rules, kBpp, kOneStep, 1.5, "One step a frame; it does not fall by turning.");
   add_fails(rules, kBpp, kUpToTheCap, 4.0, "A cap of four is four sub-steps.");
-  rules.push_back(all_fail(kPgs, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg."));
+  for (const SolverKind sweeping : {kPgs, kXpbd}) {
+    rules.push_back(
+        all_fail(sweeping, 2.0, "25 sweeps do not carry ten tonnes up five layers of 1 kg."));
+  }
   return rules;
 }
 
 Expectations heavy_stack_stress_tall() {
-  Expectations rules{all_hold("alpha = 0.05, by a hair: 0.1 falls."), fails(kBpp, Mode::kNone, 1.5),
+  Expectations rules{all_hold("alpha = 0.05, by a hair: 0.1 falls."),
+                     fails(kBpp, Mode::kNone, 1.5),
                      const_fails(kBpp, 4, 4.0),
-                     const_fails(kBpp, 16, 10.0, "Fewer than alpha = 0.1 takes, and that falls.")};
+                     const_fails(kBpp, 16, 10.0, "Fewer than alpha = 0.1 takes, and that falls."),
+                     fails(kNewton, Mode::kNone, 1.5),
+                     const_fails(kNewton, 4, 4.0),
+                     const_fails(kNewton, 16, 10.0)};
   add_fails(rules, kBpp, kOneStep, 1.5, "One step a frame; it does not fall by turning.");
   add_fails(rules, kBpp, kUpToTheCap, 4.0, "A cap of four is four sub-steps.");
-  rules.push_back(
-      all_fail(kPgs, 2.0, "25 sweeps do not carry twenty tonnes up ten layers of 1 kg."));
+  for (const SolverKind sweeping : {kPgs, kXpbd}) {
+    rules.push_back(
+        all_fail(sweeping, 2.0, "25 sweeps do not carry twenty tonnes up ten layers of 1 kg."));
+  }
   return rules;
 }
 
@@ -128,6 +146,7 @@ Expectations swinging_box_authors() {
             "more than was put in: 5 kJ in 2 s. A decision after every sub-step, or alpha = 0.05, "
             "holds.")};
   add_fails(rules, kPgs, kOneStep, 3.0, "25 sweeps of a whole frame do not converge.");
+  rules.push_back(fails(kXpbd, Mode::kNone, 3.0, "25 sweeps of a whole frame do not converge."));
   return rules;
 }
 
@@ -136,7 +155,10 @@ Expectations bridge_authors() {
       all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
       fails(kBpp, Mode::kNone, 2.0, "The planks tear once the ball loads them."),
       const_fails(kBpp, 4, 3.0, "A pull of 100 kN: the stable step is a tenth of a frame."),
-      fails(kPgs, Mode::kNone, 2.0), const_fails(kPgs, 4, 3.0)};
+      fails(kPgs, Mode::kNone, 2.0),
+      const_fails(kPgs, 4, 3.0),
+      fails(kXpbd, Mode::kNone, 3.0),
+      const_fails(kXpbd, 4, 5.0, "A pull of 100 kN on joints that give way.")};
   add_fails(rules, kPgs, kOneStep, 3.0, "25 sweeps of a whole frame do not converge.");
   return rules;
 }
@@ -144,7 +166,8 @@ Expectations bridge_authors() {
 Expectations heavy_stack_authors() {
   return {
       all_hold("Symmetric, and exact to double precision: the true constrained stiffness is 0."),
-      all_fail(kPgs, 5.0, "25 sweeps do not carry twenty tonnes up four layers of 1 kg.")};
+      all_fail(kPgs, 5.0, "25 sweeps do not carry twenty tonnes up four layers of 1 kg."),
+      all_fail(kXpbd, 5.0, "25 sweeps do not carry twenty tonnes up four layers of 1 kg.")};
 }
 
 Expectations wrecking_ball() {
@@ -152,7 +175,9 @@ Expectations wrecking_ball() {
       all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
       fails(kBpp, Mode::kNone, 2.0, "The stable step is a sixth of a frame."),
       const_fails(kBpp, 4, 5.0, "The stable step is a sixth of a frame."),
-      fails(kPgs, Mode::kNone, 2.0), const_fails(kPgs, 4, 5.0)};
+      fails(kPgs, Mode::kNone, 2.0),
+      const_fails(kPgs, 4, 5.0),
+      fails(kXpbd, Mode::kNone, 5.0, "25 sweeps of a whole frame do not converge.")};
   add_depends(
       rules, kBpp, std::array{Mode::kInertia, Mode::kBlend},
       "The links come to lie among the crates, where four sub-steps lose a joint after 4 to "
@@ -170,6 +195,9 @@ Expectations ragdoll_drop() {
     add_depends(rules, solver, kOneStep,
                 "A joint opens at a landing or not: how the dolls tumble decides.");
   }
+  rules.push_back(fails(kNewton, Mode::kNone, 2.0,
+                        "A landing in a whole frame takes more than its 25 steps: 200 hold."));
+  rules.push_back(fails(kXpbd, Mode::kNone, 2.0, "25 sweeps do not end a landing in a frame."));
   return rules;
 }
 
@@ -177,9 +205,11 @@ Expectations card_house() {
   Expectations rules{
       all_hold("At rest in friction: nothing to be unstable."),
       const_holds(kBpp, 8, "The scene's own: in so short a step no card rolls over its edge.")};
-  rules.push_back(all_fail(kPgs, 10.0, "What 25 sweeps leave over lets the cards creep."));
-  for (const int n : {8, 16}) {
-    rules.push_back(const_holds(kPgs, n, "Hundreds of sweeps a frame: they creep slowly."));
+  for (const SolverKind sweeping : {kPgs, kXpbd}) {
+    rules.push_back(all_fail(sweeping, 10.0, "What 25 sweeps leave over lets the cards creep."));
+    for (const int n : {8, 16}) {
+      rules.push_back(const_holds(sweeping, n, "Hundreds of sweeps a frame: they creep slowly."));
+    }
   }
   return rules;
 }

@@ -61,7 +61,7 @@ test("every point has a read-out, and a click tells its command", async () => {
   for (const [x, y] of places) {
     await page.mouse.move(x, y);
     const text = (await tips.allTextContents()).join("");
-    assert.match(text, /constant N|adaptive|damping|blend|inertia|full geometric stiffness|Newton|XPBD/, `at ${x}, ${y}`);
+    assert.match(text, /constant N|adaptive|damping|blend|inertia|full geometric stiffness|Newton|XPBD|small steps/, `at ${x}, ${y}`);
   }
   await page.mouse.click(...places[20]);
   const details = page.locator(".details");

@@ -29,6 +29,7 @@ Settings unusual() {
   Settings s;
   s.solver = SolverKind::kPgs;
   s.iterations = 31;
+  s.share_iterations = true;
   s.warm_start = true;
   s.forces = Forces::kMean;
   s.pivots = 7;
@@ -47,6 +48,7 @@ Settings unusual() {
   s.drift = Drift::kFull;
   s.drift_tau = 0.001;
   s.drift_order = 2;
+  s.detection = Detection::kFrame;
   s.contact_stiffness = ContactStiffness::kExact;
   return s;
 }
@@ -343,7 +345,8 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
         "bpp, stiffness, euler", "bpp, inertia, leapfrog", "bpp, blend, euler",
         "pgs 25, const, euler", "pgs 25, adaptive per frame, euler", "pgs 25, damping, euler",
         "xpbd 1, const, euler", "xpbd 25, const, euler", "newton, const, euler",
-        "newton mean, const, leapfrog", "newton numerov, const, leapfrog"}) {
+        "newton mean, const, leapfrog", "newton numerov, const, leapfrog",
+        "pgs 64 a frame, const, euler", "xpbd 64 a frame, const, euler"}) {
     EXPECT_TRUE(series.contains(name)) << name;
   }
   for (const SweepPoint& point : default_sweep(scenes::bridge())) {

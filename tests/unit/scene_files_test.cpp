@@ -66,6 +66,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   scene.regularisation = 1e-6;
   scene.settings = {.solver = SolverKind::kPgs,
                     .iterations = 7,
+                    .share_iterations = true,
                     .warm_start = true,
                     .forces = Forces::kNumerov,
                     .pivots = 3,
@@ -81,6 +82,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .gyroscopic = Gyroscopic::kExplicit,
                     .drift = Drift::kSoft,
                     .drift_tau = 0.01,
+                    .detection = Detection::kFrame,
                     .contact_stiffness = ContactStiffness::kExact,
                     .watch_stiffness = true};
   scene.criteria = {.duration = 3.0,

@@ -40,11 +40,16 @@ TEST(VerdictTable, ALaterRuleOverridesAnEarlierOne) {
                      .integrator = Integrator::kLeapfrog,
                      .verdict = Expected::kDepends,
                      .why = "Chance."}};
-  EXPECT_EQ(verdict_table(scene).size(), 2U * 2U * 10U);
+  // Const 7 is PGS's alone. Newton and XPBD: one sub-step, const 4 and 16.
+  EXPECT_EQ(verdict_table(scene).size(), 2U * (9U + 10U) + 2U * 3U);
   EXPECT_EQ(expected(scene, "bpp none euler"), Expected::kHolds);
   EXPECT_EQ(expected(scene, "pgs const 7 euler"), Expected::kFails);
   EXPECT_EQ(expected(scene, "pgs const 7 leapfrog"), Expected::kDepends);
-  EXPECT_EQ(expected(scene, "bpp const 7 leapfrog"), Expected::kHolds);
+  EXPECT_EQ(expected(scene, "bpp const 7 leapfrog"), std::nullopt);
+  EXPECT_EQ(expected(scene, "bpp const 16 leapfrog"), Expected::kHolds);
+  EXPECT_EQ(expected(scene, "newton const 16 euler"), Expected::kHolds);
+  EXPECT_EQ(expected(scene, "newton adaptive euler"), std::nullopt);
+  EXPECT_EQ(expected(scene, "xpbd none leapfrog"), std::nullopt);
   EXPECT_EQ(expected(scene, "pgs const 4 leapfrog"), Expected::kFails);
 }
 

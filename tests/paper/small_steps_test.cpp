@@ -1,0 +1,124 @@
+// Small steps (Macklin et al. 2019, "Small steps in physics simulation"): contacts are foreseen
+// once a frame, and the sweeps of a frame are shared out over its sub-steps.
+
+#include <gtest/gtest.h>
+
+#include "scenes/generator/scenes.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep::test {
+namespace {
+
+/// Sweeps are those of a frame, 64 of them.
+Settings small_steps(SolverKind solver, int n) {
+  Settings settings;
+  settings.solver = solver;
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  settings.iterations = 64;
+  settings.share_iterations = true;
+  settings.detection = Detection::kFrame;
+  return settings;
+}
+
+/// Ten links of 1 kg with 1000 kg at the end, let go at 60 degrees.
+Outcome swing(const Settings& settings) {
+  return run(scenes::rope_of_n({.n = 10}), settings, 2.0, {}, false);
+}
+
+TEST(SmallSteps, ShareOutTheSameSweeps) {
+  const auto scene = std::make_shared<const Scene>(scenes::rope_of_n({.n = 10}));
+  for (const SolverKind kind : {SolverKind::kPgs, SolverKind::kXpbd}) {
+    std::int64_t of_one = 0;
+    for (const int n : {1, 4, 16, 64}) {
+      Simulator simulator(scene);
+      simulator.set_settings(small_steps(kind, n));
+      const FrameReport report = simulator.step();
+      EXPECT_EQ(report.n_substeps, n);
+      EXPECT_EQ(report.work.iterations, 64);
+      if (n == 1) of_one = report.work.row_updates;
+      EXPECT_EQ(report.work.row_updates, of_one);
+    }
+    Simulator simulator(scene);
+    simulator.set_settings(small_steps(kind, 200));
+    EXPECT_EQ(simulator.step().work.iterations, 200) << "one at least in each";
+  }
+}
+
+// The claim: where sweeps move the bodies, joints stretch the less the more sub-steps share them.
+TEST(SmallSteps, SpendTheSameSweepsBetter) {
+  double before = 1.0;
+  for (const int n : {1, 2, 4, 8, 16, 32}) {
+    const double gap = swing(small_steps(SolverKind::kXpbd, n)).joint_gap;
+    EXPECT_LT(gap, 0.75 * before) << n;
+    before = gap;
+  }
+  EXPECT_LT(before, 0.02);
+}
+
+// Where they find forces from none, as Gauss-Seidel does here, a few sweeps no longer reach the end
+// of the chain: the best is in between.
+TEST(SmallSteps, OfForcesHaveTheirBestInBetween) {
+  const double gap_8 = swing(small_steps(SolverKind::kPgs, 8)).joint_gap;
+  EXPECT_GT(swing(small_steps(SolverKind::kPgs, 4)).joint_gap, 10.0 * gap_8);
+  EXPECT_GT(swing(small_steps(SolverKind::kPgs, 32)).joint_gap, 2.0 * gap_8);
+  EXPECT_LT(gap_8, 0.05);
+}
+
+/// A ball of 2 cm thrown at a plate of 4 mm. @return how deep below its middle it comes [m]
+double below_the_plate(Detection detection, double speed) {
+  Scene scene;
+  scene.effects.contact = true;
+  scene.contact.margin = 1e-3;
+  Body plate;
+  plate.is_static = true;
+  plate.shape = Box{Vec3{1.0, 0.002, 1.0}};
+  Body ball;
+  ball.mass = 1.0;
+  ball.shape = Sphere{0.02};
+  ball.inertia = solid_inertia(ball.shape, ball.mass);
+  ball.position = {0.0, 0.3, 0.0};
+  ball.velocity = {0.1 * speed, -speed, 0.0};
+  scene.bodies = {plate, ball};
+  Settings settings;
+  settings.mode = Mode::kNone;
+  settings.detection = detection;
+  double lowest = 1.0;
+  run(
+      scene, settings, 0.5,
+      [&](const Simulator& simulator, const FrameReport&) {
+        lowest = std::min(lowest, simulator.state().x[1].y());
+      },
+      false);
+  return -lowest;
+}
+
+TEST(SmallSteps, NothingFastGetsThrough) {
+  EXPECT_GT(below_the_plate(Detection::kSubstep, 40.0), 1.0) << "what else would there be to show";
+  for (const double speed : {2.0, 10.0, 40.0, 200.0}) {
+    const double pushed = 1e-10 * 60.0 * speed;  // by the compliance, while a frame stops it
+    EXPECT_NEAR(below_the_plate(Detection::kFrame, speed), -0.022, 1.1 * pushed + 1e-12) << speed;
+  }
+}
+
+// Three of the playground, and the bridge from all starts, where each sub-step looks at contacts
+// that were found up to a frame ago.
+TEST(SmallSteps, CarriedContactsHoldWhatFreshOnesHold) {
+  Settings settings;
+  settings.detection = Detection::kFrame;
+  for (const scenes::BridgeOptions& options : scenes::bridge_starts()) {
+    const Outcome r = run(scenes::bridge(options), settings, 6.0);
+    EXPECT_TRUE(r.holds) << r.verdict;
+    EXPECT_LT(r.joint_gap, 0.02);
+  }
+  for (const Scene& scene :
+       {scenes::heavy_stack(), scenes::wrecking_ball(), scenes::ragdoll_drop()}) {
+    Settings own = scene.settings;
+    own.detection = Detection::kFrame;
+    const Outcome r = run(scene, own, 4.0);
+    EXPECT_TRUE(r.holds) << scene.name << ": " << r.verdict;
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -1,0 +1,155 @@
+// Contacts that are found once and carried along with their bodies.
+
+#include <set>
+
+#include "core/math/turn.hpp"
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+/// Free flight as one sub-step of integrate() would make it, gravity first.
+State flown(const Scene& scene, const State& state, double time) {
+  State out = state;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (scene.bodies[i].is_static) continue;
+    out.x[i] += time * (state.u[i].head<3>() + time * scene.gravity);
+    const Vec3 half = 0.5 * time * state.u[i].tail<3>();
+    out.q[i] = (Quat(1.0, half.x(), half.y(), half.z()) * state.q[i]).normalized();
+  }
+  return out;
+}
+
+bool are_boxes(const Scene& scene, const Block& block) {
+  const auto is_box = [&](int body) {
+    return std::holds_alternative<Box>(scene.bodies[static_cast<std::size_t>(body)].shape);
+  };
+  return is_box(block.body_a) && is_box(block.body_b);
+}
+
+// Of two boxes a face must lie opposite the other: what comes past an edge is found a frame late.
+TEST(ForeseenContacts, HaveEveryPairThatWillTouch) {
+  Random random(11);
+  const double ahead = 1.0 / 30.0;
+  std::size_t new_pairs = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    Scene scene;
+    scene.effects.contact = scene.effects.gravity = true;
+    scene.bodies.push_back(fixed(Plane{}));
+    for (int i = 0; i < 16; ++i) {
+      Body body = i % 2 == 0 ? moving(Sphere{0.1}) : moving(Box{Vec3{0.1, 0.2, 0.05}});
+      if (i % 8 == 7) body = fixed(Box{Vec3{0.1, 0.2, 0.05}});
+      body.position = random_vector(random) + Vec3::UnitY();
+      body.orientation = random_rotation(random);
+      if (!body.is_static) body.velocity = 20.0 * random_vector(random);
+      if (!body.is_static) body.angular_velocity = 20.0 * random_vector(random);
+      scene.bodies.push_back(body);
+    }
+    const State start = initial_state(scene);
+    ContactStage stage(scene);
+    Blocks foreseen;
+    ASSERT_TRUE(stage.foresee_and_append(scene, start, rotations(start), ahead, foreseen));
+    std::set<std::pair<int, int>> pairs;
+    for (const Block& block : foreseen.all()) {
+      pairs.insert(std::minmax(block.body_a, block.body_b));
+    }
+    Blocks before;
+    contact_rows(scene)(start, before);
+    for (int k = 0; k <= 8; ++k) {
+      Blocks fresh;
+      contact_rows(scene)(flown(scene, start, ahead * k / 8.0), fresh);
+      for (const Block& block : fresh.all()) {
+        if (are_boxes(scene, block)) continue;
+        EXPECT_TRUE(pairs.contains(std::minmax(block.body_a, block.body_b)))
+            << trial << ": " << block.body_a << " and " << block.body_b << " at " << k;
+      }
+      new_pairs += fresh.size() > before.size() ? fresh.size() - before.size() : 0;
+    }
+  }
+  EXPECT_GT(new_pairs, 100U) << "and some of them are new";
+}
+
+/// Largest difference of the row of a contact that was carried from one found anew.
+struct Difference {
+  double phi = 0.0;  // [m]
+  double J = 0.0;
+  double H = 0.0;  // [1/m]
+};
+Difference after_a_motion(const Body& a, const Body& b, double by, Random& random) {
+  const Scene scene = pair_of(a, b);
+  State state = initial_state(scene);
+  ContactStage stage(scene);
+  Blocks carried;
+  stage.foresee_and_append(scene, state, rotations(state), 0.01, carried);
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (scene.bodies[i].is_static) continue;
+    state.x[i] += by * random_vector(random);
+    const Vec3 half = by * random_vector(random);
+    state.q[i] = (Quat(1.0, half.x(), half.y(), half.z()) * state.q[i]).normalized();
+  }
+  carried.clear();
+  stage.carry_and_append(state, carried);
+  Blocks fresh;
+  contact_rows(scene)(state, fresh);
+  Difference worst;
+  EXPECT_EQ(fresh.size(), carried.size());
+  for (std::size_t k = 0; k < std::min(fresh.size(), carried.size()); ++k) {
+    const Block& x = fresh.all()[k];
+    const Block& y = carried.all()[k];
+    EXPECT_EQ(x.id, y.id);
+    EXPECT_EQ(y.rows, 1);
+    worst.phi = std::max(worst.phi, std::abs(x.phi[0] - y.phi[0]));
+    worst.H = std::max(worst.H, (x.H - y.H).norm());
+    for (int j = 0; j < 6; ++j) {
+      worst.J = std::max(
+          {worst.J, std::abs(x.J_a[0][j] - y.J_a[0][j]), std::abs(x.J_b[0][j] - y.J_b[0][j])});
+    }
+  }
+  return worst;
+}
+
+TEST(CarriedContacts, OnPlanesAreWhereFreshOnesAre) {
+  Random random(12);
+  for (const Shape& shape : {Shape(Sphere{0.3}), Shape(Box{Vec3{0.2, 0.3, 0.1}})}) {
+    Body body = moving(shape);
+    body.position = {0.3, 0.5, -0.2};
+    for (int trial = 0; trial < 20; ++trial) {
+      body.orientation = random_rotation(random);
+      const Difference d = after_a_motion(body, fixed(Plane{}), 0.1, random);
+      EXPECT_LT(d.phi, 1e-14);
+      EXPECT_LT(d.J, 1e-14);
+    }
+  }
+}
+
+// To second order: phi with the cube of the way, n with its square, the curvature in proportion.
+TEST(CarriedContacts, OfSpheresAreOfSecondOrder) {
+  for (const double by : {1e-2, 1e-3}) {
+    Random random(13);
+    for (int trial = 0; trial < 20; ++trial) {
+      Body a = moving(Sphere{0.3});
+      Body b = moving(Sphere{0.2});
+      b.position = 0.7 * random_vector(random).normalized();
+      const Difference d = after_a_motion(a, b, by, random);
+      EXPECT_LT(d.phi, 30.0 * by * by * by);
+      EXPECT_LT(d.J, 30.0 * by * by);
+      EXPECT_LT(d.H, 30.0 * by);
+    }
+  }
+}
+
+TEST(CarriedContacts, TurnTheirCurvatureWithTheBody) {
+  Random random(14);
+  Body box = fixed(Box{Vec3{0.2, 0.2, 2.0}});
+  box.is_static = false;
+  box.mass = 1.0;
+  box.inertia = Vec3::Ones();
+  Body ball = moving(Sphere{0.3});
+  ball.position = {0.5, 0.5, 0.1};  // off an edge
+  for (int trial = 0; trial < 20; ++trial) {
+    EXPECT_LT(after_a_motion(ball, box, 1e-3, random).H, 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -54,7 +54,7 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
   cancelled_ = false;
   elapsed_ = 0.0;
   last_ = -1.0;
-  if (!scene_->criteria.track) error = ErrorAxis::kEnergy;
+  if (!scene_->criteria.track) error = first_axis(*scene_);
   if (picture == AccuracyPicture::kStabilityMap && !has_map()) {
     picture = AccuracyPicture::kErrorAgainstCost;
   }
@@ -99,43 +99,18 @@ bool Accuracy::has_map() const {
 
 const Reference* Accuracy::reference() const { return sweep_ ? sweep_->reference() : nullptr; }
 
-std::vector<Accuracy::Point> Accuracy::points() const {
-  std::vector<Point> list;
-  std::vector<CostAndError> values;
-  for (std::size_t i = 0; i < results().size(); ++i) {
-    if (results()[i].experiment.load != 1.0) continue;  // on the map
-    const auto value = error_of(results()[i], error);
-    const double price = cost_of(results()[i], cost);
-    if (!value || !(*value > 0.0) || !(price > 0.0)) continue;
-    list.push_back({i, price, *value, false});
-    values.push_back({price, *value});
-  }
-  const std::vector<bool> front = pareto_front(values);
-  for (std::size_t i = 0; i < list.size(); ++i) list[i].front = front[i];
-  return list;
-}
+std::vector<Accuracy::Point> Accuracy::points() const { return run_points(results(), error, cost); }
 
-std::optional<Accuracy::Point> Accuracy::cheapest(const std::vector<Point>& points) const {
-  std::vector<CostAndError> values;
-  for (const Point& p : points) values.push_back({p.cost, p.error});
-  const auto best = cheapest_within(values, wanted.at(static_cast<std::size_t>(error)));
-  return best ? std::optional(points[*best]) : std::nullopt;
-}
-
-std::vector<Accuracy::Point> Accuracy::of_paper(std::vector<Point> points) const {
-  std::erase_if(points, [this](const Point& p) {
-    const Settings& s = results()[p.result].experiment.settings;
-    return s.solver != SolverKind::kBpp || s.integrator != Integrator::kEuler ||
-           s.mode != Mode::kAdaptive || s.policy != Policy::kFrame;
-  });
-  return points;
+std::optional<Accuracy::Point> Accuracy::best(const std::vector<Point>& points) const {
+  return error_is_given ? cheapest_within(points, wanted.at(static_cast<std::size_t>(error)))
+                        : most_exact_within(points, budget.at(static_cast<std::size_t>(cost)));
 }
 
 std::vector<Accuracy::Point> Accuracy::failed() const {
   std::vector<Point> list;
   for (std::size_t i = 0; i < results().size(); ++i) {
     if (!results()[i].metrics.holds && results()[i].experiment.load == 1.0)
-      list.push_back({i, cost_of(results()[i], cost), 0.0, false});
+      list.push_back({{cost_of(results()[i], cost), 0.0}, i});
   }
   return list;
 }
@@ -143,71 +118,6 @@ std::vector<Accuracy::Point> Accuracy::failed() const {
 bool Accuracy::has(ErrorAxis axis) const {
   const auto measured = [axis](const Result& r) { return error_of(r, axis).value_or(0.0) > 0.0; };
   return std::count_if(results().begin(), results().end(), measured) > 1;
-}
-
-const char* axis_name(ErrorAxis axis) {
-  switch (axis) {
-    case ErrorAxis::kTrajectory:
-      return "largest distance from the reference [m]";
-    case ErrorAxis::kEnergy:
-      return "largest energy drift [J]";
-    case ErrorAxis::kGap:
-      return "largest joint gap [m]";
-    case ErrorAxis::kPenetration:
-      return "deepest overlap [m]";
-    case ErrorAxis::kCount:
-      break;
-  }
-  return "";
-}
-
-const char* axis_name(CostAxis axis) {
-  switch (axis) {
-    case CostAxis::kSubsteps:
-      return "sub-steps per frame";
-    case CostAxis::kOperations:
-      return "solver operations per frame";
-    case CostAxis::kTime:
-      return "median ms per frame, here";
-    case CostAxis::kCount:
-      break;
-  }
-  return "";
-}
-
-double cost_of(const Result& result, CostAxis axis) {
-  const Work& work = result.metrics.work;
-  if (work.frames == 0) return 0.0;
-  const auto frames = static_cast<double>(work.frames);
-  switch (axis) {
-    case CostAxis::kSubsteps:
-      return static_cast<double>(work.substeps) / frames;
-    case CostAxis::kOperations:
-      return static_cast<double>(work.flops) / frames;
-    case CostAxis::kTime:
-      return result.metrics.timing.ms_median;
-    case CostAxis::kCount:
-      break;
-  }
-  return 0.0;
-}
-
-std::optional<double> error_of(const Result& result, ErrorAxis axis) {
-  const Errors& errors = result.metrics.errors;
-  if (!result.metrics.holds) return std::nullopt;
-  switch (axis) {
-    case ErrorAxis::kTrajectory:
-      return errors.trajectory_peak;
-    case ErrorAxis::kEnergy:
-      return errors.energy_drift_peak;
-    case ErrorAxis::kGap:
-      return errors.joint_gap ? std::optional(errors.joint_gap->peak) : std::nullopt;
-    case ErrorAxis::kPenetration:
-      return errors.penetration ? std::optional(errors.penetration->peak) : std::nullopt;
-    case ErrorAxis::kCount:
-      break;
-  }
-  return std::nullopt;
 }
 
 }  // namespace substep

@@ -7,29 +7,19 @@
 #include <vector>
 
 #include "app/effect_costs.hpp"
-#include "core/lab/pareto.hpp"
+#include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"
 
 namespace substep {
 
 /// What the panel shows.
 enum class AccuracyPicture : unsigned char { kErrorAgainstCost, kStabilityMap, kEffectCosts };
-/// What errors are drawn against.
-enum class CostAxis : unsigned char { kSubsteps, kOperations, kTime, kCount };
-/// What is drawn of the errors.
-enum class ErrorAxis : unsigned char { kTrajectory, kEnergy, kGap, kPenetration, kCount };
 
 /// "What does accuracy cost?": a sweep of all methods over the running scene, in slices of a few
 /// milliseconds a frame, and the points of its picture as they come.
 class Accuracy {
  public:
-  /// One run in the picture.
-  struct Point {
-    std::size_t result = 0;  // index into results()
-    double cost = 0.0;
-    double error = 0.0;  // of a run that holds
-    bool front = false;  // no other beats it
-  };
+  using Point = RunPoint;
 
   /// Sweeps this scene; what was there before is forgotten.
   void start(std::shared_ptr<const Scene> scene);
@@ -56,11 +46,9 @@ class Accuracy {
 
   /// Runs of the scene as it stands that hold, with a positive error, by the axes.
   [[nodiscard]] std::vector<Point> points() const;
-  /// Of these points, what reaches the wanted error at the least cost. Nothing does where it is
-  /// empty.
-  [[nodiscard]] std::optional<Point> cheapest(const std::vector<Point>& points) const;
-  /// Those of the paper's method: the direct solver, Euler, N decided once a frame.
-  [[nodiscard]] std::vector<Point> of_paper(std::vector<Point> points) const;
+  /// What comes up to what is wanted: the cheapest within the error, or the most exact within the
+  /// cost. Nothing does where it is empty.
+  [[nodiscard]] std::optional<Point> best(const std::vector<Point>& points) const;
   /// Runs of the scene as it stands that failed.
   [[nodiscard]] std::vector<Point> failed() const;
   /// Whether two runs or more have such an error.
@@ -72,8 +60,12 @@ class Accuracy {
   AccuracyPicture picture = AccuracyPicture::kErrorAgainstCost;
   CostAxis cost = CostAxis::kOperations;  // a sub-step is not the same work with every method
   ErrorAxis error = ErrorAxis::kTrajectory;
+  /// Whether an error is given and the least cost is looked for, or the other way around.
+  bool error_is_given = true;
   /// The error that is wanted at most, by its axis [m, J].
   std::array<double, static_cast<std::size_t>(ErrorAxis::kCount)> wanted{1e-3, 1.0, 1e-4, 1e-4};
+  /// What a frame may cost at most, by its axis [-, -, ms].
+  std::array<double, static_cast<std::size_t>(CostAxis::kCount)> budget{8.0, 1e5, 0.05};
 
  private:
   std::shared_ptr<const Scene> scene_;
@@ -82,13 +74,5 @@ class Accuracy {
   double elapsed_ = 0.0;  // wall time of the sweep, the time between the slices included [s]
   double last_ = -1.0;    // wall clock at the last slice [s]
 };
-
-/// "largest distance from the reference [m]"
-const char* axis_name(ErrorAxis axis);
-const char* axis_name(CostAxis axis);
-
-double cost_of(const Result& result, CostAxis axis);
-/// Nothing where the scene has no such error, or the run failed.
-std::optional<double> error_of(const Result& result, ErrorAxis axis);
 
 }  // namespace substep

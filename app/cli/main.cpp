@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   add_run(app, exit_code);
   add_sweep(app, exit_code);
   add_cost(app, exit_code);
+  add_recommend(app, exit_code);
   add_merge(app, exit_code);
   add_reproduce(app, exit_code);
   add_check(app, exit_code);

@@ -128,28 +128,80 @@ std::string cost_text(double cost, CostAxis axis) {
   }
 }
 
-/// What reaches an error at the least cost, with the reason, and a button that runs it.
+constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting that keeps within it"},
+                                        {"a cost", "The most exact setting that keeps within it"}}};
+constexpr std::array<const char*, static_cast<std::size_t>(CostAxis::kCount)> kBudgetNames{
+    "Sub-steps", "Operations", "Time, ms"};
+
+/// A slider by the exponent: Dear ImGui's logarithmic ones end at what their format prints as zero.
+void limit_slider(const Look& look, const char* name, double least, double most, double& value,
+                  const char* tip) {
+  double exponent = std::log10(value);
+  if (slider(look, name, exponent, std::min(exponent, std::log10(least)),
+             std::max(exponent, std::log10(most)), false, "10^%.1f", tip)) {
+    value = std::pow(10.0, exponent);
+  }
+}
+
+/// What is wanted, and how much of it.
+void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Point>& points) {
+  int given = accuracy.error_is_given ? 0 : 1;
+  if (segmented_row(look, "Given", kGiven, given, "What is wanted; the other is looked for")) {
+    accuracy.error_is_given = given == 0;
+  }
+  const auto limits = [&](double CostAndError::*member) {
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(),
+                            [&](const auto& p, const auto& q) { return p.*member < q.*member; });
+    return std::pair((*least).*member, (*most).*member);
+  };
+  if (accuracy.error_is_given) {
+    const auto [least, most] = limits(&CostAndError::error);
+    limit_slider(look, accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m", least, most,
+                 accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)),
+                 "The error that is wanted at most. What holds it at the least cost is below");
+  } else {
+    const auto cost = static_cast<std::size_t>(accuracy.cost);
+    const auto [least, most] = limits(&CostAndError::cost);
+    limit_slider(look, kBudgetNames.at(cost), least, most, accuracy.budget.at(cost),
+                 "What a frame may cost at most. What comes nearest for it is below");
+  }
+}
+
+/// "1 mm", "0.05 ms a frame": what is wanted at most.
+std::string limit_text(const Accuracy& accuracy) {
+  if (accuracy.error_is_given) {
+    return error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), accuracy.error);
+  }
+  return cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)), accuracy.cost);
+}
+
+/// How the paper's method stands beside it.
+std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points,
+                         const Accuracy::Point& best) {
+  const auto paper = accuracy.best(of_paper(points, accuracy.results()));
+  if (!paper) return "The paper's method does not get there.";
+  const double alpha = accuracy.results()[paper->result].experiment.settings.alpha;
+  if (paper->result == best.result) return "It is the paper's.";
+  const std::string with = "The paper's method, with alpha = " + plain_number(alpha) + ", ";
+  return accuracy.error_is_given
+             ? with + "takes " + coarse_number(paper->cost / best.cost) + " times that."
+             : with + "comes to " + error_text(paper->error, accuracy.error) + ".";
+}
+
+/// The cheapest setting within an error or the most exact within a cost, with the reason, and a
+/// button that runs it.
 void advice(App& app) {
   const Look& look = app.look;
   Accuracy& accuracy = app.accuracy;
   const std::vector<Accuracy::Point> points = accuracy.points();
   if (points.size() < 2) return;
-  const auto [least, most] = std::minmax_element(
-      points.begin(), points.end(), [](const auto& a, const auto& b) { return a.error < b.error; });
-  double& wanted = accuracy.wanted.at(static_cast<std::size_t>(accuracy.error));
-  section(look, "Cheapest within");
-  // By its exponent: Dear ImGui's logarithmic sliders end at what their format prints as zero.
-  double exponent = std::log10(wanted);
-  const char* name = accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m";
-  if (slider(look, name, exponent, std::min(exponent, std::log10(least->error)),
-             std::max(exponent, std::log10(most->error)), false, "10^%.1f",
-             "The error that is wanted at most. What holds it at the least cost is below")) {
-    wanted = std::pow(10.0, exponent);
-  }
-  const auto best = accuracy.cheapest(points);
+  section(look, "What to set");
+  wanted(look, accuracy, points);
+  const auto best = accuracy.best(points);
   if (!best) {
     label(look.fonts.small, look.theme->dim,
-          ("No method keeps within " + error_text(wanted, accuracy.error) + ".").c_str());
+          ("No method keeps within " + limit_text(accuracy) + ".").c_str());
     space(8.0F);
     return;
   }
@@ -164,17 +216,10 @@ void advice(App& app) {
       fitted(look.fonts.medium, style.name, ImGui::GetContentRegionAvail().x - 36.0F).c_str());
   ImGui::Dummy({1.0F, 18.0F});
   const SeriesParameter parameter = series_parameter(s);
-  std::string reason =
+  const std::string reason =
       std::string("With ") + parameter.name + " = " + plain_number(parameter.value) + " within " +
-      error_text(wanted, accuracy.error) + ": " + error_text(best->error, accuracy.error) +
-      " for " + cost_text(best->cost, accuracy.cost) + ". ";
-  const auto paper = accuracy.cheapest(accuracy.of_paper(points));
-  if (!paper) {
-    reason += "The paper's method does not get there.";
-  } else if (paper->result != best->result) {
-    reason +=
-        "The paper's method takes " + coarse_number(paper->cost / best->cost) + " times that.";
-  }
+      limit_text(accuracy) + ": " + error_text(best->error, accuracy.error) + " for " +
+      cost_text(best->cost, accuracy.cost) + ". " + beside_paper(accuracy, points, *best);
   label(look.fonts.small, look.theme->dim, reason.c_str());
   if (button(look, "cheapest", Icon::kPlay, "Run it", ButtonKind::kPlain, 0.0F, look.m.row,
              "This scene from its start with this method")) {

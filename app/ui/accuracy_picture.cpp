@@ -320,11 +320,17 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   }
   draw_front(look, points, axes, draw);
   draw_curves(look, accuracy, points, axes, draw);
-  if (const auto best = accuracy.cheapest(points)) {
-    const double wanted = accuracy.wanted.at(static_cast<std::size_t>(accuracy.error));
-    const float y = std::clamp(axes.y(wanted), axes.min.y, axes.max.y);
+  if (const auto best = accuracy.best(points)) {
     float phase = 0.0F;
-    draw_dashes(draw, {axes.min.x, y}, {axes.max.x, y}, fade(t.text, 0.5F), 1.0F, phase);
+    if (accuracy.error_is_given) {
+      const double wanted = accuracy.wanted.at(static_cast<std::size_t>(accuracy.error));
+      const float y = std::clamp(axes.y(wanted), axes.min.y, axes.max.y);
+      draw_dashes(draw, {axes.min.x, y}, {axes.max.x, y}, fade(t.text, 0.5F), 1.0F, phase);
+    } else {
+      const double budget = accuracy.budget.at(static_cast<std::size_t>(accuracy.cost));
+      const float x = std::clamp(axes.x(budget), axes.min.x, axes.max.x);
+      draw_dashes(draw, {x, axes.min.y}, {x, axes.max.y}, fade(t.text, 0.5F), 1.0F, phase);
+    }
     draw.AddCircle(axes.at(*best), 8.0F, t.accent, 0, 2.0F);
   }
 

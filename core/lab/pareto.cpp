@@ -27,17 +27,32 @@ std::vector<bool> pareto_front(std::span<const CostAndError> points) {
   return front;
 }
 
-std::optional<std::size_t> cheapest_within(std::span<const CostAndError> points, double error) {
+namespace {
+
+/// Of the points whose `bound` is within the limit the one with the least `aim`, then of `bound`.
+std::optional<std::size_t> least_within(std::span<const CostAndError> points,
+                                        double CostAndError::*bound, double limit,
+                                        double CostAndError::*aim) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const CostAndError& p = points[i];
-    if (!(p.error <= error)) continue;
-    if (!best || p.cost < points[*best].cost ||
-        (p.cost == points[*best].cost && p.error < points[*best].error)) {
+    if (!(p.*bound <= limit)) continue;
+    if (!best || p.*aim < points[*best].*aim ||
+        (p.*aim == points[*best].*aim && p.*bound < points[*best].*bound)) {
       best = i;
     }
   }
   return best;
+}
+
+}  // namespace
+
+std::optional<std::size_t> cheapest_within(std::span<const CostAndError> points, double error) {
+  return least_within(points, &CostAndError::error, error, &CostAndError::cost);
+}
+
+std::optional<std::size_t> most_exact_within(std::span<const CostAndError> points, double cost) {
+  return least_within(points, &CostAndError::cost, cost, &CostAndError::error);
 }
 
 }  // namespace substep

@@ -138,6 +138,24 @@ TEST(CommandLine, CostTellsStagesRowsEffectsAndTheCriterion) {
   EXPECT_FALSE(json["effects"].contains("restitution"));
 }
 
+TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACost) {
+  const Outcome error = substep("recommend pendulum --error 1e-2 --seconds 2");
+  EXPECT_EQ(error.exit_code, 0) << error.err;
+  EXPECT_NE(error.out.find("The cheapest within 0.01 m: "), std::string::npos) << error.out;
+  EXPECT_NE(error.out.find("the largest alpha that does is "), std::string::npos) << error.out;
+  const std::size_t command = error.out.find("substep run pendulum ");
+  ASSERT_NE(command, std::string::npos);
+  const std::string line = error.out.substr(command, error.out.find('\n', command) - command);
+  EXPECT_EQ(substep(line.substr(8) + " --seconds 2").exit_code, 0) << "what it tells can be run";
+  const Outcome cost = substep("recommend pendulum --operations 3000 --seconds 2");
+  EXPECT_NE(cost.out.find("The most exact within 3e+03 operations a frame: "), std::string::npos)
+      << cost.out;
+  EXPECT_NE(cost.out.find("the smallest alpha that does is "), std::string::npos) << cost.out;
+  EXPECT_EQ(substep("recommend pendulum --error 1e-15 --seconds 1").exit_code, 1);
+  EXPECT_EQ(substep("recommend pendulum --error 1 --ms 1").exit_code, 2);
+  EXPECT_EQ(substep("recommend pendulum --of colour").exit_code, 2);
+}
+
 TEST(CommandLine, EverySettingIsAFlag) {
   const Outcome run = substep(
       "run free_fall --frames 1 --json - --solver pgs --iterations 3 --warm-start --forces mean "

@@ -45,5 +45,21 @@ TEST(Pareto, CheapestWithinIsOnTheFront) {
   }
 }
 
+TEST(Pareto, MostExactWithinIsTheSameWithTheAxesChanged) {
+  std::mt19937 random(8);
+  std::uniform_int_distribution<int> coarse(0, 12);
+  for (int round = 0; round < 100; ++round) {
+    std::vector<CostAndError> points(static_cast<std::size_t>(round % 20));
+    std::vector<CostAndError> turned;
+    for (auto& p : points) {
+      p = {double(coarse(random)), double(coarse(random))};
+      turned.push_back({p.error, p.cost});
+    }
+    for (double limit = -0.5; limit < 13.0; limit += 0.5) {
+      EXPECT_EQ(most_exact_within(points, limit), cheapest_within(turned, limit));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace substep

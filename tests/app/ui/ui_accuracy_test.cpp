@@ -58,8 +58,8 @@ TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
   accuracy.wanted[0] = 1e-4;
   h.frames(2);
   const std::vector<Accuracy::Point> points = accuracy.points();
-  const auto best = accuracy.cheapest(points);
-  const auto paper = accuracy.cheapest(accuracy.of_paper(points));
+  const auto best = accuracy.best(points);
+  const auto paper = accuracy.best(of_paper(points, accuracy.results()));
   ASSERT_TRUE(best.has_value());
   EXPECT_LE(best->error, 1e-4);
   for (const Accuracy::Point& p : points) {
@@ -76,7 +76,40 @@ TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
   EXPECT_TRUE(h.app->session.playing());
   accuracy.wanted[0] = 1e-12;
   h.frames(2);
-  EXPECT_FALSE(accuracy.cheapest(points).has_value());
+  EXPECT_FALSE(accuracy.best(points).has_value());
+}
+
+TEST(Accuracy, TheMostExactWithinACostIsLookedForAtAPress) {
+  Headless h;
+  h.app->open("pendulum");
+  ASSERT_EQ(h.app->set("panel", "accuracy"), "");
+  ASSERT_EQ(h.app->set("accuracy", "run"), "");
+  finish(h);
+  Accuracy& accuracy = h.app->accuracy;
+  accuracy.cost = CostAxis::kSubsteps;
+  h.app->desk.tab = Tab::kAccuracy;
+  h.resize(1280.0F, 1600.0F, 1.0F);  // all of the panel
+  h.frames(3);
+  h.press("a cost");
+  ASSERT_FALSE(accuracy.error_is_given);
+  for (const double budget : {1.0, 4.0, 16.0}) {
+    accuracy.budget[0] = budget;
+    const std::vector<Accuracy::Point> points = accuracy.points();
+    const auto best = accuracy.best(points);
+    ASSERT_TRUE(best.has_value());
+    EXPECT_LE(best->cost, budget);
+    for (const Accuracy::Point& p : points) {
+      EXPECT_TRUE(p.cost > budget || best->error <= p.error);
+    }
+  }
+  const auto best = accuracy.best(accuracy.points());
+  const Settings wanted = accuracy.results()[best->result].experiment.settings;
+  h.frames(2);
+  h.press("Run it");
+  EXPECT_EQ(h.app->session.settings().solver, wanted.solver);
+  EXPECT_EQ(h.app->session.settings().n, wanted.n);
+  accuracy.budget[0] = 0.5;
+  EXPECT_FALSE(accuracy.best(accuracy.points()).has_value());
 }
 
 TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {

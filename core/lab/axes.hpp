@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/lab/experiment_run.hpp"
+
+namespace substep {
+
+/// What the cost of a run is counted in, per frame.
+enum class CostAxis : std::uint8_t { kSubsteps, kOperations, kTime, kCount };
+/// Which error of a run is looked at.
+enum class ErrorAxis : std::uint8_t { kTrajectory, kEnergy, kGap, kPenetration, kCount };
+
+/// "largest distance from the reference [m]"
+const char* axis_name(ErrorAxis axis);
+const char* axis_name(CostAxis axis);
+/// "m" or "J"
+const char* unit_of(ErrorAxis axis);
+
+double cost_of(const Result& result, CostAxis axis);
+/// Nothing where the scene has no such error, or the run failed.
+std::optional<double> error_of(const Result& result, ErrorAxis axis);
+
+/// By what a scene is measured first: the path of the body that it tracks, else energy.
+ErrorAxis first_axis(const Scene& scene);
+
+}  // namespace substep

@@ -1,0 +1,31 @@
+#pragma once
+// What to set, from the runs of a sweep: arithmetic, and nothing that a person could not check in
+// its picture.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/lab/axes.hpp"
+#include "core/lab/pareto.hpp"
+
+namespace substep {
+
+/// A run that holds, in a picture of error against cost.
+struct RunPoint : CostAndError {
+  std::size_t result = 0;  // index into the results
+  bool front = false;      // no other beats it
+};
+
+/// The runs of the scene as it stands that hold, with a positive error and cost.
+std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost);
+
+/// The cheapest whose error is no more than this, and the other way around.
+std::optional<RunPoint> cheapest_within(std::span<const RunPoint> points, double error);
+std::optional<RunPoint> most_exact_within(std::span<const RunPoint> points, double cost);
+
+/// Those of the paper's method: the direct solver, Euler, N decided once a frame. The cheapest of
+/// them within an error has the largest alpha that does, the most exact within a cost the smallest.
+std::vector<RunPoint> of_paper(std::span<const RunPoint> points, std::span<const Result> results);
+
+}  // namespace substep

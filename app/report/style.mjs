@@ -6,6 +6,7 @@ const modes = [
   ["newton numerov, const", "teal", "triangle", "Newton, Numerov"],
   ["newton mean, const", "teal", "circle", "Newton, mean forces"],
   ["newton, const", "teal", "circle", "Newton"],
+  ["refined", "teal", "triangle", "constant N"],
   [/xpbd \d+ a frame, const/, "purple", "star", "small steps"],
   [/pgs \d+ a frame, const/, "amber", "triangle", "small steps"],
   ["xpbd 1, const", "purple", "diamond", "XPBD"],
@@ -46,7 +47,8 @@ export function styleOf(series) {
   const named = sweeping === "pgs" || shared; // XPBD is its own name otherwise
   const implicit = /^newton/.test(series);
   const drift = /drift (\w+)/.exec(series);
-  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", drift ? drift[0] : ""]
+  const refined = /refined (\d+)/.exec(series);
+  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", refined ? refined[0] : "", drift ? drift[0] : ""]
     .filter(Boolean).join(", ");
   return { token, symbol, name: sweeping && !named ? `${name} ${sweeps}` : name, hollow: leapfrog, dashed: sweeping !== undefined };
 }

@@ -260,6 +260,11 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
   switch (s.solver) {
     case SolverKind::kBpp:
       if (style.hollow) style.name += ", leapfrog";
+      if (s.refinements > 0) {
+        style.color = theme.teal;
+        style.corners = 3;
+        style.name += ", refined " + std::to_string(s.refinements);
+      }
       break;
     case SolverKind::kPgs:
       if (style.hollow) style.name += ", leapfrog";

@@ -108,7 +108,7 @@ bool other(App& app, std::size_t i) {
     Settings s = Compare::settings_of(run.overrides, app.session.settings());
     const Settings before = s;
     space(look.m.section);
-    method_controls(look, app.session.scene().effects, s, app.desk.more);
+    method_controls(look, app.session.scene(), s, app.desk.more);
     if (s != before) app.compare.change(app.session, i, s);
   }
   return gone;

@@ -179,7 +179,7 @@ void stabilisation(const Look& look, Settings& s) {
   }
 }
 
-void solving(const Look& look, Settings& s) {
+void solving(const Look& look, const Scene& scene, Settings& s) {
   section(look, "Solver");
   choose(look, "Method", kSolvers, s.solver, "What solves the velocities of a sub-step, Eq. 3.");
   if (s.solver == SolverKind::kPgs) {
@@ -191,6 +191,11 @@ void solving(const Look& look, Settings& s) {
     choose(look, "Forces", kForces, s.forces, "Poses that the constraint forces belong to.");
     slider(look, "Steps", s.iterations, 1, 50, true,
            "Newton steps at most in every sub-step; two are mostly enough.");
+  }
+  if (s.solver == SolverKind::kBpp && scene.regularisation > 0.0) {
+    slider(look, "Refine", s.refinements, 0, 32, false,
+           "Solves, after the first, that take the scene's regularisation back, from the last "
+           "forces on: the proximal point method. Each costs a solve with the factor as it is.");
   }
   if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
     checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
@@ -291,13 +296,13 @@ void showing(App& app) {
 
 }  // namespace
 
-void method_controls(const Look& look, const Effects& effects, Settings& settings, bool& more) {
+void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more) {
   stabilisation(look, settings);
   space(look.m.section);
-  solving(look, settings);
+  solving(look, scene, settings);
   fold(look, more ? "Less" : "More", more,
        "What most people never touch: drift, the probe, how often N is decided, contacts in K.");
-  if (more) finer_points(look, effects, settings);
+  if (more) finer_points(look, scene.effects, settings);
 }
 
 void controls(App& app) {
@@ -307,7 +312,7 @@ void controls(App& app) {
   // The picker may have brought a scene with settings of its own.
   if (app.session.settings() != s) s = app.session.settings();
   space(look.m.section);
-  method_controls(look, app.session.scene().effects, s, app.desk.more);
+  method_controls(look, app.session.scene(), s, app.desk.more);
   if (app.desk.more) effect_switches(app);
   space(look.m.section);
   showing(app);

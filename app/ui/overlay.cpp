@@ -21,7 +21,7 @@ std::string solver_words(const Settings& s) {
     case SolverKind::kPgs:
       return "PGS " + sweeps;
     case SolverKind::kBpp:
-      return "BPP";
+      return s.refinements > 0 ? "BPP, refined " + std::to_string(s.refinements) : "BPP";
     case SolverKind::kXpbd:
       return "XPBD " + sweeps;
     case SolverKind::kNewton:

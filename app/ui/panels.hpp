@@ -23,7 +23,7 @@ void throw_ball(App& app);
 void controls(App& app);
 /// Mode and solver with their parameters: the controls that any run has.
 /// @param more whether the finer points are unfolded
-void method_controls(const Look& look, const Effects& effects, Settings& settings, bool& more);
+void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more);
 /// @param height that the plots share; 0 takes what they need at least
 void plots(App& app, float height);
 /// The run so far as a CSV file, of the channels of the plots that are shown.

@@ -68,6 +68,8 @@ std::string solver_text(const Settings& s) {
   } else if (s.solver == SolverKind::kNewton && s.forces != Forces::kEnd) {
     text += " ";
     text += name_of(s.forces);
+  } else if (s.solver == SolverKind::kBpp && s.refinements > 0) {
+    text += " refined " + std::to_string(s.refinements);
   }
   return text;
 }

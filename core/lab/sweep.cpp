@@ -13,6 +13,8 @@ namespace {
 constexpr int kConstant[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 40, 56, 80};
 constexpr int kImplicit[] = {1, 2, 3, 4, 6, 8, 11, 16, 28, 56};  // whose point is to need few
 constexpr int kSmallSteps[] = {1, 2, 4, 8, 16, 32, 64};  // that share as many sweeps as the last
+constexpr int kRefinements[] = {2, 8};
+constexpr int kFew[] = {1, 2, 3, 4, 6, 8};  // sub-steps that are refined
 constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 0.0125, 0.00625};
 constexpr double kDampingAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
@@ -94,6 +96,21 @@ void append_small_steps(Settings settings, const Scene& scene, std::vector<Setti
   }
 }
 
+/// Few sub-steps, each refined until little of the regularisation is left.
+void append_refined(Settings settings, std::vector<Settings>& all) {
+  settings.solver = SolverKind::kBpp;
+  settings.mode = Mode::kConst;
+  settings.policy = Policy::kFrame;
+  settings.integrator = Integrator::kEuler;
+  for (const int refinements : kRefinements) {
+    settings.refinements = refinements;
+    for (const int n : kFew) {
+      settings.n = n;
+      all.push_back(settings);
+    }
+  }
+}
+
 /// Constant N and adaptive along their parameter, with the direct solver, under every other load.
 void append_map(Settings settings, std::vector<SweepPoint>& points) {
   settings.solver = SolverKind::kBpp;
@@ -123,6 +140,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   base.watch_stiffness = false;
   base.drift = Drift::kAuto;
   base.share_iterations = false;
+  base.refinements = 0;
   base.detection = Detection::kSubstep;
   const auto curves = [&](SolverKind solver, Integrator integrator) {
     Settings settings = base;
@@ -146,6 +164,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   curves(SolverKind::kPgs, Integrator::kEuler);
   append_implicit(base, scene, all);
   append_small_steps(base, scene, all);
+  if (scene.regularisation > 0.0) append_refined(base, all);
   std::vector<SweepPoint> points;
   for (const Settings& settings : all) points.push_back({settings, 1.0});
   if (mass_ratio(scene) > 1.0) append_map(base, points);

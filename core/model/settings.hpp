@@ -42,6 +42,7 @@ struct Settings {
   bool share_iterations = false;  // they are those of a frame, dealt out over its sub-steps
   bool warm_start = false;        // PGS starts from the last sub-step's forces
   Forces forces = Forces::kEnd;   // Newton
+  int refinements = 0;            // BPP: solves that take the scene's regularisation back, >= 0
   int pivots = 20;  // block pivoting steps of BPP before its single-pivot fallback, >= 1
 
   Mode mode = Mode::kAdaptive;
@@ -69,7 +70,7 @@ struct Settings {
 
 /// Whether impulses are seeded with the forces of the last sub-step, those of joints too.
 inline bool starts_from_last_forces(const Settings& s) {
-  return s.warm_start || s.solver == SolverKind::kNewton;
+  return s.warm_start || s.solver == SolverKind::kNewton || s.refinements > 0;
 }
 
 /// kAuto resolved: the law that the solver is used with.

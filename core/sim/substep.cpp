@@ -124,7 +124,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   }
   if (grab) soften_grab(*grab, dt, rows.back());
   seed_forces();
-  const System system{rows, inverse_mass, state.u, u_before, dt};
+  const System system{rows, inverse_mass, state.u, u_before, dt, scene->regularisation};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
   const SolveReport solved = solver->solve(system, asked);

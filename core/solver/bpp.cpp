@@ -23,20 +23,17 @@ double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse))
 void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
   ldlt_.reserve(bodies, blocks);
   friction_bound_.reserve(blocks);
+  centre_.reserve(blocks);
   gauss_seidel_.reserve(bodies, blocks);
 }
 
-SolveReport Bpp::find_active_set(const System& system, const Settings& settings) {
-  SolveReport report;
-  ldlt_.begin(system);
-  factor_valid_ = false;
-  start_active_set(system);
-
+void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
+  report.status = SolveStatus::kSolved;
   int boxed_rows = 0;
   for (const Block& block : system.blocks) boxed_rows += block.is_contact() ? block.rows : 0;
   if (boxed_rows == 0) {
     solve_active_set(system, report);
-    return report;
+    return;
   }
   int single_pivots = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -50,16 +47,41 @@ SolveReport Bpp::find_active_set(const System& system, const Settings& settings)
       if (!one_only || ++single_pivots <= kSinglePivots) continue;
       report.flops += go_on_with_gauss_seidel(system, settings);
       report.status = SolveStatus::kUnsolved;
-      return report;
+      return;
     }
-    if (bounds_settled(system.blocks)) return report;
+    if (bounds_settled(system.blocks)) return;
   }
   report.status = SolveStatus::kUnsettled;
-  return report;
+}
+
+// The centre's share of w moves into the bias: r (x - x0) + bias = r x + (bias - r x0).
+void Bpp::centre(const System& system) {
+  for (std::size_t i = 0; i < system.blocks.size(); ++i) {
+    Block& block = system.blocks[i];
+    for (int row = 0; row < block.rows; ++row) {
+      double& at = centre_[i].row[row];
+      block.bias[row] -= system.regularisation * (block.impulse[row] - at);
+      at = block.impulse[row];
+    }
+  }
+  ldlt_.read(system.blocks);
 }
 
 SolveReport Bpp::solve(const System& system, const Settings& settings) {
-  SolveReport report = find_active_set(system, settings);
+  SolveReport report;
+  ldlt_.begin(system);
+  factor_valid_ = false;
+  start_active_set(system);
+  const int refinements = system.regularisation > 0.0 ? settings.refinements : 0;
+  if (refinements > 0) {
+    centre_.assign(system.blocks.size(), Centre{});
+    centre(system);
+  }
+  find_active_set(system, settings, report);
+  for (int i = 0; i < refinements && report.status != SolveStatus::kUnsolved; ++i) {
+    centre(system);
+    find_active_set(system, settings, report);
+  }
   report.flops += ldlt_.flops();
   return report;
 }

@@ -14,13 +14,22 @@ namespace substep {
 /// Murty's rule), which cannot cycle but can take long: past a bound Gauss-Seidel takes over.
 /// Friction bounds are fixed while it pivots, seeded with the impulses given, and refreshed
 /// outside, at most four times.
+///
+/// A regularisation r that stands in for finite precision lets heavy loads sink: with
+/// Settings::refinements it resists only how far impulses go from a centre, x0 = those of the last
+/// sub-step, then those of the last solve,
+///   w = J u+ + (softness - r) x + r (x - x0) + bias,
+/// which is the proximal point method (Rockafellar 1976; for constrained bodies Carpentier et al.
+/// 2021). Each is a solve with the factor as it is.
 class Bpp final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
-  SolveReport find_active_set(const System& system, const Settings& settings);
+  /// From the active set and the factor as they stand.
+  void find_active_set(const System& system, const Settings& settings, SolveReport& report);
+  void centre(const System& system);
   /// A row's new set.
   struct Move {
     std::size_t block = 0;
@@ -47,6 +56,10 @@ class Bpp final : public Solver {
   Pgs gauss_seidel_;
   bool factor_valid_ = false;           // the factor belongs to the present active set
   std::vector<double> friction_bound_;  // per block [N s]
+  struct Centre {
+    double row[kMaxRows];
+  };
+  std::vector<Centre> centre_;  // per block: of the regularisation [N s or N m s]
 };
 
 }  // namespace substep

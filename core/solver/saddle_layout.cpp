@@ -78,23 +78,27 @@ void SaddleLdlt::begin(const System& system) {
   u_star_.assign(system.u.begin(), system.u.end());
   if (!layout_is_the_same(system)) lay_out(system);
   w_.resize(system.blocks.size() * kMaxRows);
-  for (Node& node : nodes_) {
-    node.dirty = true;
+  for (Node& node : nodes_) node.dirty = true;
+  read(system.blocks);
+}
+
+void SaddleLdlt::read(std::span<const Block> blocks) {
+  for (const Node& node : nodes_) {
     if (node.way == Way::kArticulated) {
       const Attached& attached = attached_[node.first_attached];
-      joints_[node.joint].read(system.blocks[index(attached.block)], attached.is_a, u_star_);
+      joints_[node.joint].read(blocks[index(attached.block)], attached.is_a, u_star_);
     } else {
-      read_rows(node, system);
+      read_rows(node, blocks);
     }
   }
 }
 
-void SaddleLdlt::read_rows(const Node& node, const System& system) {
+void SaddleLdlt::read_rows(const Node& node, std::span<const Block> blocks) {
   for (std::size_t k = 0; k < node.n_attached; ++k) {
     const int i = attached_[node.first_attached + k].block;
-    const Block& block = system.blocks[index(i)];
+    const Block& block = blocks[index(i)];
     double* w = w_.data() + index(i) * kMaxRows;
-    row_speeds(block, system.u, w);
+    row_speeds(block, u_star_, w);
     for (int row = 0; row < block.rows; ++row) w[row] += block.bias[row];
   }
 }

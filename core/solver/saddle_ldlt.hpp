@@ -35,6 +35,8 @@ class SaddleLdlt {
   void reserve(std::size_t bodies, std::size_t blocks);
   /// Takes a new system, its u as u*.
   void begin(const System& system);
+  /// Takes the bias of the same rows anew; what is factored stays.
+  void read(std::span<const Block> blocks);
   /// Says that rows of a block have become tight or free.
   void touch(std::size_t block);
   /// Impulses of free rows from those of tight rows, and u+. Factors what has changed.
@@ -97,7 +99,7 @@ class SaddleLdlt {
   [[nodiscard]] Factor at(const Node& node);
   [[nodiscard]] Square6& square(std::size_t at);
   [[nodiscard]] bool foldable(const Block& block, const System& system) const;
-  void read_rows(const Node& node, const System& system);
+  void read_rows(const Node& node, std::span<const Block> blocks);
   bool layout_is_the_same(const System& system);
   void lay_out(const System& system);
   void attach(std::span<const Block> blocks);

@@ -56,7 +56,8 @@ Scene heavy_stack(const HeavyStackOptions& options) {
         " The balls start up to 2 mm off, and the solver's matrix carries a fixed regularisation, "
         "as in single precision.";
     scene.look_for =
-        "Without sub-steps the stack falls within a second; more of them keep it up longer.";
+        "Without sub-steps the stack falls within a second; more of them keep it up longer. "
+        "Refined, a single step does.";
     scene.regularisation = 7e-5;
   }
   scene.bodies.push_back(floor_plane());

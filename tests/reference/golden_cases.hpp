@@ -28,8 +28,9 @@ inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
                                           "newtons_cradle"};
 
 /// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
-/// and with 16 sub-steps, with BPP and with PGS; through the paper's scenes of contacts with
-/// small steps, and through those of joints with 6 sub-steps of the other solvers.
+/// and with 16 sub-steps, with BPP and with PGS; through the stress stacks with refinements,
+/// through the paper's scenes of contacts with small steps, and through those of joints with 6
+/// sub-steps of the other solvers.
 /// @return main()'s
 inline int for_every_case(int argc, char** argv, const std::function<void(Case&)>& what) {
   if (argc != 2) {
@@ -59,9 +60,15 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
         with(settings, name_of(solver));
       }
     }
-    if (read.scene->group != "paper") continue;
     Settings settings = read.scene->settings;
     settings.mode = Mode::kConst;
+    if (read.scene->regularisation > 0.0) {
+      Settings refined = settings;
+      refined.n = 2;
+      refined.refinements = 3;
+      with(refined, "bpp_refined");
+    }
+    if (read.scene->group != "paper") continue;
     if (read.scene->effects.contact) {
       Settings small = settings;
       small.n = 8;

@@ -32,6 +32,7 @@ Settings unusual() {
   s.share_iterations = true;
   s.warm_start = true;
   s.forces = Forces::kMean;
+  s.refinements = 2;
   s.pivots = 7;
   s.mode = Mode::kCapped;
   s.alpha = 0.1 / 3.0;

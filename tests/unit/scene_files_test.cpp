@@ -69,6 +69,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .share_iterations = true,
                     .warm_start = true,
                     .forces = Forces::kNumerov,
+                    .refinements = 2,
                     .pivots = 3,
                     .mode = Mode::kCapped,
                     .alpha = 0.3,

@@ -301,6 +301,55 @@ TEST(Bpp, IsExactForAnySoftness) {
   }
 }
 
+/// Largest difference of velocities from those without a regularisation, after so many refinements.
+double left_of_regularisation(const Problem& problem, double regularisation, int refinements) {
+  Problem plain = problem;
+  Bpp().solve(plain.system(), Settings{});
+  Problem refined = problem;
+  for (Block& block : refined.blocks) {
+    for (int row = 0; row < block.rows; ++row) block.softness[row] += regularisation;
+  }
+  System system = refined.system();
+  system.regularisation = regularisation;
+  Settings settings;
+  settings.refinements = refinements;
+  Bpp().solve(system, settings);
+  double worst = 0.0;
+  for (std::size_t i = 0; i < plain.u.size(); ++i) {
+    worst = std::max(worst, (plain.u[i] - refined.u[i]).norm());
+  }
+  return worst;
+}
+
+TEST(Bpp, RefinementsTakeTheRegularisationBack) {
+  Random random(23);
+  for (const ProblemSize& size :
+       {ProblemSize{5, 4, 0}, ProblemSize{5, 0, 4}, ProblemSize{5, 3, 4}}) {
+    for (int trial = 0; trial < 50; ++trial) {
+      const Problem problem = random_problem(random, size);
+      const double none = left_of_regularisation(problem, 0.3, 0);
+      if (none == 0.0) continue;  // nothing that carries a force
+      EXPECT_LT(left_of_regularisation(problem, 0.3, 5), 0.7 * none);
+      EXPECT_LT(left_of_regularisation(problem, 0.3, 1000), 1e-8);
+    }
+  }
+}
+
+// The last forces are where it starts from: at rest one solve is enough.
+TEST(Bpp, RefinementsStartFromTheLastForces) {
+  Random random(24);
+  for (int trial = 0; trial < 50; ++trial) {
+    Problem problem = random_problem(random, {5, 3, 4});
+    Problem solved = problem;
+    Bpp().solve(solved.system(), Settings{});
+    for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
+      std::copy(solved.blocks[i].impulse, solved.blocks[i].impulse + kMaxRows,
+                problem.blocks[i].impulse);
+    }
+    EXPECT_LT(left_of_regularisation(problem, 0.3, 1), 1e-9);
+  }
+}
+
 TEST_P(EverySolver, VelocitiesAreThoseOfTheImpulses) {
   Random random(14);
   const auto solver = make_solver(GetParam());

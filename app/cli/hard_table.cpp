@@ -30,6 +30,7 @@ std::vector<Candidate> candidates() {
   add("inertia from 8, 0.3, leapfrog, soft",
       {.mode = Mode::kInertia, .alpha = 0.3, .n_cap = 8, .integrator = leapfrog, .drift = soft});
   add("damping", {.mode = Mode::kDamping});
+  add("newton, one step", {.solver = SolverKind::kNewton, .mode = Mode::kNone});
   add("const 16", {.mode = Mode::kConst, .n = 16});
   add("const 32", {.mode = Mode::kConst, .n = 32});
   return all;

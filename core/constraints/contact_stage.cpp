@@ -51,6 +51,7 @@ bool ContactStage::foresee_and_append(const Scene& scene, const State& state,
                                       std::span<const Mat3> R_WB, double ahead, Blocks& blocks) {
   const std::span<const ContactPoint> points = detector_.detect(scene, state, R_WB, ahead);
   foreseen_.clear();
+  foreseen_.reserve(8 * scene.bodies.size() + 32);  // once: a landing must not allocate
   if (detector_.too_many()) return false;
   append(points, scene, state, foreseen_);
   x_.assign(state.x.begin(), state.x.end());

@@ -15,13 +15,14 @@ struct Preset {
   Settings settings;
 };
 
-/// The paper's settings, and those that hold most of the hard set at the least work.
+/// The paper's settings, those that hold most of the hard set at the least work, and those that
+/// hold all of it.
 std::span<const Preset> presets();
 
 /// By its name, or null.
 const Preset* find_preset(std::string_view name);
 
-/// "paper or recommended"
+/// "paper, recommended or robust"
 std::string preset_names();
 
 }  // namespace substep

@@ -158,22 +158,21 @@ TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACo
 
 TEST(CommandLine, EverySettingIsAFlag) {
   const Outcome run = substep(
-      "run free_fall --frames 1 --json - --solver pgs --iterations 3 --warm-start --forces mean "
-      "--pivots 4 "
+      "run free_fall --frames 1 --json - --solver pgs --iterations 3 --share-iterations "
+      "--warm-start --forces mean --refinements 2 --pivots 4 "
       "--mode "
       "capped --alpha 0.2 --n 5 --n-max 6 --n-cap 7 --alpha-m 0.5 --beta 0.8 --policy substep "
       "--memory 0.5 --no-probe "
       "--integrator leapfrog --gyroscopic explicit --drift full --tau 0.01 --drift-order 2 "
-      "--contact-stiffness "
-      "exact "
+      "--detection frame --contact-stiffness exact "
       "--watch-stiffness");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const Json expected = Json::parse(
-      R"({"solver": "pgs", "iterations": 3, "warm_start": true, "forces": "mean",
-          "pivots": 4, "mode": "capped", "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "alpha_m": 0.5, "beta": 0.8,
+      R"({"solver": "pgs", "iterations": 3, "share_iterations": true,
+          "warm_start": true, "forces": "mean", "refinements": 2, "pivots": 4, "mode": "capped", "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "alpha_m": 0.5, "beta": 0.8,
           "policy": "substep", "memory": 0.5, "probe": false, "integrator": "leapfrog",
           "gyroscopic": "explicit", "drift": "full", "tau": 0.01, "drift_order": 2,
-          "contact_stiffness": "exact", "watch_stiffness": true})");
+          "detection": "frame", "contact_stiffness": "exact", "watch_stiffness": true})");
   EXPECT_EQ(Json::parse(run.out, nullptr, false)["settings"], expected);
 }
 
@@ -226,7 +225,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
         BadCall{"UnknownCommand", "chek",
-                "chek is not run, sweep, cost, merge, reproduce, check, hash, scenes, generate or "
+                "chek is not run, sweep, cost, recommend, merge, reproduce, check, hash, scenes, "
+                "generate or "
                 "map (did "
                 "you mean \"check\"?)"},
         BadCall{"NoCommand", "", "subcommand"},

@@ -44,6 +44,17 @@ TEST(HardSet, TheRecommendedSettingHoldsAllJointedCasesButSlackChains) {
   EXPECT_GT(cases, 20);
 }
 
+// Implicit at the end of the sub-step: it needs no K that foretells, and slack chains hold too.
+TEST(HardSet, TheRobustSettingHoldsAllJointedCases) {
+  const Settings& robust = find_preset("robust")->settings;
+  for (const scenes::HardCase& hard : scenes::hard_set()) {
+    if (hard.scene.bodies.size() > 60) continue;
+    if (hard.scene.effects.contact && hard.family != "impacts") continue;
+    const Outcome r = run(hard.scene, robust, hard.scene.criteria.duration);
+    EXPECT_TRUE(r.holds) << hard.scene.name << ": " << r.verdict;
+  }
+}
+
 TEST(HardSet, AStepAFrameHoldsHardlyAnyChain) {
   const Settings none{.mode = Mode::kNone};
   int held = 0;

@@ -43,6 +43,7 @@ test("none tears, adaptive holds, alpha changes N, the link is copied", async ()
 
 test("the tour leads through six steps, and each shows what it says", async () => {
   const page = await openPage(session);
+  await offered(page, "Take the tour");
   await click(page, "Take the tour");
   const steps = [
     { mode: "none" }, { mode: "const", n: "7" }, { mode: "damping" }, { mode: "adaptive" },

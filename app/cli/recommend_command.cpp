@@ -57,6 +57,22 @@ struct Want {
   }
 };
 
+/// Whether runs of the scene have such an error. @return why not, or empty
+std::string why_without(ErrorAxis axis, const Scene& scene) {
+  switch (axis) {
+    case ErrorAxis::kTrajectory:
+      return scene.criteria.track ? "" : "it tracks no body: --of energy";
+    case ErrorAxis::kGap:
+      return scene.effects.joints ? "" : "it has no joints: --of path, energy or overlap";
+    case ErrorAxis::kPenetration:
+      return scene.effects.contact ? "" : "it has no contacts: --of path, energy or gap";
+    case ErrorAxis::kEnergy:
+    case ErrorAxis::kCount:
+      break;
+  }
+  return "";
+}
+
 Want want_of(const Options& options, const Scene& scene) {
   Want want;
   want.error = first_axis(scene);
@@ -108,6 +124,11 @@ int recommend(const Options& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   const Want want = want_of(options, *scene);
+  if (const std::string why = why_without(want.error, *scene); !why.empty()) {
+    std::fprintf(stderr, "%s has no %s; %s\n", scene->name.c_str(), axis_name(want.error),
+                 why.c_str());
+    return kBadInput;
+  }
 
   Experiment plain = experiment_of(*scene, scene->settings);
   plain.duration = static_cast<double>(options.length.count(*scene)) * scene->frame;
@@ -133,8 +154,8 @@ int recommend(const Options& options) {
   if (!complete) return kCancelled;
 
   const std::vector<RunPoint> points = run_points(results, want.error, want.cost);
-  std::printf("%s: %zu runs, %zu of them with a %s.\n", scene->name.c_str(), results.size(),
-              points.size(), axis_name(want.error));
+  std::printf("%s: %zu of %zu runs hold. Error: %s.\n", scene->name.c_str(), points.size(),
+              results.size(), axis_name(want.error));
   if (points.empty()) return kUnexpectedVerdict;
   const auto best = want.best(points);
   if (best) {

@@ -27,7 +27,8 @@ constexpr std::array kFields{
     SettingField{"iterations", "sweeps of pgs and xpbd per sub-step, most steps of newton",
                  CountSetting{&S::iterations, 1, 100000}},
     SettingField{"share_iterations",
-                 "iterations are those of a frame, shared out over its sub-steps, one at least",
+                 "sweeps of pgs and xpbd are those of a frame, shared out over its sub-steps, one at "
+                 "least",
                  FlagSetting{&S::share_iterations}},
     SettingField{"warm_start", "pgs starts from the forces of the last sub-step",
                  FlagSetting{&S::warm_start}},

@@ -13,9 +13,8 @@ constexpr std::array kPresets{
            "operations of 32 constant ones, and slows motions a little.",
            {.mode = Mode::kCapped, .n_cap = 4}},
     Preset{"robust",
-           "Newton's method, implicit, with four sub-steps: holds all 49 of the hard scenes at 42 "
-           "% of "
-           "those operations, and slows motions as much.",
+           "Newton's method, implicit, with four sub-steps: holds all 49 of the hard scenes at 42 % "
+           "of the operations of 32 constant ones, and slows motions a little.",
            {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
 };
 

@@ -39,7 +39,7 @@ enum class Detection : std::uint8_t { kSubstep, kFrame };
 struct Settings {
   SolverKind solver = SolverKind::kBpp;
   int iterations = 25;            // per sub-step: sweeps of PGS and XPBD, most Newton steps, >= 1
-  bool share_iterations = false;  // they are those of a frame, dealt out over its sub-steps
+  bool share_iterations = false;  // sweeps are those of a frame, shared by its sub-steps
   bool warm_start = false;        // PGS starts from the last sub-step's forces
   Forces forces = Forces::kEnd;   // Newton
   int refinements = 0;            // BPP: solves that take the scene's regularisation back, >= 0
@@ -70,7 +70,8 @@ struct Settings {
 
 /// Whether impulses are seeded with the forces of the last sub-step, those of joints too.
 inline bool starts_from_last_forces(const Settings& s) {
-  return s.warm_start || s.solver == SolverKind::kNewton || s.refinements > 0;
+  return s.warm_start || s.solver == SolverKind::kNewton ||
+         (s.solver == SolverKind::kBpp && s.refinements > 0);
 }
 
 /// kAuto resolved: the law that the solver is used with.

@@ -27,9 +27,10 @@ double most_kinetic(const Body& body, const Vec6& u) {
          std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
 }
 
-/// Of a sub-step that is this share of a frame.
+/// Of a sub-step that is this share of a frame. What is shared out are sweeps, not Newton's steps.
 int iterations_of(const Settings& settings, double share) {
-  if (!settings.share_iterations) return settings.iterations;
+  const bool sweeps = settings.solver == SolverKind::kPgs || settings.solver == SolverKind::kXpbd;
+  if (!settings.share_iterations || !sweeps) return settings.iterations;
   return std::max(1, static_cast<int>(settings.iterations * share + 0.5));
 }
 

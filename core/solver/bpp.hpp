@@ -20,7 +20,7 @@ namespace substep {
 /// sub-step, then those of the last solve,
 ///   w = J u+ + (softness - r) x + r (x - x0) + bias,
 /// which is the proximal point method (Rockafellar 1976; for constrained bodies Carpentier et al.
-/// 2021). Each is a solve with the factor as it is.
+/// 2021). Each is a solve with the factor as it is, unless rows change their sets.
 class Bpp final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;

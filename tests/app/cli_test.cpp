@@ -154,6 +154,10 @@ TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   EXPECT_EQ(substep("recommend pendulum --error 1e-15 --seconds 1").exit_code, 1);
   EXPECT_EQ(substep("recommend pendulum --error 1 --ms 1").exit_code, 2);
   EXPECT_EQ(substep("recommend pendulum --of colour").exit_code, 2);
+  const Outcome overlap = substep("recommend pendulum --of overlap");
+  EXPECT_EQ(overlap.exit_code, 2);
+  EXPECT_NE(overlap.err.find("it has no contacts: --of path, energy or gap"), std::string::npos)
+      << overlap.err;
 }
 
 TEST(CommandLine, EverySettingIsAFlag) {

@@ -101,8 +101,8 @@ TEST(SmallSteps, NothingFastGetsThrough) {
   }
 }
 
-// Three of the playground, and the bridge from all starts, where each sub-step looks at contacts
-// that were found up to a frame ago.
+// The bridge from all starts, a stack and two of the playground, where each sub-step looks at
+// contacts that were found up to a frame ago.
 TEST(SmallSteps, CarriedContactsHoldWhatFreshOnesHold) {
   Settings settings;
   settings.detection = Detection::kFrame;

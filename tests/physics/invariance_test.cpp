@@ -329,7 +329,10 @@ TEST(Invariance, ARunGoesOnFromASceneFileBitForBit) {
           settings.mode = mode;
           settings.solver = solver;
           settings.integrator = integrator;
-          settings.warm_start = true;
+          settings.warm_start = solver == SolverKind::kPgs;
+          settings.refinements = 2;  // of the stress stacks
+          settings.detection =
+              integrator == Integrator::kEuler ? Detection::kSubstep : Detection::kFrame;
           settings.n_max = 16;
           Simulator whole(shared);
           whole.set_settings(settings);

@@ -1,0 +1,65 @@
+// The order in which bodies are eliminated, and how much it fills.
+
+#include "core/solver/elimination_order.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "core/constraints/block.hpp"
+
+namespace substep::test {
+namespace {
+
+Block between(int a, int b, BlockKind kind = BlockKind::kBall) {
+  Block block;
+  block.kind = kind;
+  block.a = a;
+  block.b = b;
+  block.rows = kind == BlockKind::kContact ? 1 : 3;
+  return block;
+}
+
+TEST(EliminationOrder, AChainGoesFromItsFreeEndToTheWorldWithoutFill) {
+  std::vector<Block> blocks;
+  for (int i = 0; i < 30; ++i) blocks.push_back(between(i, i - 1));
+  EliminationOrder order;
+  EXPECT_TRUE(order.update(blocks, 30));
+  EXPECT_FALSE(order.update(blocks, 30));
+  ASSERT_EQ(order.order().size(), 30U);
+  for (int i = 0; i < 30; ++i) {
+    EXPECT_EQ(order.position(i), 29 - i);
+    EXPECT_EQ(order.coupled(i).size(), i == 0 ? 0U : 1U);
+  }
+  blocks.pop_back();
+  EXPECT_TRUE(order.update(blocks, 30));
+  EXPECT_EQ(order.position(29), -1);
+}
+
+TEST(EliminationOrder, MoreContactPointsOfAPairLeaveItAsItIs) {
+  std::vector<Block> blocks{between(0, 1), between(1, 2, BlockKind::kContact)};
+  EliminationOrder order;
+  EXPECT_TRUE(order.update(blocks, 3));
+  blocks.push_back(blocks.back());
+  EXPECT_FALSE(order.update(blocks, 3));
+  blocks.push_back(between(0, 2, BlockKind::kContact));
+  EXPECT_TRUE(order.update(blocks, 3));
+}
+
+// A grid of n bodies has n log n entries with a good order and n^1.5 with a bad one.
+TEST(EliminationOrder, AGridFillsLittle) {
+  constexpr int kSide = 40;
+  std::vector<Block> blocks;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    if (i % kSide + 1 < kSide) blocks.push_back(between(i, i + 1, BlockKind::kContact));
+    if (i + kSide < kSide * kSide) blocks.push_back(between(i, i + kSide, BlockKind::kContact));
+  }
+  EliminationOrder order;
+  order.update(blocks, kSide * kSide);
+  std::size_t coupled = 0;
+  for (int i = 0; i < kSide * kSide; ++i) coupled += order.coupled(i).size();
+  EXPECT_LT(coupled, 14U * kSide * kSide) << "a band would have " << kSide << " a body";
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -17,6 +17,7 @@ struct Column {
 
 constexpr std::array<Column, static_cast<std::size_t>(Channel::kCount)> kColumns{
     {{Channel::kSubsteps, "substeps", nullptr},
+     {Channel::kMean, "substeps_mean", nullptr},
      {Channel::kLimit, "substeps_least", nullptr},
      {Channel::kKinetic, "kinetic", nullptr},
      {Channel::kPotential, "potential", &Effects::gravity},

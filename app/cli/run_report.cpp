@@ -80,6 +80,7 @@ std::string settings_line(const Settings& s) {
   if (s.mode == Mode::kBlend) line += ", beta " + number_text(s.beta);
   if (chooses_substeps(s.mode)) {
     line += s.policy == Policy::kFrame ? ", decided per frame" : ", decided per sub-step";
+    if (s.islands) line += " and island";
   }
   line += ", ";
   line += name_of(s.integrator);

@@ -216,6 +216,11 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
              "sub-step does not let the next one grow.");
     }
   }
+  if (chooses_substeps(s.mode)) {
+    checkbox(look, "each island its own N", s.islands, width,
+             "Bodies that neither joints nor contacts to come connect within a frame take "
+             "sub-steps of their own: what is calm does not pay for what is not.");
+  }
   if (s.mode != Mode::kNone && s.mode != Mode::kConst) {
     checkbox(look, "probe before the first frame", s.probe, width,
              "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "

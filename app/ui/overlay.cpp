@@ -90,6 +90,15 @@ double pixel_size(const App& app, const Vec3& x) {
          std::max(1.0, static_cast<double>(app.panes.front().height));
 }
 
+// What the large number counts. @param left sub-steps of the frame to come
+std::string unit_of_n(const FrameReport& report, int left) {
+  const bool islands = report.islands > 0;
+  if (left > 0 && islands) return "sub-steps, " + std::to_string(left) + " to go";
+  if (left > 0) return "of " + std::to_string(report.n_substeps + left) + " sub-steps";
+  if (islands) return "sub-steps, mean " + fixed(report.n_mean, 1);
+  return report.n_substeps == 1 ? "step a frame" : "sub-steps";
+}
+
 void caption(App& app, bool phone) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
@@ -97,23 +106,23 @@ void caption(App& app, bool phone) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const float pad = phone ? 12.0F : 16.0F;
   const FrameReport& report = app.session.report();
-  const std::string n = std::to_string(report.n_substeps);
+  const bool has_n = report.n_substeps > 0 && app.panes.size() == 1;  // else each pane has its own
+  const std::string n = has_n ? std::to_string(report.n_substeps) : "";
+  const std::string unit = has_n ? unit_of_n(report, app.session.substeps_left()) : "";
   const ImVec2 n_size = text_size(look.fonts.large, n.c_str());
-  const float room = v.width - 2.0F * pad - std::max(n_size.x, 80.0F) - 16.0F;
+  const float unit_width = text_size(look.fonts.regular, unit.c_str()).x;
+  const auto room_beside = [&](float width) {
+    return v.width - 2.0F * pad - std::max(width, 80.0F) - 16.0F;
+  };
   const ImVec2 at(v.x + pad, v.y + pad);
   draw_over(look, draw, look.fonts.title, at, t.text,
-            fitted(look.fonts.title, app.session.scene().title, room).c_str());
+            fitted(look.fonts.title, app.session.scene().title, room_beside(n_size.x)).c_str());
   draw_over(look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
-            fitted(look.fonts.regular, method_line(app.session.settings()), room).c_str());
-  if (report.n_substeps == 0 || app.panes.size() > 1) return;  // each pane has its own N
+            fitted(look.fonts.regular, method_line(app.session.settings()), room_beside(unit_width))
+                .c_str());
+  if (!has_n) return;
   const float right = v.x + v.width - pad;
   draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n.c_str());
-  const int left = app.session.substeps_left();
-  const std::string unit = left > 0
-                               ? "of " + std::to_string(report.n_substeps + left) + " sub-steps"
-                           : report.n_substeps == 1 ? "step a frame"
-                                                    : "sub-steps";
-  const float unit_width = text_size(look.fonts.regular, unit.c_str()).x;
   draw_over(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim,
             unit.c_str());
 }

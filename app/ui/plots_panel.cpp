@@ -8,6 +8,7 @@
 #include "app/export.hpp"
 #include "app/format.hpp"
 #include "app/ui/panels.hpp"
+#include "app/ui/plot_headings.hpp"
 #include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
@@ -42,16 +43,6 @@ std::vector<Plot> shown_plots(App& app) {
   return shown;
 }
 
-// A coloured dot with its name and value, right-aligned at `right`. @return where it starts
-float legend(const Look& look, float right, float y, ImU32 color, const std::string& text) {
-  const ImVec2 size = text_size(look.fonts.small, text.c_str());
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float x = right - size.x;
-  draw_text(draw, look.fonts.small, {x, y}, look.theme->text, text.c_str());
-  draw.AddCircleFilled({x - 8.0F, y + 0.5F * size.y}, 3.5F, color);
-  return x - 22.0F;
-}
-
 // The others of a comparison, in the colours that they have in the picture; where they part from
 // this run is marked.
 void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps = false) {
@@ -60,57 +51,6 @@ void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps = false)
     const ImU32 color = app.compare_color(i);
     spec.series.push_back({&run.history, channel, color, steps, false, 1.25F});
     if (run.divergence) spec.marks.push_back({run.divergence->time, "", color});
-  }
-}
-
-// "10⁻⁸"
-std::string order_of_magnitude(double value) {
-  if (!(value > 0.0)) return "0";
-  return power_of_ten(static_cast<int>(std::lround(std::log10(value))));
-}
-
-// The value of each run that is compared, right-aligned. @param left where the heading ends
-// @param text of a value; @param brief the same where there is little room
-template <class Text, class Brief>
-void compared_values(App& app, ImVec2 heading, float left, Channel channel, Text text,
-                     Brief brief) {
-  struct Value {
-    ImU32 color;
-    std::string full;
-    std::string brief;
-  };
-  std::vector<Value> values;
-  float full_width = 0.0F;
-  const auto add = [&](const History& history, ImU32 color) {
-    const double v = shown_value(history, channel, app.desk.time);
-    const bool known = std::isfinite(v);
-    values.push_back({color, known ? text(v) : "–", known ? brief(v) : "–"});
-    full_width += text_size(app.look.fonts.small, values.back().full.c_str()).x + 22.0F;
-  };
-  add(app.session.history(), app.look.theme->blue);
-  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
-    add(app.compare.runs()[i].history, app.compare_color(i));
-  }
-  float right = heading.x + ImGui::GetContentRegionAvail().x;
-  const bool fits = right - full_width >= left;
-  for (std::size_t i = values.size(); i-- > 0;) {
-    const std::string& shown = fits ? values[i].full : values[i].brief;
-    right = legend(app.look, right, heading.y, values[i].color, shown);
-  }
-}
-
-// A plot's heading: with its value, or with the values of all that is compared.
-template <class Text>
-void count_heading(App& app, const char* name, const char* name_of_several, Channel channel,
-                   const char* before, const char* after, Text text) {
-  const double now = shown_value(app.session.history(), channel, app.desk.time);
-  const bool several = app.compare.open();
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const std::string value = several || !std::isfinite(now) ? "" : before + text(now) + after;
-  section(app.look, several ? name_of_several : name, value.c_str());
-  if (several) {
-    compared_values(app, origin, origin.x + heading_width(app.look, name_of_several), channel, text,
-                    text);
   }
 }
 
@@ -144,7 +84,8 @@ void substeps_plot(App& app, float height, bool last) {
                 [](double v) { return fixed(v, 0); });
   tooltip(look, "Sub-steps per frame",
           "The N taken in each frame (Eq. 11). Dashed: the constant N that would have held so far, "
-          "the largest h √r / 2, which is N at alpha = 1. Adaptive pays it only where it must.");
+          "the largest h √r / 2, which is N at alpha = 1. Adaptive pays it only where it must. "
+          "Teal, where each island has its own N: the mean of the bodies.");
 
   PlotSpec spec;
   spec.id = "substeps";
@@ -153,6 +94,7 @@ void substeps_plot(App& app, float height, bool last) {
   spec.counts = true;
   spec.least_span = 4.0;
   spec.series.push_back({&h, Channel::kSubsteps, t.blue, true, !several});
+  if (!several) spec.series.push_back({&h, Channel::kMean, t.teal, true});
   add_compared(app, spec, Channel::kSubsteps, true);
   if (const int beat = constant_to_beat(h); beat > 1 && s.mode != Mode::kDamping) {
     spec.levels.push_back(
@@ -248,7 +190,6 @@ void error_plot(App& app, float height, bool last) {
   const History& h = app.session.history();
   const Effects& effects = app.session.scene().effects;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  float right = origin.x + ImGui::GetContentRegionAvail().x;
   section(look, "Error, m");
   tooltip(look, "Constraint error",
           "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact.");
@@ -257,12 +198,6 @@ void error_plot(App& app, float height, bool last) {
   spec.time_labels = last;
   spec.from_zero = true;
   spec.least_span = 1e-9;
-  const auto add = [&](Channel channel, const char* name, ImU32 color) {
-    const double value = shown_value(h, channel, app.desk.time);
-    right = legend(look, right, origin.y, color,
-                   std::string(name) + (std::isfinite(value) ? " " + coarse_number(value) : ""));
-    spec.series.push_back({&h, channel, color});
-  };
   if (app.compare.open()) {
     const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;
     compared_values(app, origin, origin.x + heading_width(look, "Error, m"), channel, coarse_number,
@@ -270,8 +205,11 @@ void error_plot(App& app, float height, bool last) {
     spec.series.push_back({&h, channel, t.blue});
     add_compared(app, spec, channel);
   } else {
-    if (effects.contact) add(Channel::kPenetration, "overlap", t.amber);
-    if (effects.joints) add(Channel::kJointError, "joints", t.blue);
+    std::vector<NamedChannel> shown;
+    if (effects.contact) shown.push_back({Channel::kPenetration, "overlap", t.amber});
+    if (effects.joints) shown.push_back({Channel::kJointError, "joints", t.blue});
+    named_values(app, origin, origin.x + heading_width(look, "Error, m"), shown);
+    for (const NamedChannel& one : shown) spec.series.push_back({&h, one.channel, one.color});
   }
   draw_plot(app, Plot::kError, spec, height);
 }
@@ -321,7 +259,7 @@ void draw_one(App& app, Plot which, float height, bool last) {
 std::vector<Channel> channels_of(Plot plot) {
   switch (plot) {
     case Plot::kSubsteps:
-      return {Channel::kSubsteps, Channel::kLimit};
+      return {Channel::kSubsteps, Channel::kMean, Channel::kLimit};
     case Plot::kEnergy:
       return {Channel::kKinetic, Channel::kPotential, Channel::kTotal};
     case Plot::kError:

@@ -64,23 +64,25 @@ bool BroadPhase::overlap(const State& state, const Pair& pair) const {
                 reach_[index(pair.i)] + reach_[index(pair.j)]);
 }
 
-bool BroadPhase::has_room(const State& state) const {
+bool BroadPhase::has_room(const Part& part, const State& state) const {
   return valid_ && std::all_of(solids_.begin(), solids_.end(), [&](int body) {
+           if (!part.holds(body)) return true;
            const Swept& was = swept_[index(body)];
            const Vec3 left = Vec3::Constant(was.room) - (reach_[index(body)] - was.reach);
            return within(state.x[index(body)] - was.x, left);
          });
 }
 
-void BroadPhase::update(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
-                        std::span<const double> way) {
+void BroadPhase::update(const Scene& scene, const Part& part, const State& state,
+                        std::span<const Mat3> R_WB, std::span<const double> way) {
   const double margin = 0.5 * scene.contact.margin;
   for (const int body : solids_) {
+    if (!part.holds(body)) continue;
     const double around = way.empty() ? margin : margin + way[index(body)];
     reach_[index(body)] =
         half_extents(scene.bodies[index(body)].shape, R_WB[index(body)]) + Vec3::Constant(around);
   }
-  if (!has_room(state)) sweep(scene, state);
+  if (!has_room(part, state)) sweep(scene, state);
 }
 
 void BroadPhase::sweep(const Scene& scene, const State& state) {

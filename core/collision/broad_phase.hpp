@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 
@@ -22,11 +23,11 @@ class BroadPhase {
 
   explicit BroadPhase(const Scene& scene);
 
-  /// Takes the poses. @param R_WB rotation per body
+  /// Takes the poses. @param part whose bodies may have moved  @param R_WB rotation per body
   /// @param way that each body may go until it is looked at again [m]; empty: none
-  void update(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+  void update(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
               std::span<const double> way);
-  /// Sorted by i, then j; all those of which overlap() is true, and others nearby.
+  /// Sorted by i, then j; all those of the part of which overlap() is true, and others.
   [[nodiscard]] std::span<const Pair> pairs() const { return pairs_; }
   /// Whether the boxes of a pair, each with half of the scene's margin and its way around it,
   /// overlap.
@@ -50,7 +51,7 @@ class BroadPhase {
     double hi = 0.0;
     int body = 0;
   };
-  [[nodiscard]] bool has_room(const State& state) const;
+  [[nodiscard]] bool has_room(const Part& part, const State& state) const;
   void sweep(const Scene& scene, const State& state);
 
   std::vector<int> solids_;                // spheres and boxes that collide

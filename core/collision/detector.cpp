@@ -1,5 +1,8 @@
 #include "core/collision/detector.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace substep {
 
 namespace {
@@ -49,6 +52,12 @@ Detector::Detector(const Scene& scene) : broad_phase_(scene) {
   }
   points_.reserve(8 * scene.bodies.size() + 32);
   way_.reserve(scene.bodies.size());
+  near_.reserve(12 * scene.bodies.size() + 32);
+}
+
+double Detector::speed(const State& state, int body) const {
+  const auto i = static_cast<std::size_t>(body);
+  return state.u[i].head<3>().norm() + radius_[i] * state.u[i].tail<3>().norm();
 }
 
 void Detector::look_ahead(const Scene& scene, const State& state, double ahead) {
@@ -56,13 +65,28 @@ void Detector::look_ahead(const Scene& scene, const State& state, double ahead) 
   if (ahead == 0.0) return;
   const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
   for (std::size_t i = 0; i < radius_.size(); ++i) {
-    const double speed = state.u[i].head<3>().norm() + radius_[i] * state.u[i].tail<3>().norm();
-    way_.push_back(scene.bodies[i].is_static ? 0.0 : ahead * (speed + gained));
+    way_.push_back(
+        scene.bodies[i].is_static ? 0.0 : ahead * (speed(state, static_cast<int>(i)) + gained));
   }
 }
 
-std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& state,
-                                               std::span<const Mat3> R_WB, double ahead) {
+std::span<const BroadPhase::Pair> Detector::within_reach(const Scene& scene, const Part& part,
+                                                         const State& state,
+                                                         std::span<const Mat3> R_WB,
+                                                         std::span<const double> way) {
+  broad_phase_.update(scene, part, state, R_WB, way);
+  near_.clear();
+  std::copy_if(broad_phase_.pairs().begin(), broad_phase_.pairs().end(), std::back_inserter(near_),
+               [&](const BroadPhase::Pair& pair) {
+                 return part.holds(pair.i) && part.holds(pair.j) &&
+                        broad_phase_.overlap(state, pair);
+               });
+  return near_;
+}
+
+std::span<const ContactPoint> Detector::detect(const Scene& scene, const Part& part,
+                                               const State& state, std::span<const Mat3> R_WB,
+                                               double ahead) {
   points_.clear();
   look_ahead(scene, state, ahead);
   const auto at = [](int body) { return static_cast<std::size_t>(body); };
@@ -77,14 +101,16 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const State& 
     const Vec3 n = plane.R.col(1);
     for (const int body : ground.solids) {
       if (points_.size() > kMaxContacts) return points_;
+      if (!part.holds(body)) continue;
       const double near = margin(body, ground.body);
       if (n.dot(state.x[at(body)] - plane.x) > radius_[at(body)] + near) continue;
       touch_plane(placed(body), shape(body), plane, near, points_);
     }
   }
-  broad_phase_.update(scene, state, R_WB, way_);
+  broad_phase_.update(scene, part, state, R_WB, way_);
   for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {
     if (too_many()) return points_;
+    if (!part.holds(pair.i) || !part.holds(pair.j)) continue;
     if (!broad_phase_.overlap(state, pair)) continue;
     touch_solids(placed(pair.i), shape(pair.i), placed(pair.j), shape(pair.j),
                  margin(pair.i, pair.j), points_);

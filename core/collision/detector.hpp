@@ -5,6 +5,7 @@
 
 #include "core/collision/broad_phase.hpp"
 #include "core/collision/shape_pairs.hpp"
+#include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 
@@ -20,11 +21,19 @@ class Detector {
  public:
   explicit Detector(const Scene& scene);
 
-  /// @param R_WB rotation per body  @param ahead time in which nothing is looked for again [s]: the
+  /// @param part only between bodies of it  @param R_WB rotation per body  @param ahead time in
+  /// which nothing is looked for again [s]: the
   ///        margin of a pair grows by the way that its bodies may go in it, falling freely
   /// @return valid until the next call; not all of them where there are too_many()
-  std::span<const ContactPoint> detect(const Scene& scene, const State& state,
+  std::span<const ContactPoint> detect(const Scene& scene, const Part& part, const State& state,
                                        std::span<const Mat3> R_WB, double ahead = 0.0);
+  /// Pairs of the part whose boxes may meet. @param way that each body may go meanwhile [m]
+  /// @return sorted by i, then j; valid until the next call
+  std::span<const BroadPhase::Pair> within_reach(const Scene& scene, const Part& part,
+                                                 const State& state, std::span<const Mat3> R_WB,
+                                                 std::span<const double> way);
+  /// No less than that of any point of a body [m/s].
+  [[nodiscard]] double speed(const State& state, int body) const;
   /// Whether the last call stopped at a limit.
   [[nodiscard]] bool too_many() const {
     return broad_phase_.too_many() || points_.size() > kMaxContacts;
@@ -44,6 +53,7 @@ class Detector {
   std::vector<double> radius_;  // per body: of the sphere around its shape [m]
   std::vector<double> way_;     // per body: that its points may go in `ahead` [m]; empty: none
   ContactPoints points_;
+  std::vector<BroadPhase::Pair> near_;
 };
 
 }  // namespace substep

@@ -68,6 +68,8 @@ class Blocks {
  public:
   void reserve(std::size_t n) { storage_.reserve(n); }
   void clear() { size_ = 0; }
+  /// Lets go of all from the n-th on.
+  void keep(std::size_t n) { size_ = n; }
   [[nodiscard]] std::size_t capacity() const { return storage_.capacity(); }
   /// A block with undefined contents at the end.
   Block& append() {
@@ -76,6 +78,7 @@ class Blocks {
   }
   [[nodiscard]] std::span<Block> all() { return {storage_.data(), size_}; }
   [[nodiscard]] std::span<const Block> all() const { return {storage_.data(), size_}; }
+  [[nodiscard]] std::span<Block> from(std::size_t first) { return all().subspan(first); }
   [[nodiscard]] std::size_t size() const { return size_; }
 
  private:

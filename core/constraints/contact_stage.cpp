@@ -39,34 +39,34 @@ void ContactStage::append(std::span<const ContactPoint> points, const Scene& sce
   }
 }
 
-bool ContactStage::detect_and_append(const Scene& scene, const State& state,
+bool ContactStage::detect_and_append(const Scene& scene, const Part& part, const State& state,
                                      std::span<const Mat3> R_WB, Blocks& blocks) {
-  const std::span<const ContactPoint> points = detector_.detect(scene, state, R_WB);
+  const std::span<const ContactPoint> points = detector_.detect(scene, part, state, R_WB);
   if (detector_.too_many()) return false;
   append(points, scene, state, blocks);
   return true;
 }
 
-bool ContactStage::foresee_and_append(const Scene& scene, const State& state,
-                                      std::span<const Mat3> R_WB, double ahead, Blocks& blocks) {
-  const std::span<const ContactPoint> points = detector_.detect(scene, state, R_WB, ahead);
+bool ContactStage::foresee(const Scene& scene, const Part& part, const State& state,
+                           std::span<const Mat3> R_WB, double ahead) {
+  const std::span<const ContactPoint> points = detector_.detect(scene, part, state, R_WB, ahead);
   foreseen_.clear();
   foreseen_.reserve(8 * scene.bodies.size() + 32);  // once: a landing must not allocate
   if (detector_.too_many()) return false;
   append(points, scene, state, foreseen_);
   x_.assign(state.x.begin(), state.x.end());
   q_.assign(state.q.begin(), state.q.end());
-  carry_and_append(state, blocks);
   return true;
 }
 
-void ContactStage::carry_and_append(const State& state, Blocks& blocks) const {
+void ContactStage::carry_and_append(const Part& part, const State& state, Blocks& blocks) const {
   const auto motion = [&](int body) {
     if (body < 0) return Motion{};
     const auto i = static_cast<std::size_t>(body);
     return motion_since(x_[i], q_[i], state.x[i], state.q[i]);
   };
   for (const Block& row : foreseen_.all()) {
+    if (!part.holds(row.body_a) || !part.holds(row.body_b)) continue;
     Block& block = blocks.append();
     move_rows(row, motion(row.a), motion(row.b), block);
     block.phi[0] += row.phi[0];
@@ -74,10 +74,10 @@ void ContactStage::carry_and_append(const State& state, Blocks& blocks) const {
   }
 }
 
-double ContactStage::penetration(const Scene& scene, const State& state,
+double ContactStage::penetration(const Scene& scene, const Part& part, const State& state,
                                  std::span<const Mat3> R_WB) {
   double deepest = 0.0;
-  for (const ContactPoint& point : detector_.detect(scene, state, R_WB)) {
+  for (const ContactPoint& point : detector_.detect(scene, part, state, R_WB)) {
     deepest = std::max(deepest, -point.gap);
   }
   return deepest;
@@ -87,8 +87,9 @@ FrictionStage::FrictionStage(const Scene& scene) {
   for (const Body& body : scene.bodies) sqrt_mu_.push_back(std::sqrt(body.friction));
 }
 
-void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB, Blocks& blocks) const {
-  for (Block& block : blocks.all()) {
+void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB,
+                           std::span<Block> blocks) const {
+  for (Block& block : blocks) {
     if (!block.is_contact()) continue;
     const auto a = static_cast<std::size_t>(block.body_a);
     const auto b = static_cast<std::size_t>(block.body_b);

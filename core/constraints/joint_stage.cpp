@@ -42,10 +42,11 @@ void JointStage::fill(const Scene& scene, const State& state, std::span<const Ma
   }
 }
 
-void JointStage::append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
-                        Blocks& blocks) const {
-  for (std::size_t i = 0; i < scene.joints.size(); ++i)
-    fill(scene, state, R_WB, i, blocks.append());
+void JointStage::append(const Scene& scene, const Part& part, const State& state,
+                        std::span<const Mat3> R_WB, Blocks& blocks) const {
+  for (const int joint : part.joints) {
+    fill(scene, state, R_WB, static_cast<std::size_t>(joint), blocks.append());
+  }
 }
 
 JointErrors JointStage::errors(const Scene& scene, const State& state,

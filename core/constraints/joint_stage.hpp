@@ -5,6 +5,7 @@
 
 #include "core/constraints/block.hpp"
 #include "core/constraints/hinge_joint.hpp"
+#include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 
@@ -17,11 +18,11 @@ struct JointErrors {
   int joint = -1;    // whose it is
 };
 
-/// phi and J of every joint of a scene, in file order.
+/// phi and J of the joints of a scene, in file order.
 class JointStage {
  public:
   explicit JointStage(const Scene& scene);
-  void append(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+  void append(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
               Blocks& blocks) const;
   [[nodiscard]] JointErrors errors(const Scene& scene, const State& state,
                                    std::span<const Mat3> R_WB) const;

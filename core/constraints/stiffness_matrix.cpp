@@ -71,7 +71,8 @@ std::int64_t StiffnessMatrix::norm_flops() const {
          size * static_cast<std::int64_t>(bodies_);
 }
 
-void StiffnessMatrix::column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const {
+void StiffnessMatrix::column_norms(std::span<const int> bodies, std::span<const Mat3> R_WB,
+                                   std::span<Vec6> k) const {
   // A norm does not change with the axes of the rows, so only the columns are turned.
   const auto add_squares = [](const auto& columns, const Mat3& R, auto&& sum) {
     const auto turned = (columns * R).eval();
@@ -79,9 +80,10 @@ void StiffnessMatrix::column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k
       for (int i = 0; i < turned.rows(); ++i) sum[c] += turned(i, c) * turned(i, c);
     }
   };
-  for (std::size_t col = 0; col < bodies_; ++col) {
+  for (const int body : bodies) {
+    const auto col = static_cast<std::size_t>(body);
     Vec6 sum = Vec6::Zero();
-    for (int e = static_cast<int>(col); e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
+    for (int e = body; e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
       const auto at = static_cast<std::size_t>(e);
       if (whole_.empty()) {
         add_squares(angular_[at], R_WB[col], sum.tail<3>());

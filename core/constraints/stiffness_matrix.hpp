@@ -30,8 +30,10 @@ class StiffnessMatrix {
   void add(int row, int col, const Mat6& block);
 
   /// K_d (Eq. 4): the 2-norm of every column, columns taken along the body's principal axes.
-  /// @param R_WB rotation per body  @param k out, 6 per body [N/m, N m/rad], >= 0
-  void column_norms(std::span<const Mat3> R_WB, std::span<Vec6> k) const;
+  /// @param bodies of whose columns  @param R_WB rotation per body
+  /// @param k out, 6 per body [N/m, N m/rad], >= 0
+  void column_norms(std::span<const int> bodies, std::span<const Mat3> R_WB,
+                    std::span<Vec6> k) const;
 
   /// Floating-point operations of column_norms, additions, multiplications and roots.
   [[nodiscard]] std::int64_t norm_flops() const;

@@ -40,6 +40,21 @@ Json items_json(const std::vector<Item>& items) {
   return list;
 }
 
+/// The last sub-step of every body, where islands have their own.
+void read_own(ObjectReader& in, std::size_t bodies, std::vector<OwnSubstep>& own) {
+  std::vector<double> dt(bodies);
+  std::vector<double> r(bodies);
+  const bool has_dt =
+      in.numbers("own_dt_previous", not_negative(1.0, "s"), dt.data(), bodies, kOptional);
+  const bool has_r = in.numbers("own_r", kStiffnessOverMassRange, r.data(), bodies, kOptional);
+  if ((in.member("own_r", kOptional) == nullptr) !=
+      (in.member("own_dt_previous", kOptional) == nullptr)) {
+    in.problem("own_r", "needs own_dt_previous, and that needs it");
+  }
+  if (!has_dt || !has_r) return;
+  for (std::size_t i = 0; i < bodies; ++i) own.push_back({dt[i], r[i]});
+}
+
 std::string id_text(std::uint64_t id) {
   char text[16];
   return {text, std::to_chars(text, text + sizeof text, id, 16).ptr};
@@ -108,6 +123,7 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   carried.stiffness_known = in.number("r", kStiffnessOverMassRange, carried.r, kOptional);
   read_items(in, "k", kStiffnessRange, n, carried.k);
   read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting);
+  read_own(in, n, carried.own);
   for (const char* key : {"k", "k_resisting"}) {
     if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "needs r");
   }
@@ -143,6 +159,16 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
     json["r"] = carried.r;
     if (!carried.k.empty()) json["k"] = items_json(carried.k);
     if (!carried.K_resisting.empty()) json["k_resisting"] = items_json(carried.K_resisting);
+  }
+  if (!carried.own.empty()) {
+    Json dt = Json::array();
+    Json r = Json::array();
+    for (const OwnSubstep& last : carried.own) {
+      dt.push_back(last.dt_previous);
+      r.push_back(last.r);
+    }
+    json["own_dt_previous"] = std::move(dt);
+    json["own_r"] = std::move(r);
   }
   if (!carried.forces.empty()) {
     Json& forces = json["forces"] = Json::array();

@@ -26,10 +26,11 @@ constexpr std::array kFields{
         ChoiceSetting<SolverKind>{&S::solver}},
     SettingField{"iterations", "sweeps of pgs and xpbd per sub-step, most steps of newton",
                  CountSetting{&S::iterations, 1, 100000}},
-    SettingField{"share_iterations",
-                 "sweeps of pgs and xpbd are those of a frame, shared out over its sub-steps, one at "
-                 "least",
-                 FlagSetting{&S::share_iterations}},
+    SettingField{
+        "share_iterations",
+        "sweeps of pgs and xpbd are those of a frame, shared out over its sub-steps, one at "
+        "least",
+        FlagSetting{&S::share_iterations}},
     SettingField{"warm_start", "pgs starts from the forces of the last sub-step",
                  FlagSetting{&S::warm_start}},
     SettingField{"forces", "poses that newton takes the directions of forces from",
@@ -55,6 +56,9 @@ constexpr std::array kFields{
                  ChoiceSetting<Policy>{&S::policy}},
     SettingField{"memory", "how much of r stays from sub-step to sub-step in policy substep",
                  NumberSetting{&S::memory, {0.0, 1.0, false, true, "-"}}},
+    SettingField{"islands",
+                 "bodies that nothing connects within a frame take sub-steps of their own",
+                 FlagSetting{&S::islands}},
     SettingField{"probe", "one solve before the first frame finds the forces that Eq. 9 needs",
                  FlagSetting{&S::probe}},
     SettingField{"integrator", "time integration", ChoiceSetting<Integrator>{&S::integrator}},

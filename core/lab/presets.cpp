@@ -12,10 +12,11 @@ constexpr std::array kPresets{
            "Up to four sub-steps, then damping: holds 47 of the 49 hard scenes at 15 % of the "
            "operations of 32 constant ones, and slows motions a little.",
            {.mode = Mode::kCapped, .n_cap = 4}},
-    Preset{"robust",
-           "Newton's method, implicit, with four sub-steps: holds all 49 of the hard scenes at 42 % "
-           "of the operations of 32 constant ones, and slows motions a little.",
-           {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
+    Preset{
+        "robust",
+        "Newton's method, implicit, with four sub-steps: holds all 49 of the hard scenes at 42 % "
+        "of the operations of 32 constant ones, and slows motions a little.",
+        {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
 };
 
 }  // namespace

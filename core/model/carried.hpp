@@ -14,6 +14,12 @@ struct StoredForce {
   std::int8_t tight[5] = {};  // per row: active set of BPP, -1 at lo, 0 free, +1 at hi
 };
 
+/// The last sub-step of a body whose island has sub-steps of its own.
+struct OwnSubstep {
+  double dt_previous = 0.0;  // as Carried::dt_previous [s]
+  double r = 0.0;            // as Carried::r, of this body [1/s^2]
+};
+
 /// What a run takes from one sub-step into the next besides poses.
 struct Carried {
   std::vector<Vec6> u;            // (velocity [m/s], angular velocity [rad/s]), world
@@ -23,6 +29,12 @@ struct Carried {
   std::vector<Mat3> K_resisting;  // per body, of mode stiffness: math/resisting.hpp, or empty
   bool stiffness_known = false;   // r and k are of the last frame; where not, a probe is due
   std::vector<StoredForce> forces;
+  std::vector<OwnSubstep> own;  // per body, or empty: dt_previous is that of all bodies
+
+  /// The last sub-step of a body [s].
+  [[nodiscard]] double dt_previous_of(std::size_t body) const {
+    return own.empty() ? dt_previous : own[body].dt_previous;
+  }
 };
 
 }  // namespace substep

@@ -53,8 +53,9 @@ struct Settings {
   double alpha_m = 0.7;  // kInertia, kBlend: dt^2 k/(4 Mt) is kept below it, in (0, 1) [-]
   double beta = 0.95;    // kBlend: share of the velocity that nothing damps, in [0, 1] [-]
   Policy policy = Policy::kFrame;
-  double memory = 0.9;  // decay of r from sub-step to sub-step in policy kSubstep, in [0, 1) [-]
-  bool probe = true;    // one solve before the first frame tells the forces that N needs
+  double memory = 0.9;   // decay of r from sub-step to sub-step in policy kSubstep, in [0, 1) [-]
+  bool islands = false;  // each island has its own N, in modes that choose it
+  bool probe = true;     // one solve before the first frame tells the forces that N needs
 
   Integrator integrator = Integrator::kEuler;
   Gyroscopic gyroscopic = Gyroscopic::kImplicit;

@@ -111,11 +111,13 @@ struct FrameReport {
   StepStatus status = StepStatus::kOk;
   int failed_body = -1;  // where the first number that is not finite appeared
 
-  int n_substeps = 0;                                          // taken in this frame
-  int n_wanted = 1;                                            // by Eq. 11 before the cap
-  bool capped = false;                                         // n_wanted was more than allowed
-  double dt_min = 0.0;                                         // shortest sub-step [s]
-  double dt_max = 0.0;                                         // longest sub-step [s]
+  int n_substeps = 0;   // taken in this frame, by the island that takes most
+  double n_mean = 0.0;  // sub-steps of a moving body, in the mean
+  int islands = 0;      // with a number of their own; 0 where they have none
+  int n_wanted = 1;     // by Eq. 11 before the cap
+  bool capped = false;  // n_wanted was more than allowed
+  double dt_min = 0.0;  // shortest sub-step [s]
+  double dt_max = 0.0;  // longest sub-step [s]
   double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10, at the
                                                                // end of the frame [s]
   StiffnessLeader leader;                                      // who set r

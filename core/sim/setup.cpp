@@ -1,27 +1,11 @@
-// Building a simulator, and everything around a frame.
+// Building a simulator, and what others may ask of it.
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 
-#include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
-#include "core/stepping/effective_mass.hpp"
 
 namespace substep {
-
-namespace {
-
-constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
-
-StageTimes no_times() {
-  StageTimes times;
-  times.joints = times.contact = times.friction = times.grab = kNotMeasured;
-  times.mass = times.solve = times.stiffness = times.integrate = kNotMeasured;
-  return times;
-}
-
-}  // namespace
 
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : scene(std::move(scene_in)), settings(scene->settings), state(initial_state(*scene)) {
@@ -31,6 +15,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   if (effects.friction) friction = std::make_unique<FrictionStage>(*scene);
   if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);
   solver = make_solver(settings.solver);
+  all = whole(*scene);
 
   // Room for the contacts to come, and a hand: a sub-step must not allocate when bodies touch.
   const std::size_t n = scene->bodies.size();
@@ -38,136 +23,13 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   blocks.reserve(n_blocks);
   solver->reserve(n, n_blocks);
   state.forces.reserve(n_blocks);
+  forces.reserve(n_blocks);
   state.k.reserve(n);
   R_WB.resize(n);
   inverse_mass.resize(n);
   u_start.resize(n);
   u_before.resize(n);
-}
-
-RowCounts Simulator::Impl::rows_by_kind() const {
-  RowCounts rows;
-  for (const Block& block : blocks.all()) {
-    if (block.is_contact()) {
-      ++rows.contact;
-      rows.friction += block.rows - 1;
-    } else {
-      rows.joint += block.rows;
-    }
-  }
-  if (grab && blocks.size() > 0) {  // the last block is the hand's
-    const int held = blocks.all().back().rows;
-    rows.joint -= held;
-    rows.grab = held;
-  }
-  return rows;
-}
-
-bool Simulator::Impl::probe_due() const {
-  const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
-  // Mode stiffness reads more of K than other modes leave behind.
-  const bool known =
-      state.stiffness_known && (settings.mode != Mode::kStiffness || !state.K_resisting.empty());
-  return settings.probe && reads_stiffness && !known;
-}
-
-// One solve of a whole frame with the errors zeroed: its forces, not its motion, are kept.
-void Simulator::Impl::probe(FrameReport& report) {
-  const double h = scene->frame;
-  const Settings chosen = settings;
-  settings.mode = Mode::kNone;               // Mt = M: there is no k to damp by yet
-  settings.integrator = Integrator::kEuler;  // forces act for the whole of h
-  begin_substep(report);
-  const bool has_rows = append_rows(report);
-  if (has_rows) {
-    external_forces(h, report);
-    solve(h, true, report);
-  }
-  settings = chosen;
-  if (has_rows && finite(report) && evaluate_stiffness(report)) state.r = bound.r;
-  std::copy(u_start.begin(), u_start.end(), state.u.begin());
-  state.stiffness_known = true;
-  report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will
-  report.failed_body = -1;
-  report.n_substeps = 0;
-  report.stages.probe = true;
-}
-
-void Simulator::Impl::begin_frame() {
-  FrameReport report;
-  if (!measures.stages) report.times = no_times();
-  contacts_foreseen = false;
-  if (probe_due()) probe(report);  // the first frame has no lambda yet
-  open.emplace(OpenFrame{SubstepClock(settings, scene->frame, state.r), report});
-}
-
-FrameReport Simulator::Impl::end(StageClock& wall) {
-  auto& [substeps, report] = *open;
-  const bool done = report.status != StepStatus::kOk || !substeps.running();
-  if (done) {
-    close(substeps, report);
-  } else {
-    observe(measures, report);
-  }
-  wall.lap(report.times.total);
-  const FrameReport result = report;
-  if (done) open.reset();
-  return result;
-}
-
-void Simulator::Impl::close(const SubstepClock& clock_of_frame, FrameReport& report) {
-  report.n_wanted = clock_of_frame.n_wanted();
-  report.capped = clock_of_frame.capped();
-  if (report.status == StepStatus::kOk) {
-    state.r = clock_of_frame.r();
-    state.stiffness_known = report.stages.stiffness;
-    if (!state.stiffness_known) {  // an old K must not be taken for this frame's
-      state.k.clear();
-      state.K_resisting.clear();
-      state.r = 0.0;
-    }
-    ++state.frame;
-    state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
-  }
-  report.stages.joints = joints != nullptr;
-  report.stages.contact = contact != nullptr;
-  report.stages.friction = friction != nullptr;
-  report.stages.restitution = restitution != nullptr;
-  report.work.residual =
-      measures.errors ? lcp_residual({blocks.all(), inverse_mass, state.u}) : kNotMeasured;
-  const RowCounts rows = rows_by_kind();
-  report.joint_rows = static_cast<int>(rows.joint + rows.grab);
-  report.contact_rows = static_cast<int>(rows.contact);
-  report.friction_rows = static_cast<int>(rows.friction);
-  observe(measures, report);
-  if (report.status != StepStatus::kOk) stopped = report;
-}
-
-void Simulator::Impl::observe(const Measures& asked, FrameReport& report) {
-  report.frame = state.frame;
-  report.time = state.time;
-  report.dt_stable = stable_step(settings.alpha, state.r);
-  if (!state.k.empty()) {
-    const StiffnessBound who = StiffnessStage::bound(*scene, state.k);
-    report.leader = {who.body, who.dof, who.k, who.mass, who.r};
-  }
-  Energies energies{kNotMeasured, kNotMeasured};
-  if (asked.energies) energies = energies_of(*scene, state);
-  report.kinetic = energies.kinetic;
-  report.potential = energies.potential;
-  report.energy = energies.kinetic + energies.potential;
-  if (!asked.errors) {
-    report.constraint_error = report.joint_gap = report.penetration = kNotMeasured;
-    return;
-  }
-  for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
-  if (joints) {
-    const JointErrors errors = joints->errors(*scene, state, R_WB);
-    report.constraint_error = errors.sum;
-    report.joint_gap = errors.gap;
-    report.joint_gap_joint = errors.joint;
-  }
-  if (contact) report.penetration = contact->penetration(*scene, state, R_WB);
+  impulse_time.resize(n);
 }
 
 Simulator::Simulator(std::shared_ptr<const Scene> scene)
@@ -196,6 +58,7 @@ void Simulator::set_state(State state) {
   impl_->state.forces.reserve(impl_->blocks.capacity());
   impl_->grab.reset();
   impl_->blocks.clear();
+  impl_->first_block = impl_->first_force = 0;
   impl_->open.reset();
   impl_->stopped = FrameReport{};
 }
@@ -220,7 +83,8 @@ ConstraintForces Simulator::constraint_forces() const {
                               block.n.cast<float>(), force.cast<float>(),
                               static_cast<float>(block.phi[0])});
     } else if (block.id < impl_->scene->joints.size()) {  // and not the hand
-      JointForce& force = out.joints.emplace_back();
+      out.joints.resize(impl_->scene->joints.size());
+      JointForce& force = out.joints[block.id];
       force.force = pulled(block);
       if (block.kind == BlockKind::kHinge) {
         const Vec3 torque = block.lambda[3] * block.axis.cross(block.v1) +

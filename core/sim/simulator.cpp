@@ -12,24 +12,24 @@ FrameReport Simulator::Impl::advance(int most) {
 
   StageClock wall;
   if (!open) begin_frame();  // N = ceil(h / dt_max)                                 Eqs. 9-11
-  auto& [substeps, report] = *open;
-  while (substeps.running() && most-- > 0) {
-    const double dt = substeps.dt();
+  FrameReport& report = *open;
+  while (schedule.running() && most-- > 0) {
+    const double dt = schedule.dt();
     begin_substep(report);
     if (!append_rows(report)) break;  // phi, J
     external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
     solve(dt, false, report);         // lambda, u+                                       Eq. 3
     if (!finite(report)) break;
     // K, k, r, with the arms that lambda belongs to                                  Eqs. 1, 4, 9
-    if (substeps.needs_stiffness() && !evaluate_stiffness(report)) break;
+    if (schedule.needs_stiffness() && !evaluate_stiffness(report)) break;
     advance_poses(dt, report);
-    substeps.advance(bound.r);  // per frame: nothing; per sub-step: decide again
+    schedule.advance(bound.r);  // per frame: nothing; per sub-step: decide again
   }
   return end(wall);
 }
 
 FrameReport Simulator::step() { return impl_->advance(std::numeric_limits<int>::max()); }
 FrameReport Simulator::substep() { return impl_->advance(1); }
-int Simulator::substeps_left() const { return impl_->open ? impl_->open->substeps.left() : 0; }
+int Simulator::substeps_left() const { return impl_->open ? impl_->schedule.left() : 0; }
 
 }  // namespace substep

@@ -8,11 +8,12 @@
 #include "core/constraints/contact_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
 #include "core/constraints/restitution_stage.hpp"
+#include "core/sim/islands.hpp"
+#include "core/sim/schedule.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/sim/stage_clock.hpp"
 #include "core/solver/solver.hpp"
 #include "core/stepping/stiffness_bound.hpp"
-#include "core/stepping/substep_clock.hpp"
 
 namespace substep {
 
@@ -32,16 +33,25 @@ struct Simulator::Impl {
   bool finite(FrameReport& report);
   void stop(std::size_t body, FrameReport& report);  // of which a number is not finite
   bool evaluate_stiffness(FrameReport& report);
+  void remember_stiffness();
   void advance_poses(double dt, FrameReport& report);
 
-  RowCounts rows_by_kind() const;
+  // Of the sub-step: what moves in it, and its rows.
+  const Part& part() const { return open ? schedule.part() : all; }
+  std::span<Block> rows() { return blocks.from(first_block); }
+  bool holds_grab() const { return grab && part().holds(grab->body); }
+  double impulse_time_of(const Block& block) const;  // lambda = impulse / it [s]
+
+  RowCounts rows_by_kind(std::span<const Block> of, bool last_is_grab) const;
   bool probe_due() const;
   void probe(FrameReport& report);
   void seed_forces();
   void store_forces();
   void begin_frame();
+  void deal_out(FrameReport& report);  // the sub-steps of the frame to come
+  void deal_out_islands();
   FrameReport end(StageClock& wall);  // of a call: closes the frame where it is done
-  void close(const SubstepClock& clock, FrameReport& report);
+  void close(FrameReport& report);
   void observe(const Measures& asked, FrameReport& report);
 
   std::shared_ptr<const Scene> scene;
@@ -49,13 +59,13 @@ struct Simulator::Impl {
   Measures measures;
   State state;
   std::optional<Grab> grab;
-  struct OpenFrame {
-    SubstepClock substeps;
-    FrameReport report;
-  };
-  std::optional<OpenFrame> open;   // a frame of which some sub-steps are taken
-  bool contacts_foreseen = false;  // those of the open frame
-  FrameReport stopped;             // the report of the frame that failed
+  std::optional<FrameReport> open;  // of a frame of which some sub-steps are taken
+  Schedule schedule;                // of the open frame
+  bool contacts_foreseen = false;   // those of the open frame
+  FrameReport stopped;              // the report of the frame that failed
+
+  Part all;                          // of the scene
+  std::unique_ptr<Islands> islands;  // built when they are first asked for
 
   // Stages: null where the scene does not call for the effect.
   std::unique_ptr<JointStage> joints;
@@ -65,14 +75,20 @@ struct Simulator::Impl {
   std::unique_ptr<StiffnessStage> stiffness;  // built when a mode or a view first needs K
   std::unique_ptr<Solver> solver;
 
-  // Scratch, valid within a sub-step.
+  // Of every part that has moved in the frame, as its last sub-step left them.
   Blocks blocks;
+  std::vector<StoredForce> forces;
+  std::size_t first_block = 0;  // of the part that moves
+  std::size_t first_force = 0;
+  std::int64_t substeps_of_bodies = 0;  // of all that move, added up
+
+  // Scratch, valid within a sub-step.
   std::vector<Mat3> R_WB;
   std::vector<InverseMass> inverse_mass;
-  std::vector<Vec6> u_start;   // at the start of the sub-step
-  std::vector<Vec6> u_before;  // after the gyroscopic torque, before forces and constraints
-  double impulse_time = 0.0;   // lambda = impulse / impulse_time [s]
-  bool smooth = true;          // no contact closed in this sub-step
+  std::vector<Vec6> u_start;         // at the start of the sub-step
+  std::vector<Vec6> u_before;        // after the gyroscopic torque, before forces and constraints
+  std::vector<double> impulse_time;  // per body: external forces act for it [s]
+  bool smooth = true;                // no contact closed in this sub-step
   StiffnessBound bound;
   StageClock clock;
 };

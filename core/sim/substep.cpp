@@ -38,15 +38,23 @@ int iterations_of(const Settings& settings, double share) {
 
 void Simulator::Impl::begin_substep(FrameReport& report) {
   clock = StageClock(measures.stages);
-  for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
+  if (open && schedule.first_of_part()) {
+    first_block = blocks.size();
+    first_force = forces.size();
+    state.time = static_cast<double>(state.frame) * scene->frame;
+  }
+  for (const int body : part().bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    R_WB[i] = state.q[i].toRotationMatrix();
+  }
   std::copy(state.u.begin(), state.u.end(), u_start.begin());
-  ++report.n_substeps;
+  if (open) report.n_substeps = std::max(report.n_substeps, schedule.number());
 }
 
 bool Simulator::Impl::append_rows(FrameReport& report) {
-  blocks.clear();
+  blocks.keep(first_block);
   if (joints) {
-    joints->append(*scene, state, R_WB, blocks);
+    joints->append(*scene, part(), state, R_WB, blocks);
     clock.lap(report.times.joints);
   }
   if (contact) {
@@ -57,10 +65,10 @@ bool Simulator::Impl::append_rows(FrameReport& report) {
     clock.lap(report.times.contact);
   }
   if (friction) {
-    friction->append(*scene, R_WB, blocks);
+    friction->append(*scene, R_WB, rows());
     clock.lap(report.times.friction);
   }
-  if (grab) {
+  if (holds_grab()) {
     const auto body = static_cast<std::size_t>(grab->body);
     grab_rows(*grab, {state.x[body], R_WB[body]}, blocks.append());
     clock.lap(report.times.grab);
@@ -70,75 +78,82 @@ bool Simulator::Impl::append_rows(FrameReport& report) {
 
 bool Simulator::Impl::append_contacts() {
   if (settings.detection == Detection::kSubstep || !open) {
-    return contact->detect_and_append(*scene, state, R_WB, blocks);
+    return contact->detect_and_append(*scene, part(), state, R_WB, blocks);
   }
-  if (std::exchange(contacts_foreseen, true)) {
-    contact->carry_and_append(state, blocks);
-    return true;
+  if (!std::exchange(contacts_foreseen, true) &&
+      !contact->foresee(*scene, all, state, R_WB, scene->frame)) {
+    return false;
   }
-  return contact->foresee_and_append(*scene, state, R_WB, scene->frame, blocks);
+  contact->carry_and_append(part(), state, blocks);
+  return true;
 }
 
 void Simulator::Impl::external_forces(double dt, FrameReport& report) {
-  impulse_time = force_time(settings.integrator, state.dt_previous, dt);
+  for (const int body : part().bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    impulse_time[i] = force_time(settings.integrator, state.dt_previous_of(i), dt);
+  }
   if (scene->effects.gyroscopic) {
-    for (std::size_t i = 0; i < scene->bodies.size(); ++i) {
+    for (const int body : part().bodies) {
+      const auto i = static_cast<std::size_t>(body);
       if (!has_gyroscopic_torque(scene->bodies[i])) continue;
       const Vec3& I = scene->bodies[i].inertia;
       const Vec3 omega_B = R_WB[i].transpose() * state.u[i].tail<3>();
-      state.u[i].tail<3>() = R_WB[i] * (settings.gyroscopic == Gyroscopic::kImplicit
-                                            ? gyroscopic_implicit(I, omega_B, state.dt_previous, dt)
-                                            : gyroscopic_explicit(I, omega_B, impulse_time));
+      state.u[i].tail<3>() =
+          R_WB[i] * (settings.gyroscopic == Gyroscopic::kImplicit
+                         ? gyroscopic_implicit(I, omega_B, state.dt_previous_of(i), dt)
+                         : gyroscopic_explicit(I, omega_B, impulse_time[i]));
     }
     report.stages.gyroscopic = true;
   }
   std::copy(state.u.begin(), state.u.end(), u_before.begin());
   if (scene->effects.gravity) {
-    for (std::size_t i = 0; i < scene->bodies.size(); ++i) {
-      if (!scene->bodies[i].is_static) state.u[i].head<3>() += impulse_time * scene->gravity;
+    for (const int body : part().bodies) {
+      const auto i = static_cast<std::size_t>(body);
+      if (!scene->bodies[i].is_static) state.u[i].head<3>() += impulse_time[i] * scene->gravity;
     }
     report.stages.gravity = true;
   }
   if (changes_mass(settings.mode)) {
-    effective_mass(*scene, settings, R_WB, u_start, dt, state, inverse_mass);
+    effective_mass(*scene, part(), settings, R_WB, u_start, dt, state, inverse_mass);
     report.stages.effective_mass = true;
   } else {
-    substep::inverse_mass(*scene, R_WB, inverse_mass);
+    substep::inverse_mass(*scene, part(), R_WB, inverse_mass);
   }
   clock.lap(report.times.mass);
 }
 
 void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
-  const std::span<Block> rows = blocks.all();
+  const std::span<Block> own = rows();
   if (probing) {
-    set_probe_bias(rows, dt);
+    set_probe_bias(own, dt);
   } else {
-    set_drift_bias(rows, drift_law(settings), settings.drift_tau, dt);
-    if (settings.drift_order == 2) add_curvature_bias(rows, u_start, dt);
-    if (restitution) restitution->apply(*scene, u_before, dt, rows);
+    set_drift_bias(own, drift_law(settings), settings.drift_tau, dt);
+    if (settings.drift_order == 2) add_curvature_bias(own, u_start, dt);
+    if (restitution) restitution->apply(*scene, u_before, dt, own);
   }
   const double per_dt2 = 1.0 / (dt * dt);
-  for (Block& block : rows) {
+  for (Block& block : own) {
     for (int row = 0; row < block.rows; ++row) {
       block.softness[row] = block.C[row] * per_dt2 + scene->regularisation;
     }
   }
-  if (grab) soften_grab(*grab, dt, rows.back());
+  if (holds_grab()) soften_grab(*grab, dt, own.back());
   seed_forces();
-  const System system{rows, inverse_mass, state.u, u_before, dt, scene->regularisation};
+  const System system{own, inverse_mass, state.u, u_before, dt, scene->regularisation};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
   const SolveReport solved = solver->solve(system, asked);
   smooth = true;
-  for (Block& block : rows) {
+  for (Block& block : own) {
     if (block.is_contact() && !block.was_closed && block.impulse[0] > 0.0) smooth = false;
-    for (int row = 0; row < block.rows; ++row)
-      block.lambda[row] = block.impulse[row] / impulse_time;
+    const double time = impulse_time_of(block);
+    for (int row = 0; row < block.rows; ++row) block.lambda[row] = block.impulse[row] / time;
   }
 
   SolverWork& work = report.work;
   ++work.solves;
-  work.rows += rows_by_kind();
+  work.rows += rows_by_kind(own, holds_grab());
   work.iterations += solved.iterations;
   work.row_updates += solved.row_updates;
   work.pivots += solved.pivots;
@@ -153,7 +168,8 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
 // Velocities have their kinetic energy within the range of numbers, which ends long before theirs.
 bool Simulator::Impl::finite(FrameReport& report) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < state.u.size(); ++i) {
+  for (const int body : part().bodies) {
+    const auto i = static_cast<std::size_t>(body);
     sum += most_kinetic(scene->bodies[i], state.u[i]);
     if (std::isfinite(sum)) continue;
     stop(i, report);
@@ -174,7 +190,7 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   const bool full = settings.mode == Mode::kStiffness;
   // The paper's contact block is no derivative: it may steer N, and must not enter Mt.
   const ContactStiffness form = full ? ContactStiffness::kExact : settings.contact_stiffness;
-  stiffness->evaluate(blocks.all(), form, R_WB, state.k);
+  stiffness->evaluate(rows(), form, part(), R_WB, state.k);
   state.K_resisting.clear();
   if (full) {
     for (int i = 0; i < static_cast<int>(state.k.size()); ++i) {
@@ -182,31 +198,43 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
           resisting(stiffness->matrix().block(i, i).bottomRightCorner<3, 3>()));
     }
   }
-  bound = StiffnessStage::bound(*scene, state.k);
+  bound = StiffnessStage::bound(*scene, part().bodies, state.k);
   // Forces of a run that diverges can have a K past the range of numbers before velocities are.
-  for (std::size_t i = 0; i < state.k.size(); ++i) {
+  for (const int body : part().bodies) {
+    const auto i = static_cast<std::size_t>(body);
     if (state.k[i].allFinite() && (!full || state.K_resisting[i].allFinite())) continue;
     stop(i, report);
     state.k.clear();
     state.K_resisting.clear();
     return false;
   }
+  remember_stiffness();
   ++report.criterion.evaluations;
-  report.criterion.flops += stiffness->flops(blocks.all(), form);
+  report.criterion.flops += stiffness->flops(rows(), form);
   report.stages.stiffness = true;
   clock.lap(report.times.stiffness);
   return true;
 }
 
+// What each body of an island asks for by itself: islands meet and part.
+void Simulator::Impl::remember_stiffness() {
+  if (state.own.empty()) return;
+  for (const int body : part().bodies) {
+    double& r = state.own[static_cast<std::size_t>(body)].r;
+    r = remembered(settings, StiffnessStage::bound(*scene, {&body, 1}, state.k).r, r);
+  }
+}
+
 void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
-  const double dt_previous = state.dt_previous;
-  integrate(*scene, dt, state);
+  integrate(*scene, part(), dt, state);
   // u stands half a sub-step behind the new poses. Half a sub-step of the accelerations just found
   // brings it up to them; an impact is no acceleration, so nothing is added then.
-  const double before =
-      settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
-  const double ahead = smooth ? dt / (before + dt) : 0.0;
-  for (std::size_t i = 0; i < state.u.size(); ++i) {
+  for (const int body : part().bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    const double dt_previous = state.dt_previous_of(i);
+    const double before =
+        settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
+    const double ahead = smooth ? dt / (before + dt) : 0.0;
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
     if (scene->effects.gyroscopic && has_gyroscopic_torque(scene->bodies[i])) {
       // u_before already has this torque up to the middle of the sub-step: half a sub-step is left.
@@ -219,25 +247,42 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
       }
     }
   }
+  state.time += dt;
+  state.dt_previous = dt;
+  if (!state.own.empty()) {
+    for (const int body : part().bodies) state.own[static_cast<std::size_t>(body)].dt_previous = dt;
+    if (!has_islands(settings)) state.own.clear();  // all bodies have met
+  }
+  substeps_of_bodies += part().moving;
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
   report.dt_max = std::max(report.dt_max, dt);
   clock.lap(report.times.integrate);
 }
 
+// Bodies that have just met may differ in it; the force between them then is one in name only.
+double Simulator::Impl::impulse_time_of(const Block& block) const {
+  const double a = block.a < 0 ? 0.0 : impulse_time[static_cast<std::size_t>(block.a)];
+  const double b = block.b < 0 ? 0.0 : impulse_time[static_cast<std::size_t>(block.b)];
+  return std::max(a, b);
+}
+
 void Simulator::Impl::seed_forces() {
   std::size_t next = 0;  // blocks mostly come in the order of the last sub-step
-  const std::size_t known = state.forces.size();
-  for (Block& block : blocks.all()) {
+  const bool goes_on = open && !schedule.first_of_part();
+  const std::span<const StoredForce> of_last =
+      goes_on ? std::span<const StoredForce>(forces).subspan(first_force) : state.forces;
+  const std::size_t known = of_last.size();
+  for (Block& block : rows()) {
     std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
     std::fill(block.tight, block.tight + kMaxRows,
               block.is_contact() ? kUnknownSet : std::int8_t{0});
     block.was_closed = false;
     if (!block.is_contact() && !starts_from_last_forces(settings)) continue;  // not stored
     for (std::size_t tried = 0; tried < known; ++tried) {
-      const StoredForce& force = state.forces[(next + tried) % known];
+      const StoredForce& force = of_last[(next + tried) % known];
       if (force.id != block.id) continue;
       for (int row = 0; row < block.rows; ++row) {
-        block.impulse[row] = force.lambda[row] * impulse_time;
+        block.impulse[row] = force.lambda[row] * impulse_time_of(block);
         block.tight[row] = force.tight[row];
       }
       block.was_closed = force.lambda[0] > 0.0;
@@ -248,10 +293,10 @@ void Simulator::Impl::seed_forces() {
 }
 
 void Simulator::Impl::store_forces() {
-  state.forces.clear();
-  for (const Block& block : blocks.all()) {
+  forces.resize(first_force);
+  for (const Block& block : rows()) {
     if (!block.is_contact() && !starts_from_last_forces(settings)) continue;
-    StoredForce& force = state.forces.emplace_back();
+    StoredForce& force = forces.emplace_back();
     force.id = block.id;
     for (int row = 0; row < block.rows; ++row) {
       force.lambda[row] = block.lambda[row];

@@ -34,8 +34,10 @@ InverseMass inverse_mass_of(const Body& body, const Mat3& R) {
 
 }  // namespace
 
-void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::span<InverseMass> out) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+void inverse_mass(const Scene& scene, const Part& part, std::span<const Mat3> R_WB,
+                  std::span<InverseMass> out) {
+  for (const int index : part.bodies) {
+    const auto i = static_cast<std::size_t>(index);
     out[i] = inverse_mass_of(scene.bodies[i], R_WB[i]);
   }
 }
@@ -72,15 +74,16 @@ bool principal_mass(const Settings& s, const Vec3& I, const Vec6& k, double dt, 
 
 // S = Mt^-1 M turns what M made of u and the forces into what Mt makes of them:
 //   u* = beta u + (1 - beta) S u + Mt^-1 dt f = S (u_M - beta u) + beta u.
-void effective_mass(const Scene& scene, const Settings& settings, std::span<const Mat3> R_WB,
-                    std::span<const Vec6> u_start, double dt, State& state,
-                    std::span<InverseMass> out) {
+void effective_mass(const Scene& scene, const Part& part, const Settings& settings,
+                    std::span<const Mat3> R_WB, std::span<const Vec6> u_start, double dt,
+                    State& state, std::span<InverseMass> out) {
   const double beta = settings.mode == Mode::kInertia ? 1.0
                       : settings.mode == Mode::kBlend ? settings.beta
                                                       : 0.0;
   const bool stiffens = settings.mode == Mode::kStiffness;
   const std::size_t known = stiffens ? state.K_resisting.size() : state.k.size();
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+  for (const int index : part.bodies) {
+    const auto i = static_cast<std::size_t>(index);
     const Body& body = scene.bodies[i];
     const Vec3& I = body.inertia;
     const Mat3& R = R_WB[i];

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/settings.hpp"
 #include "core/model/state.hpp"
@@ -9,8 +10,9 @@
 
 namespace substep {
 
-/// Mt^-1 = M^-1 of every body, world axes.
-void inverse_mass(const Scene& scene, std::span<const Mat3> R_WB, std::span<InverseMass> out);
+/// Mt^-1 = M^-1 of every body of the part, world axes.
+void inverse_mass(const Scene& scene, const Part& part, std::span<const Mat3> R_WB,
+                  std::span<InverseMass> out);
 
 /// Whether a mode puts another mass in the place of M.
 bool changes_mass(Mode mode);
@@ -22,8 +24,8 @@ bool changes_mass(Mode mode);
 /// @param state with k (and K of mode stiffness) of the last sub-step; u as M makes it, replaced
 /// @param u_start velocities at the start of the sub-step  @param dt [s]
 /// @param out Mt^-1
-void effective_mass(const Scene& scene, const Settings& settings, std::span<const Mat3> R_WB,
-                    std::span<const Vec6> u_start, double dt, State& state,
-                    std::span<InverseMass> out);
+void effective_mass(const Scene& scene, const Part& part, const Settings& settings,
+                    std::span<const Mat3> R_WB, std::span<const Vec6> u_start, double dt,
+                    State& state, std::span<InverseMass> out);
 
 }  // namespace substep

@@ -2,8 +2,9 @@
 
 namespace substep {
 
-void integrate(const Scene& scene, double dt, State& state) {
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+void integrate(const Scene& scene, const Part& part, double dt, State& state) {
+  for (const int index : part.bodies) {
+    const auto i = static_cast<std::size_t>(index);
     if (scene.bodies[i].is_static) continue;
     state.x[i] += dt * state.u[i].head<3>();
     const Vec3 half = 0.5 * dt * state.u[i].tail<3>();
@@ -13,8 +14,6 @@ void integrate(const Scene& scene, double dt, State& state) {
     const Vec3 turned = v + q.w() * half + half.cross(v);
     state.q[i] = Quat(q.w() - half.dot(v), turned.x(), turned.y(), turned.z()).normalized();
   }
-  state.dt_previous = dt;
-  state.time += dt;
 }
 
 }  // namespace substep

@@ -44,7 +44,7 @@ StiffnessStage::StiffnessStage(const Scene& scene) {
 }
 
 void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness form,
-                              std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
+                              const Part& part, std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
   K_.clear(R_WB.size());
   for (const Block& block : blocks) {
     switch (block.kind) {
@@ -63,8 +63,8 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness fo
         break;
     }
   }
-  k.resize(R_WB.size());
-  K_.column_norms(R_WB, k);
+  k.resize(R_WB.size(), Vec6::Zero());
+  K_.column_norms(part.bodies, R_WB, k);
 }
 
 std::int64_t StiffnessStage::flops(std::span<const Block> blocks, ContactStiffness form) const {
@@ -73,16 +73,18 @@ std::int64_t StiffnessStage::flops(std::span<const Block> blocks, ContactStiffne
   return sum;
 }
 
-StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const Vec6> k) {
+StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const int> bodies,
+                                     std::span<const Vec6> k) {
   StiffnessBound best;
-  for (std::size_t i = 0; i < k.size(); ++i) {
+  for (const int index : bodies) {
+    const auto i = static_cast<std::size_t>(index);
     const Body& body = scene.bodies[i];
     if (body.is_static) continue;
     for (int dof = 0; dof < 6; ++dof) {
       const double mass = dof < 3 ? body.mass : body.inertia[dof - 3];
       if (k[i][dof] < 0.999 * best.r * mass) continue;  // a division less
       const double r = k[i][dof] / mass;
-      if (r > best.r) best = {r, static_cast<int>(i), dof, k[i][dof], mass};
+      if (r > best.r) best = {r, index, dof, k[i][dof], mass};
     }
   }
   return best;

@@ -5,6 +5,7 @@
 
 #include "core/constraints/block.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
+#include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 
@@ -23,12 +24,14 @@ struct StiffnessBound {
 class StiffnessStage {
  public:
   explicit StiffnessStage(const Scene& scene);
-  /// @param blocks with lambda and the geometry it belongs to
-  /// @param k out, per body: linear [N/m], then angular about the principal axes [N m/rad]
-  void evaluate(std::span<const Block> blocks, ContactStiffness form, std::span<const Mat3> R_WB,
-                std::vector<Vec6>& k);
-  /// r = max k_i / M_ii over the moving bodies (Eq. 9).
-  [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const Vec6> k);
+  /// @param blocks of the part, with lambda and the geometry it belongs to
+  /// @param k out, per body, those of the part: linear [N/m], then angular about the principal axes
+  /// [N m/rad]
+  void evaluate(std::span<const Block> blocks, ContactStiffness form, const Part& part,
+                std::span<const Mat3> R_WB, std::vector<Vec6>& k);
+  /// r = max k_i / M_ii over those of the bodies that move (Eq. 9).
+  [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const int> bodies,
+                                            std::span<const Vec6> k);
   /// Floating-point operations of the last evaluate(), which had these blocks.
   [[nodiscard]] std::int64_t flops(std::span<const Block> blocks, ContactStiffness form) const;
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }

@@ -16,10 +16,26 @@ bool chooses_substeps(Mode mode) {
          mode == Mode::kBlend;
 }
 
+bool has_islands(const Settings& settings) {
+  return settings.islands && chooses_substeps(settings.mode);
+}
+
 int wanted_substeps(double h, double dt_max) {
   constexpr double kMost = 1e9;  // an impulsive force can ask for more than an int holds
   const double n = std::ceil(h / dt_max);
   return n >= 1.0 ? static_cast<int>(std::min(n, kMost)) : 1;
+}
+
+namespace {
+
+bool decides_again(const Settings& settings) {
+  return settings.policy == Policy::kSubstep && chooses_substeps(settings.mode);
+}
+
+}  // namespace
+
+double remembered(const Settings& settings, double now, double before) {
+  return decides_again(settings) ? std::max(now, settings.memory * before) : now;
 }
 
 SubstepClock::SubstepClock(const Settings& settings, double h, double r)
@@ -73,12 +89,10 @@ bool SubstepClock::needs_stiffness() const {
 }
 
 void SubstepClock::advance(double r) {
-  const bool decides_again =
-      settings_.policy == Policy::kSubstep && chooses_substeps(settings_.mode);
-  if (needs_stiffness()) r_ = decides_again ? std::max(r, settings_.memory * r_) : r;
+  if (needs_stiffness()) r_ = remembered(settings_, r, r_);
   ++taken_;
   if (--left_ == 0) return;
-  if (decides_again) {
+  if (decides_again(settings_)) {
     rest_ -= dt_;
     decide();
   }

@@ -10,8 +10,15 @@ double stable_step(double alpha, double r);
 /// Whether N follows from r.
 bool chooses_substeps(Mode mode);
 
+/// Whether islands have sub-steps of their own.
+bool has_islands(const Settings& settings);
+
 /// N = ceil(h / dt_max), Eq. 11, at least 1.
 int wanted_substeps(double h, double dt_max);
+
+/// What is known of r after a sub-step: policy `substep` keeps what was before, fading.
+/// @param now, before [1/s^2]
+double remembered(const Settings& settings, double now, double before);
 
 /// Deals out one frame of length h in sub-steps.
 ///   none, damping, stiffness    one sub-step
@@ -28,6 +35,7 @@ class SubstepClock {
   [[nodiscard]] bool running() const { return left_ > 0; }
   [[nodiscard]] double dt() const { return dt_; }   ///< [s]
   [[nodiscard]] int left() const { return left_; }  ///< sub-steps to come, as decided so far
+  [[nodiscard]] int taken() const { return taken_; }
   /// Whether what follows reads the stiffness of this sub-step.
   [[nodiscard]] bool needs_stiffness() const;
   /// Goes on to the next sub-step. @param r of this sub-step, where it was needed [1/s^2]

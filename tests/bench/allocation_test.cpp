@@ -11,8 +11,10 @@
 #include "core/io/scene_reader.hpp"
 #include "core/model/names.hpp"
 #include "core/sim/simulator.hpp"
+#include "scenes/generator/scenes.hpp"
 #include "tests/bench/allocations.hpp"
 #include "tests/bench/cases.hpp"
+#include "tests/support/placed.hpp"
 
 namespace {
 
@@ -41,15 +43,18 @@ TEST_P(Stepping, AllocatesNothingAfterTheFirstFrame) {
 }
 
 /// Blocks of memory that 90 frames after the first ask for.
-std::int64_t allocated(const std::string& scene_name, const Settings& settings) {
-  const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/" + scene_name + ".json").scene;
-  if (scene == nullptr) return -1;
-  Simulator simulator(scene);
+std::int64_t allocated(const Scene& scene, const Settings& settings) {
+  Simulator simulator(std::make_shared<const Scene>(scene));
   simulator.set_settings(settings);
   simulator.step();
   const std::int64_t before = bench::allocations();
   for (int frame = 0; frame < 90; ++frame) simulator.step();
   return bench::allocations() - before;
+}
+
+std::int64_t allocated(const std::string& scene_name, const Settings& settings) {
+  const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/" + scene_name + ".json").scene;
+  return scene ? allocated(*scene, settings) : -1;
 }
 
 TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
@@ -65,15 +70,30 @@ TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
 
 // Contacts that are foreseen, sweeps that are shared out, regularisation that is taken back.
 TEST(SmallStepsAndRefinements, AllocateNothingAfterTheFirstFrame) {
-  for (const auto& [name, solver] : {std::pair{"bridge", SolverKind::kPgs},
-                                     std::pair{"bridge", SolverKind::kBpp},
-                                     std::pair{"heavy_stack_stress", SolverKind::kBpp}}) {
+  for (const auto& [name, solver] :
+       {std::pair{"bridge", SolverKind::kPgs}, std::pair{"bridge", SolverKind::kBpp},
+        std::pair{"heavy_stack_stress", SolverKind::kBpp}}) {
     const Settings settings{.solver = solver,
                             .share_iterations = true,
                             .refinements = 2,
                             .mode = Mode::kConst,
                             .detection = Detection::kFrame};
     EXPECT_EQ(allocated(name, settings), 0) << name << ", " << name_of(solver);
+  }
+}
+
+// Three clocks, and later two.
+TEST(IslandsWithClocksOfTheirOwn, AllocateNothingAfterTheFirstFrame) {
+  const auto aside = [](const Scene& scene, double z) {
+    return test::transformed(scene, Quat::Identity(), Vec3{0.0, 0.0, z});
+  };
+  const Scene scene = test::beside(
+      {aside(scenes::swinging_box(), -30.0), scenes::bridge(), aside(scenes::pendulum(), 30.0)});
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
+    for (const Detection detection : {Detection::kSubstep, Detection::kFrame}) {
+      const Settings settings{.solver = solver, .islands = true, .detection = detection};
+      EXPECT_EQ(allocated(scene, settings), 0) << name_of(solver) << ", " << name_of(detection);
+    }
   }
 }
 

@@ -19,7 +19,7 @@ function(substep_mutation name source taken left tests test)
     PASS_REGULAR_EXPRESSION "\n\\[  FAILED  \\] ${test} ")
 endfunction()
 
-substep_mutation(the_probe core/sim/setup.cpp "if \\(probe_due\\(\\)\\) probe\\(report\\);" ""
+substep_mutation(the_probe core/sim/frame.cpp "if \\(probe_due\\(\\)\\) probe\\(report\\);" ""
   paper_tests HeavyStackStress.SixteenAndAdaptiveStandTenSeconds)
 substep_mutation(the_cap_of_N core/stepping/substep_clock.cpp
   "std::min\\((wanted_substeps\\(rest_, dt_max\\)), limit_ - taken_\\)" "\\1"

@@ -28,7 +28,8 @@ inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
                                           "newtons_cradle"};
 
 /// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
-/// and with 16 sub-steps, with BPP and with PGS; through the stress stacks with refinements,
+/// and with 16 sub-steps, with BPP and with PGS; through the heaps with islands, through the stress
+/// stacks with refinements,
 /// through the paper's scenes of contacts with small steps, and through those of joints with 6
 /// sub-steps of the other solvers.
 /// @return main()'s
@@ -59,6 +60,13 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
         settings.solver = solver;
         with(settings, name_of(solver));
       }
+    }
+    if (read.scene->group == "playground" && read.scene->effects.joints &&
+        read.scene->effects.contact) {
+      Settings islands = read.scene->settings;
+      islands.mode = Mode::kAdaptive;
+      islands.islands = true;
+      with(islands, "bpp_islands");
     }
     Settings settings = read.scene->settings;
     settings.mode = Mode::kConst;

@@ -294,9 +294,9 @@ TEST(Contact, TheSphereTurnsNothingInTheExactFormButInThePapersItDoes) {
   blocks.all()[0].lambda[0] = 10.0;
   StiffnessStage stage(scene);
   std::vector<Vec6> k;
-  stage.evaluate(blocks.all(), ContactStiffness::kExact, rotations(state), k);
+  stage.evaluate(blocks.all(), ContactStiffness::kExact, whole(scene), rotations(state), k);
   EXPECT_EQ(k[0], Vec6::Zero());
-  stage.evaluate(blocks.all(), ContactStiffness::kPaper, rotations(state), k);
+  stage.evaluate(blocks.all(), ContactStiffness::kPaper, whole(scene), rotations(state), k);
   Vec6 expected;
   expected << 0.0, 0.0, 0.0, 5.0, 0.0, 5.0;  // [l][r] with l = 10 y, r = -0.5 y
   EXPECT_LT((k[0] - expected).norm(), 1e-14);
@@ -315,7 +315,7 @@ TEST(Friction, RowsAreTheRelativeSpeedAtTheContact) {
     for (Vec6& u : state.u) u << random_vector(random), random_vector(random);
     Blocks blocks;
     contact_rows(scene)(state, blocks);
-    FrictionStage(scene).append(scene, rotations(state), blocks);
+    FrictionStage(scene).append(scene, rotations(state), blocks.all());
     ASSERT_EQ(blocks.size(), 1U);
     const Block& block = blocks.all()[0];
     ASSERT_EQ(block.rows, 3);

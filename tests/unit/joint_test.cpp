@@ -61,7 +61,7 @@ void curvature() {
         then.q[i] = Quat(Eigen::AngleAxisd(t * omega.norm(), omega.normalized())) * state.q[i];
       }
       Blocks blocks;
-      JointStage(scene).append(scene, then, rotations(then), blocks);
+      JointStage(scene).append(scene, whole(scene), then, rotations(then), blocks);
       return blocks.all()[0];
     };
     const double t = 1e-4;

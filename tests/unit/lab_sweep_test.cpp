@@ -43,6 +43,7 @@ Settings unusual() {
   s.beta = 0.9;
   s.policy = Policy::kSubstep;
   s.memory = 0.8;
+  s.islands = true;
   s.probe = false;
   s.integrator = Integrator::kLeapfrog;
   s.gyroscopic = Gyroscopic::kExplicit;

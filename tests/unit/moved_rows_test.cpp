@@ -33,7 +33,7 @@ Difference after(const Scene& scene, State state, const Rows& rows, double dt) {
   Blocks start;
   rows(state, start);
   const std::vector<Vec6> u = state.u;
-  integrate(scene, dt, state);
+  integrate(scene, whole(scene), dt, state);
   Blocks end;
   rows(state, end);
   Difference difference;
@@ -154,10 +154,10 @@ TEST(MovedRows, OfFrictionCountTheWaySlid) {
     const FrictionStage friction(scene);
     Blocks blocks;
     contact_rows(scene)(state, blocks);
-    friction.append(scene, rotations(state), blocks);
+    friction.append(scene, rotations(state), blocks.all());
     const double dt = 0.2;
     State end = state;
-    integrate(scene, dt, end);
+    integrate(scene, whole(scene), dt, end);
     for (const Block& start : blocks.all()) {
       Block block;
       ASSERT_EQ(start.a, 0);

@@ -51,7 +51,7 @@ struct Chain {
     u_before = state.u;
     for (Vec6& u : state.u) u[1] -= 9.81 * dt;
     const std::vector<Mat3> R = rotations(state);
-    JointStage(scene).append(scene, state, R, blocks);
+    JointStage(scene).append(scene, whole(scene), state, R, blocks);
     for (Block& block : blocks.all()) {
       std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
       std::fill(block.tight, block.tight + kMaxRows, std::int8_t{0});
@@ -169,7 +169,8 @@ TEST(Newton, OnBodiesThatDoNotTurnIsTheLinearSolve) {
   chain.scene.joints = {ball};
   for (Vec6* u : {&chain.state.u[0], &chain.u_before[0]}) u->tail<3>().setZero();
   chain.blocks.clear();
-  JointStage(chain.scene).append(chain.scene, chain.state, rotations(chain.state), chain.blocks);
+  JointStage(chain.scene)
+      .append(chain.scene, whole(chain.scene), chain.state, rotations(chain.state), chain.blocks);
   Block& block = chain.blocks.all()[0];
   for (int row = 0; row < 3; ++row) {
     block.impulse[row] = block.bias[row] = 0.0;

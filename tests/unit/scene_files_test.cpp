@@ -78,6 +78,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .n_cap = 8,
                     .policy = Policy::kSubstep,
                     .memory = 0.5,
+                    .islands = true,
                     .probe = false,
                     .integrator = Integrator::kLeapfrog,
                     .gyroscopic = Gyroscopic::kExplicit,

@@ -26,7 +26,7 @@ TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
       }
     }
     std::vector<Vec6> k(2);
-    K.column_norms(R, k);
+    K.column_norms(std::vector{0, 1}, R, k);
     for (int body = 0; body < 2; ++body) {
       for (int other = 0; other < 2; ++other) {
         EXPECT_LT((K.block(other, body) - dense.block<6, 6>(6 * other, 6 * body)).norm(), 1e-15);

@@ -77,14 +77,14 @@ using Rows = std::function<void(const State&, Blocks&)>;
 inline Rows joint_rows(const Scene& scene) {
   return [&scene, stage = JointStage(scene)](const State& state, Blocks& blocks) {
     blocks.clear();
-    stage.append(scene, state, rotations(state), blocks);
+    stage.append(scene, whole(scene), state, rotations(state), blocks);
   };
 }
 inline Rows contact_rows(const Scene& scene) {
   auto stage = std::make_shared<ContactStage>(scene);
   return [&scene, stage](const State& state, Blocks& blocks) {
     blocks.clear();
-    stage->detect_and_append(scene, state, rotations(state), blocks);
+    stage->detect_and_append(scene, whole(scene), state, rotations(state), blocks);
   };
 }
 
@@ -154,7 +154,7 @@ inline void expect_stiffness(const Scene& scene, const State& state, const Rows&
   }
   StiffnessStage stage(scene);
   std::vector<Vec6> k;
-  stage.evaluate(at.all(), ContactStiffness::kExact, rotations(state), k);
+  stage.evaluate(at.all(), ContactStiffness::kExact, whole(scene), rotations(state), k);
   const auto with_lambda = [&](const State& there, Blocks& blocks) {
     rows(there, blocks);
     ASSERT_EQ(blocks.size(), at.size());

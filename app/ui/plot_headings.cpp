@@ -1,0 +1,87 @@
+#include "app/ui/plot_headings.hpp"
+
+#include <cmath>
+
+#include "app/format.hpp"
+#include "app/ui/plot.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+
+namespace {
+constexpr float kLegendGap = 22.0F;  // for the dot, and before it
+}  // namespace
+
+float legend(const Look& look, float right, float y, ImU32 color, const std::string& text) {
+  const ImVec2 size = text_size(look.fonts.small, text.c_str());
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float x = right - size.x;
+  draw_text(draw, look.fonts.small, {x, y}, look.theme->text, text.c_str());
+  draw.AddCircleFilled({x - 8.0F, y + 0.5F * size.y}, 3.5F, color);
+  return x - kLegendGap;
+}
+
+std::string order_of_magnitude(double value) {
+  if (!(value > 0.0)) return "0";
+  return power_of_ten(static_cast<int>(std::lround(std::log10(value))));
+}
+
+void compared_values(App& app, ImVec2 heading, float left, Channel channel, const ValueText& text,
+                     const ValueText& brief) {
+  struct Value {
+    ImU32 color;
+    std::string full;
+    std::string brief;
+  };
+  std::vector<Value> values;
+  float full_width = 0.0F;
+  const auto add = [&](const History& history, ImU32 color) {
+    const double v = shown_value(history, channel, app.desk.time);
+    const bool known = std::isfinite(v);
+    values.push_back({color, known ? text(v) : "–", known ? brief(v) : "–"});
+    full_width += text_size(app.look.fonts.small, values.back().full.c_str()).x + kLegendGap;
+  };
+  add(app.session.history(), app.look.theme->blue);
+  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+    add(app.compare.runs()[i].history, app.compare_color(i));
+  }
+  float right = heading.x + ImGui::GetContentRegionAvail().x;
+  const bool fits = right - full_width >= left;
+  for (std::size_t i = values.size(); i-- > 0;) {
+    const std::string& shown = fits ? values[i].full : values[i].brief;
+    right = legend(app.look, right, heading.y, values[i].color, shown);
+  }
+}
+
+void named_values(App& app, ImVec2 heading, float left, const std::vector<NamedChannel>& shown) {
+  const float end = heading.x + ImGui::GetContentRegionAvail().x;
+  const auto text = [&](const NamedChannel& one, bool brief) {
+    const double value = shown_value(app.session.history(), one.channel, app.desk.time);
+    if (!std::isfinite(value)) return std::string(one.name);
+    return std::string(one.name) + " " + (brief ? order_of_magnitude(value) : coarse_number(value));
+  };
+  float full = 0.0F;
+  for (const NamedChannel& one : shown) {
+    full += text_size(app.look.fonts.small, text(one, false).c_str()).x + kLegendGap;
+  }
+  const bool brief = end - full < left;
+  float right = end;
+  for (const NamedChannel& one : shown) {
+    right = legend(app.look, right, heading.y, one.color, text(one, brief));
+  }
+}
+
+void count_heading(App& app, const char* name, const char* name_of_several, Channel channel,
+                   const char* before, const char* after, const ValueText& text) {
+  const double now = shown_value(app.session.history(), channel, app.desk.time);
+  const bool several = app.compare.open();
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const std::string value = several || !std::isfinite(now) ? "" : before + text(now) + after;
+  section(app.look, several ? name_of_several : name, value.c_str());
+  if (several) {
+    compared_values(app, origin, origin.x + heading_width(app.look, name_of_several), channel, text,
+                    text);
+  }
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,202 @@
+// Everything around the sub-steps of a frame.
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "core/sim/energy.hpp"
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/effective_mass.hpp"
+
+namespace substep {
+
+namespace {
+
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
+
+StageTimes no_times() {
+  StageTimes times;
+  times.joints = times.contact = times.friction = times.grab = kNotMeasured;
+  times.mass = times.solve = times.stiffness = times.integrate = kNotMeasured;
+  return times;
+}
+
+}  // namespace
+
+RowCounts Simulator::Impl::rows_by_kind(std::span<const Block> of, bool last_is_grab) const {
+  RowCounts counts;
+  for (const Block& block : of) {
+    if (block.is_contact()) {
+      ++counts.contact;
+      counts.friction += block.rows - 1;
+    } else {
+      counts.joint += block.rows;
+    }
+  }
+  if (last_is_grab && !of.empty()) {
+    counts.joint -= of.back().rows;
+    counts.grab = of.back().rows;
+  }
+  return counts;
+}
+
+bool Simulator::Impl::probe_due() const {
+  const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
+  // Mode stiffness reads more of K than other modes leave behind.
+  const bool known =
+      state.stiffness_known && (settings.mode != Mode::kStiffness || !state.K_resisting.empty());
+  return settings.probe && reads_stiffness && !known;
+}
+
+// One solve of a whole frame with the errors zeroed: its forces, not its motion, are kept.
+void Simulator::Impl::probe(FrameReport& report) {
+  const double h = scene->frame;
+  const Settings chosen = settings;
+  settings.mode = Mode::kNone;               // Mt = M: there is no k to damp by yet
+  settings.integrator = Integrator::kEuler;  // forces act for the whole of h
+  begin_substep(report);
+  const bool has_rows = append_rows(report);
+  if (has_rows) {
+    external_forces(h, report);
+    solve(h, true, report);
+  }
+  settings = chosen;
+  if (has_rows && finite(report)) {
+    std::swap(state.forces, forces);
+    if (evaluate_stiffness(report)) state.r = bound.r;
+  }
+  std::copy(u_start.begin(), u_start.end(), state.u.begin());
+  state.stiffness_known = true;
+  report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will
+  report.failed_body = -1;
+  report.stages.probe = true;
+}
+
+void Simulator::Impl::begin_frame() {
+  FrameReport report;
+  if (!measures.stages) report.times = no_times();
+  contacts_foreseen = false;
+  substeps_of_bodies = 0;
+  first_block = first_force = 0;
+  if (probe_due()) probe(report);  // the first frame has no lambda yet
+  deal_out(report);
+  blocks.clear();
+  forces.clear();
+  open = report;
+}
+
+void Simulator::Impl::deal_out(FrameReport& report) {
+  schedule.clear();
+  if (!has_islands(settings) || all.moving == 0) {
+    for (const OwnSubstep& own : state.own) state.r = std::max(state.r, own.r);
+    schedule.add(all, SubstepClock(settings, scene->frame, state.r));
+    return;
+  }
+  if (state.own.empty()) {
+    for (std::size_t i = 0; i < state.q.size(); ++i) {
+      const auto body = static_cast<int>(i);
+      const double r =
+          state.k.empty() ? state.r : StiffnessStage::bound(*scene, {&body, 1}, state.k).r;
+      state.own.push_back({state.dt_previous, r});
+    }
+  }
+  if (!islands) islands = std::make_unique<Islands>(*scene);
+  for (const int body : all.bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    R_WB[i] = state.q[i].toRotationMatrix();
+  }
+  islands->find(*scene, all, state, R_WB, scene->frame, contact ? &contact->detector() : nullptr);
+  report.islands = islands->count();
+  deal_out_islands();
+}
+
+void Simulator::Impl::deal_out_islands() {
+  const auto r_of = [&](std::span<const int> bodies) {
+    double most = 0.0;
+    for (const int body : bodies) {
+      if (!scene->bodies[static_cast<std::size_t>(body)].is_static) {
+        most = std::max(most, state.own[static_cast<std::size_t>(body)].r);
+      }
+    }
+    return most;
+  };
+  islands->split(*scene, [&](std::span<const int> bodies) {
+    return SubstepClock(settings, scene->frame, r_of(bodies)).left();
+  });
+  for (const Part& one : islands->parts()) {
+    schedule.add(one, SubstepClock(settings, scene->frame, r_of(one.bodies)));
+  }
+}
+
+FrameReport Simulator::Impl::end(StageClock& wall) {
+  FrameReport& report = *open;
+  const bool done = report.status != StepStatus::kOk || !schedule.running();
+  if (done) {
+    close(report);
+  } else {
+    observe(measures, report);
+  }
+  wall.lap(report.times.total);
+  const FrameReport result = report;
+  if (done) open.reset();
+  return result;
+}
+
+void Simulator::Impl::close(FrameReport& report) {
+  report.n_wanted = schedule.n_wanted();
+  report.capped = schedule.capped();
+  if (all.moving > 0) report.n_mean = static_cast<double>(substeps_of_bodies) / all.moving;
+  if (report.status == StepStatus::kOk) {
+    std::swap(state.forces, forces);
+    state.r = schedule.r();
+    state.stiffness_known = report.stages.stiffness;
+    if (!state.stiffness_known) {  // an old K must not be taken for this frame's
+      state.k.clear();
+      state.K_resisting.clear();
+      state.r = 0.0;
+    }
+    ++state.frame;
+    state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
+  }
+  report.stages.joints = joints != nullptr;
+  report.stages.contact = contact != nullptr;
+  report.stages.friction = friction != nullptr;
+  report.stages.restitution = restitution != nullptr;
+  report.work.residual =
+      measures.errors ? lcp_residual({blocks.all(), inverse_mass, state.u}) : kNotMeasured;
+  const RowCounts rows = rows_by_kind(blocks.all(), grab.has_value());
+  report.joint_rows = static_cast<int>(rows.joint + rows.grab);
+  report.contact_rows = static_cast<int>(rows.contact);
+  report.friction_rows = static_cast<int>(rows.friction);
+  observe(measures, report);
+  if (report.status != StepStatus::kOk) stopped = report;
+}
+
+void Simulator::Impl::observe(const Measures& asked, FrameReport& report) {
+  report.frame = state.frame;
+  report.time = state.time;
+  report.dt_stable = stable_step(settings.alpha, state.r);
+  if (!state.k.empty()) {
+    const StiffnessBound who = StiffnessStage::bound(*scene, all.bodies, state.k);
+    report.leader = {who.body, who.dof, who.k, who.mass, who.r};
+  }
+  Energies energies{kNotMeasured, kNotMeasured};
+  if (asked.energies) energies = energies_of(*scene, state);
+  report.kinetic = energies.kinetic;
+  report.potential = energies.potential;
+  report.energy = energies.kinetic + energies.potential;
+  if (!asked.errors) {
+    report.constraint_error = report.joint_gap = report.penetration = kNotMeasured;
+    return;
+  }
+  for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
+  if (joints) {
+    const JointErrors errors = joints->errors(*scene, state, R_WB);
+    report.constraint_error = errors.sum;
+    report.joint_gap = errors.gap;
+    report.joint_gap_joint = errors.joint;
+  }
+  if (contact) report.penetration = contact->penetration(*scene, all, state, R_WB);
+}
+
+}  // namespace substep

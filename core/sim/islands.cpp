@@ -1,0 +1,147 @@
+#include "core/sim/islands.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace substep {
+
+namespace {
+
+constexpr std::size_t kUsualParts = 8;  // more are made when they are needed
+
+std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Islands::Islands(const Scene& scene)
+    : parent_(scene.bodies.size()),
+      speed_(scene.bodies.size()),
+      way_(scene.bodies.size()),
+      island_(scene.bodies.size()) {
+  const std::size_t n = scene.bodies.size();
+  bodies_.reserve(n);
+  first_.reserve(n + 1);
+  n_.reserve(n);
+  levels_.reserve(n);
+  while (parts_.size() < kUsualParts) add_part(scene);
+}
+
+void Islands::add_part(const Scene& scene) {
+  Part& part = parts_.emplace_back();
+  part.bodies.reserve(scene.bodies.size());
+  part.joints.reserve(scene.joints.size());
+  part.has.reserve(scene.bodies.size());
+}
+
+int Islands::root(int body) {
+  while (parent_[index(body)] != body) {
+    int& parent = parent_[index(body)];
+    parent = parent_[index(parent)];  // half the way for the next one
+    body = parent;
+  }
+  return body;
+}
+
+// The root is the first body of its island.
+bool Islands::connect(int a, int b) {
+  const int p = root(a);
+  const int q = root(b);
+  parent_[index(std::max(p, q))] = std::min(p, q);
+  return p != q;
+}
+
+void Islands::find(const Scene& scene, const Part& all, const State& state,
+                   std::span<const Mat3> R_WB, double ahead, Detector* detector) {
+  const auto moves = [&](int body) { return body >= 0 && !scene.bodies[index(body)].is_static; };
+  std::iota(parent_.begin(), parent_.end(), 0);
+  for (const Joint& joint : scene.joints) {
+    const JointBase& j = base(joint);
+    if (moves(j.a) && moves(j.b)) connect(j.a, j.b);
+  }
+  for (bool grown = detector != nullptr; grown;) {
+    grown = false;
+    set_ways(scene, state, ahead, *detector);
+    for (const BroadPhase::Pair& pair : detector->within_reach(scene, all, state, R_WB, way_)) {
+      if (moves(pair.i) && moves(pair.j) && connect(pair.i, pair.j)) grown = true;
+    }
+  }
+  list(scene);
+}
+
+void Islands::set_ways(const Scene& scene, const State& state, double ahead,
+                       const Detector& detector) {
+  std::fill(speed_.begin(), speed_.end(), 0.0);
+  const auto n = static_cast<int>(parent_.size());
+  for (int i = 0; i < n; ++i) {
+    double& fastest = speed_[index(root(i))];
+    fastest = std::max(fastest, detector.speed(state, i));
+  }
+  const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
+  for (int i = 0; i < n; ++i) {
+    way_[index(i)] =
+        scene.bodies[index(i)].is_static ? 0.0 : ahead * (speed_[index(root(i))] + gained);
+  }
+}
+
+void Islands::list(const Scene& scene) {
+  first_.assign(1, 0);
+  for (int i = 0; i < static_cast<int>(parent_.size()); ++i) {
+    const bool moves = !scene.bodies[index(i)].is_static;
+    if (moves && root(i) == i) first_.push_back(0);
+    // The first body of an island comes before its others.
+    island_[index(i)] = !moves ? -1 : root(i) == i ? count() - 1 : island_[index(root(i))];
+    if (moves) ++first_[index(island_[index(i)]) + 1];
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  bodies_.resize(index(first_.back()));
+  for (int i = static_cast<int>(parent_.size()); i-- > 0;) {
+    if (island_[index(i)] >= 0) bodies_[index(--first_[index(island_[index(i)]) + 1])] = i;
+  }
+  // Each end has become a beginning, one place too far on.
+  std::rotate(first_.begin(), first_.begin() + 1, first_.end());
+  first_.back() = static_cast<int>(bodies_.size());
+}
+
+std::span<const int> Islands::bodies(int island) const {
+  const int first = first_[index(island)];
+  return std::span(bodies_).subspan(index(first), index(first_[index(island) + 1] - first));
+}
+
+void Islands::make_parts(const Scene& scene) {
+  levels_.assign(n_.begin(), n_.end());
+  std::sort(levels_.begin(), levels_.end(), std::greater<>());
+  levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+  while (parts_.size() < levels_.size()) add_part(scene);
+  const auto part_of = [&](int body) -> Part& {
+    const int n = n_[index(island_[index(body)])];
+    const auto level = std::lower_bound(levels_.begin(), levels_.end(), n, std::greater<>());
+    return parts_[static_cast<std::size_t>(level - levels_.begin())];
+  };
+  for (Part& part : parts_) {
+    part.bodies.clear();
+    part.joints.clear();
+    part.has.assign(scene.bodies.size(), 0);
+    part.moving = 0;
+  }
+  const auto add = [](Part& part, int body) {
+    part.bodies.push_back(body);
+    part.has[index(body)] = 1;
+  };
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    if (island_[index(i)] < 0) {
+      for (Part& part : parts_) add(part, i);
+      continue;
+    }
+    Part& part = part_of(i);
+    add(part, i);
+    ++part.moving;
+  }
+  for (int i = 0; i < static_cast<int>(scene.joints.size()); ++i) {
+    const JointBase& joint = base(scene.joints[index(i)]);
+    const bool a_moves = island_[index(joint.a)] >= 0;
+    part_of(a_moves ? joint.a : joint.b).joints.push_back(i);
+  }
+}
+
+}  // namespace substep

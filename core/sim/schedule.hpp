@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "core/model/part.hpp"
+#include "core/stepping/substep_clock.hpp"
+
+namespace substep {
+
+/// The sub-steps of a frame: one part of the scene after the other, each by a clock of its own.
+class Schedule {
+ public:
+  Schedule() { turns_.reserve(16); }
+  void clear();
+  /// @param part outlives the frame
+  void add(const Part& part, const SubstepClock& clock);
+
+  [[nodiscard]] bool running() const { return at_ < turns_.size(); }
+  // Of the sub-step to come, while running.
+  [[nodiscard]] const Part& part() const { return *turns_[at_].part; }
+  [[nodiscard]] double dt() const { return turns_[at_].clock.dt(); }  ///< [s]
+  [[nodiscard]] bool first_of_part() const { return turns_[at_].clock.taken() == 0; }
+  [[nodiscard]] int number() const { return turns_[at_].clock.taken() + 1; }  ///< 1 is the first
+  [[nodiscard]] bool needs_stiffness() const { return turns_[at_].clock.needs_stiffness(); }
+  /// Goes on to the next one. @param r of this one, where it was needed [1/s^2]
+  void advance(double r);
+
+  [[nodiscard]] int left() const;  ///< sub-steps of the frame to come, as decided so far
+  // Of all parts.
+  [[nodiscard]] double r() const;  ///< the largest [1/s^2]
+  [[nodiscard]] int n_wanted() const;
+  [[nodiscard]] bool capped() const;
+
+ private:
+  struct Turn {
+    const Part* part;
+    SubstepClock clock;
+  };
+  std::vector<Turn> turns_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace substep

@@ -1,0 +1,54 @@
+#pragma once
+// Scenes moved, turned and put beside each other.
+
+#include <vector>
+
+#include "core/model/scene.hpp"
+
+namespace substep::test {
+
+/// The whole scene turned about the origin and moved, gravity too.
+inline Scene transformed(Scene scene, const Quat& R, const Vec3& by) {
+  scene.gravity = R * scene.gravity;
+  for (Body& body : scene.bodies) {
+    body.position = R * body.position + by;
+    body.orientation = R * body.orientation;
+    body.velocity = R * body.velocity;
+    body.angular_velocity = R * body.angular_velocity;
+  }
+  for (Joint& joint : scene.joints) {
+    if (base(joint).b != kWorld) continue;
+    base(joint).anchor_b = R * base(joint).anchor_b + by;
+    if (auto* hinge = std::get_if<HingeJoint>(&joint)) hinge->axis_b = R * hinge->axis_b;
+  }
+  return scene;
+}
+
+/// The bodies and joints of all of them in one scene, with the laws of the first. What comes from a
+/// scene without contacts touches nothing.
+inline Scene beside(const std::vector<Scene>& scenes) {
+  Scene all = scenes.front();
+  all.bodies.clear();
+  all.joints.clear();
+  all.criteria = {};
+  for (const Scene& scene : scenes) {
+    const auto first = static_cast<int>(all.bodies.size());
+    all.effects.joints |= scene.effects.joints;
+    all.effects.contact |= scene.effects.contact;
+    all.effects.friction |= scene.effects.friction;
+    all.effects.gyroscopic |= scene.effects.gyroscopic;
+    if (scene.effects.contact) all.contact = scene.contact;
+    for (const Body& body : scene.bodies) {
+      all.bodies.push_back(body);
+      all.bodies.back().collides = body.collides && scene.effects.contact;
+    }
+    for (Joint joint : scene.joints) {
+      base(joint).a += first;
+      if (base(joint).b != kWorld) base(joint).b += first;
+      all.joints.push_back(joint);
+    }
+  }
+  return all;
+}
+
+}  // namespace substep::test

@@ -53,14 +53,14 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
     };
     for (const Mode mode : {Mode::kAdaptive, Mode::kConst}) {
       for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
-        Settings settings = read.scene->settings;
+        Settings settings = own_settings(*read.scene);
         settings.mode = mode;
         settings.n = 16;
         settings.solver = solver;
         with(settings, name_of(solver));
       }
     }
-    Settings settings = read.scene->settings;
+    Settings settings = own_settings(*read.scene);
     settings.mode = Mode::kConst;
     if (read.scene->regularisation > 0.0) {
       Settings refined = settings;

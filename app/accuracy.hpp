@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/effect_costs.hpp"
@@ -23,6 +24,8 @@ class Accuracy {
 
   /// Sweeps this scene; what was there before is forgotten.
   void start(std::shared_ptr<const Scene> scene);
+  /// The results are of this scene, which moves as theirs does: it is the same by another name.
+  void is_of(std::shared_ptr<const Scene> scene) { scene_ = std::move(scene); }
   /// Stops within the frame. The results so far stay.
   void cancel();
   /// Goes on for about so long with what runs. @param seconds of this frame's time

@@ -56,16 +56,20 @@ bool App::open_text(std::string_view json, const std::string& from) {
   return open_result(read_scene(json), from);
 }
 
+std::shared_ptr<const Scene> App::add_own(const Scene& scene) {
+  auto added = library.add(scene);
+  own.add(added);
+  if (host.remember) host.remember(kOwnScenes, own.text());
+  return added;
+}
+
 bool App::open_result(SceneResult result, const std::string& from) {
   if (!result.scene) {
     trouble = {from + " was not loaded", std::move(result.problems)};
     return false;
   }
   trouble = {};
-  const auto scene = library.add(*result.scene);
-  own.add(scene);
-  if (host.remember) host.remember(kOwnScenes, own.text());
-  run(scene);
+  run(add_own(*result.scene));
   session.play();
   return true;
 }
@@ -113,6 +117,17 @@ void App::run_result(const Result& result) {
   change(result.experiment.settings);
   reset();
   session.play();
+}
+
+void App::keep(const Recommended& recommended) {
+  Scene scene = *accuracy.scene();
+  scene.settings = recommended.settings;
+  scene.recommended = recommended;
+  const auto kept = add_own(scene);
+  accuracy.is_of(kept);
+  run(kept);
+  session.play();
+  tell("Kept as " + kept->name + ": it starts with this");
 }
 
 void App::measure_costs() {

@@ -121,6 +121,8 @@ struct App {
   bool open_text(std::string_view json, const std::string& from);
   /// The same for the text of a file, or for what was wrong with reading it.
   bool open_result(SceneResult result, const std::string& from);
+  /// Adds a scene to the person's own, here and at the next visit. @return as it is in the library
+  std::shared_ptr<const Scene> add_own(const Scene& scene);
   /// Brings back the person's own scenes of earlier visits. Called once, when the host is there.
   void recall_scenes();
   /// Hands the run as it is now to the person, as a scene file.
@@ -142,6 +144,9 @@ struct App {
   void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.
   void run_result(const Result& result);
+  /// Makes the scene of the accuracy picture one of the person's own, which starts with what its
+  /// sweep recommends, and runs it.
+  void keep(const Recommended& recommended);
   /// Measures what the parts of this run's frames cost, from its start.
   void measure_costs();
   /// What was measured of this run with its present settings, or null.

@@ -140,7 +140,7 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "preset") {
     const Preset* preset = find_preset(value);
     if (preset == nullptr) return "'" + std::string(value) + "' is not " + preset_names();
-    change(preset->settings);
+    change(settings_for(*preset, session.scene()));
     return "";
   }
   const SettingField* field = find_setting(key);

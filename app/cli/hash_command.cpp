@@ -22,7 +22,7 @@ int hash(const Options& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   Simulator simulator(scene);
-  simulator.set_settings(options.settings.applied_to(scene->settings));
+  simulator.set_settings(options.settings.applied_to(*scene));
   const std::int64_t frames = options.length.count(*scene);
   for (std::int64_t i = 0; i < frames; ++i) {
     const FrameReport report = simulator.step();

@@ -1,43 +1,38 @@
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cstdio>
-#include <map>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <thread>
 #include <vector>
 
+#include "app/cli/all_methods.hpp"
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/format_text.hpp"
 #include "app/cli/length_flags.hpp"
 #include "app/cli/output.hpp"
-#include "app/cli/parallel_sweep.hpp"
-#include "app/cli/progress_line.hpp"
+#include "app/cli/recommend_shipped.hpp"
 #include "app/cli/scene_source.hpp"
 #include "core/io/experiment.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
 #include "core/lab/alpha_choice.hpp"
 #include "core/lab/recommendation.hpp"
+#include "core/model/names.hpp"
 
 namespace substep::cli {
 namespace {
 
 constexpr int kMostSubsteps = 10000;  // a frame, as many as settings allow
 
-constexpr std::array<std::pair<std::string_view, ErrorAxis>, 4> kErrors{
-    {{"path", ErrorAxis::kTrajectory},
-     {"energy", ErrorAxis::kEnergy},
-     {"gap", ErrorAxis::kGap},
-     {"overlap", ErrorAxis::kPenetration}}};
-
 struct Options {
   std::string scene;
   std::string of;
+  std::string out;
+  bool all = false;
   std::optional<double> error;
   std::optional<double> ms;
   std::optional<double> operations;
@@ -75,10 +70,7 @@ std::string why_without(ErrorAxis axis, const Scene& scene) {
 
 Want want_of(const Options& options, const Scene& scene) {
   Want want;
-  want.error = first_axis(scene);
-  for (const auto& [name, axis] : kErrors) {
-    if (name == options.of) want.error = axis;
-  }
+  want.error = value_of<ErrorAxis>(options.of).value_or(first_axis(scene));
   want.limit = options.error.value_or(want.error == ErrorAxis::kEnergy ? 1.0 : 1e-3);
   if (options.ms || options.operations) {
     want.error_is_given = false;
@@ -101,7 +93,7 @@ std::string figures(const Result& result, ErrorAxis axis) {
                      cost_of(result, CostAxis::kOperations), cost_of(result, CostAxis::kTime));
 }
 
-void print_alpha(const Scene& scene, const Want& want, const Experiment& paper,
+void print_alpha(std::FILE* words, const Scene& scene, const Want& want, const Experiment& paper,
                  const Reference& reference, const std::atomic<bool>& cancelled) {
   const auto choice =
       want.error_is_given
@@ -110,13 +102,22 @@ void print_alpha(const Scene& scene, const Want& want, const Experiment& paper,
   const char* which = want.error_is_given ? "largest" : "smallest";
   if (cancelled) return;
   if (!choice) {
-    std::printf("The paper's method: no alpha from %g to 1 keeps within it.\n", kLeastAlpha);
+    std::fprintf(words, "The paper's method: no alpha from %g to 1 keeps within it.\n",
+                 kLeastAlpha);
     return;
   }
   const Metrics& metrics = choice->result.metrics;
-  std::printf(
-      "The paper's method: the %s alpha that does is %.3g, %s\n", which, choice->alpha,
+  std::fprintf(
+      words, "The paper's method: the %s alpha that does is %.3g, %s\n", which, choice->alpha,
       metrics.holds ? figures(choice->result, want.error).c_str() : metrics.verdict.c_str());
+}
+
+/// Writes the scene with what is recommended for it. @return main()'s
+int write_with(const Recommended& recommended, const Scene& scene, const std::string& path) {
+  Output out;  // opened late: it may be the file that the scene was read from
+  if (!out.open(path)) return kBadInput;
+  out.write(write_scene(with_recommended(scene, recommended)));
+  return out.close() ? kOk : kBadInput;
 }
 
 int recommend(const Options& options) {
@@ -130,53 +131,43 @@ int recommend(const Options& options) {
     return kBadInput;
   }
 
-  Experiment plain = experiment_of(*scene, scene->settings);
-  plain.duration = static_cast<double>(options.length.count(*scene)) * scene->frame;
-  ParallelSweep sweep{scene, {}, options.jobs, {}, {}, &cancelled};
-  std::map<std::string, std::size_t> order;  // of the sweep: ties must not hang on threads
-  for (const SweepPoint& point : default_sweep(*scene)) {
-    if (point.load != 1.0) continue;
-    Experiment& experiment = sweep.experiments.emplace_back(plain);
-    experiment.settings = point.settings;
-    order.emplace(experiment_id(experiment), order.size());
-  }
-  std::vector<Result> results(sweep.experiments.size());
-  sweep.on_result = [&](const Result& result) {
-    results[order.at(experiment_id(result.experiment))] = result;
-    return true;
-  };
-  ProgressLine progress(stderr_is_terminal());
-  sweep.on_progress = [&](double share) {
-    if (progress.due()) progress.show(format_text("%3.0f %% of all methods", 100.0 * share));
-  };
-  const bool complete = run_sweep(sweep);
-  progress.clear();
-  if (!complete) return kCancelled;
+  const double seconds = static_cast<double>(options.length.count(*scene)) * scene->frame;
+  const auto swept = run_all_methods(scene, seconds, options.jobs, cancelled);
+  if (!swept) return kCancelled;
+  const std::vector<Result>& results = *swept;
 
   const std::vector<RunPoint> points = run_points(results, want.error, want.cost);
-  std::printf("%s: %zu of %zu runs hold. Error: %s.\n", scene->name.c_str(), points.size(),
-              results.size(), axis_name(want.error));
+  // Where the scene takes standard output, words for people go to stderr.
+  std::FILE* words = options.out == "-" ? stderr : stdout;
+  std::fprintf(words, "%s: %zu of %zu runs hold. Error: %s.\n", scene->name.c_str(), points.size(),
+               results.size(), axis_name(want.error));
   if (points.empty()) return kUnexpectedVerdict;
   const auto best = want.best(points);
   if (best) {
     const Result& result = results[best->result];
     const SeriesParameter parameter = series_parameter(result.experiment.settings);
-    std::printf("%s within %s: %s, %s = %g: %s\n",
-                want.error_is_given ? "The cheapest" : "The most exact", limit_text(want).c_str(),
-                series_name(result.experiment.settings).c_str(), parameter.name, parameter.value,
-                figures(result, want.error).c_str());
-    std::printf("  substep run %s%s\n", options.scene.c_str(),
-                setting_flags(result.experiment.settings, scene->settings).c_str());
+    std::fprintf(words, "%s within %s: %s, %s = %g: %s\n",
+                 want.error_is_given ? "The cheapest" : "The most exact", limit_text(want).c_str(),
+                 series_name(result.experiment.settings).c_str(), parameter.name, parameter.value,
+                 figures(result, want.error).c_str());
+    std::fprintf(words, "  substep run %s%s\n", options.scene.c_str(),
+                 setting_flags(result.experiment.settings, scene->settings).c_str());
   } else {
-    std::printf("No method keeps within %s.\n", limit_text(want).c_str());
+    std::fprintf(words, "No method keeps within %s.\n", limit_text(want).c_str());
   }
-  Experiment paper = plain;
+  if (best && !options.out.empty()) {
+    const auto recommended = recommended_of(results, want.error, want.limit);
+    const int written = write_with(*recommended, *scene, options.out);
+    if (written != kOk) return written;
+  }
+  Experiment paper = experiment_of(*scene, own_settings(*scene));
+  paper.duration = seconds;
   paper.settings.solver = SolverKind::kBpp;
   paper.settings.mode = Mode::kAdaptive;
   paper.settings.policy = Policy::kFrame;
   paper.settings.integrator = Integrator::kEuler;
   paper.settings.n_max = kMostSubsteps;  // alpha alone is to decide
-  print_alpha(*scene, want, paper, find_reference(scene, plain.duration), cancelled);
+  print_alpha(words, *scene, want, paper, find_reference(scene, seconds), cancelled);
   if (cancelled) return kCancelled;
   return best ? kOk : kUnexpectedVerdict;
 }
@@ -189,26 +180,41 @@ void add_recommend(CLI::App& app, int& exit_code) {
       "recommend",
       "Run all methods over a scene and tell the cheapest within an error, or the most "
       "exact within a cost");
-  command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
-      ->required();
+  CLI::Option* scene =
+      command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
   const CLI::Range positive(1e-15, 1e15);
   CLI::Option* error =
       command->add_option("--error", options->error, "wanted at most [m, J]; 1 mm, 1 J left out")
           ->check(positive);
-  command
-      ->add_option("--of", options->of,
-                   "error of: path (of the body that the scene tracks), energy, gap or overlap")
-      ->check(CLI::IsMember({"path", "energy", "gap", "overlap"}));
+  CLI::Option* of =
+      command
+          ->add_option("--of", options->of,
+                       "error of: path (of the body that the scene tracks), energy, gap or overlap")
+          ->check(CLI::IsMember({"path", "energy", "gap", "overlap"}));
   CLI::Option* ms =
       command->add_option("--ms", options->ms, "a frame may take at most, in the median [ms]")
           ->check(positive)
           ->excludes(error);
+  CLI::Option* operations =
+      command
+          ->add_option("--operations", options->operations,
+                       "of the solver that a frame may take at most: the same on every machine")
+          ->check(positive)
+          ->excludes(error)
+          ->excludes(ms);
+  CLI::Option* out =
+      command->add_option("--out", options->out,
+                          "write the scene with what is recommended within the error to this file, "
+                          "- for stdout; it starts with that unless it has settings of its own");
+  out->excludes(ms)->excludes(operations);
   command
-      ->add_option("--operations", options->operations,
-                   "of the solver that a frame may take at most: the same on every machine")
-      ->check(positive)
+      ->add_flag("--all", options->all,
+                 "what the shipped scenes are written with, as JSON to --out or stdout (minutes)")
+      ->excludes(scene)
       ->excludes(error)
-      ->excludes(ms);
+      ->excludes(of)
+      ->excludes(ms)
+      ->excludes(operations);
   command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
   options->length.add_to(*command);
   command->footer(
@@ -217,8 +223,19 @@ void add_recommend(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  substep recommend swinging_box --error 1e-4\n"
       "  substep recommend bridge --of gap --error 1e-3\n"
-      "  substep recommend swinging_box --ms 0.05");
-  command->callback([options, &exit_code] { exit_code = recommend(*options); });
+      "  substep recommend swinging_box --ms 0.05\n"
+      "  substep recommend my_scene.json --error 1e-3 --out my_scene.json");
+  command->callback([options, &exit_code] {
+    if (options->all) {
+      if (options->length.seconds || options->length.frames) {
+        throw CLI::ValidationError("--all", "each shipped scene has a length of its own");
+      }
+      exit_code = recommend_shipped(options->out.empty() ? "-" : options->out, options->jobs);
+      return;
+    }
+    if (options->scene.empty()) throw CLI::RequiredError("scene or --all");
+    exit_code = recommend(*options);
+  });
 }
 
 }  // namespace substep::cli

@@ -45,7 +45,7 @@ Json costs_of(const Scene& scene) {
   constexpr double kSeconds = 2.0;  // enough frames for a mean
   Json list = Json::array();
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
-    Settings settings = scene.settings;
+    Settings settings = own_settings(scene);
     settings.solver = solver;
     settings.drift = Drift::kAuto;
     Experiment experiment = experiment_of(scene, settings);
@@ -69,7 +69,7 @@ Json time_charts(const Scene& scene, const std::vector<Json>& results) {
     if (least == 0 || n < least) least = n;
   }
   const auto held = std::make_shared<const Scene>(scene);
-  Settings settings = scene.settings;
+  Settings settings = own_settings(scene);
   settings.solver = SolverKind::kBpp;
   settings.integrator = Integrator::kEuler;
   settings.drift = Drift::kAuto;

@@ -94,7 +94,7 @@ int run(const Options& options) {
   }
 
   Simulator simulator(scene);
-  simulator.set_settings(options.settings.applied_to(scene->settings));
+  simulator.set_settings(options.settings.applied_to(*scene));
   const FrameReport start = simulator.observe();
   Measure measure(*scene, simulator.state(), start, no_reference());
   const Verdict& verdict = measure.verdict();

@@ -15,7 +15,8 @@ void SettingsFlags::add_to(CLI::App& command) {
               throw CLI::ValidationError("--preset", name + " is not " + preset_names());
             }
           },
-          "All settings at once, before the others")
+          "All settings at once, before the others; `recommended` is the scene's own where it has "
+          "one")
       ->type_name(preset_names())
       ->group(kGroup);
   for (const SettingField& field : setting_fields()) {
@@ -49,8 +50,8 @@ void SettingsFlags::take(const SettingField& field, const std::string& text) {
   given_.emplace_back(&field, text);
 }
 
-Settings SettingsFlags::applied_to(Settings settings) const {
-  if (preset_ != nullptr) settings = preset_->settings;
+Settings SettingsFlags::applied_to(const Scene& scene) const {
+  Settings settings = preset_ != nullptr ? settings_for(*preset_, scene) : scene.settings;
   for (const auto& [field, text] : given_) set_setting(*field, text, settings);
   return settings;
 }

@@ -16,8 +16,8 @@ class SettingsFlags {
   /// Adds the flags. This object must outlive the parse.
   void add_to(CLI::App& command);
 
-  /// The settings with the preset and the flags that were given.
-  [[nodiscard]] Settings applied_to(Settings settings) const;
+  /// The scene's settings with the preset and the flags that were given.
+  [[nodiscard]] Settings applied_to(const Scene& scene) const;
 
  private:
   void take(const SettingField& field, const std::string& text);

@@ -63,7 +63,8 @@ struct Options {
 std::vector<Experiment> experiments_of(const Options& options, const Scene& scene,
                                        const Shard& shard) {
   Scene own = scene;
-  own.settings = options.settings.applied_to(scene.settings);
+  own.settings = own_settings(scene);
+  own.settings = options.settings.applied_to(own);
   Experiment plain = experiment_of(scene, own.settings);
   plain.duration = options.length.frames ? static_cast<double>(*options.length.frames) * scene.frame
                                          : options.length.seconds.value_or(scene.criteria.duration);

@@ -225,6 +225,17 @@ void advice(App& app) {
              "This scene from its start with this method")) {
     app.run_result(Result(result));
   }
+  // What a scene keeps is counted in operations: the same on every machine.
+  if (accuracy.error_is_given && accuracy.cost == CostAxis::kOperations) {
+    ImGui::SameLine(0.0F, 8.0F);
+    if (button(look, "keep", Icon::kNone, "Keep for this scene", ButtonKind::kGhost, 0.0F,
+               look.m.row,
+               "A copy of the scene among your own that starts with it, and has it as the preset "
+               "recommended")) {
+      app.keep(*recommended_of(accuracy.results(), accuracy.error,
+                               accuracy.wanted.at(static_cast<std::size_t>(accuracy.error))));
+    }
+  }
   space(8.0F);
 }
 

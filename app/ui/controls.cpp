@@ -125,25 +125,26 @@ void scene_picker(App& app) {
 }
 
 // All settings at once, to begin with.
-void preset_row(const Look& look, Settings& s) {
+void preset_row(const Look& look, const Scene& scene, Settings& s) {
+  const std::vector<Preset> presets = presets_for(scene);
   std::vector<Choice> choices;
   int current = -1;  // settings of a person's own
-  for (const Preset& preset : presets()) {
+  for (const Preset& preset : presets) {
     Settings same = preset.settings;
     same.watch_stiffness = s.watch_stiffness;
     if (same == s) current = static_cast<int>(choices.size());
-    choices.push_back({preset.name.data(), preset.about.data()});
+    choices.push_back({preset.name.data(), preset.about.c_str()});
   }
   if (segmented_row(look, "Preset", choices, current, "All settings of the method at once.")) {
     const bool watched = s.watch_stiffness;
-    s = presets()[static_cast<std::size_t>(current)].settings;
+    s = presets[static_cast<std::size_t>(current)].settings;
     s.watch_stiffness = watched;
   }
 }
 
-void stabilisation(const Look& look, Settings& s) {
+void stabilisation(const Look& look, const Scene& scene, Settings& s) {
   section(look, "Stabilisation");
-  preset_row(look, s);
+  preset_row(look, scene, s);
   const Mode mode = s.mode;
   int index = static_cast<int>(mode);
   constexpr int kFirst = static_cast<int>(kModes.size());
@@ -302,7 +303,7 @@ void showing(App& app) {
 }  // namespace
 
 void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more) {
-  stabilisation(look, settings);
+  stabilisation(look, scene, settings);
   space(look.m.section);
   solving(look, scene, settings);
   fold(look, more ? "Less" : "More", more,

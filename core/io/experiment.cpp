@@ -41,6 +41,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   bare.verdicts.clear();
   bare.camera = Camera{};
   bare.settings = Settings{};
+  bare.recommended.reset();
   // Not the text of settings either: a setting added later must leave the hash.
   const auto json = Json::parse(write_scene(bare), nullptr, false);
   Json content = json;

@@ -41,5 +41,7 @@ inline constexpr Range kForceRange = symmetric(1e30, "N, N m");
 inline constexpr Range kStiffnessRange = symmetric(1e30, "N/m, N m/rad");
 inline constexpr Range kStiffnessOverMassRange = not_negative(1e60, "1/s^2");
 inline constexpr Range kEnergyRange = positive(1e24, "J");
+inline constexpr Range kErrorRange = positive(1e24, "m, J");
+inline constexpr Range kOperationsRange = positive(1e18, "-");
 
 }  // namespace substep

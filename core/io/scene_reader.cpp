@@ -14,6 +14,7 @@
 #include "core/io/effects_of.hpp"
 #include "core/io/joint_reader.hpp"
 #include "core/io/object_reader.hpp"
+#include "core/io/recommended_json.hpp"
 #include "core/io/scene_checks.hpp"
 #include "core/io/scene_limits.hpp"
 #include "core/io/settings_json.hpp"
@@ -224,7 +225,12 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   in.vector("gravity", kGravityRange, scene.gravity, kOptional);
   read_contact(in, scene, problems);
   in.number("regularisation", kRegularisationRange, scene.regularisation, kOptional);
+  const bool has_settings = in.member("settings", kOptional) != nullptr;
   read_settings(in, scene.settings, problems);
+  if (const Json* recommended = in.member("recommended", kOptional)) {
+    scene.recommended = read_recommended(*recommended, in.pointer("recommended"), problems);
+    if (!has_settings) scene.settings = scene.recommended->settings;
+  }
   SoundParts sound;
   read_bodies(in, scene, sound, problems);
   const BodyNames names(scene.bodies, problems);

@@ -6,8 +6,8 @@
 
 #include "core/io/carried_json.hpp"
 #include "core/io/effect_names.hpp"
-#include "core/io/json.hpp"
-#include "core/io/number_text.hpp"
+#include "core/io/json_print.hpp"
+#include "core/io/recommended_json.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
 
@@ -132,7 +132,11 @@ Json scene_json(const Scene& scene) {
     if (scene.effects.restitution) contact["restitution_speed"] = scene.contact.restitution_speed;
   }
   if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
-  json["settings"] = settings_json(scene.settings);
+  // A scene without settings starts with the recommended ones.
+  if (!scene.recommended || scene.settings != scene.recommended->settings) {
+    json["settings"] = settings_json(scene.settings);
+  }
+  if (scene.recommended) json["recommended"] = recommended_json(*scene.recommended);
   json["criteria"] = criteria_json(scene);
   if (!scene.verdicts.empty()) json["verdicts"] = verdicts_json(scene.verdicts);
   Json& bodies = json["bodies"] = Json::array();
@@ -145,47 +149,8 @@ Json scene_json(const Scene& scene) {
   return json;
 }
 
-/// Lists of plain values, and objects of one or two entries that hold no object, read best on a
-/// line.
-bool on_one_line(const Json& json) {
-  if (json.is_object() && json.size() > 2) return false;
-  for (const Json& item : json) {
-    if (item.is_object() || (json.is_array() && item.is_array())) return false;
-  }
-  return true;
-}
-
-void print(const Json& json, const std::string& indent, std::string& out) {
-  if (const auto* number = json.get_ptr<const double*>()) {
-    out += number_text(*number);
-    return;
-  }
-  if (!json.is_structured()) {
-    out += json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    return;
-  }
-  const bool one_line = on_one_line(json);
-  const std::string inner = indent + "  ";
-  const char* separator = "";
-  out += json.is_object() ? '{' : '[';
-  for (const auto& item : json.items()) {
-    out += separator;
-    separator = one_line ? ", " : ",";
-    if (!one_line) out += "\n" + inner;
-    if (json.is_object()) out += Json(item.key()).dump() + ": ";
-    print(item.value(), inner, out);
-  }
-  if (!one_line) out += "\n" + indent;
-  out += json.is_object() ? '}' : ']';
-}
-
 }  // namespace
 
-std::string write_scene(const Scene& scene) {
-  std::string out;
-  print(scene_json(scene), "", out);
-  out += '\n';
-  return out;
-}
+std::string write_scene(const Scene& scene) { return json_file(scene_json(scene)); }
 
 }  // namespace substep

@@ -4,13 +4,12 @@
 #include <optional>
 
 #include "core/lab/experiment_run.hpp"
+#include "core/model/recommended.hpp"
 
 namespace substep {
 
 /// What the cost of a run is counted in, per frame.
 enum class CostAxis : std::uint8_t { kSubsteps, kOperations, kTime, kCount };
-/// Which error of a run is looked at.
-enum class ErrorAxis : std::uint8_t { kTrajectory, kEnergy, kGap, kPenetration, kCount };
 
 /// "largest distance from the reference [m]"
 const char* axis_name(ErrorAxis axis);

@@ -8,6 +8,7 @@
 
 #include "core/lab/axes.hpp"
 #include "core/lab/pareto.hpp"
+#include "core/model/recommended.hpp"
 
 namespace substep {
 
@@ -27,5 +28,11 @@ std::optional<RunPoint> most_exact_within(std::span<const RunPoint> points, doub
 /// Those of the paper's method: the direct solver, Euler, N decided once a frame. The cheapest of
 /// them within an error has the largest alpha that does, the most exact within a cost the smallest.
 std::vector<RunPoint> of_paper(std::span<const RunPoint> points, std::span<const Result> results);
+
+/// What a scene keeps of its sweep: the run of fewest solver operations within an error, and how it
+/// stands beside the others, in three digits. Nothing where no run is within it.
+/// @param results of one scene and of one length; the error in m or J
+std::optional<Recommended> recommended_of(std::span<const Result> results, ErrorAxis of,
+                                          double within);
 
 }  // namespace substep

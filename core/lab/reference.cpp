@@ -97,7 +97,7 @@ class FinestRun final : public ReferenceRun::Source {
  public:
   explicit FinestRun(const std::shared_ptr<const Scene>& scene)
       : scene_(*scene), fine_(scene), coarse_(scene) {
-    Settings settings = scene->settings;
+    Settings settings = own_settings(*scene);
     settings.solver = SolverKind::kBpp;
     settings.mode = Mode::kConst;
     settings.integrator = Integrator::kLeapfrog;

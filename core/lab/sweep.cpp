@@ -70,12 +70,13 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
       all.push_back(settings);
     }
   };
-  along(SolverKind::kXpbd, 1, Forces::kEnd);  // as published: sub-steps in place of sweeps
-  along(SolverKind::kXpbd, scene.settings.iterations, Forces::kEnd);
-  along(SolverKind::kNewton, scene.settings.iterations, Forces::kEnd);
-  along(SolverKind::kNewton, scene.settings.iterations, Forces::kMean);
+  const int iterations = settings.iterations;  // along() changes them
+  along(SolverKind::kXpbd, 1, Forces::kEnd);   // as published: sub-steps in place of sweeps
+  along(SolverKind::kXpbd, iterations, Forces::kEnd);
+  along(SolverKind::kNewton, iterations, Forces::kEnd);
+  along(SolverKind::kNewton, iterations, Forces::kMean);
   if (scene.effects.contact) return;  // what follows is derived for joints alone
-  along(SolverKind::kNewton, scene.settings.iterations, Forces::kNumerov);
+  along(SolverKind::kNewton, iterations, Forces::kNumerov);
 }
 
 /// Small steps (Macklin et al. 2019): the same sweeps a frame, spent on more and more sub-steps,
@@ -135,7 +136,7 @@ void append_map(Settings settings, std::vector<SweepPoint>& points) {
 
 std::vector<SweepPoint> default_sweep(const Scene& scene) {
   std::vector<Settings> all;
-  Settings base = scene.settings;
+  Settings base = own_settings(scene);
   base.forces = Forces::kEnd;
   base.watch_stiffness = false;
   base.drift = Drift::kAuto;

@@ -17,7 +17,8 @@ struct SweepPoint {
 /// The runs that show what accuracy costs on a scene: constant N, adaptive per frame and per
 /// sub-step, damping, capped with damping; Euler and leapfrog; the direct solver and PGS; each
 /// along its own parameter; and, for a map of where they hold, constant N and adaptive under other
-/// loads where bodies of different mass meet. Other settings stay as the scene has them.
+/// loads where bodies of different mass meet. Other settings stay as the scene
+/// has them of its own.
 std::vector<SweepPoint> default_sweep(const Scene& scene);
 
 /// Sub-steps a run is likely to take, weighted by what one costs: for progress bars only.

@@ -19,7 +19,7 @@ bool looks_ahead(SolverKind solver) {
   return solver == SolverKind::kNewton || solver == SolverKind::kXpbd;
 }
 
-/// The scene's settings in every mode of the table that a solver is run in.
+/// The scene's own settings in every mode of the table that a solver is run in.
 std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   std::set<int> numbers{4, 16};
   for (const Expectation& rule : scene.verdicts) {
@@ -27,7 +27,7 @@ std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   }
   std::vector<Settings> all;
   const auto add = [&](Mode mode) -> Settings& {
-    Settings& settings = all.emplace_back(scene.settings);
+    Settings& settings = all.emplace_back(own_settings(scene));
     settings.solver = solver;
     settings.mode = mode;
     return settings;

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "core/model/expectation.hpp"
+#include "core/model/recommended.hpp"
 #include "core/model/settings.hpp"
 
 namespace substep {
@@ -78,6 +79,14 @@ struct NameTable<Expected> {
   static constexpr std::array entries{Named<Expected>{"holds", Expected::kHolds},
                                       Named<Expected>{"fails", Expected::kFails},
                                       Named<Expected>{"depends", Expected::kDepends}};
+};
+
+template <>
+struct NameTable<ErrorAxis> {
+  static constexpr std::array entries{Named<ErrorAxis>{"path", ErrorAxis::kTrajectory},
+                                      Named<ErrorAxis>{"energy", ErrorAxis::kEnergy},
+                                      Named<ErrorAxis>{"gap", ErrorAxis::kGap},
+                                      Named<ErrorAxis>{"overlap", ErrorAxis::kPenetration}};
 };
 
 template <class Enum>

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/model/body.hpp"
@@ -9,6 +10,7 @@
 #include "core/model/effects.hpp"
 #include "core/model/expectation.hpp"
 #include "core/model/joint.hpp"
+#include "core/model/recommended.hpp"
 #include "core/model/settings.hpp"
 
 namespace substep {
@@ -58,10 +60,28 @@ struct Scene {
   ContactModel contact;
   double regularisation = 0.0;  // added to the diagonal of J M^-1 J^T whatever the step [1/kg]
   Settings settings;            // to start with
+  std::optional<Recommended> recommended;  // by a sweep over this scene
   Criteria criteria;
   Expectations verdicts;  // the verdict table by its rules, or empty
   Camera camera;
   std::optional<Carried> carried;  // of the run that this scene was saved from
 };
+
+/// The settings that a scene has of its own: the defaults where it starts with what is recommended
+/// for it. What tries settings out goes by these, whatever was recommended before.
+inline Settings own_settings(const Scene& scene) {
+  if (!scene.recommended) return scene.settings;
+  Settings recommended = scene.recommended->settings;
+  recommended.watch_stiffness = scene.settings.watch_stiffness;  // is only looked at
+  return scene.settings == recommended ? Settings{} : scene.settings;
+}
+
+/// The scene with what is recommended for it. It starts with that, unless it has settings of its
+/// own that are not the defaults.
+inline Scene with_recommended(Scene scene, Recommended recommended) {
+  if (own_settings(scene) == Settings{}) scene.settings = recommended.settings;
+  scene.recommended = std::move(recommended);
+  return scene;
+}
 
 }  // namespace substep

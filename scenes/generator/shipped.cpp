@@ -1,3 +1,6 @@
+#include <utility>
+
+#include "scenes/generator/recommended.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "scenes/generator/verdicts.hpp"
 
@@ -23,7 +26,13 @@ std::vector<Scene> shipped() {
                          card_house(),
                          ragdoll_drop(),
                          wall()};
-  for (Scene& scene : all) scene.verdicts = verdicts_of(scene.name);
+  Problems problems;  // none: a test looks
+  const auto recommended = recommendations(problems);
+  for (Scene& scene : all) {
+    scene.verdicts = verdicts_of(scene.name);
+    const auto found = recommended.find(scene.name);
+    if (found != recommended.end()) scene = recommending(std::move(scene), found->second);
+  }
   return all;
 }
 

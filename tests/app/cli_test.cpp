@@ -16,6 +16,7 @@
 #include "core/io/number_text.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
+#include "core/io/setting_fields.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/app/program.hpp"
 
@@ -158,6 +159,65 @@ TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   EXPECT_EQ(overlap.exit_code, 2);
   EXPECT_NE(overlap.err.find("it has no contacts: --of path, energy or gap"), std::string::npos)
       << overlap.err;
+}
+
+TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
+  const std::string rope = "\"" + (folder() / "rope.json").string() + "\"";
+  ASSERT_EQ(substep("generate rope --links 3 --out " + rope).exit_code, 0);
+  const Outcome found = substep("recommend " + rope + " --error 1e-3 --seconds 1 --out " + rope);
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const auto scene = read_scene_file((folder() / "rope.json").string()).scene;
+  ASSERT_NE(scene, nullptr);
+  ASSERT_TRUE(scene->recommended.has_value());
+  EXPECT_EQ(scene->settings, scene->recommended->settings);
+  EXPECT_NE(scene->settings, Settings{});
+  EXPECT_LE(scene->recommended->reached, 1e-3);
+  EXPECT_EQ(scene->recommended->seconds, 1.0);
+
+  // A run starts with it, and --preset comes back to it.
+  const auto json_of = [&](const std::string& flags) {
+    return Json::parse(substep("run " + rope + " --seconds 1 --json - " + flags).out, nullptr,
+                       false);
+  };
+  const Json plain = json_of("");
+  for (const SettingField& field : setting_fields()) {
+    const Json& value = plain["settings"][std::string(field.name)];
+    EXPECT_EQ(value.is_string() ? value.get<std::string>() : value.dump(),
+              setting_text(field, scene->settings))
+        << field.name;
+  }
+  const double frames = plain["work"]["frames"].get<double>();
+  EXPECT_NEAR(plain["work"]["flops"].get<double>() / frames, scene->recommended->operations,
+              0.01 * scene->recommended->operations);
+  EXPECT_EQ(json_of("--solver pgs --preset recommended")["settings"]["solver"], "pgs")
+      << "the preset comes before the other flags";
+  EXPECT_EQ(json_of("--preset recommended")["hash"], plain["hash"]);
+  EXPECT_NE(json_of("--preset paper")["hash"], plain["hash"]);
+
+  // What is recommended does not hang on what was recommended before.
+  const std::string before = text_of(folder() / "rope.json");
+  EXPECT_EQ(substep("recommend " + rope + " --error 1e-3 --seconds 1 --out -").out, before);
+  // Settings of its own stay the start.
+  Scene own = *scene;
+  own.settings = {.mode = Mode::kConst, .n = 5};
+  own.recommended.reset();
+  std::ofstream(folder() / "own.json") << write_scene(own);
+  const Outcome kept = substep("recommend \"" + (folder() / "own.json").string() +
+                               "\" --error 1e-3 --seconds 1 --out -");
+  const auto with_own = read_scene(kept.out).scene;
+  ASSERT_NE(with_own, nullptr) << kept.out;
+  EXPECT_EQ(with_own->settings, own.settings);
+  EXPECT_TRUE(with_own->recommended.has_value());
+
+  // Where nothing is within the error nothing is written, and a cost is no error.
+  const std::string none = "\"" + (folder() / "none.json").string() + "\"";
+  EXPECT_EQ(substep("recommend " + rope + " --error 1e-15 --seconds 0.2 --out " + none).exit_code,
+            1);
+  EXPECT_FALSE(fs::exists(folder() / "none.json"));
+  EXPECT_EQ(substep("recommend pendulum --ms 1 --out " + none).exit_code, 2);
+  EXPECT_EQ(substep("recommend pendulum --all").exit_code, 2);
+  EXPECT_EQ(substep("recommend --all --seconds 1").exit_code, 2);
+  EXPECT_EQ(substep("recommend").exit_code, 2);
 }
 
 TEST(CommandLine, EverySettingIsAFlag) {
@@ -329,6 +389,8 @@ TEST(CommandLine, GeneratesTheShippedFiles) {
     ASSERT_NE(shipped, nullptr);
     Scene plain = *shipped;
     plain.verdicts.clear();  // they are of the shipped start; a variant has others
+    plain.settings = own_settings(plain);
+    plain.recommended.reset();
     EXPECT_TRUE(substep("generate " + std::string(name)).out == write_scene(plain)) << name;
   }
 }

@@ -19,7 +19,7 @@ Simulator load(const std::string& folder, const Case& c, Mode mode) {
     std::fprintf(stderr, "%s: %s\n", c.scene, to_string(problem).c_str());
   }
   if (!read.scene) std::exit(2);
-  Settings settings = read.scene->settings;
+  Settings settings = own_settings(*read.scene);
   settings.mode = mode;
   settings.n = 16;
   settings.solver = c.solver;

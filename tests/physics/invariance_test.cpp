@@ -309,7 +309,7 @@ TEST(Invariance, ARunGoesOnFromASceneFileBitForBit) {
         for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
           SCOPED_TRACE(scene.name + " " + std::string(name_of(mode)) + " " +
                        std::string(name_of(solver)) + " " + std::string(name_of(integrator)));
-          Settings settings = scene.settings;
+          Settings settings = own_settings(scene);
           settings.mode = mode;
           settings.solver = solver;
           settings.integrator = integrator;

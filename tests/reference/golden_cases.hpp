@@ -54,7 +54,7 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
     };
     for (const Mode mode : {Mode::kAdaptive, Mode::kConst}) {
       for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
-        Settings settings = read.scene->settings;
+        Settings settings = own_settings(*read.scene);
         settings.mode = mode;
         settings.n = 16;
         settings.solver = solver;
@@ -63,12 +63,12 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
     }
     if (read.scene->group == "playground" && read.scene->effects.joints &&
         read.scene->effects.contact) {
-      Settings islands = read.scene->settings;
+      Settings islands = own_settings(*read.scene);
       islands.mode = Mode::kAdaptive;
       islands.islands = true;
       with(islands, "bpp_islands");
     }
-    Settings settings = read.scene->settings;
+    Settings settings = own_settings(*read.scene);
     settings.mode = Mode::kConst;
     if (read.scene->regularisation > 0.0) {
       Settings refined = settings;

@@ -54,6 +54,7 @@ TEST(SceneFiles, ReadBackBitForBit) {
     const Scene read = read_back(write_scene(scene));
     EXPECT_TRUE(test::bits_of(read) == test::bits_of(scene)) << scene.name;
     EXPECT_TRUE(read.settings == scene.settings) << scene.name;
+    EXPECT_TRUE(read.recommended == scene.recommended) << scene.name;
     EXPECT_TRUE(read.verdicts == scene.verdicts) << scene.name;
   }
 }

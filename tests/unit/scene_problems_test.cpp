@@ -274,6 +274,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {"/joints: 3 is not a list",
                  "/x: unknown key (known here: format, version, name, title, group, description, "
                  "look_for, camera, frame, effects, gravity, contact, regularisation, settings, "
+                 "recommended, "
                  "bodies, criteria, verdicts, joints or carried)"}},
         BadFile{"BodyNoObject",
                 R"("bodies": [)",

@@ -90,6 +90,8 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
   Scene scene = scenes::bridge();
   scene.criteria.displacement = Criteria::Displacement{1, 0.1};
   scene.verdicts = {Expectation{}};
+  scene.recommended.emplace();
+  scene.settings.n = 3;  // else they are the recommended ones, and left out
   scene.carried.emplace().forces.emplace_back();
   scene.joints.emplace_back(std::get<HingeJoint>(scenes::pendulum().joints[0]));
   const Json json = Json::parse(write_scene(scene), nullptr, false);
@@ -100,6 +102,7 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
       {"/properties/camera", "/camera"},
       {"/properties/contact", "/contact"},
       {"/properties/settings", "/settings"},
+      {"/properties/recommended", "/recommended"},
       {"/properties/criteria", "/criteria"},
       {"/properties/criteria/properties/displacement", "/criteria/displacement"},
       {"/properties/verdicts/items", "/verdicts/0"},

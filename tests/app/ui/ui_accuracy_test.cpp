@@ -112,6 +112,41 @@ TEST(Accuracy, TheMostExactWithinACostIsLookedForAtAPress) {
   EXPECT_FALSE(accuracy.best(accuracy.points()).has_value());
 }
 
+TEST(Accuracy, WhatIsFoundIsKeptForTheScene) {
+  Headless h;
+  h.app->open("pendulum");
+  std::string remembered;
+  h.app->host.remember = [&](const std::string&, const std::string& value) { remembered = value; };
+  ASSERT_EQ(h.app->set("panel", "accuracy"), "");
+  ASSERT_EQ(h.app->set("accuracy", "run"), "");
+  finish(h);
+  h.app->accuracy.wanted[0] = 1e-4;
+  h.app->desk.tab = Tab::kAccuracy;
+  h.resize(1280.0F, 1600.0F, 1.0F);  // all of the panel
+  h.frames(3);
+  const auto found = recommended_of(h.app->accuracy.results(), ErrorAxis::kTrajectory, 1e-4);
+  ASSERT_TRUE(found.has_value());
+  h.press("Keep for this scene");
+  const Scene& kept = h.app->session.scene();
+  EXPECT_EQ(kept.name, "pendulum_own");
+  EXPECT_EQ(kept.recommended, found);
+  EXPECT_EQ(kept.settings, found->settings);
+  EXPECT_EQ(h.app->accuracy.scene(), h.app->plain_scene) << "the picture is still of this scene";
+  const OwnScenes again = OwnScenes::read(remembered);
+  ASSERT_EQ(again.scenes().size(), 1U);
+  EXPECT_EQ(again.scenes()[0]->recommended, found);
+  EXPECT_EQ(again.scenes()[0]->settings, found->settings);
+  // A saved run has it too, and its preset.
+  EXPECT_EQ(h.app->session.as_scene().recommended, found);
+  ASSERT_EQ(h.app->set("preset", "paper"), "");
+  h.frames(2);
+  EXPECT_EQ(h.app->session.settings().integrator, Integrator::kEuler);
+  ASSERT_EQ(h.app->set("preset", "recommended"), "");
+  Settings settings = h.app->session.settings();
+  settings.watch_stiffness = false;
+  EXPECT_EQ(settings, found->settings);
+}
+
 TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {
   Headless h;
   h.app->open("swinging_box");
@@ -321,7 +356,8 @@ TEST(Presets, AButtonSetsAllOfTheMethodAndTheLinkKeepsIt) {
   h.app->desk.view.tint = true;
   h.frames(3);
   h.press("recommended");
-  Settings recommended = find_preset("recommended")->settings;
+  ASSERT_TRUE(h.app->session.scene().recommended.has_value());
+  Settings recommended = h.app->session.scene().recommended->settings;
   recommended.watch_stiffness = true;  // what is looked at stays
   EXPECT_EQ(h.app->session.settings(), recommended);
   const std::string link = h.app->link();

@@ -199,7 +199,8 @@ TEST(Trouble, BrokenSceneIsShownAndTheRunningOneKept) {
 
 TEST(Trouble, ManyAndLongProblemsStayOnTheDisplay) {
   Headless h(390, 844, 2.0F);
-  h.app->trouble.title = std::string(200, 'x') + " was not loaded";
+  h.app->trouble.title.assign(200, 'x');
+  h.app->trouble.title += " was not loaded";
   for (int i = 0; i < 300; ++i) {
     h.app->trouble.problems.push_back({"/bodies/" + std::to_string(i), std::string(400, 'y')});
   }

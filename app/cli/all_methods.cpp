@@ -1,0 +1,44 @@
+#include "app/cli/all_methods.hpp"
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "app/cli/format_text.hpp"
+#include "app/cli/output.hpp"
+#include "app/cli/parallel_sweep.hpp"
+#include "app/cli/progress_line.hpp"
+#include "core/io/experiment.hpp"
+
+namespace substep::cli {
+
+std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const Scene>& scene,
+                                                   double seconds, int jobs,
+                                                   const std::atomic<bool>& cancelled) {
+  Experiment plain = experiment_of(*scene, scene->settings);
+  plain.duration = seconds;
+  ParallelSweep sweep{scene, {}, jobs, {}, {}, &cancelled};
+  std::map<std::string, std::size_t> order;
+  for (const SweepPoint& point : default_sweep(*scene)) {
+    if (point.load != 1.0) continue;
+    Experiment experiment = plain;
+    experiment.settings = point.settings;
+    const bool is_new = order.emplace(experiment_id(experiment), order.size()).second;
+    if (is_new) sweep.experiments.push_back(std::move(experiment));
+  }
+  std::vector<Result> results(sweep.experiments.size());
+  sweep.on_result = [&](const Result& result) {
+    results[order.at(experiment_id(result.experiment))] = result;
+    return true;
+  };
+  ProgressLine progress(stderr_is_terminal());
+  sweep.on_progress = [&](double share) {
+    if (!progress.due()) return;
+    progress.show(format_text("%s: %3.0f %% of all methods", scene->name.c_str(), 100.0 * share));
+  };
+  const bool complete = run_sweep(sweep);
+  progress.clear();
+  return complete ? std::optional(std::move(results)) : std::nullopt;
+}
+
+}  // namespace substep::cli

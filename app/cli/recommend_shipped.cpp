@@ -1,0 +1,47 @@
+#include "app/cli/recommend_shipped.hpp"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/cli/all_methods.hpp"
+#include "app/cli/cancel.hpp"
+#include "app/cli/commands.hpp"
+#include "app/cli/output.hpp"
+#include "core/io/json_print.hpp"
+#include "core/io/recommended_json.hpp"
+#include "core/lab/recommendation.hpp"
+#include "scenes/generator/recommended.hpp"
+#include "scenes/generator/scenes.hpp"
+
+namespace substep::cli {
+
+int recommend_shipped(const std::string& out, int jobs) {
+  const std::atomic<bool>& cancelled = cancel_on_signal();
+  int exit_code = kOk;
+  Json all = Json::object();
+  for (const Scene& scene : scenes::shipped()) {
+    const scenes::Wanted* wanted = scenes::wanted_of(scene.name);
+    if (wanted == nullptr) continue;
+    const auto results =
+        run_all_methods(std::make_shared<const Scene>(scene), wanted->seconds, jobs, cancelled);
+    if (!results) return kCancelled;
+    const auto recommended = recommended_of(*results, wanted->of, wanted->within);
+    if (!recommended) {
+      std::fprintf(stderr, "%s: no method keeps within %g %s\n", wanted->scene, wanted->within,
+                   unit_of(wanted->of));
+      exit_code = kUnexpectedVerdict;
+      continue;
+    }
+    const SeriesParameter parameter = series_parameter(recommended->settings);
+    std::fprintf(stderr, "%s: %s, %s = %g\n", wanted->scene,
+                 series_name(recommended->settings).c_str(), parameter.name, parameter.value);
+    all[wanted->scene] = recommended_json(*recommended);
+  }
+  Output file;
+  if (!file.open(out)) return kBadInput;
+  file.write(json_file(all));
+  return file.close() ? exit_code : kBadInput;
+}
+
+}  // namespace substep::cli

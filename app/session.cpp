@@ -177,7 +177,10 @@ void Session::set_effects(const Effects& effects) {
   if (stopped() || effects == scene_->effects) return;
   Scene scene = *scene_;
   scene.effects = effects;
-  go_on_in(std::move(scene), [](State state) { return state; });
+  go_on_in(std::move(scene), [](State state) {
+    state.rest.clear();  // what rests may fall without them
+    return state;
+  });
 }
 
 void Session::extend_trail() {

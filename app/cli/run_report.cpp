@@ -19,6 +19,9 @@ void RunReport::add(const FrameReport& report) {
   substeps_.push_back(report.n_substeps);
   total_substeps_ += report.n_substeps;
   capped_frames_ += report.capped ? 1 : 0;
+  substeps_of_a_body_ += report.n_mean;
+  most_asleep_ = std::max(most_asleep_, report.asleep);
+  has_islands_ = has_islands_ || report.islands > 0;
   joint_gap_ = std::max(joint_gap_, report.joint_gap);
   penetration_ = std::max(penetration_, report.penetration);
   computing_ += report.times.total;
@@ -50,6 +53,11 @@ std::string RunReport::summary(std::uint64_t state_hash) const {
     text += format_text("sub-steps    %" PRId64 "; %d / %d / %d a frame (least, median, most)\n",
                         total_substeps_, sorted.front(), sorted[sorted.size() / 2], sorted.back());
   }
+  if (has_islands_ && !substeps_.empty()) {
+    text += format_text("of a body    %.3g a frame in the mean\n",
+                        substeps_of_a_body_ / static_cast<double>(substeps_.size()));
+  }
+  if (most_asleep_ > 0) text += format_text("asleep       %d bodies at most\n", most_asleep_);
   if (capped_frames_ > 0) text += format_text("capped       %" PRId64 " frames\n", capped_frames_);
   text += "energy       " + energy_text() + "\n";
   if (scene_.effects.joints) text += format_text("joint gap    %.2e m at most\n", joint_gap_);
@@ -80,7 +88,7 @@ std::string settings_line(const Settings& s) {
   if (s.mode == Mode::kBlend) line += ", beta " + number_text(s.beta);
   if (chooses_substeps(s.mode)) {
     line += s.policy == Policy::kFrame ? ", decided per frame" : ", decided per sub-step";
-    if (s.islands) line += " and island";
+    if (s.islands) line += " for each island";
   }
   line += ", ";
   line += name_of(s.integrator);

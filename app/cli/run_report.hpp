@@ -30,6 +30,9 @@ class RunReport {
   std::vector<int> substeps_;  // per frame
   std::int64_t total_substeps_ = 0;
   std::int64_t capped_frames_ = 0;
+  double substeps_of_a_body_ = 0.0;
+  int most_asleep_ = 0;
+  bool has_islands_ = false;
   double joint_gap_ = 0.0;    // largest so far [m]
   double penetration_ = 0.0;  // largest so far [m]
   double computing_ = 0.0;    // [s]

@@ -11,6 +11,8 @@ const modes = [
   [/pgs \d+ a frame, const/, "amber", "triangle", "small steps"],
   ["xpbd 1, const", "purple", "diamond", "XPBD"],
   ["xpbd", "purple", "cross", "XPBD"],
+  [/adaptive.*by island/, "teal", "wye", "adaptive by island"],
+  ["capped by island", "amber", "hexagon", "capped + damping by island"],
   ["adaptive per sub-step", "purple", "triangle", "adaptive per sub-step"],
   ["adaptive", "blue", "circle", "adaptive per frame"],
   ["const", "orange", "square", "constant N"],

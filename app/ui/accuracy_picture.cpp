@@ -11,6 +11,7 @@
 #include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
 namespace {
@@ -250,6 +251,11 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
       style.corners = 6;
       style.name = "capped + blend";
       break;
+  }
+  if (has_islands(s)) {
+    style.color = s.mode == Mode::kAdaptive ? theme.teal : style.color;
+    style.corners = s.mode == Mode::kAdaptive ? 6 : 5;
+    style.name += " by island";
   }
   style.hollow = s.integrator == Integrator::kLeapfrog;
   style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;

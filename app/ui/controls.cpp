@@ -222,6 +222,9 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
              "Bodies that neither joints nor contacts to come connect within a frame take "
              "sub-steps of their own: what is calm does not pay for what is not.");
   }
+  checkbox(look, "let what rests sleep", s.sleep, width,
+           "Bodies stand still and cost nothing once all that is connected with them has been "
+           "slower than 1 cm/s for half a second. They wake where something comes near.");
   if (s.mode != Mode::kNone && s.mode != Mode::kConst) {
     checkbox(look, "probe before the first frame", s.probe, width,
              "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "

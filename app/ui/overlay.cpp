@@ -95,6 +95,7 @@ std::string unit_of_n(const FrameReport& report, int left) {
   const bool islands = report.islands > 0;
   if (left > 0 && islands) return "sub-steps, " + std::to_string(left) + " to go";
   if (left > 0) return "of " + std::to_string(report.n_substeps + left) + " sub-steps";
+  if (report.asleep > 0) return "sub-steps, " + std::to_string(report.asleep) + " asleep";
   if (islands) return "sub-steps, mean " + fixed(report.n_mean, 1);
   return report.n_substeps == 1 ? "step a frame" : "sub-steps";
 }
@@ -106,7 +107,8 @@ void caption(App& app, bool phone) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const float pad = phone ? 12.0F : 16.0F;
   const FrameReport& report = app.session.report();
-  const bool has_n = report.n_substeps > 0 && app.panes.size() == 1;  // else each pane has its own
+  const bool stepped = report.n_substeps > 0 || report.asleep > 0;
+  const bool has_n = stepped && app.panes.size() == 1;  // else each pane has its own
   const std::string n = has_n ? std::to_string(report.n_substeps) : "";
   const std::string unit = has_n ? unit_of_n(report, app.session.substeps_left()) : "";
   const ImVec2 n_size = text_size(look.fonts.large, n.c_str());

@@ -7,12 +7,6 @@ namespace substep {
 
 namespace {
 
-double radius_around(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.norm();
-  return 0.0;
-}
-
 void touch_plane(const Placed& a, const Shape& shape, const Placed& plane, double margin,
                  ContactPoints& out) {
   if (const auto* sphere = std::get_if<Sphere>(&shape))
@@ -55,18 +49,14 @@ Detector::Detector(const Scene& scene) : broad_phase_(scene) {
   near_.reserve(12 * scene.bodies.size() + 32);
 }
 
-double Detector::speed(const State& state, int body) const {
-  const auto i = static_cast<std::size_t>(body);
-  return state.u[i].head<3>().norm() + radius_[i] * state.u[i].tail<3>().norm();
-}
-
 void Detector::look_ahead(const Scene& scene, const State& state, double ahead) {
   way_.clear();
   if (ahead == 0.0) return;
   const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
   for (std::size_t i = 0; i < radius_.size(); ++i) {
-    way_.push_back(
-        scene.bodies[i].is_static ? 0.0 : ahead * (speed(state, static_cast<int>(i)) + gained));
+    way_.push_back(scene.bodies[i].is_static
+                       ? 0.0
+                       : ahead * (fastest_point(scene.bodies[i], state.u[i]) + gained));
   }
 }
 

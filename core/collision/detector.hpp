@@ -32,8 +32,6 @@ class Detector {
   std::span<const BroadPhase::Pair> within_reach(const Scene& scene, const Part& part,
                                                  const State& state, std::span<const Mat3> R_WB,
                                                  std::span<const double> way);
-  /// No less than that of any point of a body [m/s].
-  [[nodiscard]] double speed(const State& state, int body) const;
   /// Whether the last call stopped at a limit.
   [[nodiscard]] bool too_many() const {
     return broad_phase_.too_many() || points_.size() > kMaxContacts;

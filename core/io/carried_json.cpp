@@ -130,6 +130,8 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   if (in.member("k_resisting", kOptional) && !in.member("k", kOptional)) {
     in.problem("k_resisting", "needs k");
   }
+  std::vector<double> rest(n);
+  if (in.numbers("rest", not_negative(1.0, "s"), rest.data(), n, kOptional)) carried.rest = rest;
   if (const Json* forces = in.member("forces", kOptional)) {
     if (!forces->is_array() || forces->size() > kMaxForces) {
       in.problem("forces",
@@ -170,6 +172,7 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
     json["own_dt_previous"] = std::move(dt);
     json["own_r"] = std::move(r);
   }
+  if (!carried.rest.empty()) json["rest"] = carried.rest;
   if (!carried.forces.empty()) {
     Json& forces = json["forces"] = Json::array();
     for (const StoredForce& force : carried.forces) forces.push_back(force_json(force));

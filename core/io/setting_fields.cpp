@@ -59,6 +59,8 @@ constexpr std::array kFields{
     SettingField{"islands",
                  "bodies that nothing connects within a frame take sub-steps of their own",
                  FlagSetting{&S::islands}},
+    SettingField{"sleep", "what rests and nothing reaches stands still, and costs nothing",
+                 FlagSetting{&S::sleep}},
     SettingField{"probe", "one solve before the first frame finds the forces that Eq. 9 needs",
                  FlagSetting{&S::probe}},
     SettingField{"integrator", "time integration", ChoiceSetting<Integrator>{&S::integrator}},

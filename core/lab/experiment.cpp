@@ -82,7 +82,7 @@ std::string series_name(const Settings& s) {
   name += s.mode == Mode::kNone ? "const" : name_of(s.mode);
   if (s.mode == Mode::kAdaptive)
     name += s.policy == Policy::kFrame ? " per frame" : " per sub-step";
-  if (has_islands(s)) name += " and island";
+  if (has_islands(s)) name += " by island";
   name += ", ";
   name += name_of(s.integrator);
   if (s.drift != Drift::kAuto) name += ", drift " + std::string(name_of(s.drift));

@@ -42,6 +42,11 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   if (settings.solver == SolverKind::kPgs) {
     add("the direct solver").solver = SolverKind::kBpp;
   }
+  if (adaptive && last.joint_rows > 0 && last.contact_rows > 0 &&
+      drift_law(settings) == Drift::kFull) {
+    add("the soft drift law", "impacts change N, and short steps pay back what long ones left")
+        .drift = Drift::kSoft;
+  }
   if (adaptive && !last.capped && settings.alpha > kLeastAlpha) {
     const double alpha = std::max(kLeastAlpha, 0.5 * settings.alpha);
     char text[40];

@@ -17,7 +17,8 @@ struct Remedy {
 
 /// What would help, the most likely first: the implicit gyroscopic torque in place of the explicit
 /// one, adaptive sub-steps where there are none, a larger cap where the cap was in force, the
-/// direct solver in place of Gauss-Seidel, a smaller alpha.
+/// direct solver in place of Gauss-Seidel, the soft drift law where impacts meet joints, a smaller
+/// alpha.
 /// @param last the report of the frame that failed  @return empty where nothing is left to turn, or
 /// no setting would help
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
+#include "core/sim/islands.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/substep_clock.hpp"
 
@@ -112,6 +114,31 @@ void append_refined(Settings settings, std::vector<Settings>& all) {
   }
 }
 
+/// Whether some bodies can take other sub-steps than others from the start.
+bool has_several_islands(const Scene& scene) {
+  const State state = initial_state(scene);
+  std::vector<Mat3> R_WB;
+  for (const Quat& q : state.q) R_WB.emplace_back(q.toRotationMatrix());
+  std::optional<Detector> detector;
+  if (scene.effects.contact) detector.emplace(scene);
+  Islands islands(scene);
+  islands.find(scene, whole(scene), state, R_WB, scene.frame, detector ? &*detector : nullptr);
+  return islands.count() > 1;
+}
+
+/// Each island by its own N.
+void append_islands(Settings settings, std::vector<Settings>& all) {
+  settings.solver = SolverKind::kBpp;
+  settings.policy = Policy::kFrame;
+  settings.islands = true;
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+    settings.integrator = integrator;
+    append_curve(settings, Mode::kAdaptive, all);
+  }
+  settings.integrator = Integrator::kEuler;
+  append_curve(settings, Mode::kCapped, all);
+}
+
 /// Constant N and adaptive along their parameter, with the direct solver, under every other load.
 void append_map(Settings settings, std::vector<SweepPoint>& points) {
   settings.solver = SolverKind::kBpp;
@@ -143,6 +170,8 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   base.share_iterations = false;
   base.refinements = 0;
   base.detection = Detection::kSubstep;
+  base.islands = false;
+  base.sleep = false;
   const auto curves = [&](SolverKind solver, Integrator integrator) {
     Settings settings = base;
     settings.solver = solver;
@@ -166,6 +195,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   append_implicit(base, scene, all);
   append_small_steps(base, scene, all);
   if (scene.regularisation > 0.0) append_refined(base, all);
+  if (has_several_islands(scene)) append_islands(base, all);
   std::vector<SweepPoint> points;
   for (const Settings& settings : all) points.push_back({settings, 1.0});
   if (mass_ratio(scene) > 1.0) append_map(base, points);

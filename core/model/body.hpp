@@ -28,4 +28,7 @@ struct Body {
   std::optional<std::uint32_t> color;  // 0xRRGGBB, for views only; none: the view's own choice
 };
 
+/// No less than the speed of any of its points [m/s]. @param u velocity, angular velocity
+double fastest_point(const Body& body, const Vec6& u);
+
 }  // namespace substep

@@ -30,6 +30,7 @@ struct Carried {
   bool stiffness_known = false;   // r and k are of the last frame; where not, a probe is due
   std::vector<StoredForce> forces;
   std::vector<OwnSubstep> own;  // per body, or empty: dt_previous is that of all bodies
+  std::vector<double> rest;     // per body: how long it has been slow [s]; empty: not looked at
 
   /// The last sub-step of a body [s].
   [[nodiscard]] double dt_previous_of(std::size_t body) const {

@@ -2,6 +2,12 @@
 
 namespace substep {
 
+double radius_around(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.norm();
+  return 0.0;
+}
+
 Vec3 solid_inertia(const Shape& shape, double mass) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     return Vec3::Constant(0.4 * mass * sphere->radius * sphere->radius);

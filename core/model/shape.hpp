@@ -21,6 +21,9 @@ struct Plane {};
 
 using Shape = std::variant<Sphere, Box, Plane>;
 
+/// Of the sphere around a shape [m]. A plane has none: 0.
+double radius_around(const Shape& shape);
+
 /// Principal moments of a solid shape about its centre [kg m^2], in the body's axes. A plane has
 /// none.
 Vec3 solid_inertia(const Shape& shape, double mass);

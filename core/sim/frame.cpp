@@ -12,6 +12,10 @@ namespace substep {
 
 namespace {
 
+// A body whose points have been slower than this for so long is at rest.
+constexpr double kRestSpeed = 0.01;  // [m/s]
+constexpr double kRestTime = 0.5;    // [s]
+
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 StageTimes no_times() {
@@ -87,7 +91,7 @@ void Simulator::Impl::begin_frame() {
 
 void Simulator::Impl::deal_out(FrameReport& report) {
   schedule.clear();
-  if (!has_islands(settings) || all.moving == 0) {
+  if (!looks_for_islands(settings) || all.moving == 0) {
     for (const OwnSubstep& own : state.own) state.r = std::max(state.r, own.r);
     schedule.add(all, SubstepClock(settings, scene->frame, state.r));
     return;
@@ -107,10 +111,10 @@ void Simulator::Impl::deal_out(FrameReport& report) {
   }
   islands->find(*scene, all, state, R_WB, scene->frame, contact ? &contact->detector() : nullptr);
   report.islands = islands->count();
-  deal_out_islands();
+  deal_out_islands(report);
 }
 
-void Simulator::Impl::deal_out_islands() {
+void Simulator::Impl::deal_out_islands(FrameReport& report) {
   const auto r_of = [&](std::span<const int> bodies) {
     double most = 0.0;
     for (const int body : bodies) {
@@ -121,10 +125,41 @@ void Simulator::Impl::deal_out_islands() {
     return most;
   };
   islands->split(*scene, [&](std::span<const int> bodies) {
+    if (is_at_rest(bodies)) {
+      put_to_rest(bodies);
+      report.asleep += static_cast<int>(bodies.size());
+      return 0;
+    }
+    // Those that have no number of their own move together.
+    if (!has_islands(settings)) return 1;
     return SubstepClock(settings, scene->frame, r_of(bodies)).left();
   });
   for (const Part& one : islands->parts()) {
     schedule.add(one, SubstepClock(settings, scene->frame, r_of(one.bodies)));
+  }
+}
+
+bool Simulator::Impl::is_at_rest(std::span<const int> island) const {
+  if (!settings.sleep || state.rest.empty()) return false;
+  return std::all_of(island.begin(), island.end(), [&](int body) {
+    const bool held = grab && grab->body == body;
+    return !held && state.rest[static_cast<std::size_t>(body)] > kRestTime - 0.5 * scene->frame;
+  });
+}
+
+void Simulator::Impl::put_to_rest(std::span<const int> island) {
+  for (const int body : island) {
+    state.u[static_cast<std::size_t>(body)].setZero();
+    state.u_synchronised[static_cast<std::size_t>(body)].setZero();
+  }
+}
+
+void Simulator::Impl::time_rest() {
+  if (!settings.sleep) return state.rest.clear();
+  state.rest.resize(scene->bodies.size(), 0.0);
+  for (std::size_t i = 0; i < state.rest.size(); ++i) {
+    const bool slow = fastest_point(scene->bodies[i], state.u[i]) < kRestSpeed;
+    state.rest[i] = slow ? std::min(state.rest[i] + scene->frame, kRestTime) : 0.0;
   }
 }
 
@@ -146,7 +181,11 @@ void Simulator::Impl::close(FrameReport& report) {
   report.n_wanted = schedule.n_wanted();
   report.capped = schedule.capped();
   if (all.moving > 0) report.n_mean = static_cast<double>(substeps_of_bodies) / all.moving;
-  if (report.status == StepStatus::kOk) {
+  if (report.status == StepStatus::kOk && report.n_substeps == 0) {  // all sleep
+    ++state.frame;
+    state.time = static_cast<double>(state.frame) * scene->frame;
+  } else if (report.status == StepStatus::kOk) {
+    time_rest();
     std::swap(state.forces, forces);
     state.r = schedule.r();
     state.stiffness_known = report.stages.stiffness;
@@ -164,8 +203,8 @@ void Simulator::Impl::close(FrameReport& report) {
   report.stages.restitution = restitution != nullptr;
   report.work.residual =
       measures.errors ? lcp_residual({blocks.all(), inverse_mass, state.u}) : kNotMeasured;
-  const RowCounts rows = rows_by_kind(blocks.all(), grab.has_value());
-  report.joint_rows = static_cast<int>(rows.joint + rows.grab);
+  const RowCounts rows = rows_by_kind(blocks.all(), false);
+  report.joint_rows = static_cast<int>(rows.joint);
   report.contact_rows = static_cast<int>(rows.contact);
   report.friction_rows = static_cast<int>(rows.friction);
   observe(measures, report);

@@ -55,13 +55,15 @@ void Islands::find(const Scene& scene, const Part& all, const State& state,
                    std::span<const Mat3> R_WB, double ahead, Detector* detector) {
   const auto moves = [&](int body) { return body >= 0 && !scene.bodies[index(body)].is_static; };
   std::iota(parent_.begin(), parent_.end(), 0);
-  for (const Joint& joint : scene.joints) {
-    const JointBase& j = base(joint);
-    if (moves(j.a) && moves(j.b)) connect(j.a, j.b);
+  if (scene.effects.joints) {
+    for (const Joint& joint : scene.joints) {
+      const JointBase& j = base(joint);
+      if (moves(j.a) && moves(j.b)) connect(j.a, j.b);
+    }
   }
   for (bool grown = detector != nullptr; grown;) {
     grown = false;
-    set_ways(scene, state, ahead, *detector);
+    set_ways(scene, state, ahead);
     for (const BroadPhase::Pair& pair : detector->within_reach(scene, all, state, R_WB, way_)) {
       if (moves(pair.i) && moves(pair.j) && connect(pair.i, pair.j)) grown = true;
     }
@@ -69,13 +71,12 @@ void Islands::find(const Scene& scene, const Part& all, const State& state,
   list(scene);
 }
 
-void Islands::set_ways(const Scene& scene, const State& state, double ahead,
-                       const Detector& detector) {
+void Islands::set_ways(const Scene& scene, const State& state, double ahead) {
   std::fill(speed_.begin(), speed_.end(), 0.0);
   const auto n = static_cast<int>(parent_.size());
   for (int i = 0; i < n; ++i) {
     double& fastest = speed_[index(root(i))];
-    fastest = std::max(fastest, detector.speed(state, i));
+    fastest = std::max(fastest, fastest_point(scene.bodies[index(i)], state.u[index(i)]));
   }
   const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
   for (int i = 0; i < n; ++i) {
@@ -112,9 +113,11 @@ void Islands::make_parts(const Scene& scene) {
   levels_.assign(n_.begin(), n_.end());
   std::sort(levels_.begin(), levels_.end(), std::greater<>());
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
+  if (!levels_.empty() && levels_.back() == 0) levels_.pop_back();  // these stand still
   while (parts_.size() < levels_.size()) add_part(scene);
+  const auto n_of = [&](int body) { return n_[index(island_[index(body)])]; };
   const auto part_of = [&](int body) -> Part& {
-    const int n = n_[index(island_[index(body)])];
+    const int n = n_of(body);
     const auto level = std::lower_bound(levels_.begin(), levels_.end(), n, std::greater<>());
     return parts_[static_cast<std::size_t>(level - levels_.begin())];
   };
@@ -133,14 +136,15 @@ void Islands::make_parts(const Scene& scene) {
       for (Part& part : parts_) add(part, i);
       continue;
     }
+    if (n_of(i) == 0) continue;
     Part& part = part_of(i);
     add(part, i);
     ++part.moving;
   }
+  if (!scene.effects.joints) return;
   for (int i = 0; i < static_cast<int>(scene.joints.size()); ++i) {
-    const JointBase& joint = base(scene.joints[index(i)]);
-    const bool a_moves = island_[index(joint.a)] >= 0;
-    part_of(a_moves ? joint.a : joint.b).joints.push_back(i);
+    const int a = base(scene.joints[index(i)]).a;  // which moves
+    if (n_of(a) > 0) part_of(a).joints.push_back(i);
   }
 }
 

@@ -33,7 +33,7 @@ class Islands {
   /// Puts islands of the same number of sub-steps into one part: what is done once a sub-step is
   /// then done once for all of them. Where the number is decided again within the frame, it is
   /// for all of a part.
-  /// @param substeps of an island, from its bodies
+  /// @param substeps of an island, from its bodies; 0 where it stands still
   template <class Substeps>
   void split(const Scene& scene, const Substeps& substeps) {
     n_.clear();
@@ -46,7 +46,7 @@ class Islands {
  private:
   int root(int body);
   bool connect(int a, int b);  // whether they were apart
-  void set_ways(const Scene& scene, const State& state, double ahead, const Detector& detector);
+  void set_ways(const Scene& scene, const State& state, double ahead);
   void list(const Scene& scene);
   void make_parts(const Scene& scene);
   void add_part(const Scene& scene);

@@ -113,7 +113,8 @@ struct FrameReport {
 
   int n_substeps = 0;   // taken in this frame, by the island that takes most
   double n_mean = 0.0;  // sub-steps of a moving body, in the mean
-  int islands = 0;      // with a number of their own; 0 where they have none
+  int islands = 0;      // 0 where they are not looked for
+  int asleep = 0;       // bodies of islands at rest, which no sub-step has moved
   int n_wanted = 1;     // by Eq. 11 before the cap
   bool capped = false;  // n_wanted was more than allowed
   double dt_min = 0.0;  // shortest sub-step [s]

@@ -102,6 +102,9 @@ const Settings& Simulator::settings() const { return impl_->settings; }
 
 void Simulator::set_settings(const Settings& settings) {
   const bool other_solver = settings.solver != impl_->settings.solver;
+  Settings only_watched = impl_->settings;
+  only_watched.watch_stiffness = settings.watch_stiffness;
+  if (settings != only_watched) impl_->state.rest.clear();  // what rests may not rest with them
   impl_->settings = settings;
   if (!other_solver) return;
   impl_->solver = make_solver(settings.solver);

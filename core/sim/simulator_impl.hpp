@@ -49,7 +49,10 @@ struct Simulator::Impl {
   void store_forces();
   void begin_frame();
   void deal_out(FrameReport& report);  // the sub-steps of the frame to come
-  void deal_out_islands();
+  void deal_out_islands(FrameReport& report);
+  bool is_at_rest(std::span<const int> island) const;
+  void put_to_rest(std::span<const int> island);
+  void time_rest();
   FrameReport end(StageClock& wall);  // of a call: closes the frame where it is done
   void close(FrameReport& report);
   void observe(const Measures& asked, FrameReport& report);

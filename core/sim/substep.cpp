@@ -251,7 +251,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   state.dt_previous = dt;
   if (!state.own.empty()) {
     for (const int body : part().bodies) state.own[static_cast<std::size_t>(body)].dt_previous = dt;
-    if (!has_islands(settings)) state.own.clear();  // all bodies have met
+    if (!looks_for_islands(settings)) state.own.clear();  // all bodies have met
   }
   substeps_of_bodies += part().moving;
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);

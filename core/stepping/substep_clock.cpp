@@ -20,6 +20,8 @@ bool has_islands(const Settings& settings) {
   return settings.islands && chooses_substeps(settings.mode);
 }
 
+bool looks_for_islands(const Settings& settings) { return has_islands(settings) || settings.sleep; }
+
 int wanted_substeps(double h, double dt_max) {
   constexpr double kMost = 1e9;  // an impulsive force can ask for more than an int holds
   const double n = std::ceil(h / dt_max);

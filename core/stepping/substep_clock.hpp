@@ -13,6 +13,9 @@ bool chooses_substeps(Mode mode);
 /// Whether islands have sub-steps of their own.
 bool has_islands(const Settings& settings);
 
+/// Whether islands are looked for: they have sub-steps of their own, or may fall asleep.
+bool looks_for_islands(const Settings& settings);
+
 /// N = ceil(h / dt_max), Eq. 11, at least 1.
 int wanted_substeps(double h, double dt_max);
 

@@ -178,6 +178,17 @@ Expectations wrecking_ball() {
       fails(kPgs, Mode::kNone, 2.0),
       const_fails(kPgs, 4, 5.0),
       fails(kXpbd, Mode::kNone, 5.0, "25 sweeps of a whole frame do not converge.")};
+  Expectation pays =
+      fails(kBpp, Mode::kAdaptive, 10.0,
+            "Fallen crates make N jump between 1 and 64, and the full drift law pays "
+            "the chain for it. Islands hold, as do soft drift and leapfrog.");
+  pays.integrator = Integrator::kEuler;
+  rules.push_back(pays);
+  for (const int n : {4, 16}) {
+    rules.push_back(const_fails(kXpbd, n, 5.0,
+                                "What 25 sweeps leave of the impact becomes speed: with 100, 16 "
+                                "sub-steps hold."));
+  }
   add_depends(
       rules, kBpp, std::array{Mode::kInertia, Mode::kBlend},
       "The links come to lie among the crates, where four sub-steps lose a joint after 4 to "

@@ -54,20 +54,23 @@ TEST(CommandLine, CsvHasTheColumnsOfTheScenesEffects) {
   const auto header = [](const std::string& scene) {
     return lines_of(substep("run " + scene + " --frames 1 --csv -").out).front();
   };
-  EXPECT_EQ(header("swinging_box"),
-            "frame,time,substeps,substeps_mean,islands,substeps_wanted,capped,dt_min,dt_max,dt_"
-            "stable,r,leader,leader_dof,"
-            "kinetic,potential,energy,constraint_error,joint_gap,joint_rows,iterations,pivots,"
-            "unsolved,residual,x,y,z,ms");
-  EXPECT_EQ(header("spinning_top"),
-            "frame,time,substeps,substeps_mean,islands,substeps_wanted,capped,dt_min,dt_max,dt_"
-            "stable,r,leader,leader_dof,"
-            "kinetic,energy,iterations,pivots,unsolved,residual,x,y,z,ms");
-  EXPECT_EQ(header("heavy_stack"),
-            "frame,time,substeps,substeps_mean,islands,substeps_wanted,capped,dt_min,dt_max,dt_"
-            "stable,r,leader,leader_dof,"
-            "kinetic,potential,energy,penetration,contact_rows,iterations,pivots,unsolved,residual,"
-            "x,y,z,ms");
+  EXPECT_EQ(
+      header("swinging_box"),
+      "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
+      "stable,r,leader,leader_dof,"
+      "kinetic,potential,energy,constraint_error,joint_gap,joint_rows,iterations,pivots,"
+      "unsolved,residual,x,y,z,ms");
+  EXPECT_EQ(
+      header("spinning_top"),
+      "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
+      "stable,r,leader,leader_dof,"
+      "kinetic,energy,iterations,pivots,unsolved,residual,x,y,z,ms");
+  EXPECT_EQ(
+      header("heavy_stack"),
+      "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
+      "stable,r,leader,leader_dof,"
+      "kinetic,potential,energy,penetration,contact_rows,iterations,pivots,unsolved,residual,"
+      "x,y,z,ms");
   EXPECT_NE(header("bridge").find("contact_rows,friction_rows,"), std::string::npos);
 }
 
@@ -226,7 +229,7 @@ TEST(CommandLine, EverySettingIsAFlag) {
       "--warm-start --forces mean --refinements 2 --pivots 4 "
       "--mode "
       "capped --alpha 0.2 --n 5 --n-max 6 --n-cap 7 --alpha-m 0.5 --beta 0.8 --policy substep "
-      "--memory 0.5 --islands --no-probe "
+      "--memory 0.5 --islands --sleep --no-probe "
       "--integrator leapfrog --gyroscopic explicit --drift full --tau 0.01 --drift-order 2 "
       "--detection frame --contact-stiffness exact "
       "--watch-stiffness");
@@ -234,7 +237,7 @@ TEST(CommandLine, EverySettingIsAFlag) {
   const Json expected = Json::parse(
       R"({"solver": "pgs", "iterations": 3, "share_iterations": true,
           "warm_start": true, "forces": "mean", "refinements": 2, "pivots": 4, "mode": "capped", "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "alpha_m": 0.5, "beta": 0.8,
-          "policy": "substep", "memory": 0.5, "islands": true, "probe": false, "integrator": "leapfrog",
+          "policy": "substep", "memory": 0.5, "islands": true, "sleep": true, "probe": false, "integrator": "leapfrog",
           "gyroscopic": "explicit", "drift": "full", "tau": 0.01, "drift_order": 2,
           "detection": "frame", "contact_stiffness": "exact", "watch_stiffness": true})");
   EXPECT_EQ(Json::parse(run.out, nullptr, false)["settings"], expected);

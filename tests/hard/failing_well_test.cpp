@@ -119,6 +119,10 @@ TEST(Remedies, ASmallerAlphaHelpsTheTallStack) {
   expect_helped(scene, {.alpha = 0.1});
 }
 
+TEST(Remedies, TheSoftDriftLawHelpsAChainBesideFallingCrates) {
+  expect_helped(scenes::wrecking_ball(), {});
+}
+
 TEST(Remedies, TheDirectSolverIsOneWhereSweepsAreNotEnough) {
   Settings settings{.solver = SolverKind::kPgs};
   const auto all = remedies(settings, {});

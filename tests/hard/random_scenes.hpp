@@ -164,7 +164,10 @@ inline Settings any_settings() {
   Settings s;
   s.solver = any_of<SolverKind>();
   s.iterations = whole(1, 30);
+  s.share_iterations = one_in(4);
   s.warm_start = one_in(2);
+  s.forces = any_of<Forces>();
+  s.refinements = one_in(4) ? whole(1, 3) : 0;
   s.pivots = whole(1, 20);
   s.mode = any_of<Mode>();
   s.alpha = magnitude(1e-3, 1.0);
@@ -175,12 +178,15 @@ inline Settings any_settings() {
   s.beta = number(0.0, 1.0);
   s.policy = any_of<Policy>();
   s.memory = number(0.0, 0.99);
+  s.islands = one_in(2);
+  s.sleep = one_in(3);
   s.probe = one_in(2);
   s.integrator = any_of<Integrator>();
   s.gyroscopic = any_of<Gyroscopic>();
   s.drift = any_of<Drift>();
   s.drift_tau = magnitude(1e-6, 10.0);
   s.drift_order = whole(1, 2);
+  s.detection = any_of<Detection>();
   s.contact_stiffness = any_of<ContactStiffness>();
   s.watch_stiffness = one_in(4);
   return s;

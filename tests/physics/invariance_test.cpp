@@ -318,6 +318,7 @@ TEST(Invariance, ARunGoesOnFromASceneFileBitForBit) {
           settings.detection =
               integrator == Integrator::kEuler ? Detection::kSubstep : Detection::kFrame;
           settings.islands = integrator == Integrator::kLeapfrog;
+          settings.sleep = settings.islands;
           settings.n_max = 16;
           Simulator whole(shared);
           whole.set_settings(settings);

@@ -34,6 +34,9 @@ inline std::string not_finite(const State& state) {
   if (!all(state.u_synchronised)) return "synchronised velocities";
   if (!all(state.k) || !all(state.K_resisting)) return "stiffness";
   if (!std::isfinite(state.r)) return "r";
+  for (const OwnSubstep& own : state.own) {
+    if (!std::isfinite(own.dt_previous + own.r)) return "islands";
+  }
   for (const StoredForce& force : state.forces) {
     if (!std::all_of(force.lambda, force.lambda + 5, [](double f) { return std::isfinite(f); })) {
       return "forces";
@@ -73,14 +76,21 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
   for (const Quat& q : state.q) {
     if (std::abs(q.norm() - 1.0) > 1e-5) return "orientations have length 1";
   }
-  if (report.n_substeps < 1 || report.n_substeps > most_substeps(settings)) {
+  const bool all_sleep = report.asleep > 0 && report.n_substeps == 0;
+  if ((report.n_substeps < 1 && !all_sleep) || report.n_substeps > most_substeps(settings)) {
     return "1 <= N <= its cap";
   }
   const SolverWork& work = report.work;
-  if (work.solves > report.n_substeps + 1) return "a solve a sub-step, and the probe";
-  // Newton solves with BPP in each of its iterations.
-  const std::int64_t linear =
-      work.solves * (settings.solver == SolverKind::kNewton ? settings.iterations : 1);
+  // Islands take their sub-steps by themselves, those of the same number together.
+  if (work.solves > std::int64_t{report.n_substeps} * std::max(1, report.islands) + 1) {
+    return "a solve a sub-step, and the probe";
+  }
+  if (!(report.n_mean <= report.n_substeps)) return "the mean N is no more than the largest";
+  // Newton solves with BPP in each of its iterations, and so does each refinement.
+  const int of_a_solve = settings.solver == SolverKind::kNewton ? settings.iterations
+                         : settings.solver == SolverKind::kBpp  ? 1 + settings.refinements
+                                                                : 1;
+  const std::int64_t linear = work.solves * of_a_solve;
   if (work.passes > 4 * linear) return "at most four passes a linear solve";
   // bpp.hpp: `pivots` block pivots a pass, then single ones, of which 51 end the solve.
   if (work.pivots > linear * (4L * settings.pivots + 51)) return "pivots are bounded";

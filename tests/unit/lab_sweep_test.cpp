@@ -44,6 +44,7 @@ Settings unusual() {
   s.policy = Policy::kSubstep;
   s.memory = 0.8;
   s.islands = true;
+  s.sleep = true;
   s.probe = false;
   s.integrator = Integrator::kLeapfrog;
   s.gyroscopic = Gyroscopic::kExplicit;
@@ -335,6 +336,9 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
   const Scene scene = scenes::swinging_box();
   std::set<std::string> series;
   std::set<std::string> ids;
+  const auto by_island = [](const std::string& name) {
+    return name.find("by island") != std::string::npos;
+  };
   for (const SweepPoint& point : default_sweep(scene)) {
     series.insert(series_name(point.settings));
     Experiment experiment = experiment_of(scene, point.settings);
@@ -351,6 +355,12 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
         "pgs 64 a frame, const, euler", "xpbd 64 a frame, const, euler"}) {
     EXPECT_TRUE(series.contains(name)) << name;
   }
+  EXPECT_EQ(std::count_if(series.begin(), series.end(), by_island), 0) << "which has one";
+  int islands = 0;
+  for (const SweepPoint& point : default_sweep(scenes::wrecking_ball())) {
+    if (by_island(series_name(point.settings))) ++islands;
+  }
+  EXPECT_EQ(islands, 11 + 11 + 7);
   for (const SweepPoint& point : default_sweep(scenes::bridge())) {
     EXPECT_NE(point.settings.forces, Forces::kNumerov) << "which is for joints alone";
   }

@@ -80,6 +80,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .policy = Policy::kSubstep,
                     .memory = 0.5,
                     .islands = true,
+                    .sleep = true,
                     .probe = false,
                     .integrator = Integrator::kLeapfrog,
                     .gyroscopic = Gyroscopic::kExplicit,

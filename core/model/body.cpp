@@ -1,0 +1,9 @@
+#include "core/model/body.hpp"
+
+namespace substep {
+
+double fastest_point(const Body& body, const Vec6& u) {
+  return u.head<3>().norm() + radius_around(body.shape) * u.tail<3>().norm();
+}
+
+}  // namespace substep

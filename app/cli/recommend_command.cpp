@@ -165,6 +165,7 @@ int recommend(const Options& options) {
   paper.settings.solver = SolverKind::kBpp;
   paper.settings.mode = Mode::kAdaptive;
   paper.settings.policy = Policy::kFrame;
+  paper.settings.islands = false;
   paper.settings.integrator = Integrator::kEuler;
   paper.settings.n_max = kMostSubsteps;  // alpha alone is to decide
   print_alpha(words, *scene, want, paper, find_reference(scene, seconds), cancelled);

@@ -11,6 +11,7 @@
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
 namespace {
@@ -58,6 +59,7 @@ std::string method_line(const Settings& s) {
       line = "N up to " + std::to_string(s.n_cap) + ", then inertia and damping";
       break;
   }
+  if (has_islands(s)) line += ", by island";
   line += "  ·  " + solver_words(s);
   line += s.integrator == Integrator::kEuler ? "  ·  Euler" : "  ·  leapfrog";
   return line;

@@ -19,7 +19,8 @@ bool looks_ahead(SolverKind solver) {
   return solver == SolverKind::kNewton || solver == SolverKind::kXpbd;
 }
 
-/// The scene's own settings in every mode of the table that a solver is run in.
+/// The scene's own settings, with one N for all of it, in every mode of the table that a solver is
+/// run in.
 std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   std::set<int> numbers{4, 16};
   for (const Expectation& rule : scene.verdicts) {
@@ -30,6 +31,7 @@ std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
     Settings& settings = all.emplace_back(own_settings(scene));
     settings.solver = solver;
     settings.mode = mode;
+    settings.islands = false;  // the table is of the paper's one N
     return settings;
   };
   add(Mode::kNone);

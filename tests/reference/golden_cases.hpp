@@ -55,6 +55,7 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
     for (const Mode mode : {Mode::kAdaptive, Mode::kConst}) {
       for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
         Settings settings = own_settings(*read.scene);
+        settings.islands = false;
         settings.mode = mode;
         settings.n = 16;
         settings.solver = solver;

@@ -239,7 +239,7 @@ TEST(Recommended, IsWhatTheSmallAndThePlayfulScenesStartWith) {
       EXPECT_FALSE(starts) << scene.name;
     }
   }
-  EXPECT_EQ(own, (std::set<std::string>{"card_house", "newtons_cradle"}));
+  EXPECT_EQ(own, (std::set<std::string>{"card_house", "newtons_cradle", "wrecking_ball"}));
 }
 
 }  // namespace

@@ -98,8 +98,7 @@ void History::add(const FrameReport& report) {
     channels_[static_cast<std::size_t>(c)].push_back(static_cast<float>(value));
   };
   add_to(Channel::kSubsteps, report.n_substeps);
-  add_to(Channel::kMean,
-         report.islands > 0 ? report.n_mean : std::numeric_limits<double>::quiet_NaN());
+  add_to(Channel::kMean, report.n_mean);
   add_to(Channel::kLimit, 0.5 * frame_ * std::sqrt(report.leader.r));  // Eqs. 10, 11, alpha = 1
   add_to(Channel::kKinetic, report.kinetic);
   add_to(Channel::kPotential, report.potential - potential_at_start_);

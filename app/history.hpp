@@ -14,7 +14,7 @@ namespace substep {
 /// What the plots show, one number a frame.
 enum class Channel : std::uint8_t {
   kSubsteps,     // N taken, by the island that took most [-]
-  kMean,         // of the bodies, where islands have their own N [-], else not a number
+  kMean,         // of the bodies: less where islands have their own N [-]
   kLimit,        // N at alpha = 1: fewer than this is unstable [-], 0 where K is not known
   kKinetic,      // [J]
   kPotential,    // minus that at the start [J]

@@ -94,7 +94,7 @@ void substeps_plot(App& app, float height, bool last) {
   spec.counts = true;
   spec.least_span = 4.0;
   spec.series.push_back({&h, Channel::kSubsteps, t.blue, true, !several});
-  if (!several) spec.series.push_back({&h, Channel::kMean, t.teal, true});
+  if (!several && looks_for_islands(s)) spec.series.push_back({&h, Channel::kMean, t.teal, true});
   add_compared(app, spec, Channel::kSubsteps, true);
   if (const int beat = constant_to_beat(h); beat > 1 && s.mode != Mode::kDamping) {
     spec.levels.push_back(

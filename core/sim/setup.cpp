@@ -84,7 +84,7 @@ ConstraintForces Simulator::constraint_forces() const {
                               static_cast<float>(block.phi[0])});
     } else if (block.id < impl_->scene->joints.size()) {  // and not the hand
       out.joints.resize(impl_->scene->joints.size());
-      JointForce& force = out.joints[block.id];
+      JointForce& force = out.joints[static_cast<std::size_t>(block.id)];
       force.force = pulled(block);
       if (block.kind == BlockKind::kHinge) {
         const Vec3 torque = block.lambda[3] * block.axis.cross(block.v1) +

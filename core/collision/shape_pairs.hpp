@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/collision/contact_id.hpp"
 #include "core/collision/contact_point.hpp"
 #include "core/model/shape.hpp"
 
@@ -16,12 +17,6 @@ struct Placed {
 };
 
 using ContactPoints = std::vector<ContactPoint>;
-
-/// Names a contact: the two bodies and the features that touch (below 2^20).
-inline std::uint64_t contact_id(int a, int b, std::uint64_t feature) {
-  return (1ULL << 63U) | (static_cast<std::uint64_t>(a) << 42U) |
-         (static_cast<std::uint64_t>(b) << 20U) | feature;
-}
 
 void sphere_plane(const Placed& a, const Sphere& sphere, const Placed& b, double margin,
                   ContactPoints& out);

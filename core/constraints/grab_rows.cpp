@@ -5,13 +5,21 @@
 
 namespace substep {
 
+namespace {
+
+constexpr std::uint64_t kGrabId =
+    std::numeric_limits<std::uint64_t>::max();  // no joint, no contact
+
+}  // namespace
+
+bool is_grab(const Block& block) { return block.id == kGrabId; }
+
 void grab_rows(const Grab& grab, const Side& body, Block& block) {
-  constexpr std::uint64_t kId = std::numeric_limits<std::uint64_t>::max();  // no joint, no contact
   JointBase joint;
   joint.anchor_a = grab.anchor;
   joint.anchor_b = grab.target;
   block.kind = BlockKind::kBall;
-  block.id = kId;
+  block.id = kGrabId;
   block.a = block.body_a = grab.body;
   block.b = block.body_b = -1;
   block.rows = 3;

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/constraints/grab_rows.hpp"
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
@@ -11,10 +12,6 @@
 namespace substep {
 
 namespace {
-
-// A body whose points have been slower than this for so long is at rest.
-constexpr double kRestSpeed = 0.01;  // [m/s]
-constexpr double kRestTime = 0.5;    // [s]
 
 constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
@@ -27,19 +24,17 @@ StageTimes no_times() {
 
 }  // namespace
 
-RowCounts Simulator::Impl::rows_by_kind(std::span<const Block> of, bool last_is_grab) const {
+RowCounts Simulator::Impl::count_rows(std::span<const Block> of) {
   RowCounts counts;
   for (const Block& block : of) {
     if (block.is_contact()) {
       ++counts.contact;
       counts.friction += block.rows - 1;
+    } else if (is_grab(block)) {
+      counts.grab += block.rows;
     } else {
       counts.joint += block.rows;
     }
-  }
-  if (last_is_grab && !of.empty()) {
-    counts.joint -= of.back().rows;
-    counts.grab = of.back().rows;
   }
   return counts;
 }
@@ -139,30 +134,6 @@ void Simulator::Impl::deal_out_islands(FrameReport& report) {
   }
 }
 
-bool Simulator::Impl::is_at_rest(std::span<const int> island) const {
-  if (!settings.sleep || state.rest.empty()) return false;
-  return std::all_of(island.begin(), island.end(), [&](int body) {
-    const bool held = grab && grab->body == body;
-    return !held && state.rest[static_cast<std::size_t>(body)] > kRestTime - 0.5 * scene->frame;
-  });
-}
-
-void Simulator::Impl::put_to_rest(std::span<const int> island) {
-  for (const int body : island) {
-    state.u[static_cast<std::size_t>(body)].setZero();
-    state.u_synchronised[static_cast<std::size_t>(body)].setZero();
-  }
-}
-
-void Simulator::Impl::time_rest() {
-  if (!settings.sleep) return state.rest.clear();
-  state.rest.resize(scene->bodies.size(), 0.0);
-  for (std::size_t i = 0; i < state.rest.size(); ++i) {
-    const bool slow = fastest_point(scene->bodies[i], state.u[i]) < kRestSpeed;
-    state.rest[i] = slow ? std::min(state.rest[i] + scene->frame, kRestTime) : 0.0;
-  }
-}
-
 FrameReport Simulator::Impl::end(StageClock& wall) {
   FrameReport& report = *open;
   const bool done = report.status != StepStatus::kOk || !schedule.running();
@@ -186,6 +157,7 @@ void Simulator::Impl::close(FrameReport& report) {
     state.time = static_cast<double>(state.frame) * scene->frame;
   } else if (report.status == StepStatus::kOk) {
     time_rest();
+    if (report.asleep > 0) keep_forces_at_rest();
     std::swap(state.forces, forces);
     state.r = schedule.r();
     state.stiffness_known = report.stages.stiffness;
@@ -203,7 +175,7 @@ void Simulator::Impl::close(FrameReport& report) {
   report.stages.restitution = restitution != nullptr;
   report.work.residual =
       measures.errors ? lcp_residual({blocks.all(), inverse_mass, state.u}) : kNotMeasured;
-  const RowCounts rows = rows_by_kind(blocks.all(), false);
+  const RowCounts rows = count_rows(blocks.all());
   report.joint_rows = static_cast<int>(rows.joint);
   report.contact_rows = static_cast<int>(rows.contact);
   report.friction_rows = static_cast<int>(rows.friction);

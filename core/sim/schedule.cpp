@@ -25,6 +25,11 @@ int Schedule::left() const {
   return sum;
 }
 
+bool Schedule::moves(int body) const {
+  return std::any_of(turns_.begin(), turns_.end(),
+                     [&](const Turn& turn) { return turn.part->holds(body); });
+}
+
 double Schedule::r() const {
   double most = 0.0;
   for (const Turn& turn : turns_) most = std::max(most, turn.clock.r());

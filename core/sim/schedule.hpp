@@ -27,6 +27,7 @@ class Schedule {
 
   [[nodiscard]] int left() const;  ///< sub-steps of the frame to come, as decided so far
   // Of all parts.
+  [[nodiscard]] bool moves(int body) const;
   [[nodiscard]] double r() const;  ///< the largest [1/s^2]
   [[nodiscard]] int n_wanted() const;
   [[nodiscard]] bool capped() const;

@@ -42,7 +42,7 @@ struct Simulator::Impl {
   bool holds_grab() const { return grab && part().holds(grab->body); }
   double impulse_time_of(const Block& block) const;  // lambda = impulse / it [s]
 
-  RowCounts rows_by_kind(std::span<const Block> of, bool last_is_grab) const;
+  static RowCounts count_rows(std::span<const Block> of);
   bool probe_due() const;
   void probe(FrameReport& report);
   void seed_forces();
@@ -52,6 +52,7 @@ struct Simulator::Impl {
   void deal_out_islands(FrameReport& report);
   bool is_at_rest(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
+  void keep_forces_at_rest();
   void time_rest();
   FrameReport end(StageClock& wall);  // of a call: closes the frame where it is done
   void close(FrameReport& report);

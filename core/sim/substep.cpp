@@ -153,7 +153,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
 
   SolverWork& work = report.work;
   ++work.solves;
-  work.rows += rows_by_kind(own, holds_grab());
+  work.rows += count_rows(own);
   work.iterations += solved.iterations;
   work.row_updates += solved.row_updates;
   work.pivots += solved.pivots;

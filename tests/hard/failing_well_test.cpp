@@ -35,8 +35,7 @@ TEST(Divergence, StopsAtTheLastFiniteState) {
 
 TEST(Divergence, WithinAFrameTellsTheTimeOfItsPoses) {
   const auto scene = std::make_shared<const Scene>(scenes::swinging_box());
-  Simulator simulator(scene);
-  simulator.set_settings({.mode = Mode::kConst, .n = 16});
+  Simulator simulator = simulator_of(scene, {.mode = Mode::kConst, .n = 16});
   simulator.step();
   for (int i = 0; i < 3; ++i) simulator.substep();
   Grab grab;
@@ -90,8 +89,7 @@ void expect_helped(const Scene& scene, const Settings& settings) {
 
 // The first solve of a long step has no active set to begin with, and its pivots run out.
 TEST(PivotsThatRunOut, LeaveAHouseOfCardsStanding) {
-  Simulator simulator(std::make_shared<const Scene>(scenes::card_house()));
-  simulator.set_settings({.mode = Mode::kNone});
+  Simulator simulator = simulator_of(scenes::card_house(), {.mode = Mode::kNone});
   const double start = simulator.observe().energy;
   FrameReport report = simulator.step();
   EXPECT_EQ(report.work.unsolved, 1) << "else this test shows nothing";

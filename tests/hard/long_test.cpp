@@ -36,8 +36,7 @@ struct LongRun {
 
 /// @param warm_up frames that are not judged
 LongRun run_long(const Scene& scene, const Settings& settings, std::int64_t warm_up) {
-  Simulator simulator(std::make_shared<const Scene>(scene));
-  simulator.set_settings(settings);
+  Simulator simulator = simulator_of(scene, settings);
   LongRun out;
   long memory = 0;
   for (std::int64_t i = 0; i < frames() && out.status == StepStatus::kOk; ++i) {

@@ -163,8 +163,7 @@ struct Loss {
 Loss loss(const scenes::BridgeOptions& start, const Settings& settings) {
   const Scene scene = scenes::bridge(start);
   const auto ball = static_cast<std::size_t>(*scene.criteria.track);
-  Simulator simulator(std::make_shared<const Scene>(scene));
-  simulator.set_settings(settings);
+  Simulator simulator = simulator_of(scene, settings);
   FrameReport report = simulator.step();
   const double first = report.energy + stored(simulator);
   double least = report.kinetic;

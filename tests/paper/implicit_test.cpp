@@ -76,8 +76,7 @@ TEST(NewtonAtTheMean, TakesOneSolveFromTwoSubstepsOn) {
 double off_after_return(const Settings& settings) {
   constexpr int kThere = 60;
   const auto scene = std::make_shared<const Scene>(scenes::rope_of_n({5, 0.4, 10.0, 0.0}));
-  Simulator simulator(scene);
-  simulator.set_settings(settings);
+  Simulator simulator = simulator_of(scene, settings);
   const State start = simulator.state();
   for (int i = 0; i < kThere; ++i) simulator.step();
   State back = simulator.state();  // its poses, and the velocity of the sub-step that follows

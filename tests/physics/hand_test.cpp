@@ -11,12 +11,6 @@
 namespace substep::test {
 namespace {
 
-Simulator simulator_of(const Scene& scene, const Settings& settings) {
-  Simulator simulator(std::make_shared<const Scene>(scene));
-  simulator.set_settings(settings);
-  return simulator;
-}
-
 TEST(InterruptedFrame, EndsInTheBitsOfAnUninterruptedOne) {
   for (const Scene& scene : {scenes::swinging_box(), scenes::bridge()}) {
     for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kAdaptive, Mode::kCapped}) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
 
 #include "core/model/names.hpp"
 #include "core/sim/islands.hpp"
@@ -20,12 +19,6 @@ constexpr double kFrame = 1.0 / 60.0;
 Settings with_islands(Settings settings = {}) {
   settings.islands = true;
   return settings;
-}
-
-Simulator simulator_of(const Scene& scene, const Settings& settings) {
-  Simulator simulator(std::make_shared<const Scene>(scene));
-  simulator.set_settings(settings);
-  return simulator;
 }
 
 Scene aside(const Scene& scene, double z) {

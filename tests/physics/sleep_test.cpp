@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <memory>
+#include <utility>
+#include <vector>
 
+#include "core/collision/contact_id.hpp"
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/placed.hpp"
@@ -16,12 +18,6 @@ namespace {
 Settings sleeping(Settings settings = {}) {
   settings.sleep = true;
   return settings;
-}
-
-Simulator simulator_of(const Scene& scene, const Settings& settings) {
-  Simulator simulator(std::make_shared<const Scene>(scene));
-  simulator.set_settings(settings);
-  return simulator;
 }
 
 TEST(Sleep, AStackAtRestCostsNothing) {
@@ -148,6 +144,37 @@ TEST(Sleep, OneIslandSleepsWhileAnotherSwings) {
     EXPECT_EQ(report.n_substeps, alone.n_substeps) << "by the box, and not the stack";
     EXPECT_EQ(report.work.flops, alone.work.flops);
   }
+}
+
+// What sleeps keeps the forces that held it, whatever moves beside it, and wakes with them: its
+// first solve knows friction and finds nothing to pivot.
+TEST(Sleep, WakesWithTheForcesThatHeldIt) {
+  const Scene scene = beside({transformed(scenes::swinging_box(), Quat::Identity(), {0, 0, -30.0}),
+                              transformed(scenes::heavy_stack(), Quat::Identity(), {0, 0, 30.0})});
+  Simulator simulator = simulator_of(scene, {.mode = Mode::kConst, .n = 1, .sleep = true});
+  const auto forces = [&] {
+    std::vector<std::pair<std::uint64_t, double>> all;
+    for (const StoredForce& force : simulator.state().forces) {
+      if (is_contact_id(force.id)) all.emplace_back(force.id, force.lambda[0]);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  const auto before = [&] {
+    auto last = forces();
+    while (simulator.step().asleep == 0) last = forces();
+    return last;
+  }();
+  EXPECT_FALSE(before.empty());
+  for (int frame = 0; frame < 10; ++frame) EXPECT_GT(simulator.step().asleep, 0);
+  EXPECT_EQ(forces(), before);
+  Settings awake = simulator.settings();
+  awake.sleep = false;
+  simulator.set_settings(awake);
+  const FrameReport report = simulator.step();
+  EXPECT_EQ(report.asleep, 0);
+  EXPECT_EQ(report.work.pivots, 0);
+  EXPECT_EQ(report.work.passes, 1);
 }
 
 // A pile that has fallen costs less and less.

@@ -12,9 +12,7 @@ namespace substep::test {
 namespace {
 
 FrameReport first_frame(const Scene& scene, const Settings& settings = {}) {
-  Simulator simulator(std::make_shared<const Scene>(scene));
-  simulator.set_settings(settings);
-  return simulator.step();
+  return simulator_of(scene, settings).step();
 }
 
 TEST(Stages, AnEffectNotCalledForLeavesNoRowsAndNoTime) {

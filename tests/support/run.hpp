@@ -4,12 +4,23 @@
 #include <algorithm>
 #include <functional>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/lab/verdict.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep::test {
+
+inline Simulator simulator_of(std::shared_ptr<const Scene> scene, const Settings& settings) {
+  Simulator simulator(std::move(scene));
+  simulator.set_settings(settings);
+  return simulator;
+}
+inline Simulator simulator_of(const Scene& scene, const Settings& settings) {
+  return simulator_of(std::make_shared<const Scene>(scene), settings);
+}
 
 struct Outcome {
   bool holds = true;
@@ -47,8 +58,7 @@ using EveryFrame = std::function<void(const Simulator&, const FrameReport&)>;
 inline Outcome run(const Scene& scene, const Settings& settings, double seconds,
                    const EveryFrame& every_frame = {}, bool stop_when_failed = true) {
   const auto shared = std::make_shared<const Scene>(scene);
-  Simulator simulator(shared);
-  simulator.set_settings(settings);
+  Simulator simulator = simulator_of(shared, settings);
   Outcome out;
   const FrameReport start = simulator.observe();
   Verdict verdict(*shared, simulator.state(), start);

@@ -1,0 +1,58 @@
+// Islands that stand still (setting `sleep`).
+
+#include <algorithm>
+
+#include "core/collision/contact_id.hpp"
+#include "core/sim/simulator_impl.hpp"
+
+namespace substep {
+
+namespace {
+
+// A body whose points have been slower than this for so long is at rest.
+constexpr double kRestSpeed = 0.01;  // [m/s]
+constexpr double kRestTime = 0.5;    // [s]
+
+}  // namespace
+
+bool Simulator::Impl::is_at_rest(std::span<const int> island) const {
+  if (!settings.sleep || state.rest.empty()) return false;
+  return std::all_of(island.begin(), island.end(), [&](int body) {
+    const bool held = grab && grab->body == body;
+    return !held && state.rest[static_cast<std::size_t>(body)] > kRestTime - 0.5 * scene->frame;
+  });
+}
+
+void Simulator::Impl::put_to_rest(std::span<const int> island) {
+  for (const int body : island) {
+    state.u[static_cast<std::size_t>(body)].setZero();
+    state.u_synchronised[static_cast<std::size_t>(body)].setZero();
+  }
+}
+
+// What sleeps wakes with the forces that held it.
+void Simulator::Impl::keep_forces_at_rest() {
+  const auto sleeps = [&](int body) {
+    return !scene->bodies[static_cast<std::size_t>(body)].is_static && !schedule.moves(body);
+  };
+  for (const StoredForce& force : state.forces) {
+    if (force.id < scene->joints.size()) {
+      const auto joint = static_cast<std::size_t>(force.id);
+      if (sleeps(base(scene->joints[joint]).a)) forces.push_back(force);
+    } else if (is_contact_id(force.id)) {
+      const auto [a, b] = bodies_of_contact(force.id);
+      if (sleeps(a) || sleeps(b)) forces.push_back(force);
+    }
+  }
+}
+
+void Simulator::Impl::time_rest() {
+  if (!settings.sleep) return state.rest.clear();
+  state.rest.resize(scene->bodies.size(), 0.0);
+  for (std::size_t i = 0; i < state.rest.size(); ++i) {
+    const bool slow = fastest_point(scene->bodies[i], state.u[i]) < kRestSpeed;
+    state.rest[i] = slow ? std::min(state.rest[i] + scene->frame, kRestTime) : 0.0;
+  }
+}
+
+}  // namespace substep

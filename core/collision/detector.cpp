@@ -7,6 +7,12 @@ namespace substep {
 
 namespace {
 
+std::size_t at(int body) { return static_cast<std::size_t>(body); }
+
+bool is_box(const Scene& scene, int body) {
+  return std::holds_alternative<Box>(scene.bodies[at(body)].shape);
+}
+
 void touch_plane(const Placed& a, const Shape& shape, const Placed& plane, double margin,
                  ContactPoints& out) {
   if (const auto* sphere = std::get_if<Sphere>(&shape))
@@ -33,6 +39,12 @@ void touch_solids(const Placed& i, const Shape& shape_i, const Placed& j, const 
 
 }  // namespace
 
+double way_in(double time, const Scene& scene, const Body& body, const Vec6& u) {
+  if (body.is_static) return 0.0;
+  const double gained = scene.effects.gravity ? time * scene.gravity.norm() : 0.0;
+  return time * (fastest_point(body, u) + gained);
+}
+
 Detector::Detector(const Scene& scene) : broad_phase_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
@@ -47,17 +59,18 @@ Detector::Detector(const Scene& scene) : broad_phase_(scene) {
   points_.reserve(8 * scene.bodies.size() + 32);
   way_.reserve(scene.bodies.size());
   near_.reserve(12 * scene.bodies.size() + 32);
+  listed_.reserve(12 * scene.bodies.size() + 32);
 }
 
 void Detector::look_ahead(const Scene& scene, const State& state, double ahead) {
   way_.clear();
-  if (ahead == 0.0) return;
-  const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
-  for (std::size_t i = 0; i < radius_.size(); ++i) {
-    way_.push_back(scene.bodies[i].is_static
-                       ? 0.0
-                       : ahead * (fastest_point(scene.bodies[i], state.u[i]) + gained));
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    way_.push_back(way_in(ahead, scene, scene.bodies[i], state.u[i]));
   }
+}
+
+double Detector::margin(const Scene& scene, int i, int j) const {
+  return way_.empty() ? scene.contact.margin : scene.contact.margin + way_[at(i)] + way_[at(j)];
 }
 
 std::span<const BroadPhase::Pair> Detector::within_reach(const Scene& scene, const Part& part,
@@ -74,36 +87,66 @@ std::span<const BroadPhase::Pair> Detector::within_reach(const Scene& scene, con
   return near_;
 }
 
-std::span<const ContactPoint> Detector::detect(const Scene& scene, const Part& part,
-                                               const State& state, std::span<const Mat3> R_WB,
-                                               double ahead) {
-  points_.clear();
-  look_ahead(scene, state, ahead);
-  const auto at = [](int body) { return static_cast<std::size_t>(body); };
-  const auto margin = [&](int i, int j) {
-    return way_.empty() ? scene.contact.margin : scene.contact.margin + way_[at(i)] + way_[at(j)];
-  };
-  const auto shape = [&](int body) -> const Shape& { return scene.bodies[at(body)].shape; };
-  const auto placed = [&](int body) { return Placed{body, state.x[at(body)], R_WB[at(body)]}; };
+void Detector::touch(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+                     const BroadPhase::Pair& pair) {
+  const auto [i, j] = pair;
+  touch_solids({i, state.x[at(i)], R_WB[at(i)]}, scene.bodies[at(i)].shape,
+               {j, state.x[at(j)], R_WB[at(j)]}, scene.bodies[at(j)].shape, margin(scene, i, j),
+               points_);
+}
 
+void Detector::find(const Scene& scene, const Part& part, const State& state,
+                    std::span<const Mat3> R_WB, Pairs* boxes) {
+  points_.clear();
   for (const Ground& ground : grounds_) {
-    const Placed plane = placed(ground.body);
+    const Placed plane{ground.body, state.x[at(ground.body)], R_WB[at(ground.body)]};
     const Vec3 n = plane.R.col(1);
     for (const int body : ground.solids) {
-      if (points_.size() > kMaxContacts) return points_;
+      if (points_.size() > kMaxContacts) return;
       if (!part.holds(body)) continue;
-      const double near = margin(body, ground.body);
+      const double near = margin(scene, body, ground.body);
       if (n.dot(state.x[at(body)] - plane.x) > radius_[at(body)] + near) continue;
-      touch_plane(placed(body), shape(body), plane, near, points_);
+      touch_plane({body, state.x[at(body)], R_WB[at(body)]}, scene.bodies[at(body)].shape, plane,
+                  near, points_);
     }
   }
   broad_phase_.update(scene, part, state, R_WB, way_);
   for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {
-    if (too_many()) return points_;
+    if (too_many()) return;
     if (!part.holds(pair.i) || !part.holds(pair.j)) continue;
     if (!broad_phase_.overlap(state, pair)) continue;
-    touch_solids(placed(pair.i), shape(pair.i), placed(pair.j), shape(pair.j),
-                 margin(pair.i, pair.j), points_);
+    if (boxes != nullptr && is_box(scene, pair.i) && is_box(scene, pair.j)) {
+      boxes->push_back(pair);
+    } else {
+      touch(scene, state, R_WB, pair);
+    }
+  }
+}
+
+std::span<const ContactPoint> Detector::detect(const Scene& scene, const Part& part,
+                                               const State& state, std::span<const Mat3> R_WB) {
+  way_.clear();
+  find(scene, part, state, R_WB, nullptr);
+  return points_;
+}
+
+std::span<const ContactPoint> Detector::foresee(const Scene& scene, const Part& part,
+                                                const State& state, std::span<const Mat3> R_WB,
+                                                double ahead) {
+  look_ahead(scene, state, ahead);
+  listed_.clear();
+  find(scene, part, state, R_WB, &listed_);
+  return points_;
+}
+
+std::span<const ContactPoint> Detector::detect_listed(const Scene& scene, const Part& part,
+                                                      const State& state,
+                                                      std::span<const Mat3> R_WB, double ahead) {
+  look_ahead(scene, state, ahead);
+  points_.clear();
+  for (const BroadPhase::Pair& pair : listed_) {
+    if (too_many()) break;
+    if (part.holds(pair.i) && part.holds(pair.j)) touch(scene, state, R_WB, pair);
   }
   return points_;
 }

@@ -15,18 +15,32 @@ namespace substep {
 // that is nothing to give to a solver, and must not use up memory.
 inline constexpr std::size_t kMaxContacts = 200'000;
 
+/// As far as a body's points may go in a time, falling freely [m].
+double way_in(double time, const Scene& scene, const Body& body, const Vec6& u);
+
 /// Finds every contact point of a scene with a gap of at most the scene's margin. The order of the
 /// points depends on the order of bodies in the scene only.
 class Detector {
  public:
   explicit Detector(const Scene& scene);
 
-  /// @param part only between bodies of it  @param R_WB rotation per body  @param ahead time in
-  /// which nothing is looked for again [s]: the
-  ///        margin of a pair grows by the way that its bodies may go in it, falling freely
+  /// @param part only between bodies of it  @param R_WB rotation per body
   /// @return valid until the next call; not all of them where there are too_many()
   std::span<const ContactPoint> detect(const Scene& scene, const Part& part, const State& state,
-                                       std::span<const Mat3> R_WB, double ahead = 0.0);
+                                       std::span<const Mat3> R_WB);
+  /// What may come to touch within a time: the margin of a pair grows by the way that its bodies
+  /// may go in it, falling freely. Boxes against boxes are only listed: where they touch changes
+  /// while they come. @param ahead [s]
+  std::span<const ContactPoint> foresee(const Scene& scene, const Part& part, const State& state,
+                                        std::span<const Mat3> R_WB, double ahead);
+  /// Those boxes again, and as far ahead. @param ahead no more than what was foreseen [s]
+  std::span<const ContactPoint> detect_listed(const Scene& scene, const Part& part,
+                                              const State& state, std::span<const Mat3> R_WB,
+                                              double ahead);
+  /// Per body: that its points may go in the time that the last call looked ahead [m]; or empty.
+  [[nodiscard]] std::span<const double> ways() const { return way_; }
+  /// How near two bodies had to be in the last call to have a point [m].
+  [[nodiscard]] double margin(const Scene& scene, int i, int j) const;
   /// Pairs of the part whose boxes may meet. @param way that each body may go meanwhile [m]
   /// @return sorted by i, then j; valid until the next call
   std::span<const BroadPhase::Pair> within_reach(const Scene& scene, const Part& part,
@@ -44,14 +58,22 @@ class Detector {
     std::vector<int> solids;
   };
 
+  using Pairs = std::vector<BroadPhase::Pair>;
+
   void look_ahead(const Scene& scene, const State& state, double ahead);
+  /// @param boxes takes pairs of boxes within reach, unless it is null
+  void find(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
+            Pairs* boxes);
+  void touch(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+             const BroadPhase::Pair& pair);
 
   BroadPhase broad_phase_;
   std::vector<Ground> grounds_;
   std::vector<double> radius_;  // per body: of the sphere around its shape [m]
-  std::vector<double> way_;     // per body: that its points may go in `ahead` [m]; empty: none
+  std::vector<double> way_;     // per body: that its points may go meanwhile [m]; empty: none
   ContactPoints points_;
-  std::vector<BroadPhase::Pair> near_;
+  Pairs near_;
+  Pairs listed_;
 };
 
 }  // namespace substep

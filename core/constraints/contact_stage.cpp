@@ -49,17 +49,35 @@ bool ContactStage::detect_and_append(const Scene& scene, const Part& part, const
 
 bool ContactStage::foresee(const Scene& scene, const Part& part, const State& state,
                            std::span<const Mat3> R_WB, double ahead) {
-  const std::span<const ContactPoint> points = detector_.detect(scene, part, state, R_WB, ahead);
+  const std::span<const ContactPoint> points = detector_.foresee(scene, part, state, R_WB, ahead);
   foreseen_.clear();
   foreseen_.reserve(8 * scene.bodies.size() + 32);  // once: a landing must not allocate
   if (detector_.too_many()) return false;
   append(points, scene, state, foreseen_);
   x_.assign(state.x.begin(), state.x.end());
   q_.assign(state.q.begin(), state.q.end());
+  way_.assign(detector_.ways().begin(), detector_.ways().end());
   return true;
 }
 
-void ContactStage::carry_and_append(const Part& part, const State& state, Blocks& blocks) const {
+bool ContactStage::stays_foreseen(const Scene& scene, const Part& part, const State& state,
+                                  double dt) const {
+  const double room = 0.5 * scene.contact.margin;  // of each of two bodies
+  return std::all_of(part.bodies.begin(), part.bodies.end(), [&](int body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (scene.bodies[i].is_static) return true;
+    const Motion gone = motion_since(x_[i], q_[i], state.x[i], state.q[i]);
+    const double turned = 2.0 * radius_around(scene.bodies[i].shape) * gone.half.norm();
+    return gone.dx.norm() + turned + way_in(dt, scene, scene.bodies[i], state.u[i]) <=
+           way_[i] + room;
+  });
+}
+
+bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const State& state,
+                                    std::span<const Mat3> R_WB, double dt, Blocks& blocks) {
+  const std::span<const ContactPoint> of_boxes =
+      detector_.detect_listed(scene, part, state, R_WB, dt);
+  if (detector_.too_many()) return false;
   const auto motion = [&](int body) {
     if (body < 0) return Motion{};
     const auto i = static_cast<std::size_t>(body);
@@ -70,8 +88,14 @@ void ContactStage::carry_and_append(const Part& part, const State& state, Blocks
     Block& block = blocks.append();
     move_rows(row, motion(row.a), motion(row.b), block);
     block.phi[0] += row.phi[0];
+    if (block.phi[0] > detector_.margin(scene, row.body_a, row.body_b)) {
+      blocks.keep(blocks.size() - 1);
+      continue;
+    }
     block.H = turned(row.H, motion(row.b).half);
   }
+  append(of_boxes, scene, state, blocks);
+  return true;
 }
 
 double ContactStage::penetration(const Scene& scene, const Part& part, const State& state,

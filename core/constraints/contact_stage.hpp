@@ -16,12 +16,19 @@ class ContactStage {
   bool detect_and_append(const Scene& scene, const Part& part, const State& state,
                          std::span<const Mat3> R_WB, Blocks& blocks);
   /// The same for what may come to touch within a time, kept for carry_and_append().
-  /// Boxes of which no face lies opposite the other are not foreseen.
   /// @param ahead [s]
   bool foresee(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
                double ahead);
-  /// The rows that were foreseen, where their bodies have gone since.
-  void carry_and_append(const Part& part, const State& state, Blocks& blocks) const;
+  /// Whether no two bodies touch unforeseen in a sub-step, as fast as they are: an impact may have
+  /// made them faster. @param dt the sub-step to come [s]
+  [[nodiscard]] bool stays_foreseen(const Scene& scene, const Part& part, const State& state,
+                                    double dt) const;
+  /// The rows that were foreseen, where their bodies have gone since, as far as they may close
+  /// within dt. Boxes against boxes are looked at again: a row of the edge that came first says
+  /// nothing of the next one, and the box would turn about it into the other.
+  /// @param dt the sub-step to come [s]  @return false where there are too many
+  bool carry_and_append(const Scene& scene, const Part& part, const State& state,
+                        std::span<const Mat3> R_WB, double dt, Blocks& blocks);
   /// What looks for contacts, for other questions of the same kind.
   [[nodiscard]] Detector& detector() { return detector_; }
   /// Largest overlap at a state, >= 0 [m].
@@ -36,6 +43,7 @@ class ContactStage {
   Blocks foreseen_;
   std::vector<Vec3> x_;  // per body: where rows were foreseen, world [m]
   std::vector<Quat> q_;
+  std::vector<double> way_;  // per body: that its points may go from there [m]
 };
 
 /// Adds two friction rows to every contact of two bodies that both have friction.

@@ -80,12 +80,12 @@ bool Simulator::Impl::append_contacts() {
   if (settings.detection == Detection::kSubstep || !open) {
     return contact->detect_and_append(*scene, part(), state, R_WB, blocks);
   }
-  if (!std::exchange(contacts_foreseen, true) &&
-      !contact->foresee(*scene, all, state, R_WB, scene->frame)) {
-    return false;
+  const double dt = schedule.dt();
+  if (!contacts_foreseen || !contact->stays_foreseen(*scene, part(), state, dt)) {
+    contacts_foreseen = contact->foresee(*scene, all, state, R_WB, scene->frame);
+    if (!contacts_foreseen) return false;
   }
-  contact->carry_and_append(part(), state, blocks);
-  return true;
+  return contact->carry_and_append(*scene, part(), state, R_WB, dt, blocks);
 }
 
 void Simulator::Impl::external_forces(double dt, FrameReport& report) {

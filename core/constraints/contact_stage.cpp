@@ -86,6 +86,7 @@ bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const 
   for (const Block& row : foreseen_.all()) {
     if (!part.holds(row.body_a) || !part.holds(row.body_b)) continue;
     Block& block = blocks.append();
+    block = row;
     move_rows(row, motion(row.a), motion(row.b), block);
     block.phi[0] += row.phi[0];
     if (block.phi[0] > detector_.margin(scene, row.body_a, row.body_b)) {

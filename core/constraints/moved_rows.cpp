@@ -1,6 +1,6 @@
 #include "core/constraints/moved_rows.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 #include "core/math/turn.hpp"
 
@@ -43,7 +43,8 @@ void move_hinge_axis(const Block& start, const Motion& a, const Motion& b, Block
 
 // The gap is D(p) - radius with D fixed in b and p fixed in a. Seen from b, p moves by d; then
 // D = D_0 + n . d + d . H d / 2 and grad D = n + H d.
-void move_contact(const Block& start, const Motion& a, const Motion& b, Block& moved) {
+void move_contact(const Block& start, const Motion& a, const Motion& b, Block& moved,
+                  const RowRange& rows) {
   moved.arm_a = turned(a, start.arm_a);
   moved.rho = start.rho + (a.dx - b.dx) + (moved.arm_a - start.arm_a);
   const Vec3 d = turned_back(b, moved.rho) - start.rho;
@@ -54,7 +55,8 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
   const Vec3 along = (start.r_a - start.arm_a).dot(start.n) * moved.n;
   moved.r_a = moved.arm_a + along;
   moved.r_b = moved.rho + along;
-  if (start.rows == 3) {
+  const int end = std::min(start.rows, rows.first + rows.count);
+  if (end > 1) {
     // How far the material points that touch have slid, along the tangents of the start.
     const Vec3 slid =
         (a.dx - b.dx) + ((turned(a, start.r_a) - start.r_a) - (turned(b, start.r_b) - start.r_b));
@@ -64,7 +66,7 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
     moved.t1 = (t - moved.n * moved.n.dot(t)).normalized();
     moved.t2 = moved.n.cross(moved.t1);
   }
-  for (int row = 0; row < start.rows; ++row) {
+  for (int row = rows.first; row < end; ++row) {
     const Vec3& direction = row == 0 ? moved.n : row == 1 ? moved.t1 : moved.t2;
     for (int j = 0; j < 3; ++j) {
       moved.J_a[row][j] = direction[j];
@@ -76,18 +78,11 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
 
 }  // namespace
 
-void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved) {
-  moved = start;
-  switch (start.kind) {
-    case BlockKind::kHinge:
-      move_hinge_axis(start, a, b, moved);
-      [[fallthrough]];
-    case BlockKind::kBall:
-      move_pin(start, a, b, moved);
-      break;
-    case BlockKind::kContact:
-      move_contact(start, a, b, moved);
-      break;
+void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved, RowRange rows) {
+  if (start.is_contact()) return move_contact(start, a, b, moved, rows);
+  if (rows.first < 3) move_pin(start, a, b, moved);
+  if (rows.first + rows.count > 3 && start.kind == BlockKind::kHinge) {
+    move_hinge_axis(start, a, b, moved);
   }
 }
 

@@ -15,11 +15,20 @@ inline Motion motion(const Vec6& u, double dt) {
   return {dt * u.head<3>(), 0.5 * dt * u.tail<3>()};
 }
 
+/// Some rows of a block.
+struct RowRange {
+  int first = 0;
+  int count = kMaxRows;  // at most
+};
+
 /// phi and J of a block after its bodies have moved: for solvers that look at the end of a sub-step
 /// instead of its start. Exact for joints and for points on faces; spheres on spheres to the second
 /// order of H.
-/// @param moved out: a copy of `start` whose J, arms, axes, normal and tangents are those after the
-///        motion, and whose phi is that after LESS that before. Friction counts the way slid.
-void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved);
+/// @param moved in: a copy of `start`, moved before or not; out: J and phi of the rows asked for,
+///        the arms, axes, normal and tangents they stand on. phi is that after LESS that before;
+///        friction counts the way slid. The rest stays, and with it the constant linear part of J
+///        of joints.
+void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved,
+               RowRange rows = {});
 
 }  // namespace substep

@@ -40,6 +40,11 @@ class StiffnessMatrix {
 
   /// The block of one pair, zero where there is none.
   [[nodiscard]] Mat6 block(int row, int col) const;
+  /// What a body's own turning does to its torque: the angular part of its diagonal block.
+  [[nodiscard]] Mat3 angular(int body) const {
+    const auto at = static_cast<std::size_t>(body);
+    return whole_.empty() ? angular_[at] : Mat3(whole_[at].bottomRightCorner<3, 3>());
+  }
 
  private:
   /// A pair of bodies that has a block: first the diagonal, body by body, then others as they come.

@@ -194,8 +194,7 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   state.K_resisting.clear();
   if (full) {
     for (int i = 0; i < static_cast<int>(state.k.size()); ++i) {
-      state.K_resisting.push_back(
-          resisting(stiffness->matrix().block(i, i).bottomRightCorner<3, 3>()));
+      state.K_resisting.push_back(resisting(stiffness->matrix().angular(i)));
     }
   }
   bound = StiffnessStage::bound(*scene, part().bodies, state.k);

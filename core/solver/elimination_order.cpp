@@ -26,10 +26,11 @@ void EliminationOrder::reserve(std::size_t bodies, std::size_t blocks) {
   found_.reserve(blocks);
   merged_.reserve(bodies);
   joint_rows_.reserve(bodies);
-  first_.reserve(2 * bodies + 4);
+  first_.reserve(4 * bodies + 8);
   next_.reserve(bodies);
   previous_.reserve(bodies);
   priority_.reserve(bodies);
+  reached_.reserve(bodies);
   order_.reserve(bodies);
   position_.reserve(bodies);
   make_room(bodies);
@@ -94,8 +95,17 @@ void EliminationOrder::build_graph(int world) {
 }
 
 std::size_t EliminationOrder::priority(int body) const {
-  const std::size_t degree = graph_[index(body)].size();
-  return joint_rows_[index(body)] > kMaxRows ? index(world_) + 1 + degree : degree;
+  const std::vector<int>& neighbours = graph_[index(body)];
+  std::size_t degree = neighbours.size();
+  if (joint_rows_[index(body)] > kMaxRows) {
+    // Past the closed form of one joint the world costs nothing: a bridge starts at its ends.
+    if (!neighbours.empty() && neighbours.back() == world_) --degree;
+    degree += index(world_) + 1;
+  }
+  // Nothing but the rows of a body to factor, as long as no neighbour has left anything on it: of a
+  // stack the balls go before the plates between them. In a grid this would only scatter the order.
+  const bool bare = neighbours.size() <= 2 && !reached_[index(body)];
+  return 2 * degree + (bare ? 0 : 1);
 }
 
 void EliminationOrder::enqueue(int body) {
@@ -116,7 +126,8 @@ void EliminationOrder::dequeue(int body) {
 
 void EliminationOrder::eliminate(int world) {
   const std::size_t bodies = index(world);
-  first_.assign(2 * bodies + 4, kNone);
+  first_.assign(4 * bodies + 8, kNone);
+  reached_.assign(bodies, false);
   next_.resize(bodies);
   previous_.resize(bodies);
   priority_.resize(bodies);
@@ -150,6 +161,7 @@ void EliminationOrder::eliminate(int world) {
       for (const int i : merged_) {
         if (i != body && i != other) list.push_back(i);
       }
+      reached_[index(other)] = true;
       enqueue(other);
       least = std::min(least, priority_[index(other)]);
     }

@@ -11,7 +11,9 @@ namespace substep {
 /// The order in which bodies are eliminated: of least degree first. Two bodies are neighbours if a
 /// constraint joins them, and all neighbours of a body that is eliminated become neighbours of each
 /// other. A tree of joints comes out from the leaves to the root without fill: the world counts as
-/// a neighbour that stays, so that a chain starts at its free end.
+/// a neighbour that stays, so that a chain starts at its free end. Bodies with more joints than one
+/// come last. Among equals of at most two neighbours those go first that no neighbour has left
+/// anything on.
 ///
 /// The order depends on the pairs of bodies alone, not on how many points they touch in, and is
 /// found anew only when a pair comes or goes.
@@ -57,6 +59,7 @@ class EliminationOrder {
   std::vector<int> next_;   // per body
   std::vector<int> previous_;
   std::vector<std::size_t> priority_;
+  std::vector<char> reached_;  // per body: a neighbour of it has been eliminated
   std::vector<int> order_;
   std::vector<int> position_;
 };

@@ -48,8 +48,20 @@ Motion motion_of(int body, std::span<const Vec6> u, double dt) {
 void Newton::reserve(std::size_t bodies, std::size_t blocks) {
   linear_.reserve(bodies, blocks);
   rows_.reserve(blocks);
+  back_.reserve(blocks);
   before_.reserve(blocks);
   K_.reserve(bodies, 2 * blocks);
+}
+
+void Newton::copy_rows(const System& system, Forces forces) {
+  rows_.assign(system.blocks.begin(), system.blocks.end());
+  if (forces == Forces::kEnd) return;
+  back_.assign(system.blocks.begin(), system.blocks.end());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Block& start = system.blocks[i];
+    move_rows(start, motion_of(start.a, system.u_before, -system.dt),
+              motion_of(start.b, system.u_before, -system.dt), back_[i]);
+  }
 }
 
 // Linearised about the iterate u:
@@ -80,9 +92,7 @@ void Newton::relinearise(const System& system, Forces forces) {
 void Newton::average(const System& system, std::size_t index, double w, bool numerov) {
   const Block& start = system.blocks[index];
   Block& end = rows_[index];
-  Block back;
-  move_rows(start, motion_of(start.a, system.u_before, -system.dt),
-            motion_of(start.b, system.u_before, -system.dt), back);
+  const Block& back = back_[index];
   if (numerov && !start.is_contact()) {
     Block gained = end;
     gained.pinned = false;  // no linear part is left in the difference
@@ -96,8 +106,9 @@ void Newton::average(const System& system, std::size_t index, double w, bool num
     }
     apply_impulse(gained, gain, system.inverse_mass, aim_);
   }
+  const int first = start.pinned ? 3 : 0;  // the linear part of a joint is constant
   for (int row = 0; row < start.rows; ++row) {
-    for (int j = 0; j < 6; ++j) {
+    for (int j = first; j < 6; ++j) {
       end.J_a[row][j] =
           w * (back.J_a[row][j] + end.J_a[row][j]) + (1.0 - 2.0 * w) * start.J_a[row][j];
       end.J_b[row][j] =
@@ -135,7 +146,7 @@ void Newton::stiffen(const System& system, Forces forces) {
   }
   for (std::size_t i = 0; i < u_.size(); ++i) {
     const auto body = static_cast<int>(i);
-    const Mat3 K = resisting(K_.block(body, body).bottomRightCorner<3, 3>());
+    const Mat3 K = resisting(K_.angular(body));
     const Mat3& W = system.inverse_mass[i].angular;
     const Mat3 A = (Mat3::Identity() + W * K).inverse();
     const Mat3 Mt = A * W;
@@ -163,7 +174,7 @@ SolveReport Newton::solve(const System& system, const Settings& settings) {
   u_star_.assign(system.u.begin(), system.u.end());
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());
-  rows_.resize(system.blocks.size());
+  copy_rows(system, settings.forces);
   before_.resize(system.blocks.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     std::copy(system.blocks[i].impulse, system.blocks[i].impulse + kMaxRows, before_[i].row);

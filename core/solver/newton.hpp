@@ -31,6 +31,7 @@ class Newton final : public Solver {
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
+  void copy_rows(const System& system, Forces forces);
   void relinearise(const System& system, Forces forces);
   void average(const System& system, std::size_t block, double weight, bool numerov);
   void straighten_turns(const System& system);
@@ -40,7 +41,7 @@ class Newton final : public Solver {
 
   // The linear system of a step.
   Bpp linear_;
-  std::vector<Block> rows_;
+  std::vector<Block> rows_;  // the blocks at the end of the sub-step
   std::vector<InverseMass> inverse_mass_;
   std::vector<Vec6> u_;
 
@@ -50,6 +51,7 @@ class Newton final : public Solver {
     double row[kMaxRows];
   };
   std::vector<Impulse> before_;  // per block: of the last sub-step, for the time of this one
+  std::vector<Block> back_;      // the blocks at the poses of the last sub-step
   StiffnessMatrix K_;
 };
 

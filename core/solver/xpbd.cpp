@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/constraints/moved_rows.hpp"
 #include "core/math/turn.hpp"
 #include "core/solver/flops.hpp"
 
@@ -45,22 +44,22 @@ std::int64_t correction_flops(const Block& block, int count) {
 
 }  // namespace
 
-void Xpbd::reserve(std::size_t /*bodies*/, std::size_t /*blocks*/) {}
+void Xpbd::reserve(std::size_t /*bodies*/, std::size_t blocks) { moved_.reserve(blocks); }
 
 // The error e of the rows, its length c and direction d; the impulse p along d changes it by
 //   dt (w + softness) p,   w = g M^-1 g^T,   g = d^T J,
 // so p = -(c/dt + softness d . impulse) / (w + softness).
-void Xpbd::correct(const System& system, Block& block, Rows rows, double bound) {
+void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange rows, double bound) {
   Vec6* u_a = block.a < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.a)];
   Vec6* u_b = block.b < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.b)];
   move_rows(block, u_a ? motion(*u_a, system.dt) : Motion{},
-            u_b ? motion(*u_b, system.dt) : Motion{}, moved_);
+            u_b ? motion(*u_b, system.dt) : Motion{}, moved, rows);
 
   double direction[kMaxRows] = {1.0};
   double speed = 0.0;  // the error by dt; signed for a single row
   for (int i = 0; i < rows.count; ++i) {
     const int row = rows.first + i;
-    const double e = block.bias[row] + moved_.phi[row] / system.dt;
+    const double e = block.bias[row] + moved.phi[row] / system.dt;
     if (rows.count == 1) {
       speed = e;
     } else {
@@ -81,12 +80,12 @@ void Xpbd::correct(const System& system, Block& block, Rows rows, double bound) 
   Vec6 du_a = Vec6::Zero();
   Vec6 du_b = Vec6::Zero();
   if (u_a) {
-    const Vec6 g = gradient(moved_.J_a, rows.first, rows.count, direction);
+    const Vec6 g = gradient(moved.J_a, rows.first, rows.count, direction);
     du_a = response(system.inverse_mass[static_cast<std::size_t>(block.a)], g);
     w += g.dot(du_a);
   }
   if (u_b) {
-    const Vec6 g = gradient(moved_.J_b, rows.first, rows.count, direction);
+    const Vec6 g = gradient(moved.J_b, rows.first, rows.count, direction);
     du_b = response(system.inverse_mass[static_cast<std::size_t>(block.b)], g);
     w += g.dot(du_b);
   }
@@ -95,6 +94,7 @@ void Xpbd::correct(const System& system, Block& block, Rows rows, double bound) 
     const double lowest = rows.first == 0 ? 0.0 : -bound;
     p = std::min(bound, std::max(lowest, along + p)) - along;
   }
+  if (p == 0.0) return;
   for (int i = 0; i < rows.count; ++i) block.impulse[rows.first + i] += p * direction[i];
   if (u_a) push(p * du_a, system.dt, *u_a);
   if (u_b) push(p * du_b, system.dt, *u_b);
@@ -104,23 +104,25 @@ SolveReport Xpbd::solve(const System& system, const Settings& settings) {
   SolveReport report;
   report.iterations = settings.iterations;
   for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
+  moved_.assign(system.blocks.begin(), system.blocks.end());
+  const auto visit = [&](std::size_t i, RowRange rows, double bound = kUnbounded) {
+    correct(system, system.blocks[i], moved_[i], rows, bound);
+    report.row_updates += rows.count;
+    report.flops += correction_flops(system.blocks[i], rows.count);
+  };
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
-    for (Block& block : system.blocks) {
-      report.row_updates += block.rows;
+    for (std::size_t i = 0; i < moved_.size(); ++i) {
+      const Block& block = system.blocks[i];
       if (block.is_contact()) {
-        correct(system, block, {0, 1});
-        report.flops += correction_flops(block, 1) * block.rows;
+        visit(i, {0, 1});
         for (int row = 1; row < block.rows; ++row) {
-          correct(system, block, {row, 1}, block.mu * block.impulse[0]);
+          const double bound = block.mu * block.impulse[0];
+          if (bound > 0.0 || block.impulse[row] != 0.0) visit(i, {row, 1}, bound);
         }
         continue;
       }
-      correct(system, block, {0, 3});
-      report.flops += correction_flops(block, 3);
-      if (block.kind == BlockKind::kHinge) {
-        correct(system, block, {3, 2});
-        report.flops += correction_flops(block, 2);
-      }
+      visit(i, {0, 3});
+      if (block.kind == BlockKind::kHinge) visit(i, {3, 2});
     }
   }
   return report;

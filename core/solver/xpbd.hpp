@@ -1,5 +1,8 @@
 #pragma once
 
+#include <vector>
+
+#include "core/constraints/moved_rows.hpp"
 #include "core/solver/solver.hpp"
 
 namespace substep {
@@ -19,15 +22,13 @@ class Xpbd final : public Solver {
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
-  struct Rows {
-    int first = 0;
-    int count = 1;
-  };
   /// Sets the error of some rows of a block right, with one impulse along it.
+  /// @param moved the block at the poses of an earlier visit
   /// @param bound on the impulse of a single row, symmetric: friction; unbounded else
-  void correct(const System& system, Block& block, Rows rows, double bound = kUnbounded);
+  static void correct(const System& system, Block& block, Block& moved, RowRange rows,
+                      double bound = kUnbounded);
 
-  Block moved_;  // the block at the present poses
+  std::vector<Block> moved_;  // the blocks at the poses of their last visits
 };
 
 }  // namespace substep

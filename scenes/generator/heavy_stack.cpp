@@ -46,8 +46,8 @@ Scene heavy_stack(const HeavyStackOptions& options) {
   scene.effects = {.gravity = true, .contact = true};
   scene.contact.compliance = options.compliance;
   scene.settings.alpha = options.alpha;
-  scene.camera.eye = {3.2, 0.5 * height + 1.8, 4.6 + height};
-  scene.camera.target = {0.0, 0.5 * (height + 1.0), 0.0};
+  scene.camera.eye = {3.2, 0.5 * height + 1.8, 4.4 + 1.4 * height};
+  scene.camera.target = {0.0, 0.54 * (height + 1.0), 0.0};
   if (options.stress) {
     scene.name = "heavy_stack_stress";
     scene.title = "Heavy stack, stress";

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <utility>
 #include <variant>
@@ -151,26 +153,44 @@ Scene moved(const scenes::HeavyStackOptions& options, double by, std::uint64_t s
   return scene;
 }
 
-// Rigid contacts, balls up to 5 mm off: four sub-steps a frame, six for ten layers. Fewer fall,
-// with no compliance at all about as soon.
-TEST(HeavyStackMoved, FourSubstepsStandAMinute) {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Scene scene = moved({.compliance = 1e-13}, 0.005, seed);
-    const Outcome r = run(scene, with(Mode::kConst, 0.1, 4), 60.0);
-    EXPECT_TRUE(r.holds) << seed << ": " << r.verdict;
-    EXPECT_LT((r.track.back() - r.track.front()).norm(), 0.002) << seed;
+// Rigid contacts, balls up to 5 mm off: one sub-step a frame stands, two for ten layers.
+TEST(HeavyStackMoved, OneSubstepStandsAMinute) {
+  for (const double compliance : {0.0, 1e-13}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      const Scene scene = moved({.compliance = compliance}, 0.005, seed);
+      const Outcome r = run(scene, with(Mode::kNone), 60.0);
+      EXPECT_TRUE(r.holds) << seed << ": " << r.verdict;
+      EXPECT_LT((r.track.back() - r.track.front()).norm(), 0.001) << seed;
+    }
   }
-  EXPECT_FALSE(run(moved({.compliance = 1e-13}, 0.005, 1), with(Mode::kConst, 0.1, 3), 60.0).holds);
+  EXPECT_FALSE(run(moved({.compliance = 1e-10}, 0.005, 1), with(Mode::kNone), 60.0).holds);
 }
 
-TEST(HeavyStackTallMoved, SixSubstepsStandAMinute) {
+TEST(HeavyStackTallMoved, TwoSubstepsStandAMinute) {
   const scenes::HeavyStackOptions tall{.layers = 10, .top_mass = 20000.0, .compliance = 1e-13};
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-    const Outcome r = run(moved(tall, 0.005, seed), with(Mode::kConst, 0.1, 6), 60.0);
+    const Outcome r = run(moved(tall, 0.005, seed), with(Mode::kConst, 0.1, 2), 60.0);
     EXPECT_TRUE(r.holds) << seed << ": " << r.verdict;
-    EXPECT_LT((r.track.back() - r.track.front()).norm(), 0.002) << seed;
+    EXPECT_LT((r.track.back() - r.track.front()).norm(), 0.001) << seed;
   }
-  EXPECT_FALSE(run(moved(tall, 0.005, 1), with(Mode::kConst, 0.1, 4), 60.0).holds);
+  const Outcome one = run(moved(tall, 0.005, 1), with(Mode::kNone), 60.0);
+  EXPECT_FALSE(one.holds);
+  EXPECT_GT(one.failed_at, 20.0);
+}
+
+// Every direction but the vertical comes from rounding alone in a symmetric stack. A plate that is
+// eliminated while a ball still stands between it and the next one leaves that ball's rows nearly
+// redundant: they are softened, and the noise is 6e-6 m/s.
+TEST(HeavyStack, StaysSymmetric) {
+  for (const Scene& scene : {scenes::heavy_stack(), scenes::heavy_stack_tall()}) {
+    Simulator simulator = simulator_of(scene, with(Mode::kNone));
+    ASSERT_EQ(simulator.step().status, StepStatus::kOk);
+    double sideways = 0.0;
+    for (const Vec6& u : simulator.state().u) {
+      sideways = std::max({sideways, std::abs(u[0]), std::abs(u[2]), u.tail<3>().norm()});
+    }
+    EXPECT_LT(sideways, 1e-12) << scene.name;
+  }
 }
 
 TEST(HeavyStackStress, WithoutTheProbeItFallsAtOnce) {

@@ -36,6 +36,38 @@ TEST(EliminationOrder, AChainGoesFromItsFreeEndToTheWorldWithoutFill) {
   EXPECT_EQ(order.position(29), -1);
 }
 
+TEST(EliminationOrder, AChainBetweenTwoAnchorsGoesFromItsEndsWithoutFill) {
+  constexpr int kPlanks = 20;
+  std::vector<Block> blocks;
+  for (int i = 0; i <= kPlanks; ++i) {
+    for (int side = 0; side < 2; ++side) blocks.push_back(between(i < kPlanks ? i : -1, i - 1));
+  }
+  EliminationOrder order;
+  order.update(blocks, kPlanks);
+  for (int i = 0; i < kPlanks; ++i) EXPECT_LE(order.coupled(i).size(), 1U) << i;
+}
+
+// Layers of four balls and a plate: body 5 k + 4 is the plate of layer k.
+TEST(EliminationOrder, BallsGoBeforeThePlatesBetweenThem) {
+  constexpr int kLayers = 5;
+  std::vector<Block> blocks;
+  for (int layer = 0; layer < kLayers; ++layer) {
+    const int plate = 5 * layer + 4;
+    for (int ball = plate - 4; ball < plate; ++ball) {
+      blocks.push_back(between(ball, layer == 0 ? -1 : plate - 5, BlockKind::kContact));
+      blocks.push_back(between(ball, plate, BlockKind::kContact));
+    }
+  }
+  EliminationOrder order;
+  order.update(blocks, 5 * kLayers);
+  for (int body = 0; body < 5 * kLayers; ++body) {
+    const int layer = body / 5;
+    const bool plate = body % 5 == 4;
+    for (const int later : order.coupled(body)) EXPECT_EQ(later % 5, 4) << body << " before a ball";
+    EXPECT_LE(order.coupled(body).size(), plate || layer == 0 ? 1U : 2U) << body;
+  }
+}
+
 TEST(EliminationOrder, MoreContactPointsOfAPairLeaveItAsItIs) {
   std::vector<Block> blocks{between(0, 1), between(1, 2, BlockKind::kContact)};
   EliminationOrder order;

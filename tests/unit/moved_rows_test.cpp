@@ -42,7 +42,7 @@ Difference after(const Scene& scene, State state, const Rows& rows, double dt) {
     const Block& from = start.all()[i];
     const Block& expected = end.all()[i];
     EXPECT_EQ(from.id, expected.id);
-    Block block;
+    Block block = from;
     const auto of = [&](int body) {
       return body < 0 ? Motion{} : motion(u[static_cast<std::size_t>(body)], dt);
     };
@@ -99,6 +99,40 @@ TEST(MovedRows, OfJointsAreThoseOfTheEnd) {
     const Difference difference = after(scene, state, joint_rows(scene), 0.5);
     EXPECT_LT(difference.phi, 1e-13);
     EXPECT_LT(difference.J, 1e-13);
+  }
+}
+
+TEST(MovedRows, SomeRowsAreThoseOfAll) {
+  Random random(36);
+  for (int trial = 0; trial < 40; ++trial) {
+    Block start;
+    const int kind = trial % 3;
+    start.kind = kind == 0 ? BlockKind::kBall : kind == 1 ? BlockKind::kHinge : BlockKind::kContact;
+    start.pinned = kind < 2;
+    start.rows = kind == 1 ? 5 : 3;
+    for (Vec3* v : {&start.n, &start.t1, &start.t2, &start.rho, &start.r_a, &start.r_b,
+                    &start.arm_a, &start.axis, &start.v1, &start.v2}) {
+      *v = random_vector(random).normalized();
+    }
+    const Motion a{random_vector(random), random_vector(random)};
+    const Motion b{random_vector(random), random_vector(random)};
+    Block all = start;
+    move_rows(start, a, b, all);
+    const std::vector<RowRange> parts = kind == 0   ? std::vector<RowRange>{{0, 3}}
+                                        : kind == 1 ? std::vector<RowRange>{{0, 3}, {3, 2}}
+                                                    : std::vector<RowRange>{{0, 1}, {1, 1}, {2, 1}};
+    Block some = start;
+    move_rows(start, b, a, some);  // somewhere else, before
+    for (const RowRange& rows : parts) {
+      move_rows(start, a, b, some, rows);
+      for (int row = rows.first; row < rows.first + rows.count; ++row) {
+        EXPECT_EQ(some.phi[row], all.phi[row]) << trial << ", " << row;
+        for (int j = start.pinned ? 3 : 0; j < 6; ++j) {
+          EXPECT_EQ(some.J_a[row][j], all.J_a[row][j]) << trial << ", " << row;
+          EXPECT_EQ(some.J_b[row][j], all.J_b[row][j]) << trial << ", " << row;
+        }
+      }
+    }
   }
 }
 
@@ -159,7 +193,7 @@ TEST(MovedRows, OfFrictionCountTheWaySlid) {
     State end = state;
     integrate(scene, whole(scene), dt, end);
     for (const Block& start : blocks.all()) {
-      Block block;
+      Block block = start;
       ASSERT_EQ(start.a, 0);
       move_rows(start, motion(state.u[0], dt), Motion{}, block);
       const Vec3 r_end = end.q[0] * (state.q[0].conjugate() * start.r_a);

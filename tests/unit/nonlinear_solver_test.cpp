@@ -80,7 +80,7 @@ double error_at_end(Chain& chain) {
     return body < 0 ? Motion{} : motion(chain.state.u[static_cast<std::size_t>(body)], chain.dt);
   };
   for (const Block& start : chain.blocks.all()) {
-    Block end;
+    Block end = start;
     move_rows(start, move(start.a), move(start.b), end);
     for (int row = 0; row < start.rows; ++row) {
       worst = std::max(worst, std::abs(start.bias[row] + end.phi[row] / chain.dt +
@@ -103,8 +103,8 @@ double error_of_impulses(Chain& chain, const std::vector<Vec6>& u_star, Forces f
   };
   const double w = forces == Forces::kEnd ? 1.0 : 0.25;
   for (const Block& start : chain.blocks.all()) {
-    Block end;
-    Block back;
+    Block end = start;
+    Block back = start;
     move_rows(start, move(start.a, chain.state.u, chain.dt), move(start.b, chain.state.u, chain.dt),
               end);
     move_rows(start, move(start.a, chain.u_before, -chain.dt),

@@ -30,6 +30,19 @@ void inverse_of(const Matrix& W, double (&out)[3][3]) {
 template <int N>
 using Known = std::integral_constant<int, N>;
 
+/// Calls with a number of rows: as one that the compiler knows where there are few, as of a body
+/// between two contact points.
+void with_known(int rows, const auto& call) {
+  switch (rows) {
+    case 1:
+      return call(Known<1>{});
+    case 2:
+      return call(Known<2>{});
+    default:
+      return call(rows);
+  }
+}
+
 /// y -= f x.
 inline void subtract_row(const double* __restrict x, double f, auto n, double* __restrict y) {
   for (int j = 0; j < n; ++j) y[j] -= f * x[j];

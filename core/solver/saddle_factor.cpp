@@ -31,40 +31,29 @@ Square6& SaddleLdlt::square(std::size_t at) {
   return *reinterpret_cast<Square6*>(values_.data() + at);
 }
 
-SaddleLdlt::Factor SaddleLdlt::at(const Node& node) {
-  const std::size_t w = index(width(node));
-  const std::size_t r = index(node.most_rows);
-  Factor f;
-  f.A = values_.data() + node.values;
-  f.A_inverse = f.A + 36;
-  f.Y = f.A_inverse + 6;
-  f.V = f.Y + 6 * w;
-  f.S = f.V + 6 * r;
-  f.S_inverse = f.S + r * r;
-  f.Z = f.S_inverse + r;
-  return f;
+void SaddleLdlt::count(Node& node) {
+  if (node.folds || node.n_rows != node.counted_rows) count_anew(node);
+  flops_ += node.factor_flops;
 }
 
-void SaddleLdlt::count(Node& node) {
+void SaddleLdlt::count_anew(Node& node) const {
   const std::int64_t n = width(node);
   const std::int64_t rows = node.n_rows;
-  for (std::size_t c = 0; c < node.n_children; ++c) {
-    const std::int64_t handed = width(nodes_[index(children_[node.first_child + c])]);
-    flops_ += handed * (handed + 6) / 2;
-  }
+  node.counted_rows = node.n_rows;
+  node.factor_flops = node.handed_flops;
   if (node.way == Way::kArticulated) {
     const Attached& attached = attached_[node.first_attached];
-    flops_ += ArticulatedJoint::factor_flops(keys_[index(attached.block)].rows);
+    node.factor_flops += ArticulatedJoint::factor_flops(keys_[index(attached.block)].rows);
     node.solve_flops = ArticulatedJoint::solve_flops(keys_[index(attached.block)].rows);
     return;
   }
   // Zero blocks of a bare node are counted as if they were filled: sizes alone are looked at.
   const std::int64_t gram = n * (n + 6);  // of one row of Y or Z: two flops on half a square
   const std::int64_t to_general = node.way == Way::kGeneral ? 1 : 0;
-  flops_ += to_general * (ldlt_flops(6) + unit_triangle_flops(6, n + rows) + 6 * gram +
-                          product_flops(rows, 6, n) + node.springs.factor) +
-            product_flops(rows, 6, rows + 6) / 2 + ldlt_flops(rows) + unit_triangle_flops(rows, n) +
-            rows * gram;
+  node.factor_flops += to_general * (ldlt_flops(6) + unit_triangle_flops(6, n + rows) + 6 * gram +
+                                     product_flops(rows, 6, n) + node.springs.factor) +
+                       product_flops(rows, 6, rows + 6) / 2 + ldlt_flops(rows) +
+                       unit_triangle_flops(rows, n) + rows * gram;
   node.solve_flops =
       node.springs.solve + 2 * (unit_triangle_flops(6) + unit_triangle_flops(rows) +
                                 product_flops(rows, 6, 2) + product_flops(rows + 6, n, 1));
@@ -102,8 +91,10 @@ void SaddleLdlt::add_left(const Node& child, int s, int t, double* to, auto stri
     const Factor f = at(child);
     const int* first = first_filled_.data() + child.first_coupled;
     const int row = std::max(first[s], first[t]);
-    return add_gram_block<on_diagonal>(f.Z + row * m + 6 * s, f.Z + row * m + 6 * t,
-                                       f.S_inverse + row, child.n_rows - row, 1.0, m, to, stride);
+    return with_known(child.n_rows - row, [&](auto rows) {
+      add_gram_block<on_diagonal>(f.Z + row * m + 6 * s, f.Z + row * m + 6 * t, f.S_inverse + row,
+                                  rows, 1.0, m, to, stride);
+    });
   }
   const double* from = values_.data() + child.update + 6 * s * m + 6 * t;
   for (int i = 0; i < 6; ++i) {
@@ -183,7 +174,10 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
 
 void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
   gather_rows(node, blocks);
-  const int rows = node.n_rows;
+  with_known(node.n_rows, [&](auto rows) { factor_bare(node, blocks, rows); });
+}
+
+void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto rows) {
   const int n = width(node);
   const Factor f = at(node);
   int* first = first_filled_.data() + node.first_coupled;

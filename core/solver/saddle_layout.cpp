@@ -30,7 +30,6 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   constexpr std::size_t kWidth = 6 * kCoupled;
   order_.reserve(bodies, blocks);
   keys_.reserve(blocks);
-  found_.reserve(blocks);
   nodes_.reserve(bodies);
   node_of_block_.reserve(blocks);
   attached_.reserve(blocks);
@@ -104,11 +103,16 @@ void SaddleLdlt::read_rows(const Node& node, std::span<const Block> blocks) {
 }
 
 bool SaddleLdlt::layout_is_the_same(const System& system) {
-  found_.clear();
-  for (const Block& block : system.blocks) found_.push_back({block.a, block.b, block.rows});
-  const bool other_graph = order_.update(system.blocks, system.u.size());
-  if (other_graph || found_ != keys_) {
-    std::swap(found_, keys_);
+  const auto key_of = [](const Block& block) {
+    return Key{block.a, block.b, block.rows, block.is_contact()};
+  };
+  const auto has_key = [&](const Block& block, const Key& key) { return key_of(block) == key; };
+  if (bodies_ != system.u.size() || !std::equal(system.blocks.begin(), system.blocks.end(),
+                                                keys_.begin(), keys_.end(), has_key)) {
+    bodies_ = system.u.size();
+    keys_.clear();
+    for (const Block& block : system.blocks) keys_.push_back(key_of(block));
+    order_.update(system.blocks, bodies_);
     return false;
   }
   for (const Node& node : nodes_) {
@@ -135,7 +139,7 @@ void SaddleLdlt::lay_out(const System& system) {
   }
   // What a node leaves goes to the first of its coupled bodies, and with it to its coupled bodies.
   place_.resize(coupled_.size());
-  first_filled_.resize(coupled_.size());
+  first_filled_.assign(coupled_.size(), 0);
   for (const Node& node : nodes_) {
     if (node.parent < 0) continue;
     Node& parent = nodes_[index(node.parent)];
@@ -160,6 +164,8 @@ void SaddleLdlt::lay_out(const System& system) {
     if (nodes_[i].parent < 0) continue;
     Node& parent = nodes_[index(nodes_[i].parent)];
     children_[parent.first_child + parent.n_children++] = static_cast<int>(i);
+    const std::int64_t handed = width(nodes_[i]);
+    parent.handed_flops += handed * (handed + 6) / 2;
   }
 
   attach(system.blocks);
@@ -235,6 +241,7 @@ void SaddleLdlt::choose_way(Node& node, const System& system) {
     attached[k].foldable = foldable(block, system);
     attached[k].folded = node.way == Way::kGeneral && attached[k].foldable;
     if (!attached[k].folded) node.most_rows += block.rows;
+    node.folds = node.folds || attached[k].folded;
   }
 }
 

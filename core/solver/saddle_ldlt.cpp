@@ -98,17 +98,25 @@ void SaddleLdlt::forward(const Node& node) {
     }
   }
   if (node.n_rows == 0) return;
+  with_known(node.n_rows, [&](auto rows) { forward_rows(node, f, rows, weighted); });
+}
+
+void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows,
+                              const double* weighted) {
+  const int n = width(node);
+  const int* coupled = coupled_.data() + node.first_coupled;
+  const int* first = first_filled_.data() + node.first_coupled;
   double* c = c_.data() + node.first_row;
-  for (int i = 0; i < node.n_rows; ++i) {
+  for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
     const int block = attached_[node.first_attached + index(row.attached)].block;
     c[i] = w_[index(block) * kMaxRows + index(row.row)] + dot6(f.V + 6 * i, weighted);
   }
-  solve_lower(f.S, node.n_rows, Known<1>{}, c);
-  for (int i = 0; i < node.n_rows; ++i) {
+  solve_lower(f.S, rows, Known<1>{}, c);
+  for (int i = 0; i < rows; ++i) {
     const double k = f.S_inverse[i] * c[i];
     for (int s = 0; s < node.coupled; ++s) {
-      subtract6(f.Z + i * n + 6 * s, k, v_[index(coupled[s])].data());
+      if (i >= first[s]) subtract6(f.Z + i * n + 6 * s, k, v_[index(coupled[s])].data());
     }
   }
 }
@@ -121,24 +129,16 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
     return joints_[node.joint].backward(node.parent < 0 ? nullptr : velocity(node.parent), v,
                                         blocks[index(block)].impulse);
   }
-  const int n = width(node);
   const Factor f = at(node);
-  double* x = c_.data() + node.first_row;
-  for (int i = 0; i < node.n_rows; ++i) {
-    double sum = x[i];
-    for (int s = 0; s < node.coupled; ++s) {
-      sum += dot6(f.Z + i * n + 6 * s, v_[index(coupled[s])].data());
-    }
-    x[i] = -(f.S_inverse[i] * sum);
-  }
-  solve_upper(f.S, node.n_rows, x);
   double change[6];  // D^-1 L^-1 (g + J^T x - B p), then of the velocity
   if (node.way == Way::kBare) {
     weigh(inverse_mass_[index(node.body)], v, change);
-    for (int i = 0; i < node.n_rows; ++i) subtract6(f.V + 6 * i, -x[i], change);
   } else {
     std::copy(v, v + 6, change);
-    for (int i = 0; i < node.n_rows; ++i) subtract6(f.V + 6 * i, -x[i], change);
+  }
+  with_known(node.n_rows, [&](auto rows) { backward_rows(node, f, rows, blocks, change); });
+  if (node.way == Way::kGeneral) {
+    const int n = width(node);
     for (int s = 0; s < node.coupled; ++s) {
       const double* p = v_[index(coupled[s])].data();
       for (int j = 0; j < 6; ++j) change[j] -= dot6(f.Y + j * n + 6 * s, p);
@@ -147,7 +147,24 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
     solve_upper(f.A, Known<6>{}, change);
   }
   std::copy(change, change + 6, v);
-  for (int i = 0; i < node.n_rows; ++i) {
+}
+
+void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows,
+                               std::span<Block> blocks, double* change) {
+  const int n = width(node);
+  const int* coupled = coupled_.data() + node.first_coupled;
+  const int* first = first_filled_.data() + node.first_coupled;
+  double* x = c_.data() + node.first_row;
+  for (int i = 0; i < rows; ++i) {
+    double sum = x[i];
+    for (int s = 0; s < node.coupled; ++s) {
+      if (i >= first[s]) sum += dot6(f.Z + i * n + 6 * s, v_[index(coupled[s])].data());
+    }
+    x[i] = -(f.S_inverse[i] * sum);
+  }
+  solve_upper(f.S, rows, x);
+  for (int i = 0; i < rows; ++i) subtract6(f.V + 6 * i, -x[i], change);
+  for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
     const int block = attached_[node.first_attached + index(row.attached)].block;
     blocks[index(block)].impulse[row.row] = x[i];

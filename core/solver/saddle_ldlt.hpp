@@ -70,7 +70,11 @@ class SaddleLdlt {
     std::size_t first_row = 0;  // into rows_ and c_
     int n_rows = 0;             // free and not folded
     int most_rows = 0;
+    bool folds = false;  // some of its rows
     SpringFlops springs;
+    int counted_rows = -1;  // what follows is for so many; with folded rows it changes with them
+    std::int64_t handed_flops = 0;  // to add what the children leave
+    std::int64_t factor_flops = 0;
     std::int64_t solve_flops = 0;
     std::size_t joint = 0;   // into joints_, of an articulated node
     std::size_t values = 0;  // into values_
@@ -82,6 +86,7 @@ class SaddleLdlt {
   };
   struct Key {  // what the layout depends on
     int a, b, rows;
+    bool contact;
     friend bool operator==(const Key&, const Key&) = default;
   };
   /// The factor of a node, row-major.
@@ -96,7 +101,19 @@ class SaddleLdlt {
   };
 
   [[nodiscard]] static int width(const Node& node) { return 6 * node.coupled; }
-  [[nodiscard]] Factor at(const Node& node);
+  [[nodiscard]] Factor at(const Node& node) {
+    const auto w = static_cast<std::size_t>(width(node));
+    const auto r = static_cast<std::size_t>(node.most_rows);
+    Factor f;
+    f.A = values_.data() + node.values;
+    f.A_inverse = f.A + 36;
+    f.Y = f.A_inverse + 6;
+    f.V = f.Y + 6 * w;
+    f.S = f.V + 6 * r;
+    f.S_inverse = f.S + r * r;
+    f.Z = f.S_inverse + r;
+    return f;
+  }
   [[nodiscard]] Square6& square(std::size_t at);
   [[nodiscard]] bool foldable(const Block& block, const System& system) const;
   void read_rows(const Node& node, std::span<const Block> blocks);
@@ -107,8 +124,10 @@ class SaddleLdlt {
 
   void factor_node(Node& node, std::span<const Block> blocks);
   void count(Node& node);
+  void count_anew(Node& node) const;
   void factor_articulated(Node& node);
   void factor_bare(Node& node, std::span<const Block> blocks);
+  void factor_bare(Node& node, std::span<const Block> blocks, auto rows);
   void factor_general(Node& node, std::span<const Block> blocks);
   void factor_general(Node& node, std::span<const Block> blocks, auto n);
   void gather_rows(Node& node, std::span<const Block> blocks);
@@ -123,18 +142,23 @@ class SaddleLdlt {
   [[nodiscard]] double* momentum(int node);
   [[nodiscard]] const double* velocity(int node) const;
   void forward(const Node& node);
+  /// @param weighted D^-1 L^-1 g, bare: g
+  void forward_rows(const Node& node, const Factor& f, auto rows, const double* weighted);
   void backward(const Node& node, std::span<Block> blocks);
+  /// @param change in: g, bare: Mt^-1 g; out: with the pushes of the rows
+  void backward_rows(const Node& node, const Factor& f, auto rows, std::span<Block> blocks,
+                     double* change);
 
   EliminationOrder order_;
+  std::size_t bodies_ = 0;
   std::vector<Key> keys_;
-  std::vector<Key> found_;
   std::vector<Node> nodes_;
   std::vector<int> node_of_block_;
   std::vector<Attached> attached_;
   std::vector<int> coupled_;  // nodes
   std::vector<int> place_;    // beside coupled_: where the parent has it among its own, -1: itself
-  std::vector<int> first_filled_;  // beside coupled_, of bare nodes: the first row of Z with such a
-                                   // part that is not zero
+  std::vector<int> first_filled_;  // beside coupled_: the first row of Z with such a part that is
+                                   // not zero, as far as is known: of bare nodes
   std::vector<int> children_;      // nodes
   std::vector<Row> rows_;
   std::vector<ArticulatedJoint> joints_;

@@ -97,14 +97,16 @@ void EliminationOrder::build_graph(int world) {
 std::size_t EliminationOrder::priority(int body) const {
   const std::vector<int>& neighbours = graph_[index(body)];
   std::size_t degree = neighbours.size();
+  bool anchored = false;
   if (joint_rows_[index(body)] > kMaxRows) {
-    // Past the closed form of one joint the world costs nothing: a bridge starts at its ends.
-    if (!neighbours.empty() && neighbours.back() == world_) --degree;
-    degree += index(world_) + 1;
+    // Past the closed form of one joint the world costs nothing: a bridge starts at its ends. Of
+    // two ends a free one goes first: an anchored one has twice the rows.
+    anchored = !neighbours.empty() && neighbours.back() == world_;
+    degree += index(world_) + (anchored ? 0 : 1);
   }
   // Nothing but the rows of a body to factor, as long as no neighbour has left anything on it: of a
   // stack the balls go before the plates between them. In a grid this would only scatter the order.
-  const bool bare = neighbours.size() <= 2 && !reached_[index(body)];
+  const bool bare = neighbours.size() <= 2 && !anchored && !reached_[index(body)];
   return 2 * degree + (bare ? 0 : 1);
 }
 

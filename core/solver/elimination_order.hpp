@@ -15,8 +15,8 @@ namespace substep {
 /// come last. Among equals of at most two neighbours those go first that no neighbour has left
 /// anything on.
 ///
-/// The order depends on the pairs of bodies alone, not on how many points they touch in, and is
-/// found anew only when a pair comes or goes.
+/// The order depends on the pairs of bodies and the joints between them, not on how many points
+/// they touch in, and is found anew only when a pair or a joint comes or goes.
 class EliminationOrder {
  public:
   void reserve(std::size_t bodies, std::size_t blocks);

@@ -53,7 +53,7 @@ void Newton::reserve(std::size_t bodies, std::size_t blocks) {
   K_.reserve(bodies, 2 * blocks);
 }
 
-void Newton::copy_rows(const System& system, Forces forces) {
+void Newton::read_rows(const System& system, Forces forces) {
   rows_.assign(system.blocks.begin(), system.blocks.end());
   if (forces == Forces::kEnd) return;
   back_.assign(system.blocks.begin(), system.blocks.end());
@@ -174,7 +174,7 @@ SolveReport Newton::solve(const System& system, const Settings& settings) {
   u_star_.assign(system.u.begin(), system.u.end());
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());
-  copy_rows(system, settings.forces);
+  read_rows(system, settings.forces);
   before_.resize(system.blocks.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     std::copy(system.blocks[i].impulse, system.blocks[i].impulse + kMaxRows, before_[i].row);

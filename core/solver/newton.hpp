@@ -31,7 +31,7 @@ class Newton final : public Solver {
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
-  void copy_rows(const System& system, Forces forces);
+  void read_rows(const System& system, Forces forces);
   void relinearise(const System& system, Forces forces);
   void average(const System& system, std::size_t block, double weight, bool numerov);
   void straighten_turns(const System& system);

@@ -104,7 +104,7 @@ void SaddleLdlt::read_rows(const Node& node, std::span<const Block> blocks) {
 
 bool SaddleLdlt::layout_is_the_same(const System& system) {
   const auto key_of = [](const Block& block) {
-    return Key{block.a, block.b, block.rows, block.is_contact()};
+    return Key{block.a, block.b, block.rows, block.is_contact(), block.pinned};
   };
   const auto has_key = [&](const Block& block, const Key& key) { return key_of(block) == key; };
   if (bodies_ != system.u.size() || !std::equal(system.blocks.begin(), system.blocks.end(),

@@ -86,7 +86,7 @@ class SaddleLdlt {
   };
   struct Key {  // what the layout depends on
     int a, b, rows;
-    bool contact;
+    bool contact, pinned;
     friend bool operator==(const Key&, const Key&) = default;
   };
   /// The factor of a node, row-major.
@@ -145,7 +145,7 @@ class SaddleLdlt {
   /// @param weighted D^-1 L^-1 g, bare: g
   void forward_rows(const Node& node, const Factor& f, auto rows, const double* weighted);
   void backward(const Node& node, std::span<Block> blocks);
-  /// @param change in: g, bare: Mt^-1 g; out: with the pushes of the rows
+  /// @param change in: L^-1 g, bare: Mt^-1 g; out: with the pushes of the rows
   void backward_rows(const Node& node, const Factor& f, auto rows, std::span<Block> blocks,
                      double* change);
 

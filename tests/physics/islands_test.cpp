@@ -54,8 +54,8 @@ TEST(Islands, AConnectedSceneMovesAsWithoutThem) {
   }
 }
 
-/// Equal to the bit; with Newton to its own tolerance: what the probe solves together takes steps
-/// until the last of it has converged.
+/// Equal to the bit; with Newton to its own tolerance: what is solved together, by the probe or
+/// because it takes as many sub-steps, takes steps until the last of it has converged.
 void expect_same(const Vec6& alone, const Vec6& together, SolverKind solver) {
   if (solver != SolverKind::kNewton) {
     ASSERT_EQ(alone, together);

@@ -36,15 +36,31 @@ TEST(EliminationOrder, AChainGoesFromItsFreeEndToTheWorldWithoutFill) {
   EXPECT_EQ(order.position(29), -1);
 }
 
+// A bridge of pairs of ball joints, with a ball on it that goes first.
 TEST(EliminationOrder, AChainBetweenTwoAnchorsGoesFromItsEndsWithoutFill) {
   constexpr int kPlanks = 20;
+  constexpr int kBall = kPlanks;
   std::vector<Block> blocks;
   for (int i = 0; i <= kPlanks; ++i) {
     for (int side = 0; side < 2; ++side) blocks.push_back(between(i < kPlanks ? i : -1, i - 1));
   }
+  blocks.push_back(between(kBall, kPlanks / 2, BlockKind::kContact));
+  EliminationOrder order;
+  order.update(blocks, kPlanks + 1);
+  EXPECT_EQ(order.position(kBall), 0);
+  for (int i = 0; i < kPlanks; ++i) EXPECT_LE(order.coupled(i).size(), 1U) << i;
+}
+
+// The anchored end has the rows of two gaps, more than its body can move.
+TEST(EliminationOrder, APlankThatSticksOutGoesFromItsFreeEnd) {
+  constexpr int kPlanks = 20;
+  std::vector<Block> blocks;
+  for (int i = 0; i < kPlanks; ++i) {
+    for (int side = 0; side < 2; ++side) blocks.push_back(between(i, i - 1));
+  }
   EliminationOrder order;
   order.update(blocks, kPlanks);
-  for (int i = 0; i < kPlanks; ++i) EXPECT_LE(order.coupled(i).size(), 1U) << i;
+  for (int i = 0; i < kPlanks; ++i) EXPECT_EQ(order.position(i), kPlanks - 1 - i);
 }
 
 // Layers of four balls and a plate: body 5 k + 4 is the plate of layer k.

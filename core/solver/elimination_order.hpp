@@ -11,9 +11,10 @@ namespace substep {
 /// The order in which bodies are eliminated: of least degree first. Two bodies are neighbours if a
 /// constraint joins them, and all neighbours of a body that is eliminated become neighbours of each
 /// other. A tree of joints comes out from the leaves to the root without fill: the world counts as
-/// a neighbour that stays, so that a chain starts at its free end. Bodies with more joints than one
-/// come last. Among equals of at most two neighbours those go first that no neighbour has left
-/// anything on.
+/// a neighbour that stays, so that a chain starts at its free end. Bodies with more rows of joints
+/// than the closed form of one joint takes come last; of them the world is no neighbour, and one
+/// joined to it yields to a free one. Among equals of at most two neighbours those go first that
+/// no neighbour has left anything on.
 ///
 /// The order depends on the pairs of bodies and the joints between them, not on how many points
 /// they touch in, and is found anew only when a pair or a joint comes or goes.

@@ -31,6 +31,7 @@ class Newton final : public Solver {
   SolveReport solve(const System& system, const Settings& settings) override;
 
  private:
+  /// Into rows_, and into back_ where the forces are those of more poses than the end's.
   void read_rows(const System& system, Forces forces);
   void relinearise(const System& system, Forces forces);
   void average(const System& system, std::size_t block, double weight, bool numerov);

@@ -46,11 +46,14 @@ const std::vector<std::string>& whole_sweep() {
   return lines;
 }
 
-/// A build may lack the chart library on somebody's machine; where everything is tested it may not.
-void without_pictures() {
-  ASSERT_EQ(std::getenv("CI"), nullptr) << "no report: npm ci --prefix app/report is missing";
-  GTEST_SKIP() << "built without the chart library: npm ci --prefix app/report";
+/// Somebody's machine may lack what a test needs; where everything is tested it may not.
+void skip_without(const char* what) {
+  ASSERT_EQ(std::getenv("CI"), nullptr) << "missing: " << what;
+  GTEST_SKIP() << "missing: " << what;
 }
+
+constexpr const char* kCharts = "the chart library: npm ci --prefix app/report, then build";
+constexpr const char* kParallel = "GNU Parallel";
 
 TEST(SweepCommand, WritesOneResultALineAndAReport) {
   const fs::path out = fresh("sweep");
@@ -71,7 +74,7 @@ TEST(SweepCommand, WritesOneResultALineAndAReport) {
   }
   EXPECT_GE(series.size(), 12U);
   const std::string report = text_of(out / "report.html");
-  if (report.empty()) return without_pictures();
+  if (report.empty()) return skip_without(kCharts);
   EXPECT_EQ(report.find("<!doctype html>"), 0U);
   EXPECT_NE(report.find(*ids.begin()), std::string::npos);
   EXPECT_EQ(report.find("src=\"http"), std::string::npos) << "it opens without a network";
@@ -217,7 +220,7 @@ void follow(std::string recipe, const fs::path& out) {
 }
 
 TEST(SweepCommand, PartsRunSideBySideWithParallelMergeToTheWhole) {
-  if (!has_parallel()) GTEST_SKIP() << "no GNU Parallel";
+  if (!has_parallel()) return skip_without(kParallel);
   const fs::path out = fresh("parts");
   follow("parallel substep sweep SCENE --out OUT --jobs 1 --shard {}/4 ::: 1 2 3 4", out);
   EXPECT_TRUE(fs::exists(out / "results.3-of-4.jsonl"));
@@ -234,7 +237,7 @@ TEST(SweepCommand, PartsRunSideBySideWithXargsMergeToTheWhole) {
 
 // One experiment a line in, one result a line out, in whatever order.
 TEST(SweepCommand, AListSpreadWithParallelMergesToTheWhole) {
-  if (!has_parallel()) GTEST_SKIP() << "no GNU Parallel";
+  if (!has_parallel()) return skip_without(kParallel);
   const fs::path out = fresh("list_parallel");
   fs::create_directories(out);
   follow(
@@ -272,7 +275,7 @@ TEST(SweepCommand, TheCommandOfAResultGivesItsHash) {
   ASSERT_EQ(substep("sweep swinging_box --seconds 0.25 --quiet --out " + out.string()).exit_code,
             0);
   const std::string report = text_of(out / "report.html");
-  if (report.empty()) return without_pictures();
+  if (report.empty()) return skip_without(kCharts);
   const std::string begin = R"(<script type="application/json" id="data">)";
   const std::size_t at = report.find(begin) + begin.size();
   const Json data =

@@ -160,9 +160,11 @@ struct Loss {
   double exchanged = 0.0;  // range of the kinetic energy meanwhile [J]
 };
 
-Loss loss(const scenes::BridgeOptions& start, const Settings& settings) {
-  const Scene scene = scenes::bridge(start);
+/// @param moved the ball's start, along the bridge [m]
+Loss loss(const scenes::BridgeOptions& start, const Settings& settings, double moved = 0.0) {
+  Scene scene = scenes::bridge(start);
   const auto ball = static_cast<std::size_t>(*scene.criteria.track);
+  scene.bodies[ball].position.x() += moved;
   Simulator simulator = simulator_of(scene, settings);
   FrameReport report = simulator.step();
   const double first = report.energy + stored(simulator);
@@ -176,14 +178,34 @@ Loss loss(const scenes::BridgeOptions& start, const Settings& settings) {
   return {first - report.energy - stored(simulator), most - least};
 }
 
-// What the ball loses where it lands, beside leapfrog with 128 sub-steps, in the mean of the starts
-// and as a share of the exchanged energy. Single starts of fine runs differ by some per cent: the
-// ball hops, and where it lands next hangs on digits.
-TEST(BridgeEnergy, FewSubstepsArePaidForWhereTheBallLands) {
-  const auto leapfrog = [](Settings settings) {
-    settings.integrator = Integrator::kLeapfrog;
-    return settings;
+Settings leapfrog(Settings settings) {
+  settings.integrator = Integrator::kLeapfrog;
+  return settings;
+}
+
+// Where the ball, which hops, lands next hangs on micrometres, and in a sub-step of 256 a frame it
+// goes 200 of them. So no method stays within half a per cent of the exchanged energy of such a
+// run, start by start: not a finer one, nor the exact motion. Digits are another matter: a
+// nanometre changes next to nothing, so the runs are what they are and not noise.
+TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
+  const Settings fine = leapfrog(with(SolverKind::kBpp, Mode::kConst, 256));
+  const Settings finer = leapfrog(with(SolverKind::kBpp, Mode::kConst, 1024));
+  const auto starts = scenes::bridge_starts();
+  const auto share = [](const Loss& a, const Loss& b) {
+    return 100.0 * std::abs(a.energy - b.energy) / b.exchanged;
   };
+  for (const std::size_t i : {4U, 6U}) {  // all 8: by 0.4 to 4.6 %
+    const Loss own = loss(starts[i], fine);
+    EXPECT_GT(share(loss(starts[i], finer), own), 1.0) << i;
+    if (i != 6U) continue;
+    EXPECT_GT(share(loss(starts[i], fine, 1e-6), own), 0.3);
+    EXPECT_LT(share(loss(starts[i], fine, 1e-9), own), 0.1);
+  }
+}
+
+// What the ball loses where it lands, beside leapfrog with 128 sub-steps, in the mean of the starts
+// and as a share of the exchanged energy.
+TEST(BridgeEnergy, FewSubstepsArePaidForWhereTheBallLands) {
   const auto up_to = [](Mode mode, int n_cap) {
     Settings settings = with(SolverKind::kBpp, mode);
     settings.n_cap = n_cap;

@@ -18,6 +18,7 @@ class QualityGovernor {
   bool tried_ = false;     // this quality was reached from a coarser one
   int seen_ = 0;           // frames of the window that is judged
   int slow_ = 0;           // of them
+  double lost_ = 0.0;      // what those took [s]
   double steady_ = 0.0;    // since the quality changed [s]
   double patience_ = 8.0;  // before a finer one is tried again [s]
 };

@@ -42,12 +42,30 @@ TEST(Quality, StaysFineWhereFramesAreQuick) {
 
 TEST(Quality, GoesDownStepByStepWhereDrawingIsSlow) {
   QualityGovernor governor;
-  observe(governor, kSlow, 1.0);
+  observe(governor, kSlow, 0.7);
   EXPECT_EQ(governor.quality(), Quality::kPlain);
-  observe(governor, kSlow, 1.0);
+  observe(governor, kSlow, 0.7);
   EXPECT_EQ(governor.quality(), Quality::kCoarse);
   observe(governor, kSlow, 10.0);
   EXPECT_EQ(governor.quality(), Quality::kSketch);
+}
+
+// Two seconds at five frames a second would be what a page without a graphics processor begins
+// with.
+TEST(Quality, FourVerySlowFramesAreEnough) {
+  QualityGovernor governor;
+  observe(governor, 0.2, 0.5);
+  EXPECT_EQ(governor.quality(), Quality::kFine);
+  observe(governor, 0.2, 0.2);
+  EXPECT_EQ(governor.quality(), Quality::kPlain);
+}
+
+// A page that begins compiles shaders and sends pictures to the graphics processor.
+TEST(Quality, AStutterAtTheStartSaysNothing) {
+  QualityGovernor governor;
+  observe(governor, 0.5, 1.5);
+  observe(governor, kQuick, 60.0);
+  EXPECT_EQ(governor.quality(), Quality::kFine);
 }
 
 TEST(Quality, StaysFineWhereSimulatingIsSlow) {

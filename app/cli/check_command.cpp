@@ -15,7 +15,7 @@
 namespace substep::cli {
 namespace {
 
-struct Options {
+struct CheckOptions {
   std::vector<std::string> scenes;
   bool all = false;
   bool own = false;
@@ -60,7 +60,7 @@ Json json_of(const Check& c) {
   return json;
 }
 
-int check_all(const Options& options) {
+int check_all(const CheckOptions& options) {
   int exit_code = kOk;
   std::vector<Check> checks;
   for (const std::string& name : options.all ? shipped_names() : options.scenes) {
@@ -95,7 +95,7 @@ int check_all(const Options& options) {
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand(
       "check",
       "Run the verdict tables of scenes: does what must hold hold, and fail what must fail");

@@ -14,7 +14,7 @@
 namespace substep::cli {
 namespace {
 
-struct Options {
+struct CostOptions {
   std::string scene;
   std::string json;
   LengthFlags length;
@@ -80,7 +80,7 @@ void print_effects(const std::vector<EffectCost>& effects) {
   }
 }
 
-int cost(const Options& options) {
+int cost(const CostOptions& options) {
   const auto scene = load_scene(options.scene);
   Output json;
   if (!scene || !json.open(options.json)) return kBadInput;
@@ -107,7 +107,7 @@ int cost(const Options& options) {
 }  // namespace
 
 void add_cost(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<CostOptions>();
   CLI::App* command = app.add_subcommand(
       "cost", "Tell what stages, rows, effects and the criterion cost in a scene");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")

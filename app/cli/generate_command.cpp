@@ -18,7 +18,7 @@ scenes::Angle angle_of_degrees(double degrees) {
   return {std::sin(degrees * kDegree), std::cos(degrees * kDegree)};
 }
 
-struct Options {
+struct GenerateOptions {
   std::string out = "-";
   double angle_deg = 60.0;
   scenes::RopeOptions rope;
@@ -44,8 +44,8 @@ int write(const Scene& scene, const std::string& out) {
 }  // namespace
 
 void add_generate(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
-  Options& o = *options;
+  auto options = std::make_shared<GenerateOptions>();
+  GenerateOptions& o = *options;
   CLI::App* command =
       app.add_subcommand("generate", "Write a variant of a shipped scene as a scene file");
   command->require_subcommand(1);
@@ -54,7 +54,7 @@ void add_generate(CLI::App& app, int& exit_code) {
       "  substep generate rope --links 100 | substep run -\n"
       "  substep generate bridge --ball-x -4 --ball-speed 4 --out fast.json");
 
-  const auto add = [&](const char* name, const char* help, Scene (*make)(const Options&)) {
+  const auto add = [&](const char* name, const char* help, Scene (*make)(const GenerateOptions&)) {
     CLI::App* kind = command->add_subcommand(name, help);
     kind->option_defaults()->always_capture_default();
     kind->add_option("--out", o.out, "file to write, - for standard output");
@@ -65,18 +65,19 @@ void add_generate(CLI::App& app, int& exit_code) {
   const CLI::Range angle(-89.0, 89.0);
   const CLI::Range compliance(0.0, 1e3);
 
-  CLI::App* rope = add("rope", "hinged links with a heavy box at the end", [](const Options& from) {
-    scenes::RopeOptions rope_options = from.rope;
-    rope_options.angle = angle_of_degrees(from.angle_deg);
-    return scenes::rope_of_n(rope_options);
-  });
+  CLI::App* rope =
+      add("rope", "hinged links with a heavy box at the end", [](const GenerateOptions& from) {
+        scenes::RopeOptions rope_options = from.rope;
+        rope_options.angle = angle_of_degrees(from.angle_deg);
+        return scenes::rope_of_n(rope_options);
+      });
   rope->add_option("-n,--links", o.rope.n, "links")->check(CLI::Range(1, 19999));
   rope->add_option("--angle", o.angle_deg, "start, from straight down [deg]")->check(angle);
   rope->add_option("--link-length", o.rope.link_length, "[m]")->check(CLI::Range(1e-3, 10.0));
   rope->add_option("--end-mass", o.rope.end_mass, "of the box [kg]")->check(CLI::Range(1e-6, 1e9));
   rope->add_option("--compliance", o.rope.compliance, "of the joints [m/N]")->check(compliance);
 
-  CLI::App* box = add("swinging_box", "a heavy box on a chain", [](const Options& from) {
+  CLI::App* box = add("swinging_box", "a heavy box on a chain", [](const GenerateOptions& from) {
     scenes::SwingingBoxOptions box_options = from.swinging_box;
     box_options.angle = angle_of_degrees(from.angle_deg);
     return scenes::swinging_box(box_options);
@@ -86,15 +87,16 @@ void add_generate(CLI::App& app, int& exit_code) {
       ->check(compliance);
 
   CLI::App* bridge = add("bridge", "a heavy ball on hanging planks",
-                         [](const Options& from) { return scenes::bridge(from.bridge); });
+                         [](const GenerateOptions& from) { return scenes::bridge(from.bridge); });
   bridge->add_option("--ball-x", o.bridge.ball_x, "where the ball starts [m]")
       ->check(CLI::Range(-4.6, 4.6));
   bridge->add_option("--ball-speed", o.bridge.ball_speed, "[m/s]")->check(CLI::Range(-50.0, 50.0));
   bridge->add_option("--span", o.bridge.span, "of the 10 m of planks [m]")
       ->check(CLI::Range(9.0, 9.94));
 
-  CLI::App* stack = add("heavy_stack", "layers of balls and plates under a heavy box",
-                        [](const Options& from) { return scenes::heavy_stack(from.stack); });
+  CLI::App* stack =
+      add("heavy_stack", "layers of balls and plates under a heavy box",
+          [](const GenerateOptions& from) { return scenes::heavy_stack(from.stack); });
   stack->add_option("--layers", o.stack.layers, "layers")->check(CLI::Range(1, 1000));
   stack->add_option("--top-mass", o.stack.top_mass, "of the box [kg]")
       ->check(CLI::Range(1e-3, 1e9));
@@ -103,8 +105,9 @@ void add_generate(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1e-300, 1e3));
   stack->add_flag("--stress", o.stack.stress, "with regularisation and start jitter");
 
-  CLI::App* slope = add("sliding_box", "a box on a slope of 5 in 12",
-                        [](const Options& from) { return scenes::sliding_box(from.slope); });
+  CLI::App* slope =
+      add("sliding_box", "a box on a slope of 5 in 12",
+          [](const GenerateOptions& from) { return scenes::sliding_box(from.slope); });
   slope->add_option("--friction", o.slope.friction, "Coulomb coefficient")
       ->check(CLI::Range(0.0, 100.0));
 }

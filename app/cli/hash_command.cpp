@@ -12,13 +12,13 @@
 namespace substep::cli {
 namespace {
 
-struct Options {
+struct HashOptions {
   std::string scene;
   LengthFlags length;
   SettingsFlags settings;
 };
 
-int hash(const Options& options) {
+int hash(const HashOptions& options) {
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   Simulator simulator(scene);
@@ -37,7 +37,7 @@ int hash(const Options& options) {
 }  // namespace
 
 void add_hash(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<HashOptions>();
   CLI::App* command = app.add_subcommand(
       "hash", "Print the hash of a scene's state after a run: the same on every platform");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")

@@ -58,14 +58,14 @@ std::string line_of(const MapCell& c) {
          std::to_string(c.substeps) + '\n';
 }
 
-struct Options {
+struct MapOptions {
   std::string out = "-";
   std::string picture;
   double seconds = 0.0;  // 0: as each axis says
   int jobs = 0;
 };
 
-int run_map(const Options& options) {
+int run_map(const MapOptions& options) {
   Output out;
   Output picture;
   if (!out.open(options.out) || !picture.open(options.picture)) return kBadInput;
@@ -112,7 +112,7 @@ int run_map(const Options& options) {
 }  // namespace
 
 void add_map(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MapOptions>();
   CLI::App* command = app.add_subcommand(
       "map", "Where adaptive sub-steps hold, by alpha: mass ratio, chain length, stack height");
   command->add_option("--out", options->out, "the table as CSV; - for standard output");

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MergeOptions {
   std::string folder;
   std::vector<std::string> files;
   std::string scene;
@@ -47,7 +47,7 @@ std::vector<fs::path> parts_of(const fs::path& folder) {
 /// Without the line that a killed program was writing.
 std::string whole_lines(const std::string& text) { return text.substr(0, text.rfind('\n') + 1); }
 
-int merge(const Options& options) {
+int merge(const MergeOptions& options) {
   const fs::path folder = options.folder;
   std::vector<fs::path> parts = parts_of(folder);
   parts.insert(parts.end(), options.files.begin(), options.files.end());
@@ -114,7 +114,7 @@ int merge(const Options& options) {
 }  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<MergeOptions>();
   CLI::App* command = app.add_subcommand(
       "merge", "Join the parts of a sweep into results.jsonl, and write their report");
   command->add_option("folder", options->folder, "where the parts are and the results go")

@@ -28,7 +28,7 @@ namespace {
 
 constexpr int kMostSubsteps = 10000;  // a frame, as many as settings allow
 
-struct Options {
+struct RecommendOptions {
   std::string scene;
   std::string of;
   std::string out;
@@ -68,7 +68,7 @@ std::string why_without(ErrorAxis axis, const Scene& scene) {
   return "";
 }
 
-Want want_of(const Options& options, const Scene& scene) {
+Want want_of(const RecommendOptions& options, const Scene& scene) {
   Want want;
   want.error = value_of<ErrorAxis>(options.of).value_or(first_axis(scene));
   want.limit = options.error.value_or(want.error == ErrorAxis::kEnergy ? 1.0 : 1e-3);
@@ -120,7 +120,7 @@ int write_with(const Recommended& recommended, const Scene& scene, const std::st
   return out.close() ? kOk : kBadInput;
 }
 
-int recommend(const Options& options) {
+int recommend(const RecommendOptions& options) {
   const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
@@ -176,7 +176,7 @@ int recommend(const Options& options) {
 }  // namespace
 
 void add_recommend(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RecommendOptions>();
   CLI::App* command = app.add_subcommand(
       "recommend",
       "Run all methods over a scene and tell the cheapest within an error, or the most "

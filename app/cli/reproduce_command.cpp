@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ReproduceOptions {
   std::string out = "reproduction";
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool quiet = false;
@@ -61,7 +61,7 @@ Json page_of(const std::vector<Card>& cards) {
   return data;
 }
 
-int run(const Options& options) {
+int run(const ReproduceOptions& options) {
   const fs::path folder = options.out;
   std::error_code error;
   fs::create_directories(folder, error);
@@ -97,7 +97,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_reproduce(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ReproduceOptions>();
   CLI::App* command = app.add_subcommand(
       "reproduce", "Run the paper's figures and claims and put them beside what it says");
   command->add_option("--out", options->out, "folder for report.html");

@@ -27,7 +27,7 @@
 namespace substep::cli {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string scene;
   std::string csv;
   std::string json;
@@ -84,7 +84,7 @@ std::string remedy_lines(const Settings& settings, const FrameReport& failed) {
   return text;
 }
 
-int run(const Options& options) {
+int run(const RunOptions& options) {
   auto scene = load_scene(options.scene);
   Output csv;
   Output json;
@@ -143,7 +143,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "Run a scene and tell whether it holds");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
   options->length.add_to(*command);

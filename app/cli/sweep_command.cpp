@@ -48,7 +48,7 @@ std::optional<Shard> parse_shard(const std::string& text) {
   return Shard{static_cast<int>(*index), static_cast<int>(*count)};
 }
 
-struct Options {
+struct SweepOptions {
   std::string scene;
   std::string out;
   std::string shard;
@@ -60,7 +60,7 @@ struct Options {
   SettingsFlags settings;
 };
 
-std::vector<Experiment> experiments_of(const Options& options, const Scene& scene,
+std::vector<Experiment> experiments_of(const SweepOptions& options, const Scene& scene,
                                        const Shard& shard) {
   Scene own = scene;
   own.settings = own_settings(scene);
@@ -103,7 +103,7 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
   return {text, static_cast<std::size_t>(n)};
 }
 
-int sweep(const Options& options, const Shard& shard) {
+int sweep(const SweepOptions& options, const Shard& shard) {
   const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
@@ -181,7 +181,7 @@ int sweep(const Options& options, const Shard& shard) {
 }  // namespace
 
 void add_sweep(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<SweepOptions>();
   CLI::App* command =
       app.add_subcommand("sweep", "Run all methods over a scene: what accuracy costs in time");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")

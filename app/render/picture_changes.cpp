@@ -24,9 +24,9 @@ bool same_stage(const Picture& a, const Picture& b) {
 }
 
 // Gathers points of the world as they are seen.
-class Bounds {
+class ChangedArea {
  public:
-  explicit Bounds(const Picture& picture) : picture_(picture) {
+  explicit ChangedArea(const Picture& picture) : picture_(picture) {
     const Vector3f normal = vector(picture.ground.normal).normalized();
     const Vector3f light = vector(picture.to_light).normalized();
     rise_ = picture.ground.visible ? normal.dot(light) : 0.0F;
@@ -102,19 +102,19 @@ class Bounds {
 
 Part changed_part(const Picture& before, const Picture& now) {
   if (!same_stage(before, now)) return now.part;
-  Bounds bounds(now);
+  ChangedArea bounds(now);
   const auto bodies = [&bounds](const std::vector<Instance>& a, const std::vector<Instance>& b,
-                                void (Bounds::*add)(const Instance&)) {
+                                void (ChangedArea::*add)(const Instance&)) {
     for (std::size_t i = 0; i < a.size(); ++i) {
       if (a[i] == b[i]) continue;
       (bounds.*add)(a[i]);
       (bounds.*add)(b[i]);
     }
   };
-  bodies(before.boxes, now.boxes, &Bounds::add_with_shadow);
-  bodies(before.balls, now.balls, &Bounds::add_with_shadow);
-  bodies(before.ghost_boxes, now.ghost_boxes, &Bounds::add_body);
-  bodies(before.ghost_balls, now.ghost_balls, &Bounds::add_body);
+  bodies(before.boxes, now.boxes, &ChangedArea::add_with_shadow);
+  bodies(before.balls, now.balls, &ChangedArea::add_with_shadow);
+  bodies(before.ghost_boxes, now.ghost_boxes, &ChangedArea::add_body);
+  bodies(before.ghost_balls, now.ghost_balls, &ChangedArea::add_body);
   if (before.ribbons != now.ribbons) {
     for (const Picture* picture : {&before, &now}) {
       for (const RibbonVertex& v : picture->ribbons) bounds.add(vector(v.position));

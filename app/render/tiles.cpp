@@ -13,7 +13,7 @@ namespace substep {
 namespace {
 
 // A rectangle in pixels, with fractions.
-struct Box {
+struct Area {
   float left;
   float top;
   float right;
@@ -22,33 +22,33 @@ struct Box {
   [[nodiscard]] bool empty() const { return !(left < right && top < bottom); }
 };
 
-Box common(const Box& a, const Box& b) {
+Area common(const Area& a, const Area& b) {
   return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
           std::min(a.bottom, b.bottom)};
 }
 
 using Triangle = std::array<const ImDrawVert*, 3>;
 
-Box box_of(const Triangle& t, ImVec2 ratio) {
+Area area_of(const Triangle& t, ImVec2 ratio) {
   const auto [left, right] = std::minmax({t[0]->pos.x, t[1]->pos.x, t[2]->pos.x});
   const auto [top, bottom] = std::minmax({t[0]->pos.y, t[1]->pos.y, t[2]->pos.y});
   return {left * ratio.x, top * ratio.y, right * ratio.x, bottom * ratio.y};
 }
 
-Box clip_of(const ImDrawCmd& command, ImVec2 ratio) {
+Area clip_of(const ImDrawCmd& command, ImVec2 ratio) {
   const ImVec4& c = command.ClipRect;
   return {c.x * ratio.x, c.y * ratio.y, c.z * ratio.x, c.w * ratio.y};
 }
 
-Box box_of(const PixelRect& r) {
+Area area_of(const PixelRect& r) {
   return {static_cast<float>(r.x), static_cast<float>(r.y), static_cast<float>(r.x + r.width),
           static_cast<float>(r.y + r.height)};
 }
 
 // Dear ImGui's back end cuts at whole pixels: left edge, width and height are rounded down, and so
 // is the distance of the lower edge from the window's.
-Box pixels_cut(const ImDrawCmd& command, ImVec2 ratio, int height) {
-  const Box c = clip_of(command, ratio);
+Area pixels_cut(const ImDrawCmd& command, ImVec2 ratio, int height) {
+  const Area c = clip_of(command, ratio);
   const float left = std::trunc(c.left);
   const float bottom =
       static_cast<float>(height) - std::trunc(static_cast<float>(height) - c.bottom);
@@ -56,7 +56,7 @@ Box pixels_cut(const ImDrawCmd& command, ImVec2 ratio, int height) {
 }
 
 // What it rounds to this box of whole pixels, in spite of rounding errors.
-ImVec4 cut_of(const Box& pixels, ImVec2 ratio) {
+ImVec4 cut_of(const Area& pixels, ImVec2 ratio) {
   return {(pixels.left + 0.2F) / ratio.x, (pixels.top - 0.7F) / ratio.y,
           (pixels.right + 0.7F) / ratio.x, (pixels.bottom - 0.2F) / ratio.y};
 }
@@ -111,17 +111,17 @@ std::vector<PixelRect> together(const std::vector<bool>& changed, int columns, i
 std::vector<std::uint64_t> TileRecord::tiles_of(const ImDrawData& lists) const {
   std::vector<std::uint64_t> tiles(static_cast<std::size_t>(columns_ * rows_));
   const ImVec2 ratio = lists.FramebufferScale;
-  const Box window{0.0F, 0.0F, static_cast<float>(columns_ * kTile),
-                   static_cast<float>(rows_ * kTile)};
+  const Area window{0.0F, 0.0F, static_cast<float>(columns_ * kTile),
+                    static_cast<float>(rows_ * kTile)};
   const auto tile = [](float pixel) { return static_cast<int>(pixel) / kTile; };
   for (const ImDrawList* list : lists.CmdLists) {
     for (const ImDrawCmd& command : list->CmdBuffer) {
-      const Box clip = common(clip_of(command, ratio), window);
+      const Area clip = common(clip_of(command, ratio), window);
       const std::uint64_t manner =
           mixed(mixed_bytes(1, command.ClipRect), std::hash<ImTextureID>{}(command.TextureId));
       for (unsigned i = 0; i < command.ElemCount; i += 3) {
         const Triangle t = triangle(*list, command, i);
-        Box box = box_of(t, ratio);
+        Area box = area_of(t, ratio);
         // One that touches a pixel's edge may colour it.
         box = common({box.left - 1.0F, box.top - 1.0F, box.right + 1.0F, box.bottom + 1.0F}, clip);
         if (box.empty()) continue;
@@ -205,13 +205,13 @@ ImDrawData limited_to(std::span<const PixelRect> parts, std::span<const Layer> l
       ImVector<ImDrawIdx> indices;
       for (const PixelRect& part : parts) {
         for (const ImDrawCmd& command : list->CmdBuffer) {
-          const Box clip = common(pixels_cut(command, ratio, height), box_of(part));
+          const Area clip = common(pixels_cut(command, ratio, height), area_of(part));
           if (clip.empty()) continue;
           ImDrawCmd limited = command;
           limited.ClipRect = cut_of(clip, ratio);
           limited.IdxOffset = static_cast<unsigned>(indices.Size);
           for (unsigned i = 0; i < command.ElemCount; i += 3) {
-            const Box box = box_of(triangle(*list, command, i), ratio);
+            const Area box = area_of(triangle(*list, command, i), ratio);
             if (box.right < clip.left - 1.0F || box.left > clip.right + 1.0F ||
                 box.bottom < clip.top - 1.0F || box.top > clip.bottom + 1.0F) {
               continue;

@@ -240,20 +240,20 @@ void advice(App& app) {
 }
 
 /// Who is who, and how many of each hold.
-void legend(const App& app) {
+void picture_legend(const App& app) {
   const Look& look = app.look;
-  struct Entry {
+  struct Mark {
     CurveStyle style;
     int runs = 0;
     int held = 0;
   };
-  std::map<std::string, Entry> entries;
+  std::map<std::string, Mark> entries;
   std::vector<std::string> order;
   for (const Result& result : app.accuracy.results()) {
     if (result.experiment.load != 1.0) continue;
     const Settings& s = result.experiment.settings;
     const auto [entry, is_new] =
-        entries.try_emplace(series_name(s), Entry{curve_style(*look.theme, s)});
+        entries.try_emplace(series_name(s), Mark{curve_style(*look.theme, s)});
     if (is_new) order.push_back(entry->first);
     ++entry->second.runs;
     entry->second.held += result.metrics.holds ? 1 : 0;
@@ -261,7 +261,7 @@ void legend(const App& app) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float width = ImGui::GetContentRegionAvail().x;
   for (const std::string& name : order) {
-    const Entry& entry = entries.at(name);
+    const Mark& entry = entries.at(name);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     draw_swatch(entry.style, look.theme->panel | IM_COL32_A_MASK, draw,
                 {at.x + 14.0F, at.y + 8.0F});
@@ -326,7 +326,7 @@ void accuracy(App& app) {
               .c_str());
   }
   space(8.0F);
-  legend(app);
+  picture_legend(app);
 }
 
 void accuracy_card(App& app) {

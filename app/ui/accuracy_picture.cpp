@@ -16,15 +16,15 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kGutter = 38.0F;  // labels of the errors
-constexpr float kFoot = 38.0F;    // labels of the costs, and what they are
-constexpr float kRail = 20.0F;    // the failed runs
-constexpr float kReach = 14.0F;   // a point is pointed at from so far
-constexpr float kPoint = 3.5F;    // radius
+constexpr float kErrorGutter = 38.0F;  // labels of the errors
+constexpr float kFoot = 38.0F;         // labels of the costs, and what they are
+constexpr float kRail = 20.0F;         // the failed runs
+constexpr float kReach = 14.0F;        // a point is pointed at from so far
+constexpr float kPoint = 3.5F;         // radius
 
 using Point = Accuracy::Point;
 
-struct Range {  // of logarithms
+struct LogRange {  // of logarithms
   double low = 0.0;
   double high = 1.0;
 };
@@ -33,8 +33,8 @@ struct Range {  // of logarithms
 struct Axes {
   ImVec2 min;
   ImVec2 max;
-  Range cost;
-  Range error;
+  LogRange cost;
+  LogRange error;
 
   [[nodiscard]] float x(double value) const {
     return min.x + static_cast<float>((std::log10(value) - cost.low) / (cost.high - cost.low)) *
@@ -52,9 +52,9 @@ struct Axes {
 };
 
 template <class Value>
-Range range_of(const std::vector<Point>& a, const std::vector<Point>& b, Value value,
-               double margin) {
-  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+LogRange range_of(const std::vector<Point>& a, const std::vector<Point>& b, Value value,
+                  double margin) {
+  LogRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const std::vector<Point>* list : {&a, &b}) {
     for (const Point& p : *list) {
       if (!(value(p) > 0.0)) continue;
@@ -317,7 +317,7 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
 
   const std::vector<Point> points = accuracy.points();
   const std::vector<Point> failed = accuracy.failed();
-  const Axes axes{{origin.x + kGutter, origin.y + kRail + 8.0F},
+  const Axes axes{{origin.x + kErrorGutter, origin.y + kRail + 8.0F},
                   {origin.x + size.x - 12.0F, origin.y + size.y - kFoot},
                   range_of(
                       points, failed, [](const Point& p) { return p.cost; }, 0.04),

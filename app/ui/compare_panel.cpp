@@ -12,12 +12,12 @@
 namespace substep::ui {
 namespace {
 
-struct Preset {
+struct Comparison {
   const char* title;
   const char* note;
   const char* link;  // settings of the run, then what runs beside it
 };
-constexpr std::array<Preset, 4> kPresets{
+constexpr std::array<Comparison, 4> kComparisons{
     {{"None, damping, adaptive", "what holds, and at what price",
       "mode=adaptive&compare=mode:none;mode:damping"},
      {"PGS and BPP", "an approximate and an exact solver",
@@ -120,7 +120,7 @@ void presets(App& app) {
         "Other methods beside this run: the same scene, the same clock, the same start. They are "
         "seen as ghosts or side by side, and in the plots. A hand or a ball reaches all of them.");
   space(look.m.section);
-  for (const Preset& preset : kPresets) {
+  for (const Comparison& preset : kComparisons) {
     if (button(look, preset.title, Icon::kNone, preset.title, ButtonKind::kPlain,
                ImGui::GetContentRegionAvail().x, look.m.row + 4.0F, "")) {
       app.open_link(preset.link);

@@ -35,14 +35,14 @@ constexpr std::array<Gesture, 13> kGestures{{{"Home, End", "first and last saved
 
 // Lines of one column. @return its height
 float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const Gesture> lines) {
-  constexpr float kLine = 20.0F;
+  constexpr float kLineHeight = 20.0F;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float top = at.y;
   for (const Gesture& line : lines) {
     draw_text(draw, look.fonts.medium, at, look.theme->text, std::string(line.shown).c_str());
     draw_text(draw, look.fonts.regular, {at.x + key_width, at.y}, look.theme->dim,
               std::string(line.what).c_str());
-    at.y += kLine;
+    at.y += kLineHeight;
   }
   return at.y - top;
 }

@@ -14,13 +14,13 @@
 namespace substep::ui {
 namespace {
 
-constexpr std::array<double, 7> kSpeeds{0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0};
+constexpr std::array<double, 7> kSpeedSteps{0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0};
 
 void change_speed(Session& session, int by) {
-  const auto now = std::lower_bound(kSpeeds.begin(), kSpeeds.end(), session.speed() - 1e-9);
-  const auto i = std::clamp<std::ptrdiff_t>((now - kSpeeds.begin()) + by, 0,
-                                            static_cast<std::ptrdiff_t>(kSpeeds.size()) - 1);
-  session.set_speed(kSpeeds[static_cast<std::size_t>(i)]);
+  const auto now = std::lower_bound(kSpeedSteps.begin(), kSpeedSteps.end(), session.speed() - 1e-9);
+  const auto i = std::clamp<std::ptrdiff_t>((now - kSpeedSteps.begin()) + by, 0,
+                                            static_cast<std::ptrdiff_t>(kSpeedSteps.size()) - 1);
+  session.set_speed(kSpeedSteps[static_cast<std::size_t>(i)]);
 }
 
 void change_scale(App& app, double by) {

@@ -13,10 +13,10 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kGutter = 44.0F;  // the values of the parameter
-constexpr float kCell = 22.0F;    // height
-constexpr float kGap = 2.0F;      // between cells
-constexpr float kWidest = 96.0F;  // of a cell
+constexpr float kMapGutter = 44.0F;  // the values of the parameter
+constexpr float kCell = 22.0F;       // height
+constexpr float kGap = 2.0F;         // between cells
+constexpr float kWidest = 96.0F;     // of a cell
 
 /// The cells of one mode.
 struct Grid {
@@ -96,8 +96,8 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const auto rows = static_cast<float>(grid.values.size());
   const auto columns = static_cast<float>(grid.loads.size());
-  const float cell = std::min(kWidest, (width - kGutter) / columns);
-  const ImVec2 size(kGutter + cell * columns, kCell * rows + 18.0F);
+  const float cell = std::min(kWidest, (width - kMapGutter) / columns);
+  const ImVec2 size(kMapGutter + cell * columns, kCell * rows + 18.0F);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const std::string name = series_name(grid.settings);
   const bool clicked = ImGui::InvisibleButton(name.c_str(), size);
@@ -116,10 +116,10 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
     const std::string value = plain_number(grid.values[row]);
     const ImVec2 extent = text_size(look.fonts.small, value.c_str());
     draw_text(draw, look.fonts.small,
-              {origin.x + kGutter - 8.0F - extent.x, y + 0.5F * (kCell - extent.y)}, t.dim,
+              {origin.x + kMapGutter - 8.0F - extent.x, y + 0.5F * (kCell - extent.y)}, t.dim,
               value.c_str());
     for (std::size_t column = 0; column < grid.loads.size(); ++column) {
-      const ImVec2 min(origin.x + kGutter + cell * static_cast<float>(column), y);
+      const ImVec2 min(origin.x + kMapGutter + cell * static_cast<float>(column), y);
       const ImVec2 max(min.x + cell - kGap, min.y + kCell - kGap);
       const auto known = grid.results.find({grid.values[row], grid.loads[column]});
       if (known == grid.results.end()) {  // still to come
@@ -139,7 +139,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
   }
   for (std::size_t column = 0; column < grid.loads.size(); ++column) {
     centred(
-        {origin.x + kGutter + cell * static_cast<float>(column), origin.y + kCell * rows - 3.0F},
+        {origin.x + kMapGutter + cell * static_cast<float>(column), origin.y + kCell * rows - 3.0F},
         cell - kGap, t.dim, short_ratio(grid.loads[column] * ratio));
   }
   if (under) {

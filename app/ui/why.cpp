@@ -9,13 +9,13 @@
 #include "app/format.hpp"
 #include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
+#include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
 namespace {
 
-constexpr float kHeading = 24.0F;  // a section's heading with the gap below it
 constexpr float kColumns = 32.0F;  // height of the picture of all bodies
 constexpr std::size_t kMostBars = 12;
 

@@ -11,8 +11,6 @@ namespace {
 // Of a body's reach. More room makes for fewer sweeps and more pairs that are looked at in vain.
 constexpr double kRoom = 0.25;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 Vec3 half_extents(const Shape& shape, const Mat3& R) {
   if (const auto* sphere = std::get_if<Sphere>(&shape)) return Vec3::Constant(sphere->radius);
   if (const auto* box = std::get_if<Box>(&shape)) return R.cwiseAbs() * box->half_extents;

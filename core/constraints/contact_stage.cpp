@@ -16,7 +16,7 @@ Motion motion_since(const Vec3& x_then, const Quat& q_then, const Vec3& x, const
 }
 
 /// R H R^T.
-Mat3 turned(const Mat3& H, const Vec3& half) {
+Mat3 turned_curvature(const Mat3& H, const Vec3& half) {
   if (H.isZero(0.0)) return H;
   Mat3 once;
   for (int i = 0; i < 3; ++i) once.row(i) = turn(half, H.col(i));  // R H, transposed
@@ -93,7 +93,7 @@ bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const 
       blocks.keep(blocks.size() - 1);
       continue;
     }
-    block.H = turned(row.H, motion(row.b).half);
+    block.H = turned_curvature(row.H, motion(row.b).half);
   }
   append(of_boxes, scene, state, blocks);
   return true;

@@ -10,11 +10,11 @@
 namespace substep {
 namespace {
 
-struct Named {
+struct NamedEffect {
   std::string_view name;
   bool Effects::*effect;
 };
-constexpr Named kEffects[] = {
+constexpr NamedEffect kEffects[] = {
     {"gravity", &Effects::gravity},   {"gyroscopic", &Effects::gyroscopic},
     {"joints", &Effects::joints},     {"contact", &Effects::contact},
     {"friction", &Effects::friction}, {"restitution", &Effects::restitution}};
@@ -25,13 +25,6 @@ std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) 
   if (!less.effects.contact) less.effects.friction = less.effects.restitution = false;
   return std::make_shared<const Scene>(std::move(less));
 }
-
-/// What one frame cost.
-struct FrameCost {
-  double ms = 0.0;  // [ms]
-  double flops = 0.0;
-  double row_updates = 0.0;
-};
 
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -79,6 +72,12 @@ class EffectCostRun::Again {
   }
 
  private:
+  struct FrameCost {
+    double ms = 0.0;  // [ms]
+    double flops = 0.0;
+    double row_updates = 0.0;
+  };
+
   Simulator simulator_;
   std::string_view without_;  // the effect that is off, "" where none is
   std::vector<FrameCost> frames_;

@@ -13,7 +13,7 @@
 namespace substep {
 namespace {
 
-using Pair = std::pair<int, int>;  // of bodies, the smaller first; 0 is the world, i + 1 body i
+using BodyPair = std::pair<int, int>;  // of bodies, the smaller first; 0 is the world, i + 1 body i
 
 /// Bodies and the pairs that joints make of them. All that never moves is one node, the world.
 class JointGraph {
@@ -21,7 +21,7 @@ class JointGraph {
   explicit JointGraph(const Scene& scene)
       : scene_(scene), edges_(scene.bodies.size() + 1), seen_(edges_.size(), 0) {
     for (const Joint& joint : scene.joints) {
-      const Pair pair = pair_of(joint);
+      const BodyPair pair = pair_of(joint);
       if (pair.first != pair.second && joints_[pair]++ == 0) {
         edges_[static_cast<std::size_t>(pair.first)].push_back(pair.second);
         edges_[static_cast<std::size_t>(pair.second)].push_back(pair.first);
@@ -32,7 +32,7 @@ class JointGraph {
 
   /// The mass that one joint carries [kg].
   [[nodiscard]] double load(const Joint& joint) const {
-    const Pair pair = pair_of(joint);
+    const BodyPair pair = pair_of(joint);
     const auto found = load_.find(pair);
     return found == load_.end() ? 0.0 : found->second / joints_.at(pair);
   }
@@ -51,7 +51,7 @@ class JointGraph {
     if (body == kWorld || scene_.bodies[static_cast<std::size_t>(body)].is_static) return 0;
     return body + 1;
   }
-  [[nodiscard]] Pair pair_of(const Joint& joint) const {
+  [[nodiscard]] BodyPair pair_of(const Joint& joint) const {
     return std::minmax({node(base(joint).a), node(base(joint).b)});
   }
 
@@ -59,7 +59,7 @@ class JointGraph {
   /// an edge hangs on it. Iterative: a rope may have thousands of links.
   void hang() {
     std::vector<Visit> path;
-    std::vector<Pair> in_loops;
+    std::vector<BodyPair> in_loops;
     int count = 0;
     double loose = 0.0;  // mass joined to the world [kg]
     const auto enter = [&](int n, int parent) {
@@ -89,21 +89,21 @@ class JointGraph {
       Visit& parent = path.back();
       parent.low = std::min(parent.low, done.low);
       parent.mass += done.mass;
-      const Pair pair = std::minmax(done.node, parent.node);
+      const BodyPair pair = std::minmax(done.node, parent.node);
       if (done.low > parent.order) {
         load_[pair] = done.mass;
       } else {
         in_loops.push_back(pair);
       }
     }
-    for (const Pair& pair : in_loops) load_[pair] = 0.5 * loose;
+    for (const BodyPair& pair : in_loops) load_[pair] = 0.5 * loose;
   }
 
   const Scene& scene_;
   std::vector<std::vector<int>> edges_;
   std::vector<int> seen_;  // order of the search, 0: not yet
-  std::map<Pair, int> joints_;
-  std::map<Pair, double> load_;  // mass that a pair carries [kg]
+  std::map<BodyPair, int> joints_;
+  std::map<BodyPair, double> load_;  // mass that a pair carries [kg]
 };
 
 /// Largest k/I where every joint carries its load, and whose it is.

@@ -5,7 +5,7 @@
 namespace substep {
 namespace {
 
-constexpr double kParallel = 1e-9;  // sine of the angle that still counts as none [-]
+constexpr double kPlanar = 1e-9;  // sine of the angle that still counts as none [-]
 
 using Vec2 = Eigen::Vector2d;
 
@@ -95,11 +95,11 @@ std::optional<PlanarChain> PlanarChain::of(const Scene& scene) {
     const Vec3& omega = body.angular_velocity;
     const Vec3 speed = speed_at_hinge + omega.cross(body.position - hinge.at);
     const double size = 1.0 + body.velocity.norm() + omega.norm();
-    const bool planar = chain.axis_.cross(hinge.axis).norm() < kParallel &&
-                        (body.inertia.cwiseProduct(axis) - link.inertia * axis).norm() <=
-                            kParallel * link.inertia &&
-                        chain.axis_.cross(omega).norm() <= kParallel * size &&
-                        (body.velocity - speed).norm() <= kParallel * size;
+    const bool planar =
+        chain.axis_.cross(hinge.axis).norm() < kPlanar &&
+        (body.inertia.cwiseProduct(axis) - link.inertia * axis).norm() <= kPlanar * link.inertia &&
+        chain.axis_.cross(omega).norm() <= kPlanar * size &&
+        (body.velocity - speed).norm() <= kPlanar * size;
     if (!planar) return std::nullopt;
     chain.y_[static_cast<Eigen::Index>(hinges->size() + i)] = chain.axis_.dot(omega);
     if (i + 1 < hinges->size()) {

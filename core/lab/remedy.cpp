@@ -6,8 +6,8 @@
 namespace substep {
 namespace {
 
-constexpr int kMostCap = 1024;        // a larger one costs more than it can give
-constexpr double kLeastAlpha = 1e-3;  // 10 times the sub-steps of 0.1
+constexpr int kMostCap = 1024;          // a larger one costs more than it can give
+constexpr double kLeastOffered = 1e-3;  // 10 times the sub-steps of 0.1
 
 /// Of a cap: as much as was asked for, at least twice and at most 16 times as much as now.
 int larger(int cap, int wanted) {
@@ -47,8 +47,8 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
     add("the soft drift law", "impacts change N, and short steps pay back what long ones left")
         .drift = Drift::kSoft;
   }
-  if (adaptive && !last.capped && settings.alpha > kLeastAlpha) {
-    const double alpha = std::max(kLeastAlpha, 0.5 * settings.alpha);
+  if (adaptive && !last.capped && settings.alpha > kLeastOffered) {
+    const double alpha = std::max(kLeastOffered, 0.5 * settings.alpha);
     char text[40];
     std::snprintf(text, sizeof text, "a smaller alpha, %.3g", alpha);
     add(text).alpha = alpha;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
 #include <vector>
 
 namespace substep {
@@ -12,6 +13,9 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;  ///< linear part first, then angular
 using Mat3 = Eigen::Matrix3d;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Quat = Eigen::Quaterniond;
+
+/// An index as containers take it. Elsewhere -1 stands for none.
+inline std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
 /// [x]: the matrix with [x] y = x cross y.
 inline Mat3 skew(const Vec3& x) {

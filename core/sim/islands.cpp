@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t kUsualParts = 8;  // more are made when they are needed
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 Islands::Islands(const Scene& scene)

@@ -12,8 +12,6 @@ constexpr std::size_t kTypicalJoints = 4;
 constexpr int kNone = -1;
 constexpr int kUnordered = -2;  // a position to come
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 void insert(std::vector<int>& sorted, int value) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
   if (at == sorted.end() || *at != value) sorted.insert(at, value);

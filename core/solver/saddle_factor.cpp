@@ -16,8 +16,6 @@ namespace {
 // with the answer, and rounding makes as much again.
 constexpr double kLeastPivot = 1e-8;
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 /// The upper half from the lower.
 void mirror(Square6& A) {
   for (int i = 1; i < 6; ++i) {

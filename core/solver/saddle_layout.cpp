@@ -14,8 +14,6 @@ namespace {
 constexpr double kFold = 1e7;
 constexpr int kBareRows = 8;  // more rows are cheaper when folded
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 /// Largest J Mt^-1 J^T that a row can have on one body.
 double mobility(const double (&J)[6], const InverseMass& mass) {
   return mass.linear * (J[0] * J[0] + J[1] * J[1] + J[2] * J[2]) +

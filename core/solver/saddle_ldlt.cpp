@@ -20,8 +20,6 @@ namespace substep {
 
 namespace {
 
-std::size_t index(int i) { return static_cast<std::size_t>(i); }
-
 /// y -= f x.
 void subtract6(const double* x, double f, double* y) {
   for (int j = 0; j < 6; ++j) y[j] -= f * x[j];

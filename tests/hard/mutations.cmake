@@ -10,6 +10,9 @@ function(substep_mutation name source taken left tests test)
             -D "TAKEN=${taken}" -D "LEFT=${left}" -P ${CMAKE_CURRENT_SOURCE_DIR}/mutate.cmake
     DEPENDS ${PROJECT_SOURCE_DIR}/${source} ${CMAKE_CURRENT_SOURCE_DIR}/mutate.cmake
     COMMENT "Changing ${source}" VERBATIM)
+  # Alone in its object file, or the linker would have all that shares it twice.
+  set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} TARGET_DIRECTORY substep_core
+    PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_executable(without_${name} ${mutant} $<TARGET_OBJECTS:${tests}>)
   target_compile_options(without_${name} PRIVATE -w)  # what nothing calls any more is meant
   target_link_libraries(without_${name} PRIVATE substep_core substep_scenes GTest::gtest_main)

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/sim/simulator.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep {
 namespace {
@@ -92,7 +93,8 @@ EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment)
   }
   next_ = again_.size();
   same_ = run_.experiment().settings;
-  same_.mode = Mode::kConst;
+  // Islands have numbers of their own, which follow from what the state remembers of their bodies.
+  if (!has_islands(same_)) same_.mode = Mode::kConst;
 }
 
 EffectCostRun::~EffectCostRun() = default;

@@ -25,8 +25,10 @@ struct CostBreakdown {
 /// Runs an experiment and steps each of its frames again, from the same state and with the same
 /// number of sub-steps, once as it is and once without each effect: the motion is the same, so the
 /// difference is the effect's own cost, in the direct solver too, where rows of all kinds are
-/// eliminated together. Without contact there is no friction and no restitution. It goes in steps
-/// of a single frame, for a page that must stay alive.
+/// eliminated together. Islands with numbers of their own find them again; that bodies share one
+/// number because an effect ties them together is part of what it costs. Without contact there is
+/// no friction and no restitution. It goes in steps of a single frame, for a page that must stay
+/// alive.
 class EffectCostRun {
  public:
   /// @param scene as it stands, without the experiment's load and seed
@@ -49,7 +51,7 @@ class EffectCostRun {
   std::vector<Again> again_;  // the scene as it is, then without each of its effects
   std::size_t next_ = 0;      // of `again_`, from `before_`
   State before_;              // the frame that is stepped again
-  Settings same_;             // as many sub-steps as the run took in it
+  Settings same_;             // for as many sub-steps as the run took in it
   bool more_ = true;          // frames of the run
 };
 

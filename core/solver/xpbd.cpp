@@ -46,36 +46,37 @@ std::int64_t correction_flops(const Block& block, int count) {
 
 void Xpbd::reserve(std::size_t /*bodies*/, std::size_t blocks) { moved_.reserve(blocks); }
 
-// The error e of the rows, its length c and direction d; the impulse p along d changes it by
-//   dt (w + softness) p,   w = g M^-1 g^T,   g = d^T J,
-// so p = -(c/dt + softness d . impulse) / (w + softness).
+// What is left of the rows, e = bias + phi/dt + softness * impulse, its length c and direction d;
+// the impulse p along d changes it along d by
+//   (w + softness) p,   w = g M^-1 g^T,   g = d^T J,
+// so p = -c/(w + softness). The source goes along the error without the softness, which is the same
+// in the first sweep, and in further ones of soft joints may stop where its two parts are only
+// across each other.
 void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange rows, double bound) {
   Vec6* u_a = block.a < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.a)];
   Vec6* u_b = block.b < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.b)];
   move_rows(block, u_a ? motion(*u_a, system.dt) : Motion{},
             u_b ? motion(*u_b, system.dt) : Motion{}, moved, rows);
 
+  const double softness = block.softness[rows.first];
   double direction[kMaxRows] = {1.0};
-  double speed = 0.0;  // the error by dt; signed for a single row
+  double left = 0.0;  // signed for a single row
   for (int i = 0; i < rows.count; ++i) {
     const int row = rows.first + i;
-    const double e = block.bias[row] + moved.phi[row] / system.dt;
+    const double e = block.bias[row] + moved.phi[row] / system.dt + softness * block.impulse[row];
     if (rows.count == 1) {
-      speed = e;
+      left = e;
     } else {
       direction[i] = e;
-      speed += e * e;
+      left += e * e;
     }
   }
   if (rows.count > 1) {
-    speed = std::sqrt(speed);
-    if (speed == 0.0) return;
-    for (int i = 0; i < rows.count; ++i) direction[i] /= speed;
+    left = std::sqrt(left);
+    if (left == 0.0) return;
+    for (int i = 0; i < rows.count; ++i) direction[i] /= left;
   }
 
-  double along = 0.0;
-  for (int i = 0; i < rows.count; ++i) along += direction[i] * block.impulse[rows.first + i];
-  const double softness = block.softness[rows.first];
   double w = softness;
   Vec6 du_a = Vec6::Zero();
   Vec6 du_b = Vec6::Zero();
@@ -89,10 +90,11 @@ void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange ro
     du_b = response(system.inverse_mass[static_cast<std::size_t>(block.b)], g);
     w += g.dot(du_b);
   }
-  double p = -(speed + softness * along) / w;
+  double p = -left / w;
   if (block.is_contact()) {
+    const double before = block.impulse[rows.first];
     const double lowest = rows.first == 0 ? 0.0 : -bound;
-    p = std::min(bound, std::max(lowest, along + p)) - along;
+    p = std::min(bound, std::max(lowest, before + p)) - before;
   }
   if (p == 0.0) return;
   for (int i = 0; i < rows.count; ++i) block.impulse[rows.first + i] += p * direction[i];

@@ -332,6 +332,23 @@ TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
                    25.0 * 130.0 * static_cast<double>(work.substeps));  // the probe is no frame's
 }
 
+// Until the ball hits the tower its chain takes 12 sub-steps a frame and the tower one.
+TEST(EffectCost, OfIslandsIsPartOfWhatTheyCost) {
+  const Scene scene = scenes::wrecking_ball();
+  Experiment experiment = experiment_of(scene, scene.settings);
+  experiment.settings.islands = true;
+  experiment.duration = 0.1;
+  const CostBreakdown costs = cost_of_effects(scene, experiment);
+  const Work& work = costs.run.work;
+  ASSERT_EQ(costs.effects.size(), 5U);
+  for (const EffectCost& cost : costs.effects) {
+    EXPECT_LE(cost.flops * static_cast<double>(work.frames), static_cast<double>(work.flops))
+        << cost.effect;
+  }
+  EXPECT_EQ(costs.effects[3].effect, "contact");
+  EXPECT_GT(costs.effects[3].flops, 0.5 * static_cast<double>(work.flops / work.frames));
+}
+
 TEST(Sweep, DefaultHasEveryMethodOnce) {
   const Scene scene = scenes::swinging_box();
   std::set<std::string> series;

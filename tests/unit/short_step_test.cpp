@@ -1,0 +1,197 @@
+// Every solver on joints and contacts of real bodies. In a sub-step so short that nothing turns,
+// the implicit ones have the same boxed problem as the linear ones; in a long one Newton's answer
+// is complementary at its end.
+
+#include "core/constraints/moved_rows.hpp"
+#include "core/model/names.hpp"
+#include "core/solver/solver.hpp"
+#include "tests/unit/support.hpp"
+
+namespace substep::test {
+namespace {
+
+/// Balls over a floor, of which some hang on each other or on the world. The distance at which they
+/// touch is given by the bias.
+struct Pile {
+  Scene scene;
+  State state;
+  Blocks blocks;
+  std::vector<InverseMass> inverse_mass;
+  std::vector<Vec6> u_before;
+  double dt;
+
+  Pile(Random& random, int balls, int joints, double mu, double step) : dt(step) {
+    scene.effects.joints = scene.effects.contact = true;
+    scene.effects.friction = mu > 0.0;
+    scene.contact.margin = 10.0;  // all pairs have rows
+    scene.bodies.push_back(fixed(Plane{}));
+    for (int i = 0; i < balls; ++i) {
+      Body body = moving(Sphere{uniform(random, 0.3, 0.5)}, uniform(random, 1.0, 5.0));
+      body.orientation = random_rotation(random);
+      body.position = 0.3 * random_vector(random) + Vec3(1.2 * i, 1.0, 0.0);
+      scene.bodies.push_back(body);
+    }
+    for (Body& body : scene.bodies) body.friction = mu;
+    for (int i = 0; i < joints; ++i) {
+      HingeJoint hinge;
+      hinge.a = 1 + i % balls;
+      hinge.b = i == 0 ? kWorld : i % balls;
+      hinge.anchor_a = 0.3 * random_vector(random);
+      hinge.anchor_b = 0.3 * random_vector(random);
+      hinge.axis_a = hinge.axis_b = random_vector(random).normalized();
+      if (i % 2 == 0) {
+        scene.joints.emplace_back(hinge);
+      } else {
+        BallJoint ball;
+        static_cast<JointBase&>(ball) = hinge;
+        scene.joints.emplace_back(ball);
+      }
+    }
+    state = initial_state(scene);
+    for (std::size_t i = 1; i < state.u.size(); ++i) {
+      state.u[i] << random_vector(random), random_vector(random);
+    }
+    u_before = state.u;
+    const std::vector<Mat3> R = rotations(state);
+    JointStage(scene).append(scene, whole(scene), state, R, blocks);
+    ContactStage(scene).detect_and_append(scene, whole(scene), state, R, blocks);
+    if (mu > 0.0) FrictionStage(scene).append(scene, R, blocks.all());
+    for (Block& block : blocks.all()) {
+      const double softness = uniform(random, 0.05, 0.5);
+      for (int row = 0; row < block.rows; ++row) {
+        block.softness[row] = softness;
+        block.bias[row] = uniform(random);
+        block.impulse[row] = 0.0;
+        block.tight[row] = block.is_contact() ? kUnknownSet : std::int8_t{0};
+      }
+    }
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      InverseMass inverse;
+      if (!scene.bodies[i].is_static) {
+        const Vec3 W = scene.bodies[i].inertia.cwiseInverse();
+        inverse = {1.0 / scene.bodies[i].mass, R[i] * W.asDiagonal() * R[i].transpose()};
+      }
+      inverse_mass.push_back(inverse);
+    }
+  }
+  System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt}; }
+};
+
+Settings until_done() {
+  Settings settings;
+  settings.iterations = 4000;
+  return settings;
+}
+
+/// Bounds of friction move with the solution; BPP refreshes them a few times a call.
+SolveReport settle(Solver& solver, Pile& pile) {
+  const std::vector<Vec6> u = pile.state.u;
+  SolveReport report;
+  for (int call = 0; call < 20; ++call) {
+    pile.state.u = u;
+    report = solver.solve(pile.system(), until_done());
+    if (report.status == SolveStatus::kSolved) break;
+  }
+  return report;
+}
+
+class EverySolverOfRigidBodies : public testing::TestWithParam<SolverKind> {};
+INSTANTIATE_TEST_SUITE_P(Solvers, EverySolverOfRigidBodies,
+                         testing::Values(SolverKind::kPgs, SolverKind::kBpp, SolverKind::kXpbd,
+                                         SolverKind::kNewton),
+                         [](const auto& solver) { return std::string(name_of(solver.param)); });
+
+constexpr double kShort = 3e-7;   // rows turn by as much [s]
+constexpr double kTurned = 1e-4;  // what that does to velocities and impulses, at most
+
+TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {
+  Random random(51);
+  const auto solver = make_solver(GetParam());
+  int closed = 0;
+  int sliding = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Pile pile(random, 1 + trial % 3, trial % 4, trial % 2 == 0 ? 0.0 : 0.4, kShort);
+    const std::vector<Vec6> u_star = pile.state.u;
+    settle(*solver, pile);
+    EXPECT_LT(lcp_residual(pile.system()), kTurned) << "trial " << trial;
+    std::vector<Vec6> u = u_star;
+    for (const Block& block : pile.blocks.all()) {
+      apply_impulse(block, block.impulse, pile.inverse_mass, u);
+      if (!block.is_contact() || block.impulse[0] == 0.0) continue;
+      ++closed;
+      sliding += block.rows == 3 && std::abs(block.impulse[1]) >= block.mu * block.impulse[0];
+    }
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      EXPECT_LT((u[i] - pile.state.u[i]).norm(), kTurned) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(closed, 60);
+  EXPECT_GT(sliding, 5);
+}
+
+// With so much softness there is one answer.
+TEST_P(EverySolverOfRigidBodies, InAShortStepAllHaveTheSameAnswer) {
+  Random random(52);
+  const auto solver = make_solver(GetParam());
+  const auto direct = make_solver(SolverKind::kBpp);
+  for (int trial = 0; trial < 60; ++trial) {
+    Pile pile(random, 1 + trial % 3, trial % 4, trial % 2 == 0 ? 0.0 : 0.3, kShort);
+    Pile other = pile;
+    settle(*solver, pile);
+    settle(*direct, other);
+    for (std::size_t i = 0; i < pile.state.u.size(); ++i) {
+      EXPECT_LT((pile.state.u[i] - other.state.u[i]).norm(), kTurned) << "trial " << trial;
+    }
+  }
+}
+
+TEST_P(EverySolverOfRigidBodies, NoBlocksLeaveTheVelocitiesAlone) {
+  Random random(53);
+  Pile pile(random, 3, 0, 0.0, 0.01);
+  pile.blocks.clear();
+  const std::vector<Vec6> u = pile.state.u;
+  make_solver(GetParam())->solve(pile.system(), Settings{});
+  for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(u[i], pile.state.u[i]);
+}
+
+// Long steps: what opens and what carries is decided where the bodies will be.
+TEST(Newton, IsComplementaryAtTheEndOfALongStep) {
+  Random random(54);
+  const auto newton = make_solver(SolverKind::kNewton);
+  int closed = 0;
+  int open = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Pile pile(random, 1 + trial % 3, trial % 4, trial % 2 == 0 ? 0.0 : 0.4, 0.02);
+    const SolveReport report = settle(*newton, pile);
+    if (report.status != SolveStatus::kSolved) continue;
+    const auto move = [&](int body) {
+      return body < 0 ? Motion{} : motion(pile.state.u[static_cast<std::size_t>(body)], pile.dt);
+    };
+    for (const Block& start : pile.blocks.all()) {
+      Block end = start;
+      move_rows(start, move(start.a), move(start.b), end);
+      double w[kMaxRows];
+      for (int row = 0; row < start.rows; ++row) {
+        w[row] =
+            start.bias[row] + end.phi[row] / pile.dt + start.softness[row] * start.impulse[row];
+      }
+      if (!start.is_contact()) {
+        for (int row = 0; row < start.rows; ++row) EXPECT_NEAR(w[row], 0.0, 1e-6);
+        continue;
+      }
+      EXPECT_GE(start.impulse[0], 0.0);
+      EXPECT_NEAR(std::min(w[0], start.impulse[0]), 0.0, 1e-6) << "trial " << trial;
+      (start.impulse[0] > 0.0 ? closed : open) += 1;
+      const double bound = start.mu * start.impulse[0];
+      for (int row = 1; row < start.rows; ++row) {
+        const double x = start.impulse[row];
+        EXPECT_NEAR(x, std::min(bound, std::max(-bound, x - w[row])), 1e-6) << "trial " << trial;
+      }
+    }
+  }
+  EXPECT_GT(closed, 40);
+  EXPECT_GT(open, 40);
+}
+
+}  // namespace
+}  // namespace substep::test

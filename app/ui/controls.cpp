@@ -19,14 +19,14 @@ constexpr std::array<Choice, 5> kModes{
     {{"none", "One step per frame and nothing against instability: N = 1."},
      {"const",
       "The same number of sub-steps in every frame, chosen by you: dt = h/N "
-      "(Macklin et al. 2019). Every frame pays for the worst one."},
+      "(Macklin et al. 2019, Small steps). Every frame pays for the worst one."},
      {"damping",
       "One step per frame; rotations that are too stiff for it are damped implicitly: "
       "b = max(0, (h² k − 4 α M)/h), Eq. 6 (Andrews et al. 2017)."},
      {"adaptive",
       "As many sub-steps as the stiffest degree of freedom needs: "
       "r = max k/M (Eq. 9), dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up "
-      "(Eq. 11)."},
+      "(Eq. 11). The paper's (Giles and Andrews 2024)."},
      {"capped",
       "Adaptive up to a cap, damping for what is left over: the combination that the "
       "paper leaves for future work."}}};
@@ -37,10 +37,10 @@ constexpr std::array<Choice, 3> kFurtherModes{
       "stabilising part (Tournier et al. 2015). Damps more than damping does."},
      {"inertia",
       "Adaptive up to a cap; what is left over turns with a larger inertia, dt² k/(4 αm), that "
-      "neither gains nor loses energy."},
+      "neither gains nor loses energy. This project's."},
      {"blend",
       "Adaptive up to a cap, then geometric inertia of which a share 1 - β damps: steadier where "
-      "contacts come and go."}}};
+      "contacts come and go. This project's."}}};
 
 constexpr std::array<const char*, 8> kModeLines{
     "One step a frame, unprotected.",          "The same N in every frame.",
@@ -49,13 +49,17 @@ constexpr std::array<const char*, 8> kModeLines{
     "Adaptive up to a cap, then inertia.",     "Adaptive up to a cap, then both."};
 
 constexpr std::array<Choice, 4> kSolvers{
-    {{"PGS", "Projected Gauss-Seidel: a fixed number of sweeps over the rows of Eq. 3."},
-     {"BPP", "Block principal pivoting: solves the boxed problem of Eq. 3 exactly."},
+    {{"PGS",
+      "Projected Gauss-Seidel (Erleben 2013): a fixed number of sweeps over the rows of Eq. 3."},
+     {"BPP",
+      "Block principal pivoting (Judice and Pires 1994): solves the boxed problem of Eq. 3 "
+      "exactly."},
      {"XPBD",
-      "Extended position-based dynamics (Mueller 2020): sweeps that move the bodies "
+      "Extended position-based dynamics (Mueller et al. 2020): sweeps that move the bodies "
       "themselves, each row along its error as it is at that moment."},
      {"Newton",
-      "Non-smooth Newton (Macklin 2019): errors vanish at the end of the sub-step, and the "
+      "Non-smooth Newton (Macklin et al. 2019, Non-smooth Newton methods): errors vanish at the "
+      "end of the sub-step, and the "
       "forces belong to poses around it."}}};
 constexpr std::array<Choice, 3> kForces{
     {{"end", "The end of the sub-step: implicit Euler, which damps. The source's."},
@@ -83,7 +87,8 @@ constexpr std::array<Choice, 2> kDetections{
     {{"sub-step", "Looked for before every sub-step."},
      {"frame",
       "Looked for once a frame, as far ahead as bodies can come, and carried along with them "
-      "(Macklin et al. 2019). Nothing fast gets through, and features that change within the frame "
+      "(Macklin et al. 2019, Small steps). Nothing fast gets through, and features that change "
+      "within the frame "
       "are seen late."}}};
 constexpr std::array<Choice, 2> kGyroscopics{
     {{"explicit", "Explicit Euler: gains energy."},
@@ -201,7 +206,7 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
   if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
     checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
              "The sweeps are those of a whole frame, shared out over its sub-steps: small steps "
-             "(Macklin et al. 2019).");
+             "(Macklin et al. 2019, Small steps).");
   }
   choose(look, "Integrator", kIntegrators, s.integrator, "How a sub-step advances time.");
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/constraints/block.hpp"
 
 namespace substep {
@@ -30,5 +32,8 @@ struct RowRange {
 ///        of joints.
 void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved,
                RowRange rows = {});
+
+/// Floating-point operations of move_rows for so many rows of a block.
+std::int64_t move_flops(const Block& block, int rows);
 
 }  // namespace substep

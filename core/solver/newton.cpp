@@ -7,6 +7,8 @@
 #include "core/constraints/contact.hpp"
 #include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/moved_rows.hpp"
+#include "core/constraints/stiffness_flops.hpp"
+#include "core/math/flops.hpp"
 #include "core/math/resisting.hpp"
 
 namespace substep {
@@ -37,6 +39,24 @@ double weight_of(Forces forces) {
       return 1.0 / 12.0;
   }
   return 1.0;
+}
+
+/// Of a step but for the linear system's own: rows at other poses, their averages, and the Hessian.
+std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies, Forces forces) {
+  constexpr std::int64_t kEigen = 400;  // of a symmetric 3 x 3 matrix, by QL steps, and back
+  constexpr std::int64_t kBody = kEigen + 3 * product_flops(3, 3, 3) + 40 +  // Mt^-1
+                                 2 * product_flops(3, 3, 1) + 30;            // u, its change
+  std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
+  for (const Block& block : blocks) {
+    const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+    flops += move_flops(block, block.rows) + product_flops(block.rows, 6, sides) + 3 * block.rows +
+             block.rows + stiffness_flops(block, true);
+    if (forces == Forces::kEnd) continue;
+    const std::int64_t averaged = block.rows * (block.pinned ? 3 : 6) + 3;
+    flops += 4 * averaged * sides;
+    if (forces == Forces::kNumerov) flops += 20 * block.rows * sides;
+  }
+  return flops;
 }
 
 Motion motion_of(int body, std::span<const Vec6> u, double dt) {
@@ -198,7 +218,7 @@ SolveReport Newton::solve(const System& system, const Settings& settings) {
     report.pivots += step.pivots;
     report.passes += step.passes;
     report.factorisations += step.factorisations;
-    report.flops += step.flops;
+    report.flops += step.flops + relinearise_flops(rows_, u_.size(), settings.forces);
   }
   return report;
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/solver/flops.hpp"
+#include "core/math/flops.hpp"
 
 namespace substep {
 

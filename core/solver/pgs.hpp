@@ -6,7 +6,8 @@
 
 namespace substep {
 
-/// Projected Gauss-Seidel, matrix-free: sequential impulses on u, row by row in the order of the
+/// Projected Gauss-Seidel (Erleben 2013, "Numerical methods for linear complementarity problems in
+/// physics-based animation"), matrix-free: sequential impulses on u, row by row in the order of the
 /// blocks, friction bounds live. A fixed number of iterations; impulses start from zero or, with
 /// Settings::warm_start, from the seeds.
 class Pgs final : public Solver {

@@ -4,7 +4,7 @@
 
 #include "core/solver/body_products.hpp"
 #include "core/solver/dense_ldlt.hpp"
-#include "core/solver/flops.hpp"
+#include "core/math/flops.hpp"
 #include "core/solver/saddle_ldlt.hpp"
 
 namespace substep {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/flops.hpp"
 #include "core/math/turn.hpp"
-#include "core/solver/flops.hpp"
 
 namespace substep {
 
@@ -35,11 +35,9 @@ void push(const Vec6& du, double dt, Vec6& u) {
 /// gradient, its response and the push.
 std::int64_t correction_flops(const Block& block, int count) {
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  constexpr std::int64_t kMoveRow = 15;  // phi and J of one row at other poses
-  constexpr std::int64_t kMoveBody = 60;
   constexpr std::int64_t kPush = 50;
-  return count * (kMoveRow + 6) + 6 +
-         bodies * (kMoveBody + product_flops(6, count, 1) + product_flops(3, 3, 1) + 15 + kPush);
+  return move_flops(block, count) + count * 6 + 6 +
+         bodies * (product_flops(6, count, 1) + product_flops(3, 3, 1) + 15 + kPush);
 }
 
 }  // namespace

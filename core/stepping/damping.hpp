@@ -9,6 +9,11 @@ namespace substep {
 // The roots leave the unit circle at kappa = 4. A mass Mt in the place of M on the left alone,
 //   Mt u+ = M u - dt k x,  gives  z^2 - (1 + M/Mt - dt^2 k/Mt) z + M/Mt = 0,
 // whose roots stay within it while dt^2 k <= 2 (M + Mt), and lose the factor sqrt(M/Mt) a step.
+// Leapfrog has the same recurrence where dt stays: its u stands half a step earlier, that is all.
+//
+// `none`, `const` and `adaptive` leave M and choose dt: kappa = 4 alpha (h/(N dt_max))^2 <= 4 alpha
+// with Eqs. 10 and 11, so that alpha < 1 is stable. `capped` stops at n_cap and damps what is left
+// over: it is `damping` with dt = h/n_cap.
 
 /// Adaptive damping (Andrews et al. 2017; Eq. 6): Mt = M + dt b with
 /// b = max(0, (dt^2 k - 4 alpha M)/dt). Stable for every k and alpha <= 1: where b > 0,

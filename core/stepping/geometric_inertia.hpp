@@ -9,7 +9,11 @@ namespace substep {
 // damping.hpp). Between the two, a share beta of the velocity term taken with Mt and the rest with
 // M,
 //   Mt u+ = (beta Mt + (1 - beta) M) u - dt k x,
-// the step loses the factor sqrt(beta + (1 - beta) M/Mt).
+//   z^2 - (1 + kept - dt^2 k/Mt) z + kept = 0,   kept = beta + (1 - beta) M/Mt,
+// its roots are within the unit circle while the value at z = -1, 2 (1 + kept) - dt^2 k/Mt, is
+// positive: dt^2 k < 2 (1 + kept) Mt. Their product is kept, so a step loses the factor sqrt(kept).
+// beta = 1 is `inertia`, beta = 0 the mass of damping.hpp. With the least Mt below, dt^2 k/Mt <=
+// 4 alpha_m, the blend is stable for every k where alpha_m < (1 + beta)/2.
 
 /// Geometric inertia: the least mass >= M with dt^2 k/Mt <= 4 alpha_m. Stable for every k where
 /// alpha_m < 1. @param mass of the degree of freedom [kg m^2]  @param k [N m/rad]  @param dt [s]

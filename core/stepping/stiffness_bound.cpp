@@ -3,39 +3,9 @@
 #include "core/constraints/ball_joint.hpp"
 #include "core/constraints/contact.hpp"
 #include "core/constraints/hinge_joint.hpp"
-#include "core/solver/flops.hpp"
+#include "core/constraints/stiffness_flops.hpp"
 
 namespace substep {
-namespace {
-
-constexpr std::int64_t kProduct = product_flops(3, 3, 3);
-constexpr std::int64_t kSkewProduct = 12;
-constexpr std::int64_t kSum = 9;
-
-std::int64_t exact_contact_flops(std::int64_t bodies) {
-  const std::int64_t normal = 2 * kProduct + kSum;  // N_b, H r
-  const std::int64_t torques =
-      4 * product_flops(3, 3, 6) + 2 * kProduct + 5 * kSum;  // by each body
-  return normal + torques + bodies * bodies * 2 * 36;        // scaled, added
-}
-
-/// Of adding one block to K, as core/constraints/ does it.
-std::int64_t block_flops(const Block& block, ContactStiffness form) {
-  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  const std::int64_t ball = bodies * (kSkewProduct + kSum);
-  switch (block.kind) {
-    case BlockKind::kBall:
-      return ball;
-    case BlockKind::kHinge:  // w, W U, on each body and between both
-      return ball + 9 + kSkewProduct + bodies * bodies * kSum;
-    case BlockKind::kContact:
-      if (form == ContactStiffness::kPaper) return 3 + (block.rows == 3 ? 12 : 0) + ball;
-      return block.lambda[0] == 0.0 ? 0 : exact_contact_flops(bodies);
-  }
-  return 0;
-}
-
-}  // namespace
 
 StiffnessStage::StiffnessStage(const Scene& scene) {
   const std::size_t joints = scene.effects.joints ? 2 * scene.joints.size() : 0;
@@ -69,7 +39,7 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness fo
 
 std::int64_t StiffnessStage::flops(std::span<const Block> blocks, ContactStiffness form) const {
   std::int64_t sum = K_.norm_flops();
-  for (const Block& block : blocks) sum += block_flops(block, form);
+  for (const Block& block : blocks) sum += stiffness_flops(block, form == ContactStiffness::kExact);
   return sum;
 }
 

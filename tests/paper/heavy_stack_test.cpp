@@ -140,6 +140,50 @@ TEST(HeavyStackStress, RefinedASingleStepStands) {
   EXPECT_TRUE(run(scenes::heavy_stack_stress_tall(), refined, 12.0).holds);
 }
 
+// The exact block of a contact has no share that the paper's takes for a ball joint's: a stack asks
+// for fewer sub-steps. Bodies that tumble on edges ask for more.
+TEST(ContactStiffness, TheExactBlockChangesN) {
+  const auto substeps = [](const Scene& scene, ContactStiffness form) {
+    Settings settings = with(Mode::kAdaptive);
+    settings.contact_stiffness = form;
+    const Outcome r = run(scene, settings, 2.0);
+    EXPECT_TRUE(r.holds) << scene.name << ": " << r.verdict;
+    return static_cast<double>(r.substeps());
+  };
+  const auto exact_by_paper = [&](const Scene& scene) {
+    return substeps(scene, ContactStiffness::kExact) / substeps(scene, ContactStiffness::kPaper);
+  };
+  EXPECT_NEAR(exact_by_paper(scenes::heavy_stack()), 19.0 / 24.0, 0.02);
+  EXPECT_NEAR(exact_by_paper(scenes::bridge()), 1.1, 0.1);
+  EXPECT_GT(exact_by_paper(scenes::ragdoll_drop()), 1.5);
+}
+
+// Survival per unit of work has an optimum: six refinements of a single step, twelve for ten
+// layers.
+TEST(HeavyStackStress, StandsLongestForItsWorkWithSixRefinements) {
+  const auto per_work = [](const Scene& scene, const Settings& settings) {
+    double work = 0.0;
+    const Outcome r = run(scene, settings, 400.0, [&](const Simulator&, const FrameReport& report) {
+      work += static_cast<double>(report.work.flops);
+    });
+    EXPECT_FALSE(r.holds) << "they all fall in the end";
+    const double frames = 60.0 * r.failed_at;
+    return r.failed_at / (1e-3 * work / frames);  // [s per kflop a frame]
+  };
+  const auto refined = [&](const Scene& scene, int refinements) {
+    Settings settings = with(Mode::kNone);
+    settings.refinements = refinements;
+    return per_work(scene, settings);
+  };
+  const Scene stack = scenes::heavy_stack_stress();
+  const double best = refined(stack, 6);
+  for (const int other : {1, 2, 4, 8, 12}) EXPECT_GT(best, refined(stack, other)) << other;
+  EXPECT_GT(best, 30.0 * per_work(stack, with(Mode::kAdaptive)));
+  const Scene tall = scenes::heavy_stack_stress_tall();
+  const double best_tall = refined(tall, 12);
+  for (const int other : {6, 8, 16, 24}) EXPECT_GT(best_tall, refined(tall, other)) << other;
+}
+
 /// The start with the balls moved to and fro by up to so much [m].
 Scene moved(const scenes::HeavyStackOptions& options, double by, std::uint64_t seed) {
   Scene scene = scenes::heavy_stack(options);

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "scenes/generator/scenes.hpp"
 #include "tests/paper/exact_swing.hpp"
 #include "tests/support/run.hpp"
@@ -124,10 +126,15 @@ struct Crossings {
   double mean_n = 0.0;
 };
 
-Crossings cross_the_bridge(const Settings& settings) {
+/// @param compliance of all joints in the place of the scene's [m/N]
+Crossings cross_the_bridge(const Settings& settings, std::optional<double> compliance = {}) {
   Crossings all;
   for (const auto& start : scenes::bridge_starts()) {
-    const Outcome r = run(scenes::bridge(start), settings, 6.0);
+    Scene scene = scenes::bridge(start);
+    if (compliance) {
+      for (Joint& joint : scene.joints) base(joint).compliance = *compliance;
+    }
+    const Outcome r = run(scene, settings, 6.0);
     all.held += r.holds ? 1 : 0;
     all.mean_n += static_cast<double>(r.substeps()) / static_cast<double>(r.n.size()) / 8.0;
   }
@@ -148,6 +155,19 @@ TEST(BridgePastThePaper, BlendCappedAndFullStiffnessCross) {
   const Crossings stiffness = cross_the_bridge(settings);
   EXPECT_EQ(stiffness.held, 8);
   EXPECT_EQ(stiffness.mean_n, 1.0);
+}
+
+// The damping of `capped` does without the give of soft joints, the little of `blend` does not.
+TEST(BridgePastThePaper, CappedCrossesWithRigidJointsToo) {
+  Settings settings;
+  settings.mode = Mode::kCapped;
+  for (const double compliance : {1e-10, 1e-12}) {
+    const Crossings capped = cross_the_bridge(settings, compliance);
+    EXPECT_EQ(capped.held, 8) << compliance;
+    EXPECT_LE(capped.mean_n, 5.5) << compliance;
+  }
+  settings.mode = Mode::kBlend;
+  EXPECT_LT(cross_the_bridge(settings, 1e-12).held, 8);
 }
 
 TEST(BridgePastThePaper, OneSubstepOfGeometricInertiaIsNotEnough) {

@@ -6,6 +6,7 @@
 
 #include "core/math/random.hpp"
 #include "core/model/names.hpp"
+#include "core/stepping/mode_rules.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep {
@@ -92,18 +93,16 @@ std::string series_name(const Settings& s) {
 }
 
 SeriesParameter series_parameter(const Settings& s) {
-  switch (s.mode) {
-    case Mode::kNone:
-    case Mode::kStiffness:
+  const ModeRules rules = rules_of(s.mode);
+  switch (rules.count) {
+    case Count::kOne:
+      if (rules.mass == StiffMass::kDamped) break;
       return {"n", 1.0};
-    case Mode::kConst:
+    case Count::kGiven:
       return {"n", static_cast<double>(s.n)};
-    case Mode::kCapped:
-    case Mode::kInertia:
-    case Mode::kBlend:
+    case Count::kStableCapped:
       return {"n_cap", static_cast<double>(s.n_cap)};
-    case Mode::kDamping:
-    case Mode::kAdaptive:
+    case Count::kStable:
       break;
   }
   return {"alpha", s.alpha};

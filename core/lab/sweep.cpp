@@ -7,6 +7,7 @@
 
 #include "core/sim/islands.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/mode_rules.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep {
@@ -35,23 +36,22 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
       all.push_back(settings);
     }
   };
-  switch (mode) {
-    case Mode::kNone:
-    case Mode::kStiffness:
-      all.push_back(settings);
+  const ModeRules rules = rules_of(mode);
+  switch (rules.count) {
+    case Count::kOne:
+      if (rules.mass == StiffMass::kDamped) {
+        along(kDampingAlpha, &Settings::alpha);
+      } else {
+        all.push_back(settings);
+      }
       break;
-    case Mode::kConst:
+    case Count::kGiven:
       along(kConstant, &Settings::n);
       break;
-    case Mode::kCapped:
-    case Mode::kInertia:
-    case Mode::kBlend:
+    case Count::kStableCapped:
       along(kCaps, &Settings::n_cap);
       break;
-    case Mode::kDamping:
-      along(kDampingAlpha, &Settings::alpha);
-      break;
-    case Mode::kAdaptive:
+    case Count::kStable:
       settings.n_max = std::max(settings.n_max, 256);  // a cap of its own would hide the law
       along(kAlpha, &Settings::alpha);
       break;

@@ -8,6 +8,7 @@
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/mode_rules.hpp"
 
 namespace substep {
 
@@ -42,8 +43,8 @@ RowCounts Simulator::Impl::count_rows(std::span<const Block> of) {
 bool Simulator::Impl::probe_due() const {
   const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
   // Mode stiffness reads more of K than other modes leave behind.
-  const bool known =
-      state.stiffness_known && (settings.mode != Mode::kStiffness || !state.K_resisting.empty());
+  const bool known = state.stiffness_known && (rules_of(settings.mode).mass != StiffMass::kFull ||
+                                               !state.K_resisting.empty());
   return settings.probe && reads_stiffness && !known;
 }
 

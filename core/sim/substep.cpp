@@ -11,6 +11,7 @@
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
+#include "core/stepping/mode_rules.hpp"
 
 namespace substep {
 
@@ -187,7 +188,7 @@ void Simulator::Impl::stop(std::size_t body, FrameReport& report) {
 
 bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
-  const bool full = settings.mode == Mode::kStiffness;
+  const bool full = rules_of(settings.mode).mass == StiffMass::kFull;
   // The paper's contact block is no derivative: it may steer N, and must not enter Mt.
   const ContactStiffness form = full ? ContactStiffness::kExact : settings.contact_stiffness;
   stiffness->evaluate(rows(), form, part(), R_WB, state.k);

@@ -2,6 +2,7 @@
 
 #include "core/stepping/damping.hpp"
 #include "core/stepping/geometric_inertia.hpp"
+#include "core/stepping/mode_rules.hpp"
 
 namespace substep {
 
@@ -42,32 +43,30 @@ void inverse_mass(const Scene& scene, const Part& part, std::span<const Mat3> R_
   }
 }
 
-bool changes_mass(Mode mode) {
-  switch (mode) {
-    case Mode::kNone:
-    case Mode::kConst:
-    case Mode::kAdaptive:
-      return false;
-    case Mode::kDamping:
-    case Mode::kCapped:
-    case Mode::kStiffness:
-    case Mode::kInertia:
-    case Mode::kBlend:
-      return true;
-  }
-  return false;
-}
+bool changes_mass(Mode mode) { return rules_of(mode).mass != StiffMass::kOwn; }
 
 namespace {
 
 /// Mt about the principal axes of a body [kg m^2]. @return whether it is another than I
-bool principal_mass(const Settings& s, const Vec3& I, const Vec6& k, double dt, Vec3& Mt) {
-  const bool damps = s.mode == Mode::kDamping || s.mode == Mode::kCapped;
+bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6& k, double dt,
+                    Vec3& Mt) {
   for (int j = 0; j < 3; ++j) {
-    Mt[j] = damps ? damped_mass(I[j], k[3 + j], s.alpha, dt)
-                  : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
+    Mt[j] = mass == StiffMass::kDamped ? damped_mass(I[j], k[3 + j], s.alpha, dt)
+                                       : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
   }
   return Mt != I;
+}
+
+double beta_of(Kept kept, const Settings& settings) {
+  switch (kept) {
+    case Kept::kNothing:
+      return 0.0;
+    case Kept::kShare:
+      return settings.beta;
+    case Kept::kAll:
+      return 1.0;
+  }
+  return 0.0;
 }
 
 }  // namespace
@@ -77,10 +76,9 @@ bool principal_mass(const Settings& s, const Vec3& I, const Vec6& k, double dt, 
 void effective_mass(const Scene& scene, const Part& part, const Settings& settings,
                     std::span<const Mat3> R_WB, std::span<const Vec6> u_start, double dt,
                     State& state, std::span<InverseMass> out) {
-  const double beta = settings.mode == Mode::kInertia ? 1.0
-                      : settings.mode == Mode::kBlend ? settings.beta
-                                                      : 0.0;
-  const bool stiffens = settings.mode == Mode::kStiffness;
+  const ModeRules rules = rules_of(settings.mode);
+  const double beta = beta_of(rules.kept, settings);
+  const bool stiffens = rules.mass == StiffMass::kFull;
   const std::size_t known = stiffens ? state.K_resisting.size() : state.k.size();
   for (const int index : part.bodies) {
     const auto i = static_cast<std::size_t>(index);
@@ -89,7 +87,7 @@ void effective_mass(const Scene& scene, const Part& part, const Settings& settin
     const Mat3& R = R_WB[i];
     Vec3 Mt;
     if (body.is_static || i >= known ||
-        (!stiffens && !principal_mass(settings, I, state.k[i], dt, Mt))) {
+        (!stiffens && !principal_mass(settings, rules.mass, I, state.k[i], dt, Mt))) {
       out[i] = inverse_mass_of(body, R);
       continue;
     }

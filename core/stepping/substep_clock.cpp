@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/stepping/mode_rules.hpp"
+
 namespace substep {
 
 double stable_step(double alpha, double r) {
@@ -12,8 +14,8 @@ double stable_step(double alpha, double r) {
 }
 
 bool chooses_substeps(Mode mode) {
-  return mode == Mode::kAdaptive || mode == Mode::kCapped || mode == Mode::kInertia ||
-         mode == Mode::kBlend;
+  const Count count = rules_of(mode).count;
+  return count == Count::kStable || count == Count::kStableCapped;
 }
 
 bool has_islands(const Settings& settings) {
@@ -47,20 +49,17 @@ SubstepClock::SubstepClock(const Settings& settings, double h, double r)
 }
 
 void SubstepClock::decide() {
-  switch (settings_.mode) {
-    case Mode::kNone:
-    case Mode::kDamping:
-    case Mode::kStiffness:
+  const Count count = rules_of(settings_.mode).count;
+  switch (count) {
+    case Count::kOne:
       left_ = 1;
       break;
-    case Mode::kConst:
+    case Count::kGiven:
       left_ = settings_.n;
       break;
-    case Mode::kAdaptive:
-    case Mode::kCapped:
-    case Mode::kInertia:
-    case Mode::kBlend: {
-      limit_ = settings_.mode == Mode::kAdaptive ? settings_.n_max : settings_.n_cap;
+    case Count::kStable:
+    case Count::kStableCapped: {
+      limit_ = count == Count::kStable ? settings_.n_max : settings_.n_cap;
       const double dt_max = stable_step(settings_.alpha, r_);
       const int wanted = wanted_substeps(h_, dt_max);
       n_wanted_ = std::max(n_wanted_, wanted);
@@ -74,20 +73,9 @@ void SubstepClock::decide() {
 }
 
 bool SubstepClock::needs_stiffness() const {
-  switch (settings_.mode) {
-    case Mode::kNone:
-    case Mode::kConst:
-      return settings_.watch_stiffness && left_ == 1;
-    case Mode::kDamping:
-    case Mode::kCapped:
-    case Mode::kStiffness:
-    case Mode::kInertia:
-    case Mode::kBlend:
-      return true;
-    case Mode::kAdaptive:
-      return left_ == 1 || settings_.policy == Policy::kSubstep;
-  }
-  return false;
+  if (rules_of(settings_.mode).mass != StiffMass::kOwn) return true;
+  if (decides_again(settings_)) return true;
+  return left_ == 1 && (chooses_substeps(settings_.mode) || settings_.watch_stiffness);
 }
 
 void SubstepClock::advance(double r) {

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "core/math/flops.hpp"
 #include "core/solver/body_products.hpp"
 #include "core/solver/dense_ldlt.hpp"
-#include "core/math/flops.hpp"
 #include "core/solver/saddle_ldlt.hpp"
 
 namespace substep {

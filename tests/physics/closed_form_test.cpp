@@ -167,13 +167,12 @@ TEST(NewtonsCradle, OneBallInIsOneBallOut) {
     Forces forces;
     double loss;  // at most, of 1.96 J
   };
-  // What 25 sweeps leave of a blow stays behind. Implicit Euler (`xpbd` and forces at the end) damps
-  // the swing itself: by half as much with twice the sub-steps, as below.
-  for (const auto& [solver, forces, loss] : {Row{SolverKind::kBpp, Forces::kEnd, 1e-4},
-                                             Row{SolverKind::kPgs, Forces::kEnd, 0.1},
-                                             Row{SolverKind::kXpbd, Forces::kEnd, 0.15},
-                                             Row{SolverKind::kNewton, Forces::kEnd, 0.15},
-                                             Row{SolverKind::kNewton, Forces::kMean, 1e-3}}) {
+  // What 25 sweeps leave of a blow stays behind. Implicit Euler (`xpbd` and forces at the end)
+  // damps the swing itself: by half as much with twice the sub-steps, as below.
+  for (const auto& [solver, forces, loss] :
+       {Row{SolverKind::kBpp, Forces::kEnd, 1e-4}, Row{SolverKind::kPgs, Forces::kEnd, 0.1},
+        Row{SolverKind::kXpbd, Forces::kEnd, 0.15}, Row{SolverKind::kNewton, Forces::kEnd, 0.15},
+        Row{SolverKind::kNewton, Forces::kMean, 1e-3}}) {
     Settings settings = scene.settings;
     settings.solver = solver;
     settings.forces = forces;

@@ -95,14 +95,14 @@ std::string series_name(const Settings& s) {
 SeriesParameter series_parameter(const Settings& s) {
   const ModeRules rules = rules_of(s.mode);
   switch (rules.count) {
-    case Count::kOne:
+    case SubstepCount::kOne:
       if (rules.mass == StiffMass::kDamped) break;
       return {"n", 1.0};
-    case Count::kGiven:
+    case SubstepCount::kGiven:
       return {"n", static_cast<double>(s.n)};
-    case Count::kStableCapped:
+    case SubstepCount::kStableCapped:
       return {"n_cap", static_cast<double>(s.n_cap)};
-    case Count::kStable:
+    case SubstepCount::kStable:
       break;
   }
   return {"alpha", s.alpha};

@@ -38,20 +38,20 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
   };
   const ModeRules rules = rules_of(mode);
   switch (rules.count) {
-    case Count::kOne:
+    case SubstepCount::kOne:
       if (rules.mass == StiffMass::kDamped) {
         along(kDampingAlpha, &Settings::alpha);
       } else {
         all.push_back(settings);
       }
       break;
-    case Count::kGiven:
+    case SubstepCount::kGiven:
       along(kConstant, &Settings::n);
       break;
-    case Count::kStableCapped:
+    case SubstepCount::kStableCapped:
       along(kCaps, &Settings::n_cap);
       break;
-    case Count::kStable:
+    case SubstepCount::kStable:
       settings.n_max = std::max(settings.n_max, 256);  // a cap of its own would hide the law
       along(kAlpha, &Settings::alpha);
       break;

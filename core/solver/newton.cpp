@@ -49,8 +49,8 @@ std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies
   std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
   for (const Block& block : blocks) {
     const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-    flops += move_flops(block, block.rows) + product_flops(block.rows, 6, sides) + 3 * block.rows +
-             block.rows + stiffness_flops(block, true);
+    flops += move_flops(block, block.rows) + product_flops(block.rows, 6, sides) + 4 * block.rows +
+             stiffness_flops(block, true);
     if (forces == Forces::kEnd) continue;
     const std::int64_t averaged = block.rows * (block.pinned ? 3 : 6) + 3;
     flops += 4 * averaged * sides;

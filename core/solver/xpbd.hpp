@@ -14,8 +14,10 @@ namespace substep {
 /// poses on the way: (x+ - x)/dt and the Cayley vector of the turn. A fixed number of sweeps,
 /// Settings::iterations; the source recommends one, and many sub-steps.
 ///
-/// Friction is bounded where positions are corrected, in the place of the source's velocity pass,
-/// and the bodies' inertia keeps the axes of the start of the sub-step.
+/// With compliance a correction goes along what is left of the rows, error and compliance part
+/// together, in the place of the error alone: the same in the first sweep, and further ones end
+/// where nothing is left. Friction is bounded where positions are corrected, in the place of the
+/// source's velocity pass, and the bodies' inertia keeps the axes of the start of the sub-step.
 class Xpbd final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;

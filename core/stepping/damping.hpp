@@ -11,9 +11,9 @@ namespace substep {
 // whose roots stay within it while dt^2 k <= 2 (M + Mt), and lose the factor sqrt(M/Mt) a step.
 // Leapfrog has the same recurrence where dt stays: its u stands half a step earlier, that is all.
 //
-// `none`, `const` and `adaptive` leave M and choose dt: kappa = 4 alpha (h/(N dt_max))^2 <= 4 alpha
-// with Eqs. 10 and 11, so that alpha < 1 is stable. `capped` stops at n_cap and damps what is left
-// over: it is `damping` with dt = h/n_cap.
+// `none` and `const` leave M, and dt to the user: stable while kappa < 4. `adaptive` leaves M and
+// chooses dt <= 2 sqrt(alpha M/k) (Eqs. 10 and 11), so that kappa <= 4 alpha: stable for alpha < 1.
+// `capped` stops at n_cap and damps what is left over: it is `damping` with dt = h/n_cap.
 
 /// Adaptive damping (Andrews et al. 2017; Eq. 6): Mt = M + dt b with
 /// b = max(0, (dt^2 k - 4 alpha M)/dt). Stable for every k and alpha <= 1: where b > 0,

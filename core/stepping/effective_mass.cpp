@@ -57,13 +57,13 @@ bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6
   return Mt != I;
 }
 
-double beta_of(Kept kept, const Settings& settings) {
+double beta_of(KeptVelocity kept, const Settings& settings) {
   switch (kept) {
-    case Kept::kNothing:
+    case KeptVelocity::kNothing:
       return 0.0;
-    case Kept::kShare:
+    case KeptVelocity::kShare:
       return settings.beta;
-    case Kept::kAll:
+    case KeptVelocity::kAll:
       return 1.0;
   }
   return 0.0;

@@ -10,8 +10,9 @@ namespace substep {
 // M,
 //   Mt u+ = (beta Mt + (1 - beta) M) u - dt k x,
 //   z^2 - (1 + kept - dt^2 k/Mt) z + kept = 0,   kept = beta + (1 - beta) M/Mt,
-// its roots are within the unit circle while the value at z = -1, 2 (1 + kept) - dt^2 k/Mt, is
-// positive: dt^2 k < 2 (1 + kept) Mt. Their product is kept, so a step loses the factor sqrt(kept).
+// its roots are within the unit circle (for kept = 1 on it) while the value at z = -1,
+// 2 (1 + kept) - dt^2 k/Mt, is positive: dt^2 k < 2 (1 + kept) Mt. Their product is kept, so a step
+// loses the factor sqrt(kept).
 // beta = 1 is `inertia`, beta = 0 the mass of damping.hpp. With the least Mt below, dt^2 k/Mt <=
 // 4 alpha_m, the blend is stable for every k where alpha_m < (1 + beta)/2.
 

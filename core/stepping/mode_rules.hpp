@@ -7,7 +7,7 @@
 namespace substep {
 
 /// How many sub-steps a frame takes.
-enum class Count : std::uint8_t {
+enum class SubstepCount : std::uint8_t {
   kOne,
   kGiven,         // Settings::n
   kStable,        // N by Eq. 11, at most n_max
@@ -23,7 +23,7 @@ enum class StiffMass : std::uint8_t {
 };
 
 /// The share beta of the velocity term that is taken with Mt; geometric_inertia.hpp.
-enum class Kept : std::uint8_t {
+enum class KeptVelocity : std::uint8_t {
   kNothing,
   kShare,  // Settings::beta
   kAll,
@@ -31,30 +31,30 @@ enum class Kept : std::uint8_t {
 
 /// What a mode is made of.
 struct ModeRules {
-  Count count = Count::kOne;
+  SubstepCount count = SubstepCount::kOne;
   StiffMass mass = StiffMass::kOwn;
-  Kept kept = Kept::kNothing;
+  KeptVelocity kept = KeptVelocity::kNothing;
 };
 
 /// The one place that knows: all of stepping and the sweep go by it.
 constexpr ModeRules rules_of(Mode mode) {
   switch (mode) {
     case Mode::kNone:
-      return {Count::kOne};
+      return {SubstepCount::kOne};
     case Mode::kConst:
-      return {Count::kGiven};
+      return {SubstepCount::kGiven};
     case Mode::kAdaptive:
-      return {Count::kStable};
+      return {SubstepCount::kStable};
     case Mode::kDamping:
-      return {Count::kOne, StiffMass::kDamped};
+      return {SubstepCount::kOne, StiffMass::kDamped};
     case Mode::kCapped:
-      return {Count::kStableCapped, StiffMass::kDamped};
+      return {SubstepCount::kStableCapped, StiffMass::kDamped};
     case Mode::kStiffness:
-      return {Count::kOne, StiffMass::kFull};
+      return {SubstepCount::kOne, StiffMass::kFull};
     case Mode::kInertia:
-      return {Count::kStableCapped, StiffMass::kGeometric, Kept::kAll};
+      return {SubstepCount::kStableCapped, StiffMass::kGeometric, KeptVelocity::kAll};
     case Mode::kBlend:
-      return {Count::kStableCapped, StiffMass::kGeometric, Kept::kShare};
+      return {SubstepCount::kStableCapped, StiffMass::kGeometric, KeptVelocity::kShare};
   }
   return {};
 }

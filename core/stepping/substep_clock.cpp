@@ -14,8 +14,8 @@ double stable_step(double alpha, double r) {
 }
 
 bool chooses_substeps(Mode mode) {
-  const Count count = rules_of(mode).count;
-  return count == Count::kStable || count == Count::kStableCapped;
+  const SubstepCount count = rules_of(mode).count;
+  return count == SubstepCount::kStable || count == SubstepCount::kStableCapped;
 }
 
 bool has_islands(const Settings& settings) {
@@ -49,17 +49,17 @@ SubstepClock::SubstepClock(const Settings& settings, double h, double r)
 }
 
 void SubstepClock::decide() {
-  const Count count = rules_of(settings_.mode).count;
+  const SubstepCount count = rules_of(settings_.mode).count;
   switch (count) {
-    case Count::kOne:
+    case SubstepCount::kOne:
       left_ = 1;
       break;
-    case Count::kGiven:
+    case SubstepCount::kGiven:
       left_ = settings_.n;
       break;
-    case Count::kStable:
-    case Count::kStableCapped: {
-      limit_ = count == Count::kStable ? settings_.n_max : settings_.n_cap;
+    case SubstepCount::kStable:
+    case SubstepCount::kStableCapped: {
+      limit_ = count == SubstepCount::kStable ? settings_.n_max : settings_.n_cap;
       const double dt_max = stable_step(settings_.alpha, r_);
       const int wanted = wanted_substeps(h_, dt_max);
       n_wanted_ = std::max(n_wanted_, wanted);

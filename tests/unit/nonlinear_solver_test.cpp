@@ -10,7 +10,7 @@
 namespace substep::test {
 namespace {
 
-/// A chain of boxes on balls and hinges under a pull, and perhaps a sphere that lies on the last.
+/// A chain of boxes on balls and hinges under a pull.
 struct Chain {
   Scene scene;
   State state;
@@ -41,9 +41,7 @@ struct Chain {
       if (i % 2 == 0) {
         scene.joints.emplace_back(hinge);
       } else {
-        BallJoint ball;
-        static_cast<JointBase&>(ball) = hinge;
-        scene.joints.emplace_back(ball);
+        scene.joints.emplace_back(ball_of(hinge));
       }
     }
     state = initial_state(scene);
@@ -60,11 +58,7 @@ struct Chain {
         block.bias[row] = block.phi[row] / dt;
       }
     }
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const Vec3 inverse = scene.bodies[i].inertia.cwiseInverse();
-      inverse_mass.push_back(
-          {1.0 / scene.bodies[i].mass, R[i] * inverse.asDiagonal() * R[i].transpose()});
-    }
+    inverse_mass = inverse_masses(scene, state);
   }
   [[nodiscard]] Vec3 end_of(int i) const {
     const Body& body = scene.bodies[static_cast<std::size_t>(i)];

@@ -42,9 +42,7 @@ struct Pile {
       if (i % 2 == 0) {
         scene.joints.emplace_back(hinge);
       } else {
-        BallJoint ball;
-        static_cast<JointBase&>(ball) = hinge;
-        scene.joints.emplace_back(ball);
+        scene.joints.emplace_back(ball_of(hinge));
       }
     }
     state = initial_state(scene);
@@ -65,14 +63,7 @@ struct Pile {
         block.tight[row] = block.is_contact() ? kUnknownSet : std::int8_t{0};
       }
     }
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      InverseMass inverse;
-      if (!scene.bodies[i].is_static) {
-        const Vec3 W = scene.bodies[i].inertia.cwiseInverse();
-        inverse = {1.0 / scene.bodies[i].mass, R[i] * W.asDiagonal() * R[i].transpose()};
-      }
-      inverse_mass.push_back(inverse);
-    }
+    inverse_mass = inverse_masses(scene, state);
   }
   System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt}; }
 };

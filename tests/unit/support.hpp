@@ -12,6 +12,7 @@
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 #include "core/solver/system.hpp"
+#include "core/stepping/effective_mass.hpp"
 #include "core/stepping/stiffness_bound.hpp"
 
 namespace substep::test {
@@ -43,6 +44,13 @@ inline Body fixed(const Shape& shape) {
   return body;
 }
 
+/// The same joint without its axis.
+inline BallJoint ball_of(const HingeJoint& hinge) {
+  BallJoint ball;
+  static_cast<JointBase&>(ball) = hinge;
+  return ball;
+}
+
 inline Scene pair_of(const Body& a, const Body& b) {
   Scene scene;
   scene.effects.contact = true;
@@ -55,6 +63,13 @@ inline std::vector<Mat3> rotations(const State& state) {
   std::vector<Mat3> R;
   for (const Quat& q : state.q) R.push_back(q.toRotationMatrix());
   return R;
+}
+
+/// M^-1 of all bodies, world axes.
+inline std::vector<InverseMass> inverse_masses(const Scene& scene, const State& state) {
+  std::vector<InverseMass> out(scene.bodies.size());
+  inverse_mass(scene, whole(scene), rotations(state), out);
+  return out;
 }
 
 /// Moves one degree of freedom of a body: 0..2 along, 3..5 about the world axes.

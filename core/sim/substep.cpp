@@ -141,7 +141,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   }
   if (holds_grab()) soften_grab(*grab, dt, own.back());
   seed_forces();
-  const System system{own, inverse_mass, state.u, u_before, dt, scene->regularisation};
+  const System system{own, inverse_mass, state.u, u_before, dt, R_WB, scene->regularisation};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
   const SolveReport solved = solver->solve(system, asked);

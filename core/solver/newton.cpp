@@ -9,7 +9,6 @@
 #include "core/constraints/moved_rows.hpp"
 #include "core/constraints/stiffness_flops.hpp"
 #include "core/math/flops.hpp"
-#include "core/math/resisting.hpp"
 
 namespace substep {
 
@@ -43,9 +42,9 @@ double weight_of(Forces forces) {
 
 /// Of a step but for the linear system's own: rows at other poses, their averages, and the Hessian.
 std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies, Forces forces) {
-  constexpr std::int64_t kEigen = 400;  // of a symmetric 3 x 3 matrix, by QL steps, and back
-  constexpr std::int64_t kBody = kEigen + 3 * product_flops(3, 3, 3) + 40 +  // Mt^-1
-                                 2 * product_flops(3, 3, 1) + 30;            // u, its change
+  constexpr std::int64_t kBody = 2 * product_flops(3, 3, 3) + 30 +  // D
+                                 2 * product_flops(3, 3, 3) + 40 +  // Mt^-1
+                                 2 * product_flops(3, 3, 1) + 30;   // u, its change
   std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
   for (const Block& block : blocks) {
     const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
@@ -57,6 +56,12 @@ std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies
     if (forces == Forces::kNumerov) flops += 20 * block.rows * sides;
   }
   return flops;
+}
+
+/// What of -K resists a turn about each of a body's principal axes, its columns those of R_WB.
+Mat3 resisting_diagonal(const Mat3& K, const Mat3& R_WB) {
+  const Vec3 k = -R_WB.cwiseProduct(K * R_WB).colwise().sum().transpose();
+  return R_WB * k.cwiseMax(0.0).asDiagonal() * R_WB.transpose();
 }
 
 Motion motion_of(int body, std::span<const Vec6> u, double dt) {
@@ -150,8 +155,8 @@ void Newton::straighten_turns(const System& system) {
   }
 }
 
-// The forces turn with q+, so the Hessian is -w dt K(impulse), and what of it resists joins M. With
-// A = (E + w dt M^-1 K)^-1, Mt^-1 = A M^-1 and Mt^-1 M = A:
+// The forces turn with q+, so the Hessian is -w dt K(impulse), and D, what of its diagonal resists,
+// joins M. With A = (E + M^-1 D)^-1, Mt^-1 = A M^-1 and Mt^-1 M = A:
 //   Mt (u+ - u) = -M (u - u*) + J'^T impulse
 // is the linear system that starts from u - A (u - u*).
 void Newton::stiffen(const System& system, Forces forces) {
@@ -165,10 +170,9 @@ void Newton::stiffen(const System& system, Forces forces) {
     add_stiffness(block, K_);
   }
   for (std::size_t i = 0; i < u_.size(); ++i) {
-    const auto body = static_cast<int>(i);
-    const Mat3 K = resisting(K_.angular(body));
+    const Mat3 D = resisting_diagonal(K_.angular(static_cast<int>(i)), system.R_WB[i]);
     const Mat3& W = system.inverse_mass[i].angular;
-    const Mat3 A = (Mat3::Identity() + W * K).inverse();
+    const Mat3 A = (Mat3::Identity() + W * D).inverse();
     const Mat3 Mt = A * W;
     inverse_mass_[i] = {system.inverse_mass[i].linear, 0.5 * (Mt + Mt.transpose())};
     u_[i].head<3>() = aim_[i].head<3>();

@@ -22,9 +22,10 @@ namespace substep {
 ///            The forces of the neighbours differ from this one by what they gain in a sub-step,
 ///            and the Cayley vector of a turn from the turn itself; both are put right. Chains that
 ///            swing in a plane converge at third order, what tumbles in space at second.
-/// The part of the constraints' Hessian that resists a body's turning joins M in each step, so that
-/// two to five steps do; the source has a diagonal there. At most Settings::iterations steps, from
-/// the last sub-step's velocities and forces.
+/// What of the constraints' Hessian resists turns about a body's principal axes, a diagonal as the
+/// source has it, joins M in each step: two to five steps do, and without it nothing that hangs
+/// under a heavy load converges. At most Settings::iterations steps, from the last sub-step's
+/// velocities and forces.
 class Newton final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;

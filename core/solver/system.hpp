@@ -27,6 +27,7 @@ struct System {
   // For solvers that look at other poses than those at the start of the sub-step.
   std::span<const Vec6> u_before{};  // per body: of the last sub-step [m/s, rad/s]
   double dt = 0.0;                   // of this one [s]
+  std::span<const Mat3> R_WB{};      // per body: principal axes, columns in the world
 
   // The part of every softness that is no compliance, and that refinements take back [1/kg].
   double regularisation = 0.0;

@@ -34,6 +34,8 @@ substep_mutation(compliance_on_redundant_rows core/sim/substep.cpp
   paper_tests HeavyStack.ContactComplianceFallsWhateverTheSteps)
 substep_mutation(soft_drift_with_PGS core/sim/substep.cpp "drift_law\\(settings\\)" "Drift::kFull"
   paper_tests SwingingBoxPgs.AdaptiveHoldsWithTheSoftDriftLaw)
+substep_mutation(the_diagonal_in_Newtons_mass core/solver/newton.cpp
+  "k\\.cwiseMax\\(0\\.0\\)" "(0.0 * k)" paper_tests NewtonAtTheEnd.StandsAtOneSubstepAndDamps)
 substep_mutation(the_principal_frame_diagonal core/constraints/stiffness_matrix.cpp
   "columns \\* R\\)" "columns * Mat3::Identity())"
   physics_tests Invariance.TurnedWithGravitySubstepsAndMotionAreTheSame)

@@ -17,6 +17,7 @@ struct Chain {
   Blocks blocks;
   std::vector<InverseMass> inverse_mass;
   std::vector<Vec6> u_before;
+  std::vector<Mat3> R_WB;
   double dt = 1.0 / 60.0;
 
   Chain(Random& random, int links, double mass_of_last) {
@@ -48,8 +49,8 @@ struct Chain {
     for (Vec6& u : state.u) u << 0.3 * random_vector(random), random_vector(random);
     u_before = state.u;
     for (Vec6& u : state.u) u[1] -= 9.81 * dt;
-    const std::vector<Mat3> R = rotations(state);
-    JointStage(scene).append(scene, whole(scene), state, R, blocks);
+    R_WB = rotations(state);
+    JointStage(scene).append(scene, whole(scene), state, R_WB, blocks);
     for (Block& block : blocks.all()) {
       std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
       std::fill(block.tight, block.tight + kMaxRows, std::int8_t{0});
@@ -64,7 +65,7 @@ struct Chain {
     const Body& body = scene.bodies[static_cast<std::size_t>(i)];
     return body.position + body.orientation * Vec3(0.2, 0.0, 0.0);
   }
-  System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt}; }
+  System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt, R_WB}; }
 };
 
 /// What is left of phi(q+)/dt + softness * impulse, largest row [m/s].

@@ -18,6 +18,7 @@ struct Pile {
   Blocks blocks;
   std::vector<InverseMass> inverse_mass;
   std::vector<Vec6> u_before;
+  std::vector<Mat3> R_WB;
   double dt;
 
   Pile(Random& random, int balls, int joints, double mu, double step) : dt(step) {
@@ -50,10 +51,10 @@ struct Pile {
       state.u[i] << random_vector(random), random_vector(random);
     }
     u_before = state.u;
-    const std::vector<Mat3> R = rotations(state);
-    JointStage(scene).append(scene, whole(scene), state, R, blocks);
-    ContactStage(scene).detect_and_append(scene, whole(scene), state, R, blocks);
-    if (mu > 0.0) FrictionStage(scene).append(scene, R, blocks.all());
+    R_WB = rotations(state);
+    JointStage(scene).append(scene, whole(scene), state, R_WB, blocks);
+    ContactStage(scene).detect_and_append(scene, whole(scene), state, R_WB, blocks);
+    if (mu > 0.0) FrictionStage(scene).append(scene, R_WB, blocks.all());
     for (Block& block : blocks.all()) {
       const double softness = uniform(random, 0.05, 0.5);
       for (int row = 0; row < block.rows; ++row) {
@@ -65,7 +66,7 @@ struct Pile {
     }
     inverse_mass = inverse_masses(scene, state);
   }
-  System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt}; }
+  System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt, R_WB}; }
 };
 
 Settings until_done() {

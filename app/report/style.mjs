@@ -4,6 +4,7 @@
 
 const modes = [
   ["newton numerov, const", "teal", "triangle", "Newton, Numerov"],
+  [/newton \d+ mean, const/, "teal", "square", "Newton, mean forces"],
   ["newton mean, const", "teal", "circle", "Newton, mean forces"],
   ["newton, const", "teal", "circle", "Newton"],
   ["refined", "teal", "triangle", "constant N"],
@@ -43,14 +44,16 @@ export const colour = name =>
   getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 
 export function styleOf(series) {
-  const [, token, symbol, mode] = modes.find(([part]) => series.search(part) >= 0) ?? ["", "grey", "circle", series];
+  const [, token, shape, mode] = modes.find(([part]) => series.search(part) >= 0) ?? ["", "grey", "circle", series];
+  const symbol = /drift order 2|exact contact block/.test(series) ? "diamond" : shape;
   const leapfrog = series.includes("leapfrog");
   const [, sweeping, sweeps, shared] = /^(pgs|xpbd) (\d+)( a frame)?/.exec(series) ?? [];
   const named = sweeping === "pgs" || shared; // XPBD is its own name otherwise
   const implicit = /^newton/.test(series);
-  const drift = /drift (\w+)/.exec(series);
-  const refined = /refined (\d+)/.exec(series);
-  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", refined ? refined[0] : "", drift ? drift[0] : ""]
+  const [, steps] = /^newton (\d+)/.exec(series) ?? [];
+  const others = [/drift order 2/, /drift (?!order)\w+/, /exact contact block/, /refined \d+/]
+    .map(other => other.exec(series)?.[0]);
+  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", steps ? `${steps} step${steps === "1" ? "" : "s"}` : "", ...others]
     .filter(Boolean).join(", ");
   return { token, symbol, name: sweeping && !named ? `${name} ${sweeps}` : name, hollow: leapfrog, dashed: sweeping !== undefined };
 }

@@ -288,8 +288,21 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
       style.name = "Newton";
       if (s.forces == Forces::kMean) style.name += ", mean forces";
       if (s.forces == Forces::kNumerov) style.name += ", Numerov";
+      if (s.iterations != Settings{}.iterations) {
+        style.corners = 4;
+        style.name +=
+            ", " + std::to_string(s.iterations) + (s.iterations == 1 ? " step" : " steps");
+      }
       style.name += and_mode;
       break;
+  }
+  if (s.drift_order == 2) {
+    style.corners = 5;
+    style.name += ", drift order 2";
+  }
+  if (s.contact_stiffness == ContactStiffness::kExact) {
+    style.corners = 5;
+    style.name += ", exact contact block";
   }
   return style;
 }

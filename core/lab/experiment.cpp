@@ -67,9 +67,9 @@ std::string solver_text(const Settings& s) {
   if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
     text += " " + std::to_string(s.iterations);
     if (s.share_iterations) text += " a frame";
-  } else if (s.solver == SolverKind::kNewton && s.forces != Forces::kEnd) {
-    text += " ";
-    text += name_of(s.forces);
+  } else if (s.solver == SolverKind::kNewton) {
+    if (s.iterations != Settings{}.iterations) text += " " + std::to_string(s.iterations);
+    if (s.forces != Forces::kEnd) text += " " + std::string(name_of(s.forces));
   } else if (s.solver == SolverKind::kBpp && s.refinements > 0) {
     text += " refined " + std::to_string(s.refinements);
   }
@@ -89,6 +89,7 @@ std::string series_name(const Settings& s) {
   if (s.drift != Drift::kAuto) name += ", drift " + std::string(name_of(s.drift));
   if (s.drift_order == 2) name += ", drift order 2";
   if (s.detection == Detection::kFrame) name += ", contacts once a frame";
+  if (s.contact_stiffness == ContactStiffness::kExact) name += ", exact contact block";
   return name;
 }
 

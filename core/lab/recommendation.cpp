@@ -19,7 +19,8 @@ std::optional<RunPoint> at(std::span<const RunPoint> points, std::optional<std::
 
 bool is_paper(const Settings& s) {
   return s.solver == SolverKind::kBpp && s.integrator == Integrator::kEuler &&
-         s.mode == Mode::kAdaptive && s.policy == Policy::kFrame && !s.islands;
+         s.mode == Mode::kAdaptive && s.policy == Policy::kFrame && !s.islands &&
+         s.contact_stiffness == ContactStiffness::kPaper;
 }
 
 /// In three digits: what else there is hangs on the compiler's libm.

@@ -25,8 +25,9 @@ std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis erro
 std::optional<RunPoint> cheapest_within(std::span<const RunPoint> points, double error);
 std::optional<RunPoint> most_exact_within(std::span<const RunPoint> points, double cost);
 
-/// Those of the paper's method: the direct solver, Euler, N decided once a frame. The cheapest of
-/// them within an error has the largest alpha that does, the most exact within a cost the smallest.
+/// Those of the paper's method: the direct solver, Euler, N decided once a frame, contacts in K as
+/// it has them. The cheapest of them within an error has the largest alpha that does, the most
+/// exact within a cost the smallest.
 std::vector<RunPoint> of_paper(std::span<const RunPoint> points, std::span<const Result> results);
 
 /// What a scene keeps of its sweep: the run of fewest solver operations within an error, and how it

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kConstant[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 40, 56, 80};
 constexpr int kImplicit[] = {1, 2, 3, 4, 6, 8, 11, 16, 28, 56};  // whose point is to need few
+constexpr int kNewtonSteps[] = {1, 2};                   // that do where a sub-step is short
 constexpr int kSmallSteps[] = {1, 2, 4, 8, 16, 32, 64};  // that share as many sweeps as the last
 constexpr int kRefinements[] = {2, 8};
 constexpr int kFew[] = {1, 2, 3, 4, 6, 8};  // sub-steps that are refined
@@ -76,6 +77,7 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
   along(SolverKind::kXpbd, 1, Forces::kEnd);   // as published: sub-steps in place of sweeps
   along(SolverKind::kXpbd, iterations, Forces::kEnd);
   along(SolverKind::kNewton, iterations, Forces::kEnd);
+  for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kMean);
   along(SolverKind::kNewton, iterations, Forces::kMean);
   if (scene.effects.contact) return;  // what follows is derived for joints alone
   along(SolverKind::kNewton, iterations, Forces::kNumerov);
@@ -97,6 +99,24 @@ void append_small_steps(Settings settings, const Scene& scene, std::vector<Setti
       all.push_back(settings);
     }
   }
+}
+
+/// Joints corrected ahead for what a sub-step leaves behind at second order.
+void append_drift_order_2(Settings settings, std::vector<Settings>& all) {
+  settings.solver = SolverKind::kBpp;
+  settings.policy = Policy::kFrame;
+  settings.integrator = Integrator::kLeapfrog;
+  settings.drift_order = 2;
+  append_curve(settings, Mode::kConst, all);
+}
+
+/// N by the true derivative of a contact.
+void append_exact_contacts(Settings settings, std::vector<Settings>& all) {
+  settings.solver = SolverKind::kBpp;
+  settings.policy = Policy::kFrame;
+  settings.integrator = Integrator::kEuler;
+  settings.contact_stiffness = ContactStiffness::kExact;
+  append_curve(settings, Mode::kAdaptive, all);
 }
 
 /// Few sub-steps, each refined until little of the regularisation is left.
@@ -167,6 +187,8 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   base.forces = Forces::kEnd;
   base.watch_stiffness = false;
   base.drift = Drift::kAuto;
+  base.drift_order = 1;
+  base.contact_stiffness = ContactStiffness::kPaper;
   base.share_iterations = false;
   base.refinements = 0;
   base.detection = Detection::kSubstep;
@@ -182,22 +204,25 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
     settings.policy = Policy::kSubstep;
     if (solver == SolverKind::kBpp) append_curve(settings, Mode::kAdaptive, all);
     settings.policy = Policy::kFrame;
-    append_curve(settings, Mode::kInertia, all);
-    append_curve(settings, Mode::kBlend, all);
-    if (integrator == Integrator::kLeapfrog) return;
-    append_curve(settings, Mode::kStiffness, all);
-    append_curve(settings, Mode::kDamping, all);
-    append_curve(settings, Mode::kCapped, all);
+    for (const Mode mode :
+         {Mode::kInertia, Mode::kBlend, Mode::kStiffness, Mode::kDamping, Mode::kCapped}) {
+      append_curve(settings, mode, all);
+    }
   };
   curves(SolverKind::kBpp, Integrator::kEuler);
   curves(SolverKind::kBpp, Integrator::kLeapfrog);
   curves(SolverKind::kPgs, Integrator::kEuler);
+  curves(SolverKind::kPgs, Integrator::kLeapfrog);
+  if (scene.effects.joints) append_drift_order_2(base, all);
+  if (scene.effects.contact) append_exact_contacts(base, all);
   append_implicit(base, scene, all);
   append_small_steps(base, scene, all);
   if (scene.regularisation > 0.0) append_refined(base, all);
   if (has_several_islands(scene)) append_islands(base, all);
   std::vector<SweepPoint> points;
-  for (const Settings& settings : all) points.push_back({settings, 1.0});
+  for (auto s = all.begin(); s != all.end(); ++s) {  // a scene's own can be those of a curve
+    if (std::find(all.begin(), s, *s) == s) points.push_back({*s, 1.0});
+  }
   if (mass_ratio(scene) > 1.0) append_map(base, points);
   return points;
 }
@@ -212,7 +237,7 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
   const double sweeps = s.share_iterations ? std::max(1.0, s.iterations / n) : s.iterations;
   if (s.solver == SolverKind::kPgs) per_substep = 0.15 * sweeps;
   if (s.solver == SolverKind::kXpbd) per_substep = 0.3 * sweeps;
-  if (s.solver == SolverKind::kNewton) per_substep = 4.0;
+  if (s.solver == SolverKind::kNewton) per_substep = 1.5 * std::min(3, s.iterations);
   const double per_frame = 0.5;  // errors and energies, whatever N
   return static_cast<double>(frames_of(scene, experiment.duration)) * (per_frame + n * per_substep);
 }

@@ -15,11 +15,11 @@ struct SweepPoint {
 };
 
 /// The runs that show what accuracy costs on a scene: every mode with the direct solver and with
-/// PGS; with the direct solver `const`, `adaptive`, `inertia` and `blend` with leapfrog too, and
-/// `adaptive` per sub-step; XPBD, Newton and small steps; refinements and islands where the scene
-/// has use for them. Each along its own parameter; and, for a map of where they hold, constant N
-/// and adaptive under other loads where bodies of different mass meet. Other settings stay as the
-/// scene has them of its own.
+/// PGS, with Euler and leapfrog; with the direct solver `adaptive` per sub-step too; XPBD, Newton
+/// and small steps; and where the scene has use for them the drift correction of second order, the
+/// exact contact block, refinements and islands. Each along its own parameter; and, for a map of
+/// where they hold, constant N and adaptive under other loads where bodies of different mass meet.
+/// Other settings stay as the scene has them of its own.
 std::vector<SweepPoint> default_sweep(const Scene& scene);
 
 /// Sub-steps a run is likely to take, weighted by what one costs: for progress bars only.

@@ -362,14 +362,32 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
     experiment.load = point.load;
     EXPECT_TRUE(ids.insert(experiment_id(experiment)).second);
   }
-  for (const char* name :
-       {"bpp, const, euler", "bpp, const, leapfrog", "bpp, adaptive per frame, euler",
-        "bpp, adaptive per sub-step, leapfrog", "bpp, damping, euler", "bpp, capped, euler",
-        "bpp, stiffness, euler", "bpp, inertia, leapfrog", "bpp, blend, euler",
-        "pgs 25, const, euler", "pgs 25, adaptive per frame, euler", "pgs 25, damping, euler",
-        "xpbd 1, const, euler", "xpbd 25, const, euler", "newton, const, euler",
-        "newton mean, const, leapfrog", "newton numerov, const, leapfrog",
-        "pgs 64 a frame, const, euler", "xpbd 64 a frame, const, euler"}) {
+  for (const char* name : {"bpp, const, euler",
+                           "bpp, const, leapfrog",
+                           "bpp, adaptive per frame, euler",
+                           "bpp, adaptive per sub-step, leapfrog",
+                           "bpp, damping, euler",
+                           "bpp, capped, euler",
+                           "bpp, stiffness, euler",
+                           "bpp, inertia, leapfrog",
+                           "bpp, blend, euler",
+                           "bpp, stiffness, leapfrog",
+                           "bpp, damping, leapfrog",
+                           "bpp, capped, leapfrog",
+                           "bpp, const, leapfrog, drift order 2",
+                           "pgs 25, const, euler",
+                           "pgs 25, adaptive per frame, euler",
+                           "pgs 25, damping, euler",
+                           "pgs 25, const, leapfrog",
+                           "newton 1 mean, const, leapfrog",
+                           "newton 2 mean, const, leapfrog",
+                           "xpbd 1, const, euler",
+                           "xpbd 25, const, euler",
+                           "newton, const, euler",
+                           "newton mean, const, leapfrog",
+                           "newton numerov, const, leapfrog",
+                           "pgs 64 a frame, const, euler",
+                           "xpbd 64 a frame, const, euler"}) {
     EXPECT_TRUE(series.contains(name)) << name;
   }
   EXPECT_EQ(std::count_if(series.begin(), series.end(), by_island), 0) << "which has one";
@@ -378,8 +396,22 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
     if (by_island(series_name(point.settings))) ++islands;
   }
   EXPECT_EQ(islands, 11 + 11 + 7);
+  int exact = 0;
   for (const SweepPoint& point : default_sweep(scenes::bridge())) {
     EXPECT_NE(point.settings.forces, Forces::kNumerov) << "which is for joints alone";
+    if (series_name(point.settings).ends_with("exact contact block")) ++exact;
+  }
+  EXPECT_EQ(exact, 11);
+}
+
+TEST(Sweep, DefaultHasEachRunOnceWhateverASceneAsksForItself) {
+  Scene scene = scenes::swinging_box();
+  scene.settings.iterations = 1;
+  std::set<std::string> ids;
+  for (const SweepPoint& point : default_sweep(scene)) {
+    Experiment experiment = experiment_of(scene, point.settings);
+    experiment.load = point.load;
+    EXPECT_TRUE(ids.insert(experiment_id(experiment)).second) << series_name(point.settings);
   }
 }
 

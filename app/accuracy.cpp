@@ -50,6 +50,7 @@ double wall_clock() {
 
 void Accuracy::start(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
+  search_.reset();
   sweep_.emplace(scene_, plan(*scene_));
   cancelled_ = false;
   elapsed_ = 0.0;
@@ -65,6 +66,10 @@ void Accuracy::cancel() { cancelled_ = true; }
 void Accuracy::advance(double seconds) {
   if (effects.running()) {
     effects.advance(seconds);
+    return;
+  }
+  if (alpha_search() && !search_->done()) {
+    search_->advance(seconds);
     return;
   }
   if (!running()) return;
@@ -102,8 +107,28 @@ const Reference* Accuracy::reference() const { return sweep_ ? sweep_->reference
 std::vector<Accuracy::Point> Accuracy::points() const { return run_points(results(), error, cost); }
 
 std::optional<Accuracy::Point> Accuracy::best(const std::vector<Point>& points) const {
-  return error_is_given ? cheapest_within(points, wanted.at(static_cast<std::size_t>(error)))
-                        : most_exact_within(points, budget.at(static_cast<std::size_t>(cost)));
+  return error_is_given ? cheapest_within(points, limit().most)
+                        : most_exact_within(points, limit().most);
+}
+
+Accuracy::Limit Accuracy::limit() const {
+  const auto axis =
+      error_is_given ? static_cast<std::size_t>(error) : static_cast<std::size_t>(cost);
+  return {error_is_given, axis, error_is_given ? wanted.at(axis) : budget.at(axis)};
+}
+
+void Accuracy::search_alpha() {
+  searched_for_ = limit();
+  Experiment paper = experiment_of(*scene_, paper_settings(*scene_));
+  paper.duration = experiments().front().duration;
+  search_.emplace(
+      error_is_given
+          ? AlphaSearch::largest_within(scene_, paper, *reference(), error, searched_for_.most)
+          : AlphaSearch::smallest_within(scene_, paper, *reference(), cost, searched_for_.most));
+}
+
+const AlphaSearch* Accuracy::alpha_search() const {
+  return search_ && searched_for_ == limit() ? &*search_ : nullptr;
 }
 
 std::vector<Accuracy::Point> Accuracy::failed() const {

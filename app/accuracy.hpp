@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/effect_costs.hpp"
+#include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"
 
@@ -52,6 +53,12 @@ class Accuracy {
   /// What comes up to what is wanted: the cheapest within the error, or the most exact within the
   /// cost. Nothing does where it is empty.
   [[nodiscard]] std::optional<Point> best(const std::vector<Point>& points) const;
+  /// Looks for the alpha of the paper's method that comes up to what is wanted, beside the values
+  /// of its curve. For a scene whose reference is found.
+  void search_alpha();
+  void cancel_search() { search_.reset(); }
+  /// The search for what is wanted as it is now, or null. It waits while something else is wanted.
+  [[nodiscard]] const AlphaSearch* alpha_search() const;
   /// Runs of the scene as it stands that failed.
   [[nodiscard]] std::vector<Point> failed() const;
   /// Whether two runs or more have such an error.
@@ -71,8 +78,19 @@ class Accuracy {
   std::array<double, static_cast<std::size_t>(CostAxis::kCount)> budget{8.0, 1e5, 0.05};
 
  private:
+  /// What is wanted at most, and of what.
+  struct Limit {
+    bool of_error = true;
+    std::size_t axis = 0;
+    double most = 0.0;
+    friend bool operator==(const Limit&, const Limit&) = default;
+  };
+  [[nodiscard]] Limit limit() const;
+
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;
+  std::optional<AlphaSearch> search_;  // goes by the reference of the sweep
+  Limit searched_for_;
   bool cancelled_ = false;
   double elapsed_ = 0.0;  // wall time of the sweep, the time between the slices included [s]
   double last_ = -1.0;    // wall clock at the last slice [s]

@@ -115,7 +115,11 @@ std::string App::set(std::string_view key, std::string_view value) {
       accuracy.start(plain_scene);
     } else if (value == "cancel") {
       accuracy.cancel();
+      accuracy.cancel_search();
       accuracy.effects.cancel();
+    } else if (value == "alpha") {
+      if (accuracy.reference() == nullptr) return "'alpha' needs a reference: run first";
+      accuracy.search_alpha();
     } else if (value == "map") {
       accuracy.picture = AccuracyPicture::kStabilityMap;
     } else if (value == "error") {
@@ -125,7 +129,8 @@ std::string App::set(std::string_view key, std::string_view value) {
     } else if (value == "measure") {
       measure_costs();
     } else {
-      return "'" + std::string(value) + "' is not run, cancel, measure, error, map or stages";
+      return "'" + std::string(value) +
+             "' is not run, cancel, alpha, measure, error, map or stages";
     }
     return "";
   }

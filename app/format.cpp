@@ -71,11 +71,13 @@ std::string short_number(double value) { return with_digits(value, 3); }
 std::string coarse_number(double value) { return with_digits(value, 2); }
 
 std::string plain_number(double value) {
-  std::string text = short_number(value);
-  if (text.find('.') == std::string::npos || text.find("×") != std::string::npos) return text;
-  text.erase(text.find_last_not_of('0') + 1);
-  if (text.ends_with('.')) text.pop_back();
-  return text;
+  const std::string text = short_number(value);
+  const std::size_t end = std::min(text.find("×"), text.size());  // of the digits
+  std::string digits = text.substr(0, end);
+  if (digits.find('.') == std::string::npos) return text;
+  digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.ends_with('.')) digits.pop_back();
+  return digits + text.substr(end);
 }
 
 Unit unit_for(double scale) {

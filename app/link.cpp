@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "core/io/number_text.hpp"
 #include "core/io/setting_fields.hpp"
@@ -38,16 +39,21 @@ int digit(char c) {
   return -1;
 }
 
+/// The character that "%41" at the head of a text stands for, or nothing. Control characters stay
+/// as they are written: no name has them, and a complaint about one could not show it.
+std::optional<char> escaped(std::string_view text) {
+  if (text.size() < 3 || text[0] != '%' || digit(text[1]) < 0 || digit(text[2]) < 0) return {};
+  const int code = 16 * digit(text[1]) + digit(text[2]);
+  if (code < 0x20 || code == 0x7f) return {};
+  return static_cast<char>(code);
+}
+
 std::string decode(std::string_view text) {
   std::string out;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 &&
-        digit(text[i + 2]) >= 0) {
-      out += static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2]));
-      i += 2;
-    } else {
-      out += text[i];
-    }
+  while (!text.empty()) {
+    const std::optional<char> character = escaped(text);
+    out += character.value_or(text[0]);
+    text.remove_prefix(character ? 3 : 1);
   }
   return out;
 }

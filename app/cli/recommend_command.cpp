@@ -19,14 +19,12 @@
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
-#include "core/lab/alpha_choice.hpp"
+#include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/model/names.hpp"
 
 namespace substep::cli {
 namespace {
-
-constexpr int kMostSubsteps = 10000;  // a frame, as many as settings allow
 
 struct RecommendOptions {
   std::string scene;
@@ -93,17 +91,23 @@ std::string figures(const Result& result, ErrorAxis axis) {
                      cost_of(result, CostAxis::kOperations), cost_of(result, CostAxis::kTime));
 }
 
-void print_alpha(std::FILE* words, const Scene& scene, const Want& want, const Experiment& paper,
-                 const Reference& reference, const std::atomic<bool>& cancelled) {
-  const auto choice =
+void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, const Want& want,
+                 double seconds, const std::atomic<bool>& cancelled) {
+  Experiment paper = experiment_of(*scene, paper_settings(*scene));
+  paper.duration = seconds;
+  const Reference reference = find_reference(scene, seconds);
+  AlphaSearch search =
       want.error_is_given
-          ? largest_alpha_within(scene, paper, reference, want.error, want.limit, cancelled)
-          : smallest_alpha_within(scene, paper, reference, want.cost, want.limit, cancelled);
+          ? AlphaSearch::largest_within(scene, paper, reference, want.error, want.limit)
+          : AlphaSearch::smallest_within(scene, paper, reference, want.cost, want.limit);
+  while (search.advance(0.1)) {
+    if (cancelled) return;
+  }
+  const std::optional<AlphaChoice>& choice = search.choice();
   const char* which = want.error_is_given ? "largest" : "smallest";
-  if (cancelled) return;
   if (!choice) {
     std::fprintf(words, "The paper's method: no alpha from %g to 1 keeps within it.\n",
-                 kLeastAlpha);
+                 AlphaSearch::kLeast);
     return;
   }
   const Metrics& metrics = choice->result.metrics;
@@ -160,15 +164,7 @@ int recommend(const RecommendOptions& options) {
     const int written = write_with(*recommended, *scene, options.out);
     if (written != kOk) return written;
   }
-  Experiment paper = experiment_of(*scene, own_settings(*scene));
-  paper.duration = seconds;
-  paper.settings.solver = SolverKind::kBpp;
-  paper.settings.mode = Mode::kAdaptive;
-  paper.settings.policy = Policy::kFrame;
-  paper.settings.islands = false;
-  paper.settings.integrator = Integrator::kEuler;
-  paper.settings.n_max = kMostSubsteps;  // alpha alone is to decide
-  print_alpha(words, *scene, want, paper, find_reference(scene, seconds), cancelled);
+  print_alpha(words, scene, want, seconds, cancelled);
   if (cancelled) return kCancelled;
   return best ? kOk : kUnexpectedVerdict;
 }

@@ -176,6 +176,54 @@ std::string limit_text(const Accuracy& accuracy) {
   return cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)), accuracy.cost);
 }
 
+/// What the alpha came to that was found for the limit.
+std::string found_text(const Accuracy& accuracy, const AlphaSearch& search) {
+  const std::string within = " alpha within " + limit_text(accuracy);
+  if (!search.choice()) {
+    return "The paper's method: no alpha from " + plain_number(AlphaSearch::kLeast) +
+           " to 1 keeps within " + limit_text(accuracy) + ".";
+  }
+  const auto& [alpha, result] = *search.choice();
+  const std::string found = std::string("The paper's ") +
+                            (accuracy.error_is_given ? "largest" : "smallest") + within + " is " +
+                            coarse_number(alpha) + ": ";
+  const auto error = error_of(result, accuracy.error);
+  if (!result.metrics.holds || !error) return found + result.metrics.verdict + ".";
+  return found + error_text(*error, accuracy.error) + " for " +
+         cost_text(cost_of(result, accuracy.cost), accuracy.cost) + ".";
+}
+
+/// The paper's own knob, chosen for what is wanted by whole runs.
+void paper_alpha(App& app) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  const AlphaSearch* search = accuracy.alpha_search();
+  if (!search) {
+    if (accuracy.reference() != nullptr &&
+        button(look, "find_alpha", Icon::kNone, "Find the paper's alpha", ButtonKind::kGhost, 0.0F,
+               look.m.row,
+               "Between the values of its curve: by halving, each try a whole run of the scene")) {
+      accuracy.search_alpha();
+    }
+    return;
+  }
+  if (!search->done()) {
+    label(look.fonts.small, look.theme->dim,
+          ("Run " + std::to_string(search->runs()) + ", alpha = " + coarse_number(search->alpha()))
+              .c_str());
+    if (progress(look, search->progress(), "What was found so far is given up")) {
+      accuracy.cancel_search();
+    }
+    return;
+  }
+  label(look.fonts.small, look.theme->dim, found_text(accuracy, *search).c_str());
+  if (search->choice() &&
+      button(look, "found_alpha", Icon::kPlay, "Run with this alpha", ButtonKind::kPlain, 0.0F,
+             look.m.row, "This scene from its start with the paper's method and this alpha")) {
+    app.run_result(Result(search->choice()->result));
+  }
+}
+
 /// How the paper's method stands beside it.
 std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points,
                          const Accuracy::Point& best) {
@@ -202,6 +250,7 @@ void advice(App& app) {
   if (!best) {
     label(look.fonts.small, look.theme->dim,
           ("No method keeps within " + limit_text(accuracy) + ".").c_str());
+    paper_alpha(app);
     space(8.0F);
     return;
   }
@@ -236,6 +285,7 @@ void advice(App& app) {
                                accuracy.wanted.at(static_cast<std::size_t>(accuracy.error))));
     }
   }
+  paper_alpha(app);
   space(8.0F);
 }
 

@@ -112,6 +112,41 @@ TEST(Accuracy, TheMostExactWithinACostIsLookedForAtAPress) {
   EXPECT_FALSE(accuracy.best(accuracy.points()).has_value());
 }
 
+TEST(Accuracy, FindsThePapersAlphaForWhatIsWanted) {
+  Headless h;
+  h.app->open("pendulum");
+  EXPECT_NE(h.app->set("accuracy", "alpha"), "") << "there is no reference";
+  h.app->set("panel", "accuracy");
+  h.app->set("accuracy", "run");
+  finish(h);
+  Accuracy& accuracy = h.app->accuracy;
+  accuracy.wanted[0] = 0.05;
+  h.app->desk.tab = Tab::kAccuracy;
+  h.resize(1280.0F, 1600.0F, 1.0F);  // all of the panel
+  h.frames(3);
+  EXPECT_EQ(accuracy.alpha_search(), nullptr);
+  h.press("Find the paper's alpha");
+  ASSERT_NE(accuracy.alpha_search(), nullptr);
+  accuracy.wanted[0] = 0.06;
+  EXPECT_EQ(accuracy.alpha_search(), nullptr) << "it is for another error";
+  accuracy.wanted[0] = 0.05;
+  for (int i = 0; i < 100000 && !accuracy.alpha_search()->done(); ++i) accuracy.advance(0.05);
+  ASSERT_TRUE(accuracy.alpha_search()->choice());
+  const AlphaChoice found = *accuracy.alpha_search()->choice();
+  EXPECT_LE(*error_of(found.result, ErrorAxis::kTrajectory), 0.05);
+  h.frames(2);
+  h.press("Run with this alpha");
+  EXPECT_EQ(h.app->session.settings().alpha, found.alpha);
+  h.app->session.pause();
+  h.app->run_result(found.result);
+  h.app->session.pause();
+  for (std::int64_t f = 0; f < found.result.metrics.work.frames; ++f) h.app->session.step();
+  EXPECT_EQ(h.app->session.hash(), found.result.metrics.hash);
+  EXPECT_EQ(h.app->set("accuracy", "alpha"), "");
+  ASSERT_EQ(h.app->set("accuracy", "cancel"), "");
+  EXPECT_EQ(accuracy.alpha_search(), nullptr);
+}
+
 TEST(Accuracy, WhatIsFoundIsKeptForTheScene) {
   Headless h;
   h.app->open("pendulum");

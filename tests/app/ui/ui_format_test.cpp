@@ -29,6 +29,8 @@ TEST(Format, PlainNumbersEndInNoZeros) {
   EXPECT_EQ(plain_number(0.1), "0.1");
   EXPECT_EQ(plain_number(0.025), "0.025");
   EXPECT_EQ(plain_number(1.0), "1");
+  EXPECT_EQ(plain_number(2e5), "2×10⁵");
+  EXPECT_EQ(plain_number(1.25e-7), "1.25×10⁻⁷");
 }
 
 TEST(Format, ThousandsAreGrouped) {

@@ -52,6 +52,8 @@ TEST(Link, AnyTextIsTaken) {
   for (const char* text : {"", "#", "&&&", "=", "%", "%4", "%zz=%00", "a=b=c", "\xff\xfe"}) {
     EXPECT_NO_THROW(parse_link(text)) << text;
   }
+  EXPECT_EQ(parse_link("scene=a%00%1f%7F%41")[0].value, "a%00%1f%7FA")
+      << "control characters stay as they are written, or a complaint would end with them";
   const auto parts = parse_link("#scene=my%20scene&x");
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].value, "my scene");

@@ -1,0 +1,110 @@
+#include "core/lab/alpha_search.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+namespace substep {
+namespace {
+
+constexpr double kQuarter = 0.25;
+constexpr int kMostQuarters = 8;      // from 1 to kLeast
+constexpr double kNarrow = 1.02;      // ratio of the ends of an interval that is not halved
+constexpr int kMostHalvings = 7;      // of a quarter until it is narrow
+constexpr int kMostSubsteps = 10000;  // a frame, as many as settings allow
+
+}  // namespace
+
+Settings paper_settings(const Scene& scene) {
+  Settings paper = own_settings(scene);
+  paper.solver = SolverKind::kBpp;
+  paper.mode = Mode::kAdaptive;
+  paper.policy = Policy::kFrame;
+  paper.islands = false;
+  paper.contact_stiffness = ContactStiffness::kPaper;
+  paper.integrator = Integrator::kEuler;
+  paper.n_max = kMostSubsteps;
+  return paper;
+}
+
+AlphaSearch AlphaSearch::largest_within(std::shared_ptr<const Scene> scene,
+                                        const Experiment& experiment, const Reference& reference,
+                                        ErrorAxis axis, double error) {
+  return {std::move(scene), experiment, reference,
+          [axis, error](const Result& result) {
+            const auto value = error_of(result, axis);
+            return value && *value <= error;
+          },
+          true};
+}
+
+AlphaSearch AlphaSearch::smallest_within(std::shared_ptr<const Scene> scene,
+                                         const Experiment& experiment, const Reference& reference,
+                                         CostAxis axis, double cost) {
+  return {std::move(scene), experiment, reference,
+          [axis, cost](const Result& result) { return cost_of(result, axis) <= cost; }, false};
+}
+
+AlphaSearch::AlphaSearch(std::shared_ptr<const Scene> scene, const Experiment& experiment,
+                         const Reference& reference, Serves serves, bool until_it_serves)
+    : scene_(std::move(scene)),
+      experiment_(experiment),
+      reference_(&reference),
+      serves_(std::move(serves)),
+      until_it_serves_(until_it_serves),
+      quarters_(kMostQuarters) {
+  start();
+}
+
+void AlphaSearch::start() {
+  experiment_.settings.alpha = alpha_;
+  run_ = std::make_unique<ExperimentRun>(*scene_, experiment_, *reference_);
+  ++runs_;
+}
+
+void AlphaSearch::advance_by_a_frame() {
+  if (run_->advance()) return;
+  take(run_->result());
+  run_.reset();
+  if (!done()) start();
+}
+
+bool AlphaSearch::advance(double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
+  do {
+    if (!done()) advance_by_a_frame();
+  } while (!done() && Clock::now() < end);
+  return !done();
+}
+
+double AlphaSearch::progress() const {
+  if (done()) return 1.0;
+  return (runs_ - 1 + run_->progress()) / (quarters_ + kMostHalvings);
+}
+
+void AlphaSearch::take(const Result& result) {
+  const bool serves = serves_(result);
+  if (serves) {
+    good_ = AlphaChoice{alpha_, result};
+  } else {
+    bad_ = alpha_;
+  }
+  if (phase_ == Phase::kDown) {
+    if (serves != until_it_serves_ && alpha_ > kLeast) {
+      alpha_ = std::max(kQuarter * alpha_, kLeast);
+      return;
+    }
+    phase_ = Phase::kHalving;
+    quarters_ = runs_;
+  }
+  // One end may be missing: all of the range serves, or none of it.
+  if (!good_ || bad_ == 0.0 || std::max(bad_ / good_->alpha, good_->alpha / bad_) <= kNarrow) {
+    phase_ = Phase::kDone;
+    return;
+  }
+  alpha_ = std::sqrt(bad_ * good_->alpha);
+}
+
+}  // namespace substep

@@ -68,7 +68,7 @@ void Accuracy::advance(double seconds) {
     effects.advance(seconds);
     return;
   }
-  if (alpha_search() && !search_->done()) {
+  if (searching()) {
     search_->advance(seconds);
     return;
   }

@@ -32,6 +32,9 @@ class Accuracy {
   /// Goes on for about so long with what runs. @param seconds of this frame's time
   void advance(double seconds);
 
+  /// Whether advance() has something to do.
+  [[nodiscard]] bool busy() const { return effects.running() || searching() || running(); }
+  /// Whether the sweep goes on.
   [[nodiscard]] bool running() const {
     return sweep_.has_value() && !cancelled_ && !sweep_->done();
   }
@@ -78,6 +81,7 @@ class Accuracy {
   std::array<double, static_cast<std::size_t>(CostAxis::kCount)> budget{8.0, 1e5, 0.05};
 
  private:
+  [[nodiscard]] bool searching() const { return alpha_search() && !search_->done(); }
   /// What is wanted at most, and of what.
   struct Limit {
     bool of_error = true;

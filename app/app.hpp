@@ -140,6 +140,8 @@ struct App {
   /// What to type for the same run on the command line.
   [[nodiscard]] std::string command() const;
   void reset();
+  /// Whether something goes on by itself: a run that plays, a sweep, a search.
+  [[nodiscard]] bool busy() const { return session.playing() || accuracy.busy(); }
   /// Runs the scene from another of its starts, with the settings as they are.
   void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.

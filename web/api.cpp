@@ -96,7 +96,7 @@ void substep_play(int on) {
   }
 }
 
-int substep_playing() { return app().session.playing() ? 1 : 0; }
+int substep_busy() { return app().busy() ? 1 : 0; }
 
 void substep_reset() { app().reset(); }
 

@@ -30,7 +30,7 @@ SUBSTEP_EXPORTED void substep_go_to(double time);
 
 SUBSTEP_EXPORTED void substep_play(int on);
 
-SUBSTEP_EXPORTED int substep_playing();
+SUBSTEP_EXPORTED int substep_busy();
 
 SUBSTEP_EXPORTED void substep_reset();
 

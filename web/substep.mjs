@@ -33,7 +33,7 @@ async function load(frame) {
   }
 }
 
-/** Draws while the run plays and for a moment after every event, as long as it can be seen. */
+/** Draws while something goes on and for a moment after every event, as long as it can be seen. */
 class Clock {
   constructor(wasm, frame, afterDraw) {
     Object.assign(this, { wasm, frame, afterDraw });
@@ -52,7 +52,7 @@ class Clock {
       this.before = now;
       if (this.lost || !this.seen) return;
       if (frame.fit(wasm)) this.wake();
-      if (wasm.playing() || now < this.awakeUntil) this.draw(dt);
+      if (wasm.busy() || now < this.awakeUntil) this.draw(dt);
     };
     this.wake();
     this.request = requestAnimationFrame(this.tick);

@@ -42,6 +42,9 @@ void effect_switches(App& app);
 void effect_costs(App& app);
 /// What accuracy costs: all methods over this scene.
 void accuracy(App& app);
+/// What to set, in the same panel: the cheapest within an error or the most exact within a cost,
+/// with the reason, a button that runs it, and a search for the paper's alpha.
+void advice(App& app);
 /// Its picture over the view, where that was asked for.
 void accuracy_card(App& app);
 /// Where runs are seen: all of the view, or equal parts of it side by side or one over the other,

@@ -160,6 +160,18 @@ test("alpha follows the drag of its slider", async () => {
   quiet();
 });
 
+test("a sweep goes on beside a run that is paused", async () => {
+  await api("set", { scene: "pendulum", panel: "accuracy", accuracy: "run" });
+  await api("pause");
+  await page.waitForTimeout(2500); // with nobody at it, the page would fall asleep
+  const points = () => window.substep.widgets().filter((w) => w.group === "accuracy picture").length;
+  const before = await page.evaluate(points);
+  await page.waitForFunction((seen) =>
+    window.substep.widgets().filter((w) => w.group === "accuracy picture").length > seen, before, { timeout: 60000 });
+  await api("set", { accuracy: "cancel", panel: "plots" });
+  quiet();
+});
+
 test("a sweep is begun, cancelled and a point of it run, by clicks", async () => {
   await api("set", { scene: "pendulum", panel: "accuracy", accuracy: "run" });
   await page.waitForFunction(() =>

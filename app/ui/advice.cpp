@@ -1,0 +1,203 @@
+// "What to set": the cheapest method within an error or the most exact within a cost, and the alpha
+// of the paper's that comes up to it.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/format.hpp"
+#include "app/ui/accuracy_picture.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+/// "0.82 mm", "3.1 J"
+std::string error_text(double error, ErrorAxis axis) {
+  const Unit unit = unit_for(error);
+  return coarse_number(error / unit.factor) + " " + unit.prefix +
+         (axis == ErrorAxis::kEnergy ? "J" : "m");
+}
+
+std::string cost_text(double cost, CostAxis axis) {
+  switch (axis) {
+    case CostAxis::kSubsteps:
+      return short_number(cost) + " sub-steps a frame";
+    case CostAxis::kOperations:
+      return short_number(cost) + " operations a frame";
+    default:
+      return duration(1e-3 * cost) + " a frame";
+  }
+}
+
+constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting that keeps within it"},
+                                        {"a cost", "The most exact setting that keeps within it"}}};
+constexpr std::array<const char*, static_cast<std::size_t>(CostAxis::kCount)> kBudgetNames{
+    "Sub-steps", "Operations", "Time, ms"};
+
+/// A slider by the exponent: Dear ImGui's logarithmic ones end at what their format prints as zero.
+void limit_slider(const Look& look, const char* name, double least, double most, double& value,
+                  const char* tip) {
+  double exponent = std::log10(value);
+  if (slider(look, name, exponent, std::min(exponent, std::log10(least)),
+             std::max(exponent, std::log10(most)), false, "10^%.1f", tip)) {
+    value = std::pow(10.0, exponent);
+  }
+}
+
+/// What is wanted, and how much of it.
+void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Point>& points) {
+  int given = accuracy.error_is_given ? 0 : 1;
+  if (segmented_row(look, "Given", kGiven, given, "What is wanted; the other is looked for")) {
+    accuracy.error_is_given = given == 0;
+  }
+  const auto limits = [&](double CostAndError::*member) {
+    const auto [least, most] =
+        std::minmax_element(points.begin(), points.end(),
+                            [&](const auto& p, const auto& q) { return p.*member < q.*member; });
+    return std::pair((*least).*member, (*most).*member);
+  };
+  if (accuracy.error_is_given) {
+    const auto [least, most] = limits(&CostAndError::error);
+    limit_slider(look, accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m", least, most,
+                 accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)),
+                 "The error that is wanted at most. What holds it at the least cost is below");
+  } else {
+    const auto cost = static_cast<std::size_t>(accuracy.cost);
+    const auto [least, most] = limits(&CostAndError::cost);
+    limit_slider(look, kBudgetNames.at(cost), least, most, accuracy.budget.at(cost),
+                 "What a frame may cost at most. What comes nearest for it is below");
+  }
+}
+
+/// "1 mm", "0.05 ms a frame": what is wanted at most.
+std::string limit_text(const Accuracy& accuracy) {
+  if (accuracy.error_is_given) {
+    return error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), accuracy.error);
+  }
+  return cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)), accuracy.cost);
+}
+
+/// What the alpha came to that was found for the limit. @param best beside it, or null
+std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
+                       const Accuracy::Point* best) {
+  const std::string within = " alpha within " + limit_text(accuracy);
+  if (!search.choice()) {
+    return "The paper's method: no alpha from " + plain_number(AlphaSearch::kLeast) +
+           " to 1 keeps within " + limit_text(accuracy) + ".";
+  }
+  const auto& [alpha, result] = *search.choice();
+  const std::string found = std::string("The paper's ") +
+                            (accuracy.error_is_given ? "largest" : "smallest") + within + " is " +
+                            coarse_number(alpha) + ": ";
+  const auto error = error_of(result, accuracy.error);
+  if (!result.metrics.holds || !error) return found + result.metrics.verdict + ".";
+  const double cost = cost_of(result, accuracy.cost);
+  const std::string text =
+      found + error_text(*error, accuracy.error) + " for " + cost_text(cost, accuracy.cost);
+  if (!best || !accuracy.error_is_given) return text + ".";
+  return text + ", " + coarse_number(cost / best->cost) + " times as much.";
+}
+
+/// The paper's own knob, chosen for what is wanted by whole runs. @param best beside it, or null
+void paper_alpha(App& app, const Accuracy::Point* best) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  const AlphaSearch* search = accuracy.alpha_search();
+  if (!search) {
+    if (accuracy.reference() != nullptr &&
+        button(look, "find_alpha", Icon::kNone, "Find the paper's alpha", ButtonKind::kGhost, 0.0F,
+               look.m.row,
+               "Between the values of its curve: by halving, each try a whole run of the scene")) {
+      accuracy.search_alpha();
+    }
+    return;
+  }
+  if (!search->done()) {
+    label(look.fonts.small, look.theme->dim,
+          ("Run " + std::to_string(search->runs()) + ", alpha = " + coarse_number(search->alpha()))
+              .c_str());
+    if (progress(look, search->progress(), "What was found so far is given up")) {
+      accuracy.cancel_search();
+    }
+    return;
+  }
+  label(look.fonts.small, look.theme->dim, found_text(accuracy, *search, best).c_str());
+  if (search->choice() &&
+      button(look, "found_alpha", Icon::kPlay, "Run with this alpha", ButtonKind::kPlain, 0.0F,
+             look.m.row, "This scene from its start with the paper's method and this alpha")) {
+    app.run_result(Result(search->choice()->result));
+  }
+}
+
+/// How the runs of the paper's method stand beside it.
+std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points,
+                         const Accuracy::Point& best) {
+  const auto paper = accuracy.best(of_paper(points, accuracy.results()));
+  if (!paper) return "No alpha of the paper's that ran gets there.";
+  const double alpha = accuracy.results()[paper->result].experiment.settings.alpha;
+  if (paper->result == best.result) return "It is the paper's.";
+  const std::string with = "The paper's method, with alpha = " + plain_number(alpha) + ", ";
+  return accuracy.error_is_given
+             ? with + "takes " + coarse_number(paper->cost / best.cost) + " times that."
+             : with + "comes to " + error_text(paper->error, accuracy.error) + ".";
+}
+
+}  // namespace
+
+void advice(App& app) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  const std::vector<Accuracy::Point> points = accuracy.points();
+  if (points.size() < 2) return;
+  section(look, "What to set");
+  wanted(look, accuracy, points);
+  const auto best = accuracy.best(points);
+  if (!best) {
+    label(look.fonts.small, look.theme->dim,
+          ("No method keeps within " + limit_text(accuracy) + ".").c_str());
+    paper_alpha(app, nullptr);
+    space(8.0F);
+    return;
+  }
+  const Result& result = accuracy.results()[best->result];
+  const Settings& s = result.experiment.settings;
+  const CurveStyle style = curve_style(*look.theme, s);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw_swatch(style, look.theme->panel | IM_COL32_A_MASK, draw, {at.x + 14.0F, at.y + 10.0F});
+  draw_text(
+      draw, look.fonts.medium, {at.x + 36.0F, at.y + 2.0F}, look.theme->text,
+      fitted(look.fonts.medium, style.name, ImGui::GetContentRegionAvail().x - 36.0F).c_str());
+  ImGui::Dummy({1.0F, 18.0F});
+  const SeriesParameter parameter = series_parameter(s);
+  const AlphaSearch* search = accuracy.alpha_search();
+  const std::string reason =
+      std::string("With ") + parameter.name + " = " + plain_number(parameter.value) + " within " +
+      limit_text(accuracy) + ": " + error_text(best->error, accuracy.error) + " for " +
+      cost_text(best->cost, accuracy.cost) + "." +
+      (search && search->done() ? "" : " " + beside_paper(accuracy, points, *best));
+  label(look.fonts.small, look.theme->dim, reason.c_str());
+  if (button(look, "cheapest", Icon::kPlay, "Run it", ButtonKind::kPlain, 0.0F, look.m.row,
+             "This scene from its start with this method")) {
+    app.run_result(Result(result));
+  }
+  // What a scene keeps is counted in operations: the same on every machine.
+  if (accuracy.error_is_given && accuracy.cost == CostAxis::kOperations) {
+    ImGui::SameLine(0.0F, 8.0F);
+    if (button(look, "keep", Icon::kNone, "Keep for this scene", ButtonKind::kGhost, 0.0F,
+               look.m.row,
+               "A copy of the scene among your own that starts with it, and has it as the preset "
+               "recommended")) {
+      app.keep(*recommended_of(accuracy.results(), accuracy.error,
+                               accuracy.wanted.at(static_cast<std::size_t>(accuracy.error))));
+    }
+  }
+  paper_alpha(app, &*best);
+  space(8.0F);
+}
+
+}  // namespace substep::ui

@@ -51,6 +51,7 @@ double wall_clock() {
 void Accuracy::start(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   search_.reset();
+  paper_ = paper_settings(*scene_);
   sweep_.emplace(scene_, plan(*scene_));
   cancelled_ = false;
   elapsed_ = 0.0;
@@ -63,6 +64,13 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
 
 void Accuracy::cancel() { cancelled_ = true; }
 
+double Accuracy::slice(bool plays, double drawing) {
+  constexpr double kSlow = 1.0 / 30.0;
+  constexpr double kPause = 0.25;  // a tab that slept was not drawing
+  const double most = drawing > kSlow ? std::min(drawing, kPause) : 0.0;
+  return plays ? std::max(0.003, 0.2 * most) : std::max(0.008, 0.6 * most);
+}
+
 void Accuracy::advance(double seconds) {
   if (effects.running()) {
     effects.advance(seconds);
@@ -70,6 +78,7 @@ void Accuracy::advance(double seconds) {
   }
   if (searching()) {
     search_->advance(seconds);
+    last_ = -1.0;  // the sweep waits
     return;
   }
   if (!running()) return;
@@ -119,7 +128,7 @@ Accuracy::Limit Accuracy::limit() const {
 
 void Accuracy::search_alpha() {
   searched_for_ = limit();
-  Experiment paper = experiment_of(*scene_, paper_settings(*scene_));
+  Experiment paper = experiment_of(*scene_, paper_);
   paper.duration = experiments().front().duration;
   search_.emplace(
       error_is_given

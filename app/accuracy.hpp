@@ -17,8 +17,9 @@ namespace substep {
 /// What the panel shows.
 enum class AccuracyPicture : unsigned char { kErrorAgainstCost, kStabilityMap, kEffectCosts };
 
-/// "What does accuracy cost?": a sweep of all methods over the running scene, in slices of a few
-/// milliseconds a frame, and the points of its picture as they come.
+/// "What does accuracy cost?": a sweep of all methods over the running scene, in slices beside the
+/// frames, and the points of its picture as they come; what the parts of a frame cost; and a search
+/// for the paper's alpha.
 class Accuracy {
  public:
   using Point = RunPoint;
@@ -29,12 +30,16 @@ class Accuracy {
   void is_of(std::shared_ptr<const Scene> scene) { scene_ = std::move(scene); }
   /// Stops within the frame. The results so far stay.
   void cancel();
+  /// What a frame can spare for it, less beside a run that plays: a few milliseconds, or, where
+  /// drawing is slow (a page without a graphics processor), a share of what it takes. [s]
+  /// @param drawing that the last frame took, without its slice [s]
+  [[nodiscard]] static double slice(bool plays, double drawing);
   /// Goes on for about so long with what runs. @param seconds of this frame's time
   void advance(double seconds);
 
   /// Whether advance() has something to do.
   [[nodiscard]] bool busy() const { return effects.running() || searching() || running(); }
-  /// Whether the sweep goes on.
+  /// Whether the sweep is not over; it waits while a search goes on.
   [[nodiscard]] bool running() const {
     return sweep_.has_value() && !cancelled_ && !sweep_->done();
   }
@@ -56,12 +61,15 @@ class Accuracy {
   /// What comes up to what is wanted: the cheapest within the error, or the most exact within the
   /// cost. Nothing does where it is empty.
   [[nodiscard]] std::optional<Point> best(const std::vector<Point>& points) const;
-  /// Looks for the alpha of the paper's method that comes up to what is wanted, beside the values
-  /// of its curve. For a scene whose reference is found.
+  /// Looks for the alpha of the paper's method that comes up to what is wanted, between the values
+  /// of its curve and with as many sub-steps at most. For a scene whose reference is found.
   void search_alpha();
   void cancel_search() { search_.reset(); }
   /// The search for what is wanted as it is now, or null. It waits while something else is wanted.
   [[nodiscard]] const AlphaSearch* alpha_search() const;
+  [[nodiscard]] bool searching() const { return alpha_search() && !search_->done(); }
+  /// What its sub-steps are capped at.
+  [[nodiscard]] int search_cap() const { return paper_.n_max; }
   /// Runs of the scene as it stands that failed.
   [[nodiscard]] std::vector<Point> failed() const;
   /// Whether two runs or more have such an error.
@@ -81,7 +89,6 @@ class Accuracy {
   std::array<double, static_cast<std::size_t>(CostAxis::kCount)> budget{8.0, 1e5, 0.05};
 
  private:
-  [[nodiscard]] bool searching() const { return alpha_search() && !search_->done(); }
   /// What is wanted at most, and of what.
   struct Limit {
     bool of_error = true;
@@ -93,6 +100,7 @@ class Accuracy {
 
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;
+  Settings paper_;                     // of the sweep's curve, without its alpha
   std::optional<AlphaSearch> search_;  // goes by the reference of the sweep
   Limit searched_for_;
   bool cancelled_ = false;

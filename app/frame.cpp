@@ -84,15 +84,6 @@ class Scaled {
   ImVec2 ratio_;
 };
 
-// What a frame can spare for the sweep, less beside a run that plays [s]. Where drawing is slow a
-// share of what it takes: sweeps would go on for hours otherwise, on a page without a graphics
-// processor.
-double spare_time(bool plays, double wall_dt) {
-  constexpr double kSlowest = 0.25;  // a pause of the tab is not a frame
-  const double frame = std::min(wall_dt, kSlowest);
-  return plays ? std::max(0.003, 0.15 * frame) : std::max(0.008, 0.4 * frame);
-}
-
 // This run, and what it is compared with: each in a pane of its own, or over it as ghosts.
 void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
   app.panes = ui::view_panes(app);
@@ -125,7 +116,7 @@ void frame(App& app, double wall_dt) {
     app.session.pause();
     app.pause_at = 0.0;  // whoever plays on wants to see more
   }
-  app.accuracy.advance(spare_time(app.session.playing(), wall_dt));
+  app.accuracy.advance(Accuracy::slice(app.session.playing(), wall_dt - app.own_time));
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;
 

@@ -21,10 +21,13 @@
 #include "core/io/setting_fields.hpp"
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
+#include "core/lab/sweep.hpp"
 #include "core/model/names.hpp"
 
 namespace substep::cli {
 namespace {
+
+constexpr int kMostSubsteps = 10000;  // a frame, as many as settings allow
 
 struct RecommendOptions {
   std::string scene;
@@ -95,6 +98,7 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
                  double seconds, const std::atomic<bool>& cancelled) {
   Experiment paper = experiment_of(*scene, paper_settings(*scene));
   paper.duration = seconds;
+  paper.settings.n_max = kMostSubsteps;  // alpha alone is to decide
   const Reference reference = find_reference(scene, seconds);
   AlphaSearch search =
       want.error_is_given
@@ -110,10 +114,8 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
                  AlphaSearch::kLeast);
     return;
   }
-  const Metrics& metrics = choice->result.metrics;
-  std::fprintf(
-      words, "The paper's method: the %s alpha that does is %.3g, %s\n", which, choice->alpha,
-      metrics.holds ? figures(choice->result, want.error).c_str() : metrics.verdict.c_str());
+  std::fprintf(words, "The paper's method: the %s alpha that does is %.3g, %s\n", which,
+               choice->alpha, figures(choice->result, want.error).c_str());
 }
 
 /// Writes the scene with what is recommended for it. @return main()'s

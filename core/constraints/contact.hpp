@@ -22,7 +22,8 @@ void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block
 /// N only.
 void contact_stiffness_paper(const Block& block, StiffnessMatrix& K);
 
-/// The true derivative of the normal force and its torques.
+/// The true derivative of the contact's force and torques, friction included, its tangents carried
+/// along with body b as move_rows() does.
 void contact_stiffness_exact(const Block& block, StiffnessMatrix& K);
 
 }  // namespace substep

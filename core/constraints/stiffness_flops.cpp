@@ -10,10 +10,11 @@ constexpr std::int64_t kSkewProduct = 12;
 constexpr std::int64_t kSum = 9;
 
 std::int64_t exact_contact_flops(std::int64_t bodies) {
-  const std::int64_t normal = 2 * kProduct + kSum;  // N_b, H r
-  const std::int64_t torques =
-      4 * product_flops(3, 3, 6) + 2 * kProduct + 5 * kSum;  // by each body
-  return normal + torques + bodies * bodies * 2 * 36;        // scaled, added
+  constexpr std::int64_t kWide = product_flops(3, 3, 6);
+  const std::int64_t normal = 2 * kProduct + kSum;                         // N_b, H r
+  const std::int64_t force = 12 + 2 * kWide + 27;                          // D, and df by each body
+  const std::int64_t arms = 2 * 18 + 3 * kSum;                             // dr by each
+  return normal + force + arms + bodies * bodies * (2 * kWide + 18 + 36);  // torques, added
 }
 
 }  // namespace

@@ -3,30 +3,26 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace substep {
 namespace {
 
 constexpr double kQuarter = 0.25;
-constexpr int kMostQuarters = 8;      // from 1 to kLeast
-constexpr double kNarrow = 1.02;      // ratio of the ends of an interval that is not halved
-constexpr int kMostHalvings = 7;      // of a quarter until it is narrow
-constexpr int kMostSubsteps = 10000;  // a frame, as many as settings allow
+constexpr int kMostQuarters = 8;  // from 1 to kLeast
+constexpr double kNarrow = 1.02;  // ratio of the ends of an interval that is not halved
+constexpr int kMostHalvings = 7;  // of a quarter until it is narrow
+
+/// The number of three digits next to this.
+double typed(double alpha) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", alpha);
+  return std::strtod(text, nullptr);
+}
 
 }  // namespace
-
-Settings paper_settings(const Scene& scene) {
-  Settings paper = own_settings(scene);
-  paper.solver = SolverKind::kBpp;
-  paper.mode = Mode::kAdaptive;
-  paper.policy = Policy::kFrame;
-  paper.islands = false;
-  paper.contact_stiffness = ContactStiffness::kPaper;
-  paper.integrator = Integrator::kEuler;
-  paper.n_max = kMostSubsteps;
-  return paper;
-}
 
 AlphaSearch AlphaSearch::largest_within(std::shared_ptr<const Scene> scene,
                                         const Experiment& experiment, const Reference& reference,
@@ -93,7 +89,7 @@ void AlphaSearch::take(const Result& result) {
   }
   if (phase_ == Phase::kDown) {
     if (serves != until_it_serves_ && alpha_ > kLeast) {
-      alpha_ = std::max(kQuarter * alpha_, kLeast);
+      alpha_ = std::max(typed(kQuarter * alpha_), kLeast);
       return;
     }
     phase_ = Phase::kHalving;
@@ -102,9 +98,10 @@ void AlphaSearch::take(const Result& result) {
   // One end may be missing: all of the range serves, or none of it.
   if (!good_ || bad_ == 0.0 || std::max(bad_ / good_->alpha, good_->alpha / bad_) <= kNarrow) {
     phase_ = Phase::kDone;
+    if (good_ && !good_->result.metrics.holds) good_.reset();
     return;
   }
-  alpha_ = std::sqrt(bad_ * good_->alpha);
+  alpha_ = typed(std::sqrt(bad_ * good_->alpha));
 }
 
 }  // namespace substep

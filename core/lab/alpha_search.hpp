@@ -14,14 +14,11 @@ struct AlphaChoice {
   Result result;       // of the whole run with it
 };
 
-/// The paper's method on a scene: the direct solver, Euler, N decided once a frame by alpha alone,
-/// without a cap but that of all settings. The rest stays as the scene has it of its own.
-Settings paper_settings(const Scene& scene);
-
 /// A search for an alpha over whole runs, in slices as a sweep is. It goes from 1 down by quarters,
 /// since small alphas are dear to try, then halves the interval until its ends are within 2 %, and
-/// takes for granted that a smaller alpha costs more and errs less. What it chooses was run: it
-/// keeps what it is chosen for.
+/// takes for granted that a smaller alpha costs more and errs less. All that it tries has three
+/// digits, so that people can type it. What it chooses was run: it holds, and keeps what it is
+/// chosen for.
 class AlphaSearch {
  public:
   static constexpr double kLeast = 1e-4;  // that is tried [-]
@@ -33,7 +30,7 @@ class AlphaSearch {
                                     const Experiment& experiment, const Reference& reference,
                                     ErrorAxis axis, double error);
 
-  /// For the smallest alpha whose frames cost no more than this.
+  /// For the smallest alpha whose frames cost no more than this; nothing where that one fails.
   static AlphaSearch smallest_within(std::shared_ptr<const Scene> scene,
                                      const Experiment& experiment, const Reference& reference,
                                      CostAxis axis, double cost);

@@ -33,7 +33,8 @@ double mass_ratio(const Scene& scene);
 /// Frames of a duration, rounded to whole ones.
 std::int64_t frames_of(const Scene& scene, double duration);
 
-/// The solver and what it is set to: "bpp", "pgs 25", "newton mean".
+/// The solver and what it is set to: "bpp", "pgs 25", "newton mean", "newton 2 mean" where its
+/// steps are not the 25 of a scene that says nothing.
 std::string solver_text(const Settings& settings);
 
 /// What one curve of a picture shares: "bpp, adaptive per frame, euler". The parameter that runs

@@ -21,6 +21,7 @@ constexpr int kRefinements[] = {2, 8};
 constexpr int kFew[] = {1, 2, 3, 4, 6, 8};  // sub-steps that are refined
 constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 0.0125, 0.00625};
 constexpr double kDampingAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
+constexpr int kFreeCap = 256;  // of adaptive sub-steps
 constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
 // The map has fewer values than the curves: each stands for a run under every load.
 constexpr int kMapN[] = {1, 2, 4, 6, 8, 12, 16, 24};
@@ -53,7 +54,7 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
       along(kCaps, &Settings::n_cap);
       break;
     case SubstepCount::kStable:
-      settings.n_max = std::max(settings.n_max, 256);  // a cap of its own would hide the law
+      settings.n_max = std::max(settings.n_max, kFreeCap);  // one of its own would hide the law
       along(kAlpha, &Settings::alpha);
       break;
   }
@@ -179,10 +180,8 @@ void append_map(Settings settings, std::vector<SweepPoint>& points) {
   }
 }
 
-}  // namespace
-
-std::vector<SweepPoint> default_sweep(const Scene& scene) {
-  std::vector<Settings> all;
+/// The scene's own settings without those that curves of their own stand for.
+Settings base_of(const Scene& scene) {
   Settings base = own_settings(scene);
   base.forces = Forces::kEnd;
   base.watch_stiffness = false;
@@ -194,6 +193,24 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   base.detection = Detection::kSubstep;
   base.islands = false;
   base.sleep = false;
+  return base;
+}
+
+}  // namespace
+
+Settings paper_settings(const Scene& scene) {
+  Settings paper = base_of(scene);
+  paper.solver = SolverKind::kBpp;
+  paper.mode = Mode::kAdaptive;
+  paper.policy = Policy::kFrame;
+  paper.integrator = Integrator::kEuler;
+  paper.n_max = std::max(paper.n_max, kFreeCap);
+  return paper;
+}
+
+std::vector<SweepPoint> default_sweep(const Scene& scene) {
+  std::vector<Settings> all;
+  const Settings base = base_of(scene);
   const auto curves = [&](SolverKind solver, Integrator integrator) {
     Settings settings = base;
     settings.solver = solver;

@@ -22,6 +22,11 @@ struct SweepPoint {
 /// Other settings stay as the scene has them of its own.
 std::vector<SweepPoint> default_sweep(const Scene& scene);
 
+/// Of the curve of the paper's method, but for its alpha: the direct solver, Euler, N decided once
+/// a frame by alpha alone, up to a cap that is out of its way; and what else a sweep sets aside of
+/// a scene's own settings.
+Settings paper_settings(const Scene& scene);
+
 /// Sub-steps a run is likely to take, weighted by what one costs: for progress bars only.
 double expected_work(const Scene& scene, const Experiment& experiment);
 

@@ -77,7 +77,7 @@ TEST(SlackStarts, HoldAMinuteWithBoundedN) {
                       {"soft drift", soft, 64},
                       {"by sub-step", by_substep, 64}};
   int paper = 0;
-  for (const double degrees : {85.0, 88.0, 89.0}) {
+  for (const double degrees : {85.0, 88.0, 89.0, 90.0}) {
     const double angle = degrees * std::numbers::pi / 180.0;
     const Scene scene =
         scenes::swinging_box({.angle = {std::sin(angle), std::cos(angle)}, .compliance = 1e-12});

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/io/experiment.hpp"
+#include "core/lab/sweep.hpp"
 #include "scenes/generator/scenes.hpp"
 
 namespace substep {
@@ -73,6 +74,42 @@ TEST(AlphaSearch, IsTheSmallestWithinACost) {
 TEST(AlphaSearch, IsNothingWhereNothingServes) {
   const Chain chain;
   EXPECT_FALSE(found(chain.within_substeps(0.5)));
+  Chain capped;
+  capped.experiment.settings.n_max = 4;
+  EXPECT_FALSE(found(capped.within(1e-6))) << "the whole way down";
+}
+
+// With so few sub-steps the chain tears; cheap as that is, it is nothing that anybody wants.
+TEST(AlphaSearch, IsNothingWhereTheRunFails) {
+  Chain chain;
+  chain.experiment.settings.n_max = 1;
+  EXPECT_FALSE(chain.run(1.0).metrics.holds);
+  EXPECT_FALSE(found(chain.within_substeps(3.0)));
+}
+
+TEST(AlphaSearch, KeepsWithinTheTimeThatRunsTook) {
+  const Chain chain;
+  const auto choice = found(AlphaSearch::smallest_within(chain.scene, chain.experiment,
+                                                         chain.reference, CostAxis::kTime, 1e3));
+  ASSERT_TRUE(choice.has_value());
+  EXPECT_EQ(choice->alpha, AlphaSearch::kLeast) << "a second a frame is room for all of them";
+}
+
+TEST(AlphaSearch, GoesByTheSettingsOfTheSweepsCurve) {
+  Scene own = scenes::rope_of_n({.n = 4});
+  own.settings.drift_order = 2;
+  own.settings.refinements = 3;
+  own.settings.sleep = true;
+  own.settings.contact_stiffness = ContactStiffness::kExact;
+  own.settings.memory = 0.5;  // nothing that a curve stands for
+  Settings paper = paper_settings(own);
+  EXPECT_EQ(paper.memory, 0.5);
+  bool found_curve = false;
+  for (const SweepPoint& point : default_sweep(own)) {
+    paper.alpha = point.settings.alpha;
+    found_curve = found_curve || point.settings == paper;
+  }
+  EXPECT_TRUE(found_curve);
 }
 
 TEST(AlphaSearch, EndsWhereTheRangeDoes) {

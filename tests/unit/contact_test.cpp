@@ -1,3 +1,5 @@
+#include "core/constraints/contact.hpp"
+#include "core/constraints/moved_rows.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -300,6 +302,60 @@ TEST(Contact, TheSphereTurnsNothingInTheExactFormButInThePapersItDoes) {
   Vec6 expected;
   expected << 0.0, 0.0, 0.0, 5.0, 0.0, 5.0;  // [l][r] with l = 10 y, r = -0.5 y
   EXPECT_LT((k[0] - expected).norm(), 1e-14);
+}
+
+/// J^T lambda of one block on a body after both have moved: linear, then torque about its centre.
+Vec6 force_after(const Block& start, const Motion& a, const Motion& b, int body) {
+  Blocks moved;
+  moved.append() = start;
+  move_rows(start, a, b, moved.all()[0]);
+  return force_on(moved, body);
+}
+
+// K of contacts that hold by friction, against central differences of the force that moved rows
+// have at the same multipliers: on a face, an edge and a corner of a box, on a sphere, of a corner.
+TEST(Friction, TheExactBlockIsTheDerivativeOfItsForce) {
+  Random random(9);
+  for (int trial = 0; trial < 60; ++trial) {
+    const bool round = trial % 5 == 4;
+    Scene scene = pair_of(trial % 5 == 3 ? moving(Box{Vec3{0.2, 0.1, 0.15}}) : moving(Sphere{0.4}),
+                          round ? moving(Sphere{0.3}) : moving(Box{Vec3{0.5, 0.5, 0.5}}));
+    scene.effects.friction = true;
+    scene.contact.margin = 1.0;
+    for (Body& body : scene.bodies) body.friction = 0.5;
+    scene.bodies[0].orientation = random_rotation(random);
+    scene.bodies[1].orientation = random_rotation(random);
+    const Vec3 outside = trial % 5 == 1   ? Vec3(0.7, 0.8, 0.2)
+                         : trial % 5 == 2 ? Vec3(0.7, 0.6, 0.8)
+                                          : Vec3(0.1, 0.95, 0.2);
+    scene.bodies[0].position = scene.bodies[1].orientation * outside;
+    const State state = initial_state(scene);
+    Blocks blocks;
+    contact_rows(scene)(state, blocks);
+    FrictionStage(scene).append(scene, rotations(state), blocks.all());
+    ASSERT_GT(blocks.size(), 0U);
+    Block& block = blocks.all()[0];
+    ASSERT_EQ(block.rows, 3);
+    for (int row = 0; row < 3; ++row) block.lambda[row] = uniform(random, 0.5, 2.0);
+    StiffnessMatrix K;
+    K.clear(2);
+    contact_stiffness_exact(block, K);
+    for (int col = 0; col < 2; ++col) {
+      for (int dof = 0; dof < 6; ++dof) {
+        const Motion plus = motion(Vec6::Unit(dof), kStep);
+        const Motion minus = motion(Vec6::Unit(dof), -kStep);
+        const auto after = [&](const Motion& of_col, int row) {
+          const bool is_a = block.a == col;
+          return force_after(block, is_a ? of_col : Motion{}, is_a ? Motion{} : of_col, row);
+        };
+        for (int row = 0; row < 2; ++row) {
+          const Vec6 slope = (after(plus, row) - after(minus, row)) / (2.0 * kStep);
+          EXPECT_LT((K.block(row, col).col(dof) - slope).norm(), kTolerance)
+              << "trial " << trial << " K(" << row << "," << col << ") dof " << dof;
+        }
+      }
+    }
+  }
 }
 
 TEST(Friction, RowsAreTheRelativeSpeedAtTheContact) {

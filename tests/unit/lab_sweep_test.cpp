@@ -396,6 +396,21 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
     if (by_island(series_name(point.settings))) ++islands;
   }
   EXPECT_EQ(islands, 11 + 11 + 7);
+  // The same on the other main scenes; what is for joints alone is not there where contacts are.
+  for (const Scene& other : {scenes::bridge(), scenes::heavy_stack(), scenes::heavy_stack_stress(),
+                             scenes::heavy_stack_stress_tall()}) {
+    std::set<std::string> there;
+    for (const SweepPoint& point : default_sweep(other)) there.insert(series_name(point.settings));
+    for (const std::string& name : series) {
+      const bool joints_alone = name.starts_with("newton numerov") ||
+                                (name.ends_with("drift order 2") && !other.effects.joints);
+      const bool once_a_frame = name.find(" a frame") != std::string::npos;
+      EXPECT_EQ(there.contains(once_a_frame ? name + ", contacts once a frame" : name),
+                !joints_alone)
+          << other.name << ": " << name;
+    }
+    EXPECT_TRUE(there.contains("bpp, adaptive per frame, euler, exact contact block"));
+  }
   int exact = 0;
   for (const SweepPoint& point : default_sweep(scenes::bridge())) {
     EXPECT_NE(point.settings.forces, Forces::kNumerov) << "which is for joints alone";

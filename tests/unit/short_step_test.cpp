@@ -69,42 +69,54 @@ struct Pile {
   System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt, R_WB}; }
 };
 
-Settings until_done() {
+Settings until_done(Forces forces) {
   Settings settings;
   settings.iterations = 4000;
+  settings.forces = forces;
   return settings;
 }
 
 /// Bounds of friction move with the solution; BPP refreshes them a few times a call.
-SolveReport settle(Solver& solver, Pile& pile) {
+SolveReport settle(Solver& solver, Pile& pile, Forces forces = Forces::kEnd) {
   const std::vector<Vec6> u = pile.state.u;
   SolveReport report;
   for (int call = 0; call < 20; ++call) {
     pile.state.u = u;
-    report = solver.solve(pile.system(), until_done());
+    report = solver.solve(pile.system(), until_done(forces));
     if (report.status == SolveStatus::kSolved) break;
   }
   return report;
 }
 
-class EverySolverOfRigidBodies : public testing::TestWithParam<SolverKind> {};
+struct SolverAndForces {
+  SolverKind solver;
+  Forces forces = Forces::kEnd;  // of Newton's method
+};
+
+class EverySolverOfRigidBodies : public testing::TestWithParam<SolverAndForces> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolverOfRigidBodies,
-                         testing::Values(SolverKind::kPgs, SolverKind::kBpp, SolverKind::kXpbd,
-                                         SolverKind::kNewton),
-                         [](const auto& solver) { return std::string(name_of(solver.param)); });
+                         testing::Values(SolverAndForces{SolverKind::kPgs},
+                                         SolverAndForces{SolverKind::kBpp},
+                                         SolverAndForces{SolverKind::kXpbd},
+                                         SolverAndForces{SolverKind::kNewton},
+                                         SolverAndForces{SolverKind::kNewton, Forces::kMean}),
+                         [](const auto& of) {
+                           const std::string solver(name_of(of.param.solver));
+                           return of.param.forces == Forces::kEnd ? solver : solver + "_mean";
+                         });
 
 constexpr double kShort = 3e-7;   // rows turn by as much [s]
 constexpr double kTurned = 1e-4;  // what that does to velocities and impulses, at most
 
 TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {
   Random random(51);
-  const auto solver = make_solver(GetParam());
+  const auto solver = make_solver(GetParam().solver);
   int closed = 0;
   int sliding = 0;
   for (int trial = 0; trial < 60; ++trial) {
     Pile pile(random, 1 + trial % 3, trial % 4, trial % 2 == 0 ? 0.0 : 0.4, kShort);
     const std::vector<Vec6> u_star = pile.state.u;
-    settle(*solver, pile);
+    settle(*solver, pile, GetParam().forces);
     EXPECT_LT(lcp_residual(pile.system()), kTurned) << "trial " << trial;
     std::vector<Vec6> u = u_star;
     for (const Block& block : pile.blocks.all()) {
@@ -124,12 +136,12 @@ TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {
 // With so much softness there is one answer.
 TEST_P(EverySolverOfRigidBodies, InAShortStepAllHaveTheSameAnswer) {
   Random random(52);
-  const auto solver = make_solver(GetParam());
+  const auto solver = make_solver(GetParam().solver);
   const auto direct = make_solver(SolverKind::kBpp);
   for (int trial = 0; trial < 60; ++trial) {
     Pile pile(random, 1 + trial % 3, trial % 4, trial % 2 == 0 ? 0.0 : 0.3, kShort);
     Pile other = pile;
-    settle(*solver, pile);
+    settle(*solver, pile, GetParam().forces);
     settle(*direct, other);
     for (std::size_t i = 0; i < pile.state.u.size(); ++i) {
       EXPECT_LT((pile.state.u[i] - other.state.u[i]).norm(), kTurned) << "trial " << trial;
@@ -142,7 +154,7 @@ TEST_P(EverySolverOfRigidBodies, NoBlocksLeaveTheVelocitiesAlone) {
   Pile pile(random, 3, 0, 0.0, 0.01);
   pile.blocks.clear();
   const std::vector<Vec6> u = pile.state.u;
-  make_solver(GetParam())->solve(pile.system(), Settings{});
+  make_solver(GetParam().solver)->solve(pile.system(), Settings{});
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(u[i], pile.state.u[i]);
 }
 

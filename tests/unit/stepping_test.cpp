@@ -210,6 +210,34 @@ TEST(Oscillator, EveryModeIsStableJustAsFarAsItsArgumentSays) {
   }
 }
 
+// Eqs. 10 and 11: the step that the clock takes leaves room for a force 1/alpha times as large,
+// none at alpha 1. Past its cap the damped mass stands for what is left.
+TEST(Oscillator, TheClocksStepLeavesTheRoomThatAlphaSays) {
+  constexpr double kRate = 1e8;  // r = k/M [1/s^2], of hundreds of sub-steps
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+    for (const double alpha : {0.1, 0.5, 1.0}) {
+      Settings settings;
+      settings.integrator = integrator;
+      settings.alpha = alpha;
+      settings.n_max = 10000;
+      settings.n_cap = 8;
+      settings.mode = Mode::kAdaptive;
+      double dt = SubstepClock(settings, kFrame, kRate).dt();
+      const double room = largest_growth(settings, dt * dt * kRate);
+      EXPECT_NEAR(alpha * room, 1.0, 0.02) << alpha;
+      EXPECT_GT(alpha * room, 0.998) << "N is rounded up";
+
+      settings.mode = Mode::kCapped;
+      dt = SubstepClock(settings, kFrame, kRate).dt();
+      EXPECT_DOUBLE_EQ(dt, kFrame / 8.0);
+      const double kappa = dt * dt * kRate;
+      const double damped = damped_mass(1.0, kappa, alpha, 1.0);
+      EXPECT_NEAR(largest_growth(settings, kappa) * kappa / (2.0 * (damped + 1.0)), 1.0, 2e-3);
+      EXPECT_GT(largest_growth(settings, kappa), 1.0);
+    }
+  }
+}
+
 TEST(FullStiffness, KeepsWhatResistsARotation) {
   Random random(8);
   for (int trial = 0; trial < 200; ++trial) {

@@ -118,7 +118,10 @@ std::string App::set(std::string_view key, std::string_view value) {
       accuracy.cancel_search();
       accuracy.effects.cancel();
     } else if (value == "alpha") {
-      if (accuracy.reference() == nullptr) return "'alpha' needs a reference: run first";
+      if (accuracy.reference() == nullptr) {
+        return "'alpha' searches beside a sweep that has found its reference: set accuracy=run "
+               "first";
+      }
       accuracy.search_alpha();
     } else if (value == "map") {
       accuracy.picture = AccuracyPicture::kStabilityMap;

@@ -8,7 +8,7 @@
 namespace substep {
 
 /// "Where does the time go?": what stages, effects and the criterion take in a scene with given
-/// settings, measured from its start in slices of a few milliseconds a frame.
+/// settings, measured from its start in slices beside the frames.
 class EffectCosts {
  public:
   /// Measures this; what was there before is forgotten.

@@ -3,10 +3,9 @@
 // sub-step is solved to the end, dashed where sweeps go at it.
 
 const modes = [
-  ["newton numerov, const", "teal", "triangle", "Newton, Numerov"],
-  [/newton \d+ mean, const/, "teal", "square", "Newton, mean forces"],
-  ["newton mean, const", "teal", "circle", "Newton, mean forces"],
-  ["newton, const", "teal", "circle", "Newton"],
+  [/newton( \d+)? numerov, const/, "teal", "triangle", "Newton, Numerov"],
+  [/newton( \d+)? mean, const/, "teal", "circle", "Newton, mean forces"],
+  [/newton( \d+)?, const/, "teal", "circle", "Newton"],
   ["refined", "teal", "triangle", "constant N"],
   [/xpbd \d+ a frame, const/, "purple", "star", "small steps"],
   [/pgs \d+ a frame, const/, "amber", "triangle", "small steps"],
@@ -45,12 +44,12 @@ export const colour = name =>
 
 export function styleOf(series) {
   const [, token, shape, mode] = modes.find(([part]) => series.search(part) >= 0) ?? ["", "grey", "circle", series];
-  const symbol = /drift order 2|exact contact block/.test(series) ? "diamond" : shape;
   const leapfrog = series.includes("leapfrog");
   const [, sweeping, sweeps, shared] = /^(pgs|xpbd) (\d+)( a frame)?/.exec(series) ?? [];
   const named = sweeping === "pgs" || shared; // XPBD is its own name otherwise
   const implicit = /^newton/.test(series);
   const [, steps] = /^newton (\d+)/.exec(series) ?? [];
+  const symbol = /drift order 2|exact contact block/.test(series) || steps === "1" ? "diamond" : steps ? "square" : shape;
   const others = [/drift order 2/, /drift (?!order)\w+/, /exact contact block/, /refined \d+/]
     .map(other => other.exec(series)?.[0]);
   const name = [mode, leapfrog && !implicit ? "leapfrog" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", steps ? `${steps} step${steps === "1" ? "" : "s"}` : "", ...others]

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -48,6 +47,7 @@ std::string state_text(const Accuracy& accuracy) {
                      " runs, " + std::to_string(failed) + " failed";
   if (accuracy.running() && accuracy.reference() == nullptr) return "Finding the reference …";
   if (accuracy.cancelled()) return text + ", cancelled";
+  if (accuracy.running() && accuracy.searching()) return text + ", waits for the search";
   const double left = accuracy.seconds_left();
   if (accuracy.running() && left >= 0.0) text += ", about " + fixed(left, 0) + " s left";
   return text;

@@ -289,7 +289,7 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
       if (s.forces == Forces::kMean) style.name += ", mean forces";
       if (s.forces == Forces::kNumerov) style.name += ", Numerov";
       if (s.iterations != Settings{}.iterations) {
-        style.corners = 4;
+        style.corners = s.iterations == 1 ? 5 : 4;
         style.name +=
             ", " + std::to_string(s.iterations) + (s.iterations == 1 ? " step" : " steps");
       }

@@ -84,22 +84,21 @@ std::string limit_text(const Accuracy& accuracy) {
 /// What the alpha came to that was found for the limit. @param best beside it, or null
 std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
                        const Accuracy::Point* best) {
-  const std::string within = " alpha within " + limit_text(accuracy);
   if (!search.choice()) {
-    return "The paper's method: no alpha from " + plain_number(AlphaSearch::kLeast) +
-           " to 1 keeps within " + limit_text(accuracy) + ".";
+    return "The paper's method: with no alpha from " + plain_number(AlphaSearch::kLeast) +
+           " to 1 and at most " + std::to_string(accuracy.search_cap()) +
+           " sub-steps it holds and keeps within " + limit_text(accuracy) + ".";
   }
   const auto& [alpha, result] = *search.choice();
-  const std::string found = std::string("The paper's ") +
-                            (accuracy.error_is_given ? "largest" : "smallest") + within + " is " +
-                            coarse_number(alpha) + ": ";
-  const auto error = error_of(result, accuracy.error);
-  if (!result.metrics.holds || !error) return found + result.metrics.verdict + ".";
   const double cost = cost_of(result, accuracy.cost);
   const std::string text =
-      found + error_text(*error, accuracy.error) + " for " + cost_text(cost, accuracy.cost);
-  if (!best || !accuracy.error_is_given) return text + ".";
-  return text + ", " + coarse_number(cost / best->cost) + " times as much.";
+      std::string("The paper's ") + (accuracy.error_is_given ? "largest" : "smallest") +
+      " alpha within " + limit_text(accuracy) + " is " + plain_number(alpha) + ": " +
+      error_text(error_of(result, accuracy.error).value_or(0.0), accuracy.error) + " for " +
+      cost_text(cost, accuracy.cost) + ".";
+  if (!best || !accuracy.error_is_given) return text;
+  return text + " That is " + coarse_number(cost / best->cost) +
+         " times what the setting above takes.";
 }
 
 /// The paper's own knob, chosen for what is wanted by whole runs. @param best beside it, or null

@@ -29,7 +29,7 @@ constexpr std::array<Choice, 5> kModes{
       "(Eq. 11). The paper's (Giles and Andrews 2024)."},
      {"capped",
       "Adaptive up to a cap, damping for what is left over: the combination that the "
-      "paper leaves for future work."}}};
+      "paper leaves for future work (Giles and Andrews 2024)."}}};
 // What stands beside and beyond the paper: the modes that follow those.
 constexpr std::array<Choice, 3> kFurtherModes{
     {{"stiffness",
@@ -62,17 +62,26 @@ constexpr std::array<Choice, 4> kSolvers{
       "end of the sub-step, and the "
       "forces belong to poses around it."}}};
 constexpr std::array<Choice, 3> kForces{
-    {{"end", "The end of the sub-step: implicit Euler, which damps. The source's."},
-     {"mean", "Before, at and after it by 1/4, 1/2, 1/4: stable for any step, and loses nothing."},
+    {{"end", "The end of the sub-step: implicit Euler, which damps (Macklin et al. 2019)."},
+     {"mean",
+      "Before, at and after it by 1/4, 1/2, 1/4: average acceleration (Newmark 1959), stable for "
+      "any step, and loses nothing."},
      {"numerov",
-      "By 1/12, 10/12, 1/12 and with the rate of the forces: third order and better, for "
-      "scenes of joints, while dt² k < 6 M."}}};
+      "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): third order and "
+      "better, for scenes of joints, while dt² k < 6 M."}}};
 constexpr std::array<Choice, 2> kIntegrators{
-    {{"Euler", "Semi-implicit Euler, the paper's: first order, loses energy when N changes."},
-     {"leapfrog", "External forces act over (dt before + dt)/2: second order at the same cost."}}};
+    {{"Euler",
+      "Semi-implicit Euler, the paper's (Giles and Andrews 2024): first order, loses energy when N "
+      "changes."},
+     {"leapfrog",
+      "External forces act over (dt before + dt)/2 (Verlet 1967): second order at the same "
+      "cost."}}};
 constexpr std::array<Choice, 2> kPolicies{
-    {{"frame", "N is decided once a frame, from the forces of its last sub-step: the paper's."},
-     {"sub-step", "dt is decided again after every sub-step, with a decaying memory of r."}}};
+    {{"frame",
+      "N is decided once a frame, from the forces of its last sub-step: the paper's (Giles and "
+      "Andrews 2024)."},
+     {"sub-step",
+      "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};
 constexpr std::array<Choice, 3> kDrifts{
     {{"auto", "Soft with PGS, full with the others."},
      {"full", "The whole error is taken back in one step: bias phi/dt."},
@@ -81,8 +90,10 @@ constexpr std::array<Choice, 3> kDrifts{
       "change of dt brings no energy in."}}};
 
 constexpr std::array<Choice, 2> kContactStiffnesses{
-    {{"paper", "The contact as a ball joint that carries its force: the paper's, steers N."},
-     {"exact", "The true derivative of the contact force."}}};
+    {{"paper",
+      "The contact as a ball joint that carries its force: the paper's (Giles and Andrews 2024), "
+      "steers N."},
+     {"exact", "The true derivative of the contact force, friction included. This project's."}}};
 constexpr std::array<Choice, 2> kDetections{
     {{"sub-step", "Looked for before every sub-step."},
      {"frame",
@@ -91,8 +102,9 @@ constexpr std::array<Choice, 2> kDetections{
       "within the frame "
       "are seen late."}}};
 constexpr std::array<Choice, 2> kGyroscopics{
-    {{"explicit", "Explicit Euler: gains energy."},
-     {"implicit", "Half a step explicit, half implicit: keeps energy and angular momentum."}}};
+    {{"explicit", "Explicit Euler, as engines mostly have it: gains energy."},
+     {"implicit",
+      "Half a step explicit, half implicit: keeps energy and angular momentum. This project's."}}};
 
 template <class Enum, std::size_t N>
 bool choose(const Look& look, const char* name, const std::array<Choice, N>& choices, Enum& value,
@@ -201,7 +213,8 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
   if (s.solver == SolverKind::kBpp && scene.regularisation > 0.0) {
     slider(look, "Refine", s.refinements, 0, 32, false,
            "Solves, after the first, that take the scene's regularisation back, from the last "
-           "forces on: the proximal point method. Each costs a solve with the factor as it is.");
+           "forces on: the proximal point method (Rockafellar 1976). Each costs a solve with the "
+           "factor as it is.");
   }
   if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
     checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
@@ -225,7 +238,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   if (chooses_substeps(s.mode)) {
     checkbox(look, "each island its own N", s.islands, width,
              "Bodies that neither joints nor contacts to come connect within a frame take "
-             "sub-steps of their own: what is calm does not pay for what is not.");
+             "sub-steps of their own: what is calm does not pay for what is not. This project's.");
   }
   checkbox(look, "let what rests sleep", s.sleep, width,
            "Bodies stand still and cost nothing once all that is connected with them has been "
@@ -253,7 +266,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
     checkbox(look, "correct for curvature", second, width,
              "Second order: joints are also corrected for what turning will have bent by the end "
              "of the sub-step, dt²/2 phi''. Up to eight times less error where joints are stiff; "
-             "noise where they are soft.");
+             "noise where they are soft. This project's.");
     s.drift_order = second ? 2 : 1;
   }
   if (s.solver == SolverKind::kPgs) {

@@ -147,7 +147,8 @@ bool has_several_islands(const Scene& scene) {
   return islands.count() > 1;
 }
 
-/// Each island by its own N.
+/// Each island by its own N. Where a scene begins as one, the curves would be those of one N until
+/// something lets go.
 void append_islands(Settings settings, std::vector<Settings>& all) {
   settings.solver = SolverKind::kBpp;
   settings.policy = Policy::kFrame;

@@ -68,37 +68,81 @@ void contact_stiffness_paper(const Block& block, StiffnessMatrix& K) {
   if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
 }
 
-// The force on a is f = l n + g, friction g = l_1 t1 + l_2 t2, at the arm r_a, that on b is -f at
-// r_b. p, a's point, turns with a: it is at r = arm_a from x_a and at rho from x_b. The normal
-// turns with b and with p in b's distance field; the tangents are carried along with b, across the
-// normal:
-//   dp = dx_a - dx_b + theta_a x r,   dn = theta_b x n + H (dp - theta_b x rho),
-//   dt = -n (t . dn) + (n . theta_b) n x t.
-// With matrices: dn = N_b theta_b + H (dx_a - dx_b - [r] theta_a), N_b = H [rho] - [n], and
-//   df = (l - n g^T) dn + (n x g) n^T theta_b.
-// The point of action keeps its distance s along the normal from p, r_a = r + s n, r_b = rho + s n:
-//   dr_a = theta_a x r + s dn,   dr_b = dp + s dn,
-//   d(r_a x f) = -[f] dr_a + [r_a] df,   d(-r_b x f) = [f] dr_b - [r_b] df.
-// Of a face H = 0; of two spheres without friction N_b = 0 and only l H remains.
-void contact_stiffness_exact(const Block& block, StiffnessMatrix& K) {
-  using Mat36 = Eigen::Matrix<double, 3, 6>;
+// The force on a is l n at p = x_a + r (r = arm_a, turning with a), that on b is -l n with the
+// torque -l rho x n about x_b, rho = p - x_b. The normal turns with b and with p in b's distance
+// field:
+//   dn = theta_b x n + H (dp - theta_b x rho),   dp = dx_a - dx_b + theta_a x r
+// Written with matrices: dn = N_b theta_b + H (dx_a - dx_b - [r] theta_a), N_b = H [rho] - [n].
+// Then  d(l n)            = l dn
+//       d(l r x n)        = l ([n][r] theta_a + [r] dn)
+//       d(-l rho x n)     = l ([n](dx_a - dx_b - [r] theta_a) - [rho] dn).
+// For a face H = 0 and the blocks are those of a point on a plate; for two spheres N_b = 0 and only
+// l H remains.
+void contact_stiffness_normal(const Block& block, StiffnessMatrix& K) {
   const double l = block.lambda[0];
-  if (l == 0.0) return;  // and no friction
-  Vec3 g = Vec3::Zero();
-  if (block.rows == 3) g = block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
+  if (l == 0.0) return;
+  const Mat3 n = skew(block.n);
   const Mat3 r = skew(block.arm_a);
+  const Mat3 rho = skew(block.rho);
   const Mat3& H = block.H;
-  Mat36 dn_a;  // by the displacement of a: linear, angular
+  const Mat3 N_b = H * rho - n;
+  const Mat3 Hr = H * r;
+
+  // dn by the displacement of each body: linear, angular.
+  Eigen::Matrix<double, 3, 6> dn_a;
+  Eigen::Matrix<double, 3, 6> dn_b;
+  dn_a << H, -Hr;
+  dn_b << -H, N_b;
+
+  Eigen::Matrix<double, 3, 6> torque_a_by_a = r * dn_a;
+  torque_a_by_a.rightCols<3>() += n * r;
+  Eigen::Matrix<double, 3, 6> torque_b_by_a = -rho * dn_a;
+  torque_b_by_a.leftCols<3>() += n;
+  torque_b_by_a.rightCols<3>() -= n * r;
+  Eigen::Matrix<double, 3, 6> torque_b_by_b = -rho * dn_b;
+  torque_b_by_b.leftCols<3>() -= n;
+
+  Mat6 block_K;
+  if (block.a >= 0) {
+    block_K << l * dn_a, l * torque_a_by_a;
+    K.add(block.a, block.a, block_K);
+  }
+  if (block.b >= 0) {
+    block_K << -l * dn_b, l * torque_b_by_b;
+    K.add(block.b, block.b, block_K);
+  }
+  if (block.a >= 0 && block.b >= 0) {
+    block_K << l * dn_b, l * (r * dn_b);
+    K.add(block.a, block.b, block_K);
+    block_K << -l * dn_a, l * torque_b_by_a;
+    K.add(block.b, block.a, block_K);
+  }
+}
+
+namespace {
+
+// Friction is the force g = l_1 t1 + l_2 t2 on a at the arm r_a, -g on b at r_b. The tangents are
+// carried along with b, across the normal, and the point of action keeps its distance s along the
+// normal from p, r_a = r + s n, r_b = rho + s n. With dn and dp as above
+//   dt = -n (t . dn) + (n . theta_b) n x t,   dg = -n (g . dn) + (n . theta_b) n x g,
+//   dr_a = theta_a x r + s dn,   dr_b = dp + s dn,
+//   d(r_a x g) = -[g] dr_a + [r_a] dg,   d(-r_b x g) = [g] dr_b - [r_b] dg.
+void add_friction_stiffness(const Block& block, StiffnessMatrix& K) {
+  using Mat36 = Eigen::Matrix<double, 3, 6>;  // by a displacement: linear, angular
+  const Vec3 g = block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
+  if (g.isZero(0.0)) return;
+  const Vec3& n = block.n;
+  const Mat3 r = skew(block.arm_a);
+  Mat36 dn_a;
   Mat36 dn_b;
-  dn_a << H, -(H * r);
-  dn_b << -H, H * skew(block.rho) - skew(block.n);
+  dn_a << block.H, -(block.H * r);
+  dn_b << -block.H, block.H * skew(block.rho) - skew(n);
 
-  const Mat3 D = l * Mat3::Identity() - block.n * g.transpose();
-  const Mat36 df_a = D * dn_a;
-  Mat36 df_b = D * dn_b;
-  df_b.rightCols<3>() += block.n.cross(g) * block.n.transpose();
+  const Mat36 dg_a = -n * (g.transpose() * dn_a);
+  Mat36 dg_b = -n * (g.transpose() * dn_b);
+  dg_b.rightCols<3>() += n.cross(g) * n.transpose();
 
-  const double s = (block.r_a - block.arm_a).dot(block.n);
+  const double s = (block.r_a - block.arm_a).dot(n);
   Mat36 dr_a_by_a = s * dn_a;
   dr_a_by_a.rightCols<3>() -= r;
   const Mat36 dr_a_by_b = s * dn_b;
@@ -107,23 +151,41 @@ void contact_stiffness_exact(const Block& block, StiffnessMatrix& K) {
   Mat36 dr_b_by_b = dr_a_by_b;
   dr_b_by_b.leftCols<3>() -= Mat3::Identity();
 
-  const Mat3 f = skew(l * block.n + g);
+  const Mat3 G = skew(g);
   const Mat3 r_a = skew(block.r_a);
   const Mat3 r_b = skew(block.r_b);
   Mat6 block_K;
   if (block.a >= 0) {
-    block_K << df_a, r_a * df_a - f * dr_a_by_a;
+    block_K << dg_a, r_a * dg_a - G * dr_a_by_a;
     K.add(block.a, block.a, block_K);
   }
   if (block.b >= 0) {
-    block_K << -df_b, f * dr_b_by_b - r_b * df_b;
+    block_K << -dg_b, G * dr_b_by_b - r_b * dg_b;
     K.add(block.b, block.b, block_K);
   }
   if (block.a >= 0 && block.b >= 0) {
-    block_K << df_b, r_a * df_b - f * dr_a_by_b;
+    block_K << dg_b, r_a * dg_b - G * dr_a_by_b;
     K.add(block.a, block.b, block_K);
-    block_K << -df_a, f * dr_b_by_a - r_b * df_a;
+    block_K << -dg_a, G * dr_b_by_a - r_b * dg_a;
     K.add(block.b, block.a, block_K);
+  }
+}
+
+}  // namespace
+
+void contact_stiffness_exact(const Block& block, StiffnessMatrix& K) {
+  contact_stiffness_normal(block, K);
+  if (block.rows == 3) add_friction_stiffness(block, K);
+}
+
+void contact_stiffness(const Block& block, ContactTerms terms, StiffnessMatrix& K) {
+  switch (terms) {
+    case ContactTerms::kPaper:
+      return contact_stiffness_paper(block, K);
+    case ContactTerms::kNormal:
+      return contact_stiffness_normal(block, K);
+    case ContactTerms::kExact:
+      return contact_stiffness_exact(block, K);
   }
 }
 

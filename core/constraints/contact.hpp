@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 #include "core/collision/contact_point.hpp"
 #include "core/constraints/block.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
@@ -22,8 +24,17 @@ void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block
 /// N only.
 void contact_stiffness_paper(const Block& block, StiffnessMatrix& K);
 
+/// The true derivative of the normal force and its torques: lambda_n times the Hessian of phi.
+void contact_stiffness_normal(const Block& block, StiffnessMatrix& K);
+
 /// The true derivative of the contact's force and torques, friction included, its tangents carried
 /// along with body b as move_rows() does.
 void contact_stiffness_exact(const Block& block, StiffnessMatrix& K);
+
+/// Which of them enters K. The first and the last steer N. What joins a mass is the normal's alone:
+/// friction is no gradient of an error, its derivative no spring, and a mass that took it for one
+/// tore a bridge under 8 of 512 balls that it holds without.
+enum class ContactTerms : std::uint8_t { kPaper, kNormal, kExact };
+void contact_stiffness(const Block& block, ContactTerms terms, StiffnessMatrix& K);
 
 }  // namespace substep

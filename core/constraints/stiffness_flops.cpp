@@ -9,17 +9,24 @@ constexpr std::int64_t kProduct = product_flops(3, 3, 3);
 constexpr std::int64_t kSkewProduct = 12;
 constexpr std::int64_t kSum = 9;
 
-std::int64_t exact_contact_flops(std::int64_t bodies) {
-  constexpr std::int64_t kWide = product_flops(3, 3, 6);
-  const std::int64_t normal = 2 * kProduct + kSum;                         // N_b, H r
-  const std::int64_t force = 12 + 2 * kWide + 27;                          // D, and df by each body
-  const std::int64_t arms = 2 * 18 + 3 * kSum;                             // dr by each
-  return normal + force + arms + bodies * bodies * (2 * kWide + 18 + 36);  // torques, added
+constexpr std::int64_t kWide = product_flops(3, 3, 6);
+
+std::int64_t normal_flops(std::int64_t bodies) {
+  const std::int64_t normal = 2 * kProduct + kSum;                   // N_b, H r
+  const std::int64_t torques = 4 * kWide + 2 * kProduct + 5 * kSum;  // by each body
+  return normal + torques + bodies * bodies * 2 * 36;                // scaled, added
+}
+
+std::int64_t friction_flops(std::int64_t bodies) {
+  const std::int64_t force =
+      2 * kProduct + kSum + 9 + 2 * (36 + 18) + 27;               // g, dn, dg by each body
+  const std::int64_t arms = 2 * 18 + 3 * kSum;                    // dr by each
+  return force + arms + bodies * bodies * (2 * kWide + 18 + 36);  // torques, added
 }
 
 }  // namespace
 
-std::int64_t stiffness_flops(const Block& block, bool exact_contact) {
+std::int64_t stiffness_flops(const Block& block, ContactTerms terms) {
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
   const std::int64_t ball = bodies * (kSkewProduct + kSum);
   switch (block.kind) {
@@ -28,8 +35,10 @@ std::int64_t stiffness_flops(const Block& block, bool exact_contact) {
     case BlockKind::kHinge:  // w, W U, on each body and between both
       return ball + 9 + kSkewProduct + bodies * bodies * kSum;
     case BlockKind::kContact:
-      if (!exact_contact) return 3 + (block.rows == 3 ? 12 : 0) + ball;
-      return block.lambda[0] == 0.0 ? 0 : exact_contact_flops(bodies);
+      if (terms == ContactTerms::kPaper) return 3 + (block.rows == 3 ? 12 : 0) + ball;
+      if (block.lambda[0] == 0.0) return 0;
+      return normal_flops(bodies) +
+             (terms == ContactTerms::kExact && block.rows == 3 ? friction_flops(bodies) : 0);
   }
   return 0;
 }

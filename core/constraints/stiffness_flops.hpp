@@ -3,11 +3,12 @@
 #include <cstdint>
 
 #include "core/constraints/block.hpp"
+#include "core/constraints/contact.hpp"
 
 namespace substep {
 
 /// Floating-point operations of adding one block to K, as the files beside this one do it.
-/// @param exact_contact the true derivative of a contact in the place of the paper's block
-std::int64_t stiffness_flops(const Block& block, bool exact_contact);
+/// @param terms of a contact
+std::int64_t stiffness_flops(const Block& block, ContactTerms terms);
 
 }  // namespace substep

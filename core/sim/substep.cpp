@@ -189,9 +189,11 @@ void Simulator::Impl::stop(std::size_t body, FrameReport& report) {
 bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
   const bool full = rules_of(settings.mode).mass == StiffMass::kFull;
-  // The paper's contact block is no derivative: it may steer N, and must not enter Mt.
-  const ContactStiffness form = full ? ContactStiffness::kExact : settings.contact_stiffness;
-  stiffness->evaluate(rows(), form, part(), R_WB, state.k);
+  const ContactTerms terms = full ? ContactTerms::kNormal
+                             : settings.contact_stiffness == ContactStiffness::kExact
+                                 ? ContactTerms::kExact
+                                 : ContactTerms::kPaper;
+  stiffness->evaluate(rows(), terms, part(), R_WB, state.k);
   state.K_resisting.clear();
   if (full) {
     for (int i = 0; i < static_cast<int>(state.k.size()); ++i) {
@@ -210,7 +212,7 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   }
   remember_stiffness();
   ++report.criterion.evaluations;
-  report.criterion.flops += stiffness->flops(rows(), form);
+  report.criterion.flops += stiffness->flops(rows(), terms);
   report.stages.stiffness = true;
   clock.lap(report.times.stiffness);
   return true;

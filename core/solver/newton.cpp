@@ -23,7 +23,7 @@ void add_stiffness(const Block& block, StiffnessMatrix& K) {
     case BlockKind::kHinge:
       return hinge_stiffness(block, K);
     case BlockKind::kContact:
-      return contact_stiffness_exact(block, K);
+      return contact_stiffness_normal(block, K);
   }
 }
 
@@ -49,7 +49,7 @@ std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies
   for (const Block& block : blocks) {
     const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
     flops += move_flops(block, block.rows) + product_flops(block.rows, 6, sides) + 4 * block.rows +
-             stiffness_flops(block, true);
+             stiffness_flops(block, ContactTerms::kNormal);
     if (forces == Forces::kEnd) continue;
     const std::int64_t averaged = block.rows * (block.pinned ? 3 : 6) + 3;
     flops += 4 * averaged * sides;

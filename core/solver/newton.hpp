@@ -12,12 +12,7 @@ namespace substep {
 /// deformable multi-body dynamics"): the errors vanish at the end of the sub-step, and impulses act
 /// along the gradients J' of poses around it,
 ///   M (u+ - u*) = J'^T impulse,   phi(q+)/dt + softness * impulse = 0,
-/// complementary for contacts. Settings::forces says which, of those before, at and after q. With
-/// the share w of a neighbour, Eq. 5's model and kappa = dt^2 k/M,
-///   (1 + w kappa) (z^2 + 1) - (2 - (1 - 2 w) kappa) z = 0,
-/// whose roots have the product 1: on the unit circle while (1 - 4 w) kappa <= 4, for any kappa
-/// with w = 1/4, up to 6 with 1/12. With all of the force at the end, (1 + kappa) z^2 - 2 z + 1 =
-/// 0, and |z|^2 = 1/(1 + kappa) is below 1 for any kappa.
+/// complementary for contacts. Settings::forces says which, of those before, at and after q:
 ///   end      J' = J+, the source's. Stable for any step, and a damper: implicit Euler.
 ///   mean     J' = (J- + 2 J + J+)/4. The same forwards and backwards in time, so that nothing is
 ///            damped, and on the model of Eq. 5 stable for any step all the same: the average
@@ -27,6 +22,12 @@ namespace substep {
 ///            The forces of the neighbours differ from this one by what they gain in a sub-step,
 ///            and the Cayley vector of a turn from the turn itself; both are put right. Chains that
 ///            swing in a plane converge at third order, what tumbles in space at second.
+/// How far they are stable: where q grows by the factor z in a sub-step, the model of Eq. 5 with
+/// kappa = dt^2 k/M and the share w of each neighbouring pose is
+///   (1 + w kappa) (z^2 + 1) - (2 - (1 - 2 w) kappa) z = 0.
+/// The product of its roots is 1, so both lie on the unit circle while (1 - 4 w) kappa <= 4: for
+/// any kappa with w = 1/4, up to 6 with 1/12. With the end's force alone it is
+/// (1 + kappa) z^2 - 2 z + 1 = 0, and |z|^2 = 1/(1 + kappa) is below 1 for any kappa.
 /// What of the constraints' Hessian resists turns about a body's principal axes, a diagonal as the
 /// source has it, joins M in each step: two to five steps do, and without it nothing that hangs
 /// under a heavy load converges. At most Settings::iterations steps, from the last sub-step's

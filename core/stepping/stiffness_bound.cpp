@@ -1,7 +1,6 @@
 #include "core/stepping/stiffness_bound.hpp"
 
 #include "core/constraints/ball_joint.hpp"
-#include "core/constraints/contact.hpp"
 #include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/stiffness_flops.hpp"
 
@@ -13,8 +12,8 @@ StiffnessStage::StiffnessStage(const Scene& scene) {
   K_.reserve(scene.bodies.size(), joints + contacts);
 }
 
-void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness form,
-                              const Part& part, std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
+void StiffnessStage::evaluate(std::span<const Block> blocks, ContactTerms terms, const Part& part,
+                              std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
   K_.clear(R_WB.size());
   for (const Block& block : blocks) {
     switch (block.kind) {
@@ -25,11 +24,7 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness fo
         hinge_stiffness(block, K_);
         break;
       case BlockKind::kContact:
-        if (form == ContactStiffness::kPaper) {
-          contact_stiffness_paper(block, K_);
-        } else {
-          contact_stiffness_exact(block, K_);
-        }
+        contact_stiffness(block, terms, K_);
         break;
     }
   }
@@ -37,9 +32,9 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactStiffness fo
   K_.column_norms(part.bodies, R_WB, k);
 }
 
-std::int64_t StiffnessStage::flops(std::span<const Block> blocks, ContactStiffness form) const {
+std::int64_t StiffnessStage::flops(std::span<const Block> blocks, ContactTerms terms) const {
   std::int64_t sum = K_.norm_flops();
-  for (const Block& block : blocks) sum += stiffness_flops(block, form == ContactStiffness::kExact);
+  for (const Block& block : blocks) sum += stiffness_flops(block, terms);
   return sum;
 }
 

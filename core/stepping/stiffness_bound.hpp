@@ -4,6 +4,7 @@
 #include <span>
 
 #include "core/constraints/block.hpp"
+#include "core/constraints/contact.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
 #include "core/model/part.hpp"
 #include "core/model/scene.hpp"
@@ -27,13 +28,13 @@ class StiffnessStage {
   /// @param blocks of the part, with lambda and the geometry it belongs to
   /// @param k out, per body, those of the part: linear [N/m], then angular about the principal axes
   /// [N m/rad]
-  void evaluate(std::span<const Block> blocks, ContactStiffness form, const Part& part,
+  void evaluate(std::span<const Block> blocks, ContactTerms terms, const Part& part,
                 std::span<const Mat3> R_WB, std::vector<Vec6>& k);
   /// r = max k_i / M_ii over those of the bodies that move (Eq. 9).
   [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const int> bodies,
                                             std::span<const Vec6> k);
   /// Floating-point operations of the last evaluate(), which had these blocks.
-  [[nodiscard]] std::int64_t flops(std::span<const Block> blocks, ContactStiffness form) const;
+  [[nodiscard]] std::int64_t flops(std::span<const Block> blocks, ContactTerms terms) const;
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
 
  private:

@@ -191,9 +191,7 @@ TEST(BridgePastThePaper, BlendCappedAndFullStiffnessCross) {
   EXPECT_LE(capped.mean_n, 5.5);
   settings.mode = Mode::kStiffness;
   const Crossings stiffness = cross_the_bridge(settings);
-  // Of 64 starts around these 63: in one step a frame the fastest ball, landing on the slackest
-  // bridge, opens a joint by 10 cm.
-  EXPECT_GE(stiffness.held, 7);
+  EXPECT_EQ(stiffness.held, 8);
   EXPECT_EQ(stiffness.mean_n, 1.0);
 }
 

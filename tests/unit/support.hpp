@@ -169,7 +169,7 @@ inline void expect_stiffness(const Scene& scene, const State& state, const Rows&
   }
   StiffnessStage stage(scene);
   std::vector<Vec6> k;
-  stage.evaluate(at.all(), ContactStiffness::kExact, whole(scene), rotations(state), k);
+  stage.evaluate(at.all(), ContactTerms::kExact, whole(scene), rotations(state), k);
   const auto with_lambda = [&](const State& there, Blocks& blocks) {
     rows(there, blocks);
     ASSERT_EQ(blocks.size(), at.size());

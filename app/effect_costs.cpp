@@ -1,7 +1,8 @@
 #include "app/effect_costs.hpp"
 
-#include <chrono>
 #include <utility>
+
+#include "core/lab/slice.hpp"
 
 namespace substep {
 
@@ -14,11 +15,7 @@ void EffectCosts::start(std::shared_ptr<const Scene> scene, Experiment experimen
 
 void EffectCosts::advance(double seconds) {
   if (!running_) return;
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  do {
-    running_ = run_->advance();
-  } while (running_ && Clock::now() < end);
+  running_ = advance_for(seconds, [this] { return run_->advance(); });
   CostBreakdown costs = run_->costs();
   if (costs.run.work.frames > 0) breakdown_ = std::move(costs);
 }

@@ -84,10 +84,10 @@ constexpr std::array<Choice, 2> kPolicies{
       "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};
 constexpr std::array<Choice, 3> kDrifts{
     {{"auto", "Soft with PGS, full with the others."},
-     {"full", "The whole error is taken back in one step: bias phi/dt."},
+     {"full", "The whole error is taken back in one step: bias phi/dt (Baumgarte 1972)."},
      {"soft",
       "The error decays with a time constant of its own: bias phi dt/tau², so that a "
-      "change of dt brings no energy in."}}};
+      "change of dt brings no energy in. This project's."}}};
 
 constexpr std::array<Choice, 2> kContactStiffnesses{
     {{"paper",

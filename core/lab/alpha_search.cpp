@@ -1,11 +1,11 @@
 #include "core/lab/alpha_search.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
+
+#include "core/lab/slice.hpp"
+#include "core/lab/three_digits.hpp"
 
 namespace substep {
 namespace {
@@ -14,13 +14,6 @@ constexpr double kQuarter = 0.25;
 constexpr int kMostQuarters = 8;  // from 1 to kLeast
 constexpr double kNarrow = 1.02;  // ratio of the ends of an interval that is not halved
 constexpr int kMostHalvings = 7;  // of a quarter until it is narrow
-
-/// The number of three digits next to this.
-double typed(double alpha) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", alpha);
-  return std::strtod(text, nullptr);
-}
 
 }  // namespace
 
@@ -67,12 +60,10 @@ void AlphaSearch::advance_by_a_frame() {
 }
 
 bool AlphaSearch::advance(double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  do {
+  return advance_for(seconds, [this] {
     if (!done()) advance_by_a_frame();
-  } while (!done() && Clock::now() < end);
-  return !done();
+    return !done();
+  });
 }
 
 double AlphaSearch::progress() const {
@@ -89,7 +80,7 @@ void AlphaSearch::take(const Result& result) {
   }
   if (phase_ == Phase::kDown) {
     if (serves != until_it_serves_ && alpha_ > kLeast) {
-      alpha_ = std::max(typed(kQuarter * alpha_), kLeast);
+      alpha_ = std::max(three_digits(kQuarter * alpha_), kLeast);
       return;
     }
     phase_ = Phase::kHalving;
@@ -101,7 +92,8 @@ void AlphaSearch::take(const Result& result) {
     if (good_ && !good_->result.metrics.holds) good_.reset();
     return;
   }
-  alpha_ = typed(std::sqrt(bad_ * good_->alpha));
+  // Their middle is a hundredth from both, and three digits at most half of one off: it is new.
+  alpha_ = three_digits(std::sqrt(bad_ * good_->alpha));
 }
 
 }  // namespace substep

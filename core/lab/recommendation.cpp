@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 #include <iterator>
 #include <string>
+
+#include "core/lab/three_digits.hpp"
 
 namespace substep {
 namespace {
@@ -21,13 +22,6 @@ bool is_paper(const Settings& s) {
   return s.solver == SolverKind::kBpp && s.integrator == Integrator::kEuler &&
          s.mode == Mode::kAdaptive && s.policy == Policy::kFrame && !s.islands &&
          s.contact_stiffness == ContactStiffness::kPaper && s.drift_order == 1;
-}
-
-/// In three digits: what else there is hangs on the compiler's libm.
-double coarse(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
-  return std::strtod(text, nullptr);
 }
 
 /// "The cheapest of 348 runs, 267 of which hold; the paper's method takes 65 times that, with alpha
@@ -97,8 +91,9 @@ std::optional<Recommended> recommended_of(std::span<const Result> results, Error
   return Recommended{.settings = experiment.settings,
                      .of = of,
                      .within = within,
-                     .reached = std::min(within, coarse(best->error)),
-                     .operations = coarse(best->cost),
+                     // What is beyond hangs on the compiler's libm.
+                     .reached = std::min(within, three_digits(best->error)),
+                     .operations = three_digits(best->cost),
                      .seconds = experiment.duration,
                      .why = reason(points, results, *best, within)};
 }

@@ -90,9 +90,9 @@ TEST(AlphaSearch, IsNothingWhereTheRunFails) {
 TEST(AlphaSearch, KeepsWithinTheTimeThatRunsTook) {
   const Chain chain;
   const auto choice = found(AlphaSearch::smallest_within(chain.scene, chain.experiment,
-                                                         chain.reference, CostAxis::kTime, 1e3));
+                                                         chain.reference, CostAxis::kTime, 1e12));
   ASSERT_TRUE(choice.has_value());
-  EXPECT_EQ(choice->alpha, AlphaSearch::kLeast) << "a second a frame is room for all of them";
+  EXPECT_EQ(choice->alpha, AlphaSearch::kLeast) << "there is room for all of them";
 }
 
 TEST(AlphaSearch, GoesByTheSettingsOfTheSweepsCurve) {

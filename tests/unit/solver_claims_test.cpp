@@ -9,14 +9,15 @@
 namespace substep::test {
 namespace {
 
-/// Unit masses on a line, each with a contact to the one before, the first to the world. Balls fly
-/// at random: about half of the contacts end up closed.
-struct Row {
+/// Unit masses on a line, each with one row to the one before, the first to the world: a contact,
+/// or a link that pulls as well. Balls fly at random, so that about half of the contacts end
+/// closed.
+struct RowOfBalls {
   std::vector<Block> blocks;
   std::vector<InverseMass> inverse_mass;
   std::vector<Vec6> u;
 
-  Row(Random& random, int balls, BlockKind kind) {
+  RowOfBalls(Random& random, int balls, BlockKind kind) {
     for (int i = 0; i < balls; ++i) {
       inverse_mass.push_back({1.0, Mat3::Identity()});
       Vec6 velocity = Vec6::Zero();
@@ -45,8 +46,8 @@ struct Row {
 /// How far PGS still is from the answer after so many sweeps, over all bodies [m/s].
 double error_after(int sweeps, BlockKind kind) {
   Random random(61);
-  Row row(random, 12, kind);
-  Row exact = row;
+  RowOfBalls row(random, 12, kind);
+  RowOfBalls exact = row;
   make_solver(SolverKind::kBpp)->solve(exact.system(), Settings{});
   Settings settings;
   settings.iterations = sweeps;
@@ -73,7 +74,7 @@ double factorisations(int balls) {
   constexpr int kRows = 40;
   for (unsigned seed = 0; seed < kRows; ++seed) {
     Random random(200 + seed);
-    Row row(random, balls, BlockKind::kContact);
+    RowOfBalls row(random, balls, BlockKind::kContact);
     const SolveReport report =
         make_solver(SolverKind::kBpp)->solve(row.system(), Settings{.pivots = 100});
     EXPECT_EQ(report.status, SolveStatus::kSolved);

@@ -304,6 +304,10 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
     style.corners = 5;
     style.name += ", exact contact block";
   }
+  if (s.gyroscopic == Gyroscopic::kExplicit) {
+    style.corners = 6;
+    style.name += ", explicit gyroscopic torque";
+  }
   return style;
 }
 

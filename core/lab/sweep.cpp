@@ -1,10 +1,9 @@
 #include "core/lab/sweep.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <optional>
 
+#include "core/lab/slice.hpp"
 #include "core/sim/islands.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/mode_rules.hpp"
@@ -28,6 +27,14 @@ constexpr int kMapN[] = {1, 2, 4, 6, 8, 12, 16, 24};
 constexpr double kMapAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr double kMapLoads[] = {0.01, 0.1, 0.32, 3.2, 10.0};
 constexpr double kReferenceWork = 0.05;  // share of the progress bar
+
+/// With the direct solver, N decided once a frame.
+Settings direct(Settings settings, Integrator integrator) {
+  settings.solver = SolverKind::kBpp;
+  settings.policy = Policy::kFrame;
+  settings.integrator = integrator;
+  return settings;
+}
 
 /// Every value of a mode's own parameter.
 void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
@@ -103,29 +110,23 @@ void append_small_steps(Settings settings, const Scene& scene, std::vector<Setti
 }
 
 /// Joints corrected ahead for what a sub-step leaves behind at second order.
-void append_drift_order_2(Settings settings, std::vector<Settings>& all) {
-  settings.solver = SolverKind::kBpp;
-  settings.policy = Policy::kFrame;
-  settings.integrator = Integrator::kLeapfrog;
+void append_drift_order_2(const Settings& base, std::vector<Settings>& all) {
+  Settings settings = direct(base, Integrator::kLeapfrog);
   settings.drift_order = 2;
   append_curve(settings, Mode::kConst, all);
 }
 
 /// N by the true derivative of a contact.
-void append_exact_contacts(Settings settings, std::vector<Settings>& all) {
-  settings.solver = SolverKind::kBpp;
-  settings.policy = Policy::kFrame;
-  settings.integrator = Integrator::kEuler;
+void append_exact_contacts(const Settings& base, std::vector<Settings>& all) {
+  Settings settings = direct(base, Integrator::kEuler);
   settings.contact_stiffness = ContactStiffness::kExact;
   append_curve(settings, Mode::kAdaptive, all);
 }
 
 /// Few sub-steps, each refined until little of the regularisation is left.
-void append_refined(Settings settings, std::vector<Settings>& all) {
-  settings.solver = SolverKind::kBpp;
+void append_refined(const Settings& base, std::vector<Settings>& all) {
+  Settings settings = direct(base, Integrator::kEuler);
   settings.mode = Mode::kConst;
-  settings.policy = Policy::kFrame;
-  settings.integrator = Integrator::kEuler;
   for (const int refinements : kRefinements) {
     settings.refinements = refinements;
     for (const int n : kFew) {
@@ -135,37 +136,34 @@ void append_refined(Settings settings, std::vector<Settings>& all) {
   }
 }
 
-/// Whether some bodies can take other sub-steps than others from the start.
-bool has_several_islands(const Scene& scene) {
+/// With a torque of spinning bodies that is as old as the sub-step.
+void append_explicit_gyroscopic(const Settings& base, std::vector<Settings>& all) {
+  Settings settings = direct(base, Integrator::kLeapfrog);
+  settings.gyroscopic = Gyroscopic::kExplicit;
+  append_curve(settings, Mode::kConst, all);
+}
+
+/// Whether joints leave some moving bodies apart from others.
+bool can_have_islands(const Scene& scene) {
   const State state = initial_state(scene);
   std::vector<Mat3> R_WB;
   for (const Quat& q : state.q) R_WB.emplace_back(q.toRotationMatrix());
-  std::optional<Detector> detector;
-  if (scene.effects.contact) detector.emplace(scene);
   Islands islands(scene);
-  islands.find(scene, whole(scene), state, R_WB, scene.frame, detector ? &*detector : nullptr);
+  islands.find(scene, whole(scene), state, R_WB, scene.frame, nullptr);
   return islands.count() > 1;
 }
 
-/// Each island by its own N. Where a scene begins as one, the curves would be those of one N until
-/// something lets go.
-void append_islands(Settings settings, std::vector<Settings>& all) {
-  settings.solver = SolverKind::kBpp;
-  settings.policy = Policy::kFrame;
-  settings.islands = true;
-  for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
-    settings.integrator = integrator;
-    append_curve(settings, Mode::kAdaptive, all);
-  }
-  settings.integrator = Integrator::kEuler;
-  append_curve(settings, Mode::kCapped, all);
+/// Each island by its own N.
+void append_islands(Settings base, std::vector<Settings>& all) {
+  base.islands = true;
+  append_curve(direct(base, Integrator::kEuler), Mode::kAdaptive, all);
+  append_curve(direct(base, Integrator::kLeapfrog), Mode::kAdaptive, all);
+  append_curve(direct(base, Integrator::kEuler), Mode::kCapped, all);
 }
 
 /// Constant N and adaptive along their parameter, with the direct solver, under every other load.
-void append_map(Settings settings, std::vector<SweepPoint>& points) {
-  settings.solver = SolverKind::kBpp;
-  settings.integrator = Integrator::kEuler;
-  settings.policy = Policy::kFrame;
+void append_map(const Settings& base, std::vector<SweepPoint>& points) {
+  const Settings settings = direct(base, Integrator::kEuler);
   std::vector<Settings> all;
   append_curve(settings, Mode::kConst, all);
   append_curve(settings, Mode::kAdaptive, all);
@@ -189,6 +187,7 @@ Settings base_of(const Scene& scene) {
   base.drift = Drift::kAuto;
   base.drift_order = 1;
   base.contact_stiffness = ContactStiffness::kPaper;
+  base.gyroscopic = Gyroscopic::kImplicit;
   base.share_iterations = false;
   base.refinements = 0;
   base.detection = Detection::kSubstep;
@@ -200,11 +199,8 @@ Settings base_of(const Scene& scene) {
 }  // namespace
 
 Settings paper_settings(const Scene& scene) {
-  Settings paper = base_of(scene);
-  paper.solver = SolverKind::kBpp;
+  Settings paper = direct(base_of(scene), Integrator::kEuler);
   paper.mode = Mode::kAdaptive;
-  paper.policy = Policy::kFrame;
-  paper.integrator = Integrator::kEuler;
   paper.n_max = std::max(paper.n_max, kFreeCap);
   return paper;
 }
@@ -236,7 +232,8 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   append_implicit(base, scene, all);
   append_small_steps(base, scene, all);
   if (scene.regularisation > 0.0) append_refined(base, all);
-  if (has_several_islands(scene)) append_islands(base, all);
+  if (scene.effects.gyroscopic) append_explicit_gyroscopic(base, all);
+  if (can_have_islands(scene)) append_islands(base, all);
   std::vector<SweepPoint> points;
   for (auto s = all.begin(); s != all.end(); ++s) {  // a scene's own can be those of a curve
     if (std::find(all.begin(), s, *s) == s) points.push_back({*s, 1.0});
@@ -290,12 +287,10 @@ void Sweep::advance_by_a_frame() {
 }
 
 bool Sweep::advance(double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  do {
+  return advance_for(seconds, [this] {
     if (!done()) advance_by_a_frame();
-  } while (!done() && Clock::now() < end);
-  return !done();
+    return !done();
+  });
 }
 
 double Sweep::progress() const {

@@ -4,21 +4,13 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
-#include "core/lab/presets.hpp"
 #include "scenes/generator/scenes.hpp"
-#include "tests/app/ui/ui_fixture.hpp"
+#include "tests/app/ui/ui_sweep.hpp"
 
 namespace substep {
 namespace {
-
-/// Until the sweep is done.
-void finish(Headless& h) {
-  h.app->session.pause();
-  for (int i = 0; i < 20000 && h.app->accuracy.running(); ++i) h.frames(1);
-}
 
 TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
   Headless h;
@@ -259,172 +251,6 @@ TEST(Accuracy, PointsAreFoundUnderThePointer) {
     }
   }
   EXPECT_GT(chosen.size(), 10U);
-}
-
-/// Three links under a heavy box, for half a second: quick, and bodies of different mass.
-void sweep_a_rope(Headless& h) {
-  Scene scene = scenes::rope_of_n({.n = 3});
-  scene.criteria.duration = 0.5;
-  h.app->run(std::make_shared<const Scene>(std::move(scene)));
-  h.app->set("panel", "accuracy");
-  h.app->set("accuracy", "run");
-  finish(h);
-}
-
-TEST(Accuracy, TheMapComesLastAndACellGivesItsFiguresAgain) {
-  Headless h;
-  sweep_a_rope(h);
-  ASSERT_TRUE(h.app->accuracy.has_map());
-  const std::vector<Result> results = h.app->accuracy.results();
-  const auto is_varied = [](const Result& r) { return r.experiment.load != 1.0; };
-  const auto first = std::find_if(results.begin(), results.end(), is_varied);
-  EXPECT_TRUE(std::all_of(first, results.end(), is_varied)) << "the curves come first";
-  for (const auto& point : h.app->accuracy.points()) {
-    EXPECT_EQ(results[point.result].experiment.load, 1.0);
-  }
-  int failed = 0;
-  for (auto r = first; r < results.end(); r += 3) {
-    h.app->run_result(*r);
-    h.app->session.pause();
-    EXPECT_EQ(h.app->load, r->experiment.load);
-    for (std::int64_t f = 0; f < r->metrics.work.frames; ++f) h.app->session.step();
-    EXPECT_EQ(h.app->session.hash(), r->metrics.hash) << r->experiment.load;
-    failed += r->metrics.holds ? 0 : 1;
-  }
-  EXPECT_GT(failed, 0) << "of a map where all holds no cell tells anything";
-  h.app->run_result(results.front());
-  EXPECT_EQ(h.app->load, 1.0);
-}
-
-TEST(Accuracy, CellsOfTheMapAreFoundUnderThePointer) {
-  Headless h;
-  sweep_a_rope(h);
-  h.app->accuracy.picture = AccuracyPicture::kStabilityMap;
-  h.frames(2);
-  std::set<std::pair<double, double>> chosen;  // load and parameter
-  for (float y = 240.0F; y < 660.0F; y += 11.0F) {
-    for (float x = 1000.0F; x < 1260.0F; x += 20.0F) {
-      h.click(x, y);
-      chosen.insert({h.app->load, series_parameter(h.app->session.settings()).value});
-    }
-  }
-  std::set<double> loads;
-  for (const auto& [load, value] : chosen) loads.insert(load);
-  EXPECT_EQ(loads.size(), 6U);
-  EXPECT_GT(chosen.size(), 40U);
-}
-
-/// Half a second of the bridge: rows of every kind.
-std::shared_ptr<const Scene> short_bridge() {
-  Scene scene = *shipped("bridge");
-  scene.criteria.duration = 0.5;
-  return std::make_shared<const Scene>(std::move(scene));
-}
-
-/// Until the costs of effects are measured.
-void finish_costs(Headless& h) {
-  for (int i = 0; i < 20000 && h.app->accuracy.effects.running(); ++i) h.frames(1);
-}
-
-TEST(EffectCosts, SlicesGiveWhatOneGoGives) {
-  Headless h;
-  h.app->run(short_bridge());
-  h.app->session.pause();
-  h.app->set("panel", "accuracy");
-  h.frames(3);
-  h.press("Stages");
-  EXPECT_FALSE(h.app->accuracy.effects.running()) << "nothing runs unasked";
-  h.press("Measure this run");
-  ASSERT_TRUE(h.app->accuracy.effects.running());
-  finish_costs(h);
-  const CostBreakdown* sliced = h.app->costs();
-  ASSERT_NE(sliced, nullptr);
-  const CostBreakdown whole =
-      cost_of_effects(*h.app->plain_scene, *h.app->accuracy.effects.experiment());
-  EXPECT_EQ(sliced->run.work, whole.run.work);
-  EXPECT_EQ(sliced->run.work.frames, 30);
-  ASSERT_EQ(sliced->effects.size(), whole.effects.size());
-  for (std::size_t i = 0; i < whole.effects.size(); ++i) {
-    EXPECT_EQ(sliced->effects[i].effect, whole.effects[i].effect);
-    EXPECT_EQ(sliced->effects[i].flops, whole.effects[i].flops);
-    EXPECT_NE(find_handle(whole.effects[i].effect), nullptr) << "each has its bar";
-  }
-  EXPECT_NE(find_handle("criterion"), nullptr);
-}
-
-TEST(EffectCosts, NoSliceRunsAheadAndTheyAreOfOneSettingAlone) {
-  Headless h;
-  h.app->open("swinging_box");
-  h.app->session.pause();
-  ASSERT_EQ(h.app->set("accuracy", "measure"), "");
-  for (int i = 0; i < 12; ++i) {
-    h.app->accuracy.advance(1e-9);  // one frame of one simulator at most
-    EXPECT_LE(h.app->accuracy.effects.progress(), (i + 3.0) / 3.0 / 600.0);
-  }
-  EXPECT_GT(h.app->accuracy.effects.progress(), 0.0);
-  EXPECT_NE(h.app->costs(), nullptr) << "the picture grows";
-  h.app->set("alpha", "0.2");
-  EXPECT_EQ(h.app->costs(), nullptr) << "of other settings";
-  h.app->set("alpha", "0.1");
-  EXPECT_NE(h.app->costs(), nullptr);
-  ASSERT_EQ(h.app->set("accuracy", "cancel"), "");
-  const double share = h.app->accuracy.effects.progress();
-  h.frames(5);
-  EXPECT_EQ(h.app->accuracy.effects.progress(), share);
-  h.app->open("pendulum");
-  EXPECT_EQ(h.app->costs(), nullptr) << "of another scene";
-}
-
-TEST(EffectCosts, SwitchesMeasureTheirOwn) {
-  Headless h(1280.0F, 1400.0F);
-  h.app->run(short_bridge());
-  h.app->session.pause();
-  h.app->session.step();
-  h.app->desk.more = true;
-  h.frames(3);
-  h.press("Measure what each adds");
-  finish_costs(h);
-  ASSERT_NE(h.app->costs(), nullptr);
-  h.frames(2);
-  EXPECT_EQ(find_handle("Measure what each adds"), nullptr) << "it is known";
-  h.press("friction");
-  EXPECT_FALSE(h.app->session.scene().effects.friction);
-  h.press("friction");
-  EXPECT_TRUE(h.app->session.scene().effects.friction);
-}
-
-TEST(Settings, WhatActsAtAStartAloneSaysSo) {
-  Headless h;
-  h.app->open("swinging_box");
-  h.app->session.pause();
-  ASSERT_EQ(h.app->set("probe", "false"), "");
-  EXPECT_EQ(h.app->notice.text, "") << "it has not begun";
-  h.app->session.step();
-  ASSERT_EQ(h.app->set("alpha", "0.2"), "");
-  EXPECT_EQ(h.app->notice.text, "") << "acts live";
-  ASSERT_EQ(h.app->set("probe", "true"), "");
-  EXPECT_NE(h.app->notice.text.find("reset"), std::string::npos);
-}
-
-TEST(Presets, AButtonSetsAllOfTheMethodAndTheLinkKeepsIt) {
-  Headless h;
-  h.app->open("bridge");
-  h.app->set("solver", "pgs");
-  h.app->desk.view.tint = true;
-  h.frames(3);
-  h.press("recommended");
-  ASSERT_TRUE(h.app->session.scene().recommended.has_value());
-  Settings recommended = h.app->session.scene().recommended->settings;
-  recommended.watch_stiffness = true;  // what is looked at stays
-  EXPECT_EQ(h.app->session.settings(), recommended);
-  const std::string link = h.app->link();
-  h.press("paper");
-  EXPECT_EQ(h.app->session.settings().mode, Mode::kAdaptive);
-  h.app->open_link(link);
-  EXPECT_EQ(h.app->session.settings(), recommended);
-  EXPECT_EQ(h.app->set("preset", "paper"), "");
-  EXPECT_EQ(h.app->session.settings().mode, Mode::kAdaptive);
-  EXPECT_NE(h.app->set("preset", "fastest"), "");
 }
 
 TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {

@@ -1,0 +1,45 @@
+// Settings that are chosen in the window.
+
+#include <gtest/gtest.h>
+
+#include "tests/app/ui/ui_fixture.hpp"
+
+namespace substep {
+namespace {
+
+TEST(Settings, WhatActsAtAStartAloneSaysSo) {
+  Headless h;
+  h.app->open("swinging_box");
+  h.app->session.pause();
+  ASSERT_EQ(h.app->set("probe", "false"), "");
+  EXPECT_EQ(h.app->notice.text, "") << "it has not begun";
+  h.app->session.step();
+  ASSERT_EQ(h.app->set("alpha", "0.2"), "");
+  EXPECT_EQ(h.app->notice.text, "") << "acts live";
+  ASSERT_EQ(h.app->set("probe", "true"), "");
+  EXPECT_NE(h.app->notice.text.find("reset"), std::string::npos);
+}
+
+TEST(Presets, AButtonSetsAllOfTheMethodAndTheLinkKeepsIt) {
+  Headless h;
+  h.app->open("bridge");
+  h.app->set("solver", "pgs");
+  h.app->desk.view.tint = true;
+  h.frames(3);
+  h.press("recommended");
+  ASSERT_TRUE(h.app->session.scene().recommended.has_value());
+  Settings recommended = h.app->session.scene().recommended->settings;
+  recommended.watch_stiffness = true;  // what is looked at stays
+  EXPECT_EQ(h.app->session.settings(), recommended);
+  const std::string link = h.app->link();
+  h.press("paper");
+  EXPECT_EQ(h.app->session.settings().mode, Mode::kAdaptive);
+  h.app->open_link(link);
+  EXPECT_EQ(h.app->session.settings(), recommended);
+  EXPECT_EQ(h.app->set("preset", "paper"), "");
+  EXPECT_EQ(h.app->session.settings().mode, Mode::kAdaptive);
+  EXPECT_NE(h.app->set("preset", "fastest"), "");
+}
+
+}  // namespace
+}  // namespace substep

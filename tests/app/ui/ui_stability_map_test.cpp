@@ -1,0 +1,57 @@
+// The map of what holds under which load, in the window.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/app/ui/ui_sweep.hpp"
+
+namespace substep {
+namespace {
+
+TEST(Accuracy, TheMapComesLastAndACellGivesItsFiguresAgain) {
+  Headless h;
+  sweep_a_rope(h);
+  ASSERT_TRUE(h.app->accuracy.has_map());
+  const std::vector<Result> results = h.app->accuracy.results();
+  const auto is_varied = [](const Result& r) { return r.experiment.load != 1.0; };
+  const auto first = std::find_if(results.begin(), results.end(), is_varied);
+  EXPECT_TRUE(std::all_of(first, results.end(), is_varied)) << "the curves come first";
+  for (const auto& point : h.app->accuracy.points()) {
+    EXPECT_EQ(results[point.result].experiment.load, 1.0);
+  }
+  int failed = 0;
+  for (auto r = first; r < results.end(); r += 3) {
+    h.app->run_result(*r);
+    h.app->session.pause();
+    EXPECT_EQ(h.app->load, r->experiment.load);
+    for (std::int64_t f = 0; f < r->metrics.work.frames; ++f) h.app->session.step();
+    EXPECT_EQ(h.app->session.hash(), r->metrics.hash) << r->experiment.load;
+    failed += r->metrics.holds ? 0 : 1;
+  }
+  EXPECT_GT(failed, 0) << "of a map where all holds no cell tells anything";
+  h.app->run_result(results.front());
+  EXPECT_EQ(h.app->load, 1.0);
+}
+
+TEST(Accuracy, CellsOfTheMapAreFoundUnderThePointer) {
+  Headless h;
+  sweep_a_rope(h);
+  h.app->accuracy.picture = AccuracyPicture::kStabilityMap;
+  h.frames(2);
+  std::set<std::pair<double, double>> chosen;  // load and parameter
+  for (float y = 240.0F; y < 660.0F; y += 11.0F) {
+    for (float x = 1000.0F; x < 1260.0F; x += 20.0F) {
+      h.click(x, y);
+      chosen.insert({h.app->load, series_parameter(h.app->session.settings()).value});
+    }
+  }
+  std::set<double> loads;
+  for (const auto& [load, value] : chosen) loads.insert(load);
+  EXPECT_EQ(loads.size(), 6U);
+  EXPECT_GT(chosen.size(), 40U);
+}
+
+}  // namespace
+}  // namespace substep

@@ -5,13 +5,14 @@
 #include <utility>
 
 #include "core/constraints/grab_rows.hpp"
-#include "core/math/resisting.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/mode_rules.hpp"
+#include "core/stepping/small_steps.hpp"
 
 namespace substep {
 
@@ -26,13 +27,6 @@ bool has_gyroscopic_torque(const Body& body) {
 double most_kinetic(const Body& body, const Vec6& u) {
   return std::max(1.0, body.mass) * u.head<3>().squaredNorm() +
          std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
-}
-
-/// Of a sub-step that is this share of a frame. What is shared out are sweeps, not Newton's steps.
-int iterations_of(const Settings& settings, double share) {
-  const bool sweeps = settings.solver == SolverKind::kPgs || settings.solver == SolverKind::kXpbd;
-  if (!settings.share_iterations || !sweeps) return settings.iterations;
-  return std::max(1, static_cast<int>(settings.iterations * share + 0.5));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "core/stepping/effective_mass.hpp"
 
 #include "core/stepping/damping.hpp"
+#include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/geometric_inertia.hpp"
 #include "core/stepping/mode_rules.hpp"
 
@@ -95,7 +96,7 @@ void effective_mass(const Scene& scene, const Part& part, const Settings& settin
     auto omega = state.u[i].tail<3>();
     if (stiffens) {
       const Mat3 M = turned(R, I);
-      out[i].angular = (M + dt * dt * state.K_resisting[i]).inverse();
+      out[i].angular = fully_stiffened_mass(M, state.K_resisting[i], dt).inverse();
       omega = out[i].angular * (M * omega);
       continue;
     }

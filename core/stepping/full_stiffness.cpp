@@ -1,4 +1,4 @@
-#include "core/math/resisting.hpp"
+#include "core/stepping/full_stiffness.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -4,13 +4,20 @@
 
 namespace substep {
 
-/// The part of -K that resists a rotation: its symmetric part without the negative eigenvalues. The
-/// mode `stiffness` has it in the mass, Mt = M + dt^2 resisting(K): the geometric stiffness of
-/// Tournier et al. 2015, "Stable constrained dynamics". K itself is unsymmetric and partly
-/// destabilising, and M - dt^2 K with it can be singular. With the k that resists Mt = M + dt^2 k,
-/// so the limit of stepping/damping.hpp, 2 (M + Mt) - dt^2 k = 4 M + dt^2 k, is positive for every
-/// k.
+// The geometric stiffness of Tournier et al. 2015, "Stable constrained dynamics", in the mass:
+// forces are taken along with the turn that they act on within a step, Mt = M - dt^2 K. K itself is
+// unsymmetric and partly destabilising, and M - dt^2 K with it can be singular; so only the part of
+// it that resists is taken. With the k that resists Mt = M + dt^2 k, so the limit of damping.hpp,
+// 2 (M + Mt) - dt^2 k = 4 M + dt^2 k, is positive for every k.
+
+/// The part of -K that resists a rotation: its symmetric part without the negative eigenvalues.
 /// @param K rotations of one body, d torque/d angle [N m/rad]
 Mat3 resisting(const Mat3& K);
+
+/// Mt of a body's rotations [kg m^2]. @param I its inertia [kg m^2]  @param K_resisting
+/// resisting(K) [N m/rad]  @param dt [s]. All in one frame.
+inline Mat3 fully_stiffened_mass(const Mat3& I, const Mat3& K_resisting, double dt) {
+  return I + dt * dt * K_resisting;
+}
 
 }  // namespace substep

@@ -18,7 +18,7 @@ enum class SubstepCount : std::uint8_t {
 enum class StiffMass : std::uint8_t {
   kOwn,        // M
   kDamped,     // damping.hpp
-  kFull,       // M - dt^2 K, what of it resists: math/resisting.hpp
+  kFull,       // M - dt^2 K, what of it resists: full_stiffness.hpp
   kGeometric,  // geometric_inertia.hpp
 };
 

@@ -1,10 +1,10 @@
 #include <cmath>
 
-#include "core/math/resisting.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/damping.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/geometric_inertia.hpp"
 #include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"

@@ -6,23 +6,34 @@ namespace substep {
 // dC/dt = v_a + omega_a x r_a - v_b - omega_b x r_b
 // J_a  = [ E  -[r_a] ],  J_b = [ -E  [r_b] ]
 // so row i has the linear part e_i and the angular part r_a x e_i.
-void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block) {
+void ball_constants(const JointBase& joint, Block& block) {
   block.pinned = true;
-  block.r_a = a.R * joint.anchor_a;
-  block.r_b = b.R * joint.anchor_b;
-  // Differences of centres first: near the origin or far from it, the error is the same.
-  const Vec3 phi = (a.x - b.x) + (block.r_a - block.r_b);
-  const Mat3 A = -skew(block.r_a);
-  const Mat3 B = skew(block.r_b);
   for (int i = 0; i < 3; ++i) {
-    block.phi[i] = phi[i];
     block.C[i] = joint.compliance;
     for (int j = 0; j < 3; ++j) {
       block.J_a[i][j] = i == j ? 1.0 : 0.0;
       block.J_b[i][j] = i == j ? -1.0 : 0.0;
-      block.J_a[i][3 + j] = A(i, j);
-      block.J_b[i][3 + j] = B(i, j);
     }
+    block.J_a[i][3 + i] = 0.0;
+    block.J_b[i][3 + i] = 0.0;
+  }
+}
+
+void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block) {
+  const Vec3 r_a = a.R * joint.anchor_a;
+  const Vec3 r_b = b.R * joint.anchor_b;
+  // Differences of centres first: near the origin or far from it, the error is the same.
+  const Vec3 phi = (a.x - b.x) + (r_a - r_b);
+  block.r_a = r_a;
+  block.r_b = r_b;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int l = (i + 2) % 3;
+    block.phi[i] = phi[i];
+    block.J_a[i][3 + j] = r_a[l];
+    block.J_a[i][3 + l] = -r_a[j];
+    block.J_b[i][3 + j] = -r_b[l];
+    block.J_b[i][3 + l] = r_b[j];
   }
 }
 

@@ -16,6 +16,9 @@ struct Side {
   const Mat3& R = kUnturned;  // R_WB
 };
 
+/// What of rows 0..2 is the same in every sub-step. It has to be set once.
+void ball_constants(const JointBase& joint, Block& block);
+
 /// Rows 0..2: phi = x_a + r_a - x_b - r_b, world axes [m].
 void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block);
 

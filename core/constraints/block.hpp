@@ -71,7 +71,7 @@ class Blocks {
   /// Lets go of all from the n-th on.
   void keep(std::size_t n) { size_ = n; }
   [[nodiscard]] std::size_t capacity() const { return storage_.capacity(); }
-  /// A block with undefined contents at the end.
+  /// A block at the end, with what it held before it was let go of.
   Block& append() {
     if (size_ == storage_.size()) storage_.emplace_back();
     return storage_[size_++];

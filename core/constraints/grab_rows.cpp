@@ -23,6 +23,7 @@ void grab_rows(const Grab& grab, const Side& body, Block& block) {
   block.a = block.body_a = grab.body;
   block.b = block.body_b = -1;
   block.rows = 3;
+  ball_constants(joint, block);
   ball_rows(joint, body, Side{}, block);
   double* phi = block.phi;
   const double distance = std::sqrt(phi[0] * phi[0] + phi[1] * phi[1] + phi[2] * phi[2]);

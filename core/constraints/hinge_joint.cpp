@@ -10,23 +10,31 @@ void across(const Vec3& axis, Vec3& v1, Vec3& v2) {
   v2 = axis.cross(v1);
 }
 
+void hinge_constants(const HingeJoint& joint, Block& block) {
+  ball_constants(joint, block);
+  for (int row = 3; row < 5; ++row) {
+    block.C[row] = joint.angular_compliance;
+    for (int j = 0; j < 3; ++j) {
+      block.J_a[row][j] = 0.0;
+      block.J_b[row][j] = 0.0;
+    }
+  }
+}
+
 // C     = u . v                        u turns with a, v with b
 // dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)
 void hinge_rows(const HingeJoint& joint, const Vec3& v1_B, const Vec3& v2_B, const Side& a,
                 const Side& b, Block& block) {
   ball_rows(joint, a, b, block);
-  block.axis = a.R * joint.axis_a;
-  block.v1 = b.R * v1_B;
-  block.v2 = b.R * v2_B;
+  const Vec3 u = a.R * joint.axis_a;
+  block.axis = u;
   for (int k = 0; k < 2; ++k) {
-    const Vec3& v = k == 0 ? block.v1 : block.v2;
-    const Vec3 J = block.axis.cross(v);
+    const Vec3 v = b.R * (k == 0 ? v1_B : v2_B);
+    (k == 0 ? block.v1 : block.v2) = v;
+    const Vec3 J = u.cross(v);
     const int row = 3 + k;
-    block.phi[row] = block.axis.dot(v);
-    block.C[row] = joint.angular_compliance;
+    block.phi[row] = u.dot(v);
     for (int j = 0; j < 3; ++j) {
-      block.J_a[row][j] = 0.0;
-      block.J_b[row][j] = 0.0;
       block.J_a[row][3 + j] = J[j];
       block.J_b[row][3 + j] = -J[j];
     }

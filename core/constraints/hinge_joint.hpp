@@ -7,6 +7,9 @@ namespace substep {
 /// Two unit vectors across a unit axis, right-handed with it.
 void across(const Vec3& axis, Vec3& v1, Vec3& v2);
 
+/// As ball_constants, with rows 3, 4.
+void hinge_constants(const HingeJoint& joint, Block& block);
+
 /// Rows 0..2 as the ball joint; rows 3, 4: phi = u . v_k [-], u the axis in a, v_k across the axis
 /// in b.
 /// @param v1_B, v2_B the vectors across the axis, in the frame of b

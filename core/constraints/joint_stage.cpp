@@ -15,13 +15,7 @@ JointStage::JointStage(const Scene& scene) : across_(scene.joints.size()) {
   }
 }
 
-void JointStage::fill(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
-                      std::size_t joint, Block& block) const {
-  const auto side = [&](int body) {
-    if (body == kWorld) return Side{};
-    const auto i = static_cast<std::size_t>(body);
-    return Side{state.x[i], R_WB[i]};
-  };
+void JointStage::begin(const Scene& scene, std::size_t joint, Block& block) {
   const auto moving = [&](int body) {
     return body == kWorld || scene.bodies[static_cast<std::size_t>(body)].is_static ? -1 : body;
   };
@@ -34,11 +28,29 @@ void JointStage::fill(const Scene& scene, const State& state, std::span<const Ma
   if (const auto* hinge = std::get_if<HingeJoint>(&scene.joints[joint])) {
     block.kind = BlockKind::kHinge;
     block.rows = 5;
-    hinge_rows(*hinge, across_[joint].v1, across_[joint].v2, side(j.a), side(j.b), block);
+    hinge_constants(*hinge, block);
   } else {
     block.kind = BlockKind::kBall;
     block.rows = 3;
-    ball_rows(j, side(j.a), side(j.b), block);
+    ball_constants(j, block);
+  }
+}
+
+void JointStage::fill(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
+                      std::size_t joint, Block& block) const {
+  const auto side = [&](int body) {
+    if (body == kWorld) return Side{};
+    const auto i = static_cast<std::size_t>(body);
+    return Side{state.x[i], R_WB[i]};
+  };
+  // A block that was this joint's before keeps what does not change.
+  if (!block.pinned || block.id != joint) begin(scene, joint, block);
+  const Side a = side(block.body_a);
+  const Side b = side(block.body_b);
+  if (const auto* hinge = std::get_if<HingeJoint>(&scene.joints[joint])) {
+    hinge_rows(*hinge, across_[joint].v1, across_[joint].v2, a, b, block);
+  } else {
+    ball_rows(std::get<BallJoint>(scene.joints[joint]), a, b, block);
   }
 }
 

@@ -29,6 +29,8 @@ class JointStage {
   [[nodiscard]] int rows() const { return rows_; }
 
  private:
+  /// What of a joint's block is the same in every sub-step.
+  static void begin(const Scene& scene, std::size_t joint, Block& block);
   void fill(const Scene& scene, const State& state, std::span<const Mat3> R_WB, std::size_t joint,
             Block& block) const;
 

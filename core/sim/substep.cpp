@@ -269,9 +269,11 @@ void Simulator::Impl::seed_forces() {
       goes_on ? std::span<const StoredForce>(forces).subspan(first_force) : state.forces;
   const std::size_t known = of_last.size();
   for (Block& block : rows()) {
-    std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
-    std::fill(block.tight, block.tight + kMaxRows,
-              block.is_contact() ? kUnknownSet : std::int8_t{0});
+    const std::int8_t set = block.is_contact() ? kUnknownSet : std::int8_t{0};
+    for (int row = 0; row < kMaxRows; ++row) {
+      block.impulse[row] = 0.0;
+      block.tight[row] = set;
+    }
     block.was_closed = false;
     if (!block.is_contact() && !starts_from_last_forces(settings)) continue;  // not stored
     for (std::size_t tried = 0; tried < known; ++tried) {

@@ -74,20 +74,15 @@ void soften_angular(const double (&e)[2][3], const double* s, Symmetric6& A) {
 }  // namespace
 
 void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star) {
-  rows_ = joint.rows;
-  sign_ = child_is_a ? 1.0 : -1.0;
+  const double sign = child_is_a ? 1.0 : -1.0;
+  const int child = child_is_a ? joint.a : joint.b;
   const int parent = child_is_a ? joint.b : joint.a;
-  const Vec3& r = child_is_a ? joint.r_a : joint.r_b;
-  const Vec3& r_parent = child_is_a ? joint.r_b : joint.r_a;
-  for (int i = 0; i < 3; ++i) {
-    r_[i] = r[i];
-    r_parent_[i] = r_parent[i];
-  }
-  std::copy(joint.softness, joint.softness + joint.rows, softness_);
+  const Vec3 r = child_is_a ? joint.r_a : joint.r_b;
+  const Vec3 r_parent = child_is_a ? joint.r_b : joint.r_a;
 
-  const double* u = u_star[static_cast<std::size_t>(child_is_a ? joint.a : joint.b)].data();
+  const double* u = u_star[static_cast<std::size_t>(child)].data();
   double speed[6];  // of the child at the pivot, from the parent
-  cross(u + 3, r_, speed);
+  cross(u + 3, r.data(), speed);
   for (int i = 0; i < 3; ++i) {
     speed[i] += u[i];
     speed[3 + i] = u[3 + i];
@@ -95,14 +90,22 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const
   if (parent >= 0) {
     const double* u_parent = u_star[static_cast<std::size_t>(parent)].data();
     double at_pivot[3];
-    cross(u_parent + 3, r_parent_, at_pivot);
+    cross(u_parent + 3, r_parent.data(), at_pivot);
     for (int i = 0; i < 3; ++i) {
       speed[i] -= u_parent[i] + at_pivot[i];
       speed[3 + i] -= u_parent[3 + i];
     }
   }
-  for (int i = 0; i < 3; ++i) w_[i] = speed[i] + sign_ * joint.bias[i];
-
+  rows_ = joint.rows;
+  sign_ = sign;
+  exact_ = true;
+  for (int i = 0; i < 3; ++i) {
+    r_[i] = r[i];
+    r_parent_[i] = r_parent[i];
+    w_[i] = speed[i] + sign * joint.bias[i];
+    softness_[i] = joint.softness[i];
+    exact_ = exact_ && softness_[i] == 0.0;
+  }
   if (joint.kind == BlockKind::kBall) {
     for (int k = 0; k < 3; ++k) {
       for (int i = 0; i < 3; ++i) free_[k].f[i] = i == k ? 1.0 : 0.0;
@@ -115,16 +118,20 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const
     for (int i = 0; i < 3; ++i) {
       J[k][i] = child_is_a ? joint.J_a[3 + k][3 + i] : -joint.J_b[3 + k][3 + i];
     }
-    w_[3 + k] = dot(J[k], speed + 3) + sign_ * joint.bias[3 + k];
+    w_[3 + k] = dot(J[k], speed + 3) + sign * joint.bias[3 + k];
+    softness_[3 + k] = joint.softness[3 + k];
+    exact_ = exact_ && softness_[3 + k] == 0.0;
   }
-  double* f = free_[0].f;
+  double f[3];
+  double e[2][3];
   cross(J[0], J[1], f);
-  cross(J[1], f, e_[0]);
-  cross(f, J[0], e_[1]);
+  cross(J[1], f, e[0]);
+  cross(f, J[0], e[1]);
   const double per_square = 1.0 / dot(f, f);
   for (int i = 0; i < 3; ++i) {
-    e_[0][i] *= per_square;
-    e_[1][i] *= per_square;
+    free_[0].f[i] = f[i];
+    e_[0][i] = e[0][i] * per_square;
+    e_[1][i] = e[1][i] * per_square;
   }
 }
 
@@ -144,7 +151,7 @@ void ArticulatedJoint::eliminate_rows(Symmetric6& A) {
     free_[k].column = column;
     free_[k].inverse = inverse;
   }
-  // Exact rows are left as they are.
+  if (exact_) return;
   const double* s = softness_;
   if (s[0] != 0.0 || s[1] != 0.0 || s[2] != 0.0) A.soften_linear(s);
   if (rows == 5 && (s[3] != 0.0 || s[4] != 0.0)) soften_angular(e_, s + 3, A);
@@ -163,7 +170,8 @@ void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, S
 
 // Vectors of a body stay in registers from the first line of a function to its last.
 
-template <int rows>
+// Exact rows take what they are about from w alone: nothing of it waits for what came before.
+template <int rows, bool exact>
 void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
   double torque[3];
   cross(r_, g_centre, torque);
@@ -179,10 +187,10 @@ void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
     for (int i = 0; i < 6; ++i) g[i] -= free.column[i] * q;
   }
   double d[6] = {};  // E w - Sigma g1
-  for (int row = 0; row < 3; ++row) d[row] = w_[row] - softness_[row] * g[row];
+  for (int row = 0; row < 3; ++row) d[row] = exact ? w_[row] : w_[row] - softness_[row] * g[row];
   for (int row = 3; row < rows; ++row) {
     const double* e = e_[row - 3];
-    const double y = w_[row] - softness_[row] * dot(e, g + 3);
+    const double y = exact ? w_[row] : w_[row] - softness_[row] * dot(e, g + 3);
     for (int i = 0; i < 3; ++i) d[3 + i] += e[i] * y;
   }
   const Pairs6 handed = P_.times(d);
@@ -199,11 +207,14 @@ void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
 }
 
 void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
-  if (rows_ == 5) return forward_rows<5>(g_centre, g_parent);
-  forward_rows<3>(g_centre, g_parent);
+  if (rows_ == 5) {
+    exact_ ? forward_rows<5, true>(g_centre, g_parent) : forward_rows<5, false>(g_centre, g_parent);
+  } else {
+    exact_ ? forward_rows<3, true>(g_centre, g_parent) : forward_rows<3, false>(g_centre, g_parent);
+  }
 }
 
-template <int rows>
+template <int rows, bool exact>
 void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre, double* impulse) {
   double v[6];
   double R[6];
@@ -222,13 +233,13 @@ void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre, d
     }
   }
   for (int row = 0; row < 3; ++row) {
-    v[row] -= w_[row] + softness_[row] * R[row];
+    v[row] -= exact ? w_[row] : w_[row] + softness_[row] * R[row];
     impulse[row] = sign_ * R[row];
   }
   for (int row = 3; row < rows; ++row) {
     const double* e = e_[row - 3];
     const double x = dot(e, R + 3);
-    const double y = w_[row] + softness_[row] * x;
+    const double y = exact ? w_[row] : w_[row] + softness_[row] * x;
     for (int i = 0; i < 3; ++i) v[3 + i] -= e[i] * y;
     impulse[row] = sign_ * x;
   }
@@ -250,8 +261,13 @@ void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre, d
 }
 
 void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double* impulse) {
-  if (rows_ == 5) return backward_rows<5>(v_parent, v_centre, impulse);
-  backward_rows<3>(v_parent, v_centre, impulse);
+  if (rows_ == 5) {
+    exact_ ? backward_rows<5, true>(v_parent, v_centre, impulse)
+           : backward_rows<5, false>(v_parent, v_centre, impulse);
+  } else {
+    exact_ ? backward_rows<3, true>(v_parent, v_centre, impulse)
+           : backward_rows<3, false>(v_parent, v_centre, impulse);
+  }
 }
 
 }  // namespace substep

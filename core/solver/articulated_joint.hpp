@@ -44,11 +44,11 @@ class ArticulatedJoint {
  private:
   /// A ball joint leaves three directions of rotation, a hinge one.
   static constexpr int n_free(int rows) { return rows == 5 ? 1 : 3; }
-  template <int rows>
-  void eliminate_rows(Symmetric6& A);
-  template <int rows>
+  template <int rows>  // inline, so that the inertia is not stored on its way in and out
+  [[gnu::always_inline]] inline void eliminate_rows(Symmetric6& A);
+  template <int rows, bool exact>
   void forward_rows(const double* g_centre, double* g_parent);
-  template <int rows>
+  template <int rows, bool exact>
   void backward_rows(const double* v_parent, double* v_centre, double* impulse);
 
   /// A direction of rotation that the joint leaves free.
@@ -60,6 +60,7 @@ class ArticulatedJoint {
   };
 
   int rows_;
+  bool exact_;           // no row has softness
   double sign_;          // child minus parent against the block's a minus b
   double r_[3];          // pivot from the child's centre [m]
   double r_parent_[3];   // pivot from the parent's centre [m]

@@ -147,7 +147,7 @@ void Bpp::start_active_set(const System& system) {
   friction_bound_.assign(system.blocks.size(), 0.0);
   for (Block& block : system.blocks) {
     if (!block.is_contact()) {
-      std::fill(block.tight, block.tight + block.rows, std::int8_t{0});
+      for (int row = 0; row < block.rows; ++row) block.tight[row] = 0;
       continue;
     }
     if (block.tight[0] == kUnknownSet) {

@@ -119,11 +119,12 @@ void SaddleLdlt::add_children(const Node& node, Square6& A, double* B, double* U
 void SaddleLdlt::factor_articulated(Node& node) {
   ArticulatedJoint& joint = joints_[node.joint];
   const int* children = children_.data() + node.first_child;
-  Square6 sum = {};
+  Square6 sum;
   const Square6* carried = &sum;
   if (node.n_children == 1 && nodes_[index(children[0])].way == Way::kArticulated) {
     carried = &square(nodes_[index(children[0])].update);
   } else {
+    std::fill(&sum[0][0], &sum[0][0] + 36, 0.0);
     for (std::size_t c = 0; c < node.n_children; ++c) {
       const Node& child = nodes_[index(children[c])];
       Square6 shifted;

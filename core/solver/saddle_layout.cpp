@@ -38,7 +38,6 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   rows_.reserve(blocks * kMaxRows);
   joints_.reserve(bodies);
   values_.reserve(bodies * (42 + 6 * kWidth + kRows * (7 + kRows + kWidth) + kWidth * kWidth));
-  inverse_mass_.reserve(bodies);
   u_star_.reserve(bodies);
   w_.reserve(blocks * kMaxRows);
   v_.reserve(bodies);
@@ -71,7 +70,7 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
 
 void SaddleLdlt::begin(const System& system) {
   flops_ = 0;
-  inverse_mass_.assign(system.inverse_mass.begin(), system.inverse_mass.end());
+  inverse_mass_ = system.inverse_mass;
   u_star_.assign(system.u.begin(), system.u.end());
   if (!layout_is_the_same(system)) lay_out(system);
   w_.resize(system.blocks.size() * kMaxRows);

@@ -165,7 +165,7 @@ class SaddleLdlt {
   std::vector<double> values_;
   std::int64_t flops_ = 0;
 
-  std::vector<InverseMass> inverse_mass_;
+  std::span<const InverseMass> inverse_mass_;  // of the system that was begun with
   std::vector<Vec6> u_star_;
   std::vector<double> w_;  // J u* + bias, kMaxRows per block
   std::vector<Vec6> v_;    // per node: momentum, then what is left of it, then the velocity

@@ -116,10 +116,8 @@ class Symmetric6 {
   }
 
   void rows(Rows6& out) const {
-    for (int i = 0; i < 6; ++i) {
-      for (int p = i / 2; p < 3; ++p) out.row[i].p[p] = row_[i].p[p];
-    }
-    for (int p = 0; p < 3; ++p) {
+    for (int p = 0; p < 3; ++p) {  // down the columns: along the rows these would be calls to copy
+      for (int i = 0; i < 2 * p + 2; ++i) out.row[i].p[p] = row_[i].p[p];
       for (int q = p + 1; q < 3; ++q) {
         const Pair& upper = row_[2 * p].p[q];
         const Pair& lower = row_[2 * p + 1].p[q];

@@ -58,10 +58,12 @@ void add_speeds(const Block& block, const double (&J)[kMaxRows][6], double sign,
 
 }  // namespace
 
+// What is summed stays in registers: `speed` may be anywhere.
 void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed) {
-  for (int row = 0; row < block.rows; ++row) speed[row] = 0.0;
-  if (a != nullptr) add_speeds(block, block.J_a, 1.0, block.r_a, *a, speed);
-  if (b != nullptr) add_speeds(block, block.J_b, -1.0, block.r_b, *b, speed);
+  double sum[kMaxRows] = {};
+  if (a != nullptr) add_speeds(block, block.J_a, 1.0, block.r_a, *a, sum);
+  if (b != nullptr) add_speeds(block, block.J_b, -1.0, block.r_b, *b, sum);
+  for (int row = 0; row < block.rows; ++row) speed[row] = sum[row];
 }
 
 void row_speeds(const Block& block, std::span<const Vec6> u, double* speed) {

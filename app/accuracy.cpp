@@ -86,6 +86,19 @@ void Accuracy::advance(double seconds) {
   if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // a tab that slept was not at work
   last_ = now;
   sweep_->advance(seconds);
+  if (!running()) look_at_what_there_is();
+}
+
+void Accuracy::look_at_what_there_is() {
+  for (int i = 0; i < static_cast<int>(ErrorAxis::kCount) && !has(error); ++i) {
+    if (has(static_cast<ErrorAxis>(i))) error = static_cast<ErrorAxis>(i);
+  }
+  // Where nothing constrains, most solvers have nothing to do.
+  const auto is_free = [this](const Result& r) { return cost_of(r, cost) == 0.0; };
+  const auto n = static_cast<std::ptrdiff_t>(results().size());
+  if (2 * std::count_if(results().begin(), results().end(), is_free) > n) {
+    cost = CostAxis::kSubsteps;
+  }
 }
 
 double Accuracy::progress() const { return sweep_ ? sweep_->progress() : 0.0; }

@@ -97,6 +97,8 @@ class Accuracy {
     friend bool operator==(const Limit&, const Limit&) = default;
   };
   [[nodiscard]] Limit limit() const;
+  /// Where the runs have no error or no cost of the kind that is looked at, one that they have.
+  void look_at_what_there_is();
 
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;

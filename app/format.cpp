@@ -81,14 +81,14 @@ std::string plain_number(double value) {
 }
 
 Unit unit_for(double scale) {
-  static constexpr std::array<const char*, 7> kPrefixes{"µ", "m", "", "k", "M", "G", "T"};
-  constexpr int kFirst = -2;  // the first's thousands
+  static constexpr std::array<const char*, 10> kPrefixes{"f", "p", "n", "µ", "m",
+                                                         "",  "k", "M", "G", "T"};
+  constexpr int kFirst = -5;  // the first's thousands
   const int last = kFirst + static_cast<int>(kPrefixes.size()) - 1;
-  const int thousands = std::isfinite(scale) && scale > 0.0
-                            ? std::max(kFirst, static_cast<int>(std::floor(std::log10(scale) / 3)))
-                            : 0;
+  const int thousands =
+      std::isfinite(scale) && scale > 0.0 ? static_cast<int>(std::floor(std::log10(scale) / 3)) : 0;
   const double factor = std::pow(10.0, 3 * thousands);
-  if (thousands > last) return {power_of_ten(3 * thousands) + " ", factor};
+  if (thousands < kFirst || thousands > last) return {power_of_ten(3 * thousands) + " ", factor};
   return {kPrefixes.at(static_cast<std::size_t>(thousands - kFirst)), factor};
 }
 

@@ -15,7 +15,7 @@ std::string plain_number(double value);
 std::string grouped(double value);
 /// With one of J, kJ, MJ, ...: the unit that keeps `scale` between 1 and 1,000.
 struct Unit {
-  std::string prefix;   // "k", and past T a power of ten: "10¹⁸ "
+  std::string prefix;   // "k", and beyond f and T a power of ten: "10¹⁸ "
   double factor = 1.0;  // value of one unit
 };
 Unit unit_for(double scale);

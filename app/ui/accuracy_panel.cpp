@@ -110,7 +110,7 @@ void picture(App& app, ImVec2 size) {
   }
 }
 
-/// Who is who, and how many of each hold.
+/// Who is who, and how many of each hold, by solver and integrator.
 void picture_legend(const App& app) {
   const Look& look = app.look;
   struct Mark {
@@ -119,31 +119,47 @@ void picture_legend(const App& app) {
     int held = 0;
   };
   std::map<std::string, Mark> entries;
-  std::vector<std::string> order;
+  std::vector<std::string> families;
+  std::map<std::string, std::vector<const Mark*>> members;
   for (const Result& result : app.accuracy.results()) {
     if (result.experiment.load != 1.0) continue;
     const Settings& s = result.experiment.settings;
     const auto [entry, is_new] =
         entries.try_emplace(series_name(s), Mark{curve_style(*look.theme, s)});
-    if (is_new) order.push_back(entry->first);
+    if (is_new) {
+      std::vector<const Mark*>& family = members[entry->second.style.family];
+      if (family.empty()) families.push_back(entry->second.style.family);
+      family.push_back(&entry->second);
+    }
     ++entry->second.runs;
     entry->second.held += result.metrics.holds ? 1 : 0;
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float width = ImGui::GetContentRegionAvail().x;
-  for (const std::string& name : order) {
-    const Mark& entry = entries.at(name);
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    draw_swatch(entry.style, look.theme->panel | IM_COL32_A_MASK, draw,
-                {at.x + 14.0F, at.y + 8.0F});
-    const std::string held =
-        std::to_string(entry.held) + " of " + std::to_string(entry.runs) + " hold";
-    const float note = text_size(look.fonts.small, held.c_str()).x;
-    draw_text(draw, look.fonts.small, {at.x + 36.0F, at.y + 1.0F}, look.theme->text,
-              fitted(look.fonts.small, entry.style.name, width - note - 44.0F).c_str());
-    draw_text(draw, look.fonts.small, {at.x + width - note, at.y + 1.0F},
-              entry.held == entry.runs ? look.theme->dim : look.theme->orange, held.c_str());
+  const auto to_the_right = [&](float x, float y, ImU32 color, const std::string& text) {
+    const float extent = text_size(look.fonts.small, text.c_str()).x;
+    draw_text(draw, look.fonts.small, {x + width - extent, y}, color, text.c_str());
+    return extent;
+  };
+  for (const std::string& family : families) {
+    const ImVec2 top = ImGui::GetCursorScreenPos();
+    draw_text(draw, look.fonts.small, {top.x, top.y + 1.0F}, look.theme->dim, family.c_str());
+    if (family == families.front()) {
+      to_the_right(top.x, top.y + 1.0F, look.theme->dim, "runs that hold");
+    }
     ImGui::Dummy({1.0F, 12.0F});
+    for (const Mark* entry : members.at(family)) {
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      draw_swatch(entry->style, look.theme->panel | IM_COL32_A_MASK, draw,
+                  {at.x + 14.0F, at.y + 8.0F});
+      const float note = to_the_right(
+          at.x, at.y + 1.0F, entry->held == entry->runs ? look.theme->dim : look.theme->orange,
+          std::to_string(entry->held) + " of " + std::to_string(entry->runs));
+      draw_text(draw, look.fonts.small, {at.x + 36.0F, at.y + 1.0F}, look.theme->text,
+                fitted(look.fonts.small, entry->style.own_name, width - note - 44.0F).c_str());
+      ImGui::Dummy({1.0F, 12.0F});
+    }
+    space(10.0F);
   }
 }
 

@@ -198,7 +198,7 @@ void read_out(const Look& look, const Accuracy& accuracy, const Result& result) 
   const Settings& s = result.experiment.settings;
   const SeriesParameter parameter = series_parameter(s);
   ImGui::BeginTooltip();
-  label(look.fonts.medium, t.text, curve_style(t, s).name.c_str());
+  label(look.fonts.medium, t.text, curve_style(t, s).name().c_str());
   const auto line = [&](const std::string& text) { label(look.fonts.small, t.dim, text.c_str()); };
   line(std::string(parameter.name) + " = " + plain_number(parameter.value));
   if (const auto error = error_of(result, accuracy.error)) {
@@ -212,101 +212,125 @@ void read_out(const Look& look, const Accuracy& accuracy, const Result& result) 
 
 }  // namespace
 
-CurveStyle curve_style(const Theme& theme, const Settings& s) {
-  CurveStyle style;
+namespace {
+
+/// Of the mode, and of what decides N in it.
+void style_of_mode(const Theme& theme, const Settings& s, CurveStyle& style) {
   switch (s.mode) {
     case Mode::kNone:
     case Mode::kConst:
       style.color = theme.orange;
       style.corners = 4;
-      style.name = "constant N";
+      style.own_name = "constant N";
       break;
     case Mode::kDamping:
       style.color = theme.teal;
       style.corners = 5;
-      style.name = "damping";
+      style.own_name = "damping";
       break;
     case Mode::kAdaptive:
       style.color = s.policy == Policy::kFrame ? theme.blue : theme.purple;
       style.corners = s.policy == Policy::kFrame ? 0 : 3;
-      style.name = s.policy == Policy::kFrame ? "adaptive per frame" : "adaptive per sub-step";
+      style.own_name = s.policy == Policy::kFrame ? "adaptive per frame" : "adaptive per sub-step";
       break;
     case Mode::kCapped:
       style.color = theme.amber;
       style.corners = 6;
-      style.name = "capped + damping";
+      style.own_name = "capped + damping";
       break;
     case Mode::kStiffness:
       style.color = theme.dim;
       style.corners = 4;
-      style.name = "full geometric stiffness";
+      style.own_name = "full geometric stiffness";
       break;
     case Mode::kInertia:
       style.color = theme.text;
       style.corners = 3;
-      style.name = "capped + geometric inertia";
+      style.own_name = "capped + geometric inertia";
       break;
     case Mode::kBlend:
       style.color = theme.purple;
       style.corners = 6;
-      style.name = "capped + blend";
+      style.own_name = "capped + blend";
       break;
   }
   if (has_islands(s)) {
     style.color = s.mode == Mode::kAdaptive ? theme.teal : style.color;
     style.corners = s.mode == Mode::kAdaptive ? 6 : 5;
-    style.name += " by island";
+    style.own_name += " by island";
   }
-  style.hollow = s.integrator == Integrator::kLeapfrog;
-  style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
-  const std::string sweeps = std::to_string(s.iterations) + (s.share_iterations ? " a frame" : "");
-  // Those that look at the end of a sub-step are called by their names.
+}
+
+std::string counted(int n, const char* what) {
+  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+}
+
+/// Those that look at the end of a sub-step are called by their names, and by a mode if it is
+/// another than that of a given N.
+void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
+  const char* integrator = style.hollow ? ", leapfrog" : ", Euler";
   const bool plain = s.mode == Mode::kNone || s.mode == Mode::kConst;
-  const std::string and_mode = plain ? "" : ", " + style.name;
+  const std::string and_mode = plain ? "" : ", " + style.own_name;
   switch (s.solver) {
     case SolverKind::kBpp:
-      if (style.hollow) style.name += ", leapfrog";
-      if (s.refinements > 0) {
-        style.color = theme.teal;
-        style.corners = 3;
-        style.name += ", refined " + std::to_string(s.refinements);
-      }
+      style.family = std::string("BPP") + integrator;
+      if (s.refinements == 0) break;
+      style.color = theme.teal;
+      style.corners = 3;
+      style.own_name += ", refined " + std::to_string(s.refinements);
       break;
     case SolverKind::kPgs:
-      if (style.hollow) style.name += ", leapfrog";
-      style.name += ", PGS " + sweeps;
+      style.family = std::string("PGS") + integrator;
       if (s.share_iterations) style.corners = 3;
+      if (s.share_iterations) {
+        style.own_name += ", " + counted(s.iterations, "sweep") + " a frame";
+      } else if (s.iterations != Settings{}.iterations) {
+        style.own_name += ", " + counted(s.iterations, "sweep");
+      }
       break;
     case SolverKind::kXpbd:
+      style.family = "XPBD";
       style.color = theme.purple;
       style.corners = s.iterations == 1 ? 5 : s.share_iterations ? 3 : 4;
-      style.name = "XPBD " + sweeps + and_mode;
+      style.own_name = counted(s.iterations, "sweep");
+      if (s.share_iterations) style.own_name += " a frame";
+      style.own_name += and_mode;
       break;
     case SolverKind::kNewton:
+      style.family = "Newton";
       style.color = theme.teal;
       style.corners = s.forces == Forces::kNumerov ? 3 : 0;
-      style.name = "Newton";
-      if (s.forces == Forces::kMean) style.name += ", mean forces";
-      if (s.forces == Forces::kNumerov) style.name += ", Numerov";
+      style.own_name = s.forces == Forces::kEnd    ? "forces at the end"
+                       : s.forces == Forces::kMean ? "mean forces"
+                                                   : "Numerov";
       if (s.iterations != Settings{}.iterations) {
         style.corners = s.iterations == 1 ? 5 : 4;
-        style.name +=
-            ", " + std::to_string(s.iterations) + (s.iterations == 1 ? " step" : " steps");
+        style.own_name += ", " + counted(s.iterations, "step");
       }
-      style.name += and_mode;
+      style.own_name += and_mode;
       break;
   }
+}
+
+}  // namespace
+
+CurveStyle curve_style(const Theme& theme, const Settings& s) {
+  CurveStyle style;
+  style.hollow = s.integrator == Integrator::kLeapfrog;
+  style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
+  style_of_mode(theme, s, style);
+  style_of_solver(theme, s, style);
   if (s.drift_order == 2) {
     style.corners = 5;
-    style.name += ", drift order 2";
+    style.own_name += ", drift order 2";
   }
   if (s.contact_stiffness == ContactStiffness::kExact) {
     style.corners = 5;
-    style.name += ", exact contact block";
+    style.own_name += ", exact contact block";
   }
   if (s.gyroscopic == Gyroscopic::kExplicit) {
     style.corners = 6;
-    style.name += ", explicit gyroscopic torque";
+    style.own_name += ", explicit torque";
   }
   return style;
 }

@@ -15,8 +15,11 @@ struct CurveStyle {
   ImU32 color = 0;
   bool hollow = false;
   bool dashed = false;
-  int corners = 0;   // of its points, 0 a disc
-  std::string name;  // "adaptive per frame, leapfrog"
+  int corners = 0;       // of its points, 0 a disc
+  std::string family;    // "BPP, leapfrog": solver and, where it has a choice of them, integrator
+  std::string own_name;  // within it: "adaptive per frame"
+
+  [[nodiscard]] std::string name() const { return family + ", " + own_name; }
 };
 CurveStyle curve_style(const Theme& theme, const Settings& settings);
 

@@ -85,9 +85,9 @@ std::string limit_text(const Accuracy& accuracy) {
 std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
                        const Accuracy::Point* best) {
   if (!search.choice()) {
-    return "The paper's method: with no alpha from " + plain_number(AlphaSearch::kLeast) +
-           " to 1 and at most " + std::to_string(accuracy.search_cap()) +
-           " sub-steps it holds and keeps within " + limit_text(accuracy) + ".";
+    return "No alpha from " + plain_number(AlphaSearch::kLeast) +
+           " to 1 makes the paper's method hold and keep within " + limit_text(accuracy) +
+           ", with at most " + std::to_string(accuracy.search_cap()) + " sub-steps a frame.";
   }
   const auto& [alpha, result] = *search.choice();
   const double cost = cost_of(result, accuracy.cost);
@@ -170,7 +170,7 @@ void advice(App& app) {
   draw_swatch(style, look.theme->panel | IM_COL32_A_MASK, draw, {at.x + 14.0F, at.y + 10.0F});
   draw_text(
       draw, look.fonts.medium, {at.x + 36.0F, at.y + 2.0F}, look.theme->text,
-      fitted(look.fonts.medium, style.name, ImGui::GetContentRegionAvail().x - 36.0F).c_str());
+      fitted(look.fonts.medium, style.name(), ImGui::GetContentRegionAvail().x - 36.0F).c_str());
   ImGui::Dummy({1.0F, 18.0F});
   const SeriesParameter parameter = series_parameter(s);
   const AlphaSearch* search = accuracy.alpha_search();

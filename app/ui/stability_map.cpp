@@ -80,8 +80,8 @@ void read_out(const Look& look, const Result& result, double ratio) {
   const SeriesParameter parameter = series_parameter(result.experiment.settings);
   ImGui::BeginTooltip();
   label(look.fonts.medium, look.theme->text,
-        (curve_style(*look.theme, result.experiment.settings).name + ", " + parameter.name + " = " +
-         plain_number(parameter.value))
+        (curve_style(*look.theme, result.experiment.settings).name() + ", " + parameter.name +
+         " = " + plain_number(parameter.value))
             .c_str());
   label(look.fonts.small, look.theme->dim, ("mass ratio " + plain_number(ratio)).c_str());
   label(look.fonts.small, result.metrics.holds ? look.theme->dim : look.theme->orange,
@@ -157,7 +157,7 @@ std::optional<std::size_t> stability_map(const Look& look, const Accuracy& accur
   for (const Grid& grid : grids_of(accuracy)) {
     const CurveStyle style = curve_style(*look.theme, grid.settings);
     label(look.fonts.small, look.theme->dim,
-          (style.name + ": " + series_parameter(grid.settings).name).c_str());
+          (style.own_name + ": " + series_parameter(grid.settings).name).c_str());
     if (const auto one = draw_grid(look, accuracy, grid, width)) chosen = one;
     space(8.0F);
   }

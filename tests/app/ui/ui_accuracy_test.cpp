@@ -275,6 +275,21 @@ TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
   }
 }
 
+// The top is where it was and nothing is solved: its energy over sub-steps is what there is.
+TEST(Accuracy, WhereNothingIsSolvedThePictureIsOfWhatThereIs) {
+  Headless h;
+  Scene scene = *shipped("spinning_top");
+  scene.criteria.duration = 0.2;
+  h.app->run(std::make_shared<const Scene>(std::move(scene)));
+  h.app->set("panel", "accuracy");
+  ASSERT_EQ(h.app->accuracy.cost, CostAxis::kOperations);
+  h.app->set("accuracy", "run");
+  finish(h);
+  EXPECT_EQ(h.app->accuracy.error, ErrorAxis::kEnergy);
+  EXPECT_EQ(h.app->accuracy.cost, CostAxis::kSubsteps);
+  EXPECT_GT(h.app->accuracy.points().size(), 30U);
+}
+
 TEST(Accuracy, ThePanelIsDrawnInEveryLayout) {
   Headless h;
   sweep_a_rope(h);

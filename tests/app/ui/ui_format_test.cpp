@@ -52,7 +52,9 @@ TEST(Format, UnitKeepsTheScaleBelowAThousand) {
   EXPECT_EQ(unit_for(0.02).prefix, "m");
   EXPECT_EQ(unit_for(5.0).prefix, "");
   EXPECT_EQ(unit_for(0.0).prefix, "");
-  EXPECT_EQ(unit_for(1e-9).prefix, "µ");
+  EXPECT_EQ(unit_for(2e-9).prefix, "n");
+  EXPECT_EQ(unit_for(4.3e-13).prefix, "f");
+  EXPECT_EQ(unit_for(2e-17).prefix, "10⁻¹⁸ ");
   EXPECT_EQ(unit_for(2e14).prefix, "T");
   EXPECT_EQ(unit_for(2e28).prefix, "10²⁷ ");
   EXPECT_EQ(unit_for(2e28).factor, 1e27);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -38,16 +37,6 @@ constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting that 
 constexpr std::array<const char*, static_cast<std::size_t>(CostAxis::kCount)> kBudgetNames{
     "Sub-steps", "Operations", "Time, ms"};
 
-/// A slider by the exponent: Dear ImGui's logarithmic ones end at what their format prints as zero.
-void limit_slider(const Look& look, const char* name, double least, double most, double& value,
-                  const char* tip) {
-  double exponent = std::log10(value);
-  if (slider(look, name, exponent, std::min(exponent, std::log10(least)),
-             std::max(exponent, std::log10(most)), false, "10^%.1f", tip)) {
-    value = std::pow(10.0, exponent);
-  }
-}
-
 /// What is wanted, and how much of it.
 void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Point>& points) {
   int given = accuracy.error_is_given ? 0 : 1;
@@ -62,13 +51,13 @@ void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Po
   };
   if (accuracy.error_is_given) {
     const auto [least, most] = limits(&CostAndError::error);
-    limit_slider(look, accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m", least, most,
-                 accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)),
+    power_slider(look, accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m",
+                 accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), least, most,
                  "The error that is wanted at most. What holds it at the least cost is below");
   } else {
     const auto cost = static_cast<std::size_t>(accuracy.cost);
     const auto [least, most] = limits(&CostAndError::cost);
-    limit_slider(look, kBudgetNames.at(cost), least, most, accuracy.budget.at(cost),
+    power_slider(look, kBudgetNames.at(cost), accuracy.budget.at(cost), least, most,
                  "What a frame may cost at most. What comes nearest for it is below");
   }
 }

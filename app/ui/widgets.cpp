@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <type_traits>
 
 #include "app/ui/handles.hpp"
 
@@ -30,8 +32,33 @@ ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width)
   return {origin.x + kNameWidth, origin.y, origin.x + width, origin.y + look.m.row};
 }
 
+/// What a slider goes along: its value, that logarithmically, or its power of ten. Dear ImGui's
+/// logarithmic ones end at what their format prints as zero.
+enum class Track : std::uint8_t { kValue, kLogarithmic, kPower };
+
 template <class T>
-bool slider_row(const Look& look, const char* name, T& value, T least, T most, bool logarithmic,
+bool slide(const ImRect& frame, ImGuiID id, T& value, T least, T most, Track track,
+           ImGuiDataType type, const char* format, ImRect& grab) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (track == Track::kPower) {
+      double power = std::log10(value);
+      const double from = std::min(power, std::log10(least));
+      const double to = std::max(power, std::log10(most));
+      if (!ImGui::SliderBehavior(frame, id, type, &power, &from, &to, "%.1f", ImGuiSliderFlags_None,
+                                 &grab)) {
+        return false;
+      }
+      value = std::pow(10.0, power);
+      return true;
+    }
+  }
+  return ImGui::SliderBehavior(
+      frame, id, type, &value, &least, &most, format,
+      track == Track::kLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None, &grab);
+}
+
+template <class T>
+bool slider_row(const Look& look, const char* name, T& value, T least, T most, Track track,
                 ImGuiDataType type, const char* format, const char* tip) {
   constexpr float kValueWidth = 48.0F;
   ImGuiWindow* window = ImGui::GetCurrentWindow();
@@ -79,9 +106,7 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, b
   ImRect grab;
   const float radius = 7.0F;
   ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 2.0F * radius);
-  const bool changed = ImGui::SliderBehavior(
-      frame, id, type, &value, &least, &most, format,
-      logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None, &grab);
+  const bool changed = slide(frame, id, value, least, most, track, type, format, grab);
   ImGui::PopStyleVar();
   if (changed) ImGui::MarkItemEdited(id);
 
@@ -332,11 +357,20 @@ bool segmented_row(const Look& look, const char* name, std::span<const Choice> c
 
 bool slider(const Look& look, const char* name, double& value, double least, double most,
             bool logarithmic, const char* format, const char* tip) {
-  return slider_row(look, name, value, least, most, logarithmic, ImGuiDataType_Double, format, tip);
+  return slider_row(look, name, value, least, most,
+                    logarithmic ? Track::kLogarithmic : Track::kValue, ImGuiDataType_Double, format,
+                    tip);
+}
+bool power_slider(const Look& look, const char* name, double& value, double least, double most,
+                  const char* tip) {
+  return slider_row(look, name, value, least, most, Track::kPower, ImGuiDataType_Double, "%.2g",
+                    tip);
 }
 bool slider(const Look& look, const char* name, int& value, int least, int most, bool logarithmic,
             const char* tip) {
-  return slider_row(look, name, value, least, most, logarithmic, ImGuiDataType_S32, "%d", tip);
+  return slider_row(look, name, value, least, most,
+                    logarithmic ? Track::kLogarithmic : Track::kValue, ImGuiDataType_S32, "%d",
+                    tip);
 }
 
 bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip) {

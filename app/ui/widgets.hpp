@@ -53,6 +53,9 @@ bool slider(const Look& look, const char* name, double& value, double least, dou
             bool logarithmic, const char* format, const char* tip);
 bool slider(const Look& look, const char* name, int& value, int least, int most, bool logarithmic,
             const char* tip);
+/// Over as many powers of ten as there are. @param value, least, most > 0
+bool power_slider(const Look& look, const char* name, double& value, double least, double most,
+                  const char* tip);
 
 bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip);
 

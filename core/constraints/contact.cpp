@@ -6,7 +6,8 @@ namespace substep {
 
 namespace {
 
-void set_row(Block& block, int row, const Vec3& direction) {
+void set_row(Block& block, int row, const Vec3& along) {
+  const Vec3 direction = along;  // which may be the block's own
   const Vec3 A = block.r_a.cross(direction);
   const Vec3 B = block.r_b.cross(direction);
   for (int j = 0; j < 3; ++j) {
@@ -32,10 +33,12 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
   block.body_b = point.b;
   block.rows = 1;
   block.pinned = false;
-  block.n = point.n;
   const Vec3 b_from_a = x_b - x_a;
-  block.r_a = 0.5 * (point.point_a + (b_from_a + point.point_b));
-  block.r_b = 0.5 * (point.point_b + (point.point_a - b_from_a));
+  const Vec3 r_a = 0.5 * (point.point_a + (b_from_a + point.point_b));
+  const Vec3 r_b = 0.5 * (point.point_b + (point.point_a - b_from_a));
+  block.n = point.n;
+  block.r_a = r_a;
+  block.r_b = r_b;
   block.arm_a = point.field_arm;
   block.rho = (x_a - x_b) + point.field_arm;
   block.H = point.H;

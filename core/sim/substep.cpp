@@ -277,14 +277,14 @@ void Simulator::Impl::seed_forces() {
     block.was_closed = false;
     if (!block.is_contact() && !starts_from_last_forces(settings)) continue;  // not stored
     for (std::size_t tried = 0; tried < known; ++tried) {
-      const StoredForce& force = of_last[(next + tried) % known];
+      const StoredForce& force = of_last[next];
+      next = next + 1 < known ? next + 1 : 0;
       if (force.id != block.id) continue;
       for (int row = 0; row < block.rows; ++row) {
         block.impulse[row] = force.lambda[row] * impulse_time_of(block);
         block.tight[row] = force.tight[row];
       }
       block.was_closed = force.lambda[0] > 0.0;
-      next = (next + tried + 1) % known;
       break;
     }
   }

@@ -10,6 +10,11 @@ inline const double (&gradient(const Block& block, int row, bool of_a))[6] {
   return of_a ? block.J_a[row] : block.J_b[row];
 }
 
+/// Number by number: pairs of them would wait for each other where they have just been written.
+inline void copy6(const double* from, double* to) {
+  for (int j = 0; j < 6; ++j) to[j] = from[j];
+}
+
 inline double dot6(const double* a, const double* b) {
   return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }

@@ -220,7 +220,8 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto 
   double* U = values_.data() + node.update;
   std::fill(U, U + n * n, 0.0);
   std::fill(f.Y, f.Y + 6 * n, 0.0);
-  Square6 A = {};
+  Square6& A = square(node.values);
+  std::fill(f.A, f.A + 36, 0.0);
   add_inertia(node, A);
   add_children(node, A, f.Y, U, n);
   for (std::size_t k = 0; k < node.n_attached; ++k) {
@@ -235,7 +236,6 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto 
     }
     add_springs(blocks[index(attached.block)], attached.is_a, to);
   }
-  for (std::size_t i = 0; i < 6; ++i) std::copy(A[i], A[i] + 6, f.A + 6 * i);
   std::fill(f.A_inverse, f.A_inverse + 6, 0.0);
   factor_ldlt(f.A, Known<6>{}, f.A_inverse);
   solve_lower(f.A, Known<6>{}, n, f.Y);

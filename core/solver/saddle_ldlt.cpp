@@ -82,17 +82,17 @@ void SaddleLdlt::forward(const Node& node) {
   const int n = width(node);
   const Factor f = at(node);
   double weighted[6];  // D^-1 L^-1 g; bare: g
-  std::copy(g, g + 6, weighted);
+  copy6(g, weighted);
   if (node.way == Way::kGeneral) {
     solve_lower(f.A, Known<6>{}, Known<1>{}, weighted);
-    std::copy(weighted, weighted + 6, g);
+    copy6(weighted, g);
     for (int j = 0; j < 6; ++j) weighted[j] *= f.A_inverse[j];
     for (int s = 0; s < node.coupled; ++s) {
       double* to = v_[index(coupled[s])].data();
       double left[6];
-      std::copy(to, to + 6, left);
+      copy6(to, left);
       for (int j = 0; j < 6; ++j) subtract6(f.Y + j * n + 6 * s, weighted[j], left);
-      std::copy(left, left + 6, to);
+      copy6(left, to);
     }
   }
   if (node.n_rows == 0) return;
@@ -132,7 +132,7 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
   if (node.way == Way::kBare) {
     weigh(inverse_mass_[index(node.body)], v, change);
   } else {
-    std::copy(v, v + 6, change);
+    copy6(v, change);
   }
   with_known(node.n_rows, [&](auto rows) { backward_rows(node, f, rows, blocks, change); });
   if (node.way == Way::kGeneral) {
@@ -144,7 +144,7 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
     for (int j = 0; j < 6; ++j) change[j] *= f.A_inverse[j];
     solve_upper(f.A, Known<6>{}, change);
   }
-  std::copy(change, change + 6, v);
+  copy6(change, v);
 }
 
 void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows,

@@ -8,6 +8,7 @@ namespace substep {
 // so row i has the linear part e_i and the angular part r_a x e_i.
 void ball_constants(const JointBase& joint, Block& block) {
   block.pinned = true;
+  for (std::int8_t& tight : block.tight) tight = 0;  // no row is ever let go of
   for (int i = 0; i < 3; ++i) {
     block.C[i] = joint.compliance;
     for (int j = 0; j < 3; ++j) {

@@ -39,8 +39,8 @@ struct Block {
   double bias[kMaxRows];        // drift correction [m/s or rad/s]
   double softness[kMaxRows];    // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
   double impulse[kMaxRows];     // dt lambda: seed in, solution out [N s or N m s]
-  double lambda[kMaxRows];      // constraint force of this sub-step [N or N m]
-  std::int8_t tight[kMaxRows];  // active set of BPP: -1 at lo, 0 free, +1 at hi
+  double lambda[kMaxRows];      // constraint force of this sub-step, where it is read [N or N m]
+  std::int8_t tight[kMaxRows];  // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
   // Contact only: row 0 is the normal, rows 1 and 2 friction with bounds +-mu * impulse[0].
   double mu = 0.0;          // [-]

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstring>
+#include <span>
 #include <vector>
 
 namespace substep {
@@ -16,6 +18,11 @@ using Quat = Eigen::Quaterniond;
 
 /// An index as containers take it. Elsewhere -1 stands for none.
 inline std::size_t index(int i) { return static_cast<std::size_t>(i); }
+
+/// Velocities of bodies as the memory that they are, not number by number.
+inline void copy(std::span<const Vec6> from, std::span<Vec6> to) {
+  if (!from.empty()) std::memcpy(to.data()->data(), from.data()->data(), from.size_bytes());
+}
 
 /// [x]: the matrix with [x] y = x cross y.
 inline Mat3 skew(const Vec3& x) {

@@ -26,7 +26,7 @@ struct Carried {
   double dt_previous = 0.0;       // the last sub-step, 0 at the start [s]
   double r = 0.0;                 // largest k_i/M_ii, Eq. 9 [1/s^2]
   std::vector<Vec6> k;            // diagonal of K per body, Eq. 4 [N/m, N m/rad], or empty
-  std::vector<Mat3> K_resisting;  // per body, of mode stiffness: math/resisting.hpp, or empty
+  std::vector<Mat3> K_resisting;  // per body, of mode stiffness: full_stiffness.hpp, or empty
   bool stiffness_known = false;   // r and k are of the last frame; where not, a probe is due
   std::vector<StoredForce> forces;
   std::vector<OwnSubstep> own;  // per body, or empty: dt_previous is that of all bodies

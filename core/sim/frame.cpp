@@ -65,7 +65,7 @@ void Simulator::Impl::probe(FrameReport& report) {
     std::swap(state.forces, forces);
     if (evaluate_stiffness(report)) state.r = bound.r;
   }
-  std::copy(u_start.begin(), u_start.end(), state.u.begin());
+  copy(u_start, state.u);
   state.stiffness_known = true;
   report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will
   report.failed_body = -1;

@@ -16,6 +16,9 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);
   solver = make_solver(settings.solver);
   all = whole(*scene);
+  for (const Body& body : scene->bodies) {
+    if (!body.is_static) heaviest = std::max({heaviest, body.mass, body.inertia.maxCoeff()});
+  }
 
   // Room for the contacts to come, and a hand: a sub-step must not allocate when bodies touch.
   const std::size_t n = scene->bodies.size();
@@ -75,7 +78,8 @@ ConstraintForces Simulator::constraint_forces() const {
   const auto pulled = [](const Block& block) -> Eigen::Vector3f {
     return Vec3(block.lambda[0], block.lambda[1], block.lambda[2]).cast<float>();
   };
-  for (const Block& block : impl_->blocks.all()) {
+  for (Block& block : impl_->blocks.all()) {
+    impl_->set_lambda(block);
     if (block.is_contact()) {
       Vec3 force = block.lambda[0] * block.n;
       if (block.rows == 3) force += block.lambda[1] * block.t1 + block.lambda[2] * block.t2;

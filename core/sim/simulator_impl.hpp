@@ -41,6 +41,7 @@ struct Simulator::Impl {
   std::span<Block> rows() { return blocks.from(first_block); }
   bool holds_grab() const { return grab && part().holds(grab->body); }
   double impulse_time_of(const Block& block) const;  // lambda = impulse / it [s]
+  void set_lambda(Block& block) const;               // where somebody is going to read it
 
   static RowCounts count_rows(std::span<const Block> of);
   bool probe_due() const;
@@ -68,7 +69,8 @@ struct Simulator::Impl {
   bool contacts_foreseen = false;   // those of the open frame
   FrameReport stopped;              // the report of the frame that failed
 
-  Part all;                          // of the scene
+  Part all;               // of the scene
+  double heaviest = 1.0;  // of all masses and moments of inertia, at least 1 [kg or kg m^2]
   std::unique_ptr<Islands> islands;  // built when they are first asked for
 
   // Stages: null where the scene does not call for the effect.

@@ -38,11 +38,12 @@ void Simulator::Impl::begin_substep(FrameReport& report) {
     first_force = forces.size();
     state.time = static_cast<double>(state.frame) * scene->frame;
   }
-  for (const int body : part().bodies) {
+  const Part& moved = part();
+  for (const int body : moved.bodies) {
     const auto i = static_cast<std::size_t>(body);
     R_WB[i] = state.q[i].toRotationMatrix();
   }
-  std::copy(state.u.begin(), state.u.end(), u_start.begin());
+  copy(state.u, u_start);
   if (open) report.n_substeps = std::max(report.n_substeps, schedule.number());
 }
 
@@ -84,12 +85,13 @@ bool Simulator::Impl::append_contacts() {
 }
 
 void Simulator::Impl::external_forces(double dt, FrameReport& report) {
-  for (const int body : part().bodies) {
+  const Part& moved = part();
+  for (const int body : moved.bodies) {
     const auto i = static_cast<std::size_t>(body);
     impulse_time[i] = force_time(settings.integrator, state.dt_previous_of(i), dt);
   }
   if (scene->effects.gyroscopic) {
-    for (const int body : part().bodies) {
+    for (const int body : moved.bodies) {
       const auto i = static_cast<std::size_t>(body);
       if (!has_gyroscopic_torque(scene->bodies[i])) continue;
       const Vec3& I = scene->bodies[i].inertia;
@@ -101,19 +103,19 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
     }
     report.stages.gyroscopic = true;
   }
-  std::copy(state.u.begin(), state.u.end(), u_before.begin());
+  copy(state.u, u_before);
   if (scene->effects.gravity) {
-    for (const int body : part().bodies) {
+    for (const int body : moved.bodies) {
       const auto i = static_cast<std::size_t>(body);
       if (!scene->bodies[i].is_static) state.u[i].head<3>() += impulse_time[i] * scene->gravity;
     }
     report.stages.gravity = true;
   }
   if (changes_mass(settings.mode)) {
-    effective_mass(*scene, part(), settings, R_WB, u_start, dt, state, inverse_mass);
+    effective_mass(*scene, moved, settings, R_WB, u_start, dt, state, inverse_mass);
     report.stages.effective_mass = true;
   } else {
-    substep::inverse_mass(*scene, part(), R_WB, inverse_mass);
+    substep::inverse_mass(*scene, moved, R_WB, inverse_mass);
   }
   clock.lap(report.times.mass);
 }
@@ -139,12 +141,9 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
   const SolveReport solved = solver->solve(system, asked);
-  smooth = true;
-  for (Block& block : own) {
-    if (block.is_contact() && !block.was_closed && block.impulse[0] > 0.0) smooth = false;
-    const double time = impulse_time_of(block);
-    for (int row = 0; row < block.rows; ++row) block.lambda[row] = block.impulse[row] / time;
-  }
+  smooth = std::none_of(own.begin(), own.end(), [](const Block& block) {
+    return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;
+  });
 
   SolverWork& work = report.work;
   ++work.solves;
@@ -162,13 +161,19 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
 
 // Velocities have their kinetic energy within the range of numbers, which ends long before theirs.
 bool Simulator::Impl::finite(FrameReport& report) {
-  double sum = 0.0;
-  for (const int body : part().bodies) {
-    const auto i = static_cast<std::size_t>(body);
-    sum += most_kinetic(scene->bodies[i], state.u[i]);
-    if (std::isfinite(sum)) continue;
-    stop(i, report);
-    return false;
+  const Part& moved = part();
+  double squares = 0.0;
+  for (const int body : moved.bodies)
+    squares += state.u[static_cast<std::size_t>(body)].squaredNorm();
+  if (!std::isfinite(heaviest * squares)) {  // then it may be one that is too fast
+    double sum = 0.0;
+    for (const int body : moved.bodies) {
+      const auto i = static_cast<std::size_t>(body);
+      sum += most_kinetic(scene->bodies[i], state.u[i]);
+      if (std::isfinite(sum)) continue;
+      stop(i, report);
+      return false;
+    }
   }
   store_forces();
   return true;
@@ -177,11 +182,12 @@ bool Simulator::Impl::finite(FrameReport& report) {
 void Simulator::Impl::stop(std::size_t body, FrameReport& report) {
   report.status = StepStatus::kNotFinite;
   report.failed_body = static_cast<int>(body);
-  std::copy(u_start.begin(), u_start.end(), state.u.begin());
+  copy(u_start, state.u);
 }
 
 bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
+  for (Block& block : rows()) set_lambda(block);
   const bool full = rules_of(settings.mode).mass == StiffMass::kFull;
   const ContactTerms terms = full ? ContactTerms::kNormal
                              : settings.contact_stiffness == ContactStiffness::kExact
@@ -225,12 +231,16 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   integrate(*scene, part(), dt, state);
   // u stands half a sub-step behind the new poses. Half a sub-step of the accelerations just found
   // brings it up to them; an impact is no acceleration, so nothing is added then.
-  for (const int body : part().bodies) {
-    const auto i = static_cast<std::size_t>(body);
-    const double dt_previous = state.dt_previous_of(i);
+  const auto ahead_after = [&](double dt_previous) {
     const double before =
         settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
-    const double ahead = smooth ? dt / (before + dt) : 0.0;
+    return smooth ? dt / (before + dt) : 0.0;
+  };
+  const double ahead_of_all = ahead_after(state.dt_previous);
+  const Part& moved = part();
+  for (const int body : moved.bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    const double ahead = state.own.empty() ? ahead_of_all : ahead_after(state.own[i].dt_previous);
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
     if (scene->effects.gyroscopic && has_gyroscopic_torque(scene->bodies[i])) {
       // u_before already has this torque up to the middle of the sub-step: half a sub-step is left.
@@ -255,6 +265,11 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   clock.lap(report.times.integrate);
 }
 
+void Simulator::Impl::set_lambda(Block& block) const {
+  const double time = impulse_time_of(block);
+  for (int row = 0; row < block.rows; ++row) block.lambda[row] = block.impulse[row] / time;
+}
+
 // Bodies that have just met may differ in it; the force between them then is one in name only.
 double Simulator::Impl::impulse_time_of(const Block& block) const {
   const double a = block.a < 0 ? 0.0 : impulse_time[static_cast<std::size_t>(block.a)];
@@ -268,21 +283,23 @@ void Simulator::Impl::seed_forces() {
   const std::span<const StoredForce> of_last =
       goes_on ? std::span<const StoredForce>(forces).subspan(first_force) : state.forces;
   const std::size_t known = of_last.size();
+  const bool all_are_stored = starts_from_last_forces(settings);
   for (Block& block : rows()) {
-    const std::int8_t set = block.is_contact() ? kUnknownSet : std::int8_t{0};
-    for (int row = 0; row < kMaxRows; ++row) {
-      block.impulse[row] = 0.0;
-      block.tight[row] = set;
+    for (double& impulse : block.impulse) impulse = 0.0;
+    if (block.is_contact()) {
+      for (std::int8_t& tight : block.tight) tight = kUnknownSet;
+      block.was_closed = false;
+    } else if (!all_are_stored) {
+      continue;
     }
-    block.was_closed = false;
-    if (!block.is_contact() && !starts_from_last_forces(settings)) continue;  // not stored
     for (std::size_t tried = 0; tried < known; ++tried) {
       const StoredForce& force = of_last[next];
       next = next + 1 < known ? next + 1 : 0;
       if (force.id != block.id) continue;
+      const double time = impulse_time_of(block);
       for (int row = 0; row < block.rows; ++row) {
-        block.impulse[row] = force.lambda[row] * impulse_time_of(block);
-        block.tight[row] = force.tight[row];
+        block.impulse[row] = force.lambda[row] * time;
+        if (block.is_contact()) block.tight[row] = force.tight[row];
       }
       block.was_closed = force.lambda[0] > 0.0;
       break;
@@ -292,8 +309,10 @@ void Simulator::Impl::seed_forces() {
 
 void Simulator::Impl::store_forces() {
   forces.resize(first_force);
-  for (const Block& block : rows()) {
-    if (!block.is_contact() && !starts_from_last_forces(settings)) continue;
+  const bool all_are_stored = starts_from_last_forces(settings);
+  for (Block& block : rows()) {
+    if (!block.is_contact() && !all_are_stored) continue;
+    set_lambda(block);
     StoredForce& force = forces.emplace_back();
     force.id = block.id;
     for (int row = 0; row < block.rows; ++row) {

@@ -73,12 +73,13 @@ void soften_angular(const double (&e)[2][3], const double* s, Symmetric6& A) {
 
 }  // namespace
 
-void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star) {
+void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star,
+                            const double* reference) {
   const double sign = child_is_a ? 1.0 : -1.0;
   const int child = child_is_a ? joint.a : joint.b;
   const int parent = child_is_a ? joint.b : joint.a;
-  const Vec3 r = child_is_a ? joint.r_a : joint.r_b;
-  const Vec3 r_parent = child_is_a ? joint.r_b : joint.r_a;
+  const Vec3& r = child_is_a ? joint.r_a : joint.r_b;
+  const Vec3& r_parent = child_is_a ? joint.r_b : joint.r_a;
 
   const double* u = u_star[static_cast<std::size_t>(child)].data();
   double speed[6];  // of the child at the pivot, from the parent
@@ -98,14 +99,15 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const
   }
   rows_ = joint.rows;
   sign_ = sign;
-  exact_ = true;
+  double softness = 0.0;  // of all rows together: none is negative
   for (int i = 0; i < 3; ++i) {
     r_[i] = r[i];
-    r_parent_[i] = r_parent[i];
+    to_parent_[i] = (reference != nullptr ? reference[i] : 0.0) - r_parent[i];
     w_[i] = speed[i] + sign * joint.bias[i];
     softness_[i] = joint.softness[i];
-    exact_ = exact_ && softness_[i] == 0.0;
+    softness += joint.softness[i];
   }
+  exact_ = softness == 0.0;
   if (joint.kind == BlockKind::kBall) {
     for (int k = 0; k < 3; ++k) {
       for (int i = 0; i < 3; ++i) free_[k].f[i] = i == k ? 1.0 : 0.0;
@@ -113,15 +115,14 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const
     return;
   }
   // The free direction is across both angular rows; e_ is dual to them within their plane.
-  double J[2][3];
+  double J[2][3];  // on the child minus the parent; on b the rows are those on a, negative
   for (int k = 0; k < 2; ++k) {
-    for (int i = 0; i < 3; ++i) {
-      J[k][i] = child_is_a ? joint.J_a[3 + k][3 + i] : -joint.J_b[3 + k][3 + i];
-    }
+    for (int i = 0; i < 3; ++i) J[k][i] = joint.J_a[3 + k][3 + i];
     w_[3 + k] = dot(J[k], speed + 3) + sign * joint.bias[3 + k];
     softness_[3 + k] = joint.softness[3 + k];
-    exact_ = exact_ && softness_[3 + k] == 0.0;
+    softness += joint.softness[3 + k];
   }
+  exact_ = softness == 0.0;
   double f[3];
   double e[2][3];
   cross(J[0], J[1], f);
@@ -132,13 +133,6 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const
     free_[0].f[i] = f[i];
     e_[0][i] = e[0][i] * per_square;
     e_[1][i] = e[1][i] * per_square;
-  }
-}
-
-void ArticulatedJoint::refer_to(const double* reference) {
-  for (int i = 0; i < 3; ++i) {
-    to_parent_[i] = (reference != nullptr ? reference[i] : 0.0) - r_parent_[i];
-    g_[i] = g_[3 + i] = 0.0;
   }
 }
 
@@ -157,7 +151,7 @@ void ArticulatedJoint::eliminate_rows(Symmetric6& A) {
   if (rows == 5 && (s[3] != 0.0 || s[4] != 0.0)) soften_angular(e_, s + 3, A);
 }
 
-void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, Square6* to_parent) {
+void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, bool has_parent) {
   Symmetric6 A = add_inertia(W, r_, carried);
   if (rows_ == 5) {
     eliminate_rows<5>(A);
@@ -165,7 +159,7 @@ void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, S
     eliminate_rows<3>(A);
   }
   A.rows(P_);
-  if (to_parent != nullptr) A.shift(to_parent_, *to_parent);
+  if (has_parent) A.shift(to_parent_, left_);
 }
 
 // Vectors of a body stay in registers from the first line of a function to its last.
@@ -174,11 +168,14 @@ void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, S
 template <int rows, bool exact>
 void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
   double torque[3];
-  cross(r_, g_centre, torque);
   double g[6];
-  for (int i = 0; i < 3; ++i) {
-    g[i] = g_[i] + g_centre[i];
-    g[3 + i] = g_[3 + i] + (g_centre[3 + i] - torque[i]);
+  for (int i = 0; i < 6; ++i) g[i] = g_[i];
+  if (g_centre != nullptr) {
+    cross(r_, g_centre, torque);
+    for (int i = 0; i < 3; ++i) {
+      g[i] += g_centre[i];
+      g[3 + i] += g_centre[3 + i] - torque[i];
+    }
   }
   for (int k = 0; k < n_free(rows); ++k) {
     Free& free = free_[k];

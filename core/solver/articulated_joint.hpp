@@ -15,16 +15,22 @@ namespace substep {
 class ArticulatedJoint {
  public:
   /// What a sub-step knows of the joint. @param child_is_a which side of the block is eliminated
-  void read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star);
   /// @param reference the parent's pivot from its centre [m], nullptr for the centre
-  void refer_to(const double* reference);
+  void read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star,
+            const double* reference);
 
   /// @param W Mt^-1 of the child  @param carried what the child carries of others, about its pivot;
-  /// only the upper half is read
-  /// @param to_parent out: what the parent gains, its upper half; nullptr for the world
-  void eliminate(const InverseMass& W, const Square6& carried, Square6* to_parent);
+  /// only the upper half is read  @param has_parent that is not the world
+  void eliminate(const InverseMass& W, const Square6& carried, bool has_parent);
+  /// What the parent gains, its upper half.
+  [[nodiscard]] const Square6& left() const { return left_; }
 
-  /// @param g_centre momentum that the child is given about its centre [N s, N m s]
+  /// Forgets the momentum that it was handed.
+  void rest() {
+    for (double& g : g_) g = 0.0;
+  }
+  /// @param g_centre momentum that the child is given about its centre [N s, N m s], nullptr for
+  /// none
   /// @param g_parent momentum of the parent, added to; nullptr for the world
   void forward(const double* g_centre, double* g_parent);
 
@@ -63,12 +69,12 @@ class ArticulatedJoint {
   bool exact_;           // no row has softness
   double sign_;          // child minus parent against the block's a minus b
   double r_[3];          // pivot from the child's centre [m]
-  double r_parent_[3];   // pivot from the parent's centre [m]
   double to_parent_[3];  // the parent's reference point from the pivot [m]
   double e_[2][3];       // hinge: across the axis, dual to the two angular rows
   double w_[kMaxRows];   // child minus parent: J u* + bias [m/s, rad/s]
   double softness_[kMaxRows];
   Free free_[3];
+  Square6 left_;
   Rows6 P_;      // what the parent sees of the child, at the pivot
   double g_[6];  // momentum at the pivot, first the child's, then what the parent sees of it
   double v_[6];

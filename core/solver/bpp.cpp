@@ -119,9 +119,7 @@ std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& 
       block.impulse[row] = std::min(bound, std::max(-bound, block.impulse[row]));
     }
   }
-  const auto restore = [&] {
-    std::copy(ldlt_.u_star().begin(), ldlt_.u_star().end(), system.u.begin());
-  };
+  const auto restore = [&] { copy(ldlt_.u_star(), system.u); };
   restore();
   Settings sweeps = settings;
   sweeps.iterations = std::max(settings.iterations, kSweeps);
@@ -146,10 +144,7 @@ std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& 
 void Bpp::start_active_set(const System& system) {
   friction_bound_.assign(system.blocks.size(), 0.0);
   for (Block& block : system.blocks) {
-    if (!block.is_contact()) {
-      for (int row = 0; row < block.rows; ++row) block.tight[row] = 0;
-      continue;
-    }
+    if (!block.is_contact()) continue;  // free, as they are seeded
     if (block.tight[0] == kUnknownSet) {
       double speed[kMaxRows];
       row_speeds(block, system.u, speed);

@@ -25,16 +25,7 @@ void mirror(Square6& A) {
 
 }  // namespace
 
-Square6& SaddleLdlt::square(std::size_t at) {
-  return *reinterpret_cast<Square6*>(values_.data() + at);
-}
-
-void SaddleLdlt::count(Node& node) {
-  if (node.folds || node.n_rows != node.counted_rows) count_anew(node);
-  flops_ += node.factor_flops;
-}
-
-void SaddleLdlt::count_anew(Node& node) const {
+void SaddleLdlt::count(Node& node) const {
   const std::int64_t n = width(node);
   const std::int64_t rows = node.n_rows;
   node.counted_rows = node.n_rows;
@@ -55,17 +46,6 @@ void SaddleLdlt::count_anew(Node& node) const {
   node.solve_flops =
       node.springs.solve + 2 * (unit_triangle_flops(6) + unit_triangle_flops(rows) +
                                 product_flops(rows, 6, 2) + product_flops(rows + 6, n, 1));
-}
-
-void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
-  switch (node.way) {
-    case Way::kArticulated:
-      return factor_articulated(node);
-    case Way::kBare:
-      return factor_bare(node, blocks);
-    case Way::kGeneral:
-      return factor_general(node, blocks);
-  }
 }
 
 void SaddleLdlt::add_inertia(const Node& node, Square6& A) const {
@@ -94,6 +74,13 @@ void SaddleLdlt::add_left(const Node& child, int s, int t, double* to, auto stri
                                   rows, 1.0, m, to, stride);
     });
   }
+  if (child.way == Way::kArticulated) {  // the upper half alone
+    const Square6& left = child.joint->left();
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j <= i; ++j) to[i * stride + j] += left[j][i];
+    }
+    return;
+  }
   const double* from = values_.data() + child.update + 6 * s * m + 6 * t;
   for (int i = 0; i < 6; ++i) {
     const int n = on_diagonal ? i + 1 : 6;
@@ -116,37 +103,24 @@ void SaddleLdlt::add_children(const Node& node, Square6& A, double* B, double* U
   }
 }
 
-void SaddleLdlt::factor_articulated(Node& node) {
-  ArticulatedJoint& joint = joints_[node.joint];
-  const int* children = children_.data() + node.first_child;
-  Square6 sum;
-  const Square6* carried = &sum;
-  if (node.n_children == 1 && nodes_[index(children[0])].way == Way::kArticulated) {
-    carried = &square(nodes_[index(children[0])].update);
-  } else {
-    std::fill(&sum[0][0], &sum[0][0] + 36, 0.0);
-    for (std::size_t c = 0; c < node.n_children; ++c) {
-      const Node& child = nodes_[index(children[c])];
-      Square6 shifted;
-      const Square6* from = &shifted;
-      if (child.way == Way::kArticulated) {
-        from = &square(child.update);
-      } else {
-        Square6 left = {};
-        add_left<true>(child, 0, 0, left[0], Known<6>{});
-        mirror(left);
-        load(left).shift(joint.pivot(), shifted);
-      }
-      for (int i = 0; i < 6; ++i) {
-        for (int j = i; j < 6; ++j) sum[i][j] += (*from)[i][j];
-      }
+// What an articulated node carries of its children, about its pivot.
+void SaddleLdlt::sum_carried(const Node& node, Square6& sum) {
+  std::fill(&sum[0][0], &sum[0][0] + 36, 0.0);
+  for (std::size_t c = 0; c < node.n_children; ++c) {
+    const Node& child = nodes_[index(children_[node.first_child + c])];
+    Square6 shifted;
+    const Square6* from = &shifted;
+    if (child.way == Way::kArticulated) {
+      from = &child.joint->left();
+    } else {
+      Square6 left = {};
+      add_left<true>(child, 0, 0, left[0], Known<6>{});
+      mirror(left);
+      load(left).shift(node.joint->pivot(), shifted);
     }
-  }
-  Square6* to_parent = node.parent < 0 ? nullptr : &square(node.update);
-  joint.eliminate(inverse_mass_[index(node.body)], *carried, to_parent);
-  if (to_parent == nullptr || nodes_[index(node.parent)].way == Way::kArticulated) return;
-  for (int i = 1; i < 6; ++i) {
-    for (int j = 0; j < i; ++j) (*to_parent)[i][j] = (*to_parent)[j][i];
+    for (int i = 0; i < 6; ++i) {
+      for (int j = i; j < 6; ++j) sum[i][j] += (*from)[i][j];
+    }
   }
 }
 
@@ -220,7 +194,7 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto 
   double* U = values_.data() + node.update;
   std::fill(U, U + n * n, 0.0);
   std::fill(f.Y, f.Y + 6 * n, 0.0);
-  Square6& A = square(node.values);
+  Square6& A = *reinterpret_cast<Square6*>(f.A);
   std::fill(f.A, f.A + 36, 0.0);
   add_inertia(node, A);
   add_children(node, A, f.Y, U, n);

@@ -71,18 +71,22 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
 void SaddleLdlt::begin(const System& system) {
   flops_ = 0;
   inverse_mass_ = system.inverse_mass;
-  u_star_.assign(system.u.begin(), system.u.end());
+  u_star_.resize(system.u.size());
+  copy(system.u, u_star_);
   if (!layout_is_the_same(system)) lay_out(system);
   w_.resize(system.blocks.size() * kMaxRows);
   for (Node& node : nodes_) node.dirty = true;
   read(system.blocks);
 }
 
+// From the root on: a joint refers to the pivot of its parent.
 void SaddleLdlt::read(std::span<const Block> blocks) {
-  for (const Node& node : nodes_) {
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
     if (node.way == Way::kArticulated) {
       const Attached& attached = attached_[node.first_attached];
-      joints_[node.joint].read(blocks[index(attached.block)], attached.is_a, u_star_);
+      node.joint->read(blocks[index(attached.block)], attached.is_a, u_star_,
+                       node.parent_joint == nullptr ? nullptr : node.parent_joint->pivot());
     } else {
       read_rows(node, blocks);
     }
@@ -166,24 +170,48 @@ void SaddleLdlt::lay_out(const System& system) {
   }
 
   attach(system.blocks);
-  joints_.clear();
+  any_folded_ = false;
+  std::size_t articulated = 0;
   std::size_t values = 0;
   std::size_t rows = 0;
   for (Node& node : nodes_) {
     choose_way(node, system);
+    if (node.way == Way::kArticulated) ++articulated;
     const std::size_t w = index(width(node));
     const std::size_t r = index(node.most_rows);
     node.values = values;
     if (node.way != Way::kArticulated) values += 42 + 6 * w + r * (7 + r + w);
     node.update = values;
-    if (node.way != Way::kBare) values += w * w;
+    if (node.way == Way::kGeneral) values += w * w;
     node.first_row = rows;
     rows += r;
   }
+  joints_.resize(articulated);
+  link_articulated();
   values_.resize(values);
   rows_.resize(rows);
   c_.resize(rows);
   v_.resize(nodes_.size());
+}
+
+// What articulated nodes and their neighbours hand each other.
+void SaddleLdlt::link_articulated() {
+  auto next = joints_.begin();
+  for (Node& node : nodes_) {
+    if (node.way == Way::kArticulated) node.joint = &*next++;
+  }
+  for (Node& node : nodes_) {
+    if (node.way == Way::kArticulated) {
+      if (node.parent >= 0) node.parent_joint = nodes_[index(node.parent)].joint;
+      if (node.n_children != 1) continue;
+      const ArticulatedJoint* child = nodes_[index(children_[node.first_child])].joint;
+      if (child != nullptr) node.carried = &child->left();
+    } else {
+      for (int s = 0; s < node.coupled; ++s) {
+        nodes_[index(coupled_[node.first_coupled + index(s)])].pushed = true;
+      }
+    }
+  }
 }
 
 void SaddleLdlt::attach(std::span<const Block> blocks) {
@@ -226,8 +254,6 @@ void SaddleLdlt::choose_way(Node& node, const System& system) {
   if (in_tree && node.n_attached == 1 && blocks[index(attached[0].block)].pinned &&
       node.coupled == (attached[0].other < 0 ? 0 : 1)) {
     node.way = Way::kArticulated;
-    node.joint = joints_.size();
-    joints_.emplace_back();
     return;
   }
   int rows = 0;
@@ -239,6 +265,7 @@ void SaddleLdlt::choose_way(Node& node, const System& system) {
     attached[k].folded = node.way == Way::kGeneral && attached[k].foldable;
     if (!attached[k].folded) node.most_rows += block.rows;
     node.folds = node.folds || attached[k].folded;
+    any_folded_ = any_folded_ || attached[k].folded;
   }
 }
 

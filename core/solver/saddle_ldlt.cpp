@@ -32,14 +32,13 @@ void SaddleLdlt::touch(std::size_t block) { nodes_[index(node_of_block_[block])]
 // What acts on the bodies besides the rows that are unknowns: tight rows give J^T x, folded ones
 // -J^T w/s.
 void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
-  for (Vec6& g : v_) g.setZero();
   for (const Node& node : nodes_) {
-    if (node.way == Way::kArticulated) {
-      const bool at_pivot = node.parent >= 0 && nodes_[index(node.parent)].way == Way::kArticulated;
-      joints_[node.joint].refer_to(at_pivot ? joints_[nodes_[index(node.parent)].joint].pivot()
-                                            : nullptr);
-      continue;
-    }
+    const bool articulated = node.way == Way::kArticulated;
+    if (articulated) node.joint->rest();
+    if (!articulated || node.pushed) v_[position(node)].setZero();
+  }
+  for (const Node& node : nodes_) {
+    if (node.way == Way::kArticulated) continue;
     for (std::size_t k = 0; k < node.n_attached; ++k) {
       const Attached& attached = attached_[node.first_attached + k];
       const Block& block = blocks[index(attached.block)];
@@ -61,24 +60,53 @@ Vec6* SaddleLdlt::of_body(int body) {
   return body < 0 ? nullptr : &v_[index(order_.position(body))];
 }
 
-// An articulated node is handed momentum and asked for its velocity at its pivot by articulated
-// children, at its centre by others.
-double* SaddleLdlt::momentum(int node) {
-  const Node& to = nodes_[index(node)];
-  return to.way == Way::kArticulated ? joints_[to.joint].momentum() : v_[index(node)].data();
+void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
+  node.dirty = false;
+  if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
+  if (node.way == Way::kArticulated) {
+    factor_articulated(node);
+  } else if (node.way == Way::kBare) {
+    factor_bare(node, blocks);
+  } else {
+    factor_general(node, blocks);
+  }
+  if (node.folds || node.n_rows != node.counted_rows) count(node);
+  flops_ += node.factor_flops;
 }
 
-const double* SaddleLdlt::velocity(int node) const {
-  const Node& of = nodes_[index(node)];
-  return of.way == Way::kArticulated ? joints_[of.joint].velocity() : v_[index(node)].data();
+void SaddleLdlt::factor_articulated(Node& node) {
+  Square6 sum;
+  if (node.carried == nullptr) sum_carried(node, sum);
+  node.joint->eliminate(inverse_mass_[index(node.body)],
+                        node.carried == nullptr ? sum : *node.carried, node.parent >= 0);
+}
+
+// An articulated node is handed momentum and asked for its velocity at its pivot by articulated
+// children, at its centre by others.
+void SaddleLdlt::forward_articulated(const Node& node) {
+  double* to = nullptr;
+  if (node.parent_joint != nullptr) {
+    to = node.parent_joint->momentum();
+  } else if (node.parent >= 0) {
+    to = v_[index(node.parent)].data();
+  }
+  node.joint->forward(node.pushed ? v_[position(node)].data() : nullptr, to);
+}
+
+void SaddleLdlt::backward_articulated(const Node& node, std::span<Block> blocks) {
+  const double* of_parent = nullptr;
+  if (node.parent_joint != nullptr) {
+    of_parent = node.parent_joint->velocity();
+  } else if (node.parent >= 0) {
+    of_parent = v_[index(node.parent)].data();
+  }
+  Block& block = blocks[index(attached_[node.first_attached].block)];
+  node.joint->backward(of_parent, v_[position(node)].data(), block.impulse);
 }
 
 void SaddleLdlt::forward(const Node& node) {
-  double* g = v_[static_cast<std::size_t>(&node - nodes_.data())].data();
+  double* g = v_[position(node)].data();
   const int* coupled = coupled_.data() + node.first_coupled;
-  if (node.way == Way::kArticulated) {
-    return joints_[node.joint].forward(g, node.parent < 0 ? nullptr : momentum(node.parent));
-  }
   const int n = width(node);
   const Factor f = at(node);
   double weighted[6];  // D^-1 L^-1 g; bare: g
@@ -120,13 +148,8 @@ void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows,
 }
 
 void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
-  double* v = v_[static_cast<std::size_t>(&node - nodes_.data())].data();
+  double* v = v_[position(node)].data();
   const int* coupled = coupled_.data() + node.first_coupled;
-  if (node.way == Way::kArticulated) {
-    const int block = attached_[node.first_attached].block;
-    return joints_[node.joint].backward(node.parent < 0 ? nullptr : velocity(node.parent), v,
-                                        blocks[index(block)].impulse);
-  }
   const Factor f = at(node);
   double change[6];  // D^-1 L^-1 (g + J^T x - B p), then of the velocity
   if (node.way == Way::kBare) {
@@ -173,18 +196,18 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows,
 void SaddleLdlt::solve(const System& system) {
   set_momenta(system.blocks);
   for (Node& node : nodes_) {
-    if (node.dirty) {
-      node.dirty = false;
-      factor_node(node, system.blocks);
-      count(node);
-      if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
-    }
-    forward(node);
+    if (node.dirty) factor_node(node, system.blocks);
+    node.way == Way::kArticulated ? forward_articulated(node) : forward(node);
     flops_ += node.solve_flops;
   }
-  for (std::size_t i = nodes_.size(); i-- > 0;) backward(nodes_[i], system.blocks);
-  std::copy(u_star_.begin(), u_star_.end(), system.u.begin());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) system.u[index(nodes_[i].body)] += v_[i];
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const Node& node = nodes_[i];
+    node.way == Way::kArticulated ? backward_articulated(node, system.blocks)
+                                  : backward(node, system.blocks);
+    const auto body = index(node.body);
+    system.u[body] = u_star_[body] + v_[i];
+  }
+  if (!any_folded_) return;
   for (const Attached& attached : attached_) {
     if (!attached.folded) continue;
     Block& block = system.blocks[index(attached.block)];

@@ -32,6 +32,10 @@ namespace substep {
 /// anew.
 class SaddleLdlt {
  public:
+  SaddleLdlt() = default;
+  SaddleLdlt(const SaddleLdlt&) = delete;
+  SaddleLdlt& operator=(const SaddleLdlt&) = delete;
+
   void reserve(std::size_t bodies, std::size_t blocks);
   /// Takes a new system, its u as u*.
   void begin(const System& system);
@@ -76,9 +80,13 @@ class SaddleLdlt {
     std::int64_t handed_flops = 0;  // to add what the children leave
     std::int64_t factor_flops = 0;
     std::int64_t solve_flops = 0;
-    std::size_t joint = 0;   // into joints_, of an articulated node
-    std::size_t values = 0;  // into values_
-    std::size_t update = 0;  // into values_: what it leaves on the coupled bodies, unless bare
+    std::size_t values = 0;  // into values_, unless articulated
+    std::size_t update = 0;  // into values_: what it leaves on the coupled bodies, where general
+    // Of an articulated node:
+    ArticulatedJoint* joint = nullptr;         // one of joints_
+    ArticulatedJoint* parent_joint = nullptr;  // of the parent, where that is articulated as well
+    const Square6* carried = nullptr;  // what its one child leaves, where that is articulated
+    bool pushed = false;               // at its centre, by nodes of another way
   };
   struct Row {
     int attached = 0;
@@ -114,18 +122,21 @@ class SaddleLdlt {
     f.Z = f.S_inverse + r;
     return f;
   }
-  [[nodiscard]] Square6& square(std::size_t at);
+  [[nodiscard]] std::size_t position(const Node& node) const {
+    return static_cast<std::size_t>(&node - nodes_.data());
+  }
   [[nodiscard]] bool foldable(const Block& block, const System& system) const;
   void read_rows(const Node& node, std::span<const Block> blocks);
   bool layout_is_the_same(const System& system);
   void lay_out(const System& system);
   void attach(std::span<const Block> blocks);
+  void link_articulated();
   void choose_way(Node& node, const System& system);
 
   void factor_node(Node& node, std::span<const Block> blocks);
-  void count(Node& node);
-  void count_anew(Node& node) const;
+  void count(Node& node) const;  // its operations
   void factor_articulated(Node& node);
+  void sum_carried(const Node& node, Square6& sum);
   void factor_bare(Node& node, std::span<const Block> blocks);
   void factor_bare(Node& node, std::span<const Block> blocks, auto rows);
   void factor_general(Node& node, std::span<const Block> blocks);
@@ -139,12 +150,12 @@ class SaddleLdlt {
 
   void set_momenta(std::span<const Block> blocks);
   [[nodiscard]] Vec6* of_body(int body);
-  [[nodiscard]] double* momentum(int node);
-  [[nodiscard]] const double* velocity(int node) const;
   void forward(const Node& node);
+  void forward_articulated(const Node& node);
   /// @param weighted D^-1 L^-1 g, bare: g
   void forward_rows(const Node& node, const Factor& f, auto rows, const double* weighted);
   void backward(const Node& node, std::span<Block> blocks);
+  void backward_articulated(const Node& node, std::span<Block> blocks);
   /// @param change in: L^-1 g, bare: Mt^-1 g; out: with the pushes of the rows
   void backward_rows(const Node& node, const Factor& f, auto rows, std::span<Block> blocks,
                      double* change);
@@ -161,7 +172,8 @@ class SaddleLdlt {
                                    // not zero, as far as is known: of bare nodes
   std::vector<int> children_;      // nodes
   std::vector<Row> rows_;
-  std::vector<ArticulatedJoint> joints_;
+  std::vector<ArticulatedJoint> joints_;  // nodes point to them
+  bool any_folded_ = false;
   std::vector<double> values_;
   std::int64_t flops_ = 0;
 

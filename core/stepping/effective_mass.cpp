@@ -10,28 +10,31 @@ namespace substep {
 namespace {
 
 /// R diag(d) R^T, exactly symmetric.
-Mat3 turned(const Mat3& R, const Vec3& d) {
-  Mat3 m;
+void turn(const Mat3& R, const Vec3& d, Mat3& out) {
   for (int i = 0; i < 3; ++i) {
+    const double x = R(i, 0) * d[0];
+    const double y = R(i, 1) * d[1];
+    const double z = R(i, 2) * d[2];
     for (int j = 0; j <= i; ++j) {
-      m(i, j) = R(i, 0) * d[0] * R(j, 0) + R(i, 1) * d[1] * R(j, 1) + R(i, 2) * d[2] * R(j, 2);
-      m(j, i) = m(i, j);
+      const double sum = x * R(j, 0) + y * R(j, 1) + z * R(j, 2);
+      out(i, j) = sum;
+      out(j, i) = sum;
     }
   }
-  return m;
 }
 
-InverseMass inverse_mass_of(const Body& body, const Mat3& R) {
-  InverseMass inverse;
-  if (body.is_static) return inverse;
-  inverse.linear = 1.0 / body.mass;
+void invert(const Body& body, const Mat3& R, InverseMass& out) {
+  if (body.is_static) {
+    out = {};
+    return;
+  }
+  out.linear = 1.0 / body.mass;
   const Vec3& I = body.inertia;
   if (I[0] == I[1] && I[1] == I[2]) {
-    inverse.angular = Mat3::Identity() / I[0];
+    out.angular = Mat3::Identity() / I[0];
   } else {
-    inverse.angular = turned(R, I.cwiseInverse());
+    turn(R, I.cwiseInverse(), out.angular);
   }
-  return inverse;
 }
 
 }  // namespace
@@ -40,7 +43,7 @@ void inverse_mass(const Scene& scene, const Part& part, std::span<const Mat3> R_
                   std::span<InverseMass> out) {
   for (const int index : part.bodies) {
     const auto i = static_cast<std::size_t>(index);
-    out[i] = inverse_mass_of(scene.bodies[i], R_WB[i]);
+    invert(scene.bodies[i], R_WB[i], out[i]);
   }
 }
 
@@ -89,19 +92,20 @@ void effective_mass(const Scene& scene, const Part& part, const Settings& settin
     Vec3 Mt;
     if (body.is_static || i >= known ||
         (!stiffens && !principal_mass(settings, rules.mass, I, state.k[i], dt, Mt))) {
-      out[i] = inverse_mass_of(body, R);
+      invert(body, R, out[i]);
       continue;
     }
     out[i].linear = 1.0 / body.mass;
     auto omega = state.u[i].tail<3>();
     if (stiffens) {
-      const Mat3 M = turned(R, I);
+      Mat3 M;
+      turn(R, I, M);
       out[i].angular = fully_stiffened_mass(M, state.K_resisting[i], dt).inverse();
       omega = out[i].angular * (M * omega);
       continue;
     }
     const Vec3 W = Mt.cwiseInverse();
-    out[i].angular = turned(R, W);
+    turn(R, W, out[i].angular);
     const Vec3 kept = beta * u_start[i].tail<3>();
     const Vec3 rest_B = R.transpose() * (omega - kept);
     omega = kept + R * rest_B.cwiseProduct(I.cwiseProduct(W));

@@ -9,9 +9,18 @@ import { listen } from "./input.mjs";
 import { LoadError, loadEngine, makeEngine } from "./loader.mjs";
 import { makeTwin } from "./twin.mjs";
 
+// The smallest module with a vector in it: a function that gives two times 0.
+const VECTORS = new Uint8Array([
+  0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, // magic, version
+  1, 5, 1, 0x60, 0, 1, 0x7b, // a type: no parameters, a v128
+  3, 2, 1, 0, // a function of that type
+  10, 15, 1, 13, 0, 0x44, 0, 0, 0, 0, 0, 0, 0, 0, 0xfd, 20, 0x0b, // f64.const 0, f64x2.splat, end
+]);
+
 /** What this browser lacks, or "". */
 function missing() {
   if (typeof WebAssembly !== "object") return "WebAssembly";
+  if (!WebAssembly.validate(VECTORS)) return "WebAssembly with vectors (SIMD)";
   const canvas = document.createElement("canvas");
   if (!canvas.getContext("webgl2")) return "WebGL 2";
   loseContext(canvas); // browsers give only a few

@@ -310,6 +310,7 @@ test("draws in parts, behind and over, what it draws at once where a processor m
 for (const [what, script] of [
   ["WebGL 2", "HTMLCanvasElement.prototype.getContext = () => null;"],
   ["WebAssembly", "delete globalThis.WebAssembly;"],
+  ["vectors", "WebAssembly.validate = () => false;"],
 ]) {
   test(`says so where ${what} is missing`, async () => {
     const poor = await openPage(session, { before: script });

@@ -33,6 +33,9 @@ class Loop {
   /// A scene that cannot be read ends the program, with its problems on stderr.
   Loop(const std::string& folder, const Case& c, Mode mode);
 
+  /// From now on reports have no energies, errors or times of stages: what the motion alone costs.
+  void leave_out_measures();
+
   /// One frame.
   FrameReport step();
 

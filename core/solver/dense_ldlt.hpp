@@ -6,7 +6,7 @@
 #include <limits>
 #include <type_traits>
 
-#include "core/solver/symmetric6.hpp"
+#include "core/solver/pair.hpp"
 
 namespace substep {
 

@@ -1,30 +1,37 @@
 #include "core/solver/pgs.hpp"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "core/math/flops.hpp"
+#include "core/solver/body_products.hpp"
+#include "core/solver/pair.hpp"
 
 namespace substep {
 
 namespace {
 
-/// W = Mt^-1 J^T of one row on one body.
-void response(const double (&J)[6], const InverseMass& mass, double (&W)[6]) {
-  for (int i = 0; i < 3; ++i) {
-    W[i] = mass.linear * J[i];
-    W[3 + i] = mass.angular(i, 0) * J[3] + mass.angular(i, 1) * J[4] + mass.angular(i, 2) * J[5];
+/// Rows go two at a time where there is more than one; a last one has zeros beside it.
+template <int Rows>
+using Lane = std::conditional_t<Rows == 1, double, Pair>;
+template <int Rows>
+Lane<Rows> load(const double* from) {
+  if constexpr (Rows == 1) {
+    return *from;
+  } else {
+    return load_pair(from);
   }
 }
 
-/// w += J u, all rows side by side. The linear part of a pinned block is `sign` times the identity.
+/// w += J u. The linear part of a pinned block is `sign` times the identity.
 template <int Rows, bool Pinned, std::size_t Padded>
-void add_speeds(const double (&J)[6][Padded], double sign, const Vec6& u, double (&w)[Padded]) {
-  constexpr int kWidth = Rows == 1 ? 1 : Rows + Rows % 2;
+void add_speeds(const double (&J)[6][Padded], double sign, const Vec6& u, Lane<Rows>* w) {
   if constexpr (Pinned) {
-    for (int i = 0; i < 3; ++i) w[i] += sign * u[i];
+    w[0] += sign * Pair{u[0], u[1]};
+    w[1] = Pair{w[1][0] + sign * u[2], w[1][1]};
   }
   for (int j = Pinned ? 3 : 0; j < 6; ++j) {
-    for (int i = 0; i < kWidth; ++i) w[i] += J[j][i] * u[j];
+    for (int p = 0; p < (Rows + 1) / 2; ++p) w[p] += load<Rows>(&J[j][2 * p]) * u[j];
   }
 }
 
@@ -32,16 +39,21 @@ void add_speeds(const double (&J)[6][Padded], double sign, const Vec6& u, double
 template <int Rows, bool Pinned>
 void kick(const double (&W)[kMaxRows][6], double signed_mass, const double (&change)[kMaxRows],
           Vec6& u) {
-  constexpr int kFirst = Pinned ? 3 : 0;
   if constexpr (Pinned) {
     for (int j = 0; j < 3; ++j) u[j] += signed_mass * change[j];
+    double sum[3];  // not in u itself: a compiler cannot know that u and W are apart
+    for (int j = 0; j < 3; ++j) sum[j] = u[3 + j];
+    for (int row = 0; row < Rows; ++row) {
+      for (int j = 0; j < 3; ++j) sum[j] += W[row][3 + j] * change[row];
+    }
+    for (int j = 0; j < 3; ++j) u[3 + j] = sum[j];
+  } else {
+    for (int p = 0; p < 3; ++p) {
+      Pair sum = load_pair(u.data() + 2 * p);
+      for (int row = 0; row < Rows; ++row) sum += load_pair(&W[row][2 * p]) * change[row];
+      store_pair(sum, u.data() + 2 * p);
+    }
   }
-  double sum[6];  // not in u itself: a compiler cannot know that u and W are apart
-  for (int j = kFirst; j < 6; ++j) sum[j] = u[j];
-  for (int row = 0; row < Rows; ++row) {
-    for (int j = kFirst; j < 6; ++j) sum[j] += W[row][j] * change[row];
-  }
-  for (int j = kFirst; j < 6; ++j) u[j] = sum[j];
 }
 
 /// Of one visit to a block: J u and Mt^-1 J^T change on each body, the coupling of its rows, and
@@ -77,8 +89,9 @@ void Pgs::pack(const System& system, bool warm_start) {
     visit.contact = block.is_contact();
     visit.pinned = block.pinned;
     visit.mu = block.mu;
+    const int padded = block.rows == 1 ? 1 : block.rows + block.rows % 2;
     for (int i = 0; i < block.rows; ++i) {
-      std::fill(visit.coupling[i], visit.coupling[i] + kMaxRows, 0.0);
+      for (int later = i; later < block.rows; ++later) visit.coupling[i][later] = 0.0;
     }
     const auto side = [&](const double(&J)[kMaxRows][6], int body,
                           double(&by_component)[6][Visit::kPadded], double(&W)[kMaxRows][6],
@@ -88,17 +101,15 @@ void Pgs::pack(const System& system, bool warm_start) {
       mass = inverse.linear;
       const int first = block.pinned ? 3 : 0;
       for (int i = 0; i < block.rows; ++i) {
-        response(J[i], inverse, W[i]);
+        weigh(inverse, J[i], W[i]);
         for (int j = 0; j <= i; ++j) {
-          for (int c = first; c < 6; ++c) visit.coupling[i][j] += J[i][c] * W[j][c];
+          for (int c = first; c < 6; ++c) visit.coupling[j][i] += J[i][c] * W[j][c];
         }
         if (block.pinned && i < 3) visit.coupling[i][i] += mass;
       }
       for (int c = first; c < 6; ++c) {
         for (int i = 0; i < block.rows; ++i) by_component[c][i] = J[i][c];
-        for (std::size_t i = static_cast<std::size_t>(block.rows); i < Visit::kPadded; ++i) {
-          by_component[c][i] = 0.0;
-        }
+        for (int i = block.rows; i < padded; ++i) by_component[c][i] = 0.0;
       }
     };
     side(block.J_a, block.a, visit.J_a, visit.W_a, visit.mass_a);
@@ -110,7 +121,7 @@ void Pgs::pack(const System& system, bool warm_start) {
       visit.impulse[i] = block.impulse[i];
       visit.inverse_diagonal[i] = 1.0 / (visit.coupling[i][i] + block.softness[i]);
     }
-    for (std::size_t i = static_cast<std::size_t>(block.rows); i < Visit::kPadded; ++i) {
+    for (int i = block.rows; i < padded; ++i) {
       visit.bias[i] = visit.softness[i] = visit.impulse[i] = 0.0;
     }
     if (warm_start) apply_impulse(block, block.impulse, system.inverse_mass, system.u);
@@ -122,16 +133,23 @@ void Pgs::pack(const System& system, bool warm_start) {
 // rounding, and without waiting for u after every row.
 template <int Rows, bool Pinned>
 void Pgs::visit(Visit& block, std::span<Vec6> u) {
-  double w[Visit::kPadded];
-  for (std::size_t i = 0; i < Visit::kPadded; ++i)
-    w[i] = block.bias[i] + block.softness[i] * block.impulse[i];
+  Lane<Rows> lanes[Visit::kPadded / 2];
+  for (int p = 0; p < (Rows + 1) / 2; ++p) {
+    const auto pull = load<Rows>(block.softness + 2 * p) * load<Rows>(block.impulse + 2 * p);
+    lanes[p] = load<Rows>(block.bias + 2 * p) + pull;
+  }
   if (block.a >= 0)
-    add_speeds<Rows, Pinned>(block.J_a, 1.0, u[static_cast<std::size_t>(block.a)], w);
+    add_speeds<Rows, Pinned>(block.J_a, 1.0, u[static_cast<std::size_t>(block.a)], lanes);
   if (block.b >= 0)
-    add_speeds<Rows, Pinned>(block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], w);
+    add_speeds<Rows, Pinned>(block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], lanes);
+  double w[kMaxRows];
+  if constexpr (Rows == 1) {
+    w[0] = lanes[0];
+  } else {
+    for (int i = 0; i < Rows; ++i) w[i] = lanes[i / 2][i % 2];
+  }
   double change[kMaxRows];
   for (int i = 0; i < Rows; ++i) {
-    for (int j = 0; j < i; ++j) w[i] += block.coupling[i][j] * change[j];
     const double x = block.impulse[i];
     double next = x - w[i] * block.inverse_diagonal[i];
     if (!Pinned && block.contact) {  // joints are unbounded
@@ -141,6 +159,7 @@ void Pgs::visit(Visit& block, std::span<Vec6> u) {
     }
     change[i] = next - x;
     block.impulse[i] = next;
+    for (int later = i + 1; later < Rows; ++later) w[later] += block.coupling[i][later] * change[i];
   }
   if (block.a >= 0) {
     kick<Rows, Pinned>(block.W_a, block.mass_a, change, u[static_cast<std::size_t>(block.a)]);
@@ -159,16 +178,10 @@ SolveReport Pgs::solve(const System& system, const Settings& settings) {
         case 1:
           visit<1, false>(block, system.u);
           break;
-        case 2:
-          visit<2, false>(block, system.u);
-          break;
         case 3:
           block.pinned ? visit<3, true>(block, system.u) : visit<3, false>(block, system.u);
           break;
-        case 4:
-          visit<4, false>(block, system.u);
-          break;
-        default:
+        default:  // 5
           block.pinned ? visit<5, true>(block, system.u) : visit<5, false>(block, system.u);
           break;
       }

@@ -24,7 +24,7 @@ class Pgs final : public Solver {
     double J_b[6][kPadded];
     double W_a[kMaxRows][6];  // Mt^-1 J^T by row
     double W_b[kMaxRows][6];
-    double coupling[kMaxRows][kMaxRows];  // J_i Mt^-1 J_j^T within the block, j < i
+    double coupling[kMaxRows][kMaxRows];  // J_i Mt^-1 J_j^T within the block, [j][i] with j < i
     double inverse_diagonal[kMaxRows];    // 1/(J_i Mt^-1 J_i^T + softness_i)
     double bias[kPadded];
     double softness[kPadded];

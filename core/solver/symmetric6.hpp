@@ -1,24 +1,13 @@
 #pragma once
-// A symmetric 6 x 6 matrix in registers, two doubles at a time: SSE2, NEON and WebAssembly's SIMD
-// have such vectors, and every lane computes what scalars would, bit for bit. Numbers do not go
-// through memory between scalar and vector operations: that would stall each of them.
+// A symmetric 6 x 6 matrix in registers, two doubles at a time. Numbers do not go through memory
+// between scalar and vector operations: that would stall each of them.
 
-#include <cstring>
+#include "core/solver/pair.hpp"
 
 namespace substep {
 
 /// A symmetric 6 x 6 matrix of a body in memory, linear part first.
 using Square6 = double[6][6];
-
-using Pair [[gnu::vector_size(16)]] = double;
-
-/// Two numbers of a row in memory, wherever it begins.
-inline Pair load_pair(const double* from) {
-  Pair pair;
-  std::memcpy(&pair, from, sizeof pair);
-  return pair;
-}
-inline void store_pair(const Pair& pair, double* to) { std::memcpy(to, &pair, sizeof pair); }
 
 /// A vector of a body: linear part first.
 struct Pairs6 {

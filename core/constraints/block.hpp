@@ -24,12 +24,12 @@ struct Block {
   BlockKind kind = BlockKind::kBall;
   int a = -1;            // moving body, or -1
   int b = -1;            // moving body, or -1
-  int rows = 0;          // used of kMaxRows
+  int rows = 0;          // used of kMaxRows: 1 or 3 of a contact, 3 of a ball joint, 5 of a hinge
   int body_a = -1;       // index into Scene::bodies, moving or not
   int body_b = -1;       // the same, -1 for the world
   std::uint64_t id = 0;  // the same from sub-step to sub-step
-  // Joints: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]], further rows have no linear part.
-  // Solvers go by that.
+  // Joints: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]], further rows have no linear part
+  // and J_b = -J_a, whichever side moves. Solvers go by that.
   bool pinned = false;
 
   double J_a[kMaxRows][6];      // d phi / d q_a: linear [-], angular [m] (angular rows: [-])

@@ -8,9 +8,6 @@ JointStage::JointStage(const Scene& scene) : across_(scene.joints.size()) {
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     if (const auto* hinge = std::get_if<HingeJoint>(&scene.joints[i])) {
       across(hinge->axis_b, across_[i].v1, across_[i].v2);
-      rows_ += 5;
-    } else {
-      rows_ += 3;
     }
   }
 }

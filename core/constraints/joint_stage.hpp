@@ -26,7 +26,6 @@ class JointStage {
               Blocks& blocks) const;
   [[nodiscard]] JointErrors errors(const Scene& scene, const State& state,
                                    std::span<const Mat3> R_WB) const;
-  [[nodiscard]] int rows() const { return rows_; }
 
  private:
   /// What of a joint's block is the same in every sub-step.
@@ -38,7 +37,6 @@ class JointStage {
     Vec3 v1, v2;  // in the frame of b
   };
   std::vector<Across> across_;  // per joint, of hinges
-  int rows_ = 0;
 };
 
 }  // namespace substep

@@ -11,7 +11,7 @@ namespace substep {
 struct StoredForce {
   std::uint64_t id = 0;       // of the constraint block
   double lambda[5] = {};      // per row [N or N m]
-  std::int8_t tight[5] = {};  // per row: active set of BPP, -1 at lo, 0 free, +1 at hi
+  std::int8_t tight[5] = {};  // per row, of contacts: active set of BPP, as Block::tight
 };
 
 /// The last sub-step of a body whose island has sub-steps of its own.

@@ -70,7 +70,7 @@ struct Simulator::Impl {
   FrameReport stopped;              // the report of the frame that failed
 
   Part all;               // of the scene
-  double heaviest = 1.0;  // of all masses and moments of inertia, at least 1 [kg or kg m^2]
+  double heaviest = 1.0;  // largest mass or moment of inertia that moves, at least 1 [kg, kg m^2]
   std::unique_ptr<Islands> islands;  // built when they are first asked for
 
   // Stages: null where the scene does not call for the effect.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/constraints/grab_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
@@ -56,6 +55,7 @@ bool Simulator::Impl::append_rows(FrameReport& report) {
   if (contact) {
     if (!append_contacts()) {
       report.status = StepStatus::kTooManyContacts;
+      blocks.keep(first_block);  // nothing solves them
       return false;
     }
     clock.lap(report.times.contact);
@@ -194,11 +194,14 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
                                  ? ContactTerms::kExact
                                  : ContactTerms::kPaper;
   stiffness->evaluate(rows(), terms, part(), R_WB, state.k);
-  state.K_resisting.clear();
-  if (full) {
-    for (int i = 0; i < static_cast<int>(state.k.size()); ++i) {
-      state.K_resisting.push_back(resisting(stiffness->matrix().angular(i)));
+  if (full) {  // bodies that do not move keep theirs, as in k
+    state.K_resisting.resize(state.k.size(), Mat3::Zero());
+    for (const int body : part().bodies) {
+      state.K_resisting[static_cast<std::size_t>(body)] =
+          resisting(stiffness->matrix().angular(body));
     }
+  } else {
+    state.K_resisting.clear();
   }
   bound = StiffnessStage::bound(*scene, part().bodies, state.k);
   // Forces of a run that diverges can have a K past the range of numbers before velocities are.

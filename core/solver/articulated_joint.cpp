@@ -1,7 +1,5 @@
 #include "core/solver/articulated_joint.hpp"
 
-#include <algorithm>
-
 #include "core/solver/dense_ldlt.hpp"
 
 namespace substep {

@@ -16,6 +16,13 @@ bool any_tight(const Block& block) {
   return std::any_of(block.tight, block.tight + block.rows, [](std::int8_t t) { return t != 0; });
 }
 
+/// Whether an earlier sub-step knows of the contact: what it says may come from a file.
+bool has_known_set(const Block& block) {
+  if (block.tight[0] != 0 && block.tight[0] != -1) return false;  // a normal has no upper bound
+  return std::all_of(block.tight + 1, block.tight + block.rows,
+                     [](std::int8_t t) { return -1 <= t && t <= 1; });
+}
+
 double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
 
 }  // namespace
@@ -144,8 +151,8 @@ std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& 
 void Bpp::start_active_set(const System& system) {
   friction_bound_.assign(system.blocks.size(), 0.0);
   for (Block& block : system.blocks) {
-    if (!block.is_contact()) continue;  // free, as they are seeded
-    if (block.tight[0] == kUnknownSet) {
+    if (!block.is_contact()) continue;  // always free
+    if (!has_known_set(block)) {
       double speed[kMaxRows];
       row_speeds(block, system.u, speed);
       const bool reaches = speed[0] + block.bias[0] < 0.0;

@@ -27,6 +27,7 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   constexpr std::size_t kRows = 8;
   constexpr std::size_t kWidth = 6 * kCoupled;
   order_.reserve(bodies, blocks);
+  bodies_ = 0;  // nodes point into what may move now: they are laid out anew
   keys_.reserve(blocks);
   nodes_.reserve(bodies);
   node_of_block_.reserve(blocks);

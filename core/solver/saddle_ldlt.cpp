@@ -1,7 +1,5 @@
 #include "core/solver/saddle_ldlt.hpp"
 
-#include <algorithm>
-
 #include "core/solver/body_products.hpp"
 #include "core/solver/dense_ldlt.hpp"
 

@@ -86,7 +86,7 @@ class SaddleLdlt {
     ArticulatedJoint* joint = nullptr;         // one of joints_
     ArticulatedJoint* parent_joint = nullptr;  // of the parent, where that is articulated as well
     const Square6* carried = nullptr;  // what its one child leaves, where that is articulated
-    bool pushed = false;               // at its centre, by nodes of another way
+    bool pushed = false;               // at its centre, by nodes of another way; of any node
   };
   struct Row {
     int attached = 0;
@@ -180,7 +180,8 @@ class SaddleLdlt {
   std::span<const InverseMass> inverse_mass_;  // of the system that was begun with
   std::vector<Vec6> u_star_;
   std::vector<double> w_;  // J u* + bias, kMaxRows per block
-  std::vector<Vec6> v_;    // per node: momentum, then what is left of it, then the velocity
+  std::vector<Vec6> v_;    // per node: momentum, then what is left of it, then the velocity; of an
+                           // articulated node that nobody pushes only the velocity
   std::vector<double> c_;  // per row of a node, from forward to backward
 };
 

@@ -177,6 +177,26 @@ TEST(Sleep, WakesWithTheForcesThatHeldIt) {
   EXPECT_EQ(report.work.passes, 1);
 }
 
+// What sleeps keeps what is known of its K as well, in every mode that reads it.
+TEST(Sleep, KeepsTheStiffnessThatItHad) {
+  const Scene scene = beside({transformed(scenes::swinging_box(), Quat::Identity(), {0, 0, -30.0}),
+                              transformed(scenes::heavy_stack(), Quat::Identity(), {0, 0, 30.0})});
+  Simulator simulator = simulator_of(scene, sleeping({.mode = Mode::kStiffness}));
+  State before = simulator.state();
+  while (simulator.step().asleep == 0) before = simulator.state();
+  for (int frame = 0; frame < 3; ++frame) EXPECT_EQ(simulator.step().asleep, 26);
+  const State& after = simulator.state();
+  ASSERT_EQ(after.K_resisting.size(), scene.bodies.size());
+  double known = 0.0;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    if (after.rest[i] <= 0.0) continue;
+    EXPECT_EQ(after.K_resisting[i], before.K_resisting[i]);
+    EXPECT_EQ(after.k[i], before.k[i]);
+    known += after.K_resisting[i].norm();
+  }
+  EXPECT_GT(known, 0.0);
+}
+
 // A pile that has fallen costs less and less.
 TEST(Sleep, BallsThatHaveStoppedBouncingSleep) {
   Simulator simulator = simulator_of(scenes::bouncing_balls(), sleeping({.mode = Mode::kConst}));

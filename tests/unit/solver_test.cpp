@@ -418,7 +418,8 @@ TEST(Bpp, ForgetsWhereItStarted) {
   for (int trial = 0; trial < 300; ++trial) {
     const Problem problem = random_problem(random, {4, 2, 6, 0.0});
     std::optional<Eigen::VectorXd> first;
-    for (const std::int8_t start : {kUnknownSet, std::int8_t{0}, std::int8_t{-1}}) {
+    // 1 is none that a normal can have: as good as unknown.
+    for (const std::int8_t start : {kUnknownSet, std::int8_t{0}, std::int8_t{-1}, std::int8_t{1}}) {
       Problem copy = problem;
       for (Block& block : copy.blocks) {
         if (block.is_contact()) block.tight[0] = start;
@@ -427,6 +428,21 @@ TEST(Bpp, ForgetsWhereItStarted) {
       if (!first) first = impulses(copy);
       EXPECT_EQ(*first, impulses(copy));
     }
+  }
+}
+
+// Room for more may be asked for at any time.
+TEST(Bpp, GoesOnAfterRoomIsMade) {
+  Random random(22);
+  Bpp solver;
+  for (int trial = 0; trial < 20; ++trial) {
+    const Problem problem = random_problem(random, {4, 6, 2, 0.0});
+    Problem before = problem;
+    Problem after = problem;
+    solver.solve(before.system(), settings_for(SolverKind::kBpp));
+    solver.reserve(static_cast<std::size_t>(100 * (trial + 1)), 1000);
+    solver.solve(after.system(), settings_for(SolverKind::kBpp));
+    EXPECT_EQ(impulses(before), impulses(after));
   }
 }
 

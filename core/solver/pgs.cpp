@@ -142,11 +142,14 @@ void Pgs::visit(Visit& block, std::span<Vec6> u) {
     add_speeds<Rows, Pinned>(block.J_a, 1.0, u[static_cast<std::size_t>(block.a)], lanes);
   if (block.b >= 0)
     add_speeds<Rows, Pinned>(block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], lanes);
-  double w[kMaxRows];
+  double w[Visit::kPadded];
   if constexpr (Rows == 1) {
     w[0] = lanes[0];
-  } else {
-    for (int i = 0; i < Rows; ++i) w[i] = lanes[i / 2][i % 2];
+  } else {  // lane by lane: as a loop over rows it would be a copy in memory
+    for (int p = 0; p < (Rows + 1) / 2; ++p) {
+      w[2 * p] = lanes[p][0];
+      w[2 * p + 1] = lanes[p][1];
+    }
   }
   double change[kMaxRows];
   for (int i = 0; i < Rows; ++i) {

@@ -2,8 +2,6 @@
 // Two doubles at a time, which SSE2, NEON and WebAssembly's vectors all have. Each lane computes
 // what a scalar would, bit for bit.
 
-#include <cstring>
-
 namespace substep {
 
 using Pair [[gnu::vector_size(16)]] = double;
@@ -12,9 +10,9 @@ using Pair [[gnu::vector_size(16)]] = double;
 /// one: that would have to reach memory first.
 inline Pair load_pair(const double* from) {
   Pair pair;
-  std::memcpy(&pair, from, sizeof pair);
+  __builtin_memcpy(&pair, from, sizeof pair);
   return pair;
 }
-inline void store_pair(const Pair& pair, double* to) { std::memcpy(to, &pair, sizeof pair); }
+inline void store_pair(const Pair& pair, double* to) { __builtin_memcpy(to, &pair, sizeof pair); }
 
 }  // namespace substep

@@ -16,11 +16,13 @@ struct Side {
   const Mat3& R = kUnturned;  // R_WB
 };
 
-/// What of rows 0..2 is the same in every sub-step. It has to be set once.
+/// What of a ball joint is the same in every sub-step. It has to be set once.
 void ball_constants(const JointBase& joint, Block& block);
 
 /// Rows 0..2: phi = x_a + r_a - x_b - r_b, world axes [m].
-void ball_rows(const JointBase& joint, const Side& a, const Side& b, Block& block);
+/// @param anchor_a, anchor_b in the frames of the sides [m]
+void ball_rows(const Vec3& anchor_a, const Vec3& anchor_b, const Side& a, const Side& b,
+               Block& block);
 
 /// How rows 0..2 curve while both bodies turn on as they do: d2phi/dt2 at constant velocities
 /// [m/s^2]. @param omega_a, omega_b world [rad/s], zero for the world  @param curvature out

@@ -29,11 +29,10 @@ struct Block {
   int body_b = -1;       // the same, -1 for the world
   std::uint64_t id = 0;  // the same from sub-step to sub-step
   // Joints: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]], further rows have no linear part
-  // and J_b = -J_a, whichever side moves. Solvers go by that.
+  // and J_b = -J_a, whichever side moves. Solvers go by that, and nothing else of J is filled than
+  // J_a of the further rows: gradient() knows.
   bool pinned = false;
 
-  double J_a[kMaxRows][6];      // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
-  double J_b[kMaxRows][6];      // d phi / d q_b
   double phi[kMaxRows];         // constraint error [m or rad]; a positive contact gap is open
   double C[kMaxRows];           // compliance [m/N or rad/(N m)]
   double bias[kMaxRows];        // drift correction [m/s or rad/s]
@@ -41,6 +40,9 @@ struct Block {
   double impulse[kMaxRows];     // dt lambda: seed in, solution out [N s or N m s]
   double lambda[kMaxRows];      // constraint force of this sub-step, where it is read [N or N m]
   std::int8_t tight[kMaxRows];  // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
+
+  double J_a[kMaxRows][6];  // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
+  double J_b[kMaxRows][6];  // d phi / d q_b
 
   // Contact only: row 0 is the normal, rows 1 and 2 friction with bounds +-mu * impulse[0].
   double mu = 0.0;          // [-]
@@ -62,6 +64,24 @@ struct Block {
 
   [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
 };
+
+/// J of one row on one side, pinned or not.
+inline Vec6 gradient(const Block& block, int row, bool of_a) {
+  Vec6 J;
+  if (!block.pinned) {
+    for (int j = 0; j < 6; ++j) J[j] = (of_a ? block.J_a : block.J_b)[row][j];
+  } else if (row < 3) {
+    const Vec3& r = of_a ? block.r_a : block.r_b;
+    J.setZero();
+    J[row] = 1.0;
+    J[3 + (row + 1) % 3] = r[(row + 2) % 3];
+    J[3 + (row + 2) % 3] = -r[(row + 1) % 3];
+    if (!of_a) J = -J;
+  } else {
+    for (int j = 0; j < 6; ++j) J[j] = of_a ? block.J_a[row][j] : -block.J_a[row][j];
+  }
+  return J;
+}
 
 /// The blocks of a sub-step: cleared and refilled without giving memory back.
 class Blocks {

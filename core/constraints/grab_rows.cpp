@@ -15,16 +15,11 @@ constexpr std::uint64_t kGrabId =
 bool is_grab(const Block& block) { return block.id == kGrabId; }
 
 void grab_rows(const Grab& grab, const Side& body, Block& block) {
-  JointBase joint;
-  joint.anchor_a = grab.anchor;
-  joint.anchor_b = grab.target;
-  block.kind = BlockKind::kBall;
   block.id = kGrabId;
   block.a = block.body_a = grab.body;
   block.b = block.body_b = -1;
-  block.rows = 3;
-  ball_constants(joint, block);
-  ball_rows(joint, body, Side{}, block);
+  ball_constants(JointBase{}, block);
+  ball_rows(grab.anchor, grab.target, body, Side{}, block);
   double* phi = block.phi;
   const double distance = std::sqrt(phi[0] * phi[0] + phi[1] * phi[1] + phi[2] * phi[2]);
   if (distance <= Grab::kReach) return;

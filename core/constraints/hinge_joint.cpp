@@ -10,34 +10,34 @@ void across(const Vec3& axis, Vec3& v1, Vec3& v2) {
   v2 = axis.cross(v1);
 }
 
+HingeAxes axes_of(const HingeJoint& joint) {
+  HingeAxes axes;
+  axes.u = joint.axis_a;
+  across(joint.axis_b, axes.v1, axes.v2);
+  return axes;
+}
+
 void hinge_constants(const HingeJoint& joint, Block& block) {
-  ball_constants(joint, block);
+  block.kind = BlockKind::kHinge;
+  block.rows = 5;
   for (int row = 3; row < 5; ++row) {
     block.C[row] = joint.angular_compliance;
-    for (int j = 0; j < 3; ++j) {
-      block.J_a[row][j] = 0.0;
-      block.J_b[row][j] = 0.0;
-    }
+    for (int j = 0; j < 3; ++j) block.J_a[row][j] = 0.0;
   }
 }
 
 // C     = u . v                        u turns with a, v with b
 // dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)
-void hinge_rows(const HingeJoint& joint, const Vec3& v1_B, const Vec3& v2_B, const Side& a,
-                const Side& b, Block& block) {
-  ball_rows(joint, a, b, block);
-  const Vec3 u = a.R * joint.axis_a;
+void hinge_rows(const HingeAxes& axes, const Side& a, const Side& b, Block& block) {
+  const Vec3 u = a.R * axes.u;
   block.axis = u;
   for (int k = 0; k < 2; ++k) {
-    const Vec3 v = b.R * (k == 0 ? v1_B : v2_B);
+    const Vec3 v = b.R * (k == 0 ? axes.v1 : axes.v2);
     (k == 0 ? block.v1 : block.v2) = v;
     const Vec3 J = u.cross(v);
     const int row = 3 + k;
     block.phi[row] = u.dot(v);
-    for (int j = 0; j < 3; ++j) {
-      block.J_a[row][3 + j] = J[j];
-      block.J_b[row][3 + j] = -J[j];
-    }
+    for (int j = 0; j < 3; ++j) block.J_a[row][3 + j] = J[j];
   }
 }
 

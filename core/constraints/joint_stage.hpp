@@ -22,21 +22,24 @@ struct JointErrors {
 class JointStage {
  public:
   explicit JointStage(const Scene& scene);
-  void append(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
+  void append(const Part& part, const State& state, std::span<const Mat3> R_WB,
               Blocks& blocks) const;
-  [[nodiscard]] JointErrors errors(const Scene& scene, const State& state,
-                                   std::span<const Mat3> R_WB) const;
+  [[nodiscard]] JointErrors errors(const State& state, std::span<const Mat3> R_WB) const;
 
  private:
-  /// What of a joint's block is the same in every sub-step.
-  static void begin(const Scene& scene, std::size_t joint, Block& block);
-  void fill(const Scene& scene, const State& state, std::span<const Mat3> R_WB, std::size_t joint,
-            Block& block) const;
-
-  struct Across {
-    Vec3 v1, v2;  // in the frame of b
+  /// What a sub-step reads of a joint, one after the other.
+  struct Geometry {
+    int body_a, body_b;
+    bool hinge;
+    Vec3 anchor_a, anchor_b;  // in the frames of the bodies [m]
+    HingeAxes axes;
   };
-  std::vector<Across> across_;  // per joint, of hinges
+  /// What of a joint's block is the same in every sub-step.
+  void begin(std::size_t joint, Block& block) const;
+  void fill(const State& state, std::span<const Mat3> R_WB, std::size_t joint, Block& block) const;
+
+  const Scene& scene_;
+  std::vector<Geometry> joints_;
 };
 
 }  // namespace substep

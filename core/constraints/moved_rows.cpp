@@ -10,22 +10,11 @@ namespace {
 Vec3 turned(const Motion& motion, const Vec3& v) { return turn(motion.half, v); }
 Vec3 turned_back(const Motion& motion, const Vec3& v) { return turn(-motion.half, v); }
 
-void set_angular(Block& block, int row, const Vec3& A, const Vec3& B) {
-  for (int j = 0; j < 3; ++j) {
-    block.J_a[row][3 + j] = A[j];
-    block.J_b[row][3 + j] = B[j];
-  }
-}
-
 void move_pin(const Block& start, const Motion& a, const Motion& b, Block& moved) {
   moved.r_a = turned(a, start.r_a);
   moved.r_b = turned(b, start.r_b);
   const Vec3 phi = (a.dx - b.dx) + ((moved.r_a - start.r_a) - (moved.r_b - start.r_b));
-  for (int i = 0; i < 3; ++i) {
-    const Vec3 e = Vec3::Unit(i);
-    moved.phi[i] = phi[i];
-    set_angular(moved, i, moved.r_a.cross(e), -moved.r_b.cross(e));
-  }
+  for (int i = 0; i < 3; ++i) moved.phi[i] = phi[i];
 }
 
 void move_hinge_axis(const Block& start, const Motion& a, const Motion& b, Block& moved) {
@@ -37,7 +26,7 @@ void move_hinge_axis(const Block& start, const Motion& a, const Motion& b, Block
     const Vec3& v_start = k == 0 ? start.v1 : start.v2;
     const Vec3 J = moved.axis.cross(v);
     moved.phi[3 + k] = moved.axis.dot(v) - start.axis.dot(v_start);
-    set_angular(moved, 3 + k, J, -J);
+    for (int j = 0; j < 3; ++j) moved.J_a[3 + k][3 + j] = J[j];
   }
 }
 
@@ -68,11 +57,14 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
   }
   for (int row = rows.first; row < end; ++row) {
     const Vec3& direction = row == 0 ? moved.n : row == 1 ? moved.t1 : moved.t2;
+    const Vec3 A = moved.r_a.cross(direction);
+    const Vec3 B = moved.r_b.cross(direction);
     for (int j = 0; j < 3; ++j) {
       moved.J_a[row][j] = direction[j];
       moved.J_b[row][j] = -direction[j];
+      moved.J_a[row][3 + j] = A[j];
+      moved.J_b[row][3 + j] = -B[j];
     }
-    set_angular(moved, row, moved.r_a.cross(direction), -moved.r_b.cross(direction));
   }
 }
 

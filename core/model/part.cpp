@@ -1,6 +1,7 @@
 #include "core/model/part.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "core/model/scene.hpp"
@@ -14,8 +15,8 @@ Part whole(const Scene& scene) {
   std::iota(part.bodies.begin(), part.bodies.end(), 0);
   std::iota(part.joints.begin(), part.joints.end(), 0);
   part.has.assign(scene.bodies.size(), 1);
-  part.moving = static_cast<int>(std::count_if(scene.bodies.begin(), scene.bodies.end(),
-                                               [](const Body& body) { return !body.is_static; }));
+  std::copy_if(part.bodies.begin(), part.bodies.end(), std::back_inserter(part.moving),
+               [&](int body) { return !scene.bodies[index(body)].is_static; });
   return part;
 }
 

@@ -12,7 +12,7 @@ struct Part {
   std::vector<int> bodies;        // that move in it, and all static ones, ascending
   std::vector<int> joints;        // on those that move, ascending
   std::vector<std::uint8_t> has;  // per body of the scene: whether it is one of `bodies`
-  int moving = 0;                 // how many of them move
+  std::vector<int> moving;        // those of them that move, ascending
 
   [[nodiscard]] bool holds(int body) const { return has[static_cast<std::size_t>(body)] != 0; }
 };

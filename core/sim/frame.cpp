@@ -72,12 +72,17 @@ void Simulator::Impl::probe(FrameReport& report) {
   report.stages.probe = true;
 }
 
+void Simulator::Impl::turn_axes(std::span<const int> bodies) {
+  for (const int body : bodies) R_WB[index(body)] = state.q[index(body)].toRotationMatrix();
+}
+
 void Simulator::Impl::begin_frame() {
   FrameReport report;
   if (!measures.stages) report.times = no_times();
   contacts_foreseen = false;
   substeps_of_bodies = 0;
   first_block = first_force = 0;
+  turn_axes(all.bodies);
   if (probe_due()) probe(report);  // the first frame has no lambda yet
   deal_out(report);
   blocks.clear();
@@ -87,7 +92,7 @@ void Simulator::Impl::begin_frame() {
 
 void Simulator::Impl::deal_out(FrameReport& report) {
   schedule.clear();
-  if (!looks_for_islands(settings) || all.moving == 0) {
+  if (!looks_for_islands(settings) || all.moving.empty()) {
     for (const OwnSubstep& own : state.own) state.r = std::max(state.r, own.r);
     schedule.add(all, SubstepClock(settings, scene->frame, state.r));
     return;
@@ -101,10 +106,6 @@ void Simulator::Impl::deal_out(FrameReport& report) {
     }
   }
   if (!islands) islands = std::make_unique<Islands>(*scene);
-  for (const int body : all.bodies) {
-    const auto i = static_cast<std::size_t>(body);
-    R_WB[i] = state.q[i].toRotationMatrix();
-  }
   islands->find(*scene, all, state, R_WB, scene->frame, contact ? &contact->detector() : nullptr);
   report.islands = islands->count();
   deal_out_islands(report);
@@ -152,8 +153,12 @@ FrameReport Simulator::Impl::end(StageClock& wall) {
 void Simulator::Impl::close(FrameReport& report) {
   report.n_wanted = schedule.n_wanted();
   report.capped = schedule.capped();
-  if (all.moving > 0) report.n_mean = static_cast<double>(substeps_of_bodies) / all.moving;
-  if (report.status == StepStatus::kOk && report.n_substeps == 0) {  // all sleep
+  if (!all.moving.empty()) {
+    report.n_mean =
+        static_cast<double>(substeps_of_bodies) / static_cast<double>(all.moving.size());
+  }
+  if (report.status != StepStatus::kOk) copy(state.u, state.u_synchronised);  // as near as is known
+  if (report.status == StepStatus::kOk && report.n_substeps == 0) {           // all sleep
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;
   } else if (report.status == StepStatus::kOk) {
@@ -201,9 +206,9 @@ void Simulator::Impl::observe(const Measures& asked, FrameReport& report) {
     report.constraint_error = report.joint_gap = report.penetration = kNotMeasured;
     return;
   }
-  for (std::size_t i = 0; i < state.q.size(); ++i) R_WB[i] = state.q[i].toRotationMatrix();
+  turn_axes(all.bodies);
   if (joints) {
-    const JointErrors errors = joints->errors(*scene, state, R_WB);
+    const JointErrors errors = joints->errors(state, R_WB);
     report.constraint_error = errors.sum;
     report.joint_gap = errors.gap;
     report.joint_gap_joint = errors.joint;

@@ -28,6 +28,7 @@ Islands::Islands(const Scene& scene)
 void Islands::add_part(const Scene& scene) {
   Part& part = parts_.emplace_back();
   part.bodies.reserve(scene.bodies.size());
+  part.moving.reserve(scene.bodies.size());
   part.joints.reserve(scene.joints.size());
   part.has.reserve(scene.bodies.size());
 }
@@ -123,7 +124,7 @@ void Islands::make_parts(const Scene& scene) {
     part.bodies.clear();
     part.joints.clear();
     part.has.assign(scene.bodies.size(), 0);
-    part.moving = 0;
+    part.moving.clear();
   }
   const auto add = [](Part& part, int body) {
     part.bodies.push_back(body);
@@ -137,7 +138,7 @@ void Islands::make_parts(const Scene& scene) {
     if (n_of(i) == 0) continue;
     Part& part = part_of(i);
     add(part, i);
-    ++part.moving;
+    part.moving.push_back(i);
   }
   if (!scene.effects.joints) return;
   for (int i = 0; i < static_cast<int>(scene.joints.size()); ++i) {

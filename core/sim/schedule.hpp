@@ -21,6 +21,7 @@ class Schedule {
   [[nodiscard]] double dt() const { return turns_[at_].clock.dt(); }  ///< [s]
   [[nodiscard]] bool first_of_part() const { return turns_[at_].clock.taken() == 0; }
   [[nodiscard]] int number() const { return turns_[at_].clock.taken() + 1; }  ///< 1 is the first
+  [[nodiscard]] bool last_of_part() const { return turns_[at_].clock.left() == 1; }
   [[nodiscard]] bool needs_stiffness() const { return turns_[at_].clock.needs_stiffness(); }
   /// Goes on to the next one. @param r of this one, where it was needed [1/s^2]
   void advance(double r);

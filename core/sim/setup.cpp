@@ -30,6 +30,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   forces.reserve(n_blocks);
   state.k.reserve(n);
   R_WB.resize(n);
+  inertia_inverse = inertia_inverses(*scene);
   inverse_mass.resize(n);
   u_start.resize(n);
   u_before.resize(n);

@@ -15,6 +15,7 @@ FrameReport Simulator::Impl::advance(int most) {
   FrameReport& report = *open;
   while (schedule.running() && most-- > 0) {
     const double dt = schedule.dt();
+    watched = most == 0 || schedule.last_of_part();
     begin_substep(report);
     if (!append_rows(report)) break;  // phi, J
     external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6

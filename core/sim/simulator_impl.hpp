@@ -13,6 +13,7 @@
 #include "core/sim/simulator.hpp"
 #include "core/sim/stage_clock.hpp"
 #include "core/solver/solver.hpp"
+#include "core/stepping/effective_mass.hpp"
 #include "core/stepping/stiffness_bound.hpp"
 
 namespace substep {
@@ -35,6 +36,7 @@ struct Simulator::Impl {
   bool evaluate_stiffness(FrameReport& report);
   void remember_stiffness();
   void advance_poses(double dt, FrameReport& report);
+  void synchronise(double dt);  // velocities that stand half a sub-step behind the poses
 
   // Of the sub-step: what moves in it, and its rows.
   const Part& part() const { return open ? schedule.part() : all; }
@@ -49,7 +51,8 @@ struct Simulator::Impl {
   void seed_forces();
   void store_forces();
   void begin_frame();
-  void deal_out(FrameReport& report);  // the sub-steps of the frame to come
+  void turn_axes(std::span<const int> bodies);  // R_WB
+  void deal_out(FrameReport& report);           // the sub-steps of the frame to come
   void deal_out_islands(FrameReport& report);
   bool is_at_rest(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
@@ -88,13 +91,16 @@ struct Simulator::Impl {
   std::size_t first_force = 0;
   std::int64_t substeps_of_bodies = 0;  // of all that move, added up
 
+  std::vector<InertiaInverse> inertia_inverse;  // of the bodies of the scene
+
   // Scratch, valid within a sub-step.
-  std::vector<Mat3> R_WB;
+  std::vector<Mat3> R_WB;  // of bodies that stand still since the frame began
   std::vector<InverseMass> inverse_mass;
   std::vector<Vec6> u_start;         // at the start of the sub-step
   std::vector<Vec6> u_before;        // after the gyroscopic torque, before forces and constraints
   std::vector<double> impulse_time;  // per body: external forces act for it [s]
   bool smooth = true;                // no contact closed in this sub-step
+  bool watched = true;               // whether anybody may look at what it leaves
   StiffnessBound bound;
   StageClock clock;
 };

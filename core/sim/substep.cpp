@@ -19,7 +19,7 @@ namespace {
 
 bool has_gyroscopic_torque(const Body& body) {
   const Vec3& I = body.inertia;
-  return !body.is_static && !(I[0] == I[1] && I[1] == I[2]);
+  return !(I[0] == I[1] && I[1] == I[2]);
 }
 
 // No less than twice a body's kinetic energy, and finite only where its velocity is [J].
@@ -37,11 +37,7 @@ void Simulator::Impl::begin_substep(FrameReport& report) {
     first_force = forces.size();
     state.time = static_cast<double>(state.frame) * scene->frame;
   }
-  const Part& moved = part();
-  for (const int body : moved.bodies) {
-    const auto i = static_cast<std::size_t>(body);
-    R_WB[i] = state.q[i].toRotationMatrix();
-  }
+  turn_axes(part().moving);
   copy(state.u, u_start);
   if (open) report.n_substeps = std::max(report.n_substeps, schedule.number());
 }
@@ -49,7 +45,7 @@ void Simulator::Impl::begin_substep(FrameReport& report) {
 bool Simulator::Impl::append_rows(FrameReport& report) {
   blocks.keep(first_block);
   if (joints) {
-    joints->append(*scene, part(), state, R_WB, blocks);
+    joints->append(part(), state, R_WB, blocks);
     clock.lap(report.times.joints);
   }
   if (contact) {
@@ -86,12 +82,12 @@ bool Simulator::Impl::append_contacts() {
 
 void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   const Part& moved = part();
-  for (const int body : moved.bodies) {
+  for (const int body : moved.moving) {
     const auto i = static_cast<std::size_t>(body);
     impulse_time[i] = force_time(settings.integrator, state.dt_previous_of(i), dt);
   }
   if (scene->effects.gyroscopic) {
-    for (const int body : moved.bodies) {
+    for (const int body : moved.moving) {
       const auto i = static_cast<std::size_t>(body);
       if (!has_gyroscopic_torque(scene->bodies[i])) continue;
       const Vec3& I = scene->bodies[i].inertia;
@@ -105,17 +101,17 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   }
   copy(state.u, u_before);
   if (scene->effects.gravity) {
-    for (const int body : moved.bodies) {
-      const auto i = static_cast<std::size_t>(body);
-      if (!scene->bodies[i].is_static) state.u[i].head<3>() += impulse_time[i] * scene->gravity;
+    for (const int body : moved.moving) {
+      state.u[index(body)].head<3>() += impulse_time[index(body)] * scene->gravity;
     }
     report.stages.gravity = true;
   }
   if (changes_mass(settings.mode)) {
-    effective_mass(*scene, moved, settings, R_WB, u_start, dt, state, inverse_mass);
+    effective_mass(*scene, moved, settings, inertia_inverse, R_WB, u_start, dt, state,
+                   inverse_mass);
     report.stages.effective_mass = true;
   } else {
-    substep::inverse_mass(*scene, moved, R_WB, inverse_mass);
+    substep::inverse_mass(inertia_inverse, moved, R_WB, inverse_mass);
   }
   clock.lap(report.times.mass);
 }
@@ -140,7 +136,10 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   const System system{own, inverse_mass, state.u, u_before, dt, R_WB, scene->regularisation};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
-  const SolveReport solved = solver->solve(system, asked);
+  const SolveReport solved = solver->find_velocities(system, asked);
+  if (watched || probing || schedule.needs_stiffness() || starts_from_last_forces(settings)) {
+    solver->find_impulses(own);
+  }
   smooth = std::none_of(own.begin(), own.end(), [](const Block& block) {
     return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;
   });
@@ -163,11 +162,11 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
 bool Simulator::Impl::finite(FrameReport& report) {
   const Part& moved = part();
   double squares = 0.0;
-  for (const int body : moved.bodies)
+  for (const int body : moved.moving)
     squares += state.u[static_cast<std::size_t>(body)].squaredNorm();
   if (!std::isfinite(heaviest * squares)) {  // then it may be one that is too fast
     double sum = 0.0;
-    for (const int body : moved.bodies) {
+    for (const int body : moved.moving) {
       const auto i = static_cast<std::size_t>(body);
       sum += most_kinetic(scene->bodies[i], state.u[i]);
       if (std::isfinite(sum)) continue;
@@ -231,9 +230,23 @@ void Simulator::Impl::remember_stiffness() {
 }
 
 void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
-  integrate(*scene, part(), dt, state);
-  // u stands half a sub-step behind the new poses. Half a sub-step of the accelerations just found
-  // brings it up to them; an impact is no acceleration, so nothing is added then.
+  integrate(part(), dt, state);
+  if (watched) synchronise(dt);
+  state.time += dt;
+  state.dt_previous = dt;
+  if (!state.own.empty()) {
+    for (const int body : part().bodies) state.own[static_cast<std::size_t>(body)].dt_previous = dt;
+    if (!looks_for_islands(settings)) state.own.clear();  // all bodies have met
+  }
+  substeps_of_bodies += static_cast<std::int64_t>(part().moving.size());
+  report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
+  report.dt_max = std::max(report.dt_max, dt);
+  clock.lap(report.times.integrate);
+}
+
+// Half a sub-step of the accelerations just found brings u up to the new poses; an impact is no
+// acceleration, so nothing is added then.
+void Simulator::Impl::synchronise(double dt) {
   const auto ahead_after = [&](double dt_previous) {
     const double before =
         settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
@@ -241,7 +254,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   };
   const double ahead_of_all = ahead_after(state.dt_previous);
   const Part& moved = part();
-  for (const int body : moved.bodies) {
+  for (const int body : moved.moving) {
     const auto i = static_cast<std::size_t>(body);
     const double ahead = state.own.empty() ? ahead_of_all : ahead_after(state.own[i].dt_previous);
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
@@ -256,16 +269,6 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
       }
     }
   }
-  state.time += dt;
-  state.dt_previous = dt;
-  if (!state.own.empty()) {
-    for (const int body : part().bodies) state.own[static_cast<std::size_t>(body)].dt_previous = dt;
-    if (!looks_for_islands(settings)) state.own.clear();  // all bodies have met
-  }
-  substeps_of_bodies += part().moving;
-  report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
-  report.dt_max = std::max(report.dt_max, dt);
-  clock.lap(report.times.integrate);
 }
 
 void Simulator::Impl::set_lambda(Block& block) const {

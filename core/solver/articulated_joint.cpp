@@ -32,7 +32,8 @@ double along(const double (&f)[3], const Pairs6& column) {
 
 /// What a body carries and its own inertia about a point at r from its centre, Mt given by its
 /// inverse.
-Symmetric6 add_inertia(const InverseMass& inverse, const double* r, const Square6& A) {
+[[gnu::always_inline]] inline Symmetric6 add_inertia(const InverseMass& inverse, const double* r,
+                                                     const Square6& A) {
   double I[3][3];
   inverse_of(inverse.angular, I);
   const double m = 1.0 / inverse.linear;
@@ -149,7 +150,7 @@ void ArticulatedJoint::eliminate_rows(Symmetric6& A) {
   if (rows == 5 && (s[3] != 0.0 || s[4] != 0.0)) soften_angular(e_, s + 3, A);
 }
 
-void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, bool has_parent) {
+void ArticulatedJoint::eliminate_from(const InverseMass& W, const Square6& carried) {
   Symmetric6 A = add_inertia(W, r_, carried);
   if (rows_ == 5) {
     eliminate_rows<5>(A);
@@ -157,7 +158,16 @@ void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried, b
     eliminate_rows<3>(A);
   }
   A.rows(P_);
-  if (has_parent) A.shift(to_parent_, left_);
+}
+
+void ArticulatedJoint::eliminate(const InverseMass& W, const Square6& carried) {
+  eliminate_from(W, carried);
+}
+
+void ArticulatedJoint::eliminate(const InverseMass& W, const ArticulatedJoint& carried) {
+  Square6 left;
+  carried.left(left);
+  eliminate_from(W, left);
 }
 
 // Vectors of a body stay in registers from the first line of a function to its last.
@@ -209,34 +219,41 @@ void ArticulatedJoint::forward(const double* g_centre, double* g_parent) {
   }
 }
 
+// The parent's velocity at the pivot.
+inline void ArticulatedJoint::at_pivot(const double* v_parent, double (&v)[6]) const {
+  if (v_parent == nullptr) {
+    for (double& component : v) component = 0.0;
+    return;
+  }
+  cross(to_parent_, v_parent + 3, v);
+  for (int i = 0; i < 3; ++i) {
+    v[i] += v_parent[i];
+    v[3 + i] = v_parent[3 + i];
+  }
+}
+
+// R of the derivation. @param v at_pivot()
+inline void ArticulatedJoint::handed(const double* v_parent, const double (&v)[6],
+                                     double (&R)[6]) const {
+  if (v_parent == nullptr) {
+    for (int i = 0; i < 6; ++i) R[i] = -g_[i];
+    return;
+  }
+  const Pairs6 carried = P_.times(v);
+  for (int i = 0; i < 6; ++i) R[i] = carried[i] - g_[i];
+}
+
 template <int rows, bool exact>
-void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre, double* impulse) {
+void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre) {
   double v[6];
+  at_pivot(v_parent, v);
   double R[6];
-  if (v_parent != nullptr) {
-    cross(to_parent_, v_parent + 3, v);
-    for (int i = 0; i < 3; ++i) {
-      v[i] += v_parent[i];
-      v[3 + i] = v_parent[3 + i];
-    }
-    const Pairs6 carried = P_.times(v);
-    for (int i = 0; i < 6; ++i) R[i] = carried[i] - g_[i];
-  } else {
-    for (int i = 0; i < 6; ++i) {
-      v[i] = 0.0;
-      R[i] = -g_[i];
-    }
-  }
-  for (int row = 0; row < 3; ++row) {
-    v[row] -= exact ? w_[row] : w_[row] + softness_[row] * R[row];
-    impulse[row] = sign_ * R[row];
-  }
+  if (!exact) handed(v_parent, v, R);
+  for (int row = 0; row < 3; ++row) v[row] -= exact ? w_[row] : w_[row] + softness_[row] * R[row];
   for (int row = 3; row < rows; ++row) {
     const double* e = e_[row - 3];
-    const double x = dot(e, R + 3);
-    const double y = exact ? w_[row] : w_[row] + softness_[row] * x;
+    const double y = exact ? w_[row] : w_[row] + softness_[row] * dot(e, R + 3);
     for (int i = 0; i < 3; ++i) v[3 + i] -= e[i] * y;
-    impulse[row] = sign_ * x;
   }
   for (int k = n_free(rows); k-- > 0;) {
     const Free& free = free_[k];
@@ -255,14 +272,23 @@ void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre, d
   }
 }
 
-void ArticulatedJoint::backward(const double* v_parent, double* v_centre, double* impulse) {
+void ArticulatedJoint::backward(const double* v_parent, double* v_centre) {
   if (rows_ == 5) {
-    exact_ ? backward_rows<5, true>(v_parent, v_centre, impulse)
-           : backward_rows<5, false>(v_parent, v_centre, impulse);
+    exact_ ? backward_rows<5, true>(v_parent, v_centre)
+           : backward_rows<5, false>(v_parent, v_centre);
   } else {
-    exact_ ? backward_rows<3, true>(v_parent, v_centre, impulse)
-           : backward_rows<3, false>(v_parent, v_centre, impulse);
+    exact_ ? backward_rows<3, true>(v_parent, v_centre)
+           : backward_rows<3, false>(v_parent, v_centre);
   }
+}
+
+void ArticulatedJoint::find_impulse(const double* v_parent, double* impulse) const {
+  double v[6];
+  double R[6];
+  at_pivot(v_parent, v);
+  handed(v_parent, v, R);
+  for (int row = 0; row < 3; ++row) impulse[row] = sign_ * R[row];
+  for (int row = 3; row < rows_; ++row) impulse[row] = sign_ * dot(e_[row - 3], R + 3);
 }
 
 }  // namespace substep

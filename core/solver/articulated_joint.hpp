@@ -20,10 +20,12 @@ class ArticulatedJoint {
             const double* reference);
 
   /// @param W Mt^-1 of the child  @param carried what the child carries of others, about its pivot;
-  /// only the upper half is read  @param has_parent that is not the world
-  void eliminate(const InverseMass& W, const Square6& carried, bool has_parent);
-  /// What the parent gains, its upper half.
-  [[nodiscard]] const Square6& left() const { return left_; }
+  /// only the upper half is read
+  void eliminate(const InverseMass& W, const Square6& carried);
+  /// The same for what the child carries of one articulated joint.
+  void eliminate(const InverseMass& W, const ArticulatedJoint& carried);
+  /// What the parent gains, about its reference point. @param out its upper half
+  void left(Square6& out) const { shift(P_, to_parent_, out); }
 
   /// Forgets the momentum that it was handed.
   void rest() {
@@ -35,8 +37,10 @@ class ArticulatedJoint {
   void forward(const double* g_centre, double* g_parent);
 
   /// @param v_parent change of the parent's velocity, nullptr for the world
-  /// @param v_centre out: the child's  @param impulse out, one per row
-  void backward(const double* v_parent, double* v_centre, double* impulse);
+  /// @param v_centre out: the child's
+  void backward(const double* v_parent, double* v_centre);
+  /// @param v_parent as it was handed to backward()  @param impulse out, one per row
+  void find_impulse(const double* v_parent, double* impulse) const;
 
   [[nodiscard]] const double* pivot() const { return r_; }
   /// Momentum that articulated children hand over, about the pivot.
@@ -50,12 +54,16 @@ class ArticulatedJoint {
  private:
   /// A ball joint leaves three directions of rotation, a hinge one.
   static constexpr int n_free(int rows) { return rows == 5 ? 1 : 3; }
-  template <int rows>  // inline, so that the inertia is not stored on its way in and out
+  // Inline, so that the inertia is not stored on its way in and out.
+  [[gnu::always_inline]] inline void eliminate_from(const InverseMass& W, const Square6& carried);
+  template <int rows>
   [[gnu::always_inline]] inline void eliminate_rows(Symmetric6& A);
   template <int rows, bool exact>
   void forward_rows(const double* g_centre, double* g_parent);
   template <int rows, bool exact>
-  void backward_rows(const double* v_parent, double* v_centre, double* impulse);
+  void backward_rows(const double* v_parent, double* v_centre);
+  void at_pivot(const double* v_parent, double (&v)[6]) const;
+  void handed(const double* v_parent, const double (&v)[6], double (&R)[6]) const;
 
   /// A direction of rotation that the joint leaves free.
   struct Free {
@@ -74,7 +82,6 @@ class ArticulatedJoint {
   double w_[kMaxRows];   // child minus parent: J u* + bias [m/s, rad/s]
   double softness_[kMaxRows];
   Free free_[3];
-  Square6 left_;
   Rows6 P_;      // what the parent sees of the child, at the pivot
   double g_[6];  // momentum at the pivot, first the child's, then what the parent sees of it
   double v_[6];

@@ -74,10 +74,11 @@ void Bpp::centre(const System& system) {
   ldlt_.read(system.blocks);
 }
 
-SolveReport Bpp::solve(const System& system, const Settings& settings) {
+SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
   SolveReport report;
   ldlt_.begin(system);
   factor_valid_ = false;
+  swept_ = false;
   start_active_set(system);
   const int refinements = system.regularisation > 0.0 ? settings.refinements : 0;
   if (refinements > 0) {
@@ -86,6 +87,7 @@ SolveReport Bpp::solve(const System& system, const Settings& settings) {
   }
   find_active_set(system, settings, report);
   for (int i = 0; i < refinements && report.status != SolveStatus::kUnsolved; ++i) {
+    find_impulses(system.blocks);
     centre(system);
     find_active_set(system, settings, report);
   }
@@ -117,7 +119,13 @@ bool Bpp::better_than_none(const System& system) const {
   return energy < 0.0;
 }
 
+void Bpp::find_impulses(std::span<Block> blocks) {
+  if (!swept_) ldlt_.find_impulses(blocks);
+}
+
 std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings) {
+  find_impulses(system.blocks);
+  swept_ = true;
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
     block.impulse[0] = std::max(0.0, block.impulse[0]);

@@ -24,7 +24,8 @@ namespace substep {
 class Bpp final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
-  SolveReport solve(const System& system, const Settings& settings) override;
+  SolveReport find_velocities(const System& system, const Settings& settings) override;
+  void find_impulses(std::span<Block> blocks) override;
 
  private:
   /// From the active set and the factor as they stand.
@@ -55,6 +56,7 @@ class Bpp final : public Solver {
   SaddleLdlt ldlt_;
   Pgs gauss_seidel_;
   bool factor_valid_ = false;           // the factor belongs to the present active set
+  bool swept_ = false;                  // Gauss-Seidel had the last word
   std::vector<double> friction_bound_;  // per block [N s]
   struct Centre {
     double row[kMaxRows];

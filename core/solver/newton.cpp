@@ -124,20 +124,24 @@ void Newton::average(const System& system, std::size_t index, double w, bool num
     double gain[kMaxRows];
     for (int row = 0; row < start.rows; ++row) {
       gain[row] = w * (start.impulse[row] - before_[index].row[row]);
+      const Vec6 J_a = gradient(end, row, true) - gradient(back, row, true);
+      const Vec6 J_b = gradient(end, row, false) - gradient(back, row, false);
       for (int j = 0; j < 6; ++j) {
-        gained.J_a[row][j] -= back.J_a[row][j];
-        gained.J_b[row][j] -= back.J_b[row][j];
+        gained.J_a[row][j] = J_a[j];
+        gained.J_b[row][j] = J_b[j];
       }
     }
     apply_impulse(gained, gain, system.inverse_mass, aim_);
   }
-  const int first = start.pinned ? 3 : 0;  // the linear part of a joint is constant
-  for (int row = 0; row < start.rows; ++row) {
+  const auto averaged = [&](int row, int j, auto J) {
+    (end.*J)[row][j] =
+        w * ((back.*J)[row][j] + (end.*J)[row][j]) + (1.0 - 2.0 * w) * (start.*J)[row][j];
+  };
+  const int first = start.pinned ? 3 : 0;  // rows 0 to 2 of a pin are linear in its arms
+  for (int row = first; row < start.rows; ++row) {
     for (int j = first; j < 6; ++j) {
-      end.J_a[row][j] =
-          w * (back.J_a[row][j] + end.J_a[row][j]) + (1.0 - 2.0 * w) * start.J_a[row][j];
-      end.J_b[row][j] =
-          w * (back.J_b[row][j] + end.J_b[row][j]) + (1.0 - 2.0 * w) * start.J_b[row][j];
+      averaged(row, j, &Block::J_a);
+      if (!start.pinned) averaged(row, j, &Block::J_b);
     }
   }
   end.r_a = w * (back.r_a + end.r_a) + (1.0 - 2.0 * w) * start.r_a;
@@ -194,7 +198,7 @@ double Newton::take(const System& system) {
   return change;
 }
 
-SolveReport Newton::solve(const System& system, const Settings& settings) {
+SolveReport Newton::find_velocities(const System& system, const Settings& settings) {
   u_star_.assign(system.u.begin(), system.u.end());
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());

@@ -35,7 +35,7 @@ namespace substep {
 class Newton final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
-  SolveReport solve(const System& system, const Settings& settings) override;
+  SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
   /// Into rows_, and into back_ where the forces are those of more poses than the end's.

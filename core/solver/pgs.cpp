@@ -93,10 +93,12 @@ void Pgs::pack(const System& system, bool warm_start) {
     for (int i = 0; i < block.rows; ++i) {
       for (int later = i; later < block.rows; ++later) visit.coupling[i][later] = 0.0;
     }
-    const auto side = [&](const double(&J)[kMaxRows][6], int body,
-                          double(&by_component)[6][Visit::kPadded], double(&W)[kMaxRows][6],
-                          double& mass) {
+    const auto side = [&](bool is_a, int body, double(&by_component)[6][Visit::kPadded],
+                          double(&W)[kMaxRows][6], double& mass) {
       if (body < 0) return;
+      Vec6 of_pin[kMaxRows];
+      const double* J[kMaxRows];
+      for (int i = 0; i < block.rows; ++i) J[i] = gradient(block, i, is_a, of_pin[i]);
       const InverseMass& inverse = system.inverse_mass[static_cast<std::size_t>(body)];
       mass = inverse.linear;
       const int first = block.pinned ? 3 : 0;
@@ -112,8 +114,8 @@ void Pgs::pack(const System& system, bool warm_start) {
         for (int i = block.rows; i < padded; ++i) by_component[c][i] = 0.0;
       }
     };
-    side(block.J_a, block.a, visit.J_a, visit.W_a, visit.mass_a);
-    side(block.J_b, block.b, visit.J_b, visit.W_b, visit.mass_b);
+    side(true, block.a, visit.J_a, visit.W_a, visit.mass_a);
+    side(false, block.b, visit.J_b, visit.W_b, visit.mass_b);
     for (int i = 0; i < block.rows; ++i) {
       if (!warm_start) block.impulse[i] = 0.0;
       visit.bias[i] = block.bias[i];
@@ -172,7 +174,7 @@ void Pgs::visit(Visit& block, std::span<Vec6> u) {
   }
 }
 
-SolveReport Pgs::solve(const System& system, const Settings& settings) {
+SolveReport Pgs::find_velocities(const System& system, const Settings& settings) {
   pack(system, settings.warm_start);
   static_assert(kMaxRows == 5);
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {

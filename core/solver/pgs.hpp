@@ -13,7 +13,7 @@ namespace substep {
 class Pgs final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
-  SolveReport solve(const System& system, const Settings& settings) override;
+  SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
   /// What an iteration reads of a block, packed in the order of the visits. J is kept by component,

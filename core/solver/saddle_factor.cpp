@@ -16,13 +16,6 @@ namespace {
 // with the answer, and rounding makes as much again.
 constexpr double kLeastPivot = 1e-8;
 
-/// The upper half from the lower.
-void mirror(Square6& A) {
-  for (int i = 1; i < 6; ++i) {
-    for (int j = 0; j < i; ++j) A[j][i] = A[i][j];
-  }
-}
-
 }  // namespace
 
 void SaddleLdlt::count(Node& node) const {
@@ -75,7 +68,8 @@ void SaddleLdlt::add_left(const Node& child, int s, int t, double* to, auto stri
     });
   }
   if (child.way == Way::kArticulated) {  // the upper half alone
-    const Square6& left = child.joint->left();
+    Square6 left;
+    child.joint->left(left);
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j <= i; ++j) to[i * stride + j] += left[j][i];
     }
@@ -108,18 +102,16 @@ void SaddleLdlt::sum_carried(const Node& node, Square6& sum) {
   std::fill(&sum[0][0], &sum[0][0] + 36, 0.0);
   for (std::size_t c = 0; c < node.n_children; ++c) {
     const Node& child = nodes_[index(children_[node.first_child + c])];
-    Square6 shifted;
-    const Square6* from = &shifted;
+    Square6 left;
     if (child.way == Way::kArticulated) {
-      from = &child.joint->left();
+      child.joint->left(left);
     } else {
-      Square6 left = {};
-      add_left<true>(child, 0, 0, left[0], Known<6>{});
-      mirror(left);
-      load(left).shift(node.joint->pivot(), shifted);
+      Square6 lower = {};
+      add_left<true>(child, 0, 0, lower[0], Known<6>{});
+      shift([&](int i, int j) { return lower[j][i]; }, node.joint->pivot(), left);
     }
     for (int i = 0; i < 6; ++i) {
-      for (int j = i; j < 6; ++j) sum[i][j] += (*from)[i][j];
+      for (int j = i; j < 6; ++j) sum[i][j] += left[i][j];
     }
   }
 }
@@ -162,13 +154,14 @@ void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto row
     const Row& row = rows_[node.first_row + index(i)];
     const Attached& attached = attached_[node.first_attached + index(row.attached)];
     const Block& block = blocks[index(attached.block)];
-    const auto& J = gradient(block, row.row, attached.is_a);
+    Vec6 of_pin;
+    const double* J = gradient(block, row.row, attached.is_a, of_pin);
     weigh(inverse, J, f.V + 6 * i);
     for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(J, f.V + 6 * j);
     f.S_inverse[i] = kLeastPivot * f.S[i * rows + i];
     f.S[i * rows + i] += block.softness[row.row];
     if (attached.other < 0) continue;
-    const auto& J_other = gradient(block, row.row, !attached.is_a);
+    const double* J_other = gradient(block, row.row, !attached.is_a, of_pin);
     std::copy(J_other, J_other + 6, f.Z + i * n + 6 * attached.other);
     first[attached.other] = std::min(first[attached.other], i);
   }
@@ -228,7 +221,8 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
     const Attached& attached = attached_[node.first_attached + index(row.attached)];
     const Block& block = blocks[index(attached.block)];
     double* V = f.V + 6 * i;
-    const auto& J = gradient(block, row.row, attached.is_a);
+    Vec6 of_pin;
+    const double* J = gradient(block, row.row, attached.is_a, of_pin);
     std::copy(J, J + 6, V);
     solve_lower(f.A, Known<6>{}, Known<1>{}, V);
     double weighted[6];
@@ -240,7 +234,7 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
     f.S_inverse[i] = kLeastPivot * dot6(J, on_body);
     double* Z = f.Z + i * n;
     if (attached.other >= 0) {
-      const auto& J_other = gradient(block, row.row, !attached.is_a);
+      const double* J_other = gradient(block, row.row, !attached.is_a, of_pin);
       std::copy(J_other, J_other + 6, Z + 6 * attached.other);
     }
     for (int j = 0; j < 6; ++j) subtract_row(f.Y + j * n, weighted[j], n, Z);

@@ -63,7 +63,8 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
     if (s == 0.0) return false;
     double most = 0.0;
     if (block.a >= 0) most += mobility(block.J_a[row], system.inverse_mass[index(block.a)]);
-    if (block.b >= 0) most += mobility(block.J_b[row], system.inverse_mass[index(block.b)]);
+    const auto& J_b = block.pinned ? block.J_a : block.J_b;  // up to its sign
+    if (block.b >= 0) most += mobility(J_b[row], system.inverse_mass[index(block.b)]);
     if (!(most <= kFold * s)) return false;
   }
   return true;
@@ -86,8 +87,7 @@ void SaddleLdlt::read(std::span<const Block> blocks) {
     const Node& node = nodes_[i];
     if (node.way == Way::kArticulated) {
       const Attached& attached = attached_[node.first_attached];
-      node.joint->read(blocks[index(attached.block)], attached.is_a, u_star_,
-                       node.parent_joint == nullptr ? nullptr : node.parent_joint->pivot());
+      node.joint->read(blocks[index(attached.block)], attached.is_a, u_star_, node.reference);
     } else {
       read_rows(node, blocks);
     }
@@ -188,14 +188,15 @@ void SaddleLdlt::lay_out(const System& system) {
     rows += r;
   }
   joints_.resize(articulated);
-  link_articulated();
   values_.resize(values);
   rows_.resize(rows);
   c_.resize(rows);
   v_.resize(nodes_.size());
+  link_articulated();
 }
 
-// What articulated nodes and their neighbours hand each other.
+// What articulated nodes and their neighbours hand each other: among each other at the pivots, to
+// and from others at the centre.
 void SaddleLdlt::link_articulated() {
   auto next = joints_.begin();
   for (Node& node : nodes_) {
@@ -203,10 +204,15 @@ void SaddleLdlt::link_articulated() {
   }
   for (Node& node : nodes_) {
     if (node.way == Way::kArticulated) {
-      if (node.parent >= 0) node.parent_joint = nodes_[index(node.parent)].joint;
+      if (node.parent >= 0) {
+        ArticulatedJoint* parent = nodes_[index(node.parent)].joint;
+        double* at_centre = v_[index(node.parent)].data();
+        node.reference = parent == nullptr ? nullptr : parent->pivot();
+        node.handed_to = parent == nullptr ? at_centre : parent->momentum();
+        node.parent_velocity = parent == nullptr ? at_centre : parent->velocity();
+      }
       if (node.n_children != 1) continue;
-      const ArticulatedJoint* child = nodes_[index(children_[node.first_child])].joint;
-      if (child != nullptr) node.carried = &child->left();
+      node.carried = nodes_[index(children_[node.first_child])].joint;
     } else {
       for (int s = 0; s < node.coupled; ++s) {
         nodes_[index(coupled_[node.first_coupled + index(s)])].pushed = true;

@@ -73,33 +73,22 @@ void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
 }
 
 void SaddleLdlt::factor_articulated(Node& node) {
-  Square6 sum;
-  if (node.carried == nullptr) sum_carried(node, sum);
-  node.joint->eliminate(inverse_mass_[index(node.body)],
-                        node.carried == nullptr ? sum : *node.carried, node.parent >= 0);
+  const InverseMass& inverse = inverse_mass_[index(node.body)];
+  if (node.carried != nullptr) {
+    node.joint->eliminate(inverse, *node.carried);
+  } else {
+    Square6 sum;
+    sum_carried(node, sum);
+    node.joint->eliminate(inverse, sum);
+  }
 }
 
-// An articulated node is handed momentum and asked for its velocity at its pivot by articulated
-// children, at its centre by others.
-void SaddleLdlt::forward_articulated(const Node& node) {
-  double* to = nullptr;
-  if (node.parent_joint != nullptr) {
-    to = node.parent_joint->momentum();
-  } else if (node.parent >= 0) {
-    to = v_[index(node.parent)].data();
+void SaddleLdlt::find_impulses(std::span<Block> blocks) const {
+  for (const Node& node : nodes_) {
+    if (node.way != Way::kArticulated) continue;
+    Block& block = blocks[index(attached_[node.first_attached].block)];
+    node.joint->find_impulse(node.parent_velocity, block.impulse);
   }
-  node.joint->forward(node.pushed ? v_[position(node)].data() : nullptr, to);
-}
-
-void SaddleLdlt::backward_articulated(const Node& node, std::span<Block> blocks) {
-  const double* of_parent = nullptr;
-  if (node.parent_joint != nullptr) {
-    of_parent = node.parent_joint->velocity();
-  } else if (node.parent >= 0) {
-    of_parent = v_[index(node.parent)].data();
-  }
-  Block& block = blocks[index(attached_[node.first_attached].block)];
-  node.joint->backward(of_parent, v_[position(node)].data(), block.impulse);
 }
 
 void SaddleLdlt::forward(const Node& node) {
@@ -195,13 +184,20 @@ void SaddleLdlt::solve(const System& system) {
   set_momenta(system.blocks);
   for (Node& node : nodes_) {
     if (node.dirty) factor_node(node, system.blocks);
-    node.way == Way::kArticulated ? forward_articulated(node) : forward(node);
+    if (node.way == Way::kArticulated) {
+      node.joint->forward(node.pushed ? v_[position(node)].data() : nullptr, node.handed_to);
+    } else {
+      forward(node);
+    }
     flops_ += node.solve_flops;
   }
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
-    node.way == Way::kArticulated ? backward_articulated(node, system.blocks)
-                                  : backward(node, system.blocks);
+    if (node.way == Way::kArticulated) {
+      node.joint->backward(node.parent_velocity, v_[i].data());
+    } else {
+      backward(node, system.blocks);
+    }
     const auto body = index(node.body);
     system.u[body] = u_star_[body] + v_[i];
   }

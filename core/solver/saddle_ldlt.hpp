@@ -45,6 +45,8 @@ class SaddleLdlt {
   void touch(std::size_t block);
   /// Impulses of free rows from those of tight rows, and u+. Factors what has changed.
   void solve(const System& system);
+  /// What solve() leaves out, as no velocity follows from it: impulses of articulated nodes.
+  void find_impulses(std::span<Block> blocks) const;
 
   /// Floating-point operations since `begin`.
   [[nodiscard]] std::int64_t flops() const { return flops_; }
@@ -83,10 +85,12 @@ class SaddleLdlt {
     std::size_t values = 0;  // into values_, unless articulated
     std::size_t update = 0;  // into values_: what it leaves on the coupled bodies, where general
     // Of an articulated node:
-    ArticulatedJoint* joint = nullptr;         // one of joints_
-    ArticulatedJoint* parent_joint = nullptr;  // of the parent, where that is articulated as well
-    const Square6* carried = nullptr;  // what its one child leaves, where that is articulated
-    bool pushed = false;               // at its centre, by nodes of another way; of any node
+    ArticulatedJoint* joint = nullptr;          // one of joints_
+    const ArticulatedJoint* carried = nullptr;  // of its one child, where that is articulated
+    const double* reference = nullptr;          // of the parent: its pivot, nullptr for its centre
+    double* handed_to = nullptr;                // momentum of the parent, nullptr for the world
+    const double* parent_velocity = nullptr;    // there
+    bool pushed = false;  // at its centre, by nodes of another way; of any node
   };
   struct Row {
     int attached = 0;
@@ -151,11 +155,9 @@ class SaddleLdlt {
   void set_momenta(std::span<const Block> blocks);
   [[nodiscard]] Vec6* of_body(int body);
   void forward(const Node& node);
-  void forward_articulated(const Node& node);
   /// @param weighted D^-1 L^-1 g, bare: g
   void forward_rows(const Node& node, const Factor& f, auto rows, const double* weighted);
   void backward(const Node& node, std::span<Block> blocks);
-  void backward_articulated(const Node& node, std::span<Block> blocks);
   /// @param change in: L^-1 g, bare: Mt^-1 g; out: with the pushes of the rows
   void backward_rows(const Node& node, const Factor& f, auto rows, std::span<Block> blocks,
                      double* change);

@@ -16,7 +16,16 @@ class Solver {
   virtual ~Solver() = default;
   /// Room for scenes of this size, so that the first contacts do not allocate either.
   virtual void reserve(std::size_t bodies, std::size_t blocks) = 0;
-  virtual SolveReport solve(const System& system, const Settings& settings) = 0;
+  /// Velocities and all impulses.
+  SolveReport solve(const System& system, const Settings& settings) {
+    const SolveReport report = find_velocities(system, settings);
+    find_impulses(system.blocks);
+    return report;
+  }
+  /// Velocities. Impulses of joints may be left as they are where no velocity follows from them.
+  virtual SolveReport find_velocities(const System& system, const Settings& settings) = 0;
+  /// Those impulses, of the system that was last solved. @param blocks its own
+  virtual void find_impulses(std::span<Block> /*blocks*/) {}
 };
 
 std::unique_ptr<Solver> make_solver(SolverKind kind);

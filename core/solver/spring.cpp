@@ -51,18 +51,33 @@ void add_pin(double k, const double* r, const double* r_other, const SpringTarge
   U[(3 + l) * n + 3 + l] += qj * r_other[j];
 }
 
-/// Any row, whose gradients begin at `first`.
-template <std::size_t first>
-void add_row(double k, const double (&J)[6], const double (&J_other)[6], const SpringTarget& to) {
-  for (std::size_t i = first; i < 6; ++i) {
+/// A further row of a pin, with J of either side: the other's is the opposite.
+void add_turn(double k, const double (&J)[6], const SpringTarget& to) {
+  for (std::size_t i = 3; i < 6; ++i) {
     const double f = k * J[i];
-    for (std::size_t j = first; j <= i; ++j) to.A[i][j] += f * J[j];
+    for (std::size_t j = 3; j <= i; ++j) to.A[i][j] += f * J[j];
   }
   if (to.B == nullptr) return;
-  for (std::size_t i = first; i < 6; ++i) {
+  for (std::size_t i = 3; i < 6; ++i) {
+    const double f = k * J[i];
+    for (std::size_t j = 3; j < 6; ++j) {
+      to.B[i * to.stride + j] -= f * J[j];
+      to.U[i * to.stride + j] += f * J[j];
+    }
+  }
+}
+
+/// Any row.
+void add_row(double k, const double (&J)[6], const double (&J_other)[6], const SpringTarget& to) {
+  for (std::size_t i = 0; i < 6; ++i) {
+    const double f = k * J[i];
+    for (std::size_t j = 0; j <= i; ++j) to.A[i][j] += f * J[j];
+  }
+  if (to.B == nullptr) return;
+  for (std::size_t i = 0; i < 6; ++i) {
     const double f = k * J[i];
     const double f_other = k * J_other[i];
-    for (std::size_t j = first; j < 6; ++j) {
+    for (std::size_t j = 0; j < 6; ++j) {
       to.B[i * to.stride + j] += f * J_other[j];
       to.U[i * to.stride + j] += f_other * J_other[j];
     }
@@ -72,25 +87,25 @@ void add_row(double k, const double (&J)[6], const double (&J_other)[6], const S
 }  // namespace
 
 void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
-  const auto& J = is_a ? block.J_a : block.J_b;
-  const auto& J_other = is_a ? block.J_b : block.J_a;
-  int row = 0;
   if (block.pinned) {
     const double* r = (is_a ? block.r_a : block.r_b).data();
     const double* r_other = (is_a ? block.r_b : block.r_a).data();
     add_pin<0>(1.0 / block.softness[0], r, r_other, to);
     add_pin<1>(1.0 / block.softness[1], r, r_other, to);
     add_pin<2>(1.0 / block.softness[2], r, r_other, to);
-    for (row = 3; row < block.rows; ++row) {
-      add_row<3>(1.0 / block.softness[row], J[row], J_other[row], to);
+    for (int row = 3; row < block.rows; ++row) {
+      add_turn(1.0 / block.softness[row], block.J_a[row], to);
     }
+    return;
   }
-  for (; row < block.rows; ++row) {
-    if (block.tight[row] == 0) add_row<0>(1.0 / block.softness[row], J[row], J_other[row], to);
+  const auto& J = is_a ? block.J_a : block.J_b;
+  const auto& J_other = is_a ? block.J_b : block.J_a;
+  for (int row = 0; row < block.rows; ++row) {
+    if (block.tight[row] == 0) add_row(1.0 / block.softness[row], J[row], J_other[row], to);
   }
 }
 
-// As add_pin() and add_row() add, push() and row_speeds() multiply.
+// As add_pin(), add_turn() and add_row() add, push() and row_speeds() multiply.
 SpringFlops spring_flops(const Block& block, int rows, int bodies) {
   const std::int64_t other = bodies - 1;
   const auto of_row = [&](std::int64_t n) {  // n gradients of each body

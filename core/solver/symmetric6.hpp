@@ -28,6 +28,7 @@ inline Pairs6 combine(double f, const Pairs6& a, double g, const Pairs6& b, doub
 /// All 6 x 6 elements, for products with vectors.
 struct Rows6 {
   Pairs6 row[6];
+  double operator()(int i, int j) const { return row[i][j]; }
 
   /// A x for a symmetric A.
   [[nodiscard]] Pairs6 times(const double (&x)[6]) const {
@@ -116,51 +117,37 @@ class Symmetric6 {
     }
   }
 
-  // The inertia about a point moved by r: X^T A X with X = [ E [r]; 0 E ],
-  //   C' = C + L [r],  Omega' = Omega - [r] C' + C^T [r].
-  /// @param out its upper half
-  void shift(const double* r, Square6& out) const {
-    const Symmetric6& A = *this;
-    const double L[3][3] = {
-        {A(0, 0), A(0, 1), A(0, 2)}, {A(0, 1), A(1, 1), A(1, 2)}, {A(0, 2), A(1, 2), A(2, 2)}};
-    double C[3][3];
-    for (int i = 0; i < 3; ++i) {
-      C[i][0] = A(i, 3) + (L[i][1] * r[2] - L[i][2] * r[1]);
-      C[i][1] = A(i, 4) + (L[i][2] * r[0] - L[i][0] * r[2]);
-      C[i][2] = A(i, 5) + (L[i][0] * r[1] - L[i][1] * r[0]);
-      for (int j = 0; j < 3; ++j) {
-        out[i][j] = L[i][j];
-        out[i][3 + j] = C[i][j];
-      }
-    }
-    const auto omega = [&](int i, int j, double rC) {
-      const int k = (j + 1) % 3;
-      const int l = (j + 2) % 3;
-      out[3 + i][3 + j] = (A(3 + i, 3 + j) - rC) + (A(k, 3 + i) * r[l] - A(l, 3 + i) * r[k]);
-    };
-    omega(0, 0, r[1] * C[2][0] - r[2] * C[1][0]);
-    omega(0, 1, r[1] * C[2][1] - r[2] * C[1][1]);
-    omega(0, 2, r[1] * C[2][2] - r[2] * C[1][2]);
-    omega(1, 1, r[2] * C[0][1] - r[0] * C[2][1]);
-    omega(1, 2, r[2] * C[0][2] - r[0] * C[2][2]);
-    omega(2, 2, r[0] * C[1][2] - r[1] * C[0][2]);
-  }
-
  private:
   Pairs6 row_[6];
 };
 
-/// From the upper half in memory.
-inline Symmetric6 load(const Square6& A) {
-  const Pair none{0.0, 0.0};
-  Symmetric6 out;
-  out.set(0, Pair{A[0][0], A[0][1]}, Pair{A[0][2], A[0][3]}, Pair{A[0][4], A[0][5]});
-  out.set(1, Pair{A[0][1], A[1][1]}, Pair{A[1][2], A[1][3]}, Pair{A[1][4], A[1][5]});
-  out.set(2, none, Pair{A[2][2], A[2][3]}, Pair{A[2][4], A[2][5]});
-  out.set(3, none, Pair{A[2][3], A[3][3]}, Pair{A[3][4], A[3][5]});
-  out.set(4, none, none, Pair{A[4][4], A[4][5]});
-  out.set(5, none, none, Pair{A[4][5], A[5][5]});
-  return out;
+// The inertia about a point moved by r: X^T A X with X = [ E [r]; 0 E ],
+//   C' = C + L [r],  Omega' = Omega - [r] C' + C^T [r].
+/// @param A its upper half is read  @param out its upper half
+inline void shift(const auto& A, const double* r, Square6& out) {
+  const double L[3][3] = {
+      {A(0, 0), A(0, 1), A(0, 2)}, {A(0, 1), A(1, 1), A(1, 2)}, {A(0, 2), A(1, 2), A(2, 2)}};
+  double C[3][3];
+  for (int i = 0; i < 3; ++i) {
+    C[i][0] = A(i, 3) + (L[i][1] * r[2] - L[i][2] * r[1]);
+    C[i][1] = A(i, 4) + (L[i][2] * r[0] - L[i][0] * r[2]);
+    C[i][2] = A(i, 5) + (L[i][0] * r[1] - L[i][1] * r[0]);
+    for (int j = 0; j < 3; ++j) {
+      out[i][j] = L[i][j];
+      out[i][3 + j] = C[i][j];
+    }
+  }
+  const auto omega = [&](int i, int j, double rC) {
+    const int k = (j + 1) % 3;
+    const int l = (j + 2) % 3;
+    out[3 + i][3 + j] = (A(3 + i, 3 + j) - rC) + (A(k, 3 + i) * r[l] - A(l, 3 + i) * r[k]);
+  };
+  omega(0, 0, r[1] * C[2][0] - r[2] * C[1][0]);
+  omega(0, 1, r[1] * C[2][1] - r[2] * C[1][1]);
+  omega(0, 2, r[1] * C[2][2] - r[2] * C[1][2]);
+  omega(1, 1, r[2] * C[0][1] - r[0] * C[2][1]);
+  omega(1, 2, r[2] * C[0][2] - r[0] * C[2][2]);
+  omega(2, 2, r[0] * C[1][2] - r[1] * C[0][2]);
 }
 
 }  // namespace substep

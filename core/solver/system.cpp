@@ -8,24 +8,26 @@ namespace substep {
 namespace {
 
 /// J^T x of one side, added to a momentum: of a pin x and r x x, row by row.
-/// @param sign of the side of a pinned block: +1 for a, -1 for b
+/// @param sign of the side of a pinned block: +1 for a, -1 for b  @param J of any other block
 void add_push(const Block& block, const double (&J)[kMaxRows][6], double sign, const Vec3& r,
               const double* x, Vec6& g) {
-  int row = 0;
-  int first = 0;
-  if (block.pinned) {
-    for (; row < 3; ++row) {
-      const int j = (row + 1) % 3;
-      const int l = (row + 2) % 3;
-      const double f = sign * x[row];
-      g[row] += f;
-      g[3 + j] += r[l] * f;
-      g[3 + l] -= r[j] * f;
+  if (!block.pinned) {
+    for (int row = 0; row < block.rows; ++row) {
+      for (int j = 0; j < 6; ++j) g[j] += J[row][j] * x[row];
     }
-    first = 3;
+    return;
   }
-  for (; row < block.rows; ++row) {
-    for (int j = first; j < 6; ++j) g[j] += J[row][j] * x[row];
+  for (int row = 0; row < 3; ++row) {
+    const int j = (row + 1) % 3;
+    const int l = (row + 2) % 3;
+    const double f = sign * x[row];
+    g[row] += f;
+    g[3 + j] += r[l] * f;
+    g[3 + l] -= r[j] * f;
+  }
+  for (int row = 3; row < block.rows; ++row) {
+    const double f = sign * x[row];
+    for (int j = 3; j < 6; ++j) g[j] += block.J_a[row][j] * f;
   }
 }
 
@@ -52,7 +54,8 @@ void add_speeds(const Block& block, const double (&J)[kMaxRows][6], double sign,
     speed[row] += sign * u[row];
   }
   for (int row = 3; row < block.rows; ++row) {
-    speed[row] += J[row][3] * u[3] + J[row][4] * u[4] + J[row][5] * u[5];
+    const double* axis = block.J_a[row] + 3;
+    speed[row] += sign * (axis[0] * u[3] + axis[1] * u[4] + axis[2] * u[5]);
   }
 }
 

@@ -11,11 +11,9 @@ namespace substep {
 namespace {
 
 /// A direction in the space of a block's rows, seen by one body: how its pose changes the error.
-Vec6 gradient(const double (&J)[kMaxRows][6], int first, int count, const double* direction) {
+Vec6 gradient(const Block& block, RowRange rows, bool of_a, const double* direction) {
   Vec6 g = Vec6::Zero();
-  for (int i = 0; i < count; ++i) {
-    for (int j = 0; j < 6; ++j) g[j] += direction[i] * J[first + i][j];
-  }
+  for (int i = 0; i < rows.count; ++i) g += direction[i] * gradient(block, rows.first + i, of_a);
   return g;
 }
 
@@ -79,12 +77,12 @@ void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange ro
   Vec6 du_a = Vec6::Zero();
   Vec6 du_b = Vec6::Zero();
   if (u_a) {
-    const Vec6 g = gradient(moved.J_a, rows.first, rows.count, direction);
+    const Vec6 g = gradient(moved, rows, true, direction);
     du_a = response(system.inverse_mass[static_cast<std::size_t>(block.a)], g);
     w += g.dot(du_a);
   }
   if (u_b) {
-    const Vec6 g = gradient(moved.J_b, rows.first, rows.count, direction);
+    const Vec6 g = gradient(moved, rows, false, direction);
     du_b = response(system.inverse_mass[static_cast<std::size_t>(block.b)], g);
     w += g.dot(du_b);
   }
@@ -100,7 +98,7 @@ void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange ro
   if (u_b) push(p * du_b, system.dt, *u_b);
 }
 
-SolveReport Xpbd::solve(const System& system, const Settings& settings) {
+SolveReport Xpbd::find_velocities(const System& system, const Settings& settings) {
   SolveReport report;
   report.iterations = settings.iterations;
   for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);

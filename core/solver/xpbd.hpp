@@ -21,7 +21,7 @@ namespace substep {
 class Xpbd final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
-  SolveReport solve(const System& system, const Settings& settings) override;
+  SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
   /// Sets the error of some rows of a block right, with one impulse along it.

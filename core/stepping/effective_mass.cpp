@@ -23,27 +23,33 @@ void turn(const Mat3& R, const Vec3& d, Mat3& out) {
   }
 }
 
-void invert(const Body& body, const Mat3& R, InverseMass& out) {
-  if (body.is_static) {
-    out = {};
-    return;
-  }
-  out.linear = 1.0 / body.mass;
-  const Vec3& I = body.inertia;
-  if (I[0] == I[1] && I[1] == I[2]) {
-    out.angular = Mat3::Identity() / I[0];
+void turn(const Mat3& R, const InertiaInverse& own, InverseMass& out) {
+  out.linear = own.linear;
+  if (own.isotropic) {
+    out.angular = own.angular.asDiagonal();
   } else {
-    turn(R, I.cwiseInverse(), out.angular);
+    turn(R, own.angular, out.angular);
   }
 }
 
 }  // namespace
 
-void inverse_mass(const Scene& scene, const Part& part, std::span<const Mat3> R_WB,
+std::vector<InertiaInverse> inertia_inverses(const Scene& scene) {
+  std::vector<InertiaInverse> out(scene.bodies.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;
+    const Vec3& I = body.inertia;
+    out[i] = {1.0 / body.mass, I.cwiseInverse(), I[0] == I[1] && I[1] == I[2]};
+  }
+  return out;
+}
+
+void inverse_mass(std::span<const InertiaInverse> own, const Part& part, std::span<const Mat3> R_WB,
                   std::span<InverseMass> out) {
-  for (const int index : part.bodies) {
-    const auto i = static_cast<std::size_t>(index);
-    invert(scene.bodies[i], R_WB[i], out[i]);
+  for (const int body : part.moving) {
+    const std::size_t i = index(body);
+    turn(R_WB[i], own[i], out[i]);
   }
 }
 
@@ -78,24 +84,23 @@ double beta_of(KeptVelocity kept, const Settings& settings) {
 // S = Mt^-1 M turns what M made of u and the forces into what Mt makes of them:
 //   u* = beta u + (1 - beta) S u + Mt^-1 dt f = S (u_M - beta u) + beta u.
 void effective_mass(const Scene& scene, const Part& part, const Settings& settings,
-                    std::span<const Mat3> R_WB, std::span<const Vec6> u_start, double dt,
-                    State& state, std::span<InverseMass> out) {
+                    std::span<const InertiaInverse> own, std::span<const Mat3> R_WB,
+                    std::span<const Vec6> u_start, double dt, State& state,
+                    std::span<InverseMass> out) {
   const ModeRules rules = rules_of(settings.mode);
   const double beta = beta_of(rules.kept, settings);
   const bool stiffens = rules.mass == StiffMass::kFull;
   const std::size_t known = stiffens ? state.K_resisting.size() : state.k.size();
-  for (const int index : part.bodies) {
-    const auto i = static_cast<std::size_t>(index);
-    const Body& body = scene.bodies[i];
-    const Vec3& I = body.inertia;
+  for (const int body : part.moving) {
+    const std::size_t i = index(body);
+    const Vec3& I = scene.bodies[i].inertia;
     const Mat3& R = R_WB[i];
     Vec3 Mt;
-    if (body.is_static || i >= known ||
-        (!stiffens && !principal_mass(settings, rules.mass, I, state.k[i], dt, Mt))) {
-      invert(body, R, out[i]);
+    if (i >= known || (!stiffens && !principal_mass(settings, rules.mass, I, state.k[i], dt, Mt))) {
+      turn(R, own[i], out[i]);
       continue;
     }
-    out[i].linear = 1.0 / body.mass;
+    out[i].linear = own[i].linear;
     auto omega = state.u[i].tail<3>();
     if (stiffens) {
       Mat3 M;

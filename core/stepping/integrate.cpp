@@ -2,10 +2,9 @@
 
 namespace substep {
 
-void integrate(const Scene& scene, const Part& part, double dt, State& state) {
-  for (const int index : part.bodies) {
+void integrate(const Part& part, double dt, State& state) {
+  for (const int index : part.moving) {
     const auto i = static_cast<std::size_t>(index);
-    if (scene.bodies[i].is_static) continue;
     state.x[i] += dt * state.u[i].head<3>();
     const Vec3 half = 0.5 * dt * state.u[i].tail<3>();
     const Quat& q = state.q[i];

@@ -39,8 +39,9 @@ TEST(Divergence, WithinAFrameTellsTheTimeOfItsPoses) {
   simulator.step();
   for (int i = 0; i < 3; ++i) simulator.substep();
   Grab grab;
-  grab.body = 0;
-  grab.target = {1e300, 0.0, 0.0};
+  grab.body = 1;
+  ASSERT_FALSE(scene->bodies[1].is_static);
+  grab.anchor = {1e200, 0.0, 0.0};  // an arm whose square is no number
   grab.mass = 1e10;
   simulator.set_grab(grab);
   const FrameReport report = simulator.step();

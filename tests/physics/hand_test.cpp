@@ -132,6 +132,39 @@ TEST(Grab, AsksForSubsteps) {
   EXPECT_GT(b.n_substeps, a.n_substeps);
 }
 
+// What is read only now and then is found only then: anybody may look after any sub-step.
+TEST(InterruptedFrame, ShowsForcesAndVelocitiesOfItsLastSubstep) {
+  const Scene scene = scenes::swinging_box();
+  const int last = static_cast<int>(scene.joints.size()) - 1;
+  const JointBase& joint = base(scene.joints[index(last)]);
+  const std::size_t box = index(heaviest(scene));
+  ASSERT_TRUE(index(joint.a) == box || index(joint.b) == box);
+  const double sign = index(joint.a) == box ? 1.0 : -1.0;
+  const double m = scene.bodies[box].mass;
+  for (const bool warm_start : {false, true}) {
+    Settings settings = scene.settings;
+    settings.mode = Mode::kConst;
+    settings.n = 8;
+    settings.warm_start = warm_start;
+    const double dt = scene.frame / settings.n;
+    Simulator simulator = simulator_of(scene, settings);
+    for (int frame = 0; frame < 10; ++frame) simulator.step();
+    for (int i = 0; i < 20; ++i) {
+      const State before = simulator.state();
+      simulator.substep();
+      const State& after = simulator.state();
+      const Vec3 gained = m * (after.u[box] - before.u[box]).head<3>() / dt;
+      const Eigen::Vector3f pulled = simulator.constraint_forces().joints[index(last)].force;
+      const Vec3 expected = gained - m * scene.gravity;
+      EXPECT_LT((sign * pulled.cast<double>() - expected).norm(), 1e-5 * expected.norm()) << i;
+      for (std::size_t body = 0; body < after.u.size(); ++body) {
+        const Vec6 now = after.u[body] + 0.5 * (after.u[body] - before.u[body]);
+        EXPECT_LT((after.u_synchronised[body] - now).norm(), 1e-9 * (1.0 + now.norm())) << i;
+      }
+    }
+  }
+}
+
 TEST(ConstraintForces, OfAJointCarryWhatHangsFromIt) {
   Scene scene;
   scene.effects = {.gravity = true, .joints = true};

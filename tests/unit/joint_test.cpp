@@ -61,7 +61,7 @@ void curvature() {
         then.q[i] = Quat(Eigen::AngleAxisd(t * omega.norm(), omega.normalized())) * state.q[i];
       }
       Blocks blocks;
-      JointStage(scene).append(scene, whole(scene), then, rotations(then), blocks);
+      JointStage(scene).append(whole(scene), then, rotations(then), blocks);
       return blocks.all()[0];
     };
     const double t = 1e-4;
@@ -108,7 +108,7 @@ TEST(HingeJoint, TurningAboutTheAxisIsNoError) {
   scene.joints.push_back(hinge);
   State state = initial_state(scene);
   state.q[0] = Quat(Eigen::AngleAxisd(1.2, hinge.axis_a));
-  EXPECT_LT(JointStage(scene).errors(scene, state, rotations(state)).sum, 1e-15);
+  EXPECT_LT(JointStage(scene).errors(state, rotations(state)).sum, 1e-15);
 }
 
 TEST(JointStage, ErrorsAreTheSumAndTheLargestGap) {
@@ -122,7 +122,7 @@ TEST(JointStage, ErrorsAreTheSumAndTheLargestGap) {
   joint.anchor_b = {0.0, 0.0, 0.1};
   scene.joints.push_back(joint);
   const State state = initial_state(scene);
-  const JointErrors errors = JointStage(scene).errors(scene, state, rotations(state));
+  const JointErrors errors = JointStage(scene).errors(state, rotations(state));
   EXPECT_DOUBLE_EQ(errors.sum, 0.8);
   EXPECT_DOUBLE_EQ(errors.gap, 0.5);
   EXPECT_EQ(errors.joint, 0);

@@ -50,7 +50,7 @@ struct Chain {
     u_before = state.u;
     for (Vec6& u : state.u) u[1] -= 9.81 * dt;
     R_WB = rotations(state);
-    JointStage(scene).append(scene, whole(scene), state, R_WB, blocks);
+    JointStage(scene).append(whole(scene), state, R_WB, blocks);
     for (Block& block : blocks.all()) {
       std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
       std::fill(block.tight, block.tight + kMaxRows, std::int8_t{0});
@@ -165,7 +165,7 @@ TEST(Newton, OnBodiesThatDoNotTurnIsTheLinearSolve) {
   for (Vec6* u : {&chain.state.u[0], &chain.u_before[0]}) u->tail<3>().setZero();
   chain.blocks.clear();
   JointStage(chain.scene)
-      .append(chain.scene, whole(chain.scene), chain.state, rotations(chain.state), chain.blocks);
+      .append(whole(chain.scene), chain.state, rotations(chain.state), chain.blocks);
   Block& block = chain.blocks.all()[0];
   for (int row = 0; row < 3; ++row) {
     block.impulse[row] = block.bias[row] = 0.0;

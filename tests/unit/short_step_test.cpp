@@ -52,7 +52,7 @@ struct Pile {
     }
     u_before = state.u;
     R_WB = rotations(state);
-    JointStage(scene).append(scene, whole(scene), state, R_WB, blocks);
+    JointStage(scene).append(whole(scene), state, R_WB, blocks);
     ContactStage(scene).detect_and_append(scene, whole(scene), state, R_WB, blocks);
     if (mu > 0.0) FrictionStage(scene).append(scene, R_WB, blocks.all());
     for (Block& block : blocks.all()) {

@@ -3,6 +3,7 @@
 #include "core/solver/solver.hpp"
 
 #include <Eigen/LU>
+#include <limits>
 #include <optional>
 
 #include "core/solver/bpp.hpp"
@@ -27,28 +28,25 @@ struct ProblemSize {
   double softness = 0.01;  // rows have up to twenty times as much [1/kg]
 };
 
-/// The gradients of a joint of rigid bodies, at random arms and axes.
+/// A joint of rigid bodies, at random arms and axes. What its arms tell is not there to be read.
 void pin(Random& random, Block& block) {
-  const auto set = [](double(&J)[6], const Vec3& linear, const Vec3& angular) {
-    for (int j = 0; j < 3; ++j) {
-      J[j] = linear[j];
-      J[3 + j] = angular[j];
+  for (int row = 0; row < kMaxRows; ++row) {
+    for (int j = 0; j < 6; ++j) {
+      block.J_a[row][j] = block.J_b[row][j] = std::numeric_limits<double>::quiet_NaN();
     }
-  };
+  }
   block.r_a = random_vector(random);
   block.r_b = random_vector(random);
-  for (int row = 0; row < 3; ++row) {
-    const Vec3 e = Vec3::Unit(row);
-    set(block.J_a[row], e, block.r_a.cross(e));
-    set(block.J_b[row], -e, -block.r_b.cross(e));
-  }
   Vec3 v[2];  // across b's axis; a's axis is off by up to half a radian
   const Vec3 axis_b = random_vector(random).normalized();
   across(axis_b, v[0], v[1]);
   const Vec3 axis_a = (axis_b + 0.3 * random_vector(random)).normalized();
   for (int row = 3; row < block.rows; ++row) {
-    set(block.J_a[row], Vec3::Zero(), axis_a.cross(v[row - 3]));
-    set(block.J_b[row], Vec3::Zero(), -axis_a.cross(v[row - 3]));
+    const Vec3 J = axis_a.cross(v[row - 3]);
+    for (int j = 0; j < 3; ++j) {
+      block.J_a[row][j] = 0.0;
+      block.J_a[row][3 + j] = J[j];
+    }
   }
 }
 
@@ -106,7 +104,7 @@ struct Dense {
   std::vector<Row> rows;
 };
 
-Dense dense(Problem problem) {
+Dense dense(const Problem& problem) {
   Dense out;
   for (std::size_t i = 0; i < problem.blocks.size(); ++i) {
     for (int row = 0; row < problem.blocks[i].rows; ++row) out.rows.push_back({i, row});
@@ -114,21 +112,26 @@ Dense dense(Problem problem) {
   const auto n = static_cast<Eigen::Index>(out.rows.size());
   out.A = Eigen::MatrixXd::Zero(n, n);
   out.q = Eigen::VectorXd::Zero(n);
-  const std::vector<Vec6> u = problem.u;
-  for (Eigen::Index c = 0; c < n; ++c) {
-    const Dense::Row col = out.rows[static_cast<std::size_t>(c)];
-    double unit[kMaxRows] = {};
-    unit[col.row] = 1.0;
-    for (Vec6& v : problem.u) v.setZero();
-    apply_impulse(problem.blocks[col.block], unit, problem.inverse_mass, problem.u);
-    for (Eigen::Index r = 0; r < n; ++r) {
-      const Dense::Row row = out.rows[static_cast<std::size_t>(r)];
-      out.A(r, c) = speed_of(problem.blocks[row.block], row.row, problem.u);
-    }
-    const Block& block = problem.blocks[col.block];
-    out.A(c, c) += block.softness[col.row];
-    out.q[c] = speed_of(block, col.row, u) + block.bias[col.row];
+  const auto n_bodies = static_cast<Eigen::Index>(problem.u.size());
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(n, 6 * n_bodies);
+  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(6 * n_bodies, 6 * n_bodies);
+  Eigen::VectorXd u(6 * n_bodies);
+  for (Eigen::Index i = 0; i < n_bodies; ++i) {
+    const InverseMass& mass = problem.inverse_mass[static_cast<std::size_t>(i)];
+    W.block<3, 3>(6 * i, 6 * i) = mass.linear * Mat3::Identity();
+    W.block<3, 3>(6 * i + 3, 6 * i + 3) = mass.angular;
+    u.segment<6>(6 * i) = problem.u[static_cast<std::size_t>(i)];
   }
+  for (Eigen::Index r = 0; r < n; ++r) {
+    const Dense::Row& row = out.rows[static_cast<std::size_t>(r)];
+    const Block& block = problem.blocks[row.block];
+    if (block.a >= 0) J.block<1, 6>(r, 6 * block.a) = gradient(block, row.row, true).transpose();
+    if (block.b >= 0) J.block<1, 6>(r, 6 * block.b) = gradient(block, row.row, false).transpose();
+    out.A(r, r) = block.softness[row.row];
+    out.q[r] = block.bias[row.row];
+  }
+  out.A += J * W * J.transpose();
+  out.q += J * u;
   return out;
 }
 
@@ -364,6 +367,33 @@ TEST_P(EverySolver, VelocitiesAreThoseOfTheImpulses) {
   }
 }
 
+TEST(System, SpeedsAndPushesGoByTheGradients) {
+  Random random(16);
+  for (int trial = 0; trial < 50; ++trial) {
+    const Problem problem = random_problem(random, {4, 4, 3, 0.5});
+    for (const Block& block : problem.blocks) {
+      double speed[kMaxRows];
+      row_speeds(block, problem.u, speed);
+      std::vector<Vec6> pushed(problem.u.size(), Vec6::Zero());
+      const auto of = [&](int body) { return body < 0 ? nullptr : &pushed[index(body)]; };
+      double x[kMaxRows];
+      for (double& impulse : x) impulse = uniform(random);
+      push(block, x, of(block.a), of(block.b));
+      for (int row = 0; row < block.rows; ++row) {
+        for (const bool a : {true, false}) {
+          const int body = a ? block.a : block.b;
+          if (body < 0) continue;
+          const Vec6 J = gradient(block, row, a);
+          speed[row] -= J.dot(problem.u[index(body)]);
+          pushed[index(body)] -= J * x[row];
+        }
+        EXPECT_NEAR(speed[row], 0.0, 1e-14);
+      }
+      for (const Vec6& left : pushed) EXPECT_LT(left.norm(), 1e-14);
+    }
+  }
+}
+
 TEST_P(EverySolver, WhatABlockDoesNotUseDoesNotMatter) {
   Random random(15);
   const auto solver = make_solver(GetParam());
@@ -374,8 +404,9 @@ TEST_P(EverySolver, WhatABlockDoesNotUseDoesNotMatter) {
     for (Block& block : poisoned.blocks) {
       for (int row = 0; row < kMaxRows; ++row) {
         for (int j = 0; j < 6; ++j) {
-          if (block.a < 0 || row >= block.rows) block.J_a[row][j] = nan;
-          if (block.b < 0 || row >= block.rows) block.J_b[row][j] = nan;
+          if (row >= block.rows) block.J_a[row][j] = block.J_b[row][j] = nan;
+          if (block.a < 0 && !block.pinned) block.J_a[row][j] = nan;
+          if (block.b < 0) block.J_b[row][j] = nan;
         }
         if (row >= block.rows) block.bias[row] = block.softness[row] = block.impulse[row] = nan;
         block.phi[row] = block.C[row] = block.lambda[row] = nan;

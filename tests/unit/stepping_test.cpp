@@ -126,8 +126,8 @@ TEST(Damping, IsEq6OnTheAngularDegreesOfFreedomOnly) {
   body.state.u[0] << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
   const std::vector<Vec6> before{Vec6::Constant(7.0)};  // damping keeps nothing of it
   const Vec3 omega_B = body.R[0].transpose() * Vec3(4.0, 5.0, 6.0);
-  effective_mass(body.scene, whole(body.scene), settings, body.R, before, dt, body.state,
-                 body.inverse);
+  effective_mass(body.scene, whole(body.scene), settings, inertia_inverses(body.scene), body.R,
+                 before, dt, body.state, body.inverse);
   EXPECT_DOUBLE_EQ(body.inverse[0].linear, 0.5);
   EXPECT_EQ(Vec3(body.state.u[0].head<3>()), Vec3(1.0, 2.0, 3.0));
   const Mat3 local = body.R[0].transpose() * body.inverse[0].angular * body.R[0];
@@ -156,12 +156,12 @@ double growth_of_swing(const Settings& settings, double kappa, double growth) {
   double last = 0.0;
   for (int step = 0; step < kSteps; ++step) {
     const std::vector<Vec6> u_start = body.state.u;
-    inverse_mass(body.scene, whole(body.scene), body.R, body.inverse);
+    inverse_mass(inertia_inverses(body.scene), whole(body.scene), body.R, body.inverse);
     const double time = force_time(settings.integrator, dt_previous, kDt);
     body.state.u[0].tail<3>() -= axis * (time * growth * k * angle / I);
     if (changes_mass(settings.mode)) {
-      effective_mass(body.scene, whole(body.scene), settings, body.R, u_start, kDt, body.state,
-                     body.inverse);
+      effective_mass(body.scene, whole(body.scene), settings, inertia_inverses(body.scene), body.R,
+                     u_start, kDt, body.state, body.inverse);
     }
     angle += kDt * axis.dot(body.state.u[0].tail<3>());
     dt_previous = kDt;

@@ -68,7 +68,7 @@ inline std::vector<Mat3> rotations(const State& state) {
 /// M^-1 of all bodies, world axes.
 inline std::vector<InverseMass> inverse_masses(const Scene& scene, const State& state) {
   std::vector<InverseMass> out(scene.bodies.size());
-  inverse_mass(scene, whole(scene), rotations(state), out);
+  inverse_mass(inertia_inverses(scene), whole(scene), rotations(state), out);
   return out;
 }
 
@@ -92,7 +92,7 @@ using Rows = std::function<void(const State&, Blocks&)>;
 inline Rows joint_rows(const Scene& scene) {
   return [&scene, stage = JointStage(scene)](const State& state, Blocks& blocks) {
     blocks.clear();
-    stage.append(scene, whole(scene), state, rotations(state), blocks);
+    stage.append(whole(scene), state, rotations(state), blocks);
   };
 }
 inline Rows contact_rows(const Scene& scene) {
@@ -108,10 +108,8 @@ inline Vec6 force_on(const Blocks& blocks, int body) {
   Vec6 force = Vec6::Zero();
   for (const Block& block : blocks.all()) {
     for (int row = 0; row < block.rows; ++row) {
-      for (int j = 0; j < 6; ++j) {
-        if (block.a == body) force[j] += block.J_a[row][j] * block.lambda[row];
-        if (block.b == body) force[j] += block.J_b[row][j] * block.lambda[row];
-      }
+      if (block.a == body) force += gradient(block, row, true) * block.lambda[row];
+      if (block.b == body) force += gradient(block, row, false) * block.lambda[row];
     }
   }
   return force;
@@ -149,8 +147,8 @@ inline void expect_gradient(const Scene& scene, const State& state, const Rows& 
         for (int row = 0; row < block.rows; ++row) {
           const double slope = (plus.all()[i].phi[row] - minus.all()[i].phi[row]) / (2.0 * kStep);
           double J = 0.0;
-          if (block.a == body) J = block.J_a[row][dof];
-          if (block.b == body) J = block.J_b[row][dof];
+          if (block.a == body) J = gradient(block, row, true)[dof];
+          if (block.b == body) J = gradient(block, row, false)[dof];
           EXPECT_NEAR(J, slope, kTolerance) << "body " << body << " dof " << dof << " row " << row;
         }
       }

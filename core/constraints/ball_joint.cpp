@@ -2,27 +2,12 @@
 
 namespace substep {
 
-// C    = x_a + r_a - x_b - r_b
-// dC/dt = v_a + omega_a x r_a - v_b - omega_b x r_b
-// J_a  = [ E  -[r_a] ],  J_b = [ -E  [r_b] ]
-// so row i has the linear part e_i and the angular part r_a x e_i: gradient().
 void ball_constants(const JointBase& joint, Block& block) {
   block.kind = BlockKind::kBall;
   block.rows = 3;
   block.pinned = true;
   for (std::int8_t& tight : block.tight) tight = 0;  // no row is ever let go of
   for (int i = 0; i < 3; ++i) block.C[i] = joint.compliance;
-}
-
-void ball_rows(const Vec3& anchor_a, const Vec3& anchor_b, const Side& a, const Side& b,
-               Block& block) {
-  const Vec3 r_a = a.R * anchor_a;
-  const Vec3 r_b = b.R * anchor_b;
-  // Differences of centres first: near the origin or far from it, the error is the same.
-  const Vec3 phi = (a.x - b.x) + (r_a - r_b);
-  block.r_a = r_a;
-  block.r_b = r_b;
-  for (int i = 0; i < 3; ++i) block.phi[i] = phi[i];
 }
 
 // An arm r that turns with omega: r'' = omega x (omega x r).

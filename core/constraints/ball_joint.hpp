@@ -19,10 +19,23 @@ struct Side {
 /// What of a ball joint is the same in every sub-step. It has to be set once.
 void ball_constants(const JointBase& joint, Block& block);
 
+// C    = x_a + r_a - x_b - r_b
+// dC/dt = v_a + omega_a x r_a - v_b - omega_b x r_b
+// J_a  = [ E  -[r_a] ],  J_b = [ -E  [r_b] ]
+// so row i has the linear part e_i and the angular part r_a x e_i: gradient().
+
 /// Rows 0..2: phi = x_a + r_a - x_b - r_b, world axes [m].
 /// @param anchor_a, anchor_b in the frames of the sides [m]
-void ball_rows(const Vec3& anchor_a, const Vec3& anchor_b, const Side& a, const Side& b,
-               Block& block);
+inline void ball_rows(const Vec3& anchor_a, const Vec3& anchor_b, const Side& a, const Side& b,
+                      Block& block) {
+  const Vec3 r_a = a.R * anchor_a;
+  const Vec3 r_b = b.R * anchor_b;
+  // Differences of centres first: near the origin or far from it, the error is the same.
+  const Vec3 phi = (a.x - b.x) + (r_a - r_b);
+  block.r_a = r_a;
+  block.r_b = r_b;
+  for (int i = 0; i < 3; ++i) block.phi[i] = phi[i];
+}
 
 /// How rows 0..2 curve while both bodies turn on as they do: d2phi/dt2 at constant velocities
 /// [m/s^2]. @param omega_a, omega_b world [rad/s], zero for the world  @param curvature out

@@ -17,7 +17,8 @@ inline constexpr std::int8_t kUnknownSet = 2;
 
 enum class BlockKind : std::uint8_t { kBall, kHinge, kContact };
 
-/// The rows of one joint or of one contact point, on at most two moving bodies. Eq. 3 row by row:
+/// The rows of one joint or of one contact point, on at most two moving bodies; what its arrays
+/// hold beyond its number of rows does not matter. Eq. 3 row by row:
 ///   J u+ + softness * impulse = -bias,   lo <= impulse <= hi.
 /// A static body or the world is -1 and has no columns.
 struct Block {
@@ -33,13 +34,13 @@ struct Block {
   // J_a of the further rows: gradient() knows.
   bool pinned = false;
 
-  double phi[kMaxRows];         // constraint error [m or rad]; a positive contact gap is open
-  double C[kMaxRows];           // compliance [m/N or rad/(N m)]
-  double bias[kMaxRows];        // drift correction [m/s or rad/s]
-  double softness[kMaxRows];    // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
-  double impulse[kMaxRows];     // dt lambda: seed in, solution out [N s or N m s]
-  double lambda[kMaxRows];      // constraint force of this sub-step, where it is read [N or N m]
-  std::int8_t tight[kMaxRows];  // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
+  double phi[kMaxRows] = {};       // constraint error [m or rad]; a positive contact gap is open
+  double C[kMaxRows] = {};         // compliance [m/N or rad/(N m)]
+  double bias[kMaxRows] = {};      // drift correction [m/s or rad/s]
+  double softness[kMaxRows] = {};  // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
+  double impulse[kMaxRows] = {};   // dt lambda: seed in, solution out [N s or N m s]
+  double lambda[kMaxRows] = {};    // constraint force of this sub-step, where it is read [N or N m]
+  std::int8_t tight[kMaxRows];     // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
   double J_a[kMaxRows][6];  // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
   double J_b[kMaxRows][6];  // d phi / d q_b

@@ -1,18 +1,8 @@
 #include "core/constraints/grab_rows.hpp"
 
 #include <cmath>
-#include <limits>
 
 namespace substep {
-
-namespace {
-
-constexpr std::uint64_t kGrabId =
-    std::numeric_limits<std::uint64_t>::max();  // no joint, no contact
-
-}  // namespace
-
-bool is_grab(const Block& block) { return block.id == kGrabId; }
 
 void grab_rows(const Grab& grab, const Side& body, Block& block) {
   block.id = kGrabId;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "core/constraints/ball_joint.hpp"
 #include "core/model/grab.hpp"
 
@@ -8,8 +10,9 @@ namespace substep {
 /// Rows 0..2 as those of a ball joint to the world, the error no longer than the hand's reach [m].
 void grab_rows(const Grab& grab, const Side& body, Block& block);
 
-/// Whether these are the rows of a hand.
-bool is_grab(const Block& block);
+/// Block::id of a hand's rows: that of no joint and no contact.
+inline constexpr std::uint64_t kGrabId = std::numeric_limits<std::uint64_t>::max();
+inline bool is_grab(const Block& block) { return block.id == kGrabId; }
 
 /// Bias and softness of the damped spring k, c over a sub-step, implicitly:
 ///   lambda = -(k (phi + dt J u+) + c J u+), hence with impulse = dt lambda

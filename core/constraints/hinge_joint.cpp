@@ -26,21 +26,6 @@ void hinge_constants(const HingeJoint& joint, Block& block) {
   }
 }
 
-// C     = u . v                        u turns with a, v with b
-// dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)
-void hinge_rows(const HingeAxes& axes, const Side& a, const Side& b, Block& block) {
-  const Vec3 u = a.R * axes.u;
-  block.axis = u;
-  for (int k = 0; k < 2; ++k) {
-    const Vec3 v = b.R * (k == 0 ? axes.v1 : axes.v2);
-    (k == 0 ? block.v1 : block.v2) = v;
-    const Vec3 J = u.cross(v);
-    const int row = 3 + k;
-    block.phi[row] = u.dot(v);
-    for (int j = 0; j < 3; ++j) block.J_a[row][3 + j] = J[j];
-  }
-}
-
 // (u . v)'' = u'' . v + 2 u' . v' + u . v''
 void hinge_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
                      double* curvature) {

@@ -36,7 +36,8 @@ class JointStage {
   };
   /// What of a joint's block is the same in every sub-step.
   void begin(std::size_t joint, Block& block) const;
-  void fill(const State& state, std::span<const Mat3> R_WB, std::size_t joint, Block& block) const;
+  [[gnu::always_inline]] inline void fill(const State& state, std::span<const Mat3> R_WB,
+                                          std::size_t joint, Block& block) const;
 
   const Scene& scene_;
   std::vector<Geometry> joints_;

@@ -48,6 +48,7 @@ struct Simulator::Impl {
   static RowCounts count_rows(std::span<const Block> of);
   bool probe_due() const;
   void probe(FrameReport& report);
+  bool forces_are_stored() const;  // of any constraint, from sub-step to sub-step
   void seed_forces();
   void store_forces();
   void begin_frame();

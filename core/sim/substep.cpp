@@ -28,6 +28,15 @@ double most_kinetic(const Body& body, const Vec6& u) {
          std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
 }
 
+void set_softness(std::span<Block> blocks, double regularisation, double dt) {
+  const double per_dt2 = 1.0 / (dt * dt);
+  for (Block& block : blocks) {
+    for (int row = 0; row < kMaxRows; ++row) {
+      block.softness[row] = block.C[row] * per_dt2 + regularisation;
+    }
+  }
+}
+
 }  // namespace
 
 void Simulator::Impl::begin_substep(FrameReport& report) {
@@ -125,14 +134,9 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
     if (settings.drift_order == 2) add_curvature_bias(own, u_start, dt);
     if (restitution) restitution->apply(*scene, u_before, dt, own);
   }
-  const double per_dt2 = 1.0 / (dt * dt);
-  for (Block& block : own) {
-    for (int row = 0; row < block.rows; ++row) {
-      block.softness[row] = block.C[row] * per_dt2 + scene->regularisation;
-    }
-  }
+  set_softness(own, scene->regularisation, dt);
   if (holds_grab()) soften_grab(*grab, dt, own.back());
-  seed_forces();
+  if (forces_are_stored()) seed_forces();
   const System system{own, inverse_mass, state.u, u_before, dt, R_WB, scene->regularisation};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
@@ -140,7 +144,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   if (watched || probing || schedule.needs_stiffness() || starts_from_last_forces(settings)) {
     solver->find_impulses(own);
   }
-  smooth = std::none_of(own.begin(), own.end(), [](const Block& block) {
+  smooth = !contact || std::none_of(own.begin(), own.end(), [](const Block& block) {
     return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;
   });
 
@@ -174,7 +178,7 @@ bool Simulator::Impl::finite(FrameReport& report) {
       return false;
     }
   }
-  store_forces();
+  if (forces_are_stored()) store_forces();
   return true;
 }
 
@@ -281,6 +285,10 @@ double Simulator::Impl::impulse_time_of(const Block& block) const {
   const double a = block.a < 0 ? 0.0 : impulse_time[static_cast<std::size_t>(block.a)];
   const double b = block.b < 0 ? 0.0 : impulse_time[static_cast<std::size_t>(block.b)];
   return std::max(a, b);
+}
+
+bool Simulator::Impl::forces_are_stored() const {
+  return contact || starts_from_last_forces(settings);
 }
 
 void Simulator::Impl::seed_forces() {

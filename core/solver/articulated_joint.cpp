@@ -57,6 +57,22 @@ double along(const double (&f)[3], const Pairs6& column) {
   return sum;
 }
 
+/// The two angular rows of a hinge on the child minus the parent: on b they are those on a,
+/// negative.
+struct AngularRows {
+  explicit AngularRows(const Block& joint) {
+    for (int k = 0; k < 2; ++k) {
+      for (int i = 0; i < 3; ++i) J[k][i] = joint.J_a[3 + k][3 + i];
+    }
+    cross(J[0], J[1], f);
+    per_square = 1.0 / dot(f, f);
+  }
+  // E = [J_1 x f, f x J_0]/f^2 is dual to them.
+  double J[2][3];
+  double f[3];  // across both
+  double per_square;
+};
+
 /// A in series with springs of compliance s along two directions of rotation:
 /// A -= a (diag(1/s) + e^T a)^-1 a^T with a = A e.
 void soften_angular(const double (&e)[2][3], const double* s, Symmetric6& A) {
@@ -99,40 +115,43 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const
   rows_ = joint.rows;
   sign_ = sign;
   double softness = 0.0;  // of all rows together: none is negative
+  for (int row = 0; row < joint.rows; ++row) softness += joint.softness[row];
+  exact_ = softness == 0.0;
   for (int i = 0; i < 3; ++i) {
     r_[i] = r[i];
     to_parent_[i] = (reference != nullptr ? reference[i] : 0.0) - r_parent[i];
-    w_[i] = speed[i] + sign * joint.bias[i];
-    softness_[i] = joint.softness[i];
-    softness += joint.softness[i];
+    d_[i] = speed[i] + sign * joint.bias[i];
   }
-  exact_ = softness == 0.0;
   if (joint.kind == BlockKind::kBall) {
     for (int k = 0; k < 3; ++k) {
+      d_[3 + k] = 0.0;
       for (int i = 0; i < 3; ++i) free_[k].f[i] = i == k ? 1.0 : 0.0;
     }
-    return;
+  } else {
+    // The free direction is across both angular rows, their dual vectors within their plane.
+    const AngularRows rows(joint);
+    const double w0 = dot(rows.J[0], speed + 3) + sign * joint.bias[3];
+    const double w1 = dot(rows.J[1], speed + 3) + sign * joint.bias[4];
+    double across[3];
+    double d[3];
+    for (int i = 0; i < 3; ++i) {
+      free_[0].f[i] = rows.f[i];
+      across[i] = w0 * rows.J[1][i] - w1 * rows.J[0][i];
+    }
+    cross(across, rows.f, d);
+    for (int i = 0; i < 3; ++i) d_[3 + i] = d[i] * rows.per_square;
+    if (exact_) return;
+    cross(rows.J[1], rows.f, e_[0]);
+    cross(rows.f, rows.J[0], e_[1]);
+    for (double(&e)[3] : e_) {
+      for (double& component : e) component *= rows.per_square;
+    }
+    w_[3] = w0;
+    w_[4] = w1;
   }
-  // The free direction is across both angular rows; e_ is dual to them within their plane.
-  double J[2][3];  // on the child minus the parent; on b the rows are those on a, negative
-  for (int k = 0; k < 2; ++k) {
-    for (int i = 0; i < 3; ++i) J[k][i] = joint.J_a[3 + k][3 + i];
-    w_[3 + k] = dot(J[k], speed + 3) + sign * joint.bias[3 + k];
-    softness_[3 + k] = joint.softness[3 + k];
-    softness += joint.softness[3 + k];
-  }
-  exact_ = softness == 0.0;
-  double f[3];
-  double e[2][3];
-  cross(J[0], J[1], f);
-  cross(J[1], f, e[0]);
-  cross(f, J[0], e[1]);
-  const double per_square = 1.0 / dot(f, f);
-  for (int i = 0; i < 3; ++i) {
-    free_[0].f[i] = f[i];
-    e_[0][i] = e[0][i] * per_square;
-    e_[1][i] = e[1][i] * per_square;
-  }
+  if (exact_) return;
+  for (int i = 0; i < 3; ++i) w_[i] = d_[i];
+  for (int row = 0; row < joint.rows; ++row) softness_[row] = joint.softness[row];
 }
 
 template <int rows>
@@ -177,7 +196,10 @@ template <int rows, bool exact>
 void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
   double torque[3];
   double g[6];
-  for (int i = 0; i < 6; ++i) g[i] = g_[i];
+  for (int i = 0; i < 6; ++i) {
+    g[i] = handed_[i];
+    handed_[i] = 0.0;
+  }
   if (g_centre != nullptr) {
     cross(r_, g_centre, torque);
     for (int i = 0; i < 3; ++i) {
@@ -191,12 +213,19 @@ void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
     const double q = free.inverse * free.momentum;
     for (int i = 0; i < 6; ++i) g[i] -= free.column[i] * q;
   }
-  double d[6] = {};  // E w - Sigma g1
-  for (int row = 0; row < 3; ++row) d[row] = exact ? w_[row] : w_[row] - softness_[row] * g[row];
-  for (int row = 3; row < rows; ++row) {
-    const double* e = e_[row - 3];
-    const double y = exact ? w_[row] : w_[row] - softness_[row] * dot(e, g + 3);
-    for (int i = 0; i < 3; ++i) d[3 + i] += e[i] * y;
+  double d[6];  // E w - Sigma g1
+  if (exact) {
+    for (int i = 0; i < 6; ++i) d[i] = d_[i];
+  } else {
+    for (int i = 0; i < 3; ++i) {
+      d[i] = w_[i] - softness_[i] * g[i];
+      d[3 + i] = 0.0;
+    }
+    for (int row = 3; row < rows; ++row) {
+      const double* e = e_[row - 3];
+      const double y = w_[row] - softness_[row] * dot(e, g + 3);
+      for (int i = 0; i < 3; ++i) d[3 + i] += e[i] * y;
+    }
   }
   const Pairs6 handed = P_.times(d);
   for (int i = 0; i < 6; ++i) {
@@ -233,8 +262,8 @@ inline void ArticulatedJoint::at_pivot(const double* v_parent, double (&v)[6]) c
 }
 
 // R of the derivation. @param v at_pivot()
-inline void ArticulatedJoint::handed(const double* v_parent, const double (&v)[6],
-                                     double (&R)[6]) const {
+inline void ArticulatedJoint::hand_over(const double* v_parent, const double (&v)[6],
+                                        double (&R)[6]) const {
   if (v_parent == nullptr) {
     for (int i = 0; i < 6; ++i) R[i] = -g_[i];
     return;
@@ -247,13 +276,17 @@ template <int rows, bool exact>
 void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre) {
   double v[6];
   at_pivot(v_parent, v);
-  double R[6];
-  if (!exact) handed(v_parent, v, R);
-  for (int row = 0; row < 3; ++row) v[row] -= exact ? w_[row] : w_[row] + softness_[row] * R[row];
-  for (int row = 3; row < rows; ++row) {
-    const double* e = e_[row - 3];
-    const double y = exact ? w_[row] : w_[row] + softness_[row] * dot(e, R + 3);
-    for (int i = 0; i < 3; ++i) v[3 + i] -= e[i] * y;
+  if (exact) {
+    for (int i = 0; i < (rows == 3 ? 3 : 6); ++i) v[i] -= d_[i];
+  } else {
+    double R[6];
+    hand_over(v_parent, v, R);
+    for (int i = 0; i < 3; ++i) v[i] -= w_[i] + softness_[i] * R[i];
+    for (int row = 3; row < rows; ++row) {
+      const double* e = e_[row - 3];
+      const double y = w_[row] + softness_[row] * dot(e, R + 3);
+      for (int i = 0; i < 3; ++i) v[3 + i] -= e[i] * y;
+    }
   }
   for (int k = n_free(rows); k-- > 0;) {
     const Free& free = free_[k];
@@ -282,13 +315,19 @@ void ArticulatedJoint::backward(const double* v_parent, double* v_centre) {
   }
 }
 
-void ArticulatedJoint::find_impulse(const double* v_parent, double* impulse) const {
+void ArticulatedJoint::find_impulse(const double* v_parent, Block& joint) const {
   double v[6];
   double R[6];
   at_pivot(v_parent, v);
-  handed(v_parent, v, R);
-  for (int row = 0; row < 3; ++row) impulse[row] = sign_ * R[row];
-  for (int row = 3; row < rows_; ++row) impulse[row] = sign_ * dot(e_[row - 3], R + 3);
+  hand_over(v_parent, v, R);
+  for (double& component : R) component *= sign_;
+  for (int row = 0; row < 3; ++row) joint.impulse[row] = R[row];
+  if (joint.rows == 3) return;
+  const AngularRows rows(joint);
+  double turned[3];
+  cross(rows.f, R + 3, turned);
+  joint.impulse[3] = dot(rows.J[1], turned) * rows.per_square;
+  joint.impulse[4] = -(dot(rows.J[0], turned) * rows.per_square);
 }
 
 }  // namespace substep

@@ -29,7 +29,7 @@ class ArticulatedJoint {
 
   /// Forgets the momentum that it was handed.
   void rest() {
-    for (double& g : g_) g = 0.0;
+    for (double& g : handed_) g = 0.0;
   }
   /// @param g_centre momentum that the child is given about its centre [N s, N m s], nullptr for
   /// none
@@ -39,17 +39,24 @@ class ArticulatedJoint {
   /// @param v_parent change of the parent's velocity, nullptr for the world
   /// @param v_centre out: the child's
   void backward(const double* v_parent, double* v_centre);
-  /// @param v_parent as it was handed to backward()  @param impulse out, one per row
-  void find_impulse(const double* v_parent, double* impulse) const;
+  /// @param v_parent as it was handed to backward()  @param joint as it was read; its impulse is
+  /// set
+  void find_impulse(const double* v_parent, Block& joint) const;
 
   [[nodiscard]] const double* pivot() const { return r_; }
-  /// Momentum that articulated children hand over, about the pivot.
-  [[nodiscard]] double* momentum() { return g_; }
+  /// Momentum that articulated children hand over, about the pivot: added to until forward() takes
+  /// it.
+  [[nodiscard]] double* momentum() { return handed_; }
   /// Change of the child's velocity at the pivot.
   [[nodiscard]] const double* velocity() const { return v_; }
 
-  static std::int64_t factor_flops(int rows) { return 250 + (rows == 3 ? 240 : 84) + 82 * rows; }
-  static std::int64_t solve_flops(int rows) { return 220 + (rows == 3 ? 105 : 35) + 16 * rows; }
+  // @param exact no row has softness
+  static std::int64_t factor_flops(int rows, bool exact) {
+    return 250 + (rows == 3 ? 240 : 84) + (exact ? 0 : 82 * rows);
+  }
+  static std::int64_t solve_flops(int rows, bool exact) {
+    return 150 + (rows == 3 ? 105 : 35) + (exact ? 0 : 72 + 16 * rows);
+  }
 
  private:
   /// A ball joint leaves three directions of rotation, a hinge one.
@@ -63,7 +70,7 @@ class ArticulatedJoint {
   template <int rows, bool exact>
   void backward_rows(const double* v_parent, double* v_centre);
   void at_pivot(const double* v_parent, double (&v)[6]) const;
-  void handed(const double* v_parent, const double (&v)[6], double (&R)[6]) const;
+  void hand_over(const double* v_parent, const double (&v)[6], double (&R)[6]) const;
 
   /// A direction of rotation that the joint leaves free.
   struct Free {
@@ -78,13 +85,16 @@ class ArticulatedJoint {
   double sign_;          // child minus parent against the block's a minus b
   double r_[3];          // pivot from the child's centre [m]
   double to_parent_[3];  // the parent's reference point from the pivot [m]
-  double e_[2][3];       // hinge: across the axis, dual to the two angular rows
-  double w_[kMaxRows];   // child minus parent: J u* + bias [m/s, rad/s]
-  double softness_[kMaxRows];
+  double d_[6];  // exact: E w, with w = J u* + bias of the child minus the parent [m/s, rad/s]
   Free free_[3];
-  Rows6 P_;      // what the parent sees of the child, at the pivot
-  double g_[6];  // momentum at the pivot, first the child's, then what the parent sees of it
+  Rows6 P_;  // what the parent sees of the child, at the pivot
+  double handed_[6];
+  double g_[6];  // momentum at the pivot, as the parent sees it
   double v_[6];
+  // Where there is softness:
+  double e_[2][3];      // hinge: across the axis, dual to the two angular rows
+  double w_[kMaxRows];  // [m/s, rad/s]
+  double softness_[kMaxRows];
 };
 
 }  // namespace substep

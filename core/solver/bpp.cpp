@@ -36,12 +36,7 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
 
 void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
   report.status = SolveStatus::kSolved;
-  int boxed_rows = 0;
-  for (const Block& block : system.blocks) boxed_rows += block.is_contact() ? block.rows : 0;
-  if (boxed_rows == 0) {
-    solve_active_set(system, report);
-    return;
-  }
+  if (!any_contact_) return solve_free(system, report);
   int single_pivots = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     ++report.passes;
@@ -79,7 +74,9 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
   ldlt_.begin(system);
   factor_valid_ = false;
   swept_ = false;
-  start_active_set(system);
+  any_contact_ = std::any_of(system.blocks.begin(), system.blocks.end(),
+                             [](const Block& block) { return block.is_contact(); });
+  if (any_contact_) start_active_set(system);
   const int refinements = system.regularisation > 0.0 ? settings.refinements : 0;
   if (refinements > 0) {
     centre_.assign(system.blocks.size(), Centre{});
@@ -206,6 +203,10 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
         block.impulse[row] = row == 0 ? 0.0 : block.tight[row] * friction_bound_[i];
     }
   }
+  solve_free(system, report);
+}
+
+void Bpp::solve_free(const System& system, SolveReport& report) {
   if (!factor_valid_) ++report.factorisations;
   ldlt_.solve(system);
   factor_valid_ = true;

@@ -42,6 +42,7 @@ class Bpp final : public Solver {
   /// True if the friction bounds that follow from the solution leave it a solution.
   [[nodiscard]] bool bounds_settled(std::span<const Block> blocks) const;
   void solve_active_set(const System& system, SolveReport& report);
+  void solve_free(const System& system, SolveReport& report);  // whatever rows are free
   /// Moves rows on the wrong side to their right set. @param one_only only the last such row
   /// @return how many rows there were
   int pivot(const System& system, bool one_only);
@@ -55,6 +56,7 @@ class Bpp final : public Solver {
 
   SaddleLdlt ldlt_;
   Pgs gauss_seidel_;
+  bool any_contact_ = false;
   bool factor_valid_ = false;           // the factor belongs to the present active set
   bool swept_ = false;                  // Gauss-Seidel had the last word
   std::vector<double> friction_bound_;  // per block [N s]

@@ -12,7 +12,7 @@ namespace substep {
 
 /// The inverse of a symmetric 3 x 3 matrix by its cofactors. @param out on and below the diagonal
 template <class Matrix>
-void inverse_of(const Matrix& W, double (&out)[3][3]) {
+[[gnu::always_inline]] inline void inverse_of(const Matrix& W, double (&out)[3][3]) {
   out[0][0] = W(1, 1) * W(2, 2) - W(2, 1) * W(2, 1);
   out[1][0] = W(2, 1) * W(2, 0) - W(1, 0) * W(2, 2);
   out[2][0] = W(1, 0) * W(2, 1) - W(1, 1) * W(2, 0);

@@ -25,8 +25,9 @@ void SaddleLdlt::count(Node& node) const {
   node.factor_flops = node.handed_flops;
   if (node.way == Way::kArticulated) {
     const Attached& attached = attached_[node.first_attached];
-    node.factor_flops += ArticulatedJoint::factor_flops(keys_[index(attached.block)].rows);
-    node.solve_flops = ArticulatedJoint::solve_flops(keys_[index(attached.block)].rows);
+    const int n_rows = keys_[index(attached.block)].rows();
+    node.factor_flops += ArticulatedJoint::factor_flops(n_rows, attached.exact);
+    node.solve_flops = ArticulatedJoint::solve_flops(n_rows, attached.exact);
     return;
   }
   // Zero blocks of a bare node are counted as if they were filled: sizes alone are looked at.
@@ -137,13 +138,29 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
   }
 }
 
-void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
-  gather_rows(node, blocks);
-  with_known(node.n_rows, [&](auto rows) { factor_bare(node, blocks, rows); });
+/// Calls with the width of a node: as one that the compiler knows for what chains, bridges and
+/// stacks are made of.
+void SaddleLdlt::with_known_width(const Node& node, const auto& call) {
+  switch (node.coupled) {
+    case 0:
+      return call(Known<0>{});
+    case 1:
+      return call(Known<6>{});
+    case 2:
+      return call(Known<12>{});
+    default:
+      return call(width(node));
+  }
 }
 
-void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto rows) {
-  const int n = width(node);
+void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
+  gather_rows(node, blocks);
+  with_known(node.n_rows, [&](auto rows) {
+    with_known_width(node, [&](auto n) { factor_bare(node, blocks, rows, n); });
+  });
+}
+
+void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto rows, auto n) {
   const Factor f = at(node);
   int* first = first_filled_.data() + node.first_coupled;
   std::fill(first, first + node.coupled, rows);
@@ -170,16 +187,7 @@ void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto row
 }
 
 void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks) {
-  switch (node.coupled) {  // what chains, bridges and stacks are made of
-    case 0:
-      return factor_general(node, blocks, Known<0>{});
-    case 1:
-      return factor_general(node, blocks, Known<6>{});
-    case 2:
-      return factor_general(node, blocks, Known<12>{});
-    default:
-      return factor_general(node, blocks, width(node));
-  }
+  with_known_width(node, [&](auto n) { factor_general(node, blocks, n); });
 }
 
 void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto n) {

@@ -36,6 +36,7 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   place_.reserve(bodies * kCoupled);
   first_filled_.reserve(bodies * kCoupled);
   children_.reserve(bodies);
+  pushed_.reserve(bodies);
   rows_.reserve(blocks * kMaxRows);
   joints_.reserve(bodies);
   values_.reserve(bodies * (42 + 6 * kWidth + kRows * (7 + kRows + kWidth) + kWidth * kWidth));
@@ -106,7 +107,8 @@ void SaddleLdlt::read_rows(const Node& node, std::span<const Block> blocks) {
 
 bool SaddleLdlt::layout_is_the_same(const System& system) {
   const auto key_of = [](const Block& block) {
-    return Key{block.a, block.b, block.rows, block.is_contact(), block.pinned};
+    return Key{block.a, block.b,
+               4 * block.rows + (block.is_contact() ? 2 : 0) + (block.pinned ? 1 : 0)};
   };
   const auto has_key = [&](const Block& block, const Key& key) { return key_of(block) == key; };
   if (bodies_ != system.u.size() || !std::equal(system.blocks.begin(), system.blocks.end(),
@@ -177,6 +179,7 @@ void SaddleLdlt::lay_out(const System& system) {
   std::size_t rows = 0;
   for (Node& node : nodes_) {
     choose_way(node, system);
+    if (node.way == Way::kArticulated) count(node);
     if (node.way == Way::kArticulated) ++articulated;
     const std::size_t w = index(width(node));
     const std::size_t r = index(node.most_rows);
@@ -200,7 +203,9 @@ void SaddleLdlt::lay_out(const System& system) {
 void SaddleLdlt::link_articulated() {
   auto next = joints_.begin();
   for (Node& node : nodes_) {
-    if (node.way == Way::kArticulated) node.joint = &*next++;
+    if (node.way != Way::kArticulated) continue;
+    node.joint = &*next++;
+    node.joint->rest();
   }
   for (Node& node : nodes_) {
     if (node.way == Way::kArticulated) {
@@ -214,10 +219,15 @@ void SaddleLdlt::link_articulated() {
       if (node.n_children != 1) continue;
       node.carried = nodes_[index(children_[node.first_child])].joint;
     } else {
+      node.pushed = true;
       for (int s = 0; s < node.coupled; ++s) {
         nodes_[index(coupled_[node.first_coupled + index(s)])].pushed = true;
       }
     }
+  }
+  pushed_.clear();
+  for (const Node& node : nodes_) {
+    if (node.pushed) pushed_.push_back(static_cast<int>(position(node)));
   }
 }
 
@@ -261,6 +271,9 @@ void SaddleLdlt::choose_way(Node& node, const System& system) {
   if (in_tree && node.n_attached == 1 && blocks[index(attached[0].block)].pinned &&
       node.coupled == (attached[0].other < 0 ? 0 : 1)) {
     node.way = Way::kArticulated;
+    const Block& joint = blocks[index(attached[0].block)];
+    attached[0].exact = std::all_of(joint.softness, joint.softness + joint.rows,
+                                    [](double softness) { return softness == 0.0; });
     return;
   }
   int rows = 0;

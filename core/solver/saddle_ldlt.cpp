@@ -30,12 +30,9 @@ void SaddleLdlt::touch(std::size_t block) { nodes_[index(node_of_block_[block])]
 // What acts on the bodies besides the rows that are unknowns: tight rows give J^T x, folded ones
 // -J^T w/s.
 void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
-  for (const Node& node : nodes_) {
-    const bool articulated = node.way == Way::kArticulated;
-    if (articulated) node.joint->rest();
-    if (!articulated || node.pushed) v_[position(node)].setZero();
-  }
-  for (const Node& node : nodes_) {
+  for (const int i : pushed_) v_[index(i)].setZero();
+  for (const int i : pushed_) {
+    const Node& node = nodes_[index(i)];
     if (node.way == Way::kArticulated) continue;
     for (std::size_t k = 0; k < node.n_attached; ++k) {
       const Attached& attached = attached_[node.first_attached + k];
@@ -63,12 +60,10 @@ void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
   if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
   if (node.way == Way::kArticulated) {
     factor_articulated(node);
-  } else if (node.way == Way::kBare) {
-    factor_bare(node, blocks);
   } else {
-    factor_general(node, blocks);
+    node.way == Way::kBare ? factor_bare(node, blocks) : factor_general(node, blocks);
+    if (node.folds || node.n_rows != node.counted_rows) count(node);
   }
-  if (node.folds || node.n_rows != node.counted_rows) count(node);
   flops_ += node.factor_flops;
 }
 
@@ -80,14 +75,6 @@ void SaddleLdlt::factor_articulated(Node& node) {
     Square6 sum;
     sum_carried(node, sum);
     node.joint->eliminate(inverse, sum);
-  }
-}
-
-void SaddleLdlt::find_impulses(std::span<Block> blocks) const {
-  for (const Node& node : nodes_) {
-    if (node.way != Way::kArticulated) continue;
-    Block& block = blocks[index(attached_[node.first_attached].block)];
-    node.joint->find_impulse(node.parent_velocity, block.impulse);
   }
 }
 
@@ -201,10 +188,24 @@ void SaddleLdlt::solve(const System& system) {
     const auto body = index(node.body);
     system.u[body] = u_star_[body] + v_[i];
   }
+  find_spring_impulses(system.blocks, false);
+}
+
+void SaddleLdlt::find_impulses(std::span<Block> blocks) {
+  for (const Node& node : nodes_) {
+    if (node.way != Way::kArticulated) continue;
+    node.joint->find_impulse(node.parent_velocity,
+                             blocks[index(attached_[node.first_attached].block)]);
+  }
+  find_spring_impulses(blocks, true);
+}
+
+void SaddleLdlt::find_spring_impulses(std::span<Block> blocks, bool of_pins) {
   if (!any_folded_) return;
   for (const Attached& attached : attached_) {
     if (!attached.folded) continue;
-    Block& block = system.blocks[index(attached.block)];
+    Block& block = blocks[index(attached.block)];
+    if (block.pinned != of_pins) continue;
     spring_impulses(w_.data() + index(attached.block) * kMaxRows, of_body(block.a),
                     of_body(block.b), block);
   }

@@ -45,8 +45,9 @@ class SaddleLdlt {
   void touch(std::size_t block);
   /// Impulses of free rows from those of tight rows, and u+. Factors what has changed.
   void solve(const System& system);
-  /// What solve() leaves out, as no velocity follows from it: impulses of articulated nodes.
-  void find_impulses(std::span<Block> blocks) const;
+  /// What solve() leaves out, as no velocity follows from it: impulses of joints that are
+  /// articulated or folded.
+  void find_impulses(std::span<Block> blocks);
 
   /// Floating-point operations since `begin`.
   [[nodiscard]] std::int64_t flops() const { return flops_; }
@@ -59,6 +60,7 @@ class SaddleLdlt {
     int block = 0;
     int other = -1;  // of the node's coupled bodies, -1: static
     bool is_a = false;
+    bool exact = false;  // of an articulated node, when it was laid out
     bool foldable = false;
     bool folded = false;
   };
@@ -97,8 +99,9 @@ class SaddleLdlt {
     int row = 0;
   };
   struct Key {  // what the layout depends on
-    int a, b, rows;
-    bool contact, pinned;
+    int a, b;
+    int kind;  // of number of rows, contact and pin: one number to compare
+    [[nodiscard]] int rows() const { return kind / 4; }
     friend bool operator==(const Key&, const Key&) = default;
   };
   /// The factor of a node, row-major.
@@ -141,8 +144,9 @@ class SaddleLdlt {
   void count(Node& node) const;  // its operations
   void factor_articulated(Node& node);
   void sum_carried(const Node& node, Square6& sum);
+  static void with_known_width(const Node& node, const auto& call);
   void factor_bare(Node& node, std::span<const Block> blocks);
-  void factor_bare(Node& node, std::span<const Block> blocks, auto rows);
+  void factor_bare(Node& node, std::span<const Block> blocks, auto rows, auto n);
   void factor_general(Node& node, std::span<const Block> blocks);
   void factor_general(Node& node, std::span<const Block> blocks, auto n);
   void gather_rows(Node& node, std::span<const Block> blocks);
@@ -154,6 +158,7 @@ class SaddleLdlt {
 
   void set_momenta(std::span<const Block> blocks);
   [[nodiscard]] Vec6* of_body(int body);
+  void find_spring_impulses(std::span<Block> blocks, bool of_pins);
   void forward(const Node& node);
   /// @param weighted D^-1 L^-1 g, bare: g
   void forward_rows(const Node& node, const Factor& f, auto rows, const double* weighted);
@@ -173,6 +178,7 @@ class SaddleLdlt {
   std::vector<int> first_filled_;  // beside coupled_: the first row of Z with such a part that is
                                    // not zero, as far as is known: of bare nodes
   std::vector<int> children_;      // nodes
+  std::vector<int> pushed_;        // nodes that are handed momentum at their centre
   std::vector<Row> rows_;
   std::vector<ArticulatedJoint> joints_;  // nodes point to them
   bool any_folded_ = false;

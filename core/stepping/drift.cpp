@@ -7,8 +7,8 @@ namespace substep {
 void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt) {
   const double full = 1.0 / dt;
   const double rate = law == Drift::kSoft && dt < tau ? dt / (tau * tau) : full;
-  for (Block& block : blocks) {
-    for (int row = 0; row < block.rows; ++row) block.bias[row] = block.phi[row] * rate;
+  for (Block& block : blocks) {  // all that there is room for: a number that the compiler knows
+    for (int row = 0; row < kMaxRows; ++row) block.bias[row] = block.phi[row] * rate;
     if (block.is_contact() && block.phi[0] > 0.0) block.bias[0] = block.phi[0] * full;
   }
 }

@@ -10,7 +10,7 @@ namespace substep {
 namespace {
 
 /// R diag(d) R^T, exactly symmetric.
-void turn(const Mat3& R, const Vec3& d, Mat3& out) {
+[[gnu::always_inline]] inline void turn(const Mat3& R, const Vec3& d, Mat3& out) {
   for (int i = 0; i < 3; ++i) {
     const double x = R(i, 0) * d[0];
     const double y = R(i, 1) * d[1];
@@ -23,7 +23,7 @@ void turn(const Mat3& R, const Vec3& d, Mat3& out) {
   }
 }
 
-void turn(const Mat3& R, const InertiaInverse& own, InverseMass& out) {
+inline void turn(const Mat3& R, const InertiaInverse& own, InverseMass& out) {
   out.linear = own.linear;
   if (own.isotropic) {
     out.angular = own.angular.asDiagonal();

@@ -129,7 +129,7 @@ TEST(FullStiffnessMode, StandsInOneStepUnderAnyLoadAsDampingDoes) {
 }
 
 // It costs K, and no more: the mass is a matrix per body as before, so a solve takes what it took.
-TEST(FullStiffnessMode, CostsAQuarterOfASolve) {
+TEST(FullStiffnessMode, CostsHalfOfASolve) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   const auto frame = [&](Mode mode) {
     Settings settings;
@@ -141,7 +141,7 @@ TEST(FullStiffnessMode, CostsAQuarterOfASolve) {
   const std::int64_t solve = frame(Mode::kNone).work.flops;
   const FrameReport report = frame(Mode::kStiffness);
   EXPECT_EQ(report.work.flops, solve);
-  EXPECT_NEAR(static_cast<double>(report.criterion.flops) / static_cast<double>(solve), 0.26, 0.02);
+  EXPECT_NEAR(static_cast<double>(report.criterion.flops) / static_cast<double>(solve), 0.52, 0.02);
 }
 
 // What other modes leave behind is not the K that this one reads: it is looked for first.

@@ -88,7 +88,7 @@ void soften_angular(const double (&e)[2][3], const double* s, Symmetric6& A) {
 
 }  // namespace
 
-void ArticulatedJoint::read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star,
+void ArticulatedJoint::read(const Block& joint, bool child_is_a, const Vec6* u_star,
                             const double* reference) {
   const double sign = child_is_a ? 1.0 : -1.0;
   const int child = child_is_a ? joint.a : joint.b;

@@ -16,8 +16,8 @@ class ArticulatedJoint {
  public:
   /// What a sub-step knows of the joint. @param child_is_a which side of the block is eliminated
   /// @param reference the parent's pivot from its centre [m], nullptr for the centre
-  void read(const Block& joint, bool child_is_a, std::span<const Vec6> u_star,
-            const double* reference);
+  /// @param u_star of the first body; a pointer, as WebAssembly hands spans over in memory
+  void read(const Block& joint, bool child_is_a, const Vec6* u_star, const double* reference);
 
   /// @param W Mt^-1 of the child  @param carried what the child carries of others, about its pivot;
   /// only the upper half is read

@@ -88,7 +88,8 @@ void SaddleLdlt::read(std::span<const Block> blocks) {
     const Node& node = nodes_[i];
     if (node.way == Way::kArticulated) {
       const Attached& attached = attached_[node.first_attached];
-      node.joint->read(blocks[index(attached.block)], attached.is_a, u_star_, node.reference);
+      node.joint->read(blocks[index(attached.block)], attached.is_a, u_star_.data(),
+                       node.reference);
     } else {
       read_rows(node, blocks);
     }

@@ -71,16 +71,18 @@ inline Vec6 gradient(const Block& block, int row, bool of_a) {
   Vec6 J;
   if (!block.pinned) {
     for (int j = 0; j < 6; ++j) J[j] = (of_a ? block.J_a : block.J_b)[row][j];
-  } else if (row < 3) {
-    const Vec3& r = of_a ? block.r_a : block.r_b;
-    J.setZero();
-    J[row] = 1.0;
-    J[3 + (row + 1) % 3] = r[(row + 2) % 3];
-    J[3 + (row + 2) % 3] = -r[(row + 1) % 3];
-    if (!of_a) J = -J;
-  } else {
-    for (int j = 0; j < 6; ++j) J[j] = of_a ? block.J_a[row][j] : -block.J_a[row][j];
+    return J;
   }
+  const double sign = of_a ? 1.0 : -1.0;
+  if (row < 3) {
+    const Vec3 r = sign * (of_a ? block.r_a : block.r_b);
+    for (int j = 0; j < 3; ++j) J[j] = j == row ? sign : 0.0;
+    J[3] = row == 0 ? 0.0 : row == 1 ? -r[2] : r[1];
+    J[4] = row == 1 ? 0.0 : row == 2 ? -r[0] : r[2];
+    J[5] = row == 2 ? 0.0 : row == 0 ? -r[1] : r[0];
+    return J;
+  }
+  for (int j = 0; j < 6; ++j) J[j] = sign * block.J_a[row][j];
   return J;
 }
 

@@ -44,7 +44,8 @@ class Simulator {
   [[nodiscard]] const State& state() const;
   /// Goes on from a snapshot of the same scene; lets go of what was grabbed.
   void set_state(State state);
-  /// A hand on a body, or none. Acts from the next sub-step on, and is in K as any joint is.
+  /// A hand on a body that moves, or none. Acts from the next sub-step on, and is in K as any joint
+  /// is.
   void set_grab(const std::optional<Grab>& grab);
   [[nodiscard]] const std::optional<Grab>& grab() const;
   /// Of the last sub-step; empty where the state was set and none has been taken since.

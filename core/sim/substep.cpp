@@ -166,11 +166,11 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
 bool Simulator::Impl::finite(FrameReport& report) {
   const Part& moved = part();
   double squares = 0.0;
-  for (const int body : moved.moving)
+  for (const int body : moved.bodies)  // nor may what must not move
     squares += state.u[static_cast<std::size_t>(body)].squaredNorm();
   if (!std::isfinite(heaviest * squares)) {  // then it may be one that is too fast
     double sum = 0.0;
-    for (const int body : moved.moving) {
+    for (const int body : moved.bodies) {
       const auto i = static_cast<std::size_t>(body);
       sum += most_kinetic(scene->bodies[i], state.u[i]);
       if (std::isfinite(sum)) continue;

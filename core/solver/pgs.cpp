@@ -98,7 +98,9 @@ void Pgs::pack(const System& system, bool warm_start) {
       if (body < 0) return;
       Vec6 of_pin[kMaxRows];
       const double* J[kMaxRows];
-      for (int i = 0; i < block.rows; ++i) J[i] = gradient(block, i, is_a, of_pin[i]);
+      for (int i = 0; i < kMaxRows; ++i) {  // unrolled: which row it is, is known
+        if (i < block.rows) J[i] = gradient(block, i, is_a, of_pin[i]);
+      }
       const InverseMass& inverse = system.inverse_mass[static_cast<std::size_t>(body)];
       mass = inverse.linear;
       const int first = block.pinned ? 3 : 0;

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/constraints/contact.hpp"
-#include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/constraints/stiffness_flops.hpp"
+#include "core/constraints/turning_stiffness.hpp"
 #include "core/math/flops.hpp"
 
 namespace substep {
@@ -15,17 +14,6 @@ namespace substep {
 namespace {
 
 constexpr double kConverged = 1e-9;  // largest change of a velocity in a step, relative
-
-void add_stiffness(const Block& block, StiffnessMatrix& K) {
-  switch (block.kind) {
-    case BlockKind::kBall:
-      return ball_stiffness(block, K);
-    case BlockKind::kHinge:
-      return hinge_stiffness(block, K);
-    case BlockKind::kContact:
-      return contact_stiffness_normal(block, K);
-  }
-}
 
 /// The share of each of the two neighbouring poses, and of q+ in the Hessian.
 double weight_of(Forces forces) {
@@ -75,13 +63,13 @@ void Newton::reserve(std::size_t bodies, std::size_t blocks) {
   rows_.reserve(blocks);
   back_.reserve(blocks);
   before_.reserve(blocks);
-  K_.reserve(bodies, 2 * blocks);
+  K_.reserve(bodies);
 }
 
 void Newton::read_rows(const System& system, Forces forces) {
   rows_.assign(system.blocks.begin(), system.blocks.end());
   if (forces == Forces::kEnd) return;
-  back_.assign(system.blocks.begin(), system.blocks.end());
+  if (back_.size() < rows_.size()) back_.resize(rows_.size());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
     move_rows(start, motion_of(start.a, system.u_before, -system.dt),
@@ -111,28 +99,12 @@ void Newton::relinearise(const System& system, Forces forces) {
   if (forces == Forces::kNumerov) straighten_turns(system);
 }
 
-// J' = w J- + (1 - 2 w) J + w J+. Numerov's method has the forces of the neighbours with their own
-// impulses, (J- p- + 10 J p + J+ p+)/12. With p-+ = p -+ g, g what they gain in a sub-step, that is
-// J'^T p + (J+ - J-)^T g/12; what is bent about p acts along J and only changes the multiplier.
+// J' = w J- + (1 - 2 w) J + w J+.
 void Newton::average(const System& system, std::size_t index, double w, bool numerov) {
   const Block& start = system.blocks[index];
   Block& end = rows_[index];
   const Block& back = back_[index];
-  if (numerov && !start.is_contact()) {
-    Block gained = end;
-    gained.pinned = false;  // no linear part is left in the difference
-    double gain[kMaxRows];
-    for (int row = 0; row < start.rows; ++row) {
-      gain[row] = w * (start.impulse[row] - before_[index].row[row]);
-      const Vec6 J_a = gradient(end, row, true) - gradient(back, row, true);
-      const Vec6 J_b = gradient(end, row, false) - gradient(back, row, false);
-      for (int j = 0; j < 6; ++j) {
-        gained.J_a[row][j] = J_a[j];
-        gained.J_b[row][j] = J_b[j];
-      }
-    }
-    apply_impulse(gained, gain, system.inverse_mass, aim_);
-  }
+  if (numerov && start.pinned) add_gained(system, index, w);
   const auto averaged = [&](int row, int j, auto J) {
     (end.*J)[row][j] =
         w * ((back.*J)[row][j] + (end.*J)[row][j]) + (1.0 - 2.0 * w) * (start.*J)[row][j];
@@ -146,6 +118,32 @@ void Newton::average(const System& system, std::size_t index, double w, bool num
   }
   end.r_a = w * (back.r_a + end.r_a) + (1.0 - 2.0 * w) * start.r_a;
   end.r_b = w * (back.r_b + end.r_b) + (1.0 - 2.0 * w) * start.r_b;
+}
+
+// Numerov's method has the forces of the neighbours with their own impulses, (J- p- + 10 J p +
+// J+ p+)/12. With p-+ = p -+ g, g what they gain in a sub-step, that is J'^T p + (J+ - J-)^T g/12;
+// what is bent about p acts along J and only changes the multiplier. J+ - J- of a pin has no linear
+// part.
+void Newton::add_gained(const System& system, std::size_t index, double w) {
+  const Block& start = system.blocks[index];
+  const Block& end = rows_[index];
+  const Block& back = back_[index];
+  double gain[kMaxRows] = {};
+  for (int row = 0; row < start.rows; ++row) {
+    gain[row] = w * (start.impulse[row] - before_[index].row[row]);
+  }
+  const auto turn = [&](int body, double sign, const Vec3& arm_gained) {
+    Vec3 torque = arm_gained.cross(Vec3(gain[0], gain[1], gain[2]));
+    for (int row = 3; row < start.rows; ++row) {
+      for (int j = 0; j < 3; ++j) {
+        torque[j] += (end.J_a[row][3 + j] - back.J_a[row][3 + j]) * gain[row];
+      }
+    }
+    const auto i = static_cast<std::size_t>(body);
+    aim_[i].tail<3>() += sign * (system.inverse_mass[i].angular * torque);
+  };
+  if (start.a >= 0) turn(start.a, 1.0, end.r_a - back.r_a);
+  if (start.b >= 0) turn(start.b, -1.0, end.r_b - back.r_b);
 }
 
 // u turns a body by the angle 2 atan(dt |omega|/2), so omega is longer than the turn by dt by
@@ -165,16 +163,16 @@ void Newton::straighten_turns(const System& system) {
 // is the linear system that starts from u - A (u - u*).
 void Newton::stiffen(const System& system, Forces forces) {
   const double w = weight_of(forces);
-  K_.clear(system.u.size());
+  K_.assign(system.u.size(), Mat3::Zero());
   for (Block& block : rows_) {
     // K is linear in the forces: dt^2 K(impulse/dt) = dt K(impulse).
     for (int row = 0; row < block.rows; ++row) {
       block.lambda[row] = w * system.dt * block.impulse[row];
     }
-    add_stiffness(block, K_);
+    add_turning_stiffness(block, K_);
   }
   for (std::size_t i = 0; i < u_.size(); ++i) {
-    const Mat3 D = resisting_diagonal(K_.angular(static_cast<int>(i)), system.R_WB[i]);
+    const Mat3 D = resisting_diagonal(K_[i], system.R_WB[i]);
     const Mat3& W = system.inverse_mass[i].angular;
     const Mat3 A = (Mat3::Identity() + W * D).inverse();
     const Mat3 Mt = A * W;

@@ -2,7 +2,6 @@
 
 #include <vector>
 
-#include "core/constraints/stiffness_matrix.hpp"
 #include "core/solver/bpp.hpp"
 #include "core/solver/solver.hpp"
 
@@ -42,6 +41,7 @@ class Newton final : public Solver {
   void read_rows(const System& system, Forces forces);
   void relinearise(const System& system, Forces forces);
   void average(const System& system, std::size_t block, double weight, bool numerov);
+  void add_gained(const System& system, std::size_t block, double weight);
   void straighten_turns(const System& system);
   void stiffen(const System& system, Forces forces);
   /// Takes the solution of the linear system. @return the largest change of a velocity, relative
@@ -59,8 +59,8 @@ class Newton final : public Solver {
     double row[kMaxRows];
   };
   std::vector<Impulse> before_;  // per block: of the last sub-step, for the time of this one
-  std::vector<Block> back_;      // the blocks at the poses of the last sub-step
-  StiffnessMatrix K_;
+  std::vector<Block> back_;      // arms and J at the poses of the last sub-step, nothing else
+  std::vector<Mat3> K_;          // per body: what its turning does to its torque, times dt^2
 };
 
 }  // namespace substep

@@ -39,8 +39,13 @@ struct Block {
   double bias[kMaxRows] = {};      // drift correction [m/s or rad/s]
   double softness[kMaxRows] = {};  // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
   double impulse[kMaxRows] = {};   // dt lambda: seed in, solution out [N s or N m s]
-  double lambda[kMaxRows] = {};    // constraint force of this sub-step, where it is read [N or N m]
-  std::int8_t tight[kMaxRows];     // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
+  // What Newton with forces numerov needs of the sub-steps before.
+  double gain[kMaxRows] = {};       // of the impulse in a sub-step about this one [N s or N m s]
+  double last[kMaxRows] = {};       // the force of the last one [N or N m]
+  double last_rate[kMaxRows] = {};  // and its rate [N/s or N m/s]
+  double lambda[kMaxRows] = {};  // constraint force of this sub-step, where it is read [N or N m]
+  bool seeded = false;           // the last sub-step had this block: impulse is of it
+  std::int8_t tight[kMaxRows];   // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
   double J_a[kMaxRows][6];  // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
   double J_b[kMaxRows][6];  // d phi / d q_b

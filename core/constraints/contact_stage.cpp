@@ -4,25 +4,21 @@
 #include <cmath>
 
 #include "core/constraints/moved_rows.hpp"
-#include "core/math/turn.hpp"
 
 namespace substep {
 
 namespace {
 
-Motion motion_since(const Vec3& x_then, const Quat& q_then, const Vec3& x, const Quat& q) {
+/// Cayley vector of a turn.
+Vec3 half_turn(const Quat& q_then, const Quat& q) {
   const Quat turn = q * q_then.conjugate();
-  return {x - x_then, turn.vec() / turn.w()};
+  return turn.vec() / turn.w();
 }
 
 /// R H R^T.
-Mat3 turned_curvature(const Mat3& H, const Vec3& half) {
+Mat3 turned_curvature(const Mat3& H, const Mat3& R) {
   if (H.isZero(0.0)) return H;
-  Mat3 once;
-  for (int i = 0; i < 3; ++i) once.row(i) = turn(half, H.col(i));  // R H, transposed
-  Mat3 twice;
-  for (int i = 0; i < 3; ++i) twice.col(i) = turn(half, once.col(i));
-  return twice;
+  return R * H * R.transpose();
 }
 
 }  // namespace
@@ -66,9 +62,9 @@ bool ContactStage::stays_foreseen(const Scene& scene, const Part& part, const St
   return std::all_of(part.bodies.begin(), part.bodies.end(), [&](int body) {
     const auto i = static_cast<std::size_t>(body);
     if (scene.bodies[i].is_static) return true;
-    const Motion gone = motion_since(x_[i], q_[i], state.x[i], state.q[i]);
-    const double turned = 2.0 * radius_around(scene.bodies[i].shape) * gone.half.norm();
-    return gone.dx.norm() + turned + way_in(dt, scene, scene.bodies[i], state.u[i]) <=
+    const double turned =
+        2.0 * radius_around(scene.bodies[i].shape) * half_turn(q_[i], state.q[i]).norm();
+    return (state.x[i] - x_[i]).norm() + turned + way_in(dt, scene, scene.bodies[i], state.u[i]) <=
            way_[i] + room;
   });
 }
@@ -81,7 +77,7 @@ bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const 
   const auto motion = [&](int body) {
     if (body < 0) return Motion{};
     const auto i = static_cast<std::size_t>(body);
-    return motion_since(x_[i], q_[i], state.x[i], state.q[i]);
+    return Motion{state.x[i] - x_[i], turn_matrix(half_turn(q_[i], state.q[i]))};
   };
   for (const Block& row : foreseen_.all()) {
     if (!part.holds(row.body_a) || !part.holds(row.body_b)) continue;
@@ -93,7 +89,7 @@ bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const 
       blocks.keep(blocks.size() - 1);
       continue;
     }
-    block.H = turned_curvature(row.H, motion(row.b).half);
+    block.H = turned_curvature(row.H, motion(row.b).R);
   }
   append(of_boxes, scene, state, blocks);
   return true;

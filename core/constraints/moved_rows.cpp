@@ -2,25 +2,20 @@
 
 #include <algorithm>
 
-#include "core/math/turn.hpp"
-
 namespace substep {
 namespace {
 
-Vec3 turned(const Motion& motion, const Vec3& v) { return turn(motion.half, v); }
-Vec3 turned_back(const Motion& motion, const Vec3& v) { return turn(-motion.half, v); }
-
 void move_pin(const Block& start, const Motion& a, const Motion& b, Block& moved) {
-  moved.r_a = turned(a, start.r_a);
-  moved.r_b = turned(b, start.r_b);
+  moved.r_a = a.R * start.r_a;
+  moved.r_b = b.R * start.r_b;
   const Vec3 phi = (a.dx - b.dx) + ((moved.r_a - start.r_a) - (moved.r_b - start.r_b));
   for (int i = 0; i < 3; ++i) moved.phi[i] = phi[i];
 }
 
 void move_hinge_axis(const Block& start, const Motion& a, const Motion& b, Block& moved) {
-  moved.axis = turned(a, start.axis);
-  moved.v1 = turned(b, start.v1);
-  moved.v2 = turned(b, start.v2);
+  moved.axis = a.R * start.axis;
+  moved.v1 = b.R * start.v1;
+  moved.v2 = b.R * start.v2;
   for (int k = 0; k < 2; ++k) {
     const Vec3& v = k == 0 ? moved.v1 : moved.v2;
     const Vec3& v_start = k == 0 ? start.v1 : start.v2;
@@ -30,16 +25,25 @@ void move_hinge_axis(const Block& start, const Motion& a, const Motion& b, Block
   }
 }
 
+// Where the point p of a that touches is then, from the centre of b.
+Vec3 moved_rho(const Block& start, const Motion& a, const Motion& b) {
+  return start.rho + (a.dx - b.dx) + (a.R * start.arm_a - start.arm_a);
+}
+
 // The gap is D(p) - radius with D fixed in b and p fixed in a. Seen from b, p moves by d; then
 // D = D_0 + n . d + d . H d / 2 and grad D = n + H d.
+double gained_gap(const Block& start, const Vec3& d, const Vec3& Hd) {
+  return start.n.dot(d) + 0.5 * d.dot(Hd);
+}
+
 void move_contact(const Block& start, const Motion& a, const Motion& b, Block& moved,
                   const RowRange& rows) {
-  moved.arm_a = turned(a, start.arm_a);
-  moved.rho = start.rho + (a.dx - b.dx) + (moved.arm_a - start.arm_a);
-  const Vec3 d = turned_back(b, moved.rho) - start.rho;
+  moved.arm_a = a.R * start.arm_a;
+  moved.rho = moved_rho(start, a, b);
+  const Vec3 d = b.R.transpose() * moved.rho - start.rho;
   const Vec3 Hd = start.H * d;
-  moved.phi[0] = start.n.dot(d) + 0.5 * d.dot(Hd);
-  moved.n = turned(b, (start.n + Hd).normalized());
+  moved.phi[0] = gained_gap(start, d, Hd);
+  moved.n = b.R * (start.n + Hd).normalized();
   // The point that both surfaces share keeps its place along the normal from p.
   const Vec3 along = (start.r_a - start.arm_a).dot(start.n) * moved.n;
   moved.r_a = moved.arm_a + along;
@@ -48,10 +52,10 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
   if (end > 1) {
     // How far the material points that touch have slid, along the tangents of the start.
     const Vec3 slid =
-        (a.dx - b.dx) + ((turned(a, start.r_a) - start.r_a) - (turned(b, start.r_b) - start.r_b));
+        (a.dx - b.dx) + ((a.R * start.r_a - start.r_a) - (b.R * start.r_b - start.r_b));
     moved.phi[1] = start.t1.dot(slid);
     moved.phi[2] = start.t2.dot(slid);
-    const Vec3 t = turned(b, start.t1);
+    const Vec3 t = b.R * start.t1;
     moved.t1 = (t - moved.n * moved.n.dot(t)).normalized();
     moved.t2 = moved.n.cross(moved.t1);
   }
@@ -76,6 +80,11 @@ void move_rows(const Block& start, const Motion& a, const Motion& b, Block& move
   if (rows.first + rows.count > 3 && start.kind == BlockKind::kHinge) {
     move_hinge_axis(start, a, b, moved);
   }
+}
+
+double moved_gap(const Block& start, const Motion& a, const Motion& b) {
+  const Vec3 d = b.R.transpose() * moved_rho(start, a, b) - start.rho;
+  return gained_gap(start, d, start.H * d);
 }
 
 std::int64_t move_flops(const Block& block, int rows) {

@@ -3,18 +3,19 @@
 #include <cstdint>
 
 #include "core/constraints/block.hpp"
+#include "core/math/turn.hpp"
 
 namespace substep {
 
 /// How a body's pose has changed since its rows were made. The world and static bodies stay.
 struct Motion {
-  Vec3 dx = Vec3::Zero();    // way of the centre of mass, world [m]
-  Vec3 half = Vec3::Zero();  // Cayley vector of the turn, world: tan(angle/2) axis
+  Vec3 dx = Vec3::Zero();     // way of the centre of mass, world [m]
+  Mat3 R = Mat3::Identity();  // its turn, world axes
 };
 
 /// The motion of a sub-step, as integrate() will make it. @param u [m/s, rad/s]  @param dt [s]
 inline Motion motion(const Vec6& u, double dt) {
-  return {dt * u.head<3>(), 0.5 * dt * u.tail<3>()};
+  return {dt * u.head<3>(), turn_matrix(0.5 * dt * u.tail<3>())};
 }
 
 /// Some rows of a block.
@@ -26,12 +27,14 @@ struct RowRange {
 /// phi and J of a block after its bodies have moved: for solvers that look at the end of a sub-step
 /// instead of its start. Exact for joints and for points on faces; spheres on spheres to the second
 /// order of H.
-/// @param moved in: a copy of `start`, moved before or not; out: J and phi of the rows asked for,
-///        the arms, axes, normal and tangents they stand on. phi is that after LESS that before;
-///        friction counts the way slid. The rest stays, and with it the constant linear part of J
-///        of joints.
+/// @param moved out: J and phi of the rows asked for, the arms, axes, normal and tangents they
+/// stand
+///        on. phi is that after LESS that before; friction counts the way slid. The rest stays.
 void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved,
                RowRange rows = {});
+
+/// phi of a contact's normal after LESS that before, as move_rows() has it.
+double moved_gap(const Block& start, const Motion& a, const Motion& b);
 
 /// Floating-point operations of move_rows for so many rows of a block.
 std::int64_t move_flops(const Block& block, int rows);

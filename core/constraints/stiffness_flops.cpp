@@ -43,4 +43,20 @@ std::int64_t stiffness_flops(const Block& block, ContactTerms terms) {
   return 0;
 }
 
+std::int64_t turning_stiffness_flops(const Block& block) {
+  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+  const std::int64_t ball = bodies * (kSkewProduct + kSum);
+  switch (block.kind) {
+    case BlockKind::kBall:
+      return ball;
+    case BlockKind::kHinge:  // w, W U, on each body
+      return ball + 9 + kSkewProduct + bodies * kSum;
+    case BlockKind::kContact:  // H r, its torque and that of n; H rho and n, their torque
+      if (block.lambda[0] == 0.0) return 0;
+      return (block.a >= 0 ? 3 * kProduct + 3 * kSum : 0) +
+             (block.b >= 0 ? 2 * kProduct + 3 * kSum : 0);
+  }
+  return 0;
+}
+
 }  // namespace substep

@@ -11,4 +11,7 @@ namespace substep {
 /// @param terms of a contact
 std::int64_t stiffness_flops(const Block& block, ContactTerms terms);
 
+/// The same of add_turning_stiffness().
+std::int64_t turning_stiffness_flops(const Block& block);
+
 }  // namespace substep

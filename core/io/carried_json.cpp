@@ -72,13 +72,19 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
       in.problem("id", value_text(id) + " is not a hexadecimal number of up to 16 digits");
     }
   }
-  if (const Json* list = in.member("lambda", kRequired)) {
+  const auto rows = [&](std::string_view key, const Range& range, double* numbers,
+                        Presence presence) {
+    const Json* list = in.member(key, presence);
+    if (!list) return;
     if (!list->is_array() || list->size() > kRows) {
-      in.problem("lambda", value_text(*list) + " is not a list of up to " + std::to_string(kRows));
+      in.problem(key, value_text(*list) + " is not a list of up to " + std::to_string(kRows));
     } else {
-      in.numbers("lambda", kForceRange, force.lambda, list->size(), kRequired);
+      in.numbers(key, range, numbers, list->size(), presence);
     }
-  }
+  };
+  rows("lambda", kForceRange, force.lambda, kRequired);
+  rows("rate", kForceRateRange, force.rate, kOptional);
+  rows("rate_change", kForceRateChangeRange, force.rate_change, kOptional);
   std::string tight;
   if (in.text("tight", kRows, tight, kOptional)) {
     for (std::size_t row = 0; row < tight.size(); ++row) {
@@ -95,14 +101,19 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
 }
 
 Json force_json(const StoredForce& force) {
-  std::size_t rows = kRows;
-  while (rows > 0 && force.lambda[rows - 1] == 0.0) --rows;
+  const auto rows = [](const double(&numbers)[kRows]) {
+    std::size_t count = kRows;
+    while (count > 0 && numbers[count - 1] == 0.0) --count;
+    return std::vector(numbers, numbers + count);
+  };
   std::string tight;
   for (const std::int8_t side : force.tight) tight += kSides[static_cast<std::size_t>(side + 1)];
   tight.erase(tight.find_last_not_of('0') + 1);
   Json json;
   json["id"] = id_text(force.id);
-  json["lambda"] = std::vector(force.lambda, force.lambda + rows);
+  json["lambda"] = rows(force.lambda);
+  if (const auto rate = rows(force.rate); !rate.empty()) json["rate"] = rate;
+  if (const auto change = rows(force.rate_change); !change.empty()) json["rate_change"] = change;
   if (!tight.empty()) json["tight"] = tight;
   return json;
 }
@@ -121,6 +132,7 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   in.number("dt_previous", not_negative(1.0, "s"), carried.dt_previous, kRequired);
   read_items(in, "u", kVelocityRange, n, carried.u);
   carried.stiffness_known = in.number("r", kStiffnessOverMassRange, carried.r, kOptional);
+  read_items(in, "acceleration", kAccelerationRange, n, carried.acceleration);
   read_items(in, "k", kStiffnessRange, n, carried.k);
   read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting);
   read_own(in, n, carried.own);
@@ -172,6 +184,7 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
     json["own_dt_previous"] = std::move(dt);
     json["own_r"] = std::move(r);
   }
+  if (!carried.acceleration.empty()) json["acceleration"] = items_json(carried.acceleration);
   if (!carried.rest.empty()) json["rest"] = carried.rest;
   if (!carried.forces.empty()) {
     Json& forces = json["forces"] = Json::array();

@@ -6,10 +6,20 @@
 
 namespace substep {
 
-/// v turned: R v with R = E + 2 ([c] + [c]^2)/(1 + c.c).
-inline Vec3 turn(const Vec3& c, const Vec3& v) {
-  const Vec3 w = c.cross(v);
-  return v + (2.0 / (1.0 + c.squaredNorm())) * (w + c.cross(w));
+/// R = E + 2 ([c] + [c]^2)/(1 + c.c), [c]^2 = c c^T - (c.c) E.
+inline Mat3 turn_matrix(const Vec3& c) {
+  const Vec3 k = (2.0 / (1.0 + c.squaredNorm())) * c;
+  const double xx = k.x() * c.x();
+  const double yy = k.y() * c.y();
+  const double zz = k.z() * c.z();
+  const double xy = k.x() * c.y();
+  const double xz = k.x() * c.z();
+  const double yz = k.y() * c.z();
+  Mat3 R;
+  R << 1.0 - (yy + zz), xy - k.z(), xz + k.y(),  //
+      xy + k.z(), 1.0 - (xx + zz), yz - k.x(),   //
+      xz - k.y(), yz + k.x(), 1.0 - (xx + yy);
+  return R;
 }
 
 /// The turn c followed by the turn d, world axes: (1, d) (1, c) = (1 - d.c, c + d + d x c).

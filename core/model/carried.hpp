@@ -9,9 +9,12 @@ namespace substep {
 
 /// Force of a constraint that outlives its sub-step: seeds friction bounds and warm starts.
 struct StoredForce {
-  std::uint64_t id = 0;       // of the constraint block
-  double lambda[5] = {};      // per row [N or N m]
-  std::int8_t tight[5] = {};  // per row, of contacts: active set of BPP, as Block::tight
+  std::uint64_t id = 0;   // of the constraint block
+  double lambda[5] = {};  // per row [N or N m]
+  // Per row, where extrapolates(); 0 where it is not known yet.
+  double rate[5] = {};         // of lambda [N/s or N m/s]
+  double rate_change[5] = {};  // of the rate [N/s^2 or N m/s^2]
+  std::int8_t tight[5] = {};   // per row, of contacts: active set of BPP, as Block::tight
 };
 
 /// The last sub-step of a body whose island has sub-steps of its own.
@@ -29,6 +32,8 @@ struct Carried {
   std::vector<Mat3> K_resisting;  // per body, of mode stiffness: full_stiffness.hpp, or empty
   bool stiffness_known = false;   // r and k are of the last frame; where not, a probe is due
   std::vector<StoredForce> forces;
+  // Per body, where extrapolates(): of the last sub-step, 0 where something hit [m/s^2, rad/s^2].
+  std::vector<Vec6> acceleration;
   std::vector<OwnSubstep> own;  // per body, or empty: dt_previous is that of all bodies
   std::vector<double> rest;     // per body: how long it has been slow [s]; empty: not looked at
 

@@ -76,6 +76,11 @@ inline bool starts_from_last_forces(const Settings& s) {
          (s.solver == SolverKind::kBpp && s.refinements > 0);
 }
 
+/// Whether a sub-step begins with forces and velocities that go on as they changed before.
+inline bool extrapolates(const Settings& s) {
+  return s.solver == SolverKind::kNewton && s.forces == Forces::kNumerov;
+}
+
 /// kAuto resolved: the law that the solver is used with.
 inline Drift drift_law(const Settings& s) {
   if (s.drift != Drift::kAuto) return s.drift;

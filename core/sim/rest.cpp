@@ -27,6 +27,7 @@ void Simulator::Impl::put_to_rest(std::span<const int> island) {
   for (const int body : island) {
     state.u[static_cast<std::size_t>(body)].setZero();
     state.u_synchronised[static_cast<std::size_t>(body)].setZero();
+    if (!state.acceleration.empty()) state.acceleration[static_cast<std::size_t>(body)].setZero();
   }
 }
 

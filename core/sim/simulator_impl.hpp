@@ -43,7 +43,8 @@ struct Simulator::Impl {
   std::span<Block> rows() { return blocks.from(first_block); }
   bool holds_grab() const { return grab && part().holds(grab->body); }
   double impulse_time_of(const Block& block) const;  // lambda = impulse / it [s]
-  void set_lambda(Block& block) const;               // where somebody is going to read it
+  double dt_previous_of(const Block& block) const;
+  void set_lambda(Block& block) const;  // where somebody is going to read it
 
   static RowCounts count_rows(std::span<const Block> of);
   bool probe_due() const;
@@ -51,6 +52,11 @@ struct Simulator::Impl {
   bool forces_are_stored() const;  // of any constraint, from sub-step to sub-step
   void seed_forces();
   void store_forces();
+  // Where extrapolates(): what goes on changing as it did.
+  void extrapolate(const StoredForce& force, Block& block) const;
+  void find_rates(const Block& block, StoredForce& force) const;
+  std::span<const Vec6> extrapolated_velocities();
+  void store_accelerations();
   void begin_frame();
   void turn_axes(std::span<const int> bodies);  // R_WB
   void deal_out(FrameReport& report);           // the sub-steps of the frame to come
@@ -99,6 +105,7 @@ struct Simulator::Impl {
   std::vector<InverseMass> inverse_mass;
   std::vector<Vec6> u_start;         // at the start of the sub-step
   std::vector<Vec6> u_before;        // after the gyroscopic torque, before forces and constraints
+  std::vector<Vec6> u_guess;         // where accelerations stay as they are
   std::vector<double> impulse_time;  // per body: external forces act for it [s]
   bool smooth = true;                // no contact closed in this sub-step
   bool watched = true;               // whether anybody may look at what it leaves

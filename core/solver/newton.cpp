@@ -37,7 +37,7 @@ std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies
   for (const Block& block : blocks) {
     const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
     flops += move_flops(block, block.rows) + product_flops(block.rows, 6, sides) + 4 * block.rows +
-             stiffness_flops(block, ContactTerms::kNormal);
+             turning_stiffness_flops(block);
     if (forces == Forces::kEnd) continue;
     const std::int64_t averaged = block.rows * (block.pinned ? 3 : 6) + 3;
     flops += 4 * averaged * sides;
@@ -52,8 +52,18 @@ Mat3 resisting_diagonal(const Mat3& K, const Mat3& R_WB) {
   return R_WB * k.cwiseMax(0.0).asDiagonal() * R_WB.transpose();
 }
 
-Motion motion_of(int body, std::span<const Vec6> u, double dt) {
-  return body < 0 ? Motion{} : motion(u[static_cast<std::size_t>(body)], dt);
+/// A block as a step finds it. Of a joint that it knows only what a sub-step changes: move_rows()
+/// and the steps write the rest.
+void copy_start(const Block& start, Block& row) {
+  if (!start.pinned || !row.pinned || row.id != start.id || row.a != start.a || row.b != start.b) {
+    row = start;
+    return;
+  }
+  for (int i = 0; i < kMaxRows; ++i) {
+    row.C[i] = start.C[i];
+    row.softness[i] = start.softness[i];
+    row.impulse[i] = start.impulse[i];
+  }
 }
 
 }  // namespace
@@ -62,18 +72,29 @@ void Newton::reserve(std::size_t bodies, std::size_t blocks) {
   linear_.reserve(bodies, blocks);
   rows_.reserve(blocks);
   back_.reserve(blocks);
-  before_.reserve(blocks);
   K_.reserve(bodies);
+  motions_.reserve(bodies + 1);
+}
+
+void Newton::move_bodies(std::span<const Vec6> u, double dt) {
+  motions_.clear();
+  for (const Vec6& v : u) motions_.push_back(motion(v, dt));
+  motions_.emplace_back();
+}
+
+const Motion& Newton::motion_of(int body) const {
+  return body < 0 ? motions_.back() : motions_[static_cast<std::size_t>(body)];
 }
 
 void Newton::read_rows(const System& system, Forces forces) {
-  rows_.assign(system.blocks.begin(), system.blocks.end());
+  rows_.resize(system.blocks.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) copy_start(system.blocks[i], rows_[i]);
   if (forces == Forces::kEnd) return;
   if (back_.size() < rows_.size()) back_.resize(rows_.size());
+  move_bodies(system.u_before, -system.dt);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
-    move_rows(start, motion_of(start.a, system.u_before, -system.dt),
-              motion_of(start.b, system.u_before, -system.dt), back_[i]);
+    move_rows(start, motion_of(start.a), motion_of(start.b), back_[i]);
   }
 }
 
@@ -82,11 +103,11 @@ void Newton::read_rows(const System& system, Forces forces) {
 // so the linear system has the bias phi/dt - J u. phi is that of the end; J' stands for its J.
 void Newton::relinearise(const System& system, Forces forces) {
   aim_ = u_star_;
+  move_bodies(system.u, system.dt);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
     Block& block = rows_[i];
-    move_rows(start, motion_of(start.a, system.u, system.dt),
-              motion_of(start.b, system.u, system.dt), block);
+    move_rows(start, motion_of(start.a), motion_of(start.b), block);
     if (forces != Forces::kEnd) {
       average(system, i, weight_of(forces), forces == Forces::kNumerov);
     }
@@ -122,15 +143,16 @@ void Newton::average(const System& system, std::size_t index, double w, bool num
 
 // Numerov's method has the forces of the neighbours with their own impulses, (J- p- + 10 J p +
 // J+ p+)/12. With p-+ = p -+ g, g what they gain in a sub-step, that is J'^T p + (J+ - J-)^T g/12;
-// what is bent about p acts along J and only changes the multiplier. J+ - J- of a pin has no linear
-// part.
+// what is bent about p acts along J and only changes the multiplier. g is half of what lies between
+// the neighbours: p - p- would be half a sub-step late, and the whole of third order. J+ - J- of a
+// pin has no linear part.
 void Newton::add_gained(const System& system, std::size_t index, double w) {
   const Block& start = system.blocks[index];
   const Block& end = rows_[index];
   const Block& back = back_[index];
   double gain[kMaxRows] = {};
   for (int row = 0; row < start.rows; ++row) {
-    gain[row] = w * (start.impulse[row] - before_[index].row[row]);
+    gain[row] = start.seeded ? w * start.gain[row] : 0.0;
   }
   const auto turn = [&](int body, double sign, const Vec3& arm_gained) {
     Vec3 torque = arm_gained.cross(Vec3(gain[0], gain[1], gain[2]));
@@ -201,12 +223,8 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());
   read_rows(system, settings.forces);
-  before_.resize(system.blocks.size());
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    std::copy(system.blocks[i].impulse, system.blocks[i].impulse + kMaxRows, before_[i].row);
-  }
-  // The guess: nothing changes.
-  std::copy(system.u_before.begin(), system.u_before.end(), system.u.begin());
+  // The guess: nothing changes, or what changes goes on as it did.
+  copy(system.u_guess.empty() ? system.u_before : system.u_guess, system.u);
 
   SolveReport report;
   for (double change = 1.0; change > kConverged;) {  // false for what is not a number

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/constraints/moved_rows.hpp"
 #include "core/solver/bpp.hpp"
 #include "core/solver/solver.hpp"
 
@@ -19,8 +20,10 @@ namespace substep {
 ///   numerov  J' = (J- + 10 J + J+)/12, after Numerov's q+ - 2 q + q- = dt^2 (a- + 10 a + a+)/12.
 ///            On the model of Eq. 5 the error is of fourth order, and stable while dt^2 k < 6 M.
 ///            The forces of the neighbours differ from this one by what they gain in a sub-step,
-///            and the Cayley vector of a turn from the turn itself; both are put right. Chains that
-///            swing in a plane converge at third order, what tumbles in space at second.
+///            Block::gain, and the Cayley vector of a turn from the turn itself; both are put
+///            right. Chains that swing in a plane converge at fourth order, what tumbles in space
+///            at second. Gain and first guess go on as the sub-steps before had them: two steps do,
+///            and one is a scheme of third order, stable for about half the dt^2 k.
 /// How far they are stable: where q grows by the factor z in a sub-step, the model of Eq. 5 with
 /// kappa = dt^2 k/M and the share w of each neighbouring pose is
 ///   (1 + w kappa) (z^2 + 1) - (2 - (1 - 2 w) kappa) z = 0.
@@ -29,14 +32,16 @@ namespace substep {
 /// (1 + kappa) z^2 - 2 z + 1 = 0, and |z|^2 = 1/(1 + kappa) is below 1 for any kappa.
 /// What of the constraints' Hessian resists turns about a body's principal axes, a diagonal as the
 /// source has it, joins M in each step: two to five steps do, and without it nothing that hangs
-/// under a heavy load converges. At most Settings::iterations steps, from the last sub-step's
-/// velocities and forces.
+/// under a heavy load converges. At most Settings::iterations steps, from System::u_guess or the
+/// velocities, and the forces, of the last sub-step.
 class Newton final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
+  void move_bodies(std::span<const Vec6> u, double dt);
+  [[nodiscard]] const Motion& motion_of(int body) const;
   /// Into rows_, and into back_ where the forces are those of more poses than the end's.
   void read_rows(const System& system, Forces forces);
   void relinearise(const System& system, Forces forces);
@@ -55,11 +60,8 @@ class Newton final : public Solver {
 
   std::vector<Vec6> u_star_;  // per body: before any impulse
   std::vector<Vec6> aim_;     // per body: u_star_ with what does not depend on this step's impulses
-  struct Impulse {
-    double row[kMaxRows];
-  };
-  std::vector<Impulse> before_;  // per block: of the last sub-step, for the time of this one
-  std::vector<Block> back_;      // arms and J at the poses of the last sub-step, nothing else
+  std::vector<Block> back_;   // arms and J at the poses of the last sub-step, nothing else
+  std::vector<Motion> motions_;  // per body, and of what stands still at the end
   std::vector<Mat3> K_;          // per body: what its turning does to its torque, times dt^2
 };
 

@@ -31,6 +31,9 @@ struct System {
 
   // The part of every softness that is no compliance, and that refinements take back [1/kg].
   double regularisation = 0.0;
+
+  // Per body: where Newton may begin, or empty: at u_before [m/s, rad/s].
+  std::span<const Vec6> u_guess{};
 };
 
 enum class SolveStatus : std::uint8_t {

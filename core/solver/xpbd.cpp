@@ -40,7 +40,20 @@ std::int64_t correction_flops(const Block& block, int count) {
 
 }  // namespace
 
-void Xpbd::reserve(std::size_t /*bodies*/, std::size_t blocks) { moved_.reserve(blocks); }
+void Xpbd::reserve(std::size_t bodies, std::size_t blocks) {
+  moved_.reserve(blocks);
+  motions_.reserve(bodies + 1);
+}
+
+const Motion& Xpbd::motion_of(int body) const {
+  return body < 0 ? motions_.back() : motions_[static_cast<std::size_t>(body)];
+}
+
+bool Xpbd::stays_open(const System& system, const Block& block) const {
+  return block.impulse[0] == 0.0 &&
+         block.bias[0] + moved_gap(block, motion_of(block.a), motion_of(block.b)) / system.dt >=
+             0.0;
+}
 
 // What is left of the rows, e = bias + phi/dt + softness * impulse, its length c and direction d;
 // the impulse p along d changes it along d by
@@ -48,11 +61,10 @@ void Xpbd::reserve(std::size_t /*bodies*/, std::size_t blocks) { moved_.reserve(
 // so p = -c/(w + softness). The source goes along the error without the softness, which is the same
 // in the first sweep, and in further ones of soft joints may stop where its two parts are only
 // across each other.
-void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange rows, double bound) {
-  Vec6* u_a = block.a < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.a)];
-  Vec6* u_b = block.b < 0 ? nullptr : &system.u[static_cast<std::size_t>(block.b)];
-  move_rows(block, u_a ? motion(*u_a, system.dt) : Motion{},
-            u_b ? motion(*u_b, system.dt) : Motion{}, moved, rows);
+void Xpbd::correct(const System& system, std::size_t index, RowRange rows, double bound) {
+  Block& block = system.blocks[index];
+  Block& moved = moved_[index];
+  move_rows(block, motion_of(block.a), motion_of(block.b), moved, rows);
 
   const double softness = block.softness[rows.first];
   double direction[kMaxRows] = {1.0};
@@ -76,12 +88,12 @@ void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange ro
   double w = softness;
   Vec6 du_a = Vec6::Zero();
   Vec6 du_b = Vec6::Zero();
-  if (u_a) {
+  if (block.a >= 0) {
     const Vec6 g = gradient(moved, rows, true, direction);
     du_a = response(system.inverse_mass[static_cast<std::size_t>(block.a)], g);
     w += g.dot(du_a);
   }
-  if (u_b) {
+  if (block.b >= 0) {
     const Vec6 g = gradient(moved, rows, false, direction);
     du_b = response(system.inverse_mass[static_cast<std::size_t>(block.b)], g);
     w += g.dot(du_b);
@@ -94,8 +106,14 @@ void Xpbd::correct(const System& system, Block& block, Block& moved, RowRange ro
   }
   if (p == 0.0) return;
   for (int i = 0; i < rows.count; ++i) block.impulse[rows.first + i] += p * direction[i];
-  if (u_a) push(p * du_a, system.dt, *u_a);
-  if (u_b) push(p * du_b, system.dt, *u_b);
+  const auto move = [&](int body, const Vec6& du) {
+    if (body < 0) return;
+    const auto i = static_cast<std::size_t>(body);
+    push(p * du, system.dt, system.u[i]);
+    motions_[i] = motion(system.u[i], system.dt);
+  };
+  move(block.a, du_a);
+  move(block.b, du_b);
 }
 
 SolveReport Xpbd::find_velocities(const System& system, const Settings& settings) {
@@ -103,8 +121,11 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
   report.iterations = settings.iterations;
   for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
   moved_.assign(system.blocks.begin(), system.blocks.end());
+  motions_.clear();
+  for (const Vec6& u : system.u) motions_.push_back(motion(u, system.dt));
+  motions_.emplace_back();
   const auto visit = [&](std::size_t i, RowRange rows, double bound = kUnbounded) {
-    correct(system, system.blocks[i], moved_[i], rows, bound);
+    correct(system, i, rows, bound);
     report.row_updates += rows.count;
     report.flops += correction_flops(system.blocks[i], rows.count);
   };
@@ -112,7 +133,12 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
     for (std::size_t i = 0; i < moved_.size(); ++i) {
       const Block& block = system.blocks[i];
       if (block.is_contact()) {
-        visit(i, {0, 1});
+        if (stays_open(system, block)) {
+          ++report.row_updates;
+          report.flops += move_flops(block, 1);
+        } else {
+          visit(i, {0, 1});
+        }
         for (int row = 1; row < block.rows; ++row) {
           const double bound = block.mu * block.impulse[0];
           if (bound > 0.0 || block.impulse[row] != 0.0) visit(i, {row, 1}, bound);

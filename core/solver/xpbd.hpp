@@ -25,12 +25,14 @@ class Xpbd final : public Solver {
 
  private:
   /// Sets the error of some rows of a block right, with one impulse along it.
-  /// @param moved the block at the poses of an earlier visit
   /// @param bound on the impulse of a single row, symmetric: friction; unbounded else
-  static void correct(const System& system, Block& block, Block& moved, RowRange rows,
-                      double bound = kUnbounded);
+  void correct(const System& system, std::size_t block, RowRange rows, double bound = kUnbounded);
+  /// Whether a contact that carries nothing would not carry anything now either.
+  [[nodiscard]] bool stays_open(const System& system, const Block& block) const;
+  [[nodiscard]] const Motion& motion_of(int body) const;
 
-  std::vector<Block> moved_;  // the blocks at the poses of their last visits
+  std::vector<Block> moved_;     // the blocks at the poses of their last visits
+  std::vector<Motion> motions_;  // per body: of the way so far, and of what stands still at the end
 };
 
 }  // namespace substep

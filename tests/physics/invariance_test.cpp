@@ -343,6 +343,33 @@ TEST(Invariance, ARunGoesOnFromASceneFileBitForBit) {
   }
 }
 
+// Numerov's forces go on with their rates, and its velocities with the accelerations.
+TEST(Invariance, ARunByNumerovGoesOnFromASceneFileBitForBit) {
+  for (const Scene& scene : {scenes::swinging_box(), scenes::bridge()}) {
+    SCOPED_TRACE(scene.name);
+    Settings settings = own_settings(scene);
+    settings.solver = SolverKind::kNewton;
+    settings.forces = Forces::kNumerov;
+    settings.integrator = Integrator::kLeapfrog;
+    settings.mode = Mode::kConst;
+    settings.n = 16;
+    settings.iterations = 1;
+    Simulator whole(std::make_shared<const Scene>(scene));
+    whole.set_settings(settings);
+    for (int i = 0; i < 30; ++i) whole.step();
+    ASSERT_FALSE(whole.state().acceleration.empty());
+    ASSERT_NE(whole.state().forces.front().rate_change[0], 0.0);
+    const auto saved = through_a_file(whole);
+    ASSERT_NE(saved, nullptr);
+    Simulator rest(saved);
+    for (int i = 0; i < 15; ++i) {
+      whole.step();
+      rest.step();
+      expect_same_motion(whole.state(), rest.state());
+    }
+  }
+}
+
 TEST(Invariance, AnotherLoadOrStartIsNoRunThatGoesOn) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   for (int i = 0; i < 3; ++i) simulator.step();

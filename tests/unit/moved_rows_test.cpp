@@ -18,8 +18,9 @@ TEST(Turn, IsTheOneOfTheQuaternion) {
     const auto quaternion = [](const Vec3& half) {
       return Quat(1.0, half.x(), half.y(), half.z()).normalized();
     };
-    EXPECT_LT((turn(c, v) - quaternion(c) * v).norm(), 1e-14);
-    EXPECT_LT((turn(turn_after(c, d), v) - quaternion(d) * (quaternion(c) * v)).norm(), 1e-12);
+    EXPECT_LT((turn_matrix(c) * v - quaternion(c) * v).norm(), 1e-14);
+    EXPECT_LT((turn_matrix(turn_after(c, d)) * v - quaternion(d) * (quaternion(c) * v)).norm(),
+              1e-12);
   }
 }
 
@@ -112,10 +113,14 @@ TEST(MovedRows, SomeRowsAreThoseOfAll) {
                     &start.arm_a, &start.axis, &start.v1, &start.v2}) {
       *v = random_vector(random).normalized();
     }
-    const Motion a{random_vector(random), random_vector(random)};
-    const Motion b{random_vector(random), random_vector(random)};
+    start.H = random_vector(random) * random_vector(random).transpose();
+    const Motion a{random_vector(random), turn_matrix(random_vector(random))};
+    const Motion b{random_vector(random), turn_matrix(random_vector(random))};
     Block all = start;
     move_rows(start, a, b, all);
+    if (start.is_contact()) {
+      EXPECT_EQ(moved_gap(start, a, b), all.phi[0]) << trial;
+    }
     const std::vector<RowRange> parts = kind == 0   ? std::vector<RowRange>{{0, 3}}
                                         : kind == 1 ? std::vector<RowRange>{{0, 3}, {3, 2}}
                                                     : std::vector<RowRange>{{0, 1}, {1, 1}, {2, 1}};

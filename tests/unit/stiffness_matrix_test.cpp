@@ -1,3 +1,6 @@
+#include "core/constraints/contact.hpp"
+#include "core/constraints/hinge_joint.hpp"
+#include "core/constraints/turning_stiffness.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -40,6 +43,36 @@ TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
         }
       }
     }
+  }
+}
+
+// What Newton takes of K, without the rest.
+TEST(TurningStiffness, IsTheDiagonalOfTheWhole) {
+  Random random(11);
+  for (int trial = 0; trial < 60; ++trial) {
+    Block block;
+    const int kind = trial % 3;
+    block.kind = kind == 0 ? BlockKind::kBall : kind == 1 ? BlockKind::kHinge : BlockKind::kContact;
+    block.a = trial % 5 == 3 ? -1 : 0;
+    block.b = trial % 5 == 4 ? -1 : 1;
+    for (Vec3* v : {&block.n, &block.rho, &block.r_a, &block.r_b, &block.arm_a, &block.axis,
+                    &block.v1, &block.v2}) {
+      *v = random_vector(random);
+    }
+    const Vec3 bent = random_vector(random);
+    block.H = bent * bent.transpose();
+    for (double& force : block.lambda) force = random_vector(random).x();
+    StiffnessMatrix whole;
+    whole.clear(2);
+    if (kind == 0) ball_stiffness(block, whole);
+    if (kind == 1) hinge_stiffness(block, whole);
+    if (kind == 2) contact_stiffness_normal(block, whole);
+    std::vector<Mat3> turning(2, Mat3::Zero());
+    add_turning_stiffness(block, turning);
+    for (int body = 0; body < 2; ++body) {
+      EXPECT_LT((turning[index(body)] - whole.angular(body)).norm(), 1e-14) << trial;
+    }
+    EXPECT_GT(turning[0].norm() + turning[1].norm(), 0.0) << trial;
   }
 }
 

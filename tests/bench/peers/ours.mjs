@@ -20,7 +20,9 @@ export const ladder = {
     inertia(4),
     newton("mean", 1, 2),
     newton("mean", 2, 1),
-    ...[7, 14].map((n) => newton("numerov", n, 3)),
+    newton("numerov", 8, 1),
+    newton("numerov", 6, 2),
+    newton("numerov", 12, 2),
     { mode: "capped", n_cap: 4 },
   ],
   bridge: [

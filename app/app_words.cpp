@@ -84,7 +84,10 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
   if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
   for (const ViewSwitch& option : kViewSwitches) {
-    if (key == option.key) return choose(value, {"off", "on"}, desk.view.*option.member);
+    // `forces` is a setting too, with other words.
+    const bool is_setting = find_setting(key) != nullptr && value != "off" && value != "on";
+    if (key == option.key && !is_setting)
+      return choose(value, {"off", "on"}, desk.view.*option.member);
   }
   if (key == "help") return choose(value, {"off", "on"}, desk.help);
   if (key == "more") return choose(value, {"off", "on"}, desk.more);

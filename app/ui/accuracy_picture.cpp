@@ -265,6 +265,14 @@ std::string counted(int n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
+/// By the poses its forces belong to, and by how few steps it takes.
+int corners_of_newton(const Settings& s) {
+  const bool numerov = s.forces == Forces::kNumerov;
+  if (s.iterations == 1) return numerov ? 6 : 5;
+  if (numerov) return 3;
+  return s.iterations == Settings{}.iterations ? 0 : 4;
+}
+
 /// Those that look at the end of a sub-step are called by their names, and by a mode if it is
 /// another than that of a given N.
 void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
@@ -299,14 +307,13 @@ void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
     case SolverKind::kNewton:
       style.family = "Newton";
       style.color = theme.teal;
-      style.corners = s.forces == Forces::kNumerov ? 3 : 0;
       style.own_name = s.forces == Forces::kEnd    ? "forces at the end"
                        : s.forces == Forces::kMean ? "mean forces"
                                                    : "Numerov";
       if (s.iterations != Settings{}.iterations) {
-        style.corners = s.iterations == 1 ? 5 : 4;
         style.own_name += ", " + counted(s.iterations, "step");
       }
+      style.corners = corners_of_newton(s);
       style.own_name += and_mode;
       break;
   }

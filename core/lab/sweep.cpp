@@ -88,6 +88,7 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
   for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kMean);
   along(SolverKind::kNewton, iterations, Forces::kMean);
   if (scene.effects.contact) return;  // what follows is derived for joints alone
+  for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kNumerov);
   along(SolverKind::kNewton, iterations, Forces::kNumerov);
 }
 

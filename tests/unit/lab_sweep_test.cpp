@@ -48,6 +48,8 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
                            "xpbd 25, const, euler",
                            "newton, const, euler",
                            "newton mean, const, leapfrog",
+                           "newton 1 numerov, const, leapfrog",
+                           "newton 2 numerov, const, leapfrog",
                            "newton numerov, const, leapfrog",
                            "pgs 64 a frame, const, euler",
                            "xpbd 64 a frame, const, euler"}) {
@@ -70,7 +72,7 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
     std::set<std::string> there;
     for (const SweepPoint& point : default_sweep(other)) there.insert(series_name(point.settings));
     for (const std::string& name : series) {
-      const bool joints_alone = name.starts_with("newton numerov") ||
+      const bool joints_alone = name.find("numerov") != std::string::npos ||
                                 (name.ends_with("drift order 2") && !other.effects.joints);
       const bool once_a_frame = name.find(" a frame") != std::string::npos;
       EXPECT_EQ(there.contains(once_a_frame ? name + ", contacts once a frame" : name),

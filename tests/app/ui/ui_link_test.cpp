@@ -5,6 +5,7 @@
 #include "core/io/scene_writer.hpp"
 #include "core/lab/experiment_run.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
+#include "tests/unit/unusual_settings.hpp"
 
 namespace substep {
 namespace {
@@ -25,6 +26,19 @@ TEST(Link, RoundTripKeepsTheExperiment) {
   EXPECT_EQ(h.app->session.settings(), wanted);
   EXPECT_EQ(h.app->link(), link);
   EXPECT_TRUE(h.app->trouble.title.empty());
+}
+
+// `forces` are a switch of the view and a setting.
+TEST(Link, OpensEverySetting) {
+  Headless h;
+  h.app->open_link(make_link(*shipped("bridge"), test::unusual()));
+  EXPECT_TRUE(h.app->trouble.title.empty());
+  Settings wanted = test::unusual();
+  wanted.watch_stiffness = h.app->session.settings().watch_stiffness;  // by what the window shows
+  EXPECT_EQ(h.app->session.settings(), wanted);
+  EXPECT_EQ(h.app->set("forces", "on"), "");
+  EXPECT_TRUE(h.app->desk.view.forces);
+  EXPECT_EQ(h.app->session.settings(), wanted);
 }
 
 TEST(Link, AlwaysNamesWhatPeopleAskFor) {

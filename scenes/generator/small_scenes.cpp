@@ -14,7 +14,7 @@ Scene pendulum() {
   scene.group = "exact";
   scene.description =
       "A rod of 1 m on a hinge, let go 36.87 degrees from straight down (sine 3/5).";
-  scene.look_for = "The period is 1.682 s and the swing keeps its height.";
+  scene.look_for = "Period 1.682 s; it keeps its height.";
   scene.effects = {.gravity = true, .joints = true};
   scene.camera.eye = {0.0, 1.5, 3.2};
   scene.camera.target = {0.0, 1.4, 0.0};

@@ -1,7 +1,7 @@
 // For people who see, point or move otherwise: node tests/web/access_test.mjs [BUILT PAGE]
 import assert from "node:assert/strict";
 import { createRequire } from "node:module";
-import { after, before, test } from "node:test";
+import { after, before, describe, test } from "node:test";
 import { call, drawn, open, openPage, picture, quiet, reports, save } from "./browser.mjs";
 import { difference, part } from "./pixels.mjs";
 
@@ -52,21 +52,24 @@ const states = {
   "a lost context": (page) => page.evaluate(() => document.querySelector(".substep-view")
     .getContext("webgl2").getExtension("WEBGL_lose_context").loseContext()),
 };
-for (const [width, height] of [[1280, 720], [390, 844]]) {
-  for (const light of [false, true]) {
-    test(`axe finds nothing serious in any state, ${width}x${height}, ${light ? "light" : "dark"}`, async () => {
-      const page = await openPage(session, { width, height, light });
-      await call(page, "pause");
-      await page.addScriptTag({ path: axe });
-      for (const [state, reach] of Object.entries(states)) {
-        await reach(page);
-        await page.waitForTimeout(1100); // the twin has followed
-        assert.deepEqual(await findings(page), [], state);
-      }
-      await page.context().close();
-    });
+// At once: they mostly wait for what is drawn to be told in HTML.
+describe("axe finds nothing serious in any state", { concurrency: true }, () => {
+  for (const [width, height] of [[1280, 720], [390, 844]]) {
+    for (const light of [false, true]) {
+      test(`${width}x${height}, ${light ? "light" : "dark"}`, async () => {
+        const page = await openPage(session, { width, height, light });
+        await call(page, "pause");
+        await page.addScriptTag({ path: axe });
+        for (const [state, reach] of Object.entries(states)) {
+          await reach(page);
+          await page.waitForTimeout(1100); // the twin has followed
+          assert.deepEqual(await findings(page), [], state);
+        }
+        await page.context().close();
+      });
+    }
   }
-}
+});
 
 test("HTML tells what the canvas shows, and says aloud only what matters", async () => {
   const page = await openPage(session);

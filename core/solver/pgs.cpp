@@ -1,6 +1,7 @@
 #include "core/solver/pgs.hpp"
 
 #include <algorithm>
+#include <new>
 #include <type_traits>
 
 #include "core/math/flops.hpp"
@@ -11,7 +12,76 @@ namespace substep {
 
 namespace {
 
-/// Rows go two at a time where there is more than one; a last one has zeros beside it.
+template <int N>
+using Numbers = double[static_cast<std::size_t>(N)];
+template <int N, int M>
+using Table = double[static_cast<std::size_t>(N)][static_cast<std::size_t>(M)];
+
+/// Of every record, at its beginning.
+struct Head {
+  int a;
+  int b;
+  double mu;
+  std::int8_t rows;
+  bool contact;
+  bool pinned;
+};
+
+/// What an iteration reads of a block. J is kept by component, so that the speeds of all rows are
+/// found side by side: two rows at a time, a last one has zeros beside it. The linear part of a
+/// pinned block is +-E: only the angular components are there.
+template <int R, bool IsPinned>
+struct Visit {
+  static constexpr int Rows = R;
+  static constexpr bool Pinned = IsPinned;
+  static constexpr int kPadded = Rows == 1 ? 1 : Rows + Rows % 2;
+  static constexpr int kFirst = Pinned ? 3 : 0;
+  static constexpr int kComponents = 6 - kFirst;
+
+  Head head;
+  double mass_a;  // 1/m of the bodies [1/kg]
+  double mass_b;
+  Numbers<kPadded> bias;
+  Numbers<kPadded> softness;
+  Numbers<kPadded> impulse;
+  Table<kComponents, kPadded> J_a;
+  Table<kComponents, kPadded> J_b;
+  Numbers<Rows> inverse_diagonal;  // 1/(J_i Mt^-1 J_i^T + softness_i)
+  Table<Rows, Rows> coupling;      // J_i Mt^-1 J_j^T within the block, [j][i] with j < i
+  Table<Rows, kComponents> W_a;    // Mt^-1 J^T by row
+  Table<Rows, kComponents> W_b;
+};
+
+/// The longest record there is.
+constexpr std::size_t kLongest = sizeof(Visit<kMaxRows, false>);
+
+/// Calls f with a null pointer to the type of record that a block of so many rows has.
+template <class F>
+void with_type(int rows, bool pinned, F&& f) {
+  static_assert(kMaxRows == 5);
+  switch (rows) {
+    case 1:
+      return f(static_cast<Visit<1, false>*>(nullptr));
+    case 3:
+      return pinned ? f(static_cast<Visit<3, true>*>(nullptr))
+                    : f(static_cast<Visit<3, false>*>(nullptr));
+    default:  // 5
+      return pinned ? f(static_cast<Visit<5, true>*>(nullptr))
+                    : f(static_cast<Visit<5, false>*>(nullptr));
+  }
+}
+
+/// Calls f with the record that begins at `at`, and goes on to the next one.
+template <class F>
+void take(std::byte*& at, F&& f) {
+  const Head& head = *std::launder(reinterpret_cast<const Head*>(at));
+  with_type(head.rows, head.pinned, [&]<class Record>(Record* /*type*/) {
+    f(*std::launder(reinterpret_cast<Record*>(at)));
+    at += sizeof(Record);
+  });
+}
+
+/// Rows go two at a time where there is more than one.
 template <int Rows>
 using Lane = std::conditional_t<Rows == 1, double, Pair>;
 template <int Rows>
@@ -24,33 +94,36 @@ Lane<Rows> load(const double* from) {
 }
 
 /// w += J u. The linear part of a pinned block is `sign` times the identity.
-template <int Rows, bool Pinned, std::size_t Padded>
-void add_speeds(const double (&J)[6][Padded], double sign, const Vec6& u, Lane<Rows>* w) {
-  if constexpr (Pinned) {
+template <class V>
+void add_speeds(const Table<V::kComponents, V::kPadded>& J, double sign, const Vec6& u,
+                Lane<V::Rows>* w) {
+  if constexpr (V::Pinned) {
     w[0] += sign * Pair{u[0], u[1]};
     w[1] = Pair{w[1][0] + sign * u[2], w[1][1]};
   }
-  for (int j = Pinned ? 3 : 0; j < 6; ++j) {
-    for (int p = 0; p < (Rows + 1) / 2; ++p) w[p] += load<Rows>(&J[j][2 * p]) * u[j];
+  for (int j = 0; j < V::kComponents; ++j) {
+    for (int p = 0; p < (V::Rows + 1) / 2; ++p) {
+      w[p] += load<V::Rows>(&J[j][2 * p]) * u[V::kFirst + j];
+    }
   }
 }
 
 /// u += Mt^-1 J^T change.
-template <int Rows, bool Pinned>
-void kick(const double (&W)[kMaxRows][6], double signed_mass, const double (&change)[kMaxRows],
-          Vec6& u) {
-  if constexpr (Pinned) {
+template <class V>
+void kick(const Table<V::Rows, V::kComponents>& W, double signed_mass,
+          const Numbers<V::Rows>& change, Vec6& u) {
+  if constexpr (V::Pinned) {
     for (int j = 0; j < 3; ++j) u[j] += signed_mass * change[j];
     double sum[3];  // not in u itself: a compiler cannot know that u and W are apart
     for (int j = 0; j < 3; ++j) sum[j] = u[3 + j];
-    for (int row = 0; row < Rows; ++row) {
-      for (int j = 0; j < 3; ++j) sum[j] += W[row][3 + j] * change[row];
+    for (int row = 0; row < V::Rows; ++row) {
+      for (int j = 0; j < 3; ++j) sum[j] += W[row][j] * change[row];
     }
     for (int j = 0; j < 3; ++j) u[3 + j] = sum[j];
   } else {
     for (int p = 0; p < 3; ++p) {
       Pair sum = load_pair(u.data() + 2 * p);
-      for (int row = 0; row < Rows; ++row) sum += load_pair(&W[row][2 * p]) * change[row];
+      for (int row = 0; row < V::Rows; ++row) sum += load_pair(&W[row][2 * p]) * change[row];
       store_pair(sum, u.data() + 2 * p);
     }
   }
@@ -74,79 +147,71 @@ std::int64_t pack_flops(const Block& block) {
   return bodies * (18 * n + n * (n + 1) * multiplied + (block.pinned ? 3 : 0)) + 2 * n;
 }
 
-}  // namespace
+/// J, Mt^-1 J^T and the block's own couplings by way of one of its bodies.
+template <class V>
+void pack_side(const Block& block, bool is_a, const InverseMass& inverse, V& visit) {
+  auto& by_component = is_a ? visit.J_a : visit.J_b;
+  auto& W = is_a ? visit.W_a : visit.W_b;
+  constexpr std::size_t kRows = V::Rows;
+  Vec6 of_pin[kRows];
+  const double* J[kRows];
+  Table<V::Rows, 6> weighed;
+  for (int i = 0; i < V::Rows; ++i) {
+    J[i] = gradient(block, i, is_a, of_pin[i]);
+    weigh(inverse, J[i], weighed[i]);
+    for (int j = 0; j <= i; ++j) {
+      for (int c = V::kFirst; c < 6; ++c) visit.coupling[j][i] += J[i][c] * weighed[j][c];
+    }
+    if (V::Pinned && i < 3) visit.coupling[i][i] += inverse.linear;
+  }
+  for (int c = 0; c < V::kComponents; ++c) {
+    for (int i = 0; i < V::Rows; ++i) {
+      by_component[c][i] = J[i][V::kFirst + c];
+      W[i][c] = weighed[i][V::kFirst + c];
+    }
+    for (int i = V::Rows; i < V::kPadded; ++i) by_component[c][i] = 0.0;
+  }
+  (is_a ? visit.mass_a : visit.mass_b) = inverse.linear;
+}
 
-void Pgs::reserve(std::size_t /*bodies*/, std::size_t blocks) { visits_.reserve(blocks); }
-
-void Pgs::pack(const System& system, bool warm_start) {
-  visits_.resize(system.blocks.size());
-  for (std::size_t k = 0; k < visits_.size(); ++k) {
-    Block& block = system.blocks[k];
-    Visit& visit = visits_[k];
-    visit.a = block.a;
-    visit.b = block.b;
-    visit.rows = block.rows;
-    visit.contact = block.is_contact();
-    visit.pinned = block.pinned;
-    visit.mu = block.mu;
-    const int padded = block.rows == 1 ? 1 : block.rows + block.rows % 2;
-    for (int i = 0; i < block.rows; ++i) {
-      for (int later = i; later < block.rows; ++later) visit.coupling[i][later] = 0.0;
-    }
-    const auto side = [&](bool is_a, int body, double(&by_component)[6][Visit::kPadded],
-                          double(&W)[kMaxRows][6], double& mass) {
-      if (body < 0) return;
-      Vec6 of_pin[kMaxRows];
-      const double* J[kMaxRows];
-      for (int i = 0; i < kMaxRows; ++i) {  // unrolled: which row it is, is known
-        if (i < block.rows) J[i] = gradient(block, i, is_a, of_pin[i]);
-      }
-      const InverseMass& inverse = system.inverse_mass[static_cast<std::size_t>(body)];
-      mass = inverse.linear;
-      const int first = block.pinned ? 3 : 0;
-      for (int i = 0; i < block.rows; ++i) {
-        weigh(inverse, J[i], W[i]);
-        for (int j = 0; j <= i; ++j) {
-          for (int c = first; c < 6; ++c) visit.coupling[j][i] += J[i][c] * W[j][c];
-        }
-        if (block.pinned && i < 3) visit.coupling[i][i] += mass;
-      }
-      for (int c = first; c < 6; ++c) {
-        for (int i = 0; i < block.rows; ++i) by_component[c][i] = J[i][c];
-        for (int i = block.rows; i < padded; ++i) by_component[c][i] = 0.0;
-      }
-    };
-    side(true, block.a, visit.J_a, visit.W_a, visit.mass_a);
-    side(false, block.b, visit.J_b, visit.W_b, visit.mass_b);
-    for (int i = 0; i < block.rows; ++i) {
-      if (!warm_start) block.impulse[i] = 0.0;
-      visit.bias[i] = block.bias[i];
-      visit.softness[i] = block.softness[i];
-      visit.impulse[i] = block.impulse[i];
-      visit.inverse_diagonal[i] = 1.0 / (visit.coupling[i][i] + block.softness[i]);
-    }
-    for (int i = block.rows; i < padded; ++i) {
-      visit.bias[i] = visit.softness[i] = visit.impulse[i] = 0.0;
-    }
-    if (warm_start) apply_impulse(block, block.impulse, system.inverse_mass, system.u);
+template <class V>
+void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, V& visit) {
+  visit.head = {
+      block.a,     block.b, block.mu, static_cast<std::int8_t>(block.rows), block.is_contact(),
+      block.pinned};
+  for (int i = 0; i < V::Rows; ++i) {
+    for (int later = i; later < V::Rows; ++later) visit.coupling[i][later] = 0.0;
+  }
+  for (const bool is_a : {true, false}) {
+    const int body = is_a ? block.a : block.b;
+    if (body >= 0) pack_side(block, is_a, inverse_mass[static_cast<std::size_t>(body)], visit);
+  }
+  for (int i = 0; i < V::Rows; ++i) {
+    visit.bias[i] = block.bias[i];
+    visit.softness[i] = block.softness[i];
+    visit.impulse[i] = block.impulse[i];
+    visit.inverse_diagonal[i] = 1.0 / (visit.coupling[i][i] + block.softness[i]);
+  }
+  for (int i = V::Rows; i < V::kPadded; ++i) {
+    visit.bias[i] = visit.softness[i] = visit.impulse[i] = 0.0;
   }
 }
 
 // Row by row, but u is read and written once per block: what the rows before it in the block have
 // changed reaches a row through `coupling`. The same numbers as one row after the other, up to
 // rounding, and without waiting for u after every row.
-template <int Rows, bool Pinned>
-void Pgs::visit(Visit& block, std::span<Vec6> u) {
-  Lane<Rows> lanes[Visit::kPadded / 2];
+template <class V>
+void update(V& block, std::span<Vec6> u) {
+  constexpr int Rows = V::Rows;
+  const int a = block.head.a, b = block.head.b;
+  Lane<Rows> lanes[std::size_t{(Rows + 1) / 2}];
   for (int p = 0; p < (Rows + 1) / 2; ++p) {
     const auto pull = load<Rows>(block.softness + 2 * p) * load<Rows>(block.impulse + 2 * p);
     lanes[p] = load<Rows>(block.bias + 2 * p) + pull;
   }
-  if (block.a >= 0)
-    add_speeds<Rows, Pinned>(block.J_a, 1.0, u[static_cast<std::size_t>(block.a)], lanes);
-  if (block.b >= 0)
-    add_speeds<Rows, Pinned>(block.J_b, -1.0, u[static_cast<std::size_t>(block.b)], lanes);
-  double w[Visit::kPadded];
+  if (a >= 0) add_speeds<V>(block.J_a, 1.0, u[static_cast<std::size_t>(a)], lanes);
+  if (b >= 0) add_speeds<V>(block.J_b, -1.0, u[static_cast<std::size_t>(b)], lanes);
+  Numbers<V::kPadded> w;
   if constexpr (Rows == 1) {
     w[0] = lanes[0];
   } else {  // lane by lane: as a loop over rows it would be a copy in memory
@@ -155,12 +220,12 @@ void Pgs::visit(Visit& block, std::span<Vec6> u) {
       w[2 * p + 1] = lanes[p][1];
     }
   }
-  double change[kMaxRows];
+  Numbers<Rows> change;
   for (int i = 0; i < Rows; ++i) {
     const double x = block.impulse[i];
     double next = x - w[i] * block.inverse_diagonal[i];
-    if (!Pinned && block.contact) {  // joints are unbounded
-      const double hi = i == 0 ? kUnbounded : block.mu * block.impulse[0];
+    if (!V::Pinned && block.head.contact) {  // joints are unbounded
+      const double hi = i == 0 ? kUnbounded : block.head.mu * block.impulse[0];
       const double lo = i == 0 ? 0.0 : -hi;
       next = std::min(hi, std::max(lo, next));
     }
@@ -168,39 +233,48 @@ void Pgs::visit(Visit& block, std::span<Vec6> u) {
     block.impulse[i] = next;
     for (int later = i + 1; later < Rows; ++later) w[later] += block.coupling[i][later] * change[i];
   }
-  if (block.a >= 0) {
-    kick<Rows, Pinned>(block.W_a, block.mass_a, change, u[static_cast<std::size_t>(block.a)]);
-  }
-  if (block.b >= 0) {
-    kick<Rows, Pinned>(block.W_b, -block.mass_b, change, u[static_cast<std::size_t>(block.b)]);
+  if (a >= 0) kick<V>(block.W_a, block.mass_a, change, u[static_cast<std::size_t>(a)]);
+  if (b >= 0) kick<V>(block.W_b, -block.mass_b, change, u[static_cast<std::size_t>(b)]);
+}
+
+}  // namespace
+
+void Pgs::reserve(std::size_t /*bodies*/, std::size_t blocks) {
+  if (blocks * kLongest <= capacity_) return;
+  capacity_ = blocks * kLongest;
+  records_.reset(new std::byte[capacity_]);  // unlike make_unique, without writing zeros
+}
+
+void Pgs::pack(const System& system, bool warm_start) {
+  reserve(system.u.size(), system.blocks.size());
+  std::byte* at = records_.get();
+  for (Block& block : system.blocks) {
+    if (!warm_start) std::fill(block.impulse, block.impulse + block.rows, 0.0);
+    with_type(block.rows, block.pinned, [&]<class Record>(Record* /*type*/) {
+      pack_block(block, system.inverse_mass, *::new (at) Record);
+      at += sizeof(Record);
+    });
+    if (warm_start) apply_impulse(block, block.impulse, system.inverse_mass, system.u);
   }
 }
 
 SolveReport Pgs::find_velocities(const System& system, const Settings& settings) {
   pack(system, settings.warm_start);
-  static_assert(kMaxRows == 5);
+  const std::size_t count = system.blocks.size();
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
-    for (Visit& block : visits_) {
-      switch (block.rows) {
-        case 1:
-          visit<1, false>(block, system.u);
-          break;
-        case 3:
-          block.pinned ? visit<3, true>(block, system.u) : visit<3, false>(block, system.u);
-          break;
-        default:  // 5
-          block.pinned ? visit<5, true>(block, system.u) : visit<5, false>(block, system.u);
-          break;
-      }
+    std::byte* at = records_.get();
+    for (std::size_t k = 0; k < count; ++k) {
+      take(at, [&](auto& visit) { update(visit, system.u); });
     }
   }
   SolveReport report;
   report.iterations = settings.iterations;
-  for (std::size_t k = 0; k < visits_.size(); ++k) {
-    std::copy(visits_[k].impulse, visits_[k].impulse + visits_[k].rows, system.blocks[k].impulse);
-    report.row_updates += static_cast<std::int64_t>(visits_[k].rows) * settings.iterations;
-    report.flops +=
-        pack_flops(system.blocks[k]) + visit_flops(system.blocks[k]) * settings.iterations;
+  std::byte* at = records_.get();
+  for (Block& block : system.blocks) {
+    take(at,
+         [&](auto& visit) { std::copy(visit.impulse, visit.impulse + block.rows, block.impulse); });
+    report.row_updates += static_cast<std::int64_t>(block.rows) * settings.iterations;
+    report.flops += pack_flops(block) + visit_flops(block) * settings.iterations;
   }
   return report;
 }

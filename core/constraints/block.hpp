@@ -33,40 +33,40 @@ struct Block {
   // and J_b = -J_a, whichever side moves. Solvers go by that, and nothing else of J is filled than
   // J_a of the further rows: gradient() knows.
   bool pinned = false;
+  bool seeded = false;          // the last sub-step had this block: impulse is of it
+  bool was_closed = false;      // contact: carried a force in the last sub-step
+  std::int8_t tight[kMaxRows];  // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
+  // A pin in a direct solve reads no further than these: of a long chain that is less memory.
+  Vec3 r_a = Vec3::Zero();  // arms from the centres of mass to the point of action, world [m]
+  Vec3 r_b = Vec3::Zero();
   double phi[kMaxRows] = {};       // constraint error [m or rad]; a positive contact gap is open
   double C[kMaxRows] = {};         // compliance [m/N or rad/(N m)]
   double bias[kMaxRows] = {};      // drift correction [m/s or rad/s]
   double softness[kMaxRows] = {};  // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
   double impulse[kMaxRows] = {};   // dt lambda: seed in, solution out [N s or N m s]
-  // What Newton with forces numerov needs of the sub-steps before.
-  double gain[kMaxRows] = {};       // of the impulse in a sub-step about this one [N s or N m s]
-  double last[kMaxRows] = {};       // the force of the last one [N or N m]
-  double last_rate[kMaxRows] = {};  // and its rate [N/s or N m/s]
-  double lambda[kMaxRows] = {};  // constraint force of this sub-step, where it is read [N or N m]
-  bool seeded = false;           // the last sub-step had this block: impulse is of it
-  std::int8_t tight[kMaxRows];   // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
-  double J_a[kMaxRows][6];  // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
-  double J_b[kMaxRows][6];  // d phi / d q_b
+  double lambda[kMaxRows] = {};  // constraint force of this sub-step, where it is read [N or N m]
+  double J_a[kMaxRows][6];       // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
+  double J_b[kMaxRows][6];       // d phi / d q_b
 
   // Contact only: row 0 is the normal, rows 1 and 2 friction with bounds +-mu * impulse[0].
-  double mu = 0.0;          // [-]
-  bool was_closed = false;  // carried a force in the last sub-step
-  Vec3 n = Vec3::Zero();    // from b to a, world
-  Vec3 t1 = Vec3::Zero();   // tangents, world; filled where there is friction
+  double mu = 0.0;         // [-]
+  Vec3 n = Vec3::Zero();   // from b to a, world
+  Vec3 t1 = Vec3::Zero();  // tangents, world; filled where there is friction
   Vec3 t2 = Vec3::Zero();
-  Vec3 rho = Vec3::Zero();  // from the centre of b to the touching point of a, gap included [m]
-  Mat3 H = Mat3::Zero();    // curvature of b's distance field at a's point [1/m]: dn = H dx
-  // All kinds: arms from the centres of mass to the point of action, world [m].
-  Vec3 r_a = Vec3::Zero();
-  Vec3 r_b = Vec3::Zero();
-  Vec3 arm_a =
-      Vec3::Zero();  // contact: arm of a's point that follows a's rotation (0 for a sphere)
+  Vec3 rho = Vec3::Zero();    // from the centre of b to the touching point of a, gap included [m]
+  Vec3 arm_a = Vec3::Zero();  // of a's point that follows a's rotation (0 for a sphere)
+  Mat3 H = Mat3::Zero();      // curvature of b's distance field at a's point [1/m]: dn = H dx
   // Hinge: axis u fixed in a, and v1, v2 across it fixed in b, world.
   Vec3 axis = Vec3::Zero();
   Vec3 v1 = Vec3::Zero();
   Vec3 v2 = Vec3::Zero();
+
+  // What Newton with forces numerov needs of the sub-steps before.
+  double gain[kMaxRows] = {};       // of the impulse in a sub-step about this one [N s or N m s]
+  double last[kMaxRows] = {};       // the force of the last one [N or N m]
+  double last_rate[kMaxRows] = {};  // and its rate [N/s or N m/s]
 
   [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
 };

@@ -18,7 +18,7 @@ const std::array<Preset, 3>& all_presets() {
              {.mode = Mode::kCapped, .n_cap = 4}},
       Preset{"robust",
              "Newton's method, implicit, with four sub-steps: holds all 49 of the hard scenes at "
-             "73 % of the operations of 32 constant ones, and slows motions a little.",
+             "three quarters of the operations of 32 constant ones, and slows motions a little.",
              {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
   };
   return all;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/constraints/grab_rows.hpp"
+#include "core/math/lanes.hpp"
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
@@ -73,7 +74,11 @@ void Simulator::Impl::probe(FrameReport& report) {
 }
 
 void Simulator::Impl::turn_axes(std::span<const int> bodies) {
-  for (const int body : bodies) R_WB[index(body)] = state.q[index(body)].toRotationMatrix();
+  in_pairs(bodies, [&](auto some) {
+    rotation_matrix(
+        some.at([&](int i) { return std::as_const(state.q[index(i)]).coeffs().data(); }),
+        some.at([&](int i) { return R_WB[index(i)].data(); }));
+  });
 }
 
 void Simulator::Impl::begin_frame() {

@@ -5,8 +5,9 @@
 #include <cstddef>
 #include <limits>
 #include <type_traits>
+#include <utility>
 
-#include "core/solver/pair.hpp"
+#include "core/math/pair.hpp"
 
 namespace substep {
 
@@ -30,6 +31,13 @@ template <class Matrix>
 template <int N>
 using Known = std::integral_constant<int, N>;
 
+/// Calls with each of first .. last - 1 as a Known: a loop that is none.
+template <int first, int last>
+[[gnu::always_inline]] inline void unrolled(const auto& call) {
+  [&]<int... i>(std::integer_sequence<int, i...>) { (call(Known<first + i>{}), ...); }
+  (std::make_integer_sequence<int, (last > first ? last - first : 0)>{});
+}
+
 /// Calls with a number of rows: as one that the compiler knows where there are few, as of a body
 /// between two contact points.
 void with_known(int rows, const auto& call) {
@@ -48,14 +56,17 @@ inline void subtract_row(const double* __restrict x, double f, auto n, double* _
   for (int j = 0; j < n; ++j) y[j] -= f * x[j];
 }
 
-/// A = L D L^T in place: L below the diagonal, 1/D apart. A zero pivot makes what follows no
-/// number, which is caught.
+/// 1/D of a pivot. One of zero makes what follows no number, which is caught.
+inline double inverse_of_pivot(double d, double least) {
+  if (d < least) d = least;
+  return d != 0.0 ? 1.0 / d : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A = L D L^T in place: L below the diagonal, 1/D apart.
 /// @param A only on and below the diagonal  @param inverse in: least pivots; out: 1/D
-inline void factor_ldlt(double* A, auto n, double* inverse) {
+inline void factor_ldlt(double* A, int n, double* inverse) {
   for (int j = 0; j < n; ++j) {
-    double d = A[j * n + j];
-    if (d < inverse[j]) d = inverse[j];
-    inverse[j] = d != 0.0 ? 1.0 / d : std::numeric_limits<double>::quiet_NaN();
+    inverse[j] = inverse_of_pivot(A[j * n + j], inverse[j]);
     for (int i = j + 1; i < n; ++i) {
       const double l = A[i * n + j] * inverse[j];
       for (int k = j + 1; k <= i; ++k) A[i * n + k] -= l * A[k * n + j];
@@ -64,11 +75,53 @@ inline void factor_ldlt(double* A, auto n, double* inverse) {
   }
 }
 
+/// The same in registers, and in the same order.
+template <int N>
+void factor_ldlt(double* A, Known<N> /*n*/, double* inverse) {
+  double a[N][N];
+  unrolled<0, N>([&](auto i) { unrolled<0, i + 1>([&](auto k) { a[i][k] = A[i * N + k]; }); });
+  unrolled<0, N>([&](auto j) {
+    const double per_d = inverse_of_pivot(a[j][j], inverse[j]);
+    inverse[j] = per_d;
+    unrolled<j + 1, N>([&](auto i) {
+      const double l = a[i][j] * per_d;
+      unrolled<j + 1, i + 1>([&](auto k) { a[i][k] -= l * a[k][j]; });
+    });
+    unrolled<j + 1, N>([&](auto i) { A[i * N + j] = a[i][j] *= per_d; });
+  });
+}
+
 /// X := L^-1 X, X n x width.
 inline void solve_lower(const double* L, auto n, auto width, double* X) {
   for (int i = 1; i < n; ++i) {
     for (int m = 0; m < i; ++m) subtract_row(X + m * width, L[i * n + m], width, X + i * width);
   }
+}
+/// The same, six columns in registers: for widths of some bodies.
+template <int N, int Width>
+requires(Width % 6 == 0) void solve_lower(const double* L, Known<N> /*n*/, Known<Width> /*width*/,
+                                          double* X) {
+  for (double* columns = X; columns != X + Width; columns += 6) {
+    unrolled<1, N>([&](auto i) {
+      Pair row[3];
+      unrolled<0, 3>([&](auto p) { row[p] = load_pair(columns + i * Width + 2 * p); });
+      unrolled<0, i>([&](auto m) {
+        const double l = L[i * N + m];
+        unrolled<0, 3>([&](auto p) { row[p] -= l * load_pair(columns + m * Width + 2 * p); });
+      });
+      unrolled<0, 3>([&](auto p) { store_pair(row[p], columns + i * Width + 2 * p); });
+    });
+  }
+}
+
+/// The same of one column.
+template <int N>
+void solve_lower(const double* L, Known<N> /*n*/, Known<1> /*width*/, double* x) {
+  unrolled<1, N>([&](auto i) {
+    double sum = x[i];
+    unrolled<0, i>([&](auto m) { sum -= L[i * N + m] * x[m]; });
+    x[i] = sum;
+  });
 }
 
 /// x := L^-T x.

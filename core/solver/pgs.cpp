@@ -5,8 +5,8 @@
 #include <type_traits>
 
 #include "core/math/flops.hpp"
+#include "core/math/pair.hpp"
 #include "core/solver/body_products.hpp"
-#include "core/solver/pair.hpp"
 
 namespace substep {
 

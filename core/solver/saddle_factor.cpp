@@ -1,6 +1,7 @@
 // The factor of a node.
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/math/flops.hpp"
 #include "core/solver/body_products.hpp"
@@ -15,6 +16,9 @@ namespace {
 // not be redundant in the whole. They are softened by this much of J A^-1 J^T: as much is wrong
 // with the answer, and rounding makes as much again.
 constexpr double kLeastPivot = 1e-8;
+
+// As memory: number by number it takes as long as what is computed with it.
+void set_zero(double* to, int n) { std::memset(to, 0, index(n) * sizeof(double)); }
 
 }  // namespace
 
@@ -118,6 +122,8 @@ void SaddleLdlt::sum_carried(const Node& node, Square6& sum) {
 }
 
 void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
+  if (node.gathered) return;
+  node.gathered = !node.has_contacts;
   node.n_rows = 0;
   node.springs = {};
   for (std::size_t k = 0; k < node.n_attached; ++k) {
@@ -136,6 +142,7 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
       rows_[node.first_row + index(node.n_rows++)] = {static_cast<int>(k), row};
     }
   }
+  if (node.folds || node.n_rows != node.counted_rows) count(node);
 }
 
 /// Calls with the width of a node: as one that the compiler knows for what chains, bridges and
@@ -154,7 +161,6 @@ void SaddleLdlt::with_known_width(const Node& node, const auto& call) {
 }
 
 void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
-  gather_rows(node, blocks);
   with_known(node.n_rows, [&](auto rows) {
     with_known_width(node, [&](auto n) { factor_bare(node, blocks, rows, n); });
   });
@@ -165,7 +171,7 @@ void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto row
   int* first = first_filled_.data() + node.first_coupled;
   std::fill(first, first + node.coupled, rows);
   if (rows == 0) return;
-  std::fill(f.Z, f.Z + rows * n, 0.0);
+  set_zero(f.Z, rows * n);
   const InverseMass& inverse = inverse_mass_[index(node.body)];
   for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
@@ -193,10 +199,10 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks) {
 void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto n) {
   const Factor f = at(node);
   double* U = values_.data() + node.update;
-  std::fill(U, U + n * n, 0.0);
-  std::fill(f.Y, f.Y + 6 * n, 0.0);
+  set_zero(U, n * n);
+  set_zero(f.Y, 6 * n);
   Square6& A = *reinterpret_cast<Square6*>(f.A);
-  std::fill(f.A, f.A + 36, 0.0);
+  set_zero(f.A, 36);
   add_inertia(node, A);
   add_children(node, A, f.Y, U, n);
   for (std::size_t k = 0; k < node.n_attached; ++k) {
@@ -215,7 +221,6 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto 
   factor_ldlt(f.A, Known<6>{}, f.A_inverse);
   solve_lower(f.A, Known<6>{}, n, f.Y);
   add_gram(f.Y, f.A_inverse, Known<6>{}, -1.0, n, U);
-  gather_rows(node, blocks);
   if (node.n_rows > 0) eliminate_rows(node, blocks);
 }
 
@@ -223,7 +228,7 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
   const int rows = node.n_rows;
   const int n = width(node);
   const Factor f = at(node);
-  std::fill(f.Z, f.Z + rows * n, 0.0);
+  set_zero(f.Z, rows * n);
   for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
     const Attached& attached = attached_[node.first_attached + index(row.attached)];

@@ -286,6 +286,7 @@ void SaddleLdlt::choose_way(Node& node, const System& system) {
     attached[k].folded = node.way == Way::kGeneral && attached[k].foldable;
     if (!attached[k].folded) node.most_rows += block.rows;
     node.folds = node.folds || attached[k].folded;
+    node.has_contacts = node.has_contacts || block.is_contact();
     any_folded_ = any_folded_ || attached[k].folded;
   }
 }

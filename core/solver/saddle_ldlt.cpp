@@ -39,6 +39,13 @@ void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
       const Block& block = blocks[index(attached.block)];
       const double* w = w_.data() + index(attached.block) * kMaxRows;
       double x[kMaxRows];
+      if (block.pinned) {  // no row is ever tight
+        if (!attached.folded) continue;
+        for (int row = 0; row < 3; ++row) x[row] = -w[row] / block.softness[row];
+        for (int row = 3; row < block.rows; ++row) x[row] = -w[row] / block.softness[row];
+        push(block, x, of_body(block.a), of_body(block.b));
+        continue;
+      }
       bool pushes = attached.folded;
       for (int row = 0; row < block.rows; ++row) {
         const bool tight = block.tight[row] != 0;
@@ -61,8 +68,8 @@ void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
   if (node.way == Way::kArticulated) {
     factor_articulated(node);
   } else {
+    gather_rows(node, blocks);
     node.way == Way::kBare ? factor_bare(node, blocks) : factor_general(node, blocks);
-    if (node.folds || node.n_rows != node.counted_rows) count(node);
   }
   flops_ += node.factor_flops;
 }
@@ -91,10 +98,14 @@ void SaddleLdlt::forward(const Node& node) {
     for (int j = 0; j < 6; ++j) weighted[j] *= f.A_inverse[j];
     for (int s = 0; s < node.coupled; ++s) {
       double* to = v_[index(coupled[s])].data();
-      double left[6];
-      copy6(to, left);
-      for (int j = 0; j < 6; ++j) subtract6(f.Y + j * n + 6 * s, weighted[j], left);
-      copy6(left, to);
+      Pair left[3];
+      for (int p = 0; p < 3; ++p) left[p] = load_pair(to + 2 * p);
+      for (int j = 0; j < 6; ++j) {
+        for (int p = 0; p < 3; ++p) {
+          left[p] -= weighted[j] * load_pair(f.Y + j * n + 6 * s + 2 * p);
+        }
+      }
+      for (int p = 0; p < 3; ++p) store_pair(left[p], to + 2 * p);
     }
   }
   if (node.n_rows == 0) return;

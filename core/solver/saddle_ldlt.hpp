@@ -79,6 +79,8 @@ class SaddleLdlt {
     int n_rows = 0;             // free and not folded
     int most_rows = 0;
     bool folds = false;  // some of its rows
+    bool has_contacts = false;
+    bool gathered = false;  // its rows, and they stay: none can become tight
     SpringFlops springs;
     int counted_rows = -1;  // what follows is for so many; with folded rows it changes with them
     std::int64_t handed_flops = 0;  // to add what the children leave

@@ -2,53 +2,62 @@
 
 #include <algorithm>
 
+#include "core/solver/dense_ldlt.hpp"
 #include "core/solver/system.hpp"
 
 namespace substep {
 
 namespace {
 
-// Rows i of E and of [r], which is zero at i, -r_l at j and r_j at l. With J = +-[E, -[r]] on the
-// body and -+[E, -[r']] on the other, the products of both sides have signs that do not depend on
-// which is which.
-template <int i>
-void add_pin(double k, const double* r, const double* r_other, const SpringTarget& to) {
-  constexpr std::size_t j = (i + 1) % 3;
-  constexpr std::size_t l = (i + 2) % 3;
-  constexpr std::size_t low = std::min(j, l);
-  constexpr std::size_t high = std::max(j, l);
-  const double kj = k * r[j];
-  const double kl = k * r[l];
-  to.A[i][i] += k;
-  to.A[3 + j][i] += kl;
-  to.A[3 + l][i] -= kj;
-  to.A[3 + j][3 + j] += kl * r[l];
-  to.A[3 + l][3 + l] += kj * r[j];
-  to.A[3 + high][3 + low] -= (k * r[low]) * r[high];
-  if (to.B == nullptr) return;
-  const std::size_t n = to.stride;
-  const double qj = k * r_other[j];
-  const double ql = k * r_other[l];
-  double* B = to.B;
-  B[i * n + i] -= k;
-  B[i * n + 3 + j] -= ql;
-  B[i * n + 3 + l] += qj;
-  B[(3 + j) * n + i] -= kl;
-  B[(3 + l) * n + i] += kj;
-  B[(3 + j) * n + 3 + j] -= kl * r_other[l];
-  B[(3 + j) * n + 3 + l] += kl * r_other[j];
-  B[(3 + l) * n + 3 + j] += kj * r_other[l];
-  B[(3 + l) * n + 3 + l] -= kj * r_other[j];
-  double* U = to.U;
-  U[i * n + i] += k;
-  U[i * n + 3 + j] += ql;
-  U[i * n + 3 + l] -= qj;
-  U[(3 + j) * n + i] += ql;
-  U[(3 + l) * n + i] -= qj;
-  U[(3 + j) * n + 3 + j] += ql * r_other[l];
-  U[(3 + j) * n + 3 + l] -= ql * r_other[j];
-  U[(3 + l) * n + 3 + j] -= qj * r_other[l];
-  U[(3 + l) * n + 3 + l] += qj * r_other[j];
+// The first rows of a pin are J = +-[E, -[r]] on the body and -+[E, -[r']] on the other, with a
+// stiffness each: the products of both sides have signs that do not depend on which is which.
+// Row i of [r] is zero at i, -r_l at j and r_j at l. What is added to more than once stays in a
+// register meanwhile; what is multiplied is handed over by value, since it might be part of M.
+
+struct Three {
+  double of[3];
+  double operator[](std::size_t i) const { return of[i]; }
+};
+
+/// J^T k J of one side, on and below the diagonal. @param M 6 rows of n
+void add_pin_square(Three k, Three r, double* M, std::size_t n) {
+  double diagonal[3] = {M[3 * n + 3], M[4 * n + 4], M[5 * n + 5]};
+  unrolled<0, 3>([&](auto i) {
+    constexpr std::size_t j = (i + 1) % 3;
+    constexpr std::size_t l = (i + 2) % 3;
+    constexpr std::size_t low = std::min(j, l);
+    constexpr std::size_t high = std::max(j, l);
+    const double kj = k[i] * r[j];
+    const double kl = k[i] * r[l];
+    M[i * n + i] += k[i];
+    M[(3 + j) * n + i] += kl;
+    M[(3 + l) * n + i] -= kj;
+    diagonal[j] += kl * r[l];
+    diagonal[l] += kj * r[j];
+    M[(3 + high) * n + 3 + low] -= (k[i] * r[low]) * r[high];
+  });
+  unrolled<0, 3>([&](auto i) { M[(3 + i) * n + 3 + i] = diagonal[i]; });
+}
+
+/// J^T k J' between both sides. @param B 6 rows of n
+void add_pin_between(Three k, Three r, Three r_other, double* B, std::size_t n) {
+  double diagonal[3] = {B[3 * n + 3], B[4 * n + 4], B[5 * n + 5]};
+  unrolled<0, 3>([&](auto i) {
+    constexpr std::size_t j = (i + 1) % 3;
+    constexpr std::size_t l = (i + 2) % 3;
+    const double kj = k[i] * r[j];
+    const double kl = k[i] * r[l];
+    B[i * n + i] -= k[i];
+    B[i * n + 3 + j] -= k[i] * r_other[l];
+    B[i * n + 3 + l] += k[i] * r_other[j];
+    B[(3 + j) * n + i] -= kl;
+    B[(3 + l) * n + i] += kj;
+    diagonal[j] -= kl * r_other[l];
+    diagonal[l] -= kj * r_other[j];
+    B[(3 + j) * n + 3 + l] += kl * r_other[j];
+    B[(3 + l) * n + 3 + j] += kj * r_other[l];
+  });
+  unrolled<0, 3>([&](auto i) { B[(3 + i) * n + 3 + i] = diagonal[i]; });
 }
 
 /// A further row of a pin, with J of either side: the other's is the opposite.
@@ -60,10 +69,8 @@ void add_turn(double k, const double (&J)[6], const SpringTarget& to) {
   if (to.B == nullptr) return;
   for (std::size_t i = 3; i < 6; ++i) {
     const double f = k * J[i];
-    for (std::size_t j = 3; j < 6; ++j) {
-      to.B[i * to.stride + j] -= f * J[j];
-      to.U[i * to.stride + j] += f * J[j];
-    }
+    for (std::size_t j = 3; j < 6; ++j) to.B[i * to.stride + j] -= f * J[j];
+    for (std::size_t j = 3; j <= i; ++j) to.U[i * to.stride + j] += f * J[j];
   }
 }
 
@@ -77,10 +84,8 @@ void add_row(double k, const double (&J)[6], const double (&J_other)[6], const S
   for (std::size_t i = 0; i < 6; ++i) {
     const double f = k * J[i];
     const double f_other = k * J_other[i];
-    for (std::size_t j = 0; j < 6; ++j) {
-      to.B[i * to.stride + j] += f * J_other[j];
-      to.U[i * to.stride + j] += f_other * J_other[j];
-    }
+    for (std::size_t j = 0; j < 6; ++j) to.B[i * to.stride + j] += f * J_other[j];
+    for (std::size_t j = 0; j <= i; ++j) to.U[i * to.stride + j] += f_other * J_other[j];
   }
 }
 
@@ -88,11 +93,15 @@ void add_row(double k, const double (&J)[6], const double (&J_other)[6], const S
 
 void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
   if (block.pinned) {
-    const double* r = (is_a ? block.r_a : block.r_b).data();
-    const double* r_other = (is_a ? block.r_b : block.r_a).data();
-    add_pin<0>(1.0 / block.softness[0], r, r_other, to);
-    add_pin<1>(1.0 / block.softness[1], r, r_other, to);
-    add_pin<2>(1.0 / block.softness[2], r, r_other, to);
+    const auto three = [](const Vec3& r) { return Three{{r[0], r[1], r[2]}}; };
+    const Three r = three(is_a ? block.r_a : block.r_b);
+    const Three r_other = three(is_a ? block.r_b : block.r_a);
+    const Three k{{1.0 / block.softness[0], 1.0 / block.softness[1], 1.0 / block.softness[2]}};
+    add_pin_square(k, r, to.A[0], 6);
+    if (to.B != nullptr) {
+      add_pin_between(k, r, r_other, to.B, to.stride);
+      add_pin_square(k, r_other, to.U, to.stride);
+    }
     for (int row = 3; row < block.rows; ++row) {
       add_turn(1.0 / block.softness[row], block.J_a[row], to);
     }

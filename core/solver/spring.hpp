@@ -14,7 +14,7 @@ namespace substep {
 struct SpringTarget {
   Square6& A;           // of the body, on and below the diagonal
   double* B = nullptr;  // between both; nullptr where there is no other moving body
-  double* U = nullptr;  // of the other
+  double* U = nullptr;  // of the other, on and below the diagonal
   std::size_t stride = 0;
 };
 

@@ -2,7 +2,7 @@
 // A symmetric 6 x 6 matrix in registers, two doubles at a time. Numbers do not go through memory
 // between scalar and vector operations: that would stall each of them.
 
-#include "core/solver/pair.hpp"
+#include "core/math/pair.hpp"
 
 namespace substep {
 

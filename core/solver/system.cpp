@@ -9,22 +9,19 @@ namespace {
 
 /// J^T x of one side, added to a momentum: of a pin x and r x x, row by row.
 /// @param sign of the side of a pinned block: +1 for a, -1 for b  @param J of any other block
-void add_push(const Block& block, const double (&J)[kMaxRows][6], double sign, const Vec3& r,
-              const double* x, Vec6& g) {
+[[gnu::always_inline]] inline void add_push(const Block& block, const double (&J)[kMaxRows][6],
+                                            double sign, const Vec3& r, const double* x, Vec6& g) {
   if (!block.pinned) {
     for (int row = 0; row < block.rows; ++row) {
       for (int j = 0; j < 6; ++j) g[j] += J[row][j] * x[row];
     }
     return;
   }
-  for (int row = 0; row < 3; ++row) {
-    const int j = (row + 1) % 3;
-    const int l = (row + 2) % 3;
-    const double f = sign * x[row];
-    g[row] += f;
-    g[3 + j] += r[l] * f;
-    g[3 + l] -= r[j] * f;
-  }
+  const double f[3] = {sign * x[0], sign * x[1], sign * x[2]};
+  for (int row = 0; row < 3; ++row) g[row] += f[row];
+  g[3] = (g[3] - r[2] * f[1]) + r[1] * f[2];
+  g[4] = (g[4] + r[2] * f[0]) - r[0] * f[2];
+  g[5] = (g[5] - r[1] * f[0]) + r[0] * f[1];
   for (int row = 3; row < block.rows; ++row) {
     const double f = sign * x[row];
     for (int j = 3; j < 6; ++j) g[j] += block.J_a[row][j] * f;
@@ -39,8 +36,9 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
 }
 
 /// J u of one side, added to the speeds of the rows.
-void add_speeds(const Block& block, const double (&J)[kMaxRows][6], double sign, const Vec3& r,
-                const Vec6& u, double* speed) {
+[[gnu::always_inline]] inline void add_speeds(const Block& block, const double (&J)[kMaxRows][6],
+                                              double sign, const Vec3& r, const Vec6& u,
+                                              double* speed) {
   if (!block.pinned) {
     for (int row = 0; row < block.rows; ++row) {
       speed[row] += (J[row][0] * u[0] + J[row][1] * u[1] + J[row][2] * u[2]) +

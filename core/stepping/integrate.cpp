@@ -1,20 +1,36 @@
 #include "core/stepping/integrate.hpp"
 
+#include "core/math/lanes.hpp"
+
 namespace substep {
 
+namespace {
+
+void integrate(auto bodies, double dt, State& state) {
+  using T = typename decltype(bodies)::T;
+  const auto u = bodies.at([&](int i) { return std::as_const(state.u[index(i)]).data(); });
+  const auto x = bodies.at([&](int i) { return state.x[index(i)].data(); });
+  for (int k = 0; k < 3; ++k) x.set(k, x[k] + dt * u[k]);
+
+  // (1, half) * q, world axes; q is stored as x, y, z, w.
+  const double half_dt = 0.5 * dt;
+  const Lanes3<T> half{half_dt * u[3], half_dt * u[4], half_dt * u[5]};
+  const auto q = bodies.at([&](int i) { return state.q[index(i)].coeffs().data(); });
+  const Lanes3<T> v = vector_at(q);
+  const T w = q[3];
+  const Lanes3<T> turned = (v + w * half) + cross(half, v);
+  const T cosine = w - dot(half, v);
+  const T norm =
+      root((turned.x * turned.x + turned.y * turned.y) + (turned.z * turned.z + cosine * cosine));
+  const T per_norm = 1.0 / norm;
+  set_vector(q, 0, per_norm * turned);
+  q.set(3, per_norm * cosine);
+}
+
+}  // namespace
+
 void integrate(const Part& part, double dt, State& state) {
-  for (const int index : part.moving) {
-    const auto i = static_cast<std::size_t>(index);
-    state.x[i] += dt * state.u[i].head<3>();
-    const Vec3 half = 0.5 * dt * state.u[i].tail<3>();
-    Quat& q = state.q[i];
-    // (1, half) * q, world axes.
-    const Vec3 v = q.vec();
-    const double w = q.w();
-    q.vec() = v + w * half + half.cross(v);
-    q.w() = w - half.dot(v);
-    q.coeffs() *= 1.0 / q.norm();
-  }
+  in_pairs(part.moving, [&](auto bodies) { integrate(bodies, dt, state); });
 }
 
 }  // namespace substep

@@ -1,6 +1,6 @@
 #pragma once
 // What is timed, the same natively and in WebAssembly: a scene and a solver at 16 sub-steps a
-// frame, going round the scene's first seconds.
+// frame, or at as many as alpha = 0.1 asks for, going round the scene's first seconds.
 
 #include <array>
 #include <cstdint>
@@ -39,7 +39,8 @@ class Loop {
   /// One frame.
   FrameReport step();
 
-  /// Allocations within all frames so far.
+  /// Allocations within all frames so far, but for those that begin again: a state that is handed
+  /// in brings no room for what a frame carries over.
   [[nodiscard]] std::int64_t allocated() const { return allocated_; }
 
  private:

@@ -171,6 +171,7 @@ async function main() {
   known("scene", options.scene, kScenes.map(({ file }) => file));
   const scenes = kScenes.filter(({ file }) => !options.scene || options.scene.includes(file));
   const results = [];
+  console.log(`WebAssembly in Node.js ${process.version} (V8 ${process.versions.v8})`);
   for (const scene of scenes) {
     const entries = search(scene, list);
     const candidates = frontier(entries, kSlack);

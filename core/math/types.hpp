@@ -20,8 +20,8 @@ using Quat = Eigen::Quaterniond;
 /// An index as containers take it. Elsewhere -1 stands for none.
 inline std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// Velocities of bodies two numbers at a time. As memory they would be handed out of WebAssembly and
-/// back, which takes longer than the copy.
+/// Velocities of bodies two numbers at a time. As memory they would be handed out of WebAssembly
+/// and back, which takes longer than the copy.
 inline void copy(std::span<const Vec6> from, std::span<Vec6> to) {
   for (std::size_t i = 0; i < from.size(); ++i) {
     for (int j = 0; j < 6; j += 2) store_pair(load_pair(from[i].data() + j), to[i].data() + j);

@@ -60,7 +60,8 @@ void Simulator::set_state(State state) {
   assert(state.x.size() == impl_->scene->bodies.size() &&
          "a state goes on in the scene it is from");
   impl_->state = std::move(state);
-  impl_->state.forces.reserve(impl_->blocks.capacity());
+  impl_->state.forces.reserve(impl_->blocks.capacity());  // a frame to come must not allocate
+  impl_->state.k.reserve(impl_->state.x.size());
   impl_->grab.reset();
   impl_->blocks.clear();
   impl_->first_block = impl_->first_force = 0;

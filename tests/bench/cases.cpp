@@ -46,15 +46,14 @@ void Loop::leave_out_measures() {
 }
 
 FrameReport Loop::step() {
-  const bool again = frame_ == kFrames;
-  if (again) {
+  if (frame_ == kFrames) {
     simulator_.set_state(start_);
     frame_ = 0;
   }
   ++frame_;
   const std::int64_t before = allocations();
   const FrameReport report = simulator_.step();
-  if (!again) allocated_ += allocations() - before;
+  allocated_ += allocations() - before;
   return report;
 }
 

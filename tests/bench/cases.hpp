@@ -39,8 +39,7 @@ class Loop {
   /// One frame.
   FrameReport step();
 
-  /// Allocations within all frames so far, but for those that begin again: a state that is handed
-  /// in brings no room for what a frame carries over.
+  /// Allocations within all frames so far.
   [[nodiscard]] std::int64_t allocated() const { return allocated_; }
 
  private:

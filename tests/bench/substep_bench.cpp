@@ -12,6 +12,8 @@ namespace {
 using namespace substep;
 
 constexpr int kWarmUp = 60;  // frames: scratch has its size, caches are warm
+constexpr int kTurn =
+    20;  // frames of a growing scene: the same for every size, before a wall falls
 
 benchmark::Counter per(double count) {
   return {count, benchmark::Counter::kIsRate | benchmark::Counter::kInvert};
@@ -37,9 +39,12 @@ void growing(benchmark::State& state, const bench::Growing& g) {
   simulator.set_settings(settings);
   simulator.set_measures({.energies = false, .errors = false, .stages = false});
   FrameReport report = simulator.step();
+  const State start = simulator.state();
+  int frame = 0;
   double substeps = 0.0;
   double flops = 0.0;
   for (auto _ : state) {
+    if (frame++ % kTurn == 0) simulator.set_state(start);
     report = simulator.step();
     substeps += report.n_substeps;
     flops += static_cast<double>(report.work.flops);

@@ -78,7 +78,8 @@ inline void factor_ldlt(double* A, int n, double* inverse) {
 /// The same in registers, and in the same order.
 template <int N>
 void factor_ldlt(double* A, Known<N> /*n*/, double* inverse) {
-  double a[N][N];
+  constexpr auto size = static_cast<std::size_t>(N);
+  double a[size][size];
   unrolled<0, N>([&](auto i) { unrolled<0, i + 1>([&](auto k) { a[i][k] = A[i * N + k]; }); });
   unrolled<0, N>([&](auto j) {
     const double per_d = inverse_of_pivot(a[j][j], inverse[j]);

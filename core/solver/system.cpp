@@ -17,11 +17,11 @@ namespace {
     }
     return;
   }
-  const double f[3] = {sign * x[0], sign * x[1], sign * x[2]};
-  for (int row = 0; row < 3; ++row) g[row] += f[row];
-  g[3] = (g[3] - r[2] * f[1]) + r[1] * f[2];
-  g[4] = (g[4] + r[2] * f[0]) - r[0] * f[2];
-  g[5] = (g[5] - r[1] * f[0]) + r[0] * f[1];
+  const double push[3] = {sign * x[0], sign * x[1], sign * x[2]};
+  for (int i = 0; i < 3; ++i) g[i] += push[i];
+  g[3] = (g[3] - r[2] * push[1]) + r[1] * push[2];
+  g[4] = (g[4] + r[2] * push[0]) - r[0] * push[2];
+  g[5] = (g[5] - r[1] * push[0]) + r[0] * push[1];
   for (int row = 3; row < block.rows; ++row) {
     const double f = sign * x[row];
     for (int j = 3; j < 6; ++j) g[j] += block.J_a[row][j] * f;

@@ -127,7 +127,10 @@ void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows,
   for (int i = 0; i < rows; ++i) {
     const double k = f.S_inverse[i] * c[i];
     for (int s = 0; s < node.coupled; ++s) {
-      if (i >= first[s]) subtract6(f.Z + i * n + 6 * s, k, v_[index(coupled[s])].data());
+      if (i < first[s]) continue;
+      const double* z = f.Z + i * n + 6 * s;
+      double* to = v_[index(coupled[s])].data();
+      for (int p = 0; p < 6; p += 2) store_pair(load_pair(to + p) - k * load_pair(z + p), to + p);
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/scene_writer.hpp"
 #include "scenes/generator/scenes.hpp"
 
@@ -62,8 +63,8 @@ void add_generate(CLI::App& app, int& exit_code) {
         [options, make, &exit_code] { exit_code = write(make(*options), options->out); });
     return kind;
   };
-  const CLI::Range angle(-89.0, 89.0);
-  const CLI::Range compliance(0.0, 1e3);
+  const CLI::Validator angle = within(-89.0, 89.0);
+  const CLI::Validator compliance = within(0.0, 1e3);
 
   CLI::App* rope =
       add("rope", "hinged links with a heavy box at the end", [](const GenerateOptions& from) {
@@ -73,8 +74,8 @@ void add_generate(CLI::App& app, int& exit_code) {
       });
   rope->add_option("-n,--links", o.rope.n, "links")->check(CLI::Range(1, 19999));
   rope->add_option("--angle", o.angle_deg, "start, from straight down [deg]")->check(angle);
-  rope->add_option("--link-length", o.rope.link_length, "[m]")->check(CLI::Range(1e-3, 10.0));
-  rope->add_option("--end-mass", o.rope.end_mass, "of the box [kg]")->check(CLI::Range(1e-6, 1e9));
+  rope->add_option("--link-length", o.rope.link_length, "[m]")->check(within(1e-3, 10.0));
+  rope->add_option("--end-mass", o.rope.end_mass, "of the box [kg]")->check(within(1e-6, 1e9));
   rope->add_option("--compliance", o.rope.compliance, "of the joints [m/N]")->check(compliance);
 
   CLI::App* box = add("swinging_box", "a heavy box on a chain", [](const GenerateOptions& from) {
@@ -89,27 +90,26 @@ void add_generate(CLI::App& app, int& exit_code) {
   CLI::App* bridge = add("bridge", "a heavy ball on hanging planks",
                          [](const GenerateOptions& from) { return scenes::bridge(from.bridge); });
   bridge->add_option("--ball-x", o.bridge.ball_x, "where the ball starts [m]")
-      ->check(CLI::Range(-4.6, 4.6));
-  bridge->add_option("--ball-speed", o.bridge.ball_speed, "[m/s]")->check(CLI::Range(-50.0, 50.0));
+      ->check(within(-4.6, 4.6));
+  bridge->add_option("--ball-speed", o.bridge.ball_speed, "[m/s]")->check(within(-50.0, 50.0));
   bridge->add_option("--span", o.bridge.span, "of the 10 m of planks [m]")
-      ->check(CLI::Range(9.0, 9.94));
+      ->check(within(9.0, 9.94));
 
   CLI::App* stack =
       add("heavy_stack", "layers of balls and plates under a heavy box",
           [](const GenerateOptions& from) { return scenes::heavy_stack(from.stack); });
   stack->add_option("--layers", o.stack.layers, "layers")->check(CLI::Range(1, 1000));
-  stack->add_option("--top-mass", o.stack.top_mass, "of the box [kg]")
-      ->check(CLI::Range(1e-3, 1e9));
-  stack->add_option("--alpha", o.stack.alpha, "of the settings")->check(CLI::Range(1e-6, 1.0));
+  stack->add_option("--top-mass", o.stack.top_mass, "of the box [kg]")->check(within(1e-3, 1e9));
+  stack->add_option("--alpha", o.stack.alpha, "of the settings")->check(within(1e-6, 1.0));
   stack->add_option("--compliance", o.stack.compliance, "of the contacts [m/N]")
-      ->check(CLI::Range(1e-300, 1e3));
+      ->check(within(1e-300, 1e3));
   stack->add_flag("--stress", o.stack.stress, "with regularisation and start jitter");
 
   CLI::App* slope =
       add("sliding_box", "a box on a slope of 5 in 12",
           [](const GenerateOptions& from) { return scenes::sliding_box(from.slope); });
   slope->add_option("--friction", o.slope.friction, "Coulomb coefficient")
-      ->check(CLI::Range(0.0, 100.0));
+      ->check(within(0.0, 100.0));
 }
 
 }  // namespace substep::cli

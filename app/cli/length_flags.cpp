@@ -2,13 +2,15 @@
 
 #include <cmath>
 
+#include "app/cli/within.hpp"
+
 namespace substep::cli {
 
 void LengthFlags::add_to(CLI::App& command) {
   constexpr double kMostSeconds = 86400.0;
   constexpr std::int64_t kMostFrames = 100'000'000;
   auto* by_time = command.add_option("--seconds", seconds, "how long to run [s]")
-                      ->check(CLI::Range(0.0, kMostSeconds));
+                      ->check(within(0.0, kMostSeconds));
   auto* by_count = command.add_option("--frames", frames, "how many frames to run")
                        ->check(CLI::Range(std::int64_t{0}, kMostFrames));
   by_time->excludes(by_count);

@@ -9,6 +9,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/map_picture.hpp"
 #include "app/cli/output.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/number_text.hpp"
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -120,7 +121,7 @@ void add_map(CLI::App& app, int& exit_code) {
   command
       ->add_option("--seconds", options->seconds,
                    "simulated time of each run; without it 4 or 5 s, as the map is usually drawn")
-      ->check(CLI::Range(0.01, 3600.0));
+      ->check(within(0.01, 3600.0));
   command->add_option("--jobs", options->jobs, "runs at a time; 0: one for each processor")
       ->check(CLI::Range(0, 1000));
   command->footer(

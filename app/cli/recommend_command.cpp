@@ -16,6 +16,7 @@
 #include "app/cli/output.hpp"
 #include "app/cli/recommend_shipped.hpp"
 #include "app/cli/scene_source.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
@@ -181,7 +182,7 @@ void add_recommend(CLI::App& app, int& exit_code) {
       "exact within a cost");
   CLI::Option* scene =
       command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
-  const CLI::Range positive(1e-15, 1e15);
+  const CLI::Validator positive = within(1e-15, 1e15);
   CLI::Option* error =
       command->add_option("--error", options->error, "wanted at most [m, J]; 1 mm, 1 J left out")
           ->check(positive);

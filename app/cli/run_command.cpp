@@ -13,6 +13,7 @@
 #include "app/cli/run_report.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/frame_columns.hpp"
 #include "core/io/json.hpp"
@@ -151,7 +152,7 @@ void add_run(CLI::App& app, int& exit_code) {
   command->add_option("--json", options->json,
                       "the same as JSON, with settings, verdict, and work and time by stage");
   command->add_option("--load", options->load, "factor on the mass of the heaviest body")
-      ->check(CLI::Range(kLoadRange.least, kLoadRange.most));
+      ->check(within(kLoadRange.least, kLoadRange.most));
   command->add_option("--seed", options->seed, "nudge the start by up to 1e-9 m/s")
       ->check(CLI::Range(0, kMostSeed));
   command->add_option("--experiments", options->experiments,

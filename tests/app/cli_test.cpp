@@ -289,6 +289,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "--mode: fast is not none, const, damping, adaptive, capped, stiffness, "
                 "inertia or blend"},
         BadCall{"NegativeSeconds", "run bridge --seconds -1", "not in range"},
+        BadCall{"SecondsNoNumber", "run bridge --seconds nan", "not in range"},
+        BadCall{"LoadNoNumber", "run bridge --load nan", "not in range"},
+        BadCall{"ErrorNoNumber", "recommend pendulum --error nan", "not in range"},
+        BadCall{"AngleNoNumber", "generate rope --angle nan", "not in range"},
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
         BadCall{"UnknownCommand", "chek",

@@ -39,7 +39,7 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
       }
       let text = scene;
       try {
-        if (isObject(scene)) text = JSON.stringify(scene);
+        if (isObject(scene)) text = JSON.stringify(scene) ?? "";
       } catch (error) {
         return wrong("scene", error.message);
       }
@@ -99,14 +99,16 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
     link: () => address.url(),
     history: () => wasm.history(),
     saved: () => wasm.savedScene(),
-    screenshot({ part = "window" } = {}) {
+    screenshot(options) {
+      const { part = "window" } = options ?? {};
       if (part !== "window" && part !== "view") {
         return Promise.reject(new Error(`part: ${show(part)} is not "window" or "view"`));
       }
       const [x, y, width, height] = report().view;
       return capture.picture(part === "view" ? { x, y, width, height } : undefined);
     },
-    record({ seconds = 5 } = {}) {
+    record(options) {
+      const { seconds = 5 } = options ?? {};
       if (!(seconds > 0 && seconds <= 600)) {
         return Promise.reject(new Error(`seconds: ${show(seconds)} is not above 0 and at most 600`));
       }

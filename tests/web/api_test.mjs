@@ -38,7 +38,8 @@ test("wrong calls tell what is wrong and leave the run alone", async () => {
   const odd = await page.evaluate(() => {
     const circle = {};
     circle.self = circle;
-    return [window.substep.load(circle), window.substep.set({ alpha: NaN }),
+    const nothing = { toJSON() {} };
+    return [window.substep.load(circle), window.substep.load(nothing), window.substep.set({ alpha: NaN }),
       window.substep.set({ alpha: 1n }), window.substep.set(() => {}), window.substep.step(NaN)];
   });
   for (const result of odd) assert.equal(result.ok, false, JSON.stringify(result));
@@ -124,6 +125,7 @@ test("pictures and videos are given as blobs", async () => {
   const whole = PNG.sync.read(Buffer.from(png));
   assert.deepEqual([whole.width, whole.height], [1280, 720]);
   assert.ok(variance(whole) > 60);
+  assert.equal((await bytes("screenshot", null))[0], "image/png", "as without options");
   const [, ...view] = await bytes("screenshot", { part: "view" });
   assert.ok(PNG.sync.read(Buffer.from(view)).width < 1280);
   const [kind, ...video] = await bytes("record", { seconds: 1.5 });

@@ -170,6 +170,8 @@ void accuracy(App& app) {
   Accuracy& accuracy = app.accuracy;
   section(look, "What does accuracy cost?");
   picture_row(app);
+  // Beside the errors it is where the search was asked for.
+  if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(app);
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {
     effect_costs(app);
     return;

@@ -104,13 +104,8 @@ void paper_alpha(App& app, const Accuracy::Point* best) {
     }
     return;
   }
-  if (!search->done()) {
-    label(look.fonts.small, look.theme->dim,
-          ("Run " + std::to_string(search->runs()) + ", alpha = " + coarse_number(search->alpha()))
-              .c_str());
-    if (progress(look, search->progress(), "What was found so far is given up")) {
-      accuracy.cancel_search();
-    }
+  if (accuracy.searching()) {
+    search_bar(app);
     return;
   }
   label(look.fonts.small, look.theme->dim, found_text(accuracy, *search, best).c_str());
@@ -135,6 +130,20 @@ std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::P
 }
 
 }  // namespace
+
+void search_bar(App& app) {
+  const Look& look = app.look;
+  Accuracy& accuracy = app.accuracy;
+  if (!accuracy.searching()) return;
+  const AlphaSearch& search = *accuracy.alpha_search();
+  label(look.fonts.small, look.theme->dim,
+        ("Looking for the paper's alpha: run " + std::to_string(search.runs()) +
+         ", alpha = " + coarse_number(search.alpha()))
+            .c_str());
+  if (progress(look, search.progress(), "What was found so far is given up")) {
+    accuracy.cancel_search();
+  }
+}
 
 void advice(App& app) {
   const Look& look = app.look;

@@ -54,8 +54,11 @@ bool progress(const Look& look, double share, const char* tip) {
                      {at.x + std::max(6.0F, bar * static_cast<float>(share)), y + 3.0F},
                      look.theme->accent, 3.0F);
   ImGui::SetCursorScreenPos({at.x + bar + kGap, at.y});
-  return button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, kCancel, look.m.row,
-                tip);
+  ImGui::PushID(tip);  // a panel may show two
+  const bool pressed =
+      button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, kCancel, look.m.row, tip);
+  ImGui::PopID();
+  return pressed;
 }
 
 namespace {

@@ -45,6 +45,8 @@ void accuracy(App& app);
 /// What to set, in the same panel: the cheapest within an error or the most exact within a cost,
 /// with the reason, a button that runs it, and a search for the paper's alpha.
 void advice(App& app);
+/// How far the search for the paper's alpha is, while it goes on, and a button that ends it.
+void search_bar(App& app);
 /// Its picture over the view, where that was asked for.
 void accuracy_card(App& app);
 /// Where runs are seen: all of the view, or equal parts of it side by side or one over the other,

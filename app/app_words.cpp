@@ -108,6 +108,7 @@ std::string App::set(std::string_view key, std::string_view value) {
                         : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
                                         : kDurationRange;
     if (!number || !range.contains(*number)) return "is not " + range.text();
+    if (key == "seed" && *number != std::round(*number)) return "is not a whole number";
     if (key == "load") vary(*number, seed);
     if (key == "seed") vary(load, static_cast<int>(*number));
     if (key == "seconds") pause_at = *number;

@@ -100,6 +100,16 @@ TEST(Link, WhatIsWrongWithAnExperimentIsTold) {
   EXPECT_EQ(problems.size(), 4U);
 }
 
+TEST(Link, ASeedIsAWholeNumber) {
+  Headless h;
+  for (const char* seed : {"0.5", "-1", "1e9", "x", ""}) {
+    EXPECT_NE(h.app->set("seed", seed), "") << seed;
+  }
+  EXPECT_EQ(h.app->seed, 0);
+  EXPECT_EQ(h.app->set("seed", "3"), "");
+  EXPECT_EQ(h.app->seed, 3);
+}
+
 // The same experiment in the window and in the lab.
 TEST(Link, TheWindowRunsTheExperimentOfALink) {
   const auto scene = shipped("pendulum");

@@ -43,6 +43,7 @@ State with_ball(State state, const Ball& ball, std::size_t slot) {
   if (!state.own.empty()) put(state.own, OwnSubstep{});
   if (!state.rest.empty()) put(state.rest, 0.0);
   if (!state.acceleration.empty()) put(state.acceleration, Vec6(Vec6::Zero()));
+  if (!state.acceleration_change.empty()) put(state.acceleration_change, Vec6(Vec6::Zero()));
   if (!state.K_resisting.empty()) put(state.K_resisting, Mat3(Mat3::Zero()));
   return state;
 }

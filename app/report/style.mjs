@@ -49,11 +49,12 @@ export function styleOf(series) {
   const named = sweeping === "pgs" || shared; // XPBD is its own name otherwise
   const implicit = /^newton/.test(series);
   const [, steps] = /^newton (\d+)/.exec(series) ?? [];
-  const symbol = /drift order 2|exact contact block/.test(series) || steps === "1" ? "diamond"
+  const stormer = series.includes("stormer");
+  const symbol = stormer ? "star" : /drift order 2|exact contact block/.test(series) || steps === "1" ? "diamond"
     : /explicit gyroscopic/.test(series) ? "cross" : steps ? "square" : shape;
   const others = [/drift order 2/, /drift (?!order)\w+/, /exact contact block/, /explicit gyroscopic torque/, /refined \d+/]
     .map(other => other.exec(series)?.[0]);
-  const name = [mode, leapfrog && !implicit ? "leapfrog" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", steps ? `${steps} step${steps === "1" ? "" : "s"}` : "", ...others]
+  const name = [mode, leapfrog && !implicit ? "leapfrog" : stormer ? "Störmer" : "", named ? `${sweeping.toUpperCase()} ${sweeps}${shared ?? ""}` : "", steps ? `${steps} step${steps === "1" ? "" : "s"}` : "", ...others]
     .filter(Boolean).join(", ");
-  return { token, symbol, name: sweeping && !named ? `${name} ${sweeps}` : name, hollow: leapfrog, dashed: sweeping !== undefined };
+  return { token, symbol, name: sweeping && !named ? `${name} ${sweeps}` : name, hollow: leapfrog || stormer, dashed: sweeping !== undefined };
 }

@@ -276,7 +276,9 @@ int corners_of_newton(const Settings& s) {
 /// Those that look at the end of a sub-step are called by their names, and by a mode if it is
 /// another than that of a given N.
 void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
-  const char* integrator = style.hollow ? ", leapfrog" : ", Euler";
+  const char* integrator = s.integrator == Integrator::kEuler      ? ", Euler"
+                           : s.integrator == Integrator::kLeapfrog ? ", leapfrog"
+                                                                   : ", Störmer";
   const bool plain = s.mode == Mode::kNone || s.mode == Mode::kConst;
   const std::string and_mode = plain ? "" : ", " + style.own_name;
   switch (s.solver) {
@@ -323,10 +325,11 @@ void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
 
 CurveStyle curve_style(const Theme& theme, const Settings& s) {
   CurveStyle style;
-  style.hollow = s.integrator == Integrator::kLeapfrog;
+  style.hollow = s.integrator != Integrator::kEuler;
   style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
   style_of_mode(theme, s, style);
   style_of_solver(theme, s, style);
+  if (follows_accelerations(s)) style.corners = 6;
   if (s.drift_order == 2) {
     style.corners = 5;
     style.own_name += ", drift order 2";

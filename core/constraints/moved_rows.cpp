@@ -82,6 +82,17 @@ void move_rows(const Block& start, const Motion& a, const Motion& b, Block& move
   }
 }
 
+void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {
+  const Vec3 r_a = a.R * start.r_a;
+  const Vec3 r_b = b.R * start.r_b;
+  const Vec3 gap = (a.dx - b.dx) + ((r_a - start.r_a) - (r_b - start.r_b));
+  for (int i = 0; i < 3; ++i) phi[i] = gap[i];
+  if (start.kind != BlockKind::kHinge) return;
+  const Vec3 axis = a.R * start.axis;
+  phi[3] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
+  phi[4] = axis.dot(b.R * start.v2) - start.axis.dot(start.v2);
+}
+
 double moved_gap(const Block& start, const Motion& a, const Motion& b) {
   const Vec3 d = b.R.transpose() * moved_rho(start, a, b) - start.rho;
   return gained_gap(start, d, start.H * d);

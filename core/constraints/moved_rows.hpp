@@ -33,6 +33,9 @@ struct RowRange {
 void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved,
                RowRange rows = {});
 
+/// phi of the rows of a joint after LESS that before. @param phi out, one per row
+void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);
+
 /// phi of a contact's normal after LESS that before, as move_rows() has it.
 double moved_gap(const Block& start, const Motion& a, const Motion& b);
 

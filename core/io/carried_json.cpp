@@ -133,6 +133,7 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   read_items(in, "u", kVelocityRange, n, carried.u);
   carried.stiffness_known = in.number("r", kStiffnessOverMassRange, carried.r, kOptional);
   read_items(in, "acceleration", kAccelerationRange, n, carried.acceleration);
+  read_items(in, "acceleration_change", kAccelerationRange, n, carried.acceleration_change);
   read_items(in, "k", kStiffnessRange, n, carried.k);
   read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting);
   read_own(in, n, carried.own);
@@ -185,6 +186,9 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
     json["own_r"] = std::move(r);
   }
   if (!carried.acceleration.empty()) json["acceleration"] = items_json(carried.acceleration);
+  if (!carried.acceleration_change.empty()) {
+    json["acceleration_change"] = items_json(carried.acceleration_change);
+  }
   if (!carried.rest.empty()) json["rest"] = carried.rest;
   if (!carried.forces.empty()) {
     Json& forces = json["forces"] = Json::array();

@@ -29,8 +29,8 @@ Scene saved_scene(const Scene& scene, const State& state, const Settings& settin
     body.position = state.x[i];
     body.orientation = state.q[i];
     // Leapfrog keeps u at the middle of a sub-step: what is carried has that one as well.
-    const bool leapfrog = settings.integrator == Integrator::kLeapfrog;
-    const Vec6& u = leapfrog ? state.u_synchronised[i] : state.u[i];
+    const bool at_the_middle = settings.integrator != Integrator::kEuler;
+    const Vec6& u = at_the_middle ? state.u_synchronised[i] : state.u[i];
     body.velocity = u.head<3>();
     body.angular_velocity = u.tail<3>();
   }

@@ -117,6 +117,11 @@ void append_drift_order_2(const Settings& base, std::vector<Settings>& all) {
   append_curve(settings, Mode::kConst, all);
 }
 
+/// Poses that take in how accelerations change, derived for joints alone.
+void append_stormer(const Settings& base, std::vector<Settings>& all) {
+  append_curve(direct(base, Integrator::kStormer), Mode::kConst, all);
+}
+
 /// N by the true derivative of a contact.
 void append_exact_contacts(const Settings& base, std::vector<Settings>& all) {
   Settings settings = direct(base, Integrator::kEuler);
@@ -229,6 +234,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
   curves(SolverKind::kPgs, Integrator::kEuler);
   curves(SolverKind::kPgs, Integrator::kLeapfrog);
   if (scene.effects.joints) append_drift_order_2(base, all);
+  if (scene.effects.joints && !scene.effects.contact) append_stormer(base, all);
   if (scene.effects.contact) append_exact_contacts(base, all);
   append_implicit(base, scene, all);
   append_small_steps(base, scene, all);

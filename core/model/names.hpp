@@ -43,7 +43,8 @@ struct NameTable<Policy> {
 template <>
 struct NameTable<Integrator> {
   static constexpr std::array entries{Named<Integrator>{"euler", Integrator::kEuler},
-                                      Named<Integrator>{"leapfrog", Integrator::kLeapfrog}};
+                                      Named<Integrator>{"leapfrog", Integrator::kLeapfrog},
+                                      Named<Integrator>{"stormer", Integrator::kStormer}};
 };
 template <>
 struct NameTable<Drift> {

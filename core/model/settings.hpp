@@ -25,7 +25,7 @@ enum class Forces : std::uint8_t {
 };
 /// How often the number of sub-steps is decided.
 enum class Policy : std::uint8_t { kFrame, kSubstep };
-enum class Integrator : std::uint8_t { kEuler, kLeapfrog };
+enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer };
 /// Law of the drift correction. kAuto is soft with PGS and full with the other solvers.
 enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
@@ -79,6 +79,13 @@ inline bool starts_from_last_forces(const Settings& s) {
 /// Whether a sub-step begins with forces and velocities that go on as they changed before.
 inline bool extrapolates(const Settings& s) {
   return s.solver == SolverKind::kNewton && s.forces == Forces::kNumerov;
+}
+
+/// Whether poses take in how accelerations change (stormer.hpp). Solvers that look at the end of a
+/// sub-step move bodies by their velocities: with them it is leapfrog.
+inline bool follows_accelerations(const Settings& s) {
+  return s.integrator == Integrator::kStormer && s.solver != SolverKind::kNewton &&
+         s.solver != SolverKind::kXpbd;
 }
 
 /// kAuto resolved: the law that the solver is used with.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/sim/simulator_impl.hpp"
+#include "core/stepping/stormer.hpp"
 
 namespace substep {
 
@@ -61,16 +62,53 @@ std::span<const Vec6> Simulator::Impl::extrapolated_velocities() {
 }
 
 void Simulator::Impl::store_accelerations() {
-  if (!extrapolates(settings)) return state.acceleration.clear();
+  const bool follows = follows_accelerations(settings);
+  if (!follows) state.acceleration_change.clear();
+  if (!follows && !extrapolates(settings)) return state.acceleration.clear();
   state.acceleration.resize(state.u.size(), Vec6::Zero());
+  if (follows) state.acceleration_change.resize(state.u.size(), Vec6::Zero());
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
-    if (smooth) {
-      state.acceleration[i] = (1.0 / impulse_time[i]) * (state.u[i] - u_before[i]);
-    } else {
-      state.acceleration[i].setZero();
+    Vec6 a = Vec6::Zero();
+    if (smooth) a = (1.0 / impulse_time[i]) * (state.u[i] - u_before[i]);
+    if (follows) {
+      const bool known = smooth && !state.acceleration[i].isZero(0.0);
+      state.acceleration_change[i] = known ? Vec6(a - state.acceleration[i]) : Vec6(Vec6::Zero());
     }
+    state.acceleration[i] = a;
   }
+}
+
+// Joints are to hold where the poses go, from where accelerations that go on changing as they did
+// would lead.
+void Simulator::Impl::aim_at_poses(double dt) {
+  for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &u_guess}) {
+    of_bodies->resize(state.u.size(), Vec6::Zero());
+  }
+  motions.resize(state.u.size());
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    const Vec6& a = state.acceleration[i];
+    const Vec6& change = state.acceleration_change[i];
+    u_guess[i] = u_before[i] + impulse_time[i] * (a + change);
+    motions[i] =
+        motion(stormer_velocity(u_guess[i], u_before[i], a, change, dt, impulse_time[i]), dt);
+  }
+  aim_at_stormer_poses(rows(), state.acceleration, u_guess, motions, impulse_time, dt);
+}
+
+// An impact is no acceleration: poses go with the velocities then.
+std::span<const Vec6> Simulator::Impl::pose_velocities(double dt) {
+  if (!follows_accelerations(settings) || !smooth) return state.u;
+  for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &w}) {
+    of_bodies->resize(state.u.size(), Vec6::Zero());
+  }
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    w[i] = stormer_velocity(state.u[i], u_before[i], state.acceleration[i],
+                            state.acceleration_change[i], dt, impulse_time[i]);
+  }
+  return w;
 }
 
 // The gain about this sub-step, half of what comes between the forces of its neighbours, is a

@@ -27,7 +27,9 @@ void Simulator::Impl::put_to_rest(std::span<const int> island) {
   for (const int body : island) {
     state.u[static_cast<std::size_t>(body)].setZero();
     state.u_synchronised[static_cast<std::size_t>(body)].setZero();
-    if (!state.acceleration.empty()) state.acceleration[static_cast<std::size_t>(body)].setZero();
+    for (auto* of_bodies : {&state.acceleration, &state.acceleration_change}) {
+      if (!of_bodies->empty()) (*of_bodies)[static_cast<std::size_t>(body)].setZero();
+    }
   }
 }
 

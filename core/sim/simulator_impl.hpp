@@ -7,6 +7,7 @@
 
 #include "core/constraints/contact_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
+#include "core/constraints/moved_rows.hpp"
 #include "core/constraints/restitution_stage.hpp"
 #include "core/sim/islands.hpp"
 #include "core/sim/schedule.hpp"
@@ -57,6 +58,9 @@ struct Simulator::Impl {
   void find_rates(const Block& block, StoredForce& force) const;
   std::span<const Vec6> extrapolated_velocities();
   void store_accelerations();
+  // Where follows_accelerations():
+  void aim_at_poses(double dt);                      // bias and softness of joints
+  std::span<const Vec6> pose_velocities(double dt);  // what poses move by; elsewhere u
   void begin_frame();
   void turn_axes(std::span<const int> bodies);  // R_WB
   void deal_out(FrameReport& report);           // the sub-steps of the frame to come
@@ -105,7 +109,9 @@ struct Simulator::Impl {
   std::vector<InverseMass> inverse_mass;
   std::vector<Vec6> u_start;         // at the start of the sub-step
   std::vector<Vec6> u_before;        // after the gyroscopic torque, before forces and constraints
-  std::vector<Vec6> u_guess;         // where accelerations stay as they are
+  std::vector<Vec6> u_guess;         // where accelerations stay as they are, or change as they did
+  std::vector<Motion> motions;       // and how bodies would move by that
+  std::vector<Vec6> w;               // what they move by
   std::vector<double> impulse_time;  // per body: external forces act for it [s]
   bool smooth = true;                // no contact closed in this sub-step
   bool watched = true;               // whether anybody may look at what it leaves

@@ -12,6 +12,7 @@
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/mode_rules.hpp"
 #include "core/stepping/small_steps.hpp"
+#include "core/stepping/stormer.hpp"
 
 namespace substep {
 
@@ -135,6 +136,10 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
     if (restitution) restitution->apply(*scene, u_before, dt, own);
   }
   set_softness(own, scene->regularisation, dt);
+  if (follows_accelerations(settings) && !probing && drift_law(settings) == Drift::kFull) {
+    aim_at_poses(dt);
+    report.work.flops += stormer_flops(own, part().moving.size());
+  }
   if (holds_grab()) soften_grab(*grab, dt, own.back());
   if (forces_are_stored()) seed_forces();
   const System system{own,
@@ -241,8 +246,9 @@ void Simulator::Impl::remember_stiffness() {
 }
 
 void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
+  const std::span<const Vec6> move_by = pose_velocities(dt);
   store_accelerations();
-  integrate(part(), dt, state);
+  integrate(part(), dt, move_by, state);
   if (watched) synchronise(dt);
   state.time += dt;
   state.dt_previous = dt;

@@ -6,9 +6,9 @@ namespace substep {
 
 namespace {
 
-void integrate(auto bodies, double dt, State& state) {
+void integrate(auto bodies, double dt, std::span<const Vec6> velocities, State& state) {
   using T = typename decltype(bodies)::T;
-  const auto u = bodies.at([&](int i) { return std::as_const(state.u[index(i)]).data(); });
+  const auto u = bodies.at([&](int i) { return velocities[index(i)].data(); });
   const auto x = bodies.at([&](int i) { return state.x[index(i)].data(); });
   for (int k = 0; k < 3; ++k) x.set(k, x[k] + dt * u[k]);
 
@@ -29,8 +29,8 @@ void integrate(auto bodies, double dt, State& state) {
 
 }  // namespace
 
-void integrate(const Part& part, double dt, State& state) {
-  in_pairs(part.moving, [&](auto bodies) { integrate(bodies, dt, state); });
+void integrate(const Part& part, double dt, std::span<const Vec6> u, State& state) {
+  in_pairs(part.moving, [&](auto bodies) { integrate(bodies, dt, u, state); });
 }
 
 }  // namespace substep

@@ -1,5 +1,5 @@
-// Past the paper: geometric inertia, the blend, full geometric stiffness, and joints corrected to
-// second order.
+// Past the paper: geometric inertia, the blend, full geometric stiffness, joints corrected to
+// second order, and poses that follow accelerations.
 
 #include <gtest/gtest.h>
 
@@ -213,6 +213,69 @@ TEST(BridgePastThePaper, OneSubstepOfGeometricInertiaIsNotEnough) {
   settings.mode = Mode::kInertia;
   settings.n_cap = 1;
   EXPECT_LE(cross_the_bridge(settings).held, 1);
+}
+
+Settings stormer(int n) {
+  Settings settings = leapfrog(Mode::kConst, n);
+  settings.integrator = Integrator::kStormer;
+  return settings;
+}
+
+// One solve a sub-step, as leapfrog, which is fifty times further off with as many.
+TEST(Stormer, IsOfFourthOrder) {
+  const std::pair<int, double> most[] = {{9, 3.0e-7}, {10, 2.4e-7}, {16, 7.1e-8}};  // [m]
+  for (const auto& [n, error] : most) {
+    const Outcome r = swing(stormer(n));
+    EXPECT_TRUE(r.holds) << r.verdict;
+    EXPECT_LE(tip_error(r), error) << n;
+    EXPECT_GT(tip_error(r), 0.5 * error) << n;
+    EXPECT_LT(r.joint_gap, 1e-8);
+    Settings before = leapfrog(Mode::kConst, n);
+    before.drift_order = 2;
+    EXPECT_GT(tip_error(swing(before)), 50.0 * error) << n;
+  }
+  EXPECT_GT(tip_error(swing(stormer(16))) / tip_error(swing(stormer(32))), 12.0);
+}
+
+TEST(Stormer, KeepsEnergyFor200Seconds) {
+  for (const int n : {9, 12}) {
+    const Outcome r = swing(stormer(n), 200.0);
+    EXPECT_TRUE(r.holds) << r.verdict;
+    EXPECT_NEAR(energy_drift_percent(r), 0.0, 0.001);
+  }
+}
+
+// It stands where dt^2 k < 1.9 M, leapfrog where it is below 4: seven sub-steps.
+TEST(Stormer, NeedsNineSubsteps) {
+  EXPECT_FALSE(swing(stormer(8)).holds);
+  EXPECT_TRUE(swing(leapfrog(Mode::kConst, 7)).holds);
+}
+
+// It is made for steps of one length: what changes with them is the share of the accelerations that
+// poses have taken in. A fifth of leapfrog's error is left, not a fiftieth.
+TEST(Stormer, HoldsWhereNChanges) {
+  for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
+    Settings settings = stormer(1);
+    settings.mode = Mode::kAdaptive;
+    settings.policy = policy;
+    const Outcome r = swing(settings);
+    EXPECT_TRUE(r.holds) << r.verdict;
+    EXPECT_LT(r.n_min(), r.n_max());
+    Settings before = settings;
+    before.integrator = Integrator::kLeapfrog;
+    EXPECT_LT(tip_error(r), 0.25 * tip_error(swing(before)));
+  }
+}
+
+// Softness is not in its way: a chain gives way by C F, as with leapfrog.
+TEST(Stormer, KeepsTheCompliance) {
+  scenes::SwingingBoxOptions options;
+  options.compliance = 1e-10;
+  const Scene scene = scenes::swinging_box(options);
+  const Outcome r = run(scene, stormer(16), 10.0);
+  const Outcome before = run(scene, leapfrog(Mode::kConst, 64), 10.0);
+  EXPECT_TRUE(r.holds) << r.verdict;
+  EXPECT_NEAR(r.joint_gap, before.joint_gap, 0.05 * before.joint_gap);
 }
 
 }  // namespace

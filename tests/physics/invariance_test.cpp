@@ -370,6 +370,25 @@ TEST(Invariance, ARunByNumerovGoesOnFromASceneFileBitForBit) {
   }
 }
 
+TEST(Invariance, ARunByStormerGoesOnFromASceneFileBitForBit) {
+  const Scene scene = scenes::swinging_box();
+  Settings settings = own_settings(scene);
+  settings.integrator = Integrator::kStormer;
+  Simulator whole(std::make_shared<const Scene>(scene));
+  whole.set_settings(settings);
+  for (int i = 0; i < 30; ++i) whole.step();
+  ASSERT_FALSE(whole.state().acceleration_change.empty());
+  ASSERT_FALSE(whole.state().acceleration_change.back().isZero(0.0));
+  const auto saved = through_a_file(whole);
+  ASSERT_NE(saved, nullptr);
+  Simulator rest(saved);
+  for (int i = 0; i < 15; ++i) {
+    whole.step();
+    rest.step();
+    expect_same_motion(whole.state(), rest.state());
+  }
+}
+
 TEST(Invariance, AnotherLoadOrStartIsNoRunThatGoesOn) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   for (int i = 0; i < 3; ++i) simulator.step();

@@ -2,6 +2,7 @@
 
 const kPaper = { mode: "adaptive", alpha: 0.1 };
 const leapfrog = (n) => ({ mode: "const", n, integrator: "leapfrog", drift_order: 2 });
+const stormer = (n) => ({ mode: "const", n, integrator: "stormer" });
 const euler = (n) => ({ mode: "const", n });
 const blend = (n_cap, more) => ({ mode: "blend", n_cap, ...more });
 const inertia = (n_cap) => ({ mode: "inertia", n_cap, integrator: "leapfrog" });
@@ -20,6 +21,7 @@ export const ladder = {
     inertia(4),
     newton("mean", 1, 2),
     newton("mean", 2, 1),
+    ...[9, 10, 16].map(stormer),
     newton("numerov", 8, 1),
     newton("numerov", 6, 2),
     newton("numerov", 12, 2),

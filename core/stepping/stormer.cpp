@@ -1,0 +1,62 @@
+#include "core/stepping/stormer.hpp"
+
+#include "core/math/flops.hpp"
+#include "core/solver/system.hpp"
+
+namespace substep {
+
+namespace {
+
+// The first sub-steps, and the first after an impact, know of no change.
+bool changes_are_known(const Vec6& acceleration) { return !acceleration.isZero(0.0); }
+
+}  // namespace
+
+Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& acceleration,
+                      const Vec6& acceleration_change, double dt, double time) {
+  Vec6 w = u - dt / 12.0 * acceleration_change;
+  if (changes_are_known(acceleration)) {
+    w += dt / 6.0 * ((1.0 / time) * (u - u_before) - acceleration);
+  }
+  const Vec3 half = 0.5 * dt * w.tail<3>();
+  w.tail<3>() *= 1.0 + half.squaredNorm() / 3.0;
+  return w;
+}
+
+void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceleration,
+                          std::span<const Vec6> u_guess, std::span<const Motion> motions,
+                          std::span<const double> times, double dt) {
+  const Motion none;
+  const auto motion_of = [&](int body) -> const Motion& {
+    return body < 0 ? none : motions[index(body)];
+  };
+  for (Block& block : blocks) {
+    if (block.is_contact()) continue;
+    double gained[kMaxRows];
+    moved_errors(block, motion_of(block.a), motion_of(block.b), gained);
+    double speed[kMaxRows];
+    row_speeds(block, u_guess, speed);
+    double per_g = 1.0;
+    for (const int body : {block.a, block.b}) {
+      if (body < 0 || !changes_are_known(acceleration[index(body)])) continue;
+      per_g = 1.0 / (1.0 + dt / (6.0 * times[index(body)]));
+    }
+    for (int row = 0; row < block.rows; ++row) {
+      block.bias[row] = per_g / dt * (block.phi[row] + gained[row]) - speed[row];
+      block.softness[row] *= per_g;
+    }
+  }
+}
+
+std::int64_t stormer_flops(std::span<const Block> blocks, std::size_t bodies) {
+  constexpr std::int64_t kBody = 2 * 50 + 60;  // w, w^ and the turn by it
+  std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
+  for (const Block& block : blocks) {
+    if (block.is_contact()) continue;
+    const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
+    flops += (15 + 4) * block.rows + product_flops(block.rows, 6, sides);
+  }
+  return flops;
+}
+
+}  // namespace substep

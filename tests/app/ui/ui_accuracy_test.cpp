@@ -161,53 +161,6 @@ TEST(Accuracy, FindsThePapersAlphaForWhatIsWanted) {
   EXPECT_EQ(accuracy.alpha_search(), nullptr);
 }
 
-// It holds the sweep up: whatever the panel shows, one sees why, and can end it.
-TEST(Accuracy, ASearchCanBeEndedBesideEveryPicture) {
-  Headless h;
-  h.app->session.pause();
-  sweep_a_rope(h);
-  Accuracy& accuracy = h.app->accuracy;
-  ASSERT_TRUE(accuracy.has_map());
-  h.resize(1280.0F, 1600.0F, 1.0F);  // all of the panel
-  const auto bars = [] {
-    const auto& all = ui::handles();
-    return std::count_if(all.begin(), all.end(), [](const auto& x) { return x.label == "Cancel"; });
-  };
-  for (const AccuracyPicture picture :
-       {AccuracyPicture::kErrorAgainstCost, AccuracyPicture::kStabilityMap,
-        AccuracyPicture::kEffectCosts}) {
-    accuracy.picture = picture;
-    ASSERT_EQ(h.app->set("accuracy", "alpha"), "");
-    h.frames(2);
-    ASSERT_TRUE(accuracy.searching());
-    EXPECT_EQ(bars(), 1) << static_cast<int>(picture);
-    h.press("Cancel");
-    EXPECT_FALSE(accuracy.searching());
-    EXPECT_EQ(bars(), 0);
-  }
-}
-
-TEST(Accuracy, TheSearchIsEndedAndTheSweepBesideItGoesOn) {
-  Headless h;
-  h.app->session.pause();
-  h.app->open("swinging_box");
-  ASSERT_EQ(h.app->set("panel", "accuracy"), "");
-  h.resize(1280.0F, 1600.0F, 1.0F);  // all of the panel
-  ASSERT_EQ(h.app->set("accuracy", "run"), "");
-  Accuracy& accuracy = h.app->accuracy;
-  for (int i = 0; i < 20000 && accuracy.points().size() < 2; ++i) h.frames(1);
-  ASSERT_EQ(h.app->set("accuracy", "alpha"), "");
-  h.frames(2);
-  ASSERT_TRUE(accuracy.running() && accuracy.searching());
-  const ui::Handle* lower = find_handle("Cancel");
-  for (const ui::Handle& handle : ui::handles()) {
-    if (handle.label == "Cancel" && handle.min.y > lower->min.y) lower = &handle;
-  }
-  h.click(0.5F * (lower->min.x + lower->max.x), 0.5F * (lower->min.y + lower->max.y));
-  EXPECT_FALSE(accuracy.searching());
-  EXPECT_TRUE(accuracy.running());
-}
-
 TEST(Accuracy, WhatIsFoundIsKeptForTheScene) {
   Headless h;
   h.app->open("pendulum");

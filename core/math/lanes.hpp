@@ -1,6 +1,6 @@
 #pragma once
-// Formulas that are the same for every body or joint: written once, evaluated for one of them or
-// for two side by side. Sums are in the order that Eigen takes them in.
+// Formulas that are the same for every body: written once, evaluated for one of them or for two
+// side by side. Sums are in the order that Eigen takes them in.
 
 #include <cmath>
 #include <cstddef>
@@ -20,9 +20,6 @@ struct Lanes3 {
   T x, y, z;
   friend Lanes3 operator+(const Lanes3& a, const Lanes3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
-  }
-  friend Lanes3 operator-(const Lanes3& a, const Lanes3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
   }
   friend Lanes3 operator*(const T& f, const Lanes3& a) { return {f * a.x, f * a.y, f * a.z}; }
 };

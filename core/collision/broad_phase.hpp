@@ -32,6 +32,8 @@ class BroadPhase {
   /// Whether the boxes of a pair, each with half of the scene's margin and its way around it,
   /// overlap.
   [[nodiscard]] bool overlap(const State& state, const Pair& pair) const;
+  /// Half extents of a solid's box, with half of the scene's margin and its way around it [m].
+  [[nodiscard]] const Vec3& reach(int body) const { return reach_[index(body)]; }
   /// Whether more pairs were found than a scene may have; then not all are there.
   [[nodiscard]] bool too_many() const;
 

@@ -48,7 +48,6 @@ double way_in(double time, const Scene& scene, const Body& body, const Vec6& u) 
 Detector::Detector(const Scene& scene) : broad_phase_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    radius_.push_back(radius_around(body.shape));
     if (!body.collides || !std::holds_alternative<Plane>(body.shape)) continue;
     Ground ground{static_cast<int>(i), {}};
     for (const int solid : broad_phase_.solids()) {
@@ -98,6 +97,7 @@ void Detector::touch(const Scene& scene, const State& state, std::span<const Mat
 void Detector::find(const Scene& scene, const Part& part, const State& state,
                     std::span<const Mat3> R_WB, Pairs* boxes) {
   points_.clear();
+  broad_phase_.update(scene, part, state, R_WB, way_);
   for (const Ground& ground : grounds_) {
     const Placed plane{ground.body, state.x[at(ground.body)], R_WB[at(ground.body)]};
     const Vec3 n = plane.R.col(1);
@@ -105,12 +105,12 @@ void Detector::find(const Scene& scene, const Part& part, const State& state,
       if (points_.size() > kMaxContacts) return;
       if (!part.holds(body)) continue;
       const double near = margin(scene, body, ground.body);
-      if (n.dot(state.x[at(body)] - plane.x) > radius_[at(body)] + near) continue;
+      const double reach = broad_phase_.reach(body).dot(n.cwiseAbs());
+      if (n.dot(state.x[at(body)] - plane.x) > reach + near) continue;
       touch_plane({body, state.x[at(body)], R_WB[at(body)]}, scene.bodies[at(body)].shape, plane,
                   near, points_);
     }
   }
-  broad_phase_.update(scene, part, state, R_WB, way_);
   for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {
     if (too_many()) return;
     if (!part.holds(pair.i) || !part.holds(pair.j)) continue;

@@ -69,8 +69,7 @@ class Detector {
 
   BroadPhase broad_phase_;
   std::vector<Ground> grounds_;
-  std::vector<double> radius_;  // per body: of the sphere around its shape [m]
-  std::vector<double> way_;     // per body: that its points may go meanwhile [m]; empty: none
+  std::vector<double> way_;  // per body: that its points may go meanwhile [m]; empty: none
   ContactPoints points_;
   Pairs near_;
   Pairs listed_;

@@ -6,7 +6,7 @@ namespace substep {
 
 namespace {
 
-void set_row(Block& block, int row, const Vec3& along) {
+[[gnu::always_inline]] inline void set_row(Block& block, int row, const Vec3& along) {
   const Vec3 direction = along;  // which may be the block's own
   const Vec3 A = block.r_a.cross(direction);
   const Vec3 B = block.r_b.cross(direction);

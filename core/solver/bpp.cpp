@@ -238,6 +238,7 @@ int Bpp::pivot(const System& system, bool one_only) {
       if (hi == lo) continue;
       const double x = block.impulse[row];
       std::int8_t set = block.tight[row];
+      if (set == 0 && lo <= x && x <= hi) continue;
       if (set == 0) {
         if (x < lo - tolerance(x)) set = -1;
         if (x > hi + tolerance(x)) set = 1;

@@ -135,8 +135,9 @@ inline void solve_upper(const double* L, auto n, double* x) {
 /// Two rows of a 6 x 6 block of sign * sum over k of Z_k^T d_k Z_k, with Z_k rows of `width`, as
 /// many pairs of their elements as are asked for.
 template <std::size_t pairs>
-void add_gram_rows(const double* Z_i, const double* Z_j, const double* d, auto rows, double sign,
-                   auto width, double* to, auto stride) {
+[[gnu::always_inline]] inline void add_gram_rows(const double* Z_i, const double* Z_j,
+                                                 const double* d, auto rows, double sign,
+                                                 auto width, double* to, auto stride) {
   Pair first[pairs] = {};
   Pair second[pairs] = {};
   for (int k = 0; k < rows; ++k) {

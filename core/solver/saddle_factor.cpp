@@ -59,48 +59,52 @@ void SaddleLdlt::add_inertia(const Node& node, Square6& A) const {
   }
 }
 
-// A bare node keeps only its rows: what they leave is of so low a rank that it is cheaper made
-// where it goes.
-template <bool on_diagonal>
-void SaddleLdlt::add_left(const Node& child, int s, int t, double* to, auto stride) {
-  const int m = width(child);
-  if (child.way == Way::kBare) {
-    const Factor f = at(child);
-    const int* first = first_filled_.data() + child.first_coupled;
-    const int row = std::max(first[s], first[t]);
-    return with_known(child.n_rows - row, [&](auto rows) {
-      add_gram_block<on_diagonal>(f.Z + row * m + 6 * s, f.Z + row * m + 6 * t, f.S_inverse + row,
-                                  rows, 1.0, m, to, stride);
-    });
-  }
+// What a node leaves on its coupled bodies, the first of which is its parent. A bare node keeps
+// only its rows: what they leave is of so low a rank that it is cheaper made where it goes.
+void SaddleLdlt::add_left(const Node& child, Square6& A, double* B, double* U, int n) {
   if (child.way == Way::kArticulated) {  // the upper half alone
     Square6 left;
     child.joint->left(left);
     for (int i = 0; i < 6; ++i) {
-      for (int j = 0; j <= i; ++j) to[i * stride + j] += left[j][i];
+      for (int j = 0; j <= i; ++j) A[i][j] += left[j][i];
     }
     return;
   }
-  const double* from = values_.data() + child.update + 6 * s * m + 6 * t;
-  for (int i = 0; i < 6; ++i) {
-    const int n = on_diagonal ? i + 1 : 6;
-    for (int j = 0; j < n; ++j) to[i * stride + j] += from[i * m + j];
-  }
-}
-
-void SaddleLdlt::add_children(const Node& node, Square6& A, double* B, double* U, auto n) {
-  for (std::size_t c = 0; c < node.n_children; ++c) {
-    const Node& child = nodes_[index(children_[node.first_child + c])];
+  const auto each_block = [&](int coupled, const auto& add) {
+    constexpr std::true_type on_diagonal;
+    constexpr std::false_type beside_it;
     const int* place = place_.data() + child.first_coupled;
-    add_left<true>(child, 0, 0, A[0], Known<6>{});
-    for (int t = 1; t < child.coupled; ++t) {
-      add_left<false>(child, 0, t, B + 6 * place[t], n);
-      for (int s = 1; s < t; ++s) {
-        add_left<false>(child, s, t, U + 6 * (place[s] * n + place[t]), n);
-      }
-      add_left<true>(child, t, t, U + 6 * (place[t] * n + place[t]), n);
+    add(on_diagonal, 0, 0, A[0], 6);
+    for (int t = 1; t < coupled; ++t) {
+      add(beside_it, 0, t, B + 6 * place[t], n);
+      for (int s = 1; s < t; ++s) add(beside_it, s, t, U + 6 * (place[s] * n + place[t]), n);
+      add(on_diagonal, t, t, U + 6 * (place[t] * n + place[t]), n);
     }
+  };
+  if (child.way == Way::kBare) {
+    const Factor f = at(child);
+    const int* first = first_filled_.data() + child.first_coupled;
+    with_known_width(child, [&](auto m) {
+      each_block(m / 6, [&](auto on_diagonal, int s, int t, double* to, int stride) {
+        const int row = std::max(first[s], first[t]);
+        with_known(child.n_rows - row, [&](auto rows) {
+          const double* Z = f.Z + row * m;
+          add_gram_block<on_diagonal>(Z + 6 * s, Z + 6 * t, f.S_inverse + row, rows, 1.0, m, to,
+                                      stride);
+        });
+      });
+    });
+    return;
   }
+  const int m = width(child);
+  const double* left = values_.data() + child.update;
+  each_block(child.coupled, [&](auto on_diagonal, int s, int t, double* to, int stride) {
+    const double* from = left + 6 * (s * m + t);
+    for (int i = 0; i < 6; ++i) {
+      const int end = on_diagonal ? i + 1 : 6;
+      for (int j = 0; j < end; ++j) to[i * stride + j] += from[i * m + j];
+    }
+  });
 }
 
 // What an articulated node carries of its children, about its pivot.
@@ -113,7 +117,7 @@ void SaddleLdlt::sum_carried(const Node& node, Square6& sum) {
       child.joint->left(left);
     } else {
       Square6 lower = {};
-      add_left<true>(child, 0, 0, lower[0], Known<6>{});
+      add_left(child, lower, nullptr, nullptr, 0);
       shift([&](int i, int j) { return lower[j][i]; }, node.joint->pivot(), left);
     }
     for (int i = 0; i < 6; ++i) {
@@ -144,21 +148,6 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
     }
   }
   if (node.folds || node.n_rows != node.counted_rows) count(node);
-}
-
-/// Calls with the width of a node: as one that the compiler knows for what chains, bridges and
-/// stacks are made of.
-void SaddleLdlt::with_known_width(const Node& node, const auto& call) {
-  switch (node.coupled) {
-    case 0:
-      return call(Known<0>{});
-    case 1:
-      return call(Known<6>{});
-    case 2:
-      return call(Known<12>{});
-    default:
-      return call(width(node));
-  }
 }
 
 void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
@@ -205,7 +194,9 @@ void SaddleLdlt::factor_general(Node& node, std::span<const Block> blocks, auto 
   Square6& A = *reinterpret_cast<Square6*>(f.A);
   set_zero(f.A, 36);
   add_inertia(node, A);
-  add_children(node, A, f.Y, U, n);
+  for (std::size_t c = 0; c < node.n_children; ++c) {
+    add_left(nodes_[index(children_[node.first_child + c])], A, f.Y, U, n);
+  }
   for (std::size_t k = 0; k < node.n_attached; ++k) {
     const Attached& attached = attached_[node.first_attached + k];
     if (!attached.folded) continue;

@@ -46,6 +46,7 @@ void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
         push(block, x, of_body(block.a), of_body(block.b));
         continue;
       }
+      if (block.rows == 1 && block.tight[0] == 0 && !attached.folded) continue;
       bool pushes = attached.folded;
       for (int row = 0; row < block.rows; ++row) {
         const bool tight = block.tight[row] != 0;
@@ -109,12 +110,13 @@ void SaddleLdlt::forward(const Node& node) {
     }
   }
   if (node.n_rows == 0) return;
-  with_known(node.n_rows, [&](auto rows) { forward_rows(node, f, rows, weighted); });
+  with_known(node.n_rows, [&](auto rows) {
+    with_known_width(node, [&](auto m) { forward_rows(node, f, rows, m, weighted); });
+  });
 }
 
-void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows,
+void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows, auto n,
                               const double* weighted) {
-  const int n = width(node);
   const int* coupled = coupled_.data() + node.first_coupled;
   const int* first = first_filled_.data() + node.first_coupled;
   double* c = c_.data() + node.first_row;
@@ -126,7 +128,7 @@ void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows,
   solve_lower(f.S, rows, Known<1>{}, c);
   for (int i = 0; i < rows; ++i) {
     const double k = f.S_inverse[i] * c[i];
-    for (int s = 0; s < node.coupled; ++s) {
+    for (int s = 0; 6 * s < n; ++s) {
       if (i < first[s]) continue;
       const double* z = f.Z + i * n + 6 * s;
       double* to = v_[index(coupled[s])].data();
@@ -145,7 +147,9 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
   } else {
     copy6(v, change);
   }
-  with_known(node.n_rows, [&](auto rows) { backward_rows(node, f, rows, blocks, change); });
+  with_known(node.n_rows, [&](auto rows) {
+    with_known_width(node, [&](auto m) { backward_rows(node, f, rows, m, blocks, change); });
+  });
   if (node.way == Way::kGeneral) {
     const int n = width(node);
     for (int s = 0; s < node.coupled; ++s) {
@@ -158,15 +162,14 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
   copy6(change, v);
 }
 
-void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows,
+void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, auto n,
                                std::span<Block> blocks, double* change) {
-  const int n = width(node);
   const int* coupled = coupled_.data() + node.first_coupled;
   const int* first = first_filled_.data() + node.first_coupled;
   double* x = c_.data() + node.first_row;
   for (int i = 0; i < rows; ++i) {
     double sum = x[i];
-    for (int s = 0; s < node.coupled; ++s) {
+    for (int s = 0; 6 * s < n; ++s) {
       if (i >= first[s]) sum += dot6(f.Z + i * n + 6 * s, v_[index(coupled[s])].data());
     }
     x[i] = -(f.S_inverse[i] * sum);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/solver/articulated_joint.hpp"
+#include "core/solver/dense_ldlt.hpp"
 #include "core/solver/elimination_order.hpp"
 #include "core/solver/spring.hpp"
 #include "core/solver/system.hpp"
@@ -146,16 +147,28 @@ class SaddleLdlt {
   void count(Node& node) const;  // its operations
   void factor_articulated(Node& node);
   void sum_carried(const Node& node, Square6& sum);
-  static void with_known_width(const Node& node, const auto& call);
+  /// Calls with the width of a node: as one that the compiler knows for what chains, bridges and
+  /// stacks are made of.
+  static void with_known_width(const Node& node, const auto& call) {
+    switch (node.coupled) {
+      case 0:
+        return call(Known<0>{});
+      case 1:
+        return call(Known<6>{});
+      case 2:
+        return call(Known<12>{});
+      default:
+        return call(width(node));
+    }
+  }
   void factor_bare(Node& node, std::span<const Block> blocks);
   void factor_bare(Node& node, std::span<const Block> blocks, auto rows, auto n);
   void factor_general(Node& node, std::span<const Block> blocks);
   void factor_general(Node& node, std::span<const Block> blocks, auto n);
   void gather_rows(Node& node, std::span<const Block> blocks);
   void add_inertia(const Node& node, Square6& A) const;
-  template <bool on_diagonal>
-  void add_left(const Node& child, int s, int t, double* to, auto stride);
-  void add_children(const Node& node, Square6& A, double* B, double* U, auto n);
+  /// @param B, U of the parent, n wide: where there are more coupled bodies than the parent
+  void add_left(const Node& child, Square6& A, double* B, double* U, int n);
   void eliminate_rows(Node& node, std::span<const Block> blocks);
 
   void set_momenta(std::span<const Block> blocks);
@@ -163,10 +176,10 @@ class SaddleLdlt {
   void find_spring_impulses(std::span<Block> blocks, bool of_pins);
   void forward(const Node& node);
   /// @param weighted D^-1 L^-1 g, bare: g
-  void forward_rows(const Node& node, const Factor& f, auto rows, const double* weighted);
+  void forward_rows(const Node& node, const Factor& f, auto rows, auto n, const double* weighted);
   void backward(const Node& node, std::span<Block> blocks);
   /// @param change in: L^-1 g, bare: Mt^-1 g; out: with the pushes of the rows
-  void backward_rows(const Node& node, const Factor& f, auto rows, std::span<Block> blocks,
+  void backward_rows(const Node& node, const Factor& f, auto rows, auto n, std::span<Block> blocks,
                      double* change);
 
   EliminationOrder order_;

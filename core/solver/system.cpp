@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/solver/body_products.hpp"
+
 namespace substep {
 
 namespace {
@@ -40,10 +42,7 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
                                               double sign, const Vec3& r, const Vec6& u,
                                               double* speed) {
   if (!block.pinned) {
-    for (int row = 0; row < block.rows; ++row) {
-      speed[row] += (J[row][0] * u[0] + J[row][1] * u[1] + J[row][2] * u[2]) +
-                    (J[row][3] * u[3] + J[row][4] * u[4] + J[row][5] * u[5]);
-    }
+    for (int row = 0; row < block.rows; ++row) speed[row] += dot6(J[row], u.data());
     return;
   }
   const Vec3 turning = u.tail<3>().cross(r);
@@ -61,6 +60,13 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
 
 // What is summed stays in registers: `speed` may be anywhere.
 void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed) {
+  if (block.rows == 1) {  // most contacts
+    double sum = 0.0;
+    if (a != nullptr) sum += dot6(block.J_a[0], a->data());
+    if (b != nullptr) sum += dot6(block.J_b[0], b->data());
+    speed[0] = sum;
+    return;
+  }
   double sum[kMaxRows] = {};
   if (a != nullptr) add_speeds(block, block.J_a, 1.0, block.r_a, *a, sum);
   if (b != nullptr) add_speeds(block, block.J_b, -1.0, block.r_b, *b, sum);

@@ -1,7 +1,7 @@
 // Mouse, fingers, wheel and keys of the canvas, handed on to the application.
 
 /**
- * @param wasm what runtime.mjs start() gave
+ * @param wasm what loader.mjs start() gave
  * @param {boolean} shares whether wheel and fingers are the page's until the canvas has the focus
  * @param {() => void} wake called with every event: something is to be drawn again
  * @param {AbortSignal} signal ends what listens beyond the canvas, which would keep it all alive

@@ -1,4 +1,4 @@
-// The application in a page: what web/runtime.mjs calls to start it and to let it draw.
+// The application in a page: what web/loader.mjs calls to start it and to let it draw.
 
 #include <emscripten.h>
 #include <emscripten/heap.h>

@@ -14,7 +14,7 @@ struct EffectCost {
   std::string_view effect;   // as scene files name it
   double ms = 0.0;           // wall time, mean of the frames but the extreme ones [ms]
   double flops = 0.0;        // of the solver, mean of the frames
-  double row_updates = 0.0;  // of PGS, mean of the frames
+  double row_updates = 0.0;  // of PGS and XPBD, mean of the frames
 };
 
 struct CostBreakdown {

@@ -41,7 +41,7 @@ struct Work {
   std::int64_t frames = 0;
   std::int64_t substeps = 0;
   std::int64_t solves = 0;       // with the probe
-  std::int64_t row_updates = 0;  // of PGS
+  std::int64_t row_updates = 0;  // of PGS and XPBD
   std::int64_t factorisations = 0;
   std::int64_t pivots = 0;
   std::int64_t unsettled = 0;

@@ -119,7 +119,9 @@ void append_drift_order_2(const Settings& base, std::vector<Settings>& all) {
 
 /// Poses that take in how accelerations change, derived for joints alone.
 void append_stormer(const Settings& base, std::vector<Settings>& all) {
-  append_curve(direct(base, Integrator::kStormer), Mode::kConst, all);
+  for (const Mode mode : {Mode::kConst, Mode::kAdaptive}) {
+    append_curve(direct(base, Integrator::kStormer), mode, all);
+  }
 }
 
 /// N by the true derivative of a contact.

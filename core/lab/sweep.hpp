@@ -16,8 +16,9 @@ struct SweepPoint {
 
 /// The runs that show what accuracy costs on a scene: every mode with the direct solver and with
 /// PGS, with Euler and leapfrog; with the direct solver `adaptive` per sub-step too; XPBD, Newton
-/// and small steps; and where the scene has use for them the drift correction of second order, the
-/// exact contact block, refinements, the explicit gyroscopic torque and islands. Each along its own
+/// and small steps; and where the scene has use for them the drift correction of second order,
+/// Störmer's formula, the exact contact block, refinements, the explicit gyroscopic torque and
+/// islands. Each along its own
 /// parameter; and, for a map of where they hold, constant N and adaptive under other loads where
 /// bodies of different mass meet. Other settings stay as the scene has them of its own.
 std::vector<SweepPoint> default_sweep(const Scene& scene);

@@ -14,8 +14,8 @@ struct VerdictCell {
   Expectation expected{};  // the rule that decides
 };
 
-/// The table of a scene: BPP and PGS x all modes (const with 4, 16 and what rules name) x both
-/// integrators, Newton and XPBD x one sub-step and const with Euler, as far as a rule speaks of
+/// The table of a scene: BPP and PGS x all modes (const with 4, 16 and what rules name) x Euler
+/// and leapfrog, Newton and XPBD x one sub-step and const with Euler, as far as a rule speaks of
 /// them; all else is the scene's own. A scene without rules has one cell: its own settings and
 /// criteria.
 std::vector<VerdictCell> verdict_table(const Scene& scene);

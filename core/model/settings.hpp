@@ -25,6 +25,7 @@ enum class Forces : std::uint8_t {
 };
 /// How often the number of sub-steps is decided.
 enum class Policy : std::uint8_t { kFrame, kSubstep };
+/// Semi-implicit, the paper's; of second order (Verlet 1967); of fourth, for joints (stormer.hpp).
 enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer };
 /// Law of the drift correction. kAuto is soft with PGS and full with the other solvers.
 enum class Drift : std::uint8_t { kAuto, kFull, kSoft };

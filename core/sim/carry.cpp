@@ -61,7 +61,16 @@ std::span<const Vec6> Simulator::Impl::extrapolated_velocities() {
   return u_guess;
 }
 
-void Simulator::Impl::store_accelerations() {
+void Simulator::Impl::hand_over(double dt) {
+  if (state.acceleration_change.empty()) return;
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    if (impulse_time[i] == dt || state.acceleration_change[i].isZero(0.0)) continue;
+    state.u[i] += stormer_hand_over(state.acceleration_change[i], dt, impulse_time[i]);
+  }
+}
+
+void Simulator::Impl::store_accelerations(double dt) {
   const bool follows = follows_accelerations(settings);
   if (!follows) state.acceleration_change.clear();
   if (!follows && !extrapolates(settings)) return state.acceleration.clear();
@@ -73,7 +82,9 @@ void Simulator::Impl::store_accelerations() {
     if (smooth) a = (1.0 / impulse_time[i]) * (state.u[i] - u_before[i]);
     if (follows) {
       const bool known = smooth && !state.acceleration[i].isZero(0.0);
-      state.acceleration_change[i] = known ? Vec6(a - state.acceleration[i]) : Vec6(Vec6::Zero());
+      state.acceleration_change[i] =
+          known ? Vec6(stormer_growth(dt, impulse_time[i]) * (a - state.acceleration[i]))
+                : Vec6(Vec6::Zero());
     }
     state.acceleration[i] = a;
   }

@@ -96,6 +96,7 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
     const auto i = static_cast<std::size_t>(body);
     impulse_time[i] = force_time(settings.integrator, state.dt_previous_of(i), dt);
   }
+  if (follows_accelerations(settings)) hand_over(dt);
   if (scene->effects.gyroscopic) {
     for (const int body : moved.moving) {
       const auto i = static_cast<std::size_t>(body);
@@ -247,7 +248,7 @@ void Simulator::Impl::remember_stiffness() {
 
 void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   const std::span<const Vec6> move_by = pose_velocities(dt);
-  store_accelerations();
+  store_accelerations(dt);
   integrate(part(), dt, move_by, state);
   if (watched) synchronise(dt);
   state.time += dt;

@@ -47,9 +47,9 @@ struct SolveReport {
   SolveStatus status = SolveStatus::kSolved;
   int iterations = 0;            // sweeps of PGS and XPBD, steps of Newton
   std::int64_t row_updates = 0;  // PGS, XPBD
-  int pivots = 0;                // BPP: changes of the active set
-  int passes = 0;                // BPP: refreshes of the friction bounds, the first included
-  int factorisations = 0;        // BPP
+  int pivots = 0;                // BPP, also in Newton: changes of the active set
+  int passes = 0;                // the same: refreshes of the friction bounds, the first included
+  int factorisations = 0;        // BPP, also in Newton
   std::int64_t flops = 0;        // to form, factor and solve, and of row updates: flops.hpp
 };
 

@@ -14,9 +14,11 @@ bool changes_are_known(const Vec6& acceleration) { return !acceleration.isZero(0
 
 Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& acceleration,
                       const Vec6& acceleration_change, double dt, double time) {
-  Vec6 w = u - dt / 12.0 * acceleration_change;
+  Vec6 w = u;
   if (changes_are_known(acceleration)) {
-    w += dt / 6.0 * ((1.0 / time) * (u - u_before) - acceleration);
+    const double scaled = stormer_growth(dt, time) * dt;
+    w -= scaled / 12.0 * acceleration_change;
+    w += scaled / 6.0 * ((1.0 / time) * (u - u_before) - acceleration);
   }
   const Vec3 half = 0.5 * dt * w.tail<3>();
   w.tail<3>() *= 1.0 + half.squaredNorm() / 3.0;
@@ -39,7 +41,8 @@ void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceler
     double per_g = 1.0;
     for (const int body : {block.a, block.b}) {
       if (body < 0 || !changes_are_known(acceleration[index(body)])) continue;
-      per_g = 1.0 / (1.0 + dt / (6.0 * times[index(body)]));
+      const double time = times[index(body)];
+      per_g = 1.0 / (1.0 + stormer_growth(dt, time) * dt / (6.0 * time));
     }
     for (int row = 0; row < block.rows; ++row) {
       block.bias[row] = per_g / dt * (block.phi[row] + gained[row]) - speed[row];

@@ -12,15 +12,28 @@ namespace substep {
 //   q+ - 2 q + q- = dt^2/12 (14 a - 5 a- + 4 a-- - a---).
 // It is leapfrog, u+ = u + dt a, whose poses take in how the accelerations change: with D = a - a-,
 //   q+ = q + dt w,   w = u+ + dt/12 (2 D - D-).
-// On the model of Eq. 5 it is stable while dt^2 k < 1.9 M, and damps what is near that. The
+// On the model of Eq. 5 it is stable while dt^2 k < 2 M, and damps what is near that. The
 // constraints are to hold at q+. With a = (u+ - u)/t (t: how long forces act, dt) w is linear in
 // u+:
 //   w = g u+ + what is known,   g = 1 + dt/(6 t),
 // and the rows, linearised about the poses q^ where accelerations that go on changing as they did
 // would lead, w^ = w(u^), become
 //   phi(q^)/dt + J (w - w^) = 0,   or   J u+ - J u^ + phi(q^)/(g dt) = 0.
+// Where dt is another than that of the sub-step before, dt-, changes are taken in proportion, and
+// what velocities leave out, which goes with dt^2, is handed over:
+//   u = q' - dt^2/24 a'  in the middle of a sub-step, so that  u += (dt^2 - dt-^2)/12 a'.
 // How a turn goes with its angular velocity is put right in the same way: the Cayley vector of
 // integrate() is dt w/2, that of a turn by dt |w| longer by (dt |w|/2)^2/3.
+
+/// dt/dt-. @param time that forces act for, from the middle of one to that of the other [s]
+inline double stormer_growth(double dt, double time) { return dt / (2.0 * time - dt); }
+
+/// What is added to a velocity where sub-steps change their length. @param acceleration_change in a
+/// sub-step as long as the one before
+inline Vec6 stormer_hand_over(const Vec6& acceleration_change, double dt, double time) {
+  const double before = 2.0 * time - dt;
+  return (dt * dt - before * before) / (12.0 * before) * acceleration_change;
+}
 
 /// What the poses of a body move by. @param u, u_before after this sub-step's impulses and before
 /// its forces  @param time that forces acted for [s]  @return w [m/s, rad/s]

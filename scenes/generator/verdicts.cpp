@@ -1,4 +1,4 @@
-// What every shipped scene should come to under every solver, mode and integrator: the one table.
+// What every shipped scene should come to under every solver and mode: the one table.
 // The paper's claims and the scenes' own theory stand behind it; what a run showed to be otherwise
 // says why.
 

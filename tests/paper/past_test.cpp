@@ -245,25 +245,35 @@ TEST(Stormer, KeepsEnergyFor200Seconds) {
   }
 }
 
-// It stands where dt^2 k < 1.9 M, leapfrog where it is below 4: seven sub-steps.
+// It stands where dt^2 k < 2 M, leapfrog where it is below 4: seven sub-steps.
 TEST(Stormer, NeedsNineSubsteps) {
   EXPECT_FALSE(swing(stormer(8)).holds);
   EXPECT_TRUE(swing(leapfrog(Mode::kConst, 7)).holds);
 }
 
-// It is made for steps of one length: what changes with them is the share of the accelerations that
-// poses have taken in. A fifth of leapfrog's error is left, not a fiftieth.
-TEST(Stormer, HoldsWhereNChanges) {
+// What velocities leave out goes with dt^2 and is handed over: the paper's own choice of N, at
+// which its scheme is 12 mm off, leaves 60 nm.
+TEST(Stormer, KeepsItsOrderWhereNChanges) {
   for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
-    Settings settings = stormer(1);
-    settings.mode = Mode::kAdaptive;
-    settings.policy = policy;
-    const Outcome r = swing(settings);
+    const auto adaptive = [&](double alpha) {
+      Settings settings = stormer(1);
+      settings.mode = Mode::kAdaptive;
+      settings.alpha = alpha;
+      settings.policy = policy;
+      return settings;
+    };
+    const Outcome r = swing(adaptive(0.1));
     EXPECT_TRUE(r.holds) << r.verdict;
     EXPECT_LT(r.n_min(), r.n_max());
-    Settings before = settings;
+    EXPECT_LE(tip_error(r), 6.0e-8);
+    EXPECT_GT(tip_error(r) / tip_error(swing(adaptive(0.025))), 11.0);  // twice as many sub-steps
+    Settings before = adaptive(0.1);
     before.integrator = Integrator::kLeapfrog;
-    EXPECT_LT(tip_error(r), 0.25 * tip_error(swing(before)));
+    before.drift_order = 2;
+    EXPECT_GT(tip_error(swing(before)), 90.0 * tip_error(r));
+    const Outcome longer = swing(adaptive(0.1), 200.0);
+    EXPECT_TRUE(longer.holds) << longer.verdict;
+    EXPECT_NEAR(energy_drift_percent(longer), 0.0, 2e-4);
   }
 }
 

@@ -29,9 +29,8 @@ inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
 
 /// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
 /// and with 16 sub-steps, with BPP and with PGS; through the heaps with islands, through the stress
-/// stacks with refinements,
-/// through the paper's scenes of contacts with small steps, and through those of joints with 6
-/// sub-steps of the other solvers.
+/// stacks with refinements, through the paper's scenes of contacts with small steps, and through
+/// those of joints by Störmer's formula and with 6 sub-steps of the other solvers.
 /// @return main()'s
 inline int for_every_case(int argc, char** argv, const std::function<void(Case&)>& what) {
   if (argc != 2) {
@@ -87,13 +86,19 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
       with(small, "pgs_small_steps");
     }
     if (!read.scene->effects.joints) continue;
+    if (!read.scene->effects.contact) {  // nor is this made for it
+      Settings stormer = settings;
+      stormer.mode = Mode::kAdaptive;
+      stormer.integrator = Integrator::kStormer;
+      with(stormer, "bpp_stormer");
+    }
     settings.n = 6;
     settings.iterations = 4;
     settings.solver = SolverKind::kXpbd;
     with(settings, "xpbd");
     settings.solver = SolverKind::kNewton;
     for (const Forces forces : {Forces::kEnd, Forces::kMean, Forces::kNumerov}) {
-      if (forces == Forces::kNumerov && read.scene->effects.contact) continue;  // not made for it
+      if (forces == Forces::kNumerov && read.scene->effects.contact) continue;
       settings.forces = forces;
       with(settings, "newton_" + std::string(name_of(forces)));
     }

@@ -77,7 +77,8 @@ std::string App::set(std::string_view key, std::string_view value) {
   // What belongs to the window: taken from links and scripts, never written into links.
   if (key == "speed") {
     const auto speed = parse_number(value);
-    if (!speed || *speed < 0.01 || *speed > 16.0) return "is not a number from 0.01 to 16";
+    if (!speed || *speed < 0.01 || *speed > 16.0)
+      return "must be from 0.01 to 16, not " + std::string(value);
     session.set_speed(*speed);
     return "";
   }
@@ -98,7 +99,8 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "tour") return go_on_tour(*this, value);
   if (key == "scale") {
     const auto scale = parse_number(value);
-    if (!scale || *scale < 0.8 || *scale > 1.5) return "is not a number from 0.8 to 1.5";
+    if (!scale || *scale < 0.8 || *scale > 1.5)
+      return "must be from 0.8 to 1.5, not " + std::string(value);
     desk.scale = *scale;
     return "";
   }
@@ -107,7 +109,8 @@ std::string App::set(std::string_view key, std::string_view value) {
     const Range range = key == "load"   ? kLoadRange
                         : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
                                         : kDurationRange;
-    if (!number || !range.contains(*number)) return "is not " + range.text();
+    if (!number || !range.contains(*number))
+      return "must be " + range.text() + ", not " + std::string(value);
     if (key == "seed" && *number != std::round(*number)) return "is not a whole number";
     if (key == "load") vary(*number, seed);
     if (key == "seed") vary(load, static_cast<int>(*number));

@@ -118,6 +118,13 @@ std::string allowed_values(const SettingField& field) {
       field.member);
 }
 
+std::string refusal(const SettingField& field, const std::string& value) {
+  const std::string allowed = allowed_values(field);
+  return std::holds_alternative<NumberSetting>(field.member)
+             ? "must be " + allowed + ", not " + value
+             : value + " is not " + allowed;
+}
+
 bool is_choice(const SettingField& field) {
   return !std::holds_alternative<FlagSetting>(field.member) &&
          !std::holds_alternative<CountSetting>(field.member) &&
@@ -164,7 +171,7 @@ std::optional<std::string> set_setting(const SettingField& field, std::string_vi
                                    }},
                              field.member);
   if (ok) return std::nullopt;
-  return std::string(text) + " is not " + allowed_values(field);
+  return refusal(field, std::string(text));
 }
 
 std::string setting_flags(const Settings& settings, const Settings& base) {

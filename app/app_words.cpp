@@ -167,7 +167,9 @@ std::string App::set(std::string_view key, std::string_view value) {
 }
 
 void App::open_link(std::string_view fragment) {
+  const auto scene_before = plain_scene;
   std::vector<Problem> problems;
+  bool scene_refused = false;
   // The scene first: it brings settings of its own, which the others then change.
   auto parts = parse_link(fragment);
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
@@ -176,9 +178,17 @@ void App::open_link(std::string_view fragment) {
   }
   for (const LinkPart& part : parts) {
     const std::string problem = set(part.key, part.value);
-    if (!problem.empty()) problems.push_back({part.key, problem});
+    if (problem.empty()) continue;
+    problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
+    scene_refused = scene_refused || part.key == "scene";
   }
-  if (!problems.empty()) trouble = {"The link could not be followed in full", std::move(problems)};
+  if (problems.empty()) return;
+  const bool kept = scene_refused && plain_scene == scene_before;
+  std::string aftermath = kept ? kSceneKept : "";
+  if (problems.size() < parts.size()) {
+    aftermath += std::string(kept ? " " : "") + "The rest of the link was followed.";
+  }
+  trouble = {"The link could not be followed in full", std::move(problems), std::move(aftermath)};
 }
 
 const Scene& App::link_scene() const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/ui/over_picture.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -91,6 +92,29 @@ TEST(Window, PanelsOfTheDesktopNeedNoScrolling) {
       EXPECT_EQ(w->ScrollMax.y, 0.0F) << w->Name << " in " << scene->name;
     }
   }
+}
+
+// The camera knows the start alone: the scene's own must leave room for what is to fall.
+TEST(Window, CratesFallWhereNoPanelIsOverThem) {
+  Headless h;
+  h.app->open("wrecking_ball");
+  h.app->session.pause();
+  h.frames(1);  // sees the start
+  for (int i = 0; i < 360; ++i) h.app->session.step();
+  h.frames(3);
+  const ViewRect& view = h.app->view_rect;
+  const auto& bodies = h.app->session.scene().bodies;
+  int crates = 0;
+  int seen = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].name.starts_with("crate")) continue;
+    ++crates;
+    ImVec2 at;
+    if (!ui::project(*h.app, h.app->session.poses().x[i], at)) continue;
+    seen += at.x > view.x && at.x < view.x + view.width && at.y < view.y + view.height ? 1 : 0;
+  }
+  EXPECT_EQ(crates, 30);
+  EXPECT_GE(seen, 25) << "a few slide far";
 }
 
 TEST(Window, FontsFollowThePixelRatio) {

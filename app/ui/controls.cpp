@@ -227,6 +227,9 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
              "(Macklin et al. 2019, Small steps).");
   }
   choose(look, "Integrator", kIntegrators, s.integrator, "How a sub-step advances time.");
+  if (s.integrator == Integrator::kStormer && !follows_accelerations(s)) {
+    label(look.fonts.small, look.theme->dim, "Newton and XPBD take it as leapfrog.");
+  }
 }
 
 // What most people never touch; only what acts in this scene, mode and solver.

@@ -230,8 +230,9 @@ void accuracy_card(App& app) {
   }
   constexpr float kAround = 16.0F;
   constexpr float kCaption = 76.0F;  // what runs is named at the top of the view
+  constexpr float kFoot = 52.0F;     // the way into the tour, and the scale of the tint
   const ViewRect& v = app.view_rect;
-  const ImVec2 size(v.width - 2.0F * kAround, std::min(v.height - kCaption - kAround, 620.0F));
+  const ImVec2 size(v.width - 2.0F * kAround, std::min(v.height - kCaption - kFoot, 620.0F));
   ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption});
   ImGui::SetNextWindowSize(size);
   if (ImGui::Begin("##accuracy", nullptr,

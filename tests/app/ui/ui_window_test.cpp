@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/ui/over_picture.hpp"
+#include "app/ui/widgets.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -125,6 +126,19 @@ TEST(Window, FontsFollowThePixelRatio) {
   EXPECT_FLOAT_EQ(h.app->look.fonts.regular->FontSize, 2.0F * before);
   EXPECT_FLOAT_EQ(ImGui::GetIO().FontGlobalScale, 0.5F);
   EXPECT_EQ(h.renderer->fonts, 1);
+}
+
+TEST(Window, NoLineIsBrokenBetweenANumberAndItsUnit) {
+  Headless h;
+  const std::string text = "It takes 0.8 % of 12,000 J, over 10 s. Of 3 boxes 2 stand.";
+  for (float width = 20.0F; width < 500.0F; width += 3.0F) {
+    std::string lines = ui::wrapped(h.app->look.fonts.small, text.c_str(), width);
+    for (const char* unit : {"\n%", "\nJ", "\ns."}) {
+      EXPECT_EQ(lines.find(unit), std::string::npos) << width << ": " << lines;
+    }
+    std::replace(lines.begin(), lines.end(), '\n', ' ');
+    EXPECT_EQ(lines, text);
+  }
 }
 
 TEST(Window, EveryCharacterShownHasAGlyph) {

@@ -66,7 +66,7 @@ constexpr std::array<Choice, 3> kForces{
      {"mean",
       "Before, at and after it by 1/4, 1/2, 1/4: average acceleration (Newmark 1959), stable for "
       "any step, and loses nothing."},
-     {"numerov",
+     {"Numerov",
       "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): fourth order "
       "with "
       "two steps, for scenes of joints, while dt² k < 6 M."}}};

@@ -86,7 +86,8 @@ void App::save_scene() {
   // What has flown too far or spins too fast is beyond what a scene may hold.
   SceneResult result = read_scene(text);
   if (!result.scene) {
-    trouble = {"This state cannot be a scene file", std::move(result.problems)};
+    trouble = {"This state cannot be a scene file", std::move(result.problems),
+               "No file was written."};
   } else if (host.save_file) {
     host.save_file(scene.name + ".json", text);
   }

@@ -37,10 +37,13 @@ struct Host {
   std::function<std::string(const std::string& key)> recall;
 };
 
+inline constexpr const char* kSceneKept = "The scene that runs was kept.";
+
 /// What went wrong with outside data: shown in a panel until it is closed.
 struct Trouble {
   std::string title;  // "my_scene.json was not loaded"
   std::vector<Problem> problems;
+  std::string aftermath = kSceneKept;  // what was done all the same; may be empty
 };
 
 /// Which of the phone's panels is open; beside the picture, the controls always are.

@@ -77,7 +77,8 @@ std::string App::set(std::string_view key, std::string_view value) {
   // What belongs to the window: taken from links and scripts, never written into links.
   if (key == "speed") {
     const auto speed = parse_number(value);
-    if (!speed || *speed < 0.01 || *speed > 16.0) return "is not a number from 0.01 to 16";
+    if (!speed || *speed < 0.01 || *speed > 16.0)
+      return "must be from 0.01 to 16, not " + std::string(value);
     session.set_speed(*speed);
     return "";
   }
@@ -98,7 +99,8 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "tour") return go_on_tour(*this, value);
   if (key == "scale") {
     const auto scale = parse_number(value);
-    if (!scale || *scale < 0.8 || *scale > 1.5) return "is not a number from 0.8 to 1.5";
+    if (!scale || *scale < 0.8 || *scale > 1.5)
+      return "must be from 0.8 to 1.5, not " + std::string(value);
     desk.scale = *scale;
     return "";
   }
@@ -107,7 +109,8 @@ std::string App::set(std::string_view key, std::string_view value) {
     const Range range = key == "load"   ? kLoadRange
                         : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
                                         : kDurationRange;
-    if (!number || !range.contains(*number)) return "is not " + range.text();
+    if (!number || !range.contains(*number))
+      return "must be " + range.text() + ", not " + std::string(value);
     if (key == "seed" && *number != std::round(*number)) return "is not a whole number";
     if (key == "load") vary(*number, seed);
     if (key == "seed") vary(load, static_cast<int>(*number));
@@ -164,7 +167,9 @@ std::string App::set(std::string_view key, std::string_view value) {
 }
 
 void App::open_link(std::string_view fragment) {
+  const auto scene_before = plain_scene;
   std::vector<Problem> problems;
+  bool scene_refused = false;
   // The scene first: it brings settings of its own, which the others then change.
   auto parts = parse_link(fragment);
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
@@ -173,9 +178,17 @@ void App::open_link(std::string_view fragment) {
   }
   for (const LinkPart& part : parts) {
     const std::string problem = set(part.key, part.value);
-    if (!problem.empty()) problems.push_back({part.key, problem});
+    if (problem.empty()) continue;
+    problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
+    scene_refused = scene_refused || part.key == "scene";
   }
-  if (!problems.empty()) trouble = {"The link could not be followed in full", std::move(problems)};
+  if (problems.empty()) return;
+  const bool kept = scene_refused && plain_scene == scene_before;
+  std::string aftermath = kept ? kSceneKept : "";
+  if (problems.size() < parts.size()) {
+    aftermath += std::string(kept ? " " : "") + "The rest of the link was followed.";
+  }
+  trouble = {"The link could not be followed in full", std::move(problems), std::move(aftermath)};
 }
 
 const Scene& App::link_scene() const {

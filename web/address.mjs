@@ -41,9 +41,9 @@ export function makeAddress(wasm, host, keep, signal) {
       try {
         found = JSON.parse(wasm.openText(await unpack(scene.slice("scene64=".length)), "The link's scene"));
       } catch {
-        const message = "is no scene: was the link cut short?";
-        found = { ok: false, problems: [{ pointer: "scene64", message }] };
-        wasm.trouble("The link's scene could not be read", message);
+        const problem = { pointer: "scene64", message: "is no scene: was the link cut short?" };
+        found = { ok: false, problems: [problem] };
+        wasm.trouble("The link's scene could not be read", problem.pointer, problem.message);
       }
       if (!found.ok) return found;
     }

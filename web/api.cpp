@@ -140,8 +140,8 @@ const char* substep_settings() {
   return keep(list);
 }
 
-void substep_trouble(const char* title, const char* message) {
-  app().trouble = {title, {{"", message}}};
+void substep_trouble(const char* title, const char* place, const char* message) {
+  app().trouble = {title, {{place, message}}};
 }
 
 void substep_tell(const char* text) { app().tell(text); }

@@ -55,7 +55,7 @@ SUBSTEP_EXPORTED const char* substep_history();
 SUBSTEP_EXPORTED const char* substep_settings();
 
 /// Something that the page found wrong with outside data.
-SUBSTEP_EXPORTED void substep_trouble(const char* title, const char* message);
+SUBSTEP_EXPORTED void substep_trouble(const char* title, const char* place, const char* message);
 
 SUBSTEP_EXPORTED void substep_tell(const char* text);
 

@@ -55,7 +55,7 @@ export function makeFiles(frame, wasm, host) {
     try {
       wasm.openText(await textOf(file), file.name);
     } catch (error) {
-      wasm.trouble(`${file.name} was not loaded`, error.message);
+      wasm.trouble(`${file.name} was not loaded`, "", error.message);
     }
     frame.canvas.focus({ preventScroll: true });
     host.changed?.();

@@ -70,7 +70,7 @@ const exported = {
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", busy: "n", reset: "v",
   open_link: "ss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
-  trouble: "vss", tell: "vs", recording: "vn", read_back: "v", hash: "s", report: "s", scenes: "s",
+  trouble: "vsss", tell: "vs", recording: "vn", read_back: "v", hash: "s", report: "s", scenes: "s",
   widgets: "s", memory: "s",
 };
 

@@ -45,6 +45,7 @@ std::string state_text(const Accuracy& accuracy) {
                                     [](const Result& r) { return !r.metrics.holds; });
   std::string text = std::to_string(results.size()) + " of " + std::to_string(accuracy.planned()) +
                      " runs, " + std::to_string(failed) + " failed";
+  if (accuracy.running() && accuracy.effects.running()) return text + ", waits for the stages";
   if (accuracy.running() && accuracy.reference() == nullptr) return "Finding the reference …";
   if (accuracy.cancelled()) return text + ", cancelled";
   if (accuracy.running() && accuracy.searching()) return text + ", waits for the search";
@@ -173,6 +174,10 @@ void accuracy(App& app) {
   // Beside the errors it is where the search was asked for.
   if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(app);
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {
+    if (accuracy.running()) {  // it goes on beside what this shows
+      label(look.fonts.small, look.theme->dim, ("All methods. " + state_text(accuracy)).c_str());
+      sweep_bar(app);
+    }
     effect_costs(app);
     return;
   }
@@ -225,8 +230,9 @@ void accuracy_card(App& app) {
   }
   constexpr float kAround = 16.0F;
   constexpr float kCaption = 76.0F;  // what runs is named at the top of the view
+  constexpr float kFoot = 52.0F;     // the way into the tour, and the scale of the tint
   const ViewRect& v = app.view_rect;
-  const ImVec2 size(v.width - 2.0F * kAround, std::min(v.height - kCaption - kAround, 620.0F));
+  const ImVec2 size(v.width - 2.0F * kAround, std::min(v.height - kCaption - kFoot, 620.0F));
   ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption});
   ImGui::SetNextWindowSize(size);
   if (ImGui::Begin("##accuracy", nullptr,

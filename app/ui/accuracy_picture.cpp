@@ -265,12 +265,12 @@ std::string counted(int n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-/// By the poses its forces belong to, and by how few steps it takes.
+/// By how few steps it takes; Numerov's has the colour of adaptive sub-steps, whose points are
+/// discs.
 int corners_of_newton(const Settings& s) {
-  const bool numerov = s.forces == Forces::kNumerov;
-  if (s.iterations == 1) return numerov ? 6 : 5;
-  if (numerov) return 3;
-  return s.iterations == Settings{}.iterations ? 0 : 4;
+  if (s.iterations == 1) return 3;
+  if (s.iterations != Settings{}.iterations) return 4;
+  return s.forces == Forces::kNumerov ? 5 : 0;
 }
 
 /// Those that look at the end of a sub-step are called by their names, and by a mode if it is
@@ -286,7 +286,7 @@ void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
       style.family = std::string("BPP") + integrator;
       if (s.refinements == 0) break;
       style.color = theme.teal;
-      style.corners = 3;
+      style.corners = s.refinements <= 2 ? 3 : 4;
       style.own_name += ", refined " + std::to_string(s.refinements);
       break;
     case SolverKind::kPgs:
@@ -308,7 +308,7 @@ void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
       break;
     case SolverKind::kNewton:
       style.family = "Newton";
-      style.color = theme.teal;
+      style.color = s.forces == Forces::kNumerov ? theme.blue : theme.teal;
       style.own_name = s.forces == Forces::kEnd    ? "forces at the end"
                        : s.forces == Forces::kMean ? "mean forces"
                                                    : "Numerov";
@@ -329,7 +329,7 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
   style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
   style_of_mode(theme, s, style);
   style_of_solver(theme, s, style);
-  if (follows_accelerations(s)) style.corners = 6;
+  if (follows_accelerations(s)) style.corners = 3;
   if (s.drift_order == 2) {
     style.corners = 5;
     style.own_name += ", drift order 2";

@@ -10,7 +10,7 @@
 
 namespace substep::ui {
 
-/// How a method's curve looks: colour by mode, hollow with leapfrog, dashed with PGS.
+/// How a method's curve looks: colour by mode, hollow with leapfrog and Störmer, dashed with PGS.
 struct CurveStyle {
   ImU32 color = 0;
   bool hollow = false;

@@ -66,10 +66,9 @@ constexpr std::array<Choice, 3> kForces{
      {"mean",
       "Before, at and after it by 1/4, 1/2, 1/4: average acceleration (Newmark 1959), stable for "
       "any step, and loses nothing."},
-     {"numerov",
+     {"Numerov",
       "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): fourth order "
-      "with "
-      "two steps, for scenes of joints, while dt² k < 6 M."}}};
+      "with two steps, for scenes of joints, while dt² k < 6 M."}}};
 constexpr std::array<Choice, 3> kIntegrators{
     {{"Euler",
       "Semi-implicit Euler, the paper's (Giles and Andrews 2024): first order, loses energy when N "
@@ -80,7 +79,7 @@ constexpr std::array<Choice, 3> kIntegrators{
      {"Störmer",
       "Leapfrog whose poses take in how accelerations change (Störmer 1907), with joints that hold "
       "at the end of the sub-step: fourth order with one solve, for scenes of joints, while "
-      "dt² k < 1.9 M."}}};
+      "dt² k < 2 M."}}};
 constexpr std::array<Choice, 2> kPolicies{
     {{"frame",
       "N is decided once a frame, from the forces of its last sub-step: the paper's (Giles and "
@@ -227,6 +226,9 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
              "(Macklin et al. 2019, Small steps).");
   }
   choose(look, "Integrator", kIntegrators, s.integrator, "How a sub-step advances time.");
+  if (s.integrator == Integrator::kStormer && !follows_accelerations(s)) {
+    label(look.fonts.small, look.theme->dim, "Newton and XPBD take it as leapfrog.");
+  }
 }
 
 // What most people never touch; only what acts in this scene, mode and solver.
@@ -266,12 +268,14 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
       s.drift_tau = 1e-3 * tau_ms;
     }
   }
-  if (effects.joints) {
+  // Störmer's joints are aimed at the end of the sub-step, which leaves nothing to correct.
+  const bool aimed = follows_accelerations(s) && drift_law(s) == Drift::kFull;
+  if (effects.joints && !aimed) {
     bool second = s.drift_order == 2;
     checkbox(look, "correct for curvature", second, width,
              "Second order: joints are also corrected for what turning will have bent by the end "
-             "of the sub-step, dt²/2 phi''. Up to eight times less error where joints are stiff; "
-             "noise where they are soft. This project's.");
+             "of the sub-step, dt²/2 phi''. Half the error where joints are exact, noise "
+             "where they are soft. This project's.");
     s.drift_order = second ? 2 : 1;
   }
   if (s.solver == SolverKind::kPgs) {

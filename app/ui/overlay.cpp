@@ -61,9 +61,9 @@ std::string method_line(const Settings& s) {
   }
   if (has_islands(s)) line += ", by island";
   line += "  ·  " + solver_words(s);
-  line += s.integrator == Integrator::kEuler      ? "  ·  Euler"
-          : s.integrator == Integrator::kLeapfrog ? "  ·  leapfrog"
-                                                  : "  ·  Störmer";
+  line += s.integrator == Integrator::kEuler ? "  ·  Euler"
+          : follows_accelerations(s)         ? "  ·  Störmer"
+                                             : "  ·  leapfrog";
   return line;
 }
 

@@ -109,7 +109,7 @@ void trouble_card(App& app) {
     const std::size_t count = app.trouble.problems.size();
     const std::string note =
         (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
-        std::string("The scene that runs was kept.");
+        app.trouble.aftermath;
     label(look.fonts.small, look.theme->dim, note.c_str());
     ImGui::Dummy({1.0F, 0.0F});
     const ImVec2 display = ImGui::GetIO().DisplaySize;

@@ -166,12 +166,33 @@ std::string fitted(ImFont* font, const std::string& text, float width) {
   return "…";
 }
 
+namespace {
+
+const char* end_of_word(const char* p) {
+  while (*p != '\0' && *p != ' ' && *p != '\n') ++p;
+  return p;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Whether what follows a word is the unit of the number that it is: a percent sign, or a letter or
+// two, by which "0.8 %" and "10 s." are told from most words that are none.
+bool is_unit_after(const char* word, const char* end) {
+  if (end == word || *end != ' ' || !is_digit(end[-1]) || is_digit(end[1])) return false;
+  const auto letters = std::count_if(end + 1, end_of_word(end + 1), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U && c != '.' && c != ',' && c != ';';
+  });
+  return letters == 1 || letters == 2;
+}
+
+}  // namespace
+
 std::string wrapped(ImFont* font, const char* text, float width) {
   std::string lines;
   std::string line;
   for (const char* p = text; *p != '\0';) {
-    const char* end = p;
-    while (*end != '\0' && *end != ' ' && *end != '\n') ++end;
+    const char* end = end_of_word(p);
+    while (is_unit_after(p, end)) end = end_of_word(end + 1);
     const std::string word(p, end);
     const std::string longer = line.empty() ? word : line + ' ' + word;
     if (!line.empty() && text_size(font, longer.c_str()).x > width) {
@@ -269,7 +290,7 @@ void tooltip(const Look& look, const char* title, const char* text) {
   ImGui::SetNextWindowPos({std::max(8.0F, std::min(mouse.x + 16.0F, display.x - 8.0F - size.x)),
                            above ? std::max(8.0F, mouse.y - 8.0F - size.y) : mouse.y + 20.0F});
   if (ImGui::BeginTooltip()) {
-    ImGui::PushTextWrapPos(kTooltip);
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + kTooltip);  // from the padding on, as measured
     if (titled) {
       ImGui::PushFont(look.fonts.medium);
       ImGui::TextUnformatted(title);

@@ -19,7 +19,7 @@ ImVec2 text_size(ImFont* font, const char* text, float wrap = 0.0F);
 /// Same, shortened with an ellipsis to fit a width. @return what was drawn
 std::string fitted(ImFont* font, const std::string& text, float width);
 
-/// Same, over several lines, broken at spaces alone: a number stays whole.
+/// Same, over several lines, broken at spaces alone: a number stays whole, and with its unit.
 std::string wrapped(ImFont* font, const char* text, float width);
 
 /// Text as an item of the layout, wrapped at the panel's width.

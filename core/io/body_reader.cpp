@@ -72,7 +72,7 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
   // A flat body reaches equality: leave room for rounding.
   if (moments[2] > sum * (1.0 + 1e-9)) {
     in.problem("inertia", "no body has these moments: " + number_text(moments[2]) +
-                              " is not <= the sum of the other two, " + number_text(sum) +
+                              " is more than the sum of the other two, " + number_text(sum) +
                               " (kg m^2)");
   }
 }

@@ -121,8 +121,8 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
     return std::nullopt;
   };
   if (text.size() > kMaxTextSize) {
-    return fail(std::to_string(text.size()) + " bytes are not <= " + std::to_string(kMaxTextSize) +
-                " (32 MiB)");
+    return fail(std::to_string(text.size()) + " bytes are more than " +
+                std::to_string(kMaxTextSize) + " (32 MiB)");
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return fail("the file is empty");
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {

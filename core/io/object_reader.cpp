@@ -89,7 +89,8 @@ bool ObjectReader::one_number(const Json& value, const std::string& pointer, con
   }
   const auto x = value.get<double>();
   if (!range.contains(x)) {
-    problems_.push_back({pointer, value_text(value) + " is not " + range.violated_by(x)});
+    problems_.push_back(
+        {pointer, "must be " + range.violated_by(x) + ", not " + value_text(value)});
     return false;
   }
   target = x;
@@ -138,7 +139,7 @@ bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& 
   }
   const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
   if (words->size() > longest) {
-    problem(key, std::to_string(words->size()) + " bytes are not <= " + std::to_string(longest));
+    problem(key, std::to_string(words->size()) + " bytes are more than " + std::to_string(longest));
   } else if (presence == kRequired && words->empty()) {
     problem(key, "\"\" is empty");
   } else if (std::any_of(words->begin(), words->end(), is_control)) {

@@ -20,12 +20,17 @@ struct Range {
   [[nodiscard]] bool below_most(double x) const { return open_above ? x < most : x <= most; }
   [[nodiscard]] bool contains(double x) const { return above_least(x) && below_most(x); }
 
-  /// "> 0 (kg)" or "<= 1e12 (kg)": the bound that x is on the wrong side of.
+  /// "above 0 (kg)" or "at most 1e12 (kg)": the bound that x is on the wrong side of.
   [[nodiscard]] std::string violated_by(double x) const {
     return (above_least(x) ? upper() : lower()) + unit_text();
   }
-  /// "> 0 and <= 1e12 (kg)"
-  [[nodiscard]] std::string text() const { return lower() + " and " + upper() + unit_text(); }
+  /// "from 1e-6 to 10 (s)", or "above 0 and at most 1" where an end is open: what a number must be.
+  [[nodiscard]] std::string text() const {
+    const bool closed = !open_below && !open_above;
+    return (closed ? "from " + number_text(least) + " to " + number_text(most)
+                   : lower() + " and " + upper()) +
+           unit_text();
+  }
   /// " (kg)", or nothing for a number without a unit.
   [[nodiscard]] std::string unit_text() const {
     return unit == "-" ? "" : " (" + std::string(unit) + ")";
@@ -33,10 +38,10 @@ struct Range {
 
  private:
   [[nodiscard]] std::string lower() const {
-    return (open_below ? "> " : ">= ") + number_text(least);
+    return (open_below ? "above " : "at least ") + number_text(least);
   }
   [[nodiscard]] std::string upper() const {
-    return (open_above ? "< " : "<= ") + number_text(most);
+    return (open_above ? "below " : "at most ") + number_text(most);
   }
 };
 

@@ -45,7 +45,7 @@ Recommended read_recommended(const Json& json, const std::string& pointer, Probl
   const bool within = in.number("within", kErrorRange, recommended.within, kRequired);
   const bool reached = in.number("reached", kErrorRange, recommended.reached, kRequired);
   if (within && reached && recommended.reached > recommended.within) {
-    in.problem("reached", number_text(recommended.reached) + " is not <= within, " +
+    in.problem("reached", number_text(recommended.reached) + " is more than within, " +
                               number_text(recommended.within));
   }
   in.number("operations", kOperationsRange, recommended.operations, kRequired);

@@ -49,18 +49,19 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
     const double gap = (a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b).norm();
     if (gap > scene.criteria.joint_gap) {
       problems.push_back({pointer_to("/joints", i),
-                          "the anchors start " + number_text(gap) + " apart, which is not <= " +
+                          "the anchors start " + number_text(gap) + " apart, which is more than " +
                               number_text(scene.criteria.joint_gap) + " (m)"});
     }
     if (const auto* hinge = std::get_if<HingeJoint>(&scene.joints[i])) {
       const Vec3 u = a.q * hinge->axis_a;
       const Vec3 v = b.q * hinge->axis_b;
       const double sine = u.cross(v).norm();
-      if (u.dot(v) <= 0.0 || sine > kMaxAxisAngleSine) {
-        problems.push_back(
-            {pointer_to("/joints", i), "the axes start at an angle with sine " + number_text(sine) +
-                                           (u.dot(v) < 0.0 ? " in opposite directions" : "") +
-                                           ", which is not <= " + number_text(kMaxAxisAngleSine)});
+      if (u.dot(v) < 0.0) {
+        problems.push_back({pointer_to("/joints", i), "the axes start in opposite directions"});
+      } else if (sine > kMaxAxisAngleSine) {
+        problems.push_back({pointer_to("/joints", i),
+                            "the axes start at an angle with sine " + number_text(sine) +
+                                ", which is more than " + number_text(kMaxAxisAngleSine)});
       }
     }
   }
@@ -76,10 +77,10 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
     const auto [other, is_new] = first.emplace(sides(scene, j), joint);
     if (is_new) return;
     const std::string& name = base(scene.joints[other->second]).name;
-    problems.push_back({pointer_to(pointer_to("/joints", joint), key),
-                        "0 here and in \"" + name + "\" between the same bodies: \"" + name +
-                            "\" and \"" + j.name +
-                            "\" hold the same twice, so one of them must be > 0 (" + unit + ")"});
+    problems.push_back(
+        {pointer_to(pointer_to("/joints", joint), key),
+         "0 here and in \"" + name + "\" between the same bodies: \"" + name + "\" and \"" +
+             j.name + "\" hold the same twice, so one of them must be above 0 (" + unit + ")"});
   };
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     if (!is_sound(scene, sound, i)) continue;
@@ -90,12 +91,14 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
     }
   }
   if (scene.effects.contact && scene.contact.compliance == 0.0) {
-    problems.push_back({"/contact/compliance",
-                        "0 is not > 0 (m/N): a box that lies on its face has redundant contacts"});
+    problems.push_back(
+        {"/contact/compliance",
+         "must be above 0 (m/N), not 0: a box that lies on its face has redundant contacts"});
   }
   if (scene.effects.friction && scene.contact.friction_compliance == 0.0) {
-    problems.push_back({"/contact/friction_compliance",
-                        "0 is not > 0 (m/N): a box that lies on its face has redundant contacts"});
+    problems.push_back(
+        {"/contact/friction_compliance",
+         "must be above 0 (m/N), not 0: a box that lies on its face has redundant contacts"});
   }
 }
 

@@ -120,7 +120,7 @@ const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, 
     return nullptr;
   }
   if (list->size() > most) {
-    in.problem(key, std::to_string(list->size()) + " are not <= " + std::to_string(most));
+    in.problem(key, std::to_string(list->size()) + " are more than " + std::to_string(most));
     return nullptr;
   }
   return list;

@@ -64,7 +64,8 @@ constexpr std::array kFields{
     SettingField{"probe", "one solve before the first frame finds the forces that Eq. 9 needs",
                  FlagSetting{&S::probe}},
     SettingField{"integrator",
-                 "time integration: the paper's, of second or of fourth order (joints)",
+                 "time integration: the paper's, of second order, or of fourth for joints, which "
+                 "newton and xpbd take as leapfrog",
                  ChoiceSetting<Integrator>{&S::integrator}},
     SettingField{"gyroscopic", "how the gyroscopic torque is integrated",
                  ChoiceSetting<Gyroscopic>{&S::gyroscopic}},
@@ -120,6 +121,13 @@ std::string allowed_values(const SettingField& field) {
       field.member);
 }
 
+std::string refusal(const SettingField& field, const std::string& value) {
+  const std::string allowed = allowed_values(field);
+  return std::holds_alternative<NumberSetting>(field.member)
+             ? "must be " + allowed + ", not " + value
+             : value + " is not " + allowed;
+}
+
 bool is_choice(const SettingField& field) {
   return !std::holds_alternative<FlagSetting>(field.member) &&
          !std::holds_alternative<CountSetting>(field.member) &&
@@ -166,7 +174,7 @@ std::optional<std::string> set_setting(const SettingField& field, std::string_vi
                                    }},
                              field.member);
   if (ok) return std::nullopt;
-  return std::string(text) + " is not " + allowed_values(field);
+  return refusal(field, std::string(text));
 }
 
 std::string setting_flags(const Settings& settings, const Settings& base) {

@@ -47,8 +47,12 @@ std::span<const SettingField> setting_fields();
 /// The field of that name, or null.
 const SettingField* find_setting(std::string_view name);
 
-/// What is allowed, for people: "pgs or bpp", "a whole number from 1 to 100000", "> 0 and <= 1".
+/// What is allowed, for people: "pgs or bpp", "a whole number from 1 to 100000",
+/// "above 0 and at most 1".
 std::string allowed_values(const SettingField& field);
+
+/// What is wrong with a value: "must be above 0 and at most 1, not 3", "admm is not pgs or bpp".
+std::string refusal(const SettingField& field, const std::string& value);
 
 /// Whether its values are names, not numbers or true and false.
 bool is_choice(const SettingField& field);
@@ -56,7 +60,7 @@ bool is_choice(const SettingField& field);
 /// The field's value as text: what set_setting takes. Numbers lose nothing.
 std::string setting_text(const SettingField& field, const Settings& settings);
 
-/// Sets a field from text. @return what is wrong ("3 is not > 0 and <= 1"), then nothing is changed
+/// Sets a field from text. @return what is wrong, then nothing is changed
 std::optional<std::string> set_setting(const SettingField& field, std::string_view text,
                                        Settings& settings);
 

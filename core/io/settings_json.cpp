@@ -52,7 +52,7 @@ void read_settings(ObjectReader& parent, Settings& settings, Problems& problems)
     if (!value) continue;
     const auto text = setting_value(field, *value);
     if (!text || set_setting(field, *text, settings)) {
-      in.problem(field.name, value_text(*value) + " is not " + allowed_values(field));
+      in.problem(field.name, refusal(field, value_text(*value)));
     }
   }
   in.finish();

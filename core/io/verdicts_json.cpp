@@ -60,8 +60,8 @@ Expectations read_verdicts(ObjectReader& scene, Problems& problems) {
   if (!list->is_array()) {
     scene.problem("verdicts", value_text(*list) + " is not a list");
   } else if (list->size() > kMaxVerdictRules) {
-    scene.problem("verdicts",
-                  std::to_string(list->size()) + " are not <= " + std::to_string(kMaxVerdictRules));
+    scene.problem("verdicts", std::to_string(list->size()) + " are more than " +
+                                  std::to_string(kMaxVerdictRules));
   } else {
     for (std::size_t i = 0; i < list->size(); ++i) {
       rules.push_back(read_rule((*list)[i], pointer_to(scene.pointer("verdicts"), i), problems));

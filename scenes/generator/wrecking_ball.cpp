@@ -76,8 +76,10 @@ Scene wrecking_ball() {
     }
   }
   scene.settings.islands = true;  // with one N for all, fallen crates make the chain gain energy
-  scene.camera.eye = {3.0, 3.6, 13.0};
-  scene.camera.target = {-0.6, 3.0, 0.0};
+  // Between the ball, held out to the left, and where the crates come to rest, as far to the right:
+  // the view is as wide to either side as what it holds at the start.
+  scene.camera.eye = {4.9, 3.6, 13.0};
+  scene.camera.target = {1.3, 3.0, 0.0};
   return scene;
 }
 

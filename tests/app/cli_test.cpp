@@ -279,8 +279,10 @@ std::string kind_of(const testing::TestParamInfo<BadCall>& call) { return call.p
 INSTANTIATE_TEST_SUITE_P(
     Calls, BadCommandLine,
     testing::Values(
-        BadCall{"AlphaBeyondRange", "run bridge --alpha 3", "--alpha: 3 is not > 0 and <= 1"},
-        BadCall{"AlphaNoNumber", "run bridge --alpha much", "--alpha: much is not > 0 and <= 1"},
+        BadCall{"AlphaBeyondRange", "run bridge --alpha 3",
+                "--alpha: must be above 0 and at most 1, not 3"},
+        BadCall{"AlphaNoNumber", "run bridge --alpha much",
+                "--alpha: must be above 0 and at most 1, not much"},
         BadCall{"CountZero", "run bridge --n-max 0",
                 "--n-max: 0 is not a whole number from 1 to 10000"},
         BadCall{"SolverOfNoKind", "run bridge --solver admm",
@@ -321,8 +323,8 @@ TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   const Outcome run = substep("run \"" + path.string() + "\"");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_EQ(run.out, "");
-  EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: -1 is not > 0 (kg)\n" + path.string() +
-                         ": /joints/0/type: \"hnige\" is not ball or hinge\n");
+  EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: must be above 0 (kg), not -1\n" +
+                         path.string() + ": /joints/0/type: \"hnige\" is not ball or hinge\n");
 }
 
 TEST(CommandLine, MapIsATableAndAPicture) {

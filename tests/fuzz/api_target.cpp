@@ -102,7 +102,7 @@ void call(const std::string& line) {
   } else if (name == "tell") {
     substep_tell(text.c_str());
   } else if (name == "trouble") {
-    substep_trouble("input", text.c_str());
+    substep_trouble("input", text.c_str(), text.c_str());
   }
 }
 

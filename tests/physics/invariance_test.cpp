@@ -343,42 +343,55 @@ TEST(Invariance, ARunGoesOnFromASceneFileBitForBit) {
   }
 }
 
+/// A method that goes on from more than forces and velocities.
+struct Carrying {
+  std::string name;
+  Scene scene;
+  void (*choose)(Settings&);
+  bool (*carries)(const State&);  // whether what it goes on with is there
+};
+
 // Numerov's forces go on with their rates, and its velocities with the accelerations.
-TEST(Invariance, ARunByNumerovGoesOnFromASceneFileBitForBit) {
-  for (const Scene& scene : {scenes::swinging_box(), scenes::bridge()}) {
-    SCOPED_TRACE(scene.name);
-    Settings settings = own_settings(scene);
-    settings.solver = SolverKind::kNewton;
-    settings.forces = Forces::kNumerov;
-    settings.integrator = Integrator::kLeapfrog;
-    settings.mode = Mode::kConst;
-    settings.n = 16;
-    settings.iterations = 1;
-    Simulator whole(std::make_shared<const Scene>(scene));
-    whole.set_settings(settings);
-    for (int i = 0; i < 30; ++i) whole.step();
-    ASSERT_FALSE(whole.state().acceleration.empty());
-    ASSERT_NE(whole.state().forces.front().rate_change[0], 0.0);
-    const auto saved = through_a_file(whole);
-    ASSERT_NE(saved, nullptr);
-    Simulator rest(saved);
-    for (int i = 0; i < 15; ++i) {
-      whole.step();
-      rest.step();
-      expect_same_motion(whole.state(), rest.state());
-    }
-  }
+Carrying by_numerov(Scene scene) {
+  return {"Numerov", std::move(scene),
+          [](Settings& settings) {
+            settings.solver = SolverKind::kNewton;
+            settings.forces = Forces::kNumerov;
+            settings.integrator = Integrator::kLeapfrog;
+            settings.mode = Mode::kConst;
+            settings.n = 16;
+            settings.iterations = 1;
+          },
+          [](const State& state) {
+            return !state.acceleration.empty() && state.forces.front().rate_change[0] != 0.0;
+          }};
 }
 
-TEST(Invariance, ARunByStormerGoesOnFromASceneFileBitForBit) {
-  const Scene scene = scenes::swinging_box();
+Carrying by_stormer(Scene scene) {
+  return {"Stormer", std::move(scene),
+          [](Settings& settings) { settings.integrator = Integrator::kStormer; },
+          [](const State& state) {
+            return !state.acceleration_change.empty() &&
+                   !state.acceleration_change.back().isZero(0.0);
+          }};
+}
+
+class WhatIsCarried : public testing::TestWithParam<Carrying> {};
+
+INSTANTIATE_TEST_SUITE_P(Invariance, WhatIsCarried,
+                         testing::Values(by_numerov(scenes::swinging_box()),
+                                         by_numerov(scenes::bridge()),
+                                         by_stormer(scenes::swinging_box())),
+                         [](const auto& of) { return of.param.name + "_" + of.param.scene.name; });
+
+TEST_P(WhatIsCarried, GoesOnFromASceneFileBitForBit) {
+  const auto& [name, scene, choose, carries] = GetParam();
   Settings settings = own_settings(scene);
-  settings.integrator = Integrator::kStormer;
+  choose(settings);
   Simulator whole(std::make_shared<const Scene>(scene));
   whole.set_settings(settings);
   for (int i = 0; i < 30; ++i) whole.step();
-  ASSERT_FALSE(whole.state().acceleration_change.empty());
-  ASSERT_FALSE(whole.state().acceleration_change.back().isZero(0.0));
+  ASSERT_TRUE(carries(whole.state()));
   const auto saved = through_a_file(whole);
   ASSERT_NE(saved, nullptr);
   Simulator rest(saved);

@@ -87,13 +87,13 @@ TEST(Recommended, NamesPlaceValueAndRangeOfWhatIsWrong) {
   EXPECT_EQ(problems(R"("of": "path")", R"("of": "speed")"),
             List{"/recommended/of: \"speed\" is not path, energy, gap or overlap"});
   EXPECT_EQ(problems(R"("within": 0.001)", R"("within": 0)"),
-            List{"/recommended/within: 0 is not > 0 (m, J)"});
+            List{"/recommended/within: must be above 0 (m, J), not 0"});
   EXPECT_EQ(problems(R"("reached": 0.0005)", R"("reached": 0.002)"),
-            List{"/recommended/reached: 0.002 is not <= within, 0.001"});
+            List{"/recommended/reached: 0.002 is more than within, 0.001"});
   EXPECT_EQ(problems(R"("operations": 1200)", R"("operations": -1)"),
-            List{"/recommended/operations: -1 is not > 0"});
+            List{"/recommended/operations: must be above 0, not -1"});
   EXPECT_EQ(problems(R"("seconds": 2)", R"("seconds": 1e9)"),
-            List{"/recommended/seconds: 1e9 is not <= 86400 (s)"});
+            List{"/recommended/seconds: must be at most 86400 (s), not 1e9"});
   EXPECT_EQ(problems(R"("why")", R"("because")"),
             List{"/recommended/because: unknown key (known here: of, within, reached, operations, "
                  "seconds, why or settings)"});

@@ -30,7 +30,7 @@ TEST(SceneReader, TellsAllProblemsAtOnce) {
             (List{"/bodies/2/shape/radius: 1e999 is beyond the range of numbers (1.8e308)",
                   "/settings/alpha: the key stands twice in this object",
                   "/bodies/0/shape/type: \"disc\" is not sphere, box or plane",
-                  "/bodies/1/mass: -2 is not > 0 (kg)",
+                  "/bodies/1/mass: must be above 0 (kg), not -2",
                   "/criteria/trakc: unknown key (did you mean \"track\"?)",
                   "/joints/1/a: no body is named \"bal\" (did you mean \"ball\"?)"}));
 }
@@ -70,7 +70,7 @@ TEST(SceneReader, RefusesTextsThatAreNoScenes) {
   EXPECT_EQ(only(std::string(100, '[')),
             "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0: nested deeper than 16 levels");
   EXPECT_EQ(only(std::string(kMaxTextSize + 1, ' ')),
-            "33554433 bytes are not <= 33554432 (32 MiB)");
+            "33554433 bytes are more than 33554432 (32 MiB)");
 }
 
 TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
@@ -79,7 +79,7 @@ TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
   const List problems = problems_of(
       R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
       bodies + "]}");
-  EXPECT_EQ(problems, List{"/bodies: 20001 are not <= 20000"});
+  EXPECT_EQ(problems, List{"/bodies: 20001 are more than 20000"});
 }
 
 TEST(SceneReader, CutsALongListOfProblems) {

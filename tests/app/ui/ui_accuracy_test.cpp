@@ -4,8 +4,11 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <set>
 
+#include "app/ui/accuracy_picture.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/app/ui/ui_sweep.hpp"
 
@@ -290,6 +293,21 @@ TEST(Accuracy, WhereNothingIsSolvedThePictureIsOfWhatThereIs) {
   EXPECT_GT(h.app->accuracy.points().size(), 30U);
 }
 
+// The legend tells them apart, and so must the picture.
+TEST(Accuracy, NoTwoCurvesOfASceneLookTheSame) {
+  const Library library = shipped();
+  for (const auto& scene : library.scenes()) {
+    std::map<std::array<unsigned, 4>, std::string> looks;
+    for (const SweepPoint& point : default_sweep(*scene)) {
+      const ui::CurveStyle style = ui::curve_style(ui::dark_theme(), point.settings);
+      const std::array<unsigned, 4> look{style.color, static_cast<unsigned>(style.corners),
+                                         style.hollow ? 1U : 0U, style.dashed ? 1U : 0U};
+      const auto [first, is_new] = looks.emplace(look, style.name());
+      EXPECT_EQ(first->second, style.name()) << scene->name;
+    }
+  }
+}
+
 TEST(Accuracy, ThePanelIsDrawnInEveryLayout) {
   Headless h;
   sweep_a_rope(h);
@@ -312,6 +330,9 @@ TEST(Accuracy, ThePanelIsDrawnInEveryLayout) {
         EXPECT_LE(card->Pos.x + card->Size.x, v.x + v.width);
         EXPECT_LE(card->Pos.y + card->Size.y, v.y + v.height);
         EXPECT_GT(card->Size.x, 300.0F) << "larger than in the panel";
+        const ui::Handle* tour = find_handle("Tour");
+        ASSERT_NE(tour, nullptr);
+        EXPECT_LE(card->Pos.y + card->Size.y, tour->min.y) << "what lies below it can be pressed";
       }
     }
     EXPECT_EQ(h.app->desk.tab, Tab::kAccuracy);

@@ -40,6 +40,24 @@ TEST(EffectCosts, SlicesGiveWhatOneGoGives) {
   EXPECT_NE(find_handle("criterion"), nullptr);
 }
 
+// As the search for alpha does: what runs is seen, and can be ended, whatever the panel shows.
+TEST(EffectCosts, TheSweepThatRunsIsSeenBesideThem) {
+  Headless h;
+  h.app->open("swinging_box");  // its sweep takes a minute: it is not over meanwhile
+  h.app->session.pause();
+  h.app->set("panel", "accuracy");
+  h.app->set("accuracy", "stages");
+  h.frames(3);
+  EXPECT_EQ(find_handle("Cancel"), nullptr);
+  h.app->set("accuracy", "run");
+  h.frames(2);
+  EXPECT_NE(find_handle("Measure this run"), nullptr);
+  h.press("Cancel");
+  EXPECT_FALSE(h.app->accuracy.running());
+  EXPECT_EQ(find_handle("Cancel"), nullptr);
+  EXPECT_EQ(find_handle("Run it again"), nullptr) << "a sweep begins beside its picture";
+}
+
 TEST(EffectCosts, NoSliceRunsAheadAndTheyAreOfOneSettingAlone) {
   Headless h;
   h.app->open("swinging_box");

@@ -62,6 +62,28 @@ TEST(Link, WhatCannotBeReadIsToldAndTheRestHolds) {
   EXPECT_EQ(h.app->session.scene().name, "swinging_box");
 }
 
+// The card says what became of the rest, and every part at fault is named.
+TEST(Link, WhatBecameOfTheSceneAndTheRestIsTold) {
+  const std::string rest = "The rest of the link was followed.";
+  Headless h;
+  const auto told = [&](const char* link) {
+    h.app->trouble = {};
+    h.app->open_link(link);
+    h.frames(2);
+    return h.app->trouble.aftermath;
+  };
+  EXPECT_EQ(told("scene=bridge&alpha=7"), rest);
+  EXPECT_EQ(h.app->session.scene().name, "bridge");
+  EXPECT_EQ(told("scene=nowhere&n=5"), std::string(kSceneKept) + " " + rest);
+  EXPECT_EQ(told("scene=nowhere"), kSceneKept);
+  EXPECT_EQ(told("scene=nowhere&scene=pendulum"), rest);
+  EXPECT_EQ(h.app->session.scene().name, "pendulum");
+  EXPECT_EQ(told("alpha=7"), "") << "a scene inside the link may have been opened before";
+  EXPECT_EQ(told("#=5"), "");
+  ASSERT_EQ(h.app->trouble.problems.size(), 1U);
+  EXPECT_EQ(h.app->trouble.problems[0].pointer, "=5");
+}
+
 TEST(Link, AnyTextIsTaken) {
   for (const char* text : {"", "#", "&&&", "=", "%", "%4", "%zz=%00", "a=b=c", "\xff\xfe"}) {
     EXPECT_NO_THROW(parse_link(text)) << text;

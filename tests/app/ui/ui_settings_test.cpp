@@ -20,6 +20,27 @@ TEST(Settings, WhatActsAtAStartAloneSaysSo) {
   EXPECT_NE(h.app->notice.text.find("reset"), std::string::npos);
 }
 
+// The controls say it below the box; the picture's caption names what acts.
+TEST(Settings, StormerIsToldToBeLeapfrogWhereItIs) {
+  Headless h;
+  h.app->open("pendulum");
+  ASSERT_EQ(h.app->set("integrator", "stormer"), "");
+  const auto height = [&](const char* solver) {
+    EXPECT_EQ(h.app->set("solver", solver), "");
+    h.frames(3);
+    const ui::Handle* below = find_handle("More");
+    const ui::Handle* box = find_handle("Störmer");
+    EXPECT_TRUE(below != nullptr && box != nullptr);
+    return below != nullptr && box != nullptr ? below->min.y - box->max.y : 0.0F;
+  };
+  const float plain = height("bpp");
+  EXPECT_EQ(height("pgs"), plain);
+  EXPECT_GT(height("newton"), plain + 10.0F);
+  EXPECT_GT(height("xpbd"), plain + 10.0F);
+  ASSERT_EQ(h.app->set("integrator", "leapfrog"), "");
+  EXPECT_EQ(height("newton"), plain);
+}
+
 TEST(Presets, AButtonSetsAllOfTheMethodAndTheLinkKeepsIt) {
   Headless h;
   h.app->open("bridge");

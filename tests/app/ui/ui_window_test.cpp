@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "app/ui/over_picture.hpp"
+#include "app/ui/widgets.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -93,6 +95,29 @@ TEST(Window, PanelsOfTheDesktopNeedNoScrolling) {
   }
 }
 
+// The camera knows the start alone: the scene's own must leave room for what is to fall.
+TEST(Window, CratesFallWhereNoPanelIsOverThem) {
+  Headless h;
+  h.app->open("wrecking_ball");
+  h.app->session.pause();
+  h.frames(1);  // sees the start
+  for (int i = 0; i < 360; ++i) h.app->session.step();
+  h.frames(3);
+  const ViewRect& view = h.app->view_rect;
+  const auto& bodies = h.app->session.scene().bodies;
+  int crates = 0;
+  int seen = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    if (!bodies[i].name.starts_with("crate")) continue;
+    ++crates;
+    ImVec2 at;
+    if (!ui::project(*h.app, h.app->session.poses().x[i], at)) continue;
+    seen += at.x > view.x && at.x < view.x + view.width && at.y < view.y + view.height ? 1 : 0;
+  }
+  EXPECT_EQ(crates, 30);
+  EXPECT_GE(seen, 25) << "a few slide far";
+}
+
 TEST(Window, FontsFollowThePixelRatio) {
   Headless h(1280, 720, 1.0F);
   const float before = h.app->look.fonts.regular->FontSize;
@@ -101,6 +126,19 @@ TEST(Window, FontsFollowThePixelRatio) {
   EXPECT_FLOAT_EQ(h.app->look.fonts.regular->FontSize, 2.0F * before);
   EXPECT_FLOAT_EQ(ImGui::GetIO().FontGlobalScale, 0.5F);
   EXPECT_EQ(h.renderer->fonts, 1);
+}
+
+TEST(Window, NoLineIsBrokenBetweenANumberAndItsUnit) {
+  Headless h;
+  const std::string text = "It takes 0.8 % of 12,000 J, over 10 s. Of 3 boxes 2 stand.";
+  for (float width = 20.0F; width < 500.0F; width += 3.0F) {
+    std::string lines = ui::wrapped(h.app->look.fonts.small, text.c_str(), width);
+    for (const char* unit : {"\n%", "\nJ", "\ns."}) {
+      EXPECT_EQ(lines.find(unit), std::string::npos) << width << ": " << lines;
+    }
+    std::replace(lines.begin(), lines.end(), '\n', ' ');
+    EXPECT_EQ(lines, text);
+  }
 }
 
 TEST(Window, EveryCharacterShownHasAGlyph) {

@@ -169,7 +169,11 @@ void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImD
     const std::string name = level.name + (above ? " ↑" : "");
     const ImVec2 text = text_size(look.fonts.small, name.c_str());
     const float text_y = y - text.y - 1.0F < f.min.y ? y + 2.0F : y - text.y - 1.0F;
-    draw_text(draw, look.fonts.small, {f.max.x - text.x - 6.0F, text_y}, level.color, name.c_str());
+    const ImVec2 at{f.max.x - text.x - 6.0F, text_y};
+    // Curves may run behind the words, not through them.
+    draw.AddRectFilled({at.x - 3.0F, at.y}, {at.x + text.x + 3.0F, at.y + text.y},
+                       fade(look.theme->well, 0.8F), 3.0F);
+    draw_text(draw, look.fonts.small, at, level.color, name.c_str());
   }
 }
 

@@ -14,11 +14,12 @@ bool changes_are_known(const Vec6& acceleration) { return !acceleration.isZero(0
 
 Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& acceleration,
                       const Vec6& acceleration_change, double dt, double time) {
-  Vec6 w = u;
-  if (changes_are_known(acceleration)) {
-    const double scaled = stormer_growth(dt, time) * dt;
-    w -= scaled / 12.0 * acceleration_change;
-    w += scaled / 6.0 * ((1.0 / time) * (u - u_before) - acceleration);
+  const double scaled = changes_are_known(acceleration) ? stormer_growth(dt, time) * dt : 0.0;
+  const double per_time = 1.0 / time;
+  Vec6 w;
+  for (int j = 0; j < 6; ++j) {
+    const double change = per_time * (u[j] - u_before[j]) - acceleration[j];
+    w[j] = (u[j] - scaled / 12.0 * acceleration_change[j]) + scaled / 6.0 * change;
   }
   const Vec3 half = 0.5 * dt * w.tail<3>();
   w.tail<3>() *= 1.0 + half.squaredNorm() / 3.0;

@@ -26,7 +26,9 @@ namespace substep {
 // integrate() is dt w/2, that of a turn by dt |w| longer by (dt |w|/2)^2/3.
 
 /// dt/dt-. @param time that forces act for, from the middle of one to that of the other [s]
-inline double stormer_growth(double dt, double time) { return dt / (2.0 * time - dt); }
+inline double stormer_growth(double dt, double time) {
+  return time == dt ? 1.0 : dt / (2.0 * time - dt);
+}
 
 /// What is added to a velocity where sub-steps change their length. @param acceleration_change in a
 /// sub-step as long as the one before

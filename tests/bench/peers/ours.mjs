@@ -3,6 +3,7 @@
 const kPaper = { mode: "adaptive", alpha: 0.1 };
 const leapfrog = (n) => ({ mode: "const", n, integrator: "leapfrog", drift_order: 2 });
 const stormer = (n) => ({ mode: "const", n, integrator: "stormer" });
+const adaptive_stormer = (alpha) => ({ mode: "adaptive", alpha, integrator: "stormer" });
 const euler = (n) => ({ mode: "const", n });
 const blend = (n_cap, more) => ({ mode: "blend", n_cap, ...more });
 const inertia = (n_cap) => ({ mode: "inertia", n_cap, integrator: "leapfrog" });
@@ -22,6 +23,7 @@ export const ladder = {
     newton("mean", 1, 2),
     newton("mean", 2, 1),
     ...[9, 10, 16].map(stormer),
+    ...[0.4, 0.3, 0.25, 0.1].map(adaptive_stormer),
     newton("numerov", 8, 1),
     newton("numerov", 6, 2),
     newton("numerov", 12, 2),

@@ -329,7 +329,8 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
   style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
   style_of_mode(theme, s, style);
   style_of_solver(theme, s, style);
-  if (follows_accelerations(s)) style.corners = 3;
+  // Blue triangles are Numerov's.
+  if (follows_accelerations(s)) style.corners = s.mode == Mode::kAdaptive ? 6 : 3;
   if (s.drift_order == 2) {
     style.corners = 5;
     style.own_name += ", drift order 2";

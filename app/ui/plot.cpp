@@ -172,7 +172,7 @@ void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImD
     const ImVec2 at{f.max.x - text.x - 6.0F, text_y};
     // Curves may run behind the words, not through them.
     draw.AddRectFilled({at.x - 3.0F, at.y}, {at.x + text.x + 3.0F, at.y + text.y},
-                       fade(look.theme->well, 0.8F), 3.0F);
+                       fade(look.theme->well, 0.6F), 3.0F);
     draw_text(draw, look.fonts.small, at, level.color, name.c_str());
   }
 }

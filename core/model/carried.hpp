@@ -34,8 +34,8 @@ struct Carried {
   std::vector<StoredForce> forces;
   // Per body, where extrapolates(): of the last sub-step, 0 where something hit [m/s^2, rad/s^2].
   std::vector<Vec6> acceleration;
-  // Per body, with follows_accelerations(), which carries both: by how much it has changed in a
-  // sub-step, 0 where that is not known [m/s^2, rad/s^2].
+  // Per body, with follows_accelerations(), which carries both: by how much it changes in a
+  // sub-step as long as the last, 0 where that is not known [m/s^2, rad/s^2].
   std::vector<Vec6> acceleration_change;
   std::vector<OwnSubstep> own;  // per body, or empty: dt_previous is that of all bodies
   std::vector<double> rest;     // per body: how long it has been slow [s]; empty: not looked at

@@ -19,19 +19,21 @@ namespace substep {
 // and the rows, linearised about the poses q^ where accelerations that go on changing as they did
 // would lead, w^ = w(u^), become
 //   phi(q^)/dt + J (w - w^) = 0,   or   J u+ - J u^ + phi(q^)/(g dt) = 0.
-// Where dt is another than that of the sub-step before, dt-, changes are taken in proportion, and
-// what velocities leave out, which goes with dt^2, is handed over:
+// Where dt is another than that of the sub-step before, dt-, changes are taken in proportion (D and
+// D- by dt/dt-, and with them g = 1 + dt/dt- dt/(6 t)), and what velocities leave out, which goes
+// with dt^2, is handed over:
 //   u = q' - dt^2/24 a'  in the middle of a sub-step, so that  u += (dt^2 - dt-^2)/12 a'.
 // How a turn goes with its angular velocity is put right in the same way: the Cayley vector of
 // integrate() is dt w/2, that of a turn by dt |w| longer by (dt |w|/2)^2/3.
 
-/// dt/dt-. @param time that forces act for, from the middle of one to that of the other [s]
+/// dt/dt-. @param time t, that forces act for: (dt- + dt)/2 [s]
 inline double stormer_growth(double dt, double time) {
   return time == dt ? 1.0 : dt / (2.0 * time - dt);
 }
 
-/// What is added to a velocity where sub-steps change their length. @param acceleration_change in a
-/// sub-step as long as the one before
+/// What is added to a velocity where sub-steps change their length [m/s, rad/s].
+/// @param acceleration_change in a sub-step as long as the one before [m/s^2, rad/s^2]
+/// @param time t, that forces act for: (dt- + dt)/2 [s]
 inline Vec6 stormer_hand_over(const Vec6& acceleration_change, double dt, double time) {
   const double before = 2.0 * time - dt;
   return (dt * dt - before * before) / (12.0 * before) * acceleration_change;

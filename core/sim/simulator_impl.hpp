@@ -58,8 +58,8 @@ struct Simulator::Impl {
   void find_rates(const Block& block, StoredForce& force) const;
   std::span<const Vec6> extrapolated_velocities();
   void store_accelerations(double dt);
-  void hand_over(double dt);
   // Where follows_accelerations():
+  void hand_over(double dt);                         // to sub-steps of another length
   void aim_at_poses(double dt);                      // bias and softness of joints
   std::span<const Vec6> pose_velocities(double dt);  // what poses move by; elsewhere u
   void begin_frame();

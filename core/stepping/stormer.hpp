@@ -26,9 +26,12 @@ namespace substep {
 // How a turn goes with its angular velocity is put right in the same way: the Cayley vector of
 // integrate() is dt w/2, that of a turn by dt |w| longer by (dt |w|/2)^2/3.
 
-/// dt/dt-. @param time t, that forces act for: (dt- + dt)/2 [s]
+/// dt/dt-, or 0 where there was no sub-step before, whatever a file says of its accelerations.
+/// @param time t, that forces act for: (dt- + dt)/2 [s]
 inline double stormer_growth(double dt, double time) {
-  return time == dt ? 1.0 : dt / (2.0 * time - dt);
+  if (time == dt) return 1.0;
+  const double before = 2.0 * time - dt;
+  return before > 0.0 ? dt / before : 0.0;
 }
 
 /// What is added to a velocity where sub-steps change their length [m/s, rad/s].
@@ -36,6 +39,7 @@ inline double stormer_growth(double dt, double time) {
 /// @param time t, that forces act for: (dt- + dt)/2 [s]
 inline Vec6 stormer_hand_over(const Vec6& acceleration_change, double dt, double time) {
   const double before = 2.0 * time - dt;
+  if (before <= 0.0) return Vec6::Zero();
   return (dt * dt - before * before) / (12.0 * before) * acceleration_change;
 }
 

@@ -277,6 +277,19 @@ TEST(Stormer, KeepsItsOrderWhereNChanges) {
   }
 }
 
+// A file may tell accelerations and no sub-step that they are of.
+TEST(Stormer, StartsWithoutASubstepBefore) {
+  auto scene = scenes::swinging_box();
+  Simulator simulator(std::make_shared<const Scene>(scene));
+  simulator.set_settings(stormer(16));
+  for (int i = 0; i < 3; ++i) simulator.step();
+  State state = simulator.state();
+  ASSERT_FALSE(state.acceleration_change.empty());
+  state.dt_previous = 0.0;
+  simulator.set_state(state);
+  EXPECT_EQ(simulator.step().status, StepStatus::kOk);
+}
+
 // Softness is not in its way: a chain gives way by C F, as with leapfrog.
 TEST(Stormer, KeepsTheCompliance) {
   scenes::SwingingBoxOptions options;

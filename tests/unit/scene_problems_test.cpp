@@ -384,14 +384,12 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("compliance": 1e-9)",
                 R"("compliance": 0)",
                 {"/contact/compliance: must be above 0 (m/N), not 0: a box that lies on its face "
-                 "has redundant "
-                 "contacts"}},
+                 "has redundant contacts"}},
         BadFile{"StiffFriction",
                 R"("compliance": 1e-9)",
                 R"("friction_compliance": 0)",
                 {"/contact/friction_compliance: must be above 0 (m/N), not 0: a box that lies on "
-                 "its face has "
-                 "redundant contacts"}},
+                 "its face has redundant contacts"}},
         BadFile{"JointsNotListed",
                 R"("gravity", "joints")",
                 R"("gravity")",

@@ -168,7 +168,8 @@ void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImD
     if (!above) draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color, 1.0F);
     const std::string name = level.name + (above ? " ↑" : "");
     const ImVec2 text = text_size(look.fonts.small, name.c_str());
-    const float text_y = y - text.y - 1.0F < f.min.y ? y + 2.0F : y - text.y - 1.0F;
+    // Below it, where there is room: what levels are compared with is mostly above them.
+    const float text_y = y + 1.0F + text.y > f.max.y ? y - text.y - 1.0F : y + 1.0F;
     const ImVec2 at{f.max.x - text.x - 6.0F, text_y};
     // Curves may run behind the words, not through them.
     draw.AddRectFilled({at.x - 3.0F, at.y}, {at.x + text.x + 3.0F, at.y + text.y},

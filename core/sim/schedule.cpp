@@ -13,9 +13,9 @@ void Schedule::add(const Part& part, const SubstepClock& clock) {
   turns_.push_back({&part, clock});
 }
 
-void Schedule::advance(double r) {
+void Schedule::advance(double r, double r_rotation) {
   SubstepClock& clock = turns_[at_].clock;
-  clock.advance(r);
+  clock.advance(r, r_rotation);
   if (!clock.running()) ++at_;
 }
 

@@ -30,20 +30,16 @@ int wanted_substeps(double h, double dt_max) {
   return n >= 1.0 ? static_cast<int>(std::min(n, kMost)) : 1;
 }
 
-namespace {
-
 bool decides_again(const Settings& settings) {
   return settings.policy == Policy::kSubstep && chooses_substeps(settings.mode);
 }
-
-}  // namespace
 
 double remembered(const Settings& settings, double now, double before) {
   return decides_again(settings) ? std::max(now, settings.memory * before) : now;
 }
 
-SubstepClock::SubstepClock(const Settings& settings, double h, double r)
-    : settings_(settings), h_(h), rest_(h), r_(r) {
+SubstepClock::SubstepClock(const Settings& settings, double h, double r, double r_rotation)
+    : settings_(settings), h_(h), rest_(h), r_(r), r_rotation_(r_rotation) {
   assert(settings.n >= 1 && settings.n_max >= 1 && settings.n_cap >= 1 && "a frame has a sub-step");
   decide();
 }
@@ -60,7 +56,7 @@ void SubstepClock::decide() {
     case SubstepCount::kStable:
     case SubstepCount::kStableCapped: {
       limit_ = count == SubstepCount::kStable ? settings_.n_max : settings_.n_cap;
-      const double dt_max = stable_step(settings_.alpha, r_);
+      const double dt_max = stable_step(settings_.alpha, std::max(r_, r_rotation_));
       const int wanted = wanted_substeps(h_, dt_max);
       n_wanted_ = std::max(n_wanted_, wanted);
       capped_ = capped_ || wanted > limit_;
@@ -78,7 +74,8 @@ bool SubstepClock::needs_stiffness() const {
   return left_ == 1 && (chooses_substeps(settings_.mode) || settings_.watch_stiffness);
 }
 
-void SubstepClock::advance(double r) {
+void SubstepClock::advance(double r, double r_rotation) {
+  r_rotation_ = r_rotation;
   if (needs_stiffness()) r_ = remembered(settings_, r, r_);
   ++taken_;
   if (--left_ == 0) return;

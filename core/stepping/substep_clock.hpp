@@ -10,6 +10,9 @@ double stable_step(double alpha, double r);
 /// Whether N follows from r.
 bool chooses_substeps(Mode mode);
 
+/// Whether that is decided after every sub-step.
+bool decides_again(const Settings& settings);
+
 /// Whether islands have sub-steps of their own.
 bool has_islands(const Settings& settings);
 
@@ -33,7 +36,8 @@ double remembered(const Settings& settings, double now, double before);
 class SubstepClock {
  public:
   /// @param r largest k_i/M_ii known at the start of the frame [1/s^2]
-  SubstepClock(const Settings& settings, double h, double r);
+  /// @param r_rotation the rotation criterion's, which stands beside it [1/s^2]
+  SubstepClock(const Settings& settings, double h, double r, double r_rotation = 0.0);
 
   [[nodiscard]] bool running() const { return left_ > 0; }
   [[nodiscard]] double dt() const { return dt_; }   ///< [s]
@@ -42,9 +46,10 @@ class SubstepClock {
   /// Whether what follows reads the stiffness of this sub-step.
   [[nodiscard]] bool needs_stiffness() const;
   /// Goes on to the next sub-step. @param r of this sub-step, where it was needed [1/s^2]
-  void advance(double r);
+  /// @param r_rotation of its end, where N is decided again [1/s^2]
+  void advance(double r, double r_rotation = 0.0);
 
-  /// What the next frame, or sub-step, goes by [1/s^2].
+  /// What the next frame, or sub-step, goes by, of the stiffness alone [1/s^2].
   [[nodiscard]] double r() const { return r_; }
   [[nodiscard]] int n_wanted() const { return n_wanted_; }
   [[nodiscard]] bool capped() const { return capped_; }
@@ -56,6 +61,7 @@ class SubstepClock {
   double h_;
   double rest_;  // not yet dealt out [s]
   double r_;
+  double r_rotation_;
   double dt_ = 0.0;
   int limit_ = 1;  // most sub-steps per frame
   int left_ = 1;   // sub-steps in rest_ at the present decision

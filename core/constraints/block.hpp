@@ -63,6 +63,11 @@ struct Block {
   Vec3 v1 = Vec3::Zero();
   Vec3 v2 = Vec3::Zero();
 
+  // Of compliant rows, compliance.hpp.
+  double elastic[kMaxRows] = {};       // of phi, what is the spring's own [m or rad]
+  double spring_ahead[kMaxRows] = {};  // w+
+  double spring_rest[kMaxRows] = {};   // what of its mean is known before the solve [m or rad]
+
   // What Newton with forces numerov needs of the sub-steps before.
   double gain[kMaxRows] = {};       // of the impulse in a sub-step about this one [N s or N m s]
   double last[kMaxRows] = {};       // the force of the last one [N or N m]

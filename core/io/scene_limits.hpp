@@ -38,6 +38,7 @@ inline constexpr Range kGravityRange = symmetric(1e4, "m/s^2");
 inline constexpr Range kFrameRange{1e-5, 1.0, false, false, "s"};
 inline constexpr Range kDurationRange = positive(86400.0, "s");
 inline constexpr Range kDistanceRange = positive(1e6, "m");
+inline constexpr Range kElasticRange = symmetric(1e30, "m, rad");
 inline constexpr Range kForceRange = symmetric(1e30, "N, N m");
 inline constexpr Range kForceRateRange = symmetric(1e40, "N/s, N m/s");
 inline constexpr Range kForceRateChangeRange = symmetric(1e50, "N/s^2, N m/s^2");

@@ -1,0 +1,92 @@
+#include "core/stepping/compliance.hpp"
+
+#include <algorithm>
+
+namespace substep {
+
+namespace {
+
+constexpr double kLeast = 1e-9;  // of w+, which rows are divided by
+
+/// w+ = w- of a spring that is resolved, or nothing where all of its force is the end's.
+double resolved_weight(const Settings& settings) {
+  if (settings.solver == SolverKind::kNewton) {
+    switch (settings.forces) {
+      case Forces::kEnd:
+        return 1.0;
+      case Forces::kMean:
+        return 1.0 / 4.0;
+      case Forces::kNumerov:
+        return 1.0 / 12.0;
+    }
+  }
+  if (settings.integrator == Integrator::kEuler) return 1.0;
+  const bool stormer = follows_accelerations(settings) && drift_law(settings) == Drift::kFull;
+  return stormer ? 0.0 : 1.0 / 12.0;
+}
+
+/// (J Mt^-1 J^T)_ii of a row, over both bodies [1/kg or 1/(kg m^2)].
+double mobility(const Block& joint, int row, std::span<const InverseMass> inverse_mass) {
+  double sum = 0.0;
+  for (const bool of_a : {true, false}) {
+    const int body = of_a ? joint.a : joint.b;
+    if (body < 0) continue;
+    const InverseMass& W = inverse_mass[index(body)];
+    const Vec6 J = gradient(joint, row, of_a);
+    const Vec3 turn = J.tail<3>();
+    sum += W.linear * J.head<3>().squaredNorm() + turn.dot(W.angular * turn);
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool averages_springs(const Settings& settings) { return resolved_weight(settings) < 1.0; }
+
+SpringWeights spring_weights(const Settings& settings, double kappa) {
+  const double resolved = resolved_weight(settings);
+  if (resolved == 1.0) return {1.0, 0.0};
+  const double square = kappa * kappa;
+  const double sigma = square < 1e12 ? square / (square + 4.0) : 1.0;
+  const double sum = 2.0 * resolved + (1.0 - 2.0 * resolved) * sigma;
+  return {std::max(kLeast, 0.5 * (sum + sigma)), 0.5 * (sum - sigma)};
+}
+
+void set_springs(const Settings& settings, const SubstepTimes& times, double drift_rate,
+                 std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
+                 double regularisation, Block& joint) {
+  double speed[kMaxRows] = {};
+  if (averages_springs(settings)) row_speeds(joint, u_before, speed);
+  const auto set_rows = [&](int first, int end) {  // those that share a compliance
+    const double C = joint.C[first];
+    if (!(C > 0.0)) return;
+    double most = 0.0;
+    for (int row = first; row < end; ++row) {
+      most = std::max(most, mobility(joint, row, inverse_mass));
+    }
+    const double step = times.dt * times.force_time;
+    const SpringWeights w = spring_weights(settings, step * most / C);
+    for (int row = first; row < end; ++row) {
+      const double elastic = joint.elastic[row];
+      const double behind = w.behind * times.dt_previous * speed[row];
+      joint.bias[row] =
+          drift_rate * (joint.phi[row] - elastic) + (elastic - behind) / (w.ahead * times.dt);
+      joint.softness[row] = C / (w.ahead * step) + regularisation;
+      joint.spring_ahead[row] = w.ahead;
+      joint.spring_rest[row] = (1.0 - w.ahead) * elastic - behind;
+    }
+  };
+  set_rows(0, std::min(3, joint.rows));
+  set_rows(3, joint.rows);
+}
+
+void store_elastic(const double* lambda, Block& joint) {
+  for (int row = 0; row < joint.rows; ++row) {
+    joint.elastic[row] =
+        joint.C[row] > 0.0
+            ? -(joint.C[row] * lambda[row] + joint.spring_rest[row]) / joint.spring_ahead[row]
+            : 0.0;
+  }
+}
+
+}  // namespace substep

@@ -85,6 +85,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
   rows("lambda", kForceRange, force.lambda, kRequired);
   rows("rate", kForceRateRange, force.rate, kOptional);
   rows("rate_change", kForceRateChangeRange, force.rate_change, kOptional);
+  rows("elastic", kElasticRange, force.elastic, kOptional);
   std::string tight;
   if (in.text("tight", kRows, tight, kOptional)) {
     for (std::size_t row = 0; row < tight.size(); ++row) {
@@ -114,6 +115,7 @@ Json force_json(const StoredForce& force) {
   json["lambda"] = rows(force.lambda);
   if (const auto rate = rows(force.rate); !rate.empty()) json["rate"] = rate;
   if (const auto change = rows(force.rate_change); !change.empty()) json["rate_change"] = change;
+  if (const auto elastic = rows(force.elastic); !elastic.empty()) json["elastic"] = elastic;
   if (!tight.empty()) json["tight"] = tight;
   return json;
 }
@@ -134,6 +136,8 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   carried.stiffness_known = in.number("r", kStiffnessOverMassRange, carried.r, kOptional);
   read_items(in, "acceleration", kAccelerationRange, n, carried.acceleration);
   read_items(in, "acceleration_change", kAccelerationRange, n, carried.acceleration_change);
+  read_items(in, "torque", kForceRange, n, carried.torque);
+  read_items(in, "torque_change", kForceRange, n, carried.torque_change);
   read_items(in, "k", kStiffnessRange, n, carried.k);
   read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting);
   read_own(in, n, carried.own);
@@ -189,6 +193,8 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
   if (!carried.acceleration_change.empty()) {
     json["acceleration_change"] = items_json(carried.acceleration_change);
   }
+  if (!carried.torque.empty()) json["torque"] = items_json(carried.torque);
+  if (!carried.torque_change.empty()) json["torque_change"] = items_json(carried.torque_change);
   if (!carried.rest.empty()) json["rest"] = carried.rest;
   if (!carried.forces.empty()) {
     Json& forces = json["forces"] = Json::array();

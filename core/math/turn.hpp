@@ -22,6 +22,14 @@ inline Mat3 turn_matrix(const Vec3& c) {
   return R;
 }
 
+/// tan(x)/x to the third order of x, |x| half the angle of a turn: what its Cayley vector is longer
+/// by. Past a radian it grows no more: such a turn is nobody's solution, but its numbers stay
+/// finite.
+inline double half_tangent_factor(const Vec3& half_turn) {
+  const double square = half_turn.squaredNorm();
+  return 1.0 + (square < 1.0 ? square : 1.0) / 3.0;
+}
+
 /// The turn c followed by the turn d, world axes: (1, d) (1, c) = (1 - d.c, c + d + d x c).
 inline Vec3 turn_after(const Vec3& c, const Vec3& d) {
   return (c + d + d.cross(c)) / (1.0 - d.dot(c));

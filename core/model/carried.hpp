@@ -14,6 +14,7 @@ struct StoredForce {
   // Per row, where extrapolates(); 0 where it is not known yet.
   double rate[5] = {};         // of lambda [N/s or N m/s]
   double rate_change[5] = {};  // of the rate [N/s^2 or N m/s^2]
+  double elastic[5] = {};      // per row, of phi under the soft drift law: Block::elastic [m, rad]
   std::int8_t tight[5] = {};   // per row, of contacts: active set of BPP, as Block::tight
 };
 
@@ -37,6 +38,11 @@ struct Carried {
   // Per body, with follows_accelerations(), which carries both: by how much it changes in a
   // sub-step as long as the last, 0 where that is not known [m/s^2, rad/s^2].
   std::vector<Vec6> acceleration_change;
+  // Per body whose moments of inertia differ, world [N m]; 0 where it turns about a principal axis,
+  // or something hit: the torque of the last sub-step, and with follows_accelerations() its change
+  // as that of the acceleration. Empty without the gyroscopic effect.
+  std::vector<Vec3> torque;
+  std::vector<Vec3> torque_change;
   std::vector<OwnSubstep> own;  // per body, or empty: dt_previous is that of all bodies
   std::vector<double> rest;     // per body: how long it has been slow [s]; empty: not looked at
 

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "core/constraints/grab_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
+#include "core/stepping/drift.hpp"
 #include "core/stepping/stormer.hpp"
 
 namespace substep {
@@ -15,7 +17,27 @@ double Simulator::Impl::dt_previous_of(const Block& block) const {
 }
 
 bool Simulator::Impl::forces_are_stored() const {
-  return contact || starts_from_last_forces(settings);
+  return contact || starts_from_last_forces(settings) || springs_are_stored();
+}
+
+bool Simulator::Impl::springs_are_stored() const {
+  return has_springs && drift_law(settings) == Drift::kSoft;
+}
+
+SubstepTimes Simulator::Impl::times_of(const Block& block, double dt) const {
+  return {dt, dt_previous_of(block), impulse_time_of(block)};
+}
+
+void Simulator::Impl::set_joint_springs(double dt) {
+  const double rate = drift_rate(drift_law(settings), settings.drift_tau, dt);
+  const bool stored = springs_are_stored();
+  if (!stored && !averages_springs(settings)) return;  // Eq. 3 as it stands
+  for (Block& block : rows()) {
+    if (block.is_contact() || is_grab(block)) continue;
+    if (!stored || !block.seeded) std::copy_n(block.phi, kMaxRows, block.elastic);
+    set_springs(settings, times_of(block, dt), rate, inverse_mass, u_start, scene->regularisation,
+                block);
+  }
 }
 
 void Simulator::Impl::seed_forces() {
@@ -26,13 +48,15 @@ void Simulator::Impl::seed_forces() {
   const std::size_t known = of_last.size();
   const bool all_are_stored = starts_from_last_forces(settings);
   const bool extrapolated = extrapolates(settings);
+  const bool springs = springs_are_stored();
   for (Block& block : rows()) {
     for (double& impulse : block.impulse) impulse = 0.0;
     block.seeded = false;
     if (block.is_contact()) {
       for (std::int8_t& tight : block.tight) tight = kUnknownSet;
       block.was_closed = false;
-    } else if (!all_are_stored) {
+      block.elastic[0] = 0.0;
+    } else if (!all_are_stored && !springs) {
       continue;
     }
     for (std::size_t tried = 0; tried < known; ++tried) {
@@ -40,8 +64,10 @@ void Simulator::Impl::seed_forces() {
       next = next + 1 < known ? next + 1 : 0;
       if (force.id != block.id) continue;
       const double time = impulse_time_of(block);
+      const bool seeds = block.is_contact() || all_are_stored;
       for (int row = 0; row < block.rows; ++row) {
-        block.impulse[row] = force.lambda[row] * time;
+        block.elastic[row] = force.elastic[row];
+        if (seeds) block.impulse[row] = force.lambda[row] * time;
         if (block.is_contact()) block.tight[row] = force.tight[row];
       }
       block.was_closed = force.lambda[0] > 0.0;
@@ -66,7 +92,9 @@ void Simulator::Impl::hand_over(double dt) {
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
     if (impulse_time[i] == dt || state.acceleration_change[i].isZero(0.0)) continue;
-    state.u[i] += stormer_hand_over(state.acceleration_change[i], dt, impulse_time[i]);
+    Vec6 correction = stormer_hand_over(dt, impulse_time[i]) * state.acceleration_change[i];
+    if (tumbles(i)) correction.tail<3>().setZero();  // carry_momentum()
+    state.u[i] += correction;
   }
 }
 
@@ -75,19 +103,41 @@ void Simulator::Impl::store_accelerations(double dt) {
   if (!follows) state.acceleration_change.clear();
   if (!follows && !extrapolates(settings)) return state.acceleration.clear();
   state.acceleration.resize(state.u.size(), Vec6::Zero());
-  if (follows) state.acceleration_change.resize(state.u.size(), Vec6::Zero());
+  if (follows) {
+    state.acceleration_change.resize(state.u.size(), Vec6::Zero());
+    changes.resize(state.u.size());
+  }
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
     Vec6 a = Vec6::Zero();
     if (smooth) a = (1.0 / impulse_time[i]) * (state.u[i] - u_before[i]);
-    if (follows) {
-      const bool known = smooth && !state.acceleration[i].isZero(0.0);
-      state.acceleration_change[i] =
-          known ? Vec6(stormer_growth(dt, impulse_time[i]) * (a - state.acceleration[i]))
-                : Vec6(Vec6::Zero());
-    }
+    if (follows) store_changes(i, a, dt);
     state.acceleration[i] = a;
   }
+}
+
+// hand_over() has the change of the sub-step before last; now that this one is known, what it was
+// short by follows. Poses go without it: they are where the constraints hold.
+void Simulator::Impl::store_changes(std::size_t body, const Vec6& a, double dt) {
+  const bool known = smooth && !state.acceleration[body].isZero(0.0);
+  const double growth = known ? stormer_growth(dt, impulse_time[body]) : 0.0;
+  const double late =
+      known && impulse_time[body] != dt ? 1.5 * stormer_hand_over(dt, impulse_time[body]) : 0.0;
+  const Vec6 change = a - state.acceleration[body];
+  changes[body] = {a, growth * change, growth * state.acceleration_change[body]};
+  Vec6 correction = late * (change - state.acceleration_change[body]);
+  state.acceleration_change[body] = growth * change;
+  if (tumbles(body)) {
+    const Vec3 torque = smooth ? torque_of(body) : Vec3::Zero();
+    const Vec3 torque_change = torque - state.torque[body];
+    changes[body].a.tail<3>() = torque;
+    changes[body].now.tail<3>() = growth * torque_change;
+    changes[body].before.tail<3>() = growth * state.torque_change[body];
+    correction.tail<3>() = velocity_of(body, late * (torque_change - state.torque_change[body]));
+    state.torque_change[body] = growth * torque_change;
+    state.torque[body] = torque;
+  }
+  if (late != 0.0) state.u[body] += correction;
 }
 
 // Joints are to hold where the poses go, from where accelerations that go on changing as they did
@@ -102,22 +152,33 @@ void Simulator::Impl::aim_at_poses(double dt) {
     const Vec6& a = state.acceleration[i];
     const Vec6& change = state.acceleration_change[i];
     u_guess[i] = u_before[i] + impulse_time[i] * (a + change);
-    motions[i] =
-        motion(stormer_velocity(u_guess[i], u_before[i], a, change, dt, impulse_time[i]), dt);
+    Vec6 w_guess = stormer_velocity(u_guess[i], u_before[i], a, change, dt, impulse_time[i]);
+    if (tumbles(i)) {
+      const Vec3 torque = state.torque[i] + state.torque_change[i];
+      const Vec3 l = momentum_of(i, u_before[i]) + impulse_time[i] * torque;
+      u_guess[i].tail<3>() = velocity_of(i, l);
+      w_guess.tail<3>() = turn_velocity(i, l, torque, dt);
+    }
+    motions[i] = motion(w_guess, dt);
   }
   aim_at_stormer_poses(rows(), state.acceleration, u_guess, motions, impulse_time, dt);
 }
 
 // An impact is no acceleration: poses go with the velocities then.
 std::span<const Vec6> Simulator::Impl::pose_velocities(double dt) {
-  if (!follows_accelerations(settings) || !smooth) return state.u;
+  if (!follows_accelerations(settings)) return state.u;
   for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &w}) {
     of_bodies->resize(state.u.size(), Vec6::Zero());
   }
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
-    w[i] = stormer_velocity(state.u[i], u_before[i], state.acceleration[i],
-                            state.acceleration_change[i], dt, impulse_time[i]);
+    w[i] = smooth ? stormer_velocity(state.u[i], u_before[i], state.acceleration[i],
+                                     state.acceleration_change[i], dt, impulse_time[i])
+                  : state.u[i];
+    if (tumbles(i)) {
+      const Vec3 l = momentum_of(i, state.u[i]);
+      w[i].tail<3>() = turn_velocity(i, l, smooth ? torque_of(i) : Vec3::Zero(), dt);
+    }
   }
   return w;
 }
@@ -150,8 +211,10 @@ void Simulator::Impl::store_forces() {
   forces.resize(first_force);
   const bool extrapolated = extrapolates(settings);
   const bool all_are_stored = starts_from_last_forces(settings);
+  const bool soft = drift_law(settings) == Drift::kSoft;
+  const bool springs = springs_are_stored();
   for (Block& block : rows()) {
-    if (!block.is_contact() && !all_are_stored) continue;
+    if (!block.is_contact() && !all_are_stored && !springs) continue;
     set_lambda(block);
     StoredForce& force = forces.emplace_back();
     force.id = block.id;
@@ -160,6 +223,13 @@ void Simulator::Impl::store_forces() {
       force.tight[row] = block.tight[row];
     }
     if (extrapolated && block.seeded) find_rates(block, force);
+    if (!soft || is_grab(block)) continue;
+    if (block.is_contact()) {
+      force.elastic[0] = -block.C[0] * block.lambda[0];
+    } else if (springs) {
+      store_elastic(block.lambda, block);
+      std::copy_n(block.elastic, block.rows, force.elastic);
+    }
   }
 }
 

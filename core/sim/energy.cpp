@@ -1,5 +1,7 @@
 #include "core/sim/energy.hpp"
 
+#include <algorithm>
+
 namespace substep {
 
 Energies energies_of(const Scene& scene, const State& state) {
@@ -14,6 +16,11 @@ Energies energies_of(const Scene& scene, const State& state) {
     if (scene.effects.gravity) sum.potential -= body.mass * scene.gravity.dot(state.x[i]);
   }
   return sum;
+}
+
+double most_kinetic(const Body& body, const Vec6& u) {
+  return std::max(1.0, body.mass) * u.head<3>().squaredNorm() +
+         std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
 }
 
 }  // namespace substep

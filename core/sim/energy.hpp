@@ -13,4 +13,7 @@ struct Energies {
 /// Of the moving bodies, from the velocities that belong to the time of the poses.
 Energies energies_of(const Scene& scene, const State& state);
 
+/// No less than twice a body's kinetic energy, and finite only where its velocity is [J].
+double most_kinetic(const Body& body, const Vec6& u);
+
 }  // namespace substep

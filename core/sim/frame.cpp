@@ -99,7 +99,7 @@ void Simulator::Impl::deal_out(FrameReport& report) {
   schedule.clear();
   if (!looks_for_islands(settings) || all.moving.empty()) {
     for (const OwnSubstep& own : state.own) state.r = std::max(state.r, own.r);
-    schedule.add(all, SubstepClock(settings, scene->frame, state.r));
+    schedule.add(all, SubstepClock(settings, scene->frame, state.r, rotation_bound(all.moving).r));
     return;
   }
   if (state.own.empty()) {
@@ -134,11 +134,21 @@ void Simulator::Impl::deal_out_islands(FrameReport& report) {
     }
     // Those that have no number of their own move together.
     if (!has_islands(settings)) return 1;
-    return SubstepClock(settings, scene->frame, r_of(bodies)).left();
+    return SubstepClock(settings, scene->frame, r_of(bodies), rotation_bound(bodies).r).left();
   });
   for (const Part& one : islands->parts()) {
-    schedule.add(one, SubstepClock(settings, scene->frame, r_of(one.bodies)));
+    schedule.add(
+        one, SubstepClock(settings, scene->frame, r_of(one.bodies), rotation_bound(one.bodies).r));
   }
+}
+
+RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const {
+  if (!rotation || !settings.rotation_criterion || !chooses_substeps(settings.mode)) return {};
+  return rotation->bound(*scene, bodies, state.u, state.q);
+}
+
+double Simulator::Impl::r_rotation_again() const {
+  return decides_again(settings) ? rotation_bound(part().moving).r : 0.0;
 }
 
 FrameReport Simulator::Impl::end(StageClock& wall) {
@@ -197,7 +207,11 @@ void Simulator::Impl::close(FrameReport& report) {
 void Simulator::Impl::observe(const Measures& asked, FrameReport& report) {
   report.frame = state.frame;
   report.time = state.time;
-  report.dt_stable = stable_step(settings.alpha, state.r);
+  const RotationBound spin = rotation_bound(all.moving);
+  report.r_stiffness = state.r;
+  report.r_rotation = spin.r;
+  report.rotation_body = spin.body;
+  report.dt_stable = stable_step(settings.alpha, std::max(state.r, spin.r));
   if (!state.k.empty()) {
     const StiffnessBound who = StiffnessStage::bound(*scene, all.bodies, state.k);
     report.leader = {who.body, who.dof, who.k, who.mass, who.r};

@@ -30,6 +30,9 @@ void Simulator::Impl::put_to_rest(std::span<const int> island) {
     for (auto* of_bodies : {&state.acceleration, &state.acceleration_change}) {
       if (!of_bodies->empty()) (*of_bodies)[static_cast<std::size_t>(body)].setZero();
     }
+    for (auto* of_bodies : {&state.torque, &state.torque_change}) {
+      if (!of_bodies->empty()) (*of_bodies)[static_cast<std::size_t>(body)].setZero();
+    }
   }
 }
 

@@ -8,6 +8,15 @@
 
 namespace substep {
 
+namespace {
+
+bool is_spring(const Joint& joint) {
+  const auto* hinge = std::get_if<HingeJoint>(&joint);
+  return base(joint).compliance > 0.0 || (hinge != nullptr && hinge->angular_compliance > 0.0);
+}
+
+}  // namespace
+
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : scene(std::move(scene_in)), settings(scene->settings), state(initial_state(*scene)) {
   const Effects& effects = scene->effects;
@@ -15,8 +24,11 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
   if (effects.friction) friction = std::make_unique<FrictionStage>(*scene);
   if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);
+  if (effects.joints || effects.gyroscopic) rotation = std::make_unique<RotationCriterion>(*scene);
   solver = make_solver(settings.solver);
   all = whole(*scene);
+  has_springs = effects.joints && std::any_of(scene->joints.begin(), scene->joints.end(),
+                                              [](const Joint& joint) { return is_spring(joint); });
   for (const Body& body : scene->bodies) {
     if (!body.is_static) heaviest = std::max({heaviest, body.mass, body.inertia.maxCoeff()});
   }
@@ -35,6 +47,8 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   u_start.resize(n);
   u_before.resize(n);
   impulse_time.resize(n);
+  if (joints) bent_torque.resize(n, Vec3::Zero());
+  if (effects.gyroscopic) resize_torques();
 }
 
 Simulator::Simulator(std::shared_ptr<const Scene> scene)

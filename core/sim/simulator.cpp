@@ -24,7 +24,7 @@ FrameReport Simulator::Impl::advance(int most) {
     // K, k, r, with the arms that lambda belongs to                                  Eqs. 1, 4, 9
     if (schedule.needs_stiffness() && !evaluate_stiffness(report)) break;
     advance_poses(dt, report);
-    schedule.advance(bound.r);  // per frame: nothing; per sub-step: decide again
+    schedule.advance(bound.r, r_rotation_again());  // per sub-step: decide again
   }
   return end(wall);
 }

@@ -14,7 +14,9 @@
 #include "core/sim/simulator.hpp"
 #include "core/sim/stage_clock.hpp"
 #include "core/solver/solver.hpp"
+#include "core/stepping/compliance.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/rotation_bound.hpp"
 #include "core/stepping/stiffness_bound.hpp"
 
 namespace substep {
@@ -37,7 +39,13 @@ struct Simulator::Impl {
   bool evaluate_stiffness(FrameReport& report);
   void remember_stiffness();
   void advance_poses(double dt, FrameReport& report);
-  void synchronise(double dt);  // velocities that stand half a sub-step behind the poses
+  // Velocities that stand half a sub-step behind the poses: synchronise.cpp.
+  void synchronise(double dt);
+  void turn_joint_forces(double dt);
+  void synchronise_spin(std::size_t body, double ahead, const Vec3& bent, double dt);
+  void keep_finite(std::size_t body);
+  bool extends_changes() const;
+  void extend_changes(double dt);
 
   // Of the sub-step: what moves in it, and its rows.
   const Part& part() const { return open ? schedule.part() : all; }
@@ -47,10 +55,37 @@ struct Simulator::Impl {
   double dt_previous_of(const Block& block) const;
   void set_lambda(Block& block) const;  // where somebody is going to read it
 
+  // Of bodies whose moments of inertia differ: rotation.cpp.
+  bool turns_otherwise(std::size_t body) const;  // than what torques alone make of its velocity
+  bool tumbles(std::size_t body) const;          // and keeps to its angular momentum
+  struct Spin {                                  // about the principal axes [N m s]
+    Vec3 momentum = Vec3::Zero();                // at the start of the sub-step
+    Vec3 foretold = Vec3::Zero();                // dt/2 of the gyroscopic torque in it
+    Vec3 omega = Vec3::Zero();                   // foretold, world [rad/s]
+    bool out_of_axis = false;                    // else it turns about a principal axis
+    bool damped = false;                         // its momentum is not kept
+  };
+  void gyroscopic_torques(double dt);  // into u, before the solve
+  void resize_torques();
+  void foretell_gyroscopic(double dt);
+  bool bends_rows() const;
+  void bend_rows(double dt);          // of joints, as their bodies turn
+  static void meet(Block& joint);     // in one point
+  void settle_gyroscopic(double dt);  // after the solve
+  void carry_momentum(double dt);     // Störmer: u of what tumbles is I^-1 l in the solve
+  void settle_momentum(double dt);    // and an angular velocity after it
+  Vec3 momentum_of(std::size_t body, const Vec6& u) const;  // while it is I^-1 l [N m s]
+  Vec3 velocity_of(std::size_t body, const Vec3& l) const;  // I^-1 l [rad/s]
+  Vec3 torque_of(std::size_t body) const;                   // of this sub-step, world [N m]
+  Vec3 turn_velocity(std::size_t body, const Vec3& l, const Vec3& torque, double dt) const;
+
   static RowCounts count_rows(std::span<const Block> of);
   bool probe_due() const;
   void probe(FrameReport& report);
-  bool forces_are_stored() const;  // of any constraint, from sub-step to sub-step
+  bool forces_are_stored() const;   // of any constraint, from sub-step to sub-step
+  bool springs_are_stored() const;  // those of joints
+  void set_joint_springs(double dt);
+  SubstepTimes times_of(const Block& block, double dt) const;
   void seed_forces();
   void store_forces();
   // Where extrapolates(): what goes on changing as it did.
@@ -58,7 +93,17 @@ struct Simulator::Impl {
   void find_rates(const Block& block, StoredForce& force) const;
   std::span<const Vec6> extrapolated_velocities();
   void store_accelerations(double dt);
-  // Where follows_accelerations():
+  void store_changes(std::size_t body, const Vec6& a, double dt);
+  // Where follows_accelerations(): first_changes.cpp.
+  struct Accelerations {
+    std::vector<Vec6> a;       // per body [m/s^2, rad/s^2]
+    std::vector<Vec3> torque;  // per body that tumbles, world [N m]
+  };
+  bool needs_first_changes() const;
+  void find_first_changes(double dt);
+  void find_accelerations(double s, std::span<const Vec6> a, std::span<const Vec6> rate,
+                          Accelerations& out);
+  // carry.cpp
   void hand_over(double dt);                         // to sub-steps of another length
   void aim_at_poses(double dt);                      // bias and softness of joints
   std::span<const Vec6> pose_velocities(double dt);  // what poses move by; elsewhere u
@@ -66,6 +111,8 @@ struct Simulator::Impl {
   void turn_axes(std::span<const int> bodies);  // R_WB
   void deal_out(FrameReport& report);           // the sub-steps of the frame to come
   void deal_out_islands(FrameReport& report);
+  RotationBound rotation_bound(std::span<const int> bodies) const;  // none where it is off
+  double r_rotation_again() const;  // of the part, where N is decided after every sub-step
   bool is_at_rest(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
   void keep_forces_at_rest();
@@ -84,7 +131,8 @@ struct Simulator::Impl {
   bool contacts_foreseen = false;   // those of the open frame
   FrameReport stopped;              // the report of the frame that failed
 
-  Part all;               // of the scene
+  Part all;                  // of the scene
+  bool has_springs = false;  // compliant joints
   double heaviest = 1.0;  // largest mass or moment of inertia that moves, at least 1 [kg, kg m^2]
   std::unique_ptr<Islands> islands;  // built when they are first asked for
 
@@ -94,6 +142,7 @@ struct Simulator::Impl {
   std::unique_ptr<FrictionStage> friction;
   std::unique_ptr<RestitutionStage> restitution;
   std::unique_ptr<StiffnessStage> stiffness;  // built when a mode or a view first needs K
+  std::unique_ptr<RotationCriterion> rotation;
   std::unique_ptr<Solver> solver;
 
   // Of every part that has moved in the frame, as its last sub-step left them.
@@ -108,11 +157,19 @@ struct Simulator::Impl {
   // Scratch, valid within a sub-step.
   std::vector<Mat3> R_WB;  // of bodies that stand still since the frame began
   std::vector<InverseMass> inverse_mass;
-  std::vector<Vec6> u_start;         // at the start of the sub-step
-  std::vector<Vec6> u_before;        // after the gyroscopic torque, before forces and constraints
-  std::vector<Vec6> u_guess;         // where accelerations stay as they are, or change as they did
-  std::vector<Motion> motions;       // and how bodies would move by that
-  std::vector<Vec6> w;               // what they move by
+  std::vector<Vec6> u_start;      // at the start of the sub-step
+  std::vector<Vec6> u_before;     // after the gyroscopic torque, before forces and constraints
+  std::vector<Vec6> u_guess;      // where accelerations stay as they are, or change as they did
+  std::vector<Motion> motions;    // and how bodies would move by that
+  std::vector<Vec6> w;            // what they move by
+  std::vector<Spin> spins;        // of what tumbles
+  std::vector<Vec3> bent_torque;  // what turns add to the torques of joints [N m s]
+  struct Changes {                // per body; of what tumbles of its torque, in dt
+    Vec6 a = Vec6::Zero();
+    Vec6 now = Vec6::Zero();
+    Vec6 before = Vec6::Zero();
+  };
+  std::vector<Changes> changes;      // where follows_accelerations()
   std::vector<double> impulse_time;  // per body: external forces act for it [s]
   bool smooth = true;                // no contact closed in this sub-step
   bool watched = true;               // whether anybody may look at what it leaves

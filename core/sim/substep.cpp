@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "core/constraints/grab_rows.hpp"
+#include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/full_stiffness.hpp"
-#include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/mode_rules.hpp"
 #include "core/stepping/small_steps.hpp"
@@ -17,17 +17,6 @@
 namespace substep {
 
 namespace {
-
-bool has_gyroscopic_torque(const Body& body) {
-  const Vec3& I = body.inertia;
-  return !(I[0] == I[1] && I[1] == I[2]);
-}
-
-// No less than twice a body's kinetic energy, and finite only where its velocity is [J].
-double most_kinetic(const Body& body, const Vec6& u) {
-  return std::max(1.0, body.mass) * u.head<3>().squaredNorm() +
-         std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
-}
 
 void set_softness(std::span<Block> blocks, double regularisation, double dt) {
   const double per_dt2 = 1.0 / (dt * dt);
@@ -48,6 +37,7 @@ void Simulator::Impl::begin_substep(FrameReport& report) {
     state.time = static_cast<double>(state.frame) * scene->frame;
   }
   turn_axes(part().moving);
+  if (needs_first_changes()) find_first_changes(schedule.dt());
   copy(state.u, u_start);
   if (open) report.n_substeps = std::max(report.n_substeps, schedule.number());
 }
@@ -98,16 +88,7 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   }
   if (follows_accelerations(settings)) hand_over(dt);
   if (scene->effects.gyroscopic) {
-    for (const int body : moved.moving) {
-      const auto i = static_cast<std::size_t>(body);
-      if (!has_gyroscopic_torque(scene->bodies[i])) continue;
-      const Vec3& I = scene->bodies[i].inertia;
-      const Vec3 omega_B = R_WB[i].transpose() * state.u[i].tail<3>();
-      state.u[i].tail<3>() =
-          R_WB[i] * (settings.gyroscopic == Gyroscopic::kImplicit
-                         ? gyroscopic_implicit(I, omega_B, state.dt_previous_of(i), dt)
-                         : gyroscopic_explicit(I, omega_B, impulse_time[i]));
-    }
+    gyroscopic_torques(dt);
     report.stages.gyroscopic = true;
   }
   copy(state.u, u_before);
@@ -129,20 +110,24 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
 
 void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   const std::span<Block> own = rows();
+  if (forces_are_stored()) seed_forces();
   if (probing) {
     set_probe_bias(own, dt);
   } else {
     set_drift_bias(own, drift_law(settings), settings.drift_tau, dt);
-    if (settings.drift_order == 2) add_curvature_bias(own, u_start, dt);
-    if (restitution) restitution->apply(*scene, u_before, dt, own);
   }
   set_softness(own, scene->regularisation, dt);
+  if (!probing) {
+    if (has_springs) set_joint_springs(dt);
+    if (settings.drift_order == 2) add_curvature_bias(own, u_start, dt);
+    if (bends_rows()) bend_rows(dt);
+    if (restitution) restitution->apply(*scene, u_before, dt, own);
+  }
   if (follows_accelerations(settings) && !probing && drift_law(settings) == Drift::kFull) {
     aim_at_poses(dt);
     report.work.flops += stormer_flops(own, part().moving.size());
   }
   if (holds_grab()) soften_grab(*grab, dt, own.back());
-  if (forces_are_stored()) seed_forces();
   const System system{own,
                       inverse_mass,
                       state.u,
@@ -160,6 +145,9 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   smooth = !contact || std::none_of(own.begin(), own.end(), [](const Block& block) {
     return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;
   });
+  if (scene->effects.gyroscopic && !probing && !follows_accelerations(settings)) {
+    settle_gyroscopic(dt);
+  }
 
   SolverWork& work = report.work;
   ++work.solves;
@@ -250,6 +238,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   const std::span<const Vec6> move_by = pose_velocities(dt);
   store_accelerations(dt);
   integrate(part(), dt, move_by, state);
+  if (scene->effects.gyroscopic && follows_accelerations(settings)) settle_momentum(dt);
   if (watched) synchronise(dt);
   state.time += dt;
   state.dt_previous = dt;
@@ -261,33 +250,6 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
   report.dt_max = std::max(report.dt_max, dt);
   clock.lap(report.times.integrate);
-}
-
-// Half a sub-step of the accelerations just found brings u up to the new poses; an impact is no
-// acceleration, so nothing is added then.
-void Simulator::Impl::synchronise(double dt) {
-  const auto ahead_after = [&](double dt_previous) {
-    const double before =
-        settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
-    return smooth ? dt / (before + dt) : 0.0;
-  };
-  const double ahead_of_all = ahead_after(state.dt_previous);
-  const Part& moved = part();
-  for (const int body : moved.moving) {
-    const auto i = static_cast<std::size_t>(body);
-    const double ahead = state.own.empty() ? ahead_of_all : ahead_after(state.own[i].dt_previous);
-    state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
-    if (scene->effects.gyroscopic && has_gyroscopic_torque(scene->bodies[i])) {
-      // u_before already has this torque up to the middle of the sub-step: half a sub-step is left.
-      const Vec3 omega_B = state.q[i].conjugate() * Vec3(state.u[i].tail<3>());
-      const Vec3 later = gyroscopic_explicit(scene->bodies[i].inertia, omega_B, 0.5 * dt);
-      state.u_synchronised[i].tail<3>() += state.q[i] * (later - omega_B);
-      // It goes with the square of a speed, and may be past the range of numbers before that is.
-      if (!std::isfinite(most_kinetic(scene->bodies[i], state.u_synchronised[i]))) {
-        state.u_synchronised[i] = state.u[i];
-      }
-    }
-  }
 }
 
 void Simulator::Impl::set_lambda(Block& block) const {

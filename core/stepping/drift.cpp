@@ -4,28 +4,59 @@
 
 namespace substep {
 
+double drift_rate(Drift law, double tau, double dt) {
+  return law == Drift::kSoft && dt < tau ? dt / (tau * tau) : 1.0 / dt;
+}
+
 void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt) {
   const double full = 1.0 / dt;
-  const double rate = law == Drift::kSoft && dt < tau ? dt / (tau * tau) : full;
+  const double rate = drift_rate(law, tau, dt);
   for (Block& block : blocks) {  // all that there is room for: a number that the compiler knows
     for (int row = 0; row < kMaxRows; ++row) block.bias[row] = block.phi[row] * rate;
-    if (block.is_contact() && block.phi[0] > 0.0) block.bias[0] = block.phi[0] * full;
+    if (!block.is_contact()) continue;
+    if (block.phi[0] > 0.0) {
+      block.bias[0] = block.phi[0] * full;
+    } else if (rate < full) {
+      block.bias[0] += block.elastic[0] * (full - rate);
+    }
   }
 }
 
-void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double dt) {
+namespace {
+
+/// phi'' of a joint's rows at constant velocities [m/s^2, 1/s^2].
+void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature) {
   const auto turning = [&](int body) -> Vec3 {
     return body < 0 ? Vec3::Zero() : Vec3(u[static_cast<std::size_t>(body)].tail<3>());
   };
+  if (block.kind == BlockKind::kHinge) {
+    hinge_curvature(block, turning(block.a), turning(block.b), curvature);
+  } else {
+    ball_curvature(block, turning(block.a), turning(block.b), curvature);
+  }
+}
+
+}  // namespace
+
+void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double dt) {
   double curvature[kMaxRows];
   for (Block& block : blocks) {
     if (block.is_contact()) continue;
-    if (block.kind == BlockKind::kHinge) {
-      hinge_curvature(block, turning(block.a), turning(block.b), curvature);
-    } else {
-      ball_curvature(block, turning(block.a), turning(block.b), curvature);
-    }
+    curvature_of(block, u, curvature);
     for (int row = 0; row < block.rows; ++row) block.bias[row] += 0.5 * dt * curvature[row];
+  }
+}
+
+void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
+                           double regularisation) {
+  double curvature[kMaxRows];
+  for (Block& block : joints) {
+    curvature_of(block, u, curvature);
+    for (int row = 0; row < block.rows; ++row) {
+      block.bias[row] = curvature[row];
+      block.softness[row] = regularisation;
+      block.impulse[row] = 0.0;
+    }
   }
 }
 

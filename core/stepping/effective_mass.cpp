@@ -101,6 +101,18 @@ double beta_of(KeptVelocity kept, const Settings& settings) {
 
 }  // namespace
 
+bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,
+                     const State& state, double dt) {
+  const StiffMass mass = rules_of(settings.mode).mass;
+  if (mass == StiffMass::kOwn) return false;
+  if (mass == StiffMass::kFull) {
+    return body < state.K_resisting.size() && !state.K_resisting[body].isZero(0.0);
+  }
+  Vec3 Mt;
+  return body < state.k.size() &&
+         principal_mass(settings, mass, scene.bodies[body].inertia, state.k[body], dt, Mt);
+}
+
 // S = Mt^-1 M turns what M made of u and the forces into what Mt makes of them:
 //   u* = beta u + (1 - beta) S u + Mt^-1 dt f = S (u_M - beta u) + beta u.
 void effective_mass(const Scene& scene, const Part& part, const Settings& settings,

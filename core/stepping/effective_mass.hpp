@@ -25,6 +25,10 @@ void inverse_mass(std::span<const InertiaInverse> own, const Part& part, std::sp
 /// Whether a mode puts another mass in the place of M.
 bool changes_mass(Mode mode);
 
+/// Whether Mt of a body is another than M in a sub-step. @param state as effective_mass() reads it
+bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,
+                     const State& state, double dt);
+
 /// Puts Mt in the place of M, on the rotations of the bodies that are too stiff for dt by the
 /// measure of the mode, and u* = Mt^-1 (beta Mt u + (1 - beta) M u + dt f) in the place of
 /// M^-1 (M u + dt f). What a mode keeps of the velocity, beta, is what tells damping (0) from

@@ -21,8 +21,7 @@ Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& accelerat
     const double change = per_time * (u[j] - u_before[j]) - acceleration[j];
     w[j] = (u[j] - scaled / 12.0 * acceleration_change[j]) + scaled / 6.0 * change;
   }
-  const Vec3 half = 0.5 * dt * w.tail<3>();
-  w.tail<3>() *= 1.0 + half.squaredNorm() / 3.0;
+  w.tail<3>() *= half_tangent_factor(0.5 * dt * w.tail<3>());
   return w;
 }
 
@@ -46,7 +45,10 @@ void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceler
       per_g = 1.0 / (1.0 + stormer_growth(dt, time) * dt / (6.0 * time));
     }
     for (int row = 0; row < block.rows; ++row) {
-      block.bias[row] = per_g / dt * (block.phi[row] + gained[row]) - speed[row];
+      // Of a spring the bias is that of a mean over the sub-step.
+      const double aimed = block.C[row] > 0.0 ? per_g * (block.bias[row] + gained[row] / dt)
+                                              : per_g / dt * (block.phi[row] + gained[row]);
+      block.bias[row] = aimed - speed[row];
       block.softness[row] *= per_g;
     }
   }

@@ -26,21 +26,20 @@ namespace substep {
 // How a turn goes with its angular velocity is put right in the same way: the Cayley vector of
 // integrate() is dt w/2, that of a turn by dt |w| longer by (dt |w|/2)^2/3.
 
-/// dt/dt-, or 0 where there was no sub-step before, whatever a file says of its accelerations.
+/// dt/dt-. Where there was no sub-step before, changes are those of a trial one as long as this.
 /// @param time t, that forces act for: (dt- + dt)/2 [s]
 inline double stormer_growth(double dt, double time) {
   if (time == dt) return 1.0;
   const double before = 2.0 * time - dt;
-  return before > 0.0 ? dt / before : 0.0;
+  return before > 0.0 ? dt / before : 1.0;
 }
 
-/// What is added to a velocity where sub-steps change their length [m/s, rad/s].
-/// @param acceleration_change in a sub-step as long as the one before [m/s^2, rad/s^2]
+/// What is added to a velocity where sub-steps change their length, of how its acceleration changes
+/// in a sub-step as long as the one before [s]; to a momentum, of its torque.
 /// @param time t, that forces act for: (dt- + dt)/2 [s]
-inline Vec6 stormer_hand_over(const Vec6& acceleration_change, double dt, double time) {
+inline double stormer_hand_over(double dt, double time) {
   const double before = 2.0 * time - dt;
-  if (before <= 0.0) return Vec6::Zero();
-  return (dt * dt - before * before) / (12.0 * before) * acceleration_change;
+  return before > 0.0 ? (dt * dt - before * before) / (12.0 * before) : dt / 12.0;
 }
 
 /// What the poses of a body move by. @param u, u_before after this sub-step's impulses and before

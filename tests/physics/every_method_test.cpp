@@ -145,8 +145,13 @@ TEST(EveryMethod, KeepsTheMomentumOfAFreeChain) {
     // damper against the world brakes a turn.
     const bool brakes = damps(finest) || finest.solver == SolverKind::kXpbd ||
                         (finest.solver == SolverKind::kNewton && finest.forces == Forces::kEnd);
-    const double most = finest.mode == Mode::kConst && !sweeps(finest) ? 1e-4 : 0.07;
-    EXPECT_EQ(*errors.angular_momentum_drift > most, brakes) << name;
+    if (brakes) {
+      EXPECT_GT(*errors.angular_momentum_drift, 0.01) << name;
+    } else {
+      EXPECT_LT(*errors.angular_momentum_drift,
+                finest.mode == Mode::kConst && !sweeps(finest) ? 1e-4 : 0.07)
+          << name;
+    }
   }
 }
 

@@ -1,0 +1,96 @@
+// Störmer's method goes by how accelerations change. Before its first sub-step there is none to go
+// by: they are found at trial poses, a sub-step before the start and one after it.
+
+#include <algorithm>
+
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/drift.hpp"
+#include "core/stepping/effective_mass.hpp"
+#include "core/stepping/gyroscopic.hpp"
+#include "core/stepping/integrate.hpp"
+
+namespace substep {
+
+bool Simulator::Impl::needs_first_changes() const {
+  if (!open || !follows_accelerations(settings) || contact || holds_grab()) return false;
+  const std::vector<int>& moving = part().moving;
+  return std::none_of(moving.begin(), moving.end(),
+                      [&](int i) { return state.dt_previous_of(index(i)) > 0.0; });
+}
+
+// What is even in time of the trial velocities' errors drops out of the difference, but not of the
+// second one; a second pass with the first one's changes is of third order.
+void Simulator::Impl::find_first_changes(double dt) {
+  const std::size_t n = state.u.size();
+  const Accelerations none{std::vector<Vec6>(n, Vec6::Zero()), {}};
+  Accelerations at_start;
+  find_accelerations(0.0, none.a, none.a, at_start);
+  Accelerations before;
+  Accelerations after;
+  std::vector<Vec6> rate = none.a;
+  for (int pass = 0; pass < 2; ++pass) {
+    find_accelerations(-dt, at_start.a, rate, before);
+    find_accelerations(dt, at_start.a, rate, after);
+    for (std::size_t i = 0; i < n; ++i) rate[i] = 0.5 / dt * (after.a[i] - before.a[i]);
+  }
+  // A parabola through the three tells the change before the first of them.
+  const auto change = [&](const auto& quantity, std::size_t i) {
+    return (3.0 * quantity(at_start)[i] - 2.0 * quantity(before)[i] - quantity(after)[i]).eval();
+  };
+  state.acceleration.resize(n, Vec6::Zero());
+  state.acceleration_change.resize(n, Vec6::Zero());
+  resize_torques();
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    state.acceleration[i] = before.a[i];
+    state.acceleration_change[i] = change([](const Accelerations& at) { return at.a; }, i);
+    state.torque[i] = before.torque[i];
+    state.torque_change[i] = change([](const Accelerations& at) { return at.torque; }, i);
+  }
+}
+
+// J a = -phi'' at the poses and velocities that accelerations `a` and their rate of change lead to
+// in the time s.
+void Simulator::Impl::find_accelerations(double s, std::span<const Vec6> a,
+                                         std::span<const Vec6> rate, Accelerations& out) {
+  const std::vector<Vec3> x = state.x;
+  const std::vector<Quat> q = state.q;
+  const std::size_t n = state.u.size();
+  std::vector<Vec6> u(n, Vec6::Zero());
+  std::vector<Vec6> way(n, Vec6::Zero());
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    way[i] = state.u[i] + 0.5 * s * a[i];
+    u[i] = state.u[i] + s * a[i] + 0.5 * s * s * rate[i];
+  }
+  integrate(part(), s, way, state);
+  turn_axes(part().moving);
+  substep::inverse_mass(inertia_inverse, part(), R_WB, inverse_mass);
+  blocks.keep(first_block);
+  if (joints) joints->append(part(), state, R_WB, blocks);
+  set_acceleration_rows(rows(), u, scene->regularisation);
+
+  out.a.assign(n, Vec6::Zero());
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    if (scene->effects.gravity) out.a[i].head<3>() = scene->gravity;
+    if (!tumbles(i)) continue;
+    const Vec3& I = scene->bodies[i].inertia;
+    const Vec3 omega_B = R_WB[i].transpose() * u[i].tail<3>();
+    out.a[i].tail<3>() = R_WB[i] * gyroscopic_torque(I, omega_B).cwiseQuotient(I);
+  }
+  const std::vector<Vec6> free = out.a;
+  solver->solve({rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}},
+                settings);
+  out.torque.assign(n, Vec3::Zero());
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    if (tumbles(i)) out.torque[i] = momentum_of(i, out.a[i] - free[i]);
+  }
+  blocks.keep(first_block);
+  state.x = x;
+  state.q = q;
+  turn_axes(part().moving);
+}
+
+}  // namespace substep

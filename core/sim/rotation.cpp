@@ -1,0 +1,220 @@
+// Bodies whose moments of inertia differ, as they tumble: their angular momentum is what torques
+// change, and how they turn follows from it (stepping/gyroscopic.hpp, free_turn.hpp).
+
+#include "core/constraints/grab_rows.hpp"
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/effective_mass.hpp"
+#include "core/stepping/free_turn.hpp"
+#include "core/stepping/gyroscopic.hpp"
+#include "core/stepping/stormer.hpp"
+
+namespace substep {
+
+namespace {
+
+bool is_zero(const Vec3& v) { return v.isZero(0.0); }
+
+}  // namespace
+
+bool Simulator::Impl::turns_otherwise(std::size_t body) const {
+  return scene->effects.gyroscopic && !inertia_inverse[body].isotropic;
+}
+
+bool Simulator::Impl::tumbles(std::size_t body) const {
+  return turns_otherwise(body) && settings.gyroscopic == Gyroscopic::kImplicit;
+}
+
+void Simulator::Impl::gyroscopic_torques(double dt) {
+  if (settings.gyroscopic == Gyroscopic::kImplicit) {
+    return follows_accelerations(settings) ? carry_momentum(dt) : foretell_gyroscopic(dt);
+  }
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    if (!turns_otherwise(i)) continue;
+    const Vec3 omega_B = R_WB[i].transpose() * state.u[i].tail<3>();
+    state.u[i].tail<3>() =
+        R_WB[i] * gyroscopic_explicit(scene->bodies[i].inertia, omega_B, impulse_time[i]);
+  }
+}
+
+void Simulator::Impl::resize_torques() {
+  state.torque.resize(state.u.size(), Vec3::Zero());
+  state.torque_change.resize(state.u.size(), Vec3::Zero());
+  spins.resize(state.u.size());
+}
+
+// The solver knows M u+ = M u* + J^T impulse, while in truth the momentum p at the start of the
+// sub-step goes on as p + J^T impulse = I u+ - dt/2 (I u+) x u+. What is on the right beside I u+
+// is foretold from torques that go on changing as they did, and settle_gyroscopic() puts right what
+// they changed: to the third order of dt, which the drift correction takes back, while momentum is
+// exact. Where a mode has put another mass in the place of I, or Newton's forces damp as those of
+// the end do, a body turns as if there were no torque: of first order they are in any case.
+void Simulator::Impl::foretell_gyroscopic(double dt) {
+  resize_torques();
+  const bool damps = settings.solver == SolverKind::kNewton && settings.forces == Forces::kEnd;
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    if (!tumbles(i)) continue;
+    const Vec3& I = scene->bodies[i].inertia;
+    const Mat3& R = R_WB[i];
+    Spin& spin = spins[i];
+    const Vec3 omega_B = R.transpose() * state.u[i].tail<3>();
+    spin = {I.cwiseProduct(omega_B), Vec3::Zero(), state.u[i].tail<3>(), false, false};
+    if (is_zero(gyroscopic_torque(I, omega_B))) continue;  // about a principal axis
+    spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
+    spin.damped = damps || changes_mass_of(i, *scene, settings, state, dt);
+    Vec3 pushed = Vec3::Zero();
+    if (!spin.damped) {
+      pushed = impulse_time[i] * (R.transpose() * (state.torque[i] + state.torque_change[i]));
+    }
+    const Vec3 guess = omega_B + pushed.cwiseQuotient(I);
+    const Vec3 then = velocity_of_momentum(I, spin.momentum + pushed, dt, guess);
+    spin.foretold = 0.5 * dt * gyroscopic_torque(I, then);
+    spin.omega = R * then;
+    spin.out_of_axis = true;
+    state.u[i].tail<3>() =
+        R * (spin.damped ? then : Vec3((spin.momentum + spin.foretold).cwiseQuotient(I)));
+  }
+}
+
+// A sub-step is solved with the gradients at its start, and what its turns bend, dt^2/2 phi'', is
+// left for the next one. Where axes stay parallel that is a steady lag along the joint's arm; in
+// space the force then turns the bodies about where it acts, and their momentum and energy drift.
+// There the rows are to hold where the turns lead that were foretold:
+//   phi + (r_a^ - r_a) - (r_b^ - r_b) + dt (J u+ - J_omega omega^) = 0,
+// and in the same way those of a hinge. Centres go in a straight line: they drop out.
+// Torques are foretold where they go on changing as they did. Blows do not, and light links that
+// they throw about would be aimed at turns that never come: with contacts, joints keep to Eq. 3.
+bool Simulator::Impl::bends_rows() const {
+  const bool looks_ahead = settings.solver == SolverKind::kNewton ||
+                           settings.solver == SolverKind::kXpbd || follows_accelerations(settings);
+  return scene->effects.gyroscopic && settings.gyroscopic == Gyroscopic::kImplicit && joints &&
+         !contact && settings.drift_order == 1 && !looks_ahead;
+}
+
+void Simulator::Impl::bend_rows(double dt) {
+  const auto turns = [&](int body) { return body >= 0 && spins[index(body)].out_of_axis; };
+  const auto foretold_turn = [&](int body) {
+    Vec6 u = Vec6::Zero();
+    if (body >= 0) {
+      const std::size_t i = index(body);
+      u.tail<3>() = turns(body) ? spins[i].omega : Vec3(u_before[i].tail<3>());
+    }
+    return u;
+  };
+  for (Block& block : rows()) {
+    if (block.is_contact() || is_grab(block) || !(turns(block.a) || turns(block.b))) continue;
+    const Vec6 u_a = foretold_turn(block.a);
+    const Vec6 u_b = foretold_turn(block.b);
+    double bent[kMaxRows];
+    double speed[kMaxRows];
+    moved_errors(block, motion(u_a, dt), motion(u_b, dt), bent);
+    row_speeds(block, block.a >= 0 ? &u_a : nullptr, block.b >= 0 ? &u_b : nullptr, speed);
+    for (int row = 0; row < block.rows; ++row) block.bias[row] += bent[row] / dt - speed[row];
+    meet(block);
+  }
+}
+
+// Both bodies feel the force at one point, that of what stands still or the one halfway, however
+// far the anchors are apart: then angular momentum is conserved to rounding.
+void Simulator::Impl::meet(Block& block) {
+  const Vec3 gap{block.phi[0], block.phi[1], block.phi[2]};
+  if (block.a >= 0) block.r_a -= (block.b >= 0 ? 0.5 : 1.0) * gap;
+  if (block.b >= 0) block.r_b += (block.a >= 0 ? 0.5 : 1.0) * gap;
+}
+
+void Simulator::Impl::settle_gyroscopic(double dt) {
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    if (!tumbles(i)) continue;
+    const Vec3& I = scene->bodies[i].inertia;
+    const Mat3& R = R_WB[i];
+    const Spin& spin = spins[i];
+    auto omega = state.u[i].tail<3>();
+    const Vec3 omega_B = R.transpose() * omega;
+    const Vec3 torque_before = state.torque[i];
+    state.torque[i].setZero();
+    state.torque_change[i].setZero();
+    if (spin.damped) continue;
+    if (is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.foretold)) continue;
+    // From the momentum that it had: turned to and fro it would lose a digit every thousand steps.
+    const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - u_before[i].tail<3>()));
+    if (smooth) {
+      state.torque[i] = R * (1.0 / impulse_time[i] * pushed);
+      if (!is_zero(torque_before)) {
+        state.torque_change[i] =
+            stormer_growth(dt, impulse_time[i]) * (state.torque[i] - torque_before);
+      }
+    }
+    const Vec3 settled = R * velocity_of_momentum(I, spin.momentum + pushed, dt, omega_B);
+    u_before[i].tail<3>() += settled - omega;  // what it gained stays what pushed it
+    omega = settled;
+  }
+}
+
+// Störmer's sub-steps solve for the momentum l: of what tumbles u is I^-1 l until
+// settle_momentum().
+void Simulator::Impl::carry_momentum(double dt) {
+  resize_torques();
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    if (!tumbles(i)) continue;
+    const Vec3& I = scene->bodies[i].inertia;
+    const Mat3& R = R_WB[i];
+    Vec3 l = momentum_after(I, R.transpose() * state.u[i].tail<3>(), state.dt_previous_of(i));
+    if (impulse_time[i] != dt && !is_zero(state.torque_change[i])) {
+      l += R.transpose() * Vec3(stormer_hand_over(dt, impulse_time[i]) * state.torque_change[i]);
+    }
+    state.u[i].tail<3>() = R * l.cwiseQuotient(I);
+  }
+}
+
+void Simulator::Impl::settle_momentum(double dt) {
+  for (const int body : part().moving) {
+    const auto i = static_cast<std::size_t>(body);
+    if (!tumbles(i)) continue;
+    const Quat to_body = state.q[i].conjugate();
+    const Vec3 l = to_body * momentum_of(i, state.u[i]);
+    const Vec3 guess = to_body * Vec3(state.u[i].tail<3>());
+    state.u[i].tail<3>() =
+        state.q[i] * velocity_of_momentum(scene->bodies[i].inertia, l, -dt, guess);
+  }
+}
+
+Vec3 Simulator::Impl::torque_of(std::size_t body) const {
+  return (1.0 / impulse_time[body]) *
+         (momentum_of(body, state.u[body]) - momentum_of(body, u_before[body]));
+}
+
+Vec3 Simulator::Impl::velocity_of(std::size_t body, const Vec3& l) const {
+  const Mat3& R = R_WB[body];
+  return R * (R.transpose() * l).cwiseQuotient(scene->bodies[body].inertia);
+}
+
+Vec3 Simulator::Impl::momentum_of(std::size_t body, const Vec6& u) const {
+  const Mat3& R = R_WB[body];
+  return R * scene->bodies[body].inertia.cwiseProduct(R.transpose() * u.tail<3>());
+}
+
+// By the momentum l, and torques that change from the one before on, by way of this one.
+// @return angular velocity that integrate() turns by [rad/s]
+Vec3 Simulator::Impl::turn_velocity(std::size_t body, const Vec3& l, const Vec3& torque,
+                                    double dt) const {
+  const Vec3& I = scene->bodies[body].inertia;
+  const Mat3& R = R_WB[body];
+  Vec3 change = Vec3::Zero();  // in a sub-step of dt
+  Vec3 bent = Vec3::Zero();
+  if (!state.acceleration[body].isZero(0.0)) {  // else changes are not known
+    const double growth = stormer_growth(dt, impulse_time[body]);
+    const Vec3 now = growth * (torque - state.torque[body]);
+    const Vec3 before = growth * state.torque_change[body];
+    change = 2.0 * now - before;
+    bent = now - before;
+  }
+  const Vec3 middle = torque + 0.5 * change - 0.125 * bent;
+  const auto to_body = [&](const Vec3& v) -> Vec3 { return R.transpose() * v; };
+  const Vec3 turn = free_turn(I, to_body(l), to_body(middle), to_body(change), dt);
+  return R * (half_tangent_factor(0.5 * turn) / dt * turn);
+}
+
+}  // namespace substep

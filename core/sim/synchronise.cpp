@@ -1,0 +1,113 @@
+// Velocities at the time of the poses, which those of a sub-step stand half of one behind.
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/sim/energy.hpp"
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/effective_mass.hpp"
+#include "core/stepping/gyroscopic.hpp"
+
+namespace substep {
+
+// The forces just found push on for half a sub-step; an impact is no force, so nothing is added
+// then. A joint's force acts where the joint is at the new poses: there it does no work, and
+// angular momentum about what holds a chain stays what it is.
+void Simulator::Impl::synchronise(double dt) {
+  if (extends_changes()) return extend_changes(dt);
+  const auto ahead_after = [&](double dt_previous) {
+    const double before =
+        settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
+    return smooth ? dt / (before + dt) : 0.0;
+  };
+  const double ahead_of_all = ahead_after(state.dt_previous);
+  // Of solvers that look at the end of the sub-step, forces are at home in the middle of its turns.
+  const bool turns_forces = smooth && joints && settings.solver != SolverKind::kNewton &&
+                            settings.solver != SolverKind::kXpbd;
+  if (turns_forces) turn_joint_forces(dt);
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    const double ahead = state.own.empty() ? ahead_of_all : ahead_after(state.own[i].dt_previous);
+    const Vec3 bent = turns_forces ? Vec3(ahead * bent_torque[i]) : Vec3(Vec3::Zero());
+    state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
+    if (turns_otherwise(i)) {
+      synchronise_spin(i, ahead, bent, dt);
+    } else {
+      state.u_synchronised[i].tail<3>() += inverse_mass[i].angular * bent;
+    }
+  }
+}
+
+// What the torques of joints gain by the turns of their bodies, in momentum: (J+ - J)^T impulse.
+void Simulator::Impl::turn_joint_forces(double dt) {
+  bent_torque.assign(state.u.size(), Vec3::Zero());
+  const auto turn_of = [&](int body) {
+    return body < 0 ? Mat3(Mat3::Identity())
+                    : turn_matrix(0.5 * dt * state.u[index(body)].tail<3>());
+  };
+  for (const Block& block : rows()) {
+    if (block.is_contact()) continue;
+    const Mat3 a = turn_of(block.a);
+    const Mat3 b = turn_of(block.b);
+    const Vec3 force{block.impulse[0], block.impulse[1], block.impulse[2]};
+    Vec3 torque = Vec3::Zero();  // of a hinge, on a
+    if (block.kind == BlockKind::kHinge) {
+      const Vec3 across = block.impulse[3] * block.v1 + block.impulse[4] * block.v2;
+      torque = (a * block.axis).cross(b * across) - block.axis.cross(across);
+    }
+    if (block.a >= 0) {
+      bent_torque[index(block.a)] += (a * block.r_a - block.r_a).cross(force) + torque;
+    }
+    if (block.b >= 0) {
+      bent_torque[index(block.b)] -= (b * block.r_b - block.r_b).cross(force) + torque;
+    }
+  }
+}
+
+void Simulator::Impl::synchronise_spin(std::size_t body, double ahead, const Vec3& bent,
+                                       double dt) {
+  const Vec3& I = scene->bodies[body].inertia;
+  const Quat& q = state.q[body];
+  const Vec3 omega_B = q.conjugate() * Vec3(state.u[body].tail<3>());
+  auto omega = state.u_synchronised[body].tail<3>();
+  if (tumbles(body) && spins[body].out_of_axis && !spins[body].damped) {
+    const Vec3 pushed =
+        q.conjugate() * Vec3(ahead * impulse_time[body] * state.torque[body] + bent);
+    omega = q * (momentum_after(I, omega_B, dt) + pushed).cwiseQuotient(I);
+  } else {
+    // u_before has this torque up to the middle of the sub-step: half a sub-step is left.
+    omega += q * Vec3(gyroscopic_explicit(I, omega_B, 0.5 * dt) - omega_B) +
+             inverse_mass[body].angular * bent;
+  }
+  keep_finite(body);
+}
+
+// A torque goes with the square of a speed, and may be past the range of numbers before that is.
+void Simulator::Impl::keep_finite(std::size_t body) {
+  if (std::isfinite(most_kinetic(scene->bodies[body], state.u_synchronised[body]))) return;
+  state.u_synchronised[body] = state.u[body];
+}
+
+bool Simulator::Impl::extends_changes() const { return follows_accelerations(settings) && smooth; }
+
+// Störmer's velocities are q' - dt^2/24 a' in the middle of a sub-step; from there on
+//   q'+ = q' + dt (a/2 + 3/8 D + (D - D-)/3),
+// with the accelerations' parabola. Of what tumbles, the same is said of momentum and torque.
+void Simulator::Impl::extend_changes(double dt) {
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    const Changes& by = changes[i];
+    state.u_synchronised[i] =
+        state.u[i] + dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before);
+    if (!tumbles(i)) continue;
+    const Vec3& I = scene->bodies[i].inertia;
+    const Quat& q = state.q[i];
+    const Vec3 omega_B = q.conjugate() * Vec3(state.u[i].tail<3>());
+    const Vec3 pushed = dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before).tail<3>();
+    state.u_synchronised[i].tail<3>() =
+        q * Vec3((momentum_after(I, omega_B, dt) + q.conjugate() * pushed).cwiseQuotient(I));
+    keep_finite(i);
+  }
+}
+
+}  // namespace substep

@@ -28,7 +28,8 @@ class JointTree {
  public:
   /// The trees of the scene, or nothing where the scene is something else: contact, a closed loop,
   /// joints that are open or that the velocities contradict at the start, compliance or
-  /// regularisation that would be seen, unequal moments of inertia without the gyroscopic effect.
+  /// regularisation that would be seen, unequal moments of inertia without the gyroscopic effect,
+  /// or bodies so thin or so fast that rounding drowns the tolerance or a frame takes seconds.
   static std::optional<JointTree> of(const Scene& scene);
 
   /// @param tolerance of a step of the integrator, relative to 1 + |coordinate| [-]

@@ -1,7 +1,7 @@
 // What trees the joints of a scene form, and whether it starts on them.
 
+#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "core/lab/joint_tree.hpp"
 
@@ -14,6 +14,10 @@ constexpr double kTreeConsistent = 1e-9;  // of velocities, relative to 1 + the 
 constexpr double kTreeParallel = 1e-9;    // sine between the two axes of a hinge [-]
 constexpr double kEqualMoments = 1e-12;   // of moments of inertia, relative [-]
 constexpr double kTreeStretch = 1e-4;     // a tree is exact for rigid joints only [m]
+// Of the inertia that turns about a ball joint. Rounding times this is the noise of accelerations,
+// and past it steps get short in vain: 1e7 takes some 100 a frame, 1e9 10,000.
+constexpr double kWorstCondition = 1e7;  // [-]
+constexpr double kFastest = 1e5;         // a radian or two take a step of the integrator [rad/s]
 
 bool has_equal_moments(const Body& body) {
   const double spread = body.inertia.maxCoeff() - body.inertia.minCoeff();
@@ -56,7 +60,8 @@ class JointTree::Builder {
     }
     if (tree_.nodes_.empty()) return std::nullopt;
     start();
-    if (!starts_as_the_scene() || !(tree_.stretch() <= kTreeStretch)) return std::nullopt;
+    if (!starts_as_the_scene() || !can_be_followed()) return std::nullopt;
+    if (!(tree_.stretch() <= kTreeStretch)) return std::nullopt;
     return std::move(tree_);
   }
 
@@ -213,6 +218,18 @@ class JointTree::Builder {
       if (!(apart.norm() <= kTreeConsistent * (1.0 + fastest))) return false;
     }
     return tree_.dy_.allFinite();
+  }
+
+  [[nodiscard]] bool can_be_followed() const {
+    for (std::size_t i = 0; i < tree_.nodes_.size(); ++i) {
+      const Motion& m = tree_.motion_[i];
+      if (!(m.omega.norm() <= kFastest)) return false;
+      if (tree_.nodes_[i].kind != Kind::kBall) continue;
+      const Mat3& A = m.inertia.A;
+      // No less than the ratio of its largest to its smallest eigenvalue.
+      if (!(A.trace() * A.inverse().trace() <= kWorstCondition)) return false;
+    }
+    return true;
   }
 
   const Scene& scene_;

@@ -2,6 +2,8 @@
 // Trees of hinges and ball joints to try the exact motion on, with velocities that their joints
 // allow.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <random>
 #include <string>
@@ -9,9 +11,18 @@
 #include <utility>
 #include <vector>
 
+#include "core/lab/joint_tree.hpp"
 #include "scenes/generator/parts.hpp"
+#include "scenes/generator/scenes.hpp"
 
 namespace substep::test {
+
+/// The trees of a scene that has them.
+inline JointTree tree_of(const Scene& scene) {
+  auto tree = JointTree::of(scene);
+  EXPECT_TRUE(tree.has_value()) << scene.name;
+  return tree ? *tree : *JointTree::of(scenes::heavy_top());
+}
 
 /// Adds bodies to a scene one by one, each on a joint of one that is there.
 class TreeMaker {

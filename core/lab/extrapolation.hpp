@@ -21,20 +21,29 @@ class Extrapolation {
   template <class F>
   void advance(const F& f, double span, Vector& y) {
     double left = span;
-    while (left > 1e-15 * span) {
-      const double step = std::min(length_, left);
-      const double error = try_step(f, step, y);
-      // The error of the last but one column goes with the step to the 15th.
-      const double factor = 0.9 * std::pow(std::max(error, 1e-8), -1.0 / 15.0);
-      if (error <= 1.0) {
-        y.swap(table_.back());
-        left -= step;
-        if (step == length_) length_ *= std::min(factor, 2.0);
-      } else {
-        length_ = step * std::clamp(factor, 0.1, 0.7);
-      }
-    }
+    while (left > kRounding * span) left -= attempt(f, left, y);
   }
+
+  /// One attempt at a step, for callers that must return between steps: 2 + 4 + ... + 16
+  /// evaluations of f. @param most the longest step [s] @return by how much y advanced [s]; 0 where
+  /// the error was too large, and the next attempt is shorter
+  template <class F>
+  double attempt(const F& f, double most, Vector& y) {
+    const double step = std::min(length_, most);
+    const double error = try_step(f, step, y);
+    // The error of the last but one column goes with the step to the 15th. The 16th root is as good
+    // a guide, and the same bits everywhere.
+    const double factor = 0.9 / std::sqrt(std::sqrt(std::sqrt(std::sqrt(std::max(error, 1e-8)))));
+    if (error > 1.0) {
+      length_ = step * std::clamp(factor, 0.1, 0.7);
+      return 0.0;
+    }
+    y.swap(table_.back());
+    if (step == length_) length_ *= std::min(factor, 2.0);
+    return step;
+  }
+
+  static constexpr double kRounding = 1e-15;  // a rest of a span that is none [-]
 
  private:
   static constexpr int kColumns = 8;

@@ -7,6 +7,7 @@
 
 #include "core/lab/closed_form.hpp"
 #include "core/lab/experiment.hpp"
+#include "core/lab/joint_tree.hpp"
 #include "core/lab/planar_chain.hpp"
 #include "core/sim/simulator.hpp"
 
@@ -92,6 +93,58 @@ class MinimalCoordinates final : public ReferenceRun::Source {
   std::int64_t frames_ = 0;
 };
 
+/// Trees in space can be chaotic: what is left of the integrator's error is measured by a second
+/// tree with a larger tolerance.
+class TreeCoordinates final : public ReferenceRun::Source {
+ public:
+  TreeCoordinates(const Scene& scene, const JointTree& tree)
+      : scene_(scene), fine_(tree), coarse_(tree), stretch_(tree.stretch()), left_(scene.frame) {}
+  [[nodiscard]] std::string name() const override {
+    return "exact: minimal coordinates, " + std::to_string(fine_.size()) +
+           (fine_.size() == 1 ? " degree of freedom" : " degrees of freedom");
+  }
+  std::optional<Sample> next() override {
+    for (int i = 0; i < std::max(1, kSlice / fine_.bodies()); ++i) {
+      if (left_ > kNothingLeft * scene_.frame) {
+        left_ -= fine_done_ ? coarse_.attempt(left_, kCoarse) : fine_.attempt(left_);
+        continue;
+      }
+      left_ = scene_.frame;
+      fine_done_ = !fine_done_;
+      if (!fine_done_) return sample();
+    }
+    return std::nullopt;
+  }
+  [[nodiscard]] double uncertainty() const override {
+    const double swung = static_cast<double>(frames_) * scene_.frame *
+                         std::sqrt(scene_.gravity.norm() / std::max(fine_.reach(), kLeastReach));
+    return kChainUncertainty + apart_ + stretch_ * (1.0 + swung);
+  }
+
+ private:
+  static constexpr int kSlice = 64;            // steps of single bodies in a call
+  static constexpr double kLeastReach = 1e-3;  // of a tree that may have no arms [m]
+  static constexpr double kCoarse = 100.0 * JointTree::kTolerance;
+  static constexpr double kNothingLeft = Extrapolation::kRounding;
+
+  Sample sample() {
+    ++frames_;
+    const int body = *scene_.criteria.track;
+    apart_ = std::max(apart_, (fine_.centre(body) - coarse_.centre(body)).norm());
+    stretch_ = std::max(stretch_, fine_.stretch());
+    return {fine_.centre(body), fine_.kinetic()};
+  }
+
+  const Scene& scene_;
+  JointTree fine_;
+  JointTree coarse_;
+  double stretch_;          // of all joints by their compliance [m]
+  double left_;             // of the frame [s]
+  double apart_ = 0.0;      // [m]
+  bool fine_done_ = false;  // with the frame that the coarse one is at
+  std::int64_t frames_ = 0;
+};
+
 /// The scene itself, twice.
 class FinestRun final : public ReferenceRun::Source {
  public:
@@ -156,6 +209,9 @@ std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scen
       if (stretch < kMostStretch) {
         return std::make_unique<MinimalCoordinates>(*scene, std::move(*chain), stretch);
       }
+    }
+    if (const auto tree = JointTree::of(*scene)) {
+      return std::make_unique<TreeCoordinates>(*scene, *tree);
     }
   }
   return std::make_unique<FinestRun>(scene);

@@ -32,8 +32,8 @@ double predictable_window(const Scene& scene, double duration);
 
 /// Finds the reference of a scene frame by frame, so that a page stays alive meanwhile. In this
 /// order: closed form (free flight; a box on a slope), minimal coordinates (chains on parallel
-/// hinges), else the scene itself with the direct solver, leapfrog and 256 sub-steps, its distance
-/// from 128 being the uncertainty.
+/// hinges; trees of hinges and ball joints in space), else the scene itself with the direct solver,
+/// leapfrog and 256 sub-steps, its distance from 128 being the uncertainty.
 class ReferenceRun {
  public:
   ReferenceRun(std::shared_ptr<const Scene> scene, double duration);

@@ -65,6 +65,13 @@ Scene pendulum();
 /// A free asymmetric body that turns about its middle axis and keeps tipping over (Dzhanibekov).
 Scene spinning_top();
 
+/// A box with three unequal moments of inertia on a ball joint, thrown out of every plane.
+Scene spherical_pendulum();
+/// A symmetric top at 60 rad/s on a ball joint at its tip, let go tilted.
+Scene heavy_top();
+/// Light links on ball joints with a heavy box at the end, whirled around the vertical.
+Scene whirling_chain();
+
 /// A box on a slope.
 struct SlopeOptions {
   // A Pythagorean triple: the slope falls `fall` over `run`, and `length` is exact.

@@ -225,6 +225,12 @@ Expectations newtons_cradle() {
   return rules;
 }
 
+Expectations whirling_chain() {
+  return {all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
+          fails(kBpp, Mode::kNone, 1.0, "A frame is longer than the stable step of the links."),
+          fails(kPgs, Mode::kNone, 1.0)};
+}
+
 }  // namespace
 
 Expectations verdicts_of(const std::string& name) {
@@ -240,6 +246,7 @@ Expectations verdicts_of(const std::string& name) {
   if (name == "card_house") return card_house();
   if (name == "ragdoll_drop") return ragdoll_drop();
   if (name == "newtons_cradle") return newtons_cradle();
+  if (name == "whirling_chain") return whirling_chain();
   if (name == "wall") return {all_hold("No joint to tear: all numbers stay finite.")};
   return {all_hold("One body, or bodies that do not load each other.")};
 }

@@ -25,7 +25,8 @@ inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
                                           "spinning_top",       "wall",
                                           "wrecking_ball",      "swinging_box_authors",
                                           "bridge_authors",     "heavy_stack_authors",
-                                          "newtons_cradle"};
+                                          "newtons_cradle",     "spherical_pendulum",
+                                          "heavy_top",          "whirling_chain"};
 
 /// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
 /// and with 16 sub-steps, with BPP and with PGS; through the heaps with islands, through the stress

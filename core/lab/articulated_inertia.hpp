@@ -1,0 +1,113 @@
+#pragma once
+// Featherstone's articulated-body inertia ("The calculation of robot dynamics using
+// articulated-body inertias", 1983) in world axes about a point of each body: the point p where its
+// joint holds it. With the acceleration a of that point and the angular acceleration alpha, what
+// has to act on the body at p is
+//   torque = A alpha + B   a + torque_bias
+//   force  = B^T alpha + M a + force_bias.
+// For one rigid body with centre p + r, mass m and moments I about the centre, Newton and Euler
+// give, with the acceleration of the centre a + alpha x r + omega x (omega x r):
+//   A = I - m [r][r],  B = m [r],  M = m E,
+//   force_bias = m omega x (omega x r),  torque_bias = omega x I omega + r x force_bias.
+// Gravity is no term: the world accelerates by -g in its place.
+//
+// A body carries its children. What a child needs at its joint, where alpha or a part of it is free
+// because no torque acts there, is again of that form; moved to p it adds to the parent's.
+
+#include <Eigen/Cholesky>
+
+#include "core/math/types.hpp"
+
+namespace substep {
+
+struct ArticulatedInertia {
+  Mat3 A;            // [kg m^2]
+  Mat3 B;            // [kg m]
+  Mat3 M;            // [kg]
+  Vec3 torque_bias;  // [N m]
+  Vec3 force_bias;   // [N]
+
+  /// One body. @param I about its centre, world axes [kg m^2] @param r from p to the centre [m]
+  /// @param omega [rad/s]
+  static ArticulatedInertia of_body(double mass, const Mat3& I, const Vec3& r, const Vec3& omega) {
+    ArticulatedInertia body;
+    body.A = I - mass * skew_product(r, r);
+    body.B = mass * skew(r);
+    body.M = mass * Mat3::Identity();
+    body.force_bias = mass * omega.cross(omega.cross(r));
+    body.torque_bias = omega.cross(I * omega) + r.cross(body.force_bias);
+    return body;
+  }
+
+  [[nodiscard]] Vec3 torque(const Vec3& alpha, const Vec3& a) const {
+    return A * alpha + B * a + torque_bias;
+  }
+  [[nodiscard]] Vec3 force(const Vec3& alpha, const Vec3& a) const {
+    return B.transpose() * alpha + M * a + force_bias;
+  }
+
+  /// alpha of a ball joint, which bears no torque: A alpha + B a + torque_bias = 0.
+  [[nodiscard]] Vec3 ball_acceleration(const Vec3& a) const {
+    return -A.llt().solve(Vec3(B * a + torque_bias));
+  }
+  /// This with alpha eliminated by a ball joint: M - B^T A^-1 B and its bias are left.
+  [[nodiscard]] ArticulatedInertia behind_ball() const {
+    const Eigen::LLT<Mat3> factor(A);
+    ArticulatedInertia left;
+    left.A.setZero();
+    left.B.setZero();
+    left.M = M - B.transpose() * factor.solve(B);
+    left.torque_bias.setZero();
+    left.force_bias = force_bias - B.transpose() * factor.solve(torque_bias);
+    return left;
+  }
+
+  /// theta'' of a hinge, alpha = alpha_before + h theta'', which bears no torque along h.
+  [[nodiscard]] double hinge_acceleration(const Vec3& h, const Vec3& alpha_before,
+                                          const Vec3& a) const {
+    return -h.dot(torque(alpha_before, a)) / h.dot(A * h);
+  }
+  /// This with theta'' eliminated by a hinge, as a function of alpha_before and a.
+  /// @param h its axis, unit
+  [[nodiscard]] ArticulatedInertia behind_hinge(const Vec3& h) const {
+    const Vec3 Ah = A * h;
+    const Vec3 Bh = B.transpose() * h;
+    const Vec3 per_torque = Ah / h.dot(Ah);
+    const Vec3 per_force = Bh / h.dot(Ah);
+    ArticulatedInertia left;
+    left.A = A - per_torque * Ah.transpose();
+    left.B = B - per_torque * Bh.transpose();
+    left.M = M - per_force * Bh.transpose();
+    left.torque_bias = torque_bias - h.dot(torque_bias) * per_torque;
+    left.force_bias = force_bias - h.dot(torque_bias) * per_force;
+    return left;
+  }
+
+  /// alpha and a where nothing holds the body: force and torque are zero.
+  [[nodiscard]] Vec6 free_acceleration() const {
+    Mat6 whole;
+    whole << M, B.transpose(), B, A;
+    Vec6 bias;
+    bias << force_bias, torque_bias;
+    return -whole.llt().solve(bias);  // linear first
+  }
+
+  /// Adds a child that was eliminated behind its joint.
+  /// @param l from p to the child's joint [m] @param alpha_bias, a_bias what alpha_before and a of
+  /// the child have beside alpha and a - [l] alpha of this body [rad/s^2, m/s^2]
+  void add(const ArticulatedInertia& child, const Vec3& l, const Vec3& alpha_bias,
+           const Vec3& a_bias) {
+    // torque += torque_c + l x force_c, with a_c = a - [l] alpha.
+    const Mat3 lx = skew(l);
+    const Mat3 lM = lx * child.M;
+    const Mat3 Bl = child.B * lx;
+    A += child.A - (Bl + Bl.transpose()) - lM * lx;
+    B += child.B + lM;
+    M += child.M;
+    const Vec3 force = child.force(alpha_bias, a_bias);
+    torque_bias += child.torque(alpha_bias, a_bias) + l.cross(force);
+    force_bias += force;
+  }
+};
+
+}  // namespace substep

@@ -58,18 +58,20 @@ TEST(CommandLine, CsvHasTheColumnsOfTheScenesEffects) {
       header("swinging_box"),
       "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,potential,energy,constraint_error,joint_gap,joint_rows,iterations,pivots,"
+      "kinetic,potential,energy,px,py,pz,lx,ly,lz,constraint_error,joint_gap,joint_rows,iterations,"
+      "pivots,"
       "unsolved,residual,x,y,z,ms");
   EXPECT_EQ(
       header("spinning_top"),
       "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,energy,iterations,pivots,unsolved,residual,x,y,z,ms");
+      "kinetic,energy,px,py,pz,lx,ly,lz,iterations,pivots,unsolved,residual,x,y,z,ms");
   EXPECT_EQ(
       header("heavy_stack"),
       "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,potential,energy,penetration,contact_rows,iterations,pivots,unsolved,residual,"
+      "kinetic,potential,energy,px,py,pz,lx,ly,lz,penetration,contact_rows,iterations,pivots,"
+      "unsolved,residual,"
       "x,y,z,ms");
   EXPECT_NE(header("bridge").find("contact_rows,friction_rows,"), std::string::npos);
 }
@@ -96,6 +98,62 @@ TEST(CommandLine, CsvHasEveryFrameInFullPrecision) {
     EXPECT_EQ(parse_number(cells[column("energy")]), report.energy);
     EXPECT_EQ(parse_number(cells[column("x")]), simulator.state().x.back().x());
   }
+}
+
+TEST(CommandLine, StatesAndJointsHaveEveryBodyAndFrameInFullPrecision) {
+  const fs::path states = folder() / "states.csv";
+  const fs::path joints = folder() / "joints.csv";
+  const Outcome run = substep("run swinging_box --frames 3 --states \"" + states.string() +
+                              "\" --joints \"" + joints.string() + "\"");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::vector<std::string> poses = lines_of(text_of(states));
+  const std::vector<std::string> forces = lines_of(text_of(joints));
+  EXPECT_EQ(poses[0], "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
+  EXPECT_EQ(forces[0], "frame,time,joint,fx,fy,fz,tx,ty,tz,gap");
+  const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json").scene;
+  ASSERT_NE(scene, nullptr);
+  ASSERT_EQ(poses.size(), 1 + 4 * scene->bodies.size()) << "the start, and the floor, are included";
+  ASSERT_EQ(forces.size(), 1 + 3 * scene->joints.size());
+  EXPECT_EQ(cells_of(poses[1])[2], "floor");
+  Simulator simulator(scene);
+  for (std::size_t frame = 0; frame <= 3; ++frame) {
+    const State& state = simulator.state();
+    const std::vector<std::string> box = cells_of(poses[(frame + 1) * scene->bodies.size()]);
+    EXPECT_EQ(box[0] + ' ' + box[2], std::to_string(frame) + " box");
+    EXPECT_EQ(parse_number(box[1]), state.time);
+    for (int i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      EXPECT_EQ(parse_number(box[3 + at]), state.x.back()[i]);
+      EXPECT_EQ(parse_number(box[7 + at]), state.q.back().vec()[i]);
+      EXPECT_EQ(parse_number(box[10 + at]), state.u_synchronised.back()[i]);
+      EXPECT_EQ(parse_number(box[13 + at]), state.u_synchronised.back()[3 + i]);
+    }
+    if (frame > 0) {
+      const std::vector<std::string> hinge = cells_of(forces[frame * scene->joints.size()]);
+      const JointForce force = simulator.constraint_forces().joints.back();
+      EXPECT_EQ(hinge[2], "hinge_25");
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(parse_number(hinge[3 + i]), force.force[static_cast<int>(i)]);
+        EXPECT_EQ(parse_number(hinge[6 + i]), force.torque[static_cast<int>(i)]);
+      }
+    }
+    simulator.step();
+  }
+}
+
+TEST(CommandLine, TwoResultsInOneFileAreRefused) {
+  const std::string file = (folder() / "one.csv").string();
+  const std::string same = (folder() / "." / "one.csv").string();
+  for (const bool exists : {false, true}) {
+    if (exists) std::ofstream(file) << "kept";
+    const Outcome run =
+        substep("run pendulum --frames 1 --csv \"" + file + "\" --states \"" + same + "\"");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.err.find("--states: " + same + " is taken by --csv"), std::string::npos)
+        << run.err;
+  }
+  EXPECT_EQ(text_of(file), "kept");
+  EXPECT_EQ(substep("run pendulum --frames 1 --csv /dev/null --states /dev/null").exit_code, 0);
 }
 
 TEST(CommandLine, CsvOnStandardOutputIsAlone) {
@@ -306,6 +364,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoScene", "run", "scene or --experiments is required"},
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},
         BadCall{"TwoResultsOnStandardOutput", "run bridge --csv - --json -", "taken by --csv"},
+        BadCall{"StatesAndJointsOnStandardOutput", "run bridge --states - --joints -",
+                "--joints: standard output is taken by --states"},
+        BadCall{"StatesInNoFolder", "run bridge --frames 1 --states /no/such/folder/a.csv",
+                "/no/such/folder/a.csv: No such file or directory"},
         BadCall{"UnknownScene", "run brigde",
                 "brigde: no such scene or file (did you mean \"bridge\"?)"},
         BadCall{"SceneIsAFolder", "run /", "/: cannot read /: "},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -373,7 +374,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"SceneIsAFolder", "run /", "/: cannot read /: "},
         BadCall{"CsvInNoFolder", "run bridge --frames 1 --csv /no/such/folder/a.csv",
                 "/no/such/folder/a.csv: No such file or directory"},
-        BadCall{"AngleBeyondRange", "generate rope --angle 100", "not in range"}),
+        BadCall{"AngleBeyondRange", "generate rope --angle 100", "not in range"},
+        BadCall{"LinkWithoutWidth", "generate rope --link-width 0", "not in range"},
+        BadCall{"LinkMassNegative", "generate rope --link-mass -1", "not in range"},
+        BadCall{"BoxSizeNoNumber", "generate rope --box-size nan", "not in range"},
+        BadCall{"AnchorTooFar", "generate rope --anchor 0 2e5 0", "not in range"},
+        BadCall{"AnchorOfTwoNumbers", "generate rope --anchor 1 2", "--anchor"}),
     kind_of);
 
 TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
@@ -464,6 +470,32 @@ TEST(CommandLine, GeneratesTheShippedFiles) {
     plain.recommended.reset();
     EXPECT_TRUE(substep("generate " + std::string(name)).out == write_scene(plain)) << name;
   }
+}
+
+TEST(CommandLine, GeneratesRopesOfOtherSizesMassesAndPlaces) {
+  const fs::path path = folder() / "rope.json";
+  const Outcome made = substep(
+      "generate rope --links 3 --angle 30 --link-length 0.5 --link-width 0.05 "
+      "--link-mass 0.2 --box-size 0.8 --end-mass 40 --anchor 1 7.5 -2 --out \"" +
+      path.string() + "\"");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto scene = read_scene_file(path.string()).scene;
+  ASSERT_NE(scene, nullptr);
+  ASSERT_EQ(scene->bodies.size(), 4U);
+  EXPECT_EQ(std::get<Box>(scene->bodies[0].shape).half_extents, Vec3(0.25, 0.025, 0.025));
+  EXPECT_EQ(scene->bodies[0].mass, 0.2);
+  EXPECT_EQ(std::get<Box>(scene->bodies[3].shape).half_extents, Vec3(0.4, 0.4, 0.4));
+  EXPECT_EQ(scene->bodies[3].mass, 40.0);
+  const Vec3 anchor(1.0, 7.5, -2.0);
+  EXPECT_EQ(base(scene->joints[0]).anchor_b, anchor);
+  const Vec3 down(0.5, -std::sqrt(0.75), 0.0);
+  EXPECT_LT((scene->bodies[3].position - anchor - 1.9 * down).norm(), 1e-14);
+  EXPECT_LT(Simulator(scene).observe().joint_gap, 1e-14);
+  // What falling to straight down sets free, and a tenth of it: the anchor's height must not count.
+  EXPECT_NEAR(*scene->criteria.energy_gain,
+              0.1 * 9.81 * (40.0 * 1.9 + 0.2 * (0.25 + 0.75 + 1.25)) * (1.0 - std::sqrt(0.75)),
+              1e-12);
+  EXPECT_EQ(lines_of(substep("run \"" + path.string() + "\" --seconds 1").out).back(), "holds");
 }
 
 TEST(CommandLine, RunsAGeneratedRopeFromStandardInput) {

@@ -67,7 +67,7 @@ const std::vector<FrameColumn>& all_columns() {
        nullptr, [](const FrameView& f) { return number(f.report.leader.dof); }},
       {"kinetic", "kinetic energy [J]", nullptr,
        [](const FrameView& f) { return number(f.report.kinetic); }},
-      {"potential", "potential energy [J]", &Effects::gravity,
+      {"potential", "potential energy of gravity and constant forces [J]", nullptr,
        [](const FrameView& f) { return number(f.report.potential); }},
       {"energy", "kinetic and potential energy [J]", nullptr,
        [](const FrameView& f) { return number(f.report.energy); }},
@@ -116,6 +116,7 @@ std::vector<FrameColumn> frame_columns(const Scene& scene) {
   std::vector<FrameColumn> columns;
   for (const FrameColumn& column : all_columns()) {
     if (column.effect && !(scene.effects.*column.effect)) continue;
+    if (column.name == "potential" && !has_potential(scene.effects)) continue;
     if (is_tracked_position(column) && !scene.criteria.track) continue;
     columns.push_back(column);
   }

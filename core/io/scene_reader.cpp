@@ -195,6 +195,13 @@ void check_effects(ObjectReader& in, const Scene& scene) {
     missing("joints", "/joints has " + std::to_string(scene.joints.size()));
   }
   if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");
+  for (std::size_t i = 0; i < scene.bodies.size() && !listed.external; ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.force == Vec3::Zero() && body.torque == Vec3::Zero()) continue;
+    const char* key = body.force != Vec3::Zero() ? "force" : "torque";
+    missing("external", pointer_to(pointer_to("/bodies", i), key) + " is given");
+    break;
+  }
   // What contacts can have besides their normal rows, and who asks for it.
   const auto needs_contact = [&](bool Effects::*effect, const char* name, double Body::*coefficient,
                                  bool of_static) {

@@ -57,6 +57,8 @@ Json body_json(const Body& body) {
   if (body.angular_velocity != Vec3::Zero()) {
     json["angular_velocity"] = vector_json(body.angular_velocity);
   }
+  if (body.force != Vec3::Zero()) json["force"] = vector_json(body.force);
+  if (body.torque != Vec3::Zero()) json["torque"] = vector_json(body.torque);
   if (body.friction != 0.0) json["friction"] = body.friction;
   if (body.restitution != 0.0) json["restitution"] = body.restitution;
   if (body.collision_group >= 0) json["collision_group"] = body.collision_group;

@@ -108,6 +108,9 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   body.inertia *= 1.1;
   body.velocity = {1.0, 2.0, 3.0};
   body.angular_velocity = {0.1, 0.2, 0.3};
+  body.force = {-7.0, 0.5, 1e-3};
+  body.torque = {0.0, 1.0 / 3.0, -2e5};
+  scene.effects.external = true;
   body.collides = false;
   body.collision_group = 9;
   scene.title = "Quotes \" and \\ and \xc3\xa9";

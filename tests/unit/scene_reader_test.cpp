@@ -153,6 +153,19 @@ TEST(SceneReader, DerivesEffectsThatAreNotListed) {
   EXPECT_EQ(ball->effects, Effects{});
 }
 
+TEST(SceneReader, InfersExternalForcesFromBodies) {
+  const std::string unlisted =
+      with(R"("effects": ["gravity", "joints", "contact", "friction"],)", "");
+  EXPECT_FALSE(read_scene(unlisted).scene->effects.external);
+  for (const char* key : {R"("force": [0, 0, 2], )", R"("torque": [0, -1, 0], )"}) {
+    const SceneResult pushed =
+        read_scene(with(R"("shape": {"type": "sphere")",
+                        std::string(key) + R"("shape": {"type": "sphere")", unlisted));
+    ASSERT_NE(pushed.scene, nullptr);
+    EXPECT_TRUE(pushed.scene->effects.external);
+  }
+}
+
 TEST(SceneReader, LeavesOrientationsAsTheyAreWritten) {
   const auto scene = read_scene(with("[1, 0, 0, 0]", "[0.9999995, 0, 0, 0]")).scene;
   ASSERT_NE(scene, nullptr);

@@ -20,6 +20,7 @@
 #include "core/lab/forecast.hpp"
 #include "core/lab/metrics.hpp"
 #include "core/lab/remedy.hpp"
+#include "core/lab/start_text.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep::cli {
@@ -79,6 +80,8 @@ int run(const RunOptions& options) {
     std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
                  settings_line(simulator.settings()).c_str(),
                  forecast_line(*scene, simulator.settings()).c_str());
+    const std::string told = start_text(*scene, simulator.start());
+    if (!told.empty()) std::fprintf(words, "%s\n", told.c_str());
     std::fflush(words);
   }
   const std::int64_t frames = options.length.count(*scene);

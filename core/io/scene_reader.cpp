@@ -19,6 +19,7 @@
 #include "core/io/scene_limits.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
+#include "core/model/names.hpp"
 
 namespace substep {
 namespace {
@@ -222,6 +223,18 @@ void check_effects(ObjectReader& in, const Scene& scene) {
   needs_contact(&Effects::restitution, "restitution", &Body::restitution, true);
 }
 
+void read_start(ObjectReader& in, Scene& scene) {
+  std::string name;
+  if (!in.text("start", kMaxNameSize, name, kOptional)) return;
+  if (const auto policy = value_of<StartPolicy>(name)) {
+    scene.start = *policy;
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const auto& entry : NameTable<StartPolicy>::entries) names.push_back(entry.name);
+  in.problem("start", value_text(name) + " is not " + one_of(names));
+}
+
 void read_all(const Json& json, Scene& scene, Problems& problems) {
   ObjectReader in(json, "", problems);
   if (!in.is_object() || !read_version(in, problems)) return;
@@ -232,6 +245,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   in.vector("gravity", kGravityRange, scene.gravity, kOptional);
   read_contact(in, scene, problems);
   in.number("regularisation", kRegularisationRange, scene.regularisation, kOptional);
+  read_start(in, scene);
   const bool has_settings = in.member("settings", kOptional) != nullptr;
   read_settings(in, scene.settings, problems);
   if (const Json* recommended = in.member("recommended", kOptional)) {
@@ -254,6 +268,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   }
   check_joint_starts(scene, sound, problems);
   check_redundant_rows(scene, sound, problems);
+  if (problems.empty() && scene.start == StartPolicy::kRefuse) check_refused(scene, problems);
 }
 
 }  // namespace

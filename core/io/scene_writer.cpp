@@ -10,6 +10,7 @@
 #include "core/io/recommended_json.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
+#include "core/model/names.hpp"
 
 namespace substep {
 namespace {
@@ -134,6 +135,7 @@ Json scene_json(const Scene& scene) {
     if (scene.effects.restitution) contact["restitution_speed"] = scene.contact.restitution_speed;
   }
   if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
+  if (scene.start != StartPolicy::kProject) json["start"] = name_of(scene.start);
   // A scene without settings starts with the recommended ones.
   if (!scene.recommended || scene.settings != scene.recommended->settings) {
     json["settings"] = settings_json(scene.settings);

@@ -9,7 +9,13 @@
 namespace substep {
 
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
-    : scene(std::move(scene_in)), settings(scene->settings), state(initial_state(*scene)) {
+    : Impl(scene_in, start_of_run(*scene_in)) {}
+
+Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
+    : scene(std::move(scene_in)),
+      settings(scene->settings),
+      state(std::move(start_in.state)),
+      start(start_in.report) {
   const Effects& effects = scene->effects;
   if (effects.joints) joints = std::make_unique<JointStage>(*scene);
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
@@ -51,7 +57,8 @@ FrameReport Simulator::observe() const {
   return report;
 }
 
-void Simulator::reset() { set_state(initial_state(*impl_->scene)); }
+void Simulator::reset() { set_state(start_of_run(*impl_->scene).state); }
+const StartReport& Simulator::start() const { return impl_->start; }
 
 const Scene& Simulator::scene() const { return *impl_->scene; }
 const State& Simulator::state() const { return impl_->state; }

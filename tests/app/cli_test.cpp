@@ -18,6 +18,7 @@
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
+#include "core/model/names.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/app/program.hpp"
 
@@ -381,6 +382,30 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"AnchorTooFar", "generate rope --anchor 0 2e5 0", "not in range"},
         BadCall{"AnchorOfTwoNumbers", "generate rope --anchor 1 2", "--anchor"}),
     kind_of);
+
+TEST(CommandLine, RunTellsAnInconsistentStartAndWhatBecameOfIt) {
+  const auto told = [](const std::string& start) {
+    Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json").scene;
+    scene.bodies[0].velocity = {1.2, 0.0, 0.0};
+    scene.bodies[0].position.z() += 0.02;
+    scene.start = *value_of<StartPolicy>(start);
+    const fs::path path = folder() / (start + ".json");
+    std::ofstream(path) << write_scene(scene);
+    return substep("run \"" + path.string() + "\" --seconds 0.1");
+  };
+  const std::string found =
+      "The start was inconsistent: joint 'hinge' open by 2 cm, 'hinge' moving apart at 1.2 m/s; ";
+  const Outcome projected = told("project");
+  EXPECT_EQ(projected.exit_code, 0) << projected.err;
+  EXPECT_NE(projected.out.find("\n" + found + "projected. Energy "), std::string::npos)
+      << projected.out;
+  EXPECT_NE(told("keep").out.find("\n" + found + "kept. Energy "), std::string::npos);
+  const Outcome refused = told("refuse");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("/joints/0: \"start\" is \"refuse\""), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(substep("run pendulum --seconds 0.1").out.find("inconsistent"), std::string::npos);
+}
 
 TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   const fs::path path = folder() / "bad.json";

@@ -65,6 +65,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   scene.gravity = {1.0, -0.0, 2.0};
   scene.contact = {2e-9, 3e-9, 0.5};
   scene.regularisation = 1e-6;
+  scene.start = StartPolicy::kKeep;
   scene.settings = {.solver = SolverKind::kPgs,
                     .iterations = 7,
                     .share_iterations = true,

@@ -289,14 +289,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "/carried/forces/0/rate: 1 is not a list of up to 5",
                  "/carried/forces/0/rate_change: [1,2,3,4,5,6] is not a list of up to 5",
                  R"(/carried/forces/0/tight: "0~" is not made of -, 0, + and ?)"}},
-        BadFile{"BodiesNoList",
-                R"("joints": [)",
-                R"("joints": 3, "x": [)",
-                {"/joints: 3 is not a list",
-                 "/x: unknown key (known here: format, version, name, title, group, description, "
-                 "look_for, camera, frame, effects, gravity, contact, regularisation, settings, "
-                 "recommended, "
-                 "bodies, criteria, verdicts, joints or carried)"}},
+        BadFile{
+            "BodiesNoList",
+            R"("joints": [)",
+            R"("joints": 3, "x": [)",
+            {"/joints: 3 is not a list",
+             "/x: unknown key (known here: format, version, name, title, group, description, "
+             "look_for, camera, frame, effects, gravity, contact, regularisation, start, settings, "
+             "recommended, "
+             "bodies, criteria, verdicts, joints or carried)"}},
         BadFile{"BodyNoObject",
                 R"("bodies": [)",
                 R"("bodies": [7, )",

@@ -23,7 +23,23 @@ std::string json_text(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string json_head(const Scene& scene, const Settings& settings) {
+/// What was found at the start, largest over the joints [m, rad, m/s, rad/s], and done about it
+/// [J].
+Json start_json(const StartReport& start) {
+  const StartErrors& found = start.found;
+  return {{"consistent", found.consistent()},
+          {"gap", found.gap},
+          {"tilt", found.tilt},
+          {"speed", found.speed},
+          {"turning", found.turning},
+          {"projected", start.projected},
+          {"energy_found", start.energy_found},
+          {"energy_begun", start.energy_begun}};
+}
+
+std::string json_head(const Simulator& simulator) {
+  const Scene& scene = simulator.scene();
+  const Settings& settings = simulator.settings();
   std::string text = "{\n  \"scene\": " + json_text(scene.name) + ",\n  \"settings\": {";
   const char* separator = "";
   for (const SettingField& field : setting_fields()) {
@@ -32,7 +48,7 @@ std::string json_head(const Scene& scene, const Settings& settings) {
     text += is_choice(field) ? json_text(value) : value;
     separator = ", ";
   }
-  return text + "},\n  \"frames\": [";
+  return text + "},\n  \"start\": " + start_json(simulator.start()).dump() + ",\n  \"frames\": [";
 }
 
 std::string json_tail(const Metrics& metrics) {
@@ -84,7 +100,7 @@ void RunOutputs::begin(const Simulator& simulator) {
   const Scene& scene = simulator.scene();
   columns_ = frame_columns(scene);
   if (csv_.is_open()) csv_.write(csv_header(columns_));
-  if (json_.is_open()) json_.write(json_head(scene, simulator.settings()));
+  if (json_.is_open()) json_.write(json_head(simulator));
   if (states_.is_open()) states_.write(states_header() + states_lines(scene, simulator.state()));
   if (joints_.is_open()) joints_.write(joints_header());
 }

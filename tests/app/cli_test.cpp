@@ -173,6 +173,8 @@ TEST(CommandLine, JsonHasSettingsFramesAndVerdict) {
   EXPECT_EQ(json["settings"]["mode"], "const");
   EXPECT_EQ(json["settings"]["n"], 2);
   EXPECT_EQ(json["settings"]["probe"], false);
+  EXPECT_EQ(json["start"]["consistent"], true);
+  EXPECT_EQ(json["start"]["energy_found"], json["start"]["energy_begun"]);
   EXPECT_EQ(json["frames"].size(), 3U);
   EXPECT_EQ(json["frames"][2]["substeps"], 2);
   EXPECT_TRUE(json["frames"][0]["dt_stable"].is_null());

@@ -20,7 +20,7 @@ constexpr std::array<Column, static_cast<std::size_t>(Channel::kCount)> kColumns
      {Channel::kMean, "substeps_mean", nullptr},
      {Channel::kLimit, "substeps_least", nullptr},
      {Channel::kKinetic, "kinetic", nullptr},
-     {Channel::kPotential, "potential", &Effects::gravity},
+     {Channel::kPotential, "potential", nullptr},
      {Channel::kTotal, "energy", nullptr},
      {Channel::kJointError, "constraint_error", &Effects::joints},
      {Channel::kJointGap, "joint_gap", &Effects::joints},
@@ -66,6 +66,7 @@ std::string history_csv(const Scene& scene, std::span<const ExportedRun> runs,
   for (const Column& column : kColumns) {
     const bool wanted =
         std::find(channels.begin(), channels.end(), column.channel) != channels.end();
+    if (column.channel == Channel::kPotential && !has_potential(scene.effects)) continue;
     if (wanted && (!column.effect || scene.effects.*column.effect)) columns.push_back(column);
   }
   const bool named = runs.size() > 1;

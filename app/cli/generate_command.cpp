@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -22,6 +23,7 @@ scenes::Angle angle_of_degrees(double degrees) {
 struct GenerateOptions {
   std::string out = "-";
   double angle_deg = 60.0;
+  std::array<double, 3> anchor{0.0, 0.0, 0.0};  // of the rope [m]
   scenes::RopeOptions rope;
   scenes::SwingingBoxOptions swinging_box;
   scenes::BridgeOptions bridge;
@@ -53,6 +55,7 @@ void add_generate(CLI::App& app, int& exit_code) {
   command->footer(
       "Examples:\n"
       "  substep generate rope --links 100 | substep run -\n"
+      "  substep generate rope --links 5 --link-mass 0.2 --box-size 0.5 --anchor 0 8 0\n"
       "  substep generate bridge --ball-x -4 --ball-speed 4 --out fast.json");
 
   const auto add = [&](const char* name, const char* help, Scene (*make)(const GenerateOptions&)) {
@@ -70,11 +73,19 @@ void add_generate(CLI::App& app, int& exit_code) {
       add("rope", "hinged links with a heavy box at the end", [](const GenerateOptions& from) {
         scenes::RopeOptions rope_options = from.rope;
         rope_options.angle = angle_of_degrees(from.angle_deg);
+        rope_options.anchor = Vec3(from.anchor.data());
         return scenes::rope_of_n(rope_options);
       });
   rope->add_option("-n,--links", o.rope.n, "links")->check(CLI::Range(1, 19999));
   rope->add_option("--angle", o.angle_deg, "start, from straight down [deg]")->check(angle);
+  rope->add_option("--anchor", o.anchor, "point that it hangs from: x y z [m]")
+      ->check(within(-1e5, 1e5));
   rope->add_option("--link-length", o.rope.link_length, "[m]")->check(within(1e-3, 10.0));
+  rope->add_option("--link-width", o.rope.link_width, "of its square cross-section [m]")
+      ->check(within(1e-3, 10.0));
+  rope->add_option("--link-mass", o.rope.link_mass, "of one link [kg]")->check(within(1e-6, 1e9));
+  rope->add_option("--box-size", o.rope.box_size, "edge of the box [m]")
+      ->check(within(1e-3, 100.0));
   rope->add_option("--end-mass", o.rope.end_mass, "of the box [kg]")->check(within(1e-6, 1e9));
   rope->add_option("--compliance", o.rope.compliance, "of the joints [m/N]")->check(compliance);
 

@@ -4,6 +4,8 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 namespace substep::cli {
 
@@ -31,6 +33,18 @@ bool Output::close() {
   if (written && closed) return true;
   std::fprintf(stderr, "%s: could not be written to its end\n", path_.c_str());
   return false;
+}
+
+bool same_output(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  if (a == "-" || b == "-") return a == b;
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::is_character_file(a, error)) return false;  // /dev/null takes what it is given
+  if (a == b || fs::equivalent(a, b, error)) return true;
+  const fs::path path_a = fs::weakly_canonical(a, error);
+  const fs::path path_b = fs::weakly_canonical(b, error);
+  return !error && path_a == path_b;
 }
 
 bool stderr_is_terminal() { return isatty(fileno(stderr)) != 0; }

@@ -25,6 +25,10 @@ class Output {
   std::FILE* file_ = nullptr;
 };
 
+/// Whether two paths name the same file, or both standard output. Not where one is empty, nor for a
+/// device such as /dev/null, which many may write to.
+bool same_output(const std::string& a, const std::string& b);
+
 /// Whether a person looks at standard error.
 bool stderr_is_terminal();
 

@@ -1,4 +1,3 @@
-#include <cinttypes>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -10,19 +9,18 @@
 #include "app/cli/length_flags.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/progress_line.hpp"
+#include "app/cli/run_outputs.hpp"
 #include "app/cli/run_report.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
-#include "core/io/frame_columns.hpp"
-#include "core/io/json.hpp"
 #include "core/io/number_text.hpp"
-#include "core/io/result.hpp"
 #include "core/lab/experiment.hpp"
 #include "core/lab/forecast.hpp"
 #include "core/lab/metrics.hpp"
 #include "core/lab/remedy.hpp"
+#include "core/lab/start_text.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep::cli {
@@ -30,8 +28,7 @@ namespace {
 
 struct RunOptions {
   std::string scene;
-  std::string csv;
-  std::string json;
+  RunFiles files;
   std::string experiments;
   double load = 1.0;
   int seed = 0;
@@ -39,31 +36,6 @@ struct RunOptions {
   LengthFlags length;
   SettingsFlags settings;
 };
-
-std::string json_text(const std::string& text) {
-  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-std::string json_head(const Scene& scene, const Settings& settings) {
-  std::string text = "{\n  \"scene\": " + json_text(scene.name) + ",\n  \"settings\": {";
-  const char* separator = "";
-  for (const SettingField& field : setting_fields()) {
-    const std::string value = setting_text(field, settings);
-    text += separator + json_text(std::string(field.name)) + ": ";
-    text += is_choice(field) ? json_text(value) : value;
-    separator = ", ";
-  }
-  return text + "},\n  \"frames\": [";
-}
-
-std::string json_tail(const Metrics& metrics) {
-  char hash[32];
-  std::snprintf(hash, sizeof hash, "%016" PRIx64, metrics.hash);
-  return "\n  ],\n  \"work\": " + work_json(metrics.work).dump() +
-         ",\n  \"timing\": " + timing_json(metrics.timing).dump() + ",\n  \"hash\": \"" + hash +
-         "\",\n  \"holds\": " + (metrics.holds ? "true" : "false") +
-         ",\n  \"verdict\": " + json_text(metrics.verdict) + "\n}\n";
-}
 
 /// What the scene will ask for, told before it moves.
 std::string forecast_line(const Scene& scene, const Settings& settings) {
@@ -87,9 +59,8 @@ std::string remedy_lines(const Settings& settings, const FrameReport& failed) {
 
 int run(const RunOptions& options) {
   auto scene = load_scene(options.scene);
-  Output csv;
-  Output json;
-  if (!scene || !csv.open(options.csv) || !json.open(options.json)) return kBadInput;
+  RunOutputs outputs;
+  if (!scene || !outputs.open(options.files)) return kBadInput;
   if (options.load != 1.0 || options.seed != 0) {
     scene = std::make_shared<const Scene>(start_of(*scene, options.load, options.seed));
   }
@@ -101,20 +72,19 @@ int run(const RunOptions& options) {
   const Verdict& verdict = measure.verdict();
   RunReport report(*scene, start);
   ProgressLine progress(!options.quiet && stderr_is_terminal());
-  const auto columns = frame_columns(*scene);
-  if (csv.is_open()) csv.write(csv_header(columns));
-  if (json.is_open()) json.write(json_head(*scene, simulator.settings()));
+  outputs.begin(simulator);
 
   // Where a result takes standard output, words for people go to stderr.
-  std::FILE* words = options.csv == "-" || options.json == "-" ? stderr : stdout;
+  std::FILE* words = options.files.take_standard_output() ? stderr : stdout;
   if (!options.quiet) {
     std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
                  settings_line(simulator.settings()).c_str(),
                  forecast_line(*scene, simulator.settings()).c_str());
+    const std::string told = start_text(*scene, simulator.start());
+    if (!told.empty()) std::fprintf(words, "%s\n", told.c_str());
     std::fflush(words);
   }
   const std::int64_t frames = options.length.count(*scene);
-  const char* separator = "\n    ";
   std::optional<FrameReport> failed;  // the frame in which it failed
   for (std::int64_t i = 0; i < frames && !verdict.stopped(); ++i) {
     const FrameReport frame = simulator.step();
@@ -122,16 +92,10 @@ int run(const RunOptions& options) {
     report.add(frame);
     if (!failed && !verdict.holds()) failed = frame;
     if (progress.due()) progress.show(report.progress(frames));
-    const FrameView view{*scene, frame, simulator.state()};
-    if (csv.is_open()) csv.write(csv_line(columns, view));
-    if (json.is_open()) {
-      json.write(separator + json_line(columns, view));
-      separator = ",\n    ";
-    }
+    outputs.add(simulator, frame);
   }
   progress.clear();
-  if (json.is_open()) json.write(json_tail(measure.metrics(*scene, simulator.state())));
-  if (!csv.close() || !json.close()) return kBadInput;
+  if (!outputs.end(simulator, measure)) return kBadInput;
 
   if (!options.quiet) {
     std::fprintf(words, "%s%s", report.summary(state_hash(simulator.state())).c_str(),
@@ -148,9 +112,7 @@ void add_run(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("run", "Run a scene and tell whether it holds");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
   options->length.add_to(*command);
-  command->add_option("--csv", options->csv, "write one line per frame to this file, - for stdout");
-  command->add_option("--json", options->json,
-                      "the same as JSON, with settings, verdict, and work and time by stage");
+  options->files.add_to(*command);
   command->add_option("--load", options->load, "factor on the mass of the heaviest body")
       ->check(within(kLoadRange.least, kLoadRange.most));
   command->add_option("--seed", options->seed, "nudge the start by up to 1e-9 m/s")
@@ -167,6 +129,7 @@ void add_run(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  substep run swinging_box --mode const --n 6\n"
       "  substep run bridge --solver pgs --iterations 50 --seconds 3 --csv -\n"
+      "  substep run pendulum --states states.csv --joints joints.csv\n"
       "  substep sweep bridge --list | parallel --pipe -N4 substep run --experiments - > "
       "bridge.jsonl");
   command->callback([options, &exit_code] {
@@ -175,9 +138,7 @@ void add_run(CLI::App& app, int& exit_code) {
       return;
     }
     if (options->scene.empty()) throw CLI::RequiredError("scene or --experiments");
-    if (options->csv == "-" && options->json == "-") {
-      throw CLI::ValidationError("--json", "standard output is taken by --csv");
-    }
+    options->files.check();
     exit_code = run(*options);
   });
 }

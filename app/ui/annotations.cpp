@@ -68,7 +68,7 @@ Vec3 other_anchor_of(const App& app, const JointBase& joint) {
 }
 
 Vec3 point_of(const App& app, const ContactForce& contact) {
-  return app.session.poses().x[static_cast<std::size_t>(contact.a)] + contact.arm_a.cast<double>();
+  return app.session.poses().x[static_cast<std::size_t>(contact.a)] + contact.arm_a;
 }
 
 // What an arrow of full length stands for: the weight of all that moves, where there is gravity.
@@ -99,11 +99,11 @@ void draw_forces(const App& app, ImDrawList& draw) {
   const ConstraintForces& forces = app.session.forces();
   const double scale = force_scale(app);
   for (std::size_t i = 0; i < forces.joints.size(); ++i) {
-    force_arrow(app, draw, anchor_of(app, base(scene.joints[i])),
-                forces.joints[i].force.cast<double>(), scale, t.amber);
+    force_arrow(app, draw, anchor_of(app, base(scene.joints[i])), forces.joints[i].force, scale,
+                t.amber);
   }
   for (const ContactForce& contact : forces.contacts) {
-    force_arrow(app, draw, point_of(app, contact), contact.force.cast<double>(), scale, t.teal);
+    force_arrow(app, draw, point_of(app, contact), contact.force, scale, t.teal);
   }
 }
 
@@ -111,11 +111,11 @@ void draw_contacts(const App& app, ImDrawList& draw) {
   const Theme& t = *app.look.theme;
   for (const ContactForce& contact : app.session.forces().contacts) {
     const Vec3 at = point_of(app, contact);
-    const Vec3 tip = at + 14.0 * pixel_size(app, at) * contact.normal.cast<double>();
+    const Vec3 tip = at + 14.0 * pixel_size(app, at) * contact.normal;
     const auto s = seen(app, at, tip);
     if (!s) continue;
     draw_line(app.look, draw, *s, t.teal);
-    const bool closed = contact.force.squaredNorm() > 0.0F;
+    const bool closed = contact.force.squaredNorm() > 0.0;
     draw.AddCircleFilled(s->from, 4.0F, closed ? t.teal : ground(app.look, 1.0F));
     draw.AddCircle(s->from, 4.0F, closed ? ground(app.look, 1.0F) : t.teal, 0, 1.5F);
   }

@@ -30,7 +30,8 @@ constexpr std::array<EffectFacts, kEffectNames.size()> kFacts{
       &StageTimes::contact},
      {"Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.", &FrameReport::friction_rows,
       &StageTimes::friction},
-     {"Contacts that bounce (Newton's law).", nullptr, nullptr}}};
+     {"Contacts that bounce (Newton's law).", nullptr, nullptr},
+     {"Constant forces and torques that the scene gives its bodies.", nullptr, nullptr}}};
 
 /// Right-aligned in the two columns at the end of a line.
 void columns(const Look& look, ImVec2 at, float width, ImU32 color, const std::string& rows,

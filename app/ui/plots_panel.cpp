@@ -123,7 +123,7 @@ void energy_plot(App& app, float height, bool last) {
   const Extent kinetic = h.samples(Channel::kKinetic).extent(0, h.size());
   const double scale = kinetic.empty() ? 0.0 : static_cast<double>(kinetic.high);
   const auto& exchanged = app.session.scene().criteria.energy_scale;
-  const bool gravity = app.session.scene().effects.gravity;
+  const bool potential = has_potential(app.session.scene().effects);
   const Unit unit = unit_for(std::max(scale, 1e-3));
   const bool several = app.compare.open();
   const double whole = exchanged.value_or(scale);
@@ -175,10 +175,10 @@ void energy_plot(App& app, float height, bool last) {
     const double now = shown_value(h, Channel::kTotal, app.desk.time);
     float x = legend(look, right, origin.y, t.orange,
                      std::isfinite(now) ? "total " + change(now) : "total");
-    if (gravity) x = legend(look, x, origin.y, t.purple, "pot.");
+    if (potential) x = legend(look, x, origin.y, t.purple, "pot.");
     legend(look, x, origin.y, t.teal, "kin.");
     spec.series.push_back({&h, Channel::kKinetic, t.teal, false, true});
-    if (gravity) spec.series.push_back({&h, Channel::kPotential, t.purple, false, false, 1.0F});
+    if (potential) spec.series.push_back({&h, Channel::kPotential, t.purple, false, false, 1.0F});
     spec.series.push_back({&h, Channel::kTotal, t.orange});
   }
   draw_plot(app, Plot::kEnergy, spec, height);

@@ -71,7 +71,7 @@ void force_rows(const App& app, int body) {
   for (std::size_t j = 0; j < forces.joints.size(); ++j) {
     const JointBase& joint = base(scene.joints[j]);
     if (joint.a != body && joint.b != body) continue;
-    pulls.push_back({&joint.name, static_cast<double>(forces.joints[j].force.norm())});
+    pulls.push_back({&joint.name, forces.joints[j].force.norm()});
   }
   std::sort(pulls.begin(), pulls.end(),
             [](const Pull& a, const Pull& b) { return a.force > b.force; });
@@ -83,9 +83,9 @@ void force_rows(const App& app, int body) {
   int touching = 0;
   double pressed = 0.0;
   for (const ContactForce& contact : forces.contacts) {
-    if ((contact.a != body && contact.b != body) || contact.force.squaredNorm() == 0.0F) continue;
+    if ((contact.a != body && contact.b != body) || contact.force.squaredNorm() == 0.0) continue;
     ++touching;
-    pressed += static_cast<double>(contact.force.dot(contact.normal));
+    pressed += contact.force.dot(contact.normal);
   }
   if (touching == 0) return;
   const std::string name = std::to_string(touching) + (touching == 1 ? " contact" : " contacts");

@@ -41,7 +41,8 @@ void touch_solids(const Placed& i, const Shape& shape_i, const Placed& j, const 
 
 double way_in(double time, const Scene& scene, const Body& body, const Vec6& u) {
   if (body.is_static) return 0.0;
-  const double gained = scene.effects.gravity ? time * scene.gravity.norm() : 0.0;
+  double gained = scene.effects.gravity ? time * scene.gravity.norm() : 0.0;
+  if (scene.effects.external) gained += time * fastest_gain(body);
   return time * (fastest_point(body, u) + gained);
 }
 

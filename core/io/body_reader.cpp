@@ -120,9 +120,13 @@ Body read_body(const Json& json, const std::string& pointer, Problems& problems)
   if (body.is_static) {
     refuse(in, "velocity", "a static body never moves");
     refuse(in, "angular_velocity", "a static body never moves");
+    refuse(in, "force", "a static body never moves");
+    refuse(in, "torque", "a static body never moves");
   } else {
     in.vector("velocity", kVelocityRange, body.velocity, kOptional);
     in.vector("angular_velocity", kAngularVelocityRange, body.angular_velocity, kOptional);
+    in.vector("force", kBodyForceRange, body.force, kOptional);
+    in.vector("torque", kBodyTorqueRange, body.torque, kOptional);
   }
   in.number("friction", kFrictionRange, body.friction, kOptional);
   in.number("restitution", kRestitutionRange, body.restitution, kOptional);

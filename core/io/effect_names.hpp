@@ -16,6 +16,7 @@ struct NamedEffect {
 inline constexpr std::array kEffectNames{
     NamedEffect{"gravity", &Effects::gravity},   NamedEffect{"gyroscopic", &Effects::gyroscopic},
     NamedEffect{"joints", &Effects::joints},     NamedEffect{"contact", &Effects::contact},
-    NamedEffect{"friction", &Effects::friction}, NamedEffect{"restitution", &Effects::restitution}};
+    NamedEffect{"friction", &Effects::friction}, NamedEffect{"restitution", &Effects::restitution},
+    NamedEffect{"external", &Effects::external}};
 
 }  // namespace substep

@@ -26,6 +26,9 @@ Effects effects_of(const Scene& scene) {
   effects.restitution = effects.contact && any([](const Body& body) {
                           return body.collides && body.restitution > 0.0;
                         });
+  effects.external = any([](const Body& body) {
+    return !body.is_static && (body.force != Vec3::Zero() || body.torque != Vec3::Zero());
+  });
   return effects;
 }
 

@@ -1,18 +1,15 @@
 #include "core/io/frame_columns.hpp"
 
-#include <cmath>
 #include <cstdint>
 
+#include "core/io/csv_text.hpp"
 #include "core/io/json.hpp"
-#include "core/io/number_text.hpp"
+#include "core/sim/momentum.hpp"
 
 namespace substep {
 namespace {
 
-std::string number(double x) {
-  if (std::isfinite(x)) return number_text(x);
-  return std::isnan(x) ? "nan" : x > 0.0 ? "inf" : "-inf";
-}
+std::string number(double x) { return csv_number(x); }
 std::string number(std::int64_t x) { return std::to_string(x); }
 std::string number(int x) { return std::to_string(x); }
 std::string number(bool x) { return x ? "1" : "0"; }
@@ -22,6 +19,16 @@ template <int kAxis>
 std::string tracked(const FrameView& f) {
   if (!f.scene.criteria.track) return "nan";
   return number(f.state.x[static_cast<std::size_t>(*f.scene.criteria.track)][kAxis]);
+}
+
+/// Of all bodies, along one axis of the world.
+template <int kAxis>
+std::string momentum(const FrameView& f) {
+  return number(momenta_of(f.scene, f.state).linear[kAxis]);
+}
+template <int kAxis>
+std::string angular_momentum(const FrameView& f) {
+  return number(momenta_of(f.scene, f.state).angular[kAxis]);
 }
 
 std::string leader(const FrameView& f) {
@@ -60,10 +67,16 @@ const std::vector<FrameColumn>& all_columns() {
        nullptr, [](const FrameView& f) { return number(f.report.leader.dof); }},
       {"kinetic", "kinetic energy [J]", nullptr,
        [](const FrameView& f) { return number(f.report.kinetic); }},
-      {"potential", "potential energy [J]", &Effects::gravity,
+      {"potential", "potential energy of gravity and constant forces [J]", nullptr,
        [](const FrameView& f) { return number(f.report.potential); }},
       {"energy", "kinetic and potential energy [J]", nullptr,
        [](const FrameView& f) { return number(f.report.energy); }},
+      {"px", "momentum of all bodies [kg m/s]", nullptr, momentum<0>},
+      {"py", "momentum of all bodies [kg m/s]", nullptr, momentum<1>},
+      {"pz", "momentum of all bodies [kg m/s]", nullptr, momentum<2>},
+      {"lx", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<0>},
+      {"ly", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<1>},
+      {"lz", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<2>},
       {"constraint_error", "sum of the errors of all joint rows [m, rad]", &Effects::joints,
        [](const FrameView& f) { return number(f.report.constraint_error); }},
       {"joint_gap", "largest gap of a joint [m]", &Effects::joints,
@@ -103,6 +116,7 @@ std::vector<FrameColumn> frame_columns(const Scene& scene) {
   std::vector<FrameColumn> columns;
   for (const FrameColumn& column : all_columns()) {
     if (column.effect && !(scene.effects.*column.effect)) continue;
+    if (column.name == "potential" && !has_potential(scene.effects)) continue;
     if (is_tracked_position(column) && !scene.criteria.track) continue;
     columns.push_back(column);
   }
@@ -124,14 +138,8 @@ std::string csv_line(const std::vector<FrameColumn>& columns, const FrameView& f
   for (const FrameColumn& column : columns) {
     line += separator;
     separator = ",";
-    std::string text = column.text(frame);
-    if (!column.is_number && text.find_first_of(",\"\r\n") != std::string::npos) {
-      for (std::size_t i = text.find('"'); i != std::string::npos; i = text.find('"', i + 2)) {
-        text.insert(i, 1, '"');
-      }
-      text = '"' + text + '"';
-    }
-    line += text;
+    const std::string text = column.text(frame);
+    line += column.is_number ? text : csv_field(text);
   }
   return line + '\n';
 }

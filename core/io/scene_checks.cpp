@@ -6,6 +6,8 @@
 
 #include "core/io/json_text.hpp"
 #include "core/io/number_text.hpp"
+#include "core/lab/start_text.hpp"
+#include "core/sim/joint_starts.hpp"
 
 namespace substep {
 namespace {
@@ -64,6 +66,16 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
                                 ", which is more than " + number_text(kMaxAxisAngleSine)});
       }
     }
+  }
+}
+
+void check_refused(const Scene& scene, Problems& problems) {
+  if (scene.carried) return;
+  const std::vector<JointStart> starts = joint_starts(scene, initial_state(scene));
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (!starts[i].beyond.any()) continue;
+    problems.push_back({pointer_to("/joints", i),
+                        "\"start\" is \"refuse\", and this joint is " + fault_text(starts[i])});
   }
 }
 

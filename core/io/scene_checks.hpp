@@ -17,6 +17,10 @@ struct SoundParts {
 /// The two sides of every joint coincide at the start, to the gap that counts as a failure.
 void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems);
 
+/// Every joint of a sound scene agrees with its poses and velocities, within the tolerances of
+/// sim/joint_starts.hpp. A scene that goes on from a saved run is not looked at.
+void check_refused(const Scene& scene, Problems& problems);
+
 /// Rows that say the same twice have no unique forces: without compliance the answer is NaN.
 void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems& problems);
 

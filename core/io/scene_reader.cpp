@@ -19,6 +19,7 @@
 #include "core/io/scene_limits.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
+#include "core/model/names.hpp"
 
 namespace substep {
 namespace {
@@ -195,6 +196,13 @@ void check_effects(ObjectReader& in, const Scene& scene) {
     missing("joints", "/joints has " + std::to_string(scene.joints.size()));
   }
   if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");
+  for (std::size_t i = 0; i < scene.bodies.size() && !listed.external; ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.force == Vec3::Zero() && body.torque == Vec3::Zero()) continue;
+    const char* key = body.force != Vec3::Zero() ? "force" : "torque";
+    missing("external", pointer_to(pointer_to("/bodies", i), key) + " is given");
+    break;
+  }
   // What contacts can have besides their normal rows, and who asks for it.
   const auto needs_contact = [&](bool Effects::*effect, const char* name, double Body::*coefficient,
                                  bool of_static) {
@@ -215,6 +223,18 @@ void check_effects(ObjectReader& in, const Scene& scene) {
   needs_contact(&Effects::restitution, "restitution", &Body::restitution, true);
 }
 
+void read_start(ObjectReader& in, Scene& scene) {
+  std::string name;
+  if (!in.text("start", kMaxNameSize, name, kOptional)) return;
+  if (const auto policy = value_of<StartPolicy>(name)) {
+    scene.start = *policy;
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const auto& entry : NameTable<StartPolicy>::entries) names.push_back(entry.name);
+  in.problem("start", value_text(name) + " is not " + one_of(names));
+}
+
 void read_all(const Json& json, Scene& scene, Problems& problems) {
   ObjectReader in(json, "", problems);
   if (!in.is_object() || !read_version(in, problems)) return;
@@ -225,6 +245,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   in.vector("gravity", kGravityRange, scene.gravity, kOptional);
   read_contact(in, scene, problems);
   in.number("regularisation", kRegularisationRange, scene.regularisation, kOptional);
+  read_start(in, scene);
   const bool has_settings = in.member("settings", kOptional) != nullptr;
   read_settings(in, scene.settings, problems);
   if (const Json* recommended = in.member("recommended", kOptional)) {
@@ -247,6 +268,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   }
   check_joint_starts(scene, sound, problems);
   check_redundant_rows(scene, sound, problems);
+  if (problems.empty() && scene.start == StartPolicy::kRefuse) check_refused(scene, problems);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "core/io/recommended_json.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
+#include "core/model/names.hpp"
 
 namespace substep {
 namespace {
@@ -57,6 +58,8 @@ Json body_json(const Body& body) {
   if (body.angular_velocity != Vec3::Zero()) {
     json["angular_velocity"] = vector_json(body.angular_velocity);
   }
+  if (body.force != Vec3::Zero()) json["force"] = vector_json(body.force);
+  if (body.torque != Vec3::Zero()) json["torque"] = vector_json(body.torque);
   if (body.friction != 0.0) json["friction"] = body.friction;
   if (body.restitution != 0.0) json["restitution"] = body.restitution;
   if (body.collision_group >= 0) json["collision_group"] = body.collision_group;
@@ -132,6 +135,7 @@ Json scene_json(const Scene& scene) {
     if (scene.effects.restitution) contact["restitution_speed"] = scene.contact.restitution_speed;
   }
   if (scene.regularisation != 0.0) json["regularisation"] = scene.regularisation;
+  if (scene.start != StartPolicy::kProject) json["start"] = name_of(scene.start);
   // A scene without settings starts with the recommended ones.
   if (!scene.recommended || scene.settings != scene.recommended->settings) {
     json["settings"] = settings_json(scene.settings);

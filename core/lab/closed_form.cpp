@@ -16,6 +16,7 @@ int axis_along(const Mat3& R, const Vec3& v) {
 }
 
 std::optional<UniformAcceleration> box_on_slope(const Scene& scene, const Body& box) {
+  if (scene.effects.external && box.force != Vec3::Zero()) return std::nullopt;
   if (!scene.effects.gravity || !std::holds_alternative<Box>(box.shape)) return std::nullopt;
   const Body* plane = nullptr;
   for (const Body& body : scene.bodies) {
@@ -53,9 +54,12 @@ std::optional<UniformAcceleration> closed_form(const Scene& scene) {
   if (!scene.criteria.track || !scene.joints.empty()) return std::nullopt;
   const Body& body = scene.bodies[static_cast<std::size_t>(*scene.criteria.track)];
   if (body.is_static) return std::nullopt;
+  // A torque changes the energy of the spin, which is taken to stay.
+  if (scene.effects.external && body.torque != Vec3::Zero()) return std::nullopt;
   if (scene.effects.contact) return box_on_slope(scene, body);
-  return UniformAcceleration{body.position, body.velocity,
-                             scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero())};
+  Vec3 acceleration = scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero());
+  if (scene.effects.external) acceleration += body.force / body.mass;
+  return UniformAcceleration{body.position, body.velocity, acceleration};
 }
 
 }  // namespace substep

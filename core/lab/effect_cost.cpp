@@ -18,7 +18,8 @@ struct NamedEffect {
 constexpr NamedEffect kEffects[] = {
     {"gravity", &Effects::gravity},   {"gyroscopic", &Effects::gyroscopic},
     {"joints", &Effects::joints},     {"contact", &Effects::contact},
-    {"friction", &Effects::friction}, {"restitution", &Effects::restitution}};
+    {"friction", &Effects::friction}, {"restitution", &Effects::restitution},
+    {"external", &Effects::external}};
 
 std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) {
   Scene less = scene;

@@ -25,7 +25,7 @@ PeakAndMedian peak_and_median(const std::vector<double>& values) {
 
 /// Nothing from outside acts on the moving bodies.
 bool is_isolated(const Scene& scene) {
-  if (scene.effects.gravity) return false;
+  if (scene.effects.gravity || scene.effects.external) return false;
   const auto is_fixed = [&](int body) {
     return body == kWorld || scene.bodies[static_cast<std::size_t>(body)].is_static;
   };
@@ -53,21 +53,7 @@ Measure::Measure(const Scene& scene, const State& state, const FrameReport& star
       verdict_(scene, state, start),
       energy_at_start_(start.energy),
       energy_(start.energy) {
-  if (is_isolated(scene)) momentum_at_start_ = momentum_of(scene, state);
-}
-
-Measure::Momentum Measure::momentum_of(const Scene& scene, const State& state) {
-  Momentum sum;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.is_static) continue;
-    const Vec6& u = state.u_synchronised[i];
-    const Vec3 p = body.mass * u.head<3>();
-    const Vec3 omega_B = state.q[i].conjugate() * Vec3(u.tail<3>());
-    sum.linear += p;
-    sum.angular += state.x[i].cross(p) + state.q[i] * Vec3(body.inertia.cwiseProduct(omega_B));
-  }
-  return sum;
+  if (is_isolated(scene)) momentum_at_start_ = momenta_of(scene, state);
 }
 
 void Measure::add(const Scene& scene, const State& state, const FrameReport& report,
@@ -102,7 +88,7 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
         std::max(errors_.trajectory_peak.value_or(0.0), *errors_.trajectory_final);
   }
   if (momentum_at_start_) {
-    const Momentum now = momentum_of(scene, state);
+    const Momenta now = momenta_of(scene, state);
     errors_.linear_momentum_drift = std::max(errors_.linear_momentum_drift.value_or(0.0),
                                              (now.linear - momentum_at_start_->linear).norm());
     errors_.angular_momentum_drift = std::max(errors_.angular_momentum_drift.value_or(0.0),

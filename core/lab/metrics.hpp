@@ -7,6 +7,7 @@
 
 #include "core/lab/reference.hpp"
 #include "core/lab/verdict.hpp"
+#include "core/sim/momentum.hpp"
 #include "core/sim/report.hpp"
 
 namespace substep {
@@ -87,11 +88,6 @@ class Measure {
   [[nodiscard]] Metrics metrics(const Scene& scene, const State& state) const;
 
  private:
-  struct Momentum {
-    Vec3 linear = Vec3::Zero();   // [kg m/s]
-    Vec3 angular = Vec3::Zero();  // about the world's origin [kg m^2/s]
-  };
-  static Momentum momentum_of(const Scene& scene, const State& state);
   [[nodiscard]] Timing timing(const Scene& scene) const;
 
   const Reference& reference_;
@@ -99,9 +95,9 @@ class Measure {
   Errors errors_;
   Work work_;
   StageTimes stages_;
-  double energy_at_start_ = 0.0;               // [J]
-  double energy_ = 0.0;                        // [J]
-  std::optional<Momentum> momentum_at_start_;  // where nothing pulls
+  double energy_at_start_ = 0.0;              // [J]
+  double energy_ = 0.0;                       // [J]
+  std::optional<Momenta> momentum_at_start_;  // where nothing pulls
   std::vector<double> constraint_;
   std::vector<double> joint_gap_;
   std::vector<double> penetration_;

@@ -64,6 +64,7 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
 }
 
 std::optional<PlanarChain> PlanarChain::of(const Scene& scene) {
+  if (scene.effects.external) return std::nullopt;  // no angle of it knows of these forces
   if (scene.effects.contact || !scene.effects.joints || scene.joints.empty()) return std::nullopt;
   std::size_t moving = 0;
   for (const Body& body : scene.bodies) moving += body.is_static ? 0 : 1;

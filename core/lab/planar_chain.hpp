@@ -22,7 +22,7 @@ namespace substep {
 class PlanarChain {
  public:
   /// The chain of the scene, or nothing where the scene is something else: contact, a fork, a ball
-  /// joint, hinges that are not parallel, a start that leaves the plane.
+  /// joint, external forces, hinges that are not parallel, a start that leaves the plane.
   static std::optional<PlanarChain> of(const Scene& scene);
 
   /// @param tolerance of a step of the integrator, relative [-]

@@ -224,8 +224,9 @@ double predictable_window(const Scene& scene, double duration) {
   return chaotic ? std::min(duration, kChaoticWindow) : duration;
 }
 
+// References read the start in the scene's bodies: it must be the one that runs begin with.
 ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration)
-    : scene_(std::move(scene)), source_(source_of(scene_)) {
+    : scene_(with_start_of_run(std::move(scene))), source_(source_of(scene_)) {
   reference_.source = source_->name();
   reference_.window = predictable_window(*scene_, duration);
   frames_ = frames_of(*scene_, reference_.window);

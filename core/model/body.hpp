@@ -20,6 +20,8 @@ struct Body {
   Quat orientation = Quat::Identity();   // q_WB, unit [-]
   Vec3 velocity = Vec3::Zero();          // world [m/s]
   Vec3 angular_velocity = Vec3::Zero();  // world [rad/s]
+  Vec3 force = Vec3::Zero();             // constant, at the centre of mass, world axes [N]
+  Vec3 torque = Vec3::Zero();            // constant, about the centre of mass, world axes [N m]
   double friction = 0.0;                 // Coulomb coefficient [-]; a pair uses sqrt(mu_a mu_b)
   double restitution = 0.0;              // e in [0, 1] [-]; a pair uses the larger one
   int collision_group =
@@ -27,6 +29,10 @@ struct Body {
   bool collides = true;  // false: never touches anything
   std::optional<std::uint32_t> color;  // 0xRRGGBB, for views only; none: the view's own choice
 };
+
+/// No less than what the body's force and torque add to the speed of any of its points in a second
+/// [m/s^2]; 0 of a static body. At most 1e9, so that what reckons with it stays finite.
+double fastest_gain(const Body& body);
 
 /// No less than the speed of any of its points [m/s]. @param u velocity, angular velocity
 double fastest_point(const Body& body, const Vec6& u);

@@ -10,8 +10,12 @@ struct Effects {
   bool contact = false;
   bool friction = false;
   bool restitution = false;
+  bool external = false;  // the constant forces and torques of bodies
 
   friend bool operator==(const Effects&, const Effects&) = default;
 };
+
+/// Whether bodies have a potential energy: that of gravity, and of constant forces.
+inline bool has_potential(const Effects& effects) { return effects.gravity || effects.external; }
 
 }  // namespace substep

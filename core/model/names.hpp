@@ -8,6 +8,7 @@
 #include "core/model/expectation.hpp"
 #include "core/model/recommended.hpp"
 #include "core/model/settings.hpp"
+#include "core/model/start_policy.hpp"
 
 namespace substep {
 
@@ -78,6 +79,13 @@ template <>
 struct NameTable<Detection> {
   static constexpr std::array entries{Named<Detection>{"substep", Detection::kSubstep},
                                       Named<Detection>{"frame", Detection::kFrame}};
+};
+
+template <>
+struct NameTable<StartPolicy> {
+  static constexpr std::array entries{Named<StartPolicy>{"project", StartPolicy::kProject},
+                                      Named<StartPolicy>{"keep", StartPolicy::kKeep},
+                                      Named<StartPolicy>{"refuse", StartPolicy::kRefuse}};
 };
 
 template <>

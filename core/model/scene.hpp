@@ -12,6 +12,7 @@
 #include "core/model/joint.hpp"
 #include "core/model/recommended.hpp"
 #include "core/model/settings.hpp"
+#include "core/model/start_policy.hpp"
 
 namespace substep {
 
@@ -59,8 +60,9 @@ struct Scene {
   std::vector<Joint> joints;
   ContactModel contact;
   double regularisation = 0.0;  // added to the diagonal of J M^-1 J^T whatever the step [1/kg]
-  Settings settings;            // to start with
-  std::optional<Recommended> recommended;  // by a sweep over this scene
+  StartPolicy start = StartPolicy::kProject;  // what becomes of one that the joints contradict
+  Settings settings;                          // to start with
+  std::optional<Recommended> recommended;     // by a sweep over this scene
   Criteria criteria;
   Expectations verdicts;  // the verdict table by its rules, or empty
   Camera camera;

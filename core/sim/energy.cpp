@@ -14,6 +14,7 @@ Energies energies_of(const Scene& scene, const State& state) {
     sum.kinetic += 0.5 * body.mass * u.head<3>().squaredNorm() +
                    0.5 * omega_B.dot(body.inertia.cwiseProduct(omega_B));
     if (scene.effects.gravity) sum.potential -= body.mass * scene.gravity.dot(state.x[i]);
+    if (scene.effects.external) sum.potential -= body.force.dot(state.x[i]);
   }
   return sum;
 }

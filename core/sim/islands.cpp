@@ -75,7 +75,9 @@ void Islands::set_ways(const Scene& scene, const State& state, double ahead) {
   const auto n = static_cast<int>(parent_.size());
   for (int i = 0; i < n; ++i) {
     double& fastest = speed_[index(root(i))];
-    fastest = std::max(fastest, fastest_point(scene.bodies[index(i)], state.u[index(i)]));
+    double speed = fastest_point(scene.bodies[index(i)], state.u[index(i)]);
+    if (scene.effects.external) speed += ahead * fastest_gain(scene.bodies[index(i)]);
+    fastest = std::max(fastest, speed);
   }
   const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
   for (int i = 0; i < n; ++i) {

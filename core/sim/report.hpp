@@ -90,6 +90,7 @@ struct StagesRun {
   bool contact = false;
   bool friction = false;
   bool restitution = false;
+  bool external = false;
   bool stiffness = false;
   bool effective_mass = false;  // a mode put another mass in the place of M
   bool probe = false;
@@ -127,7 +128,7 @@ struct FrameReport {
   int rotation_body = -1;    // that body; -1 where none spins or the setting is off
 
   double kinetic = 0.0;           // synchronised with the positions [J]
-  double potential = 0.0;         // of gravity [J]
+  double potential = 0.0;         // of gravity and of constant forces [J]
   double energy = 0.0;            // kinetic + potential [J]
   double constraint_error = 0.0;  // sum over joints of the 1-norm of phi [m, rad]
   double joint_gap = 0.0;         // largest distance between the anchors of a joint [m]

@@ -18,7 +18,13 @@ bool is_spring(const Joint& joint) {
 }  // namespace
 
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
-    : scene(std::move(scene_in)), settings(scene->settings), state(initial_state(*scene)) {
+    : Impl(scene_in, start_of_run(*scene_in)) {}
+
+Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
+    : scene(std::move(scene_in)),
+      settings(scene->settings),
+      state(std::move(start_in.state)),
+      start(start_in.report) {
   const Effects& effects = scene->effects;
   if (effects.joints) joints = std::make_unique<JointStage>(*scene);
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
@@ -65,7 +71,8 @@ FrameReport Simulator::observe() const {
   return report;
 }
 
-void Simulator::reset() { set_state(initial_state(*impl_->scene)); }
+void Simulator::reset() { set_state(start_of_run(*impl_->scene).state); }
+const StartReport& Simulator::start() const { return impl_->start; }
 
 const Scene& Simulator::scene() const { return *impl_->scene; }
 const State& Simulator::state() const { return impl_->state; }
@@ -92,25 +99,20 @@ const std::optional<Grab>& Simulator::grab() const { return impl_->grab; }
 
 ConstraintForces Simulator::constraint_forces() const {
   ConstraintForces out;
-  const auto pulled = [](const Block& block) -> Eigen::Vector3f {
-    return Vec3(block.lambda[0], block.lambda[1], block.lambda[2]).cast<float>();
-  };
   for (Block& block : impl_->blocks.all()) {
     impl_->set_lambda(block);
     if (block.is_contact()) {
       Vec3 force = block.lambda[0] * block.n;
       if (block.rows == 3) force += block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
-      out.contacts.push_back({block.body_a, block.body_b, block.r_a.cast<float>(),
-                              block.n.cast<float>(), force.cast<float>(),
-                              static_cast<float>(block.phi[0])});
+      out.contacts.push_back({block.body_a, block.body_b, block.r_a, block.n, force, block.phi[0]});
     } else if (block.id < impl_->scene->joints.size()) {  // and not the hand
       out.joints.resize(impl_->scene->joints.size());
       JointForce& force = out.joints[static_cast<std::size_t>(block.id)];
-      force.force = pulled(block);
+      force.force = {block.lambda[0], block.lambda[1], block.lambda[2]};
+      force.known = true;
       if (block.kind == BlockKind::kHinge) {
-        const Vec3 torque = block.lambda[3] * block.axis.cross(block.v1) +
-                            block.lambda[4] * block.axis.cross(block.v2);
-        force.torque = torque.cast<float>();
+        force.torque = block.lambda[3] * block.axis.cross(block.v1) +
+                       block.lambda[4] * block.axis.cross(block.v2);
       }
     }
   }

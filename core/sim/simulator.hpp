@@ -8,6 +8,7 @@
 #include "core/model/state.hpp"
 #include "core/sim/constraint_forces.hpp"
 #include "core/sim/report.hpp"
+#include "core/sim/start.hpp"
 
 namespace substep {
 
@@ -37,8 +38,10 @@ class Simulator {
   /// here.
   [[nodiscard]] FrameReport observe() const;
 
-  /// Back to the scene's start. Settings stay.
+  /// Back to the start. Settings stay.
   void reset();
+  /// What was found at the scene's start, and done about it by Scene::start.
+  [[nodiscard]] const StartReport& start() const;
 
   [[nodiscard]] const Scene& scene() const;
   [[nodiscard]] const State& state() const;

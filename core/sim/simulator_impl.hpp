@@ -23,6 +23,7 @@ namespace substep {
 
 struct Simulator::Impl {
   explicit Impl(std::shared_ptr<const Scene> scene_in);
+  Impl(std::shared_ptr<const Scene> scene_in, Start start);
 
   /// @param most sub-steps to take, >= 1; the frame that is open goes on, else one begins
   FrameReport advance(int most);
@@ -125,6 +126,7 @@ struct Simulator::Impl {
   Settings settings;
   Measures measures;
   State state;
+  StartReport start;
   std::optional<Grab> grab;
   std::optional<FrameReport> open;  // of a frame of which some sub-steps are taken
   Schedule schedule;                // of the open frame

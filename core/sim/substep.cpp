@@ -8,6 +8,7 @@
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/external.hpp"
 #include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/mode_rules.hpp"
@@ -97,6 +98,10 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
       state.u[index(body)].head<3>() += impulse_time[index(body)] * scene->gravity;
     }
     report.stages.gravity = true;
+  }
+  if (scene->effects.external) {
+    add_external(*scene, moved, inertia_inverse, R_WB, impulse_time, state.u);
+    report.stages.external = true;
   }
   if (changes_mass(settings.mode)) {
     effective_mass(*scene, moved, settings, inertia_inverse, R_WB, u_start, dt, state,

@@ -58,6 +58,7 @@ Scene swinging_box_authors() {
   }
   Body heavy = solid("box", box(kBox, kBox, kBox), 1000.0, Vec3::Zero());
   heavy.velocity = {0.0, 0.0, 10.0};
+  scene.start = StartPolicy::kKeep;  // the authors' program gives the box a speed, not the chain
   hang(std::move(heavy), 0.5 * kBox);
   scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
   return scene;

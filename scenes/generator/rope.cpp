@@ -6,14 +6,16 @@
 namespace substep::scenes {
 namespace {
 
-/// Appends the hinges and bodies of a rope that hangs from `anchor` along (sin, -cos, 0) of its
+/// Appends the hinges and bodies of a rope that hangs from its anchor along (sin, -cos, 0) of its
 /// angle.
-void add_rope(const RopeOptions& options, const Vec3& anchor, Scene& scene) {
+void add_rope(const RopeOptions& options, Scene& scene) {
   const Vec3 d{options.angle.sine, -options.angle.cosine, 0.0};
   const double l = options.link_length;
+  const double width = options.link_width;
+  const double size = options.box_size;
 
   const auto hang = [&](Body body, double centre, double half_length, double parent_half_length) {
-    body.position = anchor + d * centre;
+    body.position = options.anchor + d * centre;
     body.orientation = turn_about_z(d.x(), d.y());
     HingeJoint hinge;
     hinge.name = "hinge_" + std::to_string(scene.joints.size());
@@ -21,7 +23,7 @@ void add_rope(const RopeOptions& options, const Vec3& anchor, Scene& scene) {
     hinge.anchor_a = {-half_length, 0.0, 0.0};
     if (scene.joints.empty()) {
       hinge.b = kWorld;
-      hinge.anchor_b = anchor;
+      hinge.anchor_b = options.anchor;
     } else {
       hinge.b = hinge.a - 1;
       hinge.anchor_b = {parent_half_length, 0.0, 0.0};
@@ -32,25 +34,27 @@ void add_rope(const RopeOptions& options, const Vec3& anchor, Scene& scene) {
     scene.joints.emplace_back(hinge);
   };
   for (int i = 0; i < options.n; ++i) {
-    hang(solid("link_" + std::to_string(i), box(l, 0.1, 0.1), 1.0, Vec3::Zero()), l * (i + 0.5),
-         0.5 * l, 0.5 * l);
+    hang(solid("link_" + std::to_string(i), box(l, width, width), options.link_mass, Vec3::Zero()),
+         l * (i + 0.5), 0.5 * l, 0.5 * l);
   }
-  hang(solid("box", box(1.0, 1.0, 1.0), options.end_mass, Vec3::Zero()), l * options.n + 0.5, 0.5,
-       0.5 * l);
+  hang(solid("box", box(size, size, size), options.end_mass, Vec3::Zero()),
+       l * options.n + 0.5 * size, 0.5 * size, 0.5 * l);
   scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
 }
 
-/// What a straight rope from the origin sets free on its way from its angle to straight down [J].
-double fall(const Scene& scene, const Angle& angle) {
+/// What a straight rope sets free on its way from its angle to straight down [J].
+double fall(const Scene& scene, const RopeOptions& options) {
   double moment = 0.0;  // of its masses about the anchor [kg m]
-  for (const Body& body : scene.bodies) moment += body.mass * body.position.norm();
-  return scene.gravity.norm() * moment * (1.0 - angle.cosine);
+  for (const Body& body : scene.bodies) {
+    moment += body.mass * (body.position - options.anchor).norm();
+  }
+  return scene.gravity.norm() * moment * (1.0 - options.angle.cosine);
 }
 
 }  // namespace
 
 Scene rope_of_n(const RopeOptions& options) {
-  const double length = options.n * options.link_length + 1.0;
+  const double length = options.n * options.link_length + options.box_size;
   Scene scene;
   scene.name = "rope_of_" + std::to_string(options.n);
   scene.title = "Rope of " + std::to_string(options.n);
@@ -59,10 +63,10 @@ Scene rope_of_n(const RopeOptions& options) {
       std::to_string(options.n) + " hinged links with a heavy box at the end, released at rest.";
   scene.look_for = "How many sub-steps the light links need, and what one of them costs.";
   scene.effects = {.gravity = true, .joints = true};
-  scene.camera.eye = {0.0, -0.5 * length, 2.0 * length};
-  scene.camera.target = {0.0, -0.5 * length, 0.0};
-  add_rope(options, Vec3::Zero(), scene);
-  const double freed = fall(scene, options.angle);
+  scene.camera.eye = options.anchor + Vec3(0.0, -0.5 * length, 2.0 * length);
+  scene.camera.target = options.anchor + Vec3(0.0, -0.5 * length, 0.0);
+  add_rope(options, scene);
+  const double freed = fall(scene, options);
   if (freed > 0.0) scene.criteria.energy_gain = 0.1 * freed;  // more is no motion of this rope
   return scene;
 }
@@ -83,7 +87,8 @@ Scene swinging_box(const SwingingBoxOptions& options) {
   scene.camera.eye = {16.0, 9.0, 15.9};
   scene.camera.target = {1.7, 6.0, 0.0};
   scene.bodies.push_back(floor_plane());
-  add_rope({.compliance = options.compliance, .angle = options.angle}, {0.0, 12.0, 0.0}, scene);
+  add_rope({.compliance = options.compliance, .angle = options.angle, .anchor = {0.0, 12.0, 0.0}},
+           scene);
   return scene;
 }
 

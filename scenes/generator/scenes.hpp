@@ -19,9 +19,13 @@ inline constexpr Angle kSixtyDegrees{0.86602540378443865, 0.5};
 struct RopeOptions {
   int n = 25;                   // links, >= 1
   double link_length = 0.4;     // [m]
-  double end_mass = 1000.0;     // of the box, 1 kg for a link [kg]
+  double end_mass = 1000.0;     // of the box at the end [kg]
   double compliance = 1e-12;    // of all joint rows [m/N, rad/(N m)]
   Angle angle = kSixtyDegrees;  // from straight down
+  double link_width = 0.1;      // edge of a link's square cross-section [m]
+  double link_mass = 1.0;       // of one link [kg]
+  double box_size = 1.0;        // edge of the box at the end [m]
+  Vec3 anchor = Vec3::Zero();   // that the rope hangs from, world [m]
 };
 Scene rope_of_n(const RopeOptions& options = {});
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,7 @@
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/setting_fields.hpp"
+#include "core/model/names.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/app/program.hpp"
 
@@ -58,18 +60,20 @@ TEST(CommandLine, CsvHasTheColumnsOfTheScenesEffects) {
       header("swinging_box"),
       "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,potential,energy,constraint_error,joint_gap,joint_rows,iterations,pivots,"
+      "kinetic,potential,energy,px,py,pz,lx,ly,lz,constraint_error,joint_gap,joint_rows,iterations,"
+      "pivots,"
       "unsolved,residual,x,y,z,ms");
   EXPECT_EQ(
       header("spinning_top"),
       "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,energy,iterations,pivots,unsolved,residual,x,y,z,ms");
+      "kinetic,energy,px,py,pz,lx,ly,lz,iterations,pivots,unsolved,residual,x,y,z,ms");
   EXPECT_EQ(
       header("heavy_stack"),
       "frame,time,substeps,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,potential,energy,penetration,contact_rows,iterations,pivots,unsolved,residual,"
+      "kinetic,potential,energy,px,py,pz,lx,ly,lz,penetration,contact_rows,iterations,pivots,"
+      "unsolved,residual,"
       "x,y,z,ms");
   EXPECT_NE(header("bridge").find("contact_rows,friction_rows,"), std::string::npos);
 }
@@ -98,6 +102,62 @@ TEST(CommandLine, CsvHasEveryFrameInFullPrecision) {
   }
 }
 
+TEST(CommandLine, StatesAndJointsHaveEveryBodyAndFrameInFullPrecision) {
+  const fs::path states = folder() / "states.csv";
+  const fs::path joints = folder() / "joints.csv";
+  const Outcome run = substep("run swinging_box --frames 3 --states \"" + states.string() +
+                              "\" --joints \"" + joints.string() + "\"");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::vector<std::string> poses = lines_of(text_of(states));
+  const std::vector<std::string> forces = lines_of(text_of(joints));
+  EXPECT_EQ(poses[0], "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz");
+  EXPECT_EQ(forces[0], "frame,time,joint,fx,fy,fz,tx,ty,tz,gap");
+  const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json").scene;
+  ASSERT_NE(scene, nullptr);
+  ASSERT_EQ(poses.size(), 1 + 4 * scene->bodies.size()) << "the start, and the floor, are included";
+  ASSERT_EQ(forces.size(), 1 + 3 * scene->joints.size());
+  EXPECT_EQ(cells_of(poses[1])[2], "floor");
+  Simulator simulator(scene);
+  for (std::size_t frame = 0; frame <= 3; ++frame) {
+    const State& state = simulator.state();
+    const std::vector<std::string> box = cells_of(poses[(frame + 1) * scene->bodies.size()]);
+    EXPECT_EQ(box[0] + ' ' + box[2], std::to_string(frame) + " box");
+    EXPECT_EQ(parse_number(box[1]), state.time);
+    for (int i = 0; i < 3; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      EXPECT_EQ(parse_number(box[3 + at]), state.x.back()[i]);
+      EXPECT_EQ(parse_number(box[7 + at]), state.q.back().vec()[i]);
+      EXPECT_EQ(parse_number(box[10 + at]), state.u_synchronised.back()[i]);
+      EXPECT_EQ(parse_number(box[13 + at]), state.u_synchronised.back()[3 + i]);
+    }
+    if (frame > 0) {
+      const std::vector<std::string> hinge = cells_of(forces[frame * scene->joints.size()]);
+      const JointForce force = simulator.constraint_forces().joints.back();
+      EXPECT_EQ(hinge[2], "hinge_25");
+      for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(parse_number(hinge[3 + i]), force.force[static_cast<int>(i)]);
+        EXPECT_EQ(parse_number(hinge[6 + i]), force.torque[static_cast<int>(i)]);
+      }
+    }
+    simulator.step();
+  }
+}
+
+TEST(CommandLine, TwoResultsInOneFileAreRefused) {
+  const std::string file = (folder() / "one.csv").string();
+  const std::string same = (folder() / "." / "one.csv").string();
+  for (const bool exists : {false, true}) {
+    if (exists) std::ofstream(file) << "kept";
+    const Outcome run =
+        substep("run pendulum --frames 1 --csv \"" + file + "\" --states \"" + same + "\"");
+    EXPECT_EQ(run.exit_code, 2);
+    EXPECT_NE(run.err.find("--states: " + same + " is taken by --csv"), std::string::npos)
+        << run.err;
+  }
+  EXPECT_EQ(text_of(file), "kept");
+  EXPECT_EQ(substep("run pendulum --frames 1 --csv /dev/null --states /dev/null").exit_code, 0);
+}
+
 TEST(CommandLine, CsvOnStandardOutputIsAlone) {
   const Outcome run = substep("run free_fall --frames 2 --csv -");
   EXPECT_EQ(lines_of(run.out).size(), 3U) << run.out;
@@ -113,6 +173,8 @@ TEST(CommandLine, JsonHasSettingsFramesAndVerdict) {
   EXPECT_EQ(json["settings"]["mode"], "const");
   EXPECT_EQ(json["settings"]["n"], 2);
   EXPECT_EQ(json["settings"]["probe"], false);
+  EXPECT_EQ(json["start"]["consistent"], true);
+  EXPECT_EQ(json["start"]["energy_found"], json["start"]["energy_begun"]);
   EXPECT_EQ(json["frames"].size(), 3U);
   EXPECT_EQ(json["frames"][2]["substeps"], 2);
   EXPECT_TRUE(json["frames"][0]["dt_stable"].is_null());
@@ -306,13 +368,46 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoScene", "run", "scene or --experiments is required"},
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},
         BadCall{"TwoResultsOnStandardOutput", "run bridge --csv - --json -", "taken by --csv"},
+        BadCall{"StatesAndJointsOnStandardOutput", "run bridge --states - --joints -",
+                "--joints: standard output is taken by --states"},
+        BadCall{"StatesInNoFolder", "run bridge --frames 1 --states /no/such/folder/a.csv",
+                "/no/such/folder/a.csv: No such file or directory"},
         BadCall{"UnknownScene", "run brigde",
                 "brigde: no such scene or file (did you mean \"bridge\"?)"},
         BadCall{"SceneIsAFolder", "run /", "/: cannot read /: "},
         BadCall{"CsvInNoFolder", "run bridge --frames 1 --csv /no/such/folder/a.csv",
                 "/no/such/folder/a.csv: No such file or directory"},
-        BadCall{"AngleBeyondRange", "generate rope --angle 100", "not in range"}),
+        BadCall{"AngleBeyondRange", "generate rope --angle 100", "not in range"},
+        BadCall{"LinkWithoutWidth", "generate rope --link-width 0", "not in range"},
+        BadCall{"LinkMassNegative", "generate rope --link-mass -1", "not in range"},
+        BadCall{"BoxSizeNoNumber", "generate rope --box-size nan", "not in range"},
+        BadCall{"AnchorTooFar", "generate rope --anchor 0 2e5 0", "not in range"},
+        BadCall{"AnchorOfTwoNumbers", "generate rope --anchor 1 2", "--anchor"}),
     kind_of);
+
+TEST(CommandLine, RunTellsAnInconsistentStartAndWhatBecameOfIt) {
+  const auto told = [](const std::string& start) {
+    Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json").scene;
+    scene.bodies[0].velocity = {1.2, 0.0, 0.0};
+    scene.bodies[0].position.z() += 0.02;
+    scene.start = *value_of<StartPolicy>(start);
+    const fs::path path = folder() / (start + ".json");
+    std::ofstream(path) << write_scene(scene);
+    return substep("run \"" + path.string() + "\" --seconds 0.1");
+  };
+  const std::string found =
+      "The start was inconsistent: joint 'hinge' open by 2 cm, 'hinge' moving apart at 1.2 m/s; ";
+  const Outcome projected = told("project");
+  EXPECT_EQ(projected.exit_code, 0) << projected.err;
+  EXPECT_NE(projected.out.find("\n" + found + "projected. Energy "), std::string::npos)
+      << projected.out;
+  EXPECT_NE(told("keep").out.find("\n" + found + "kept. Energy "), std::string::npos);
+  const Outcome refused = told("refuse");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("/joints/0: \"start\" is \"refuse\""), std::string::npos)
+      << refused.err;
+  EXPECT_EQ(substep("run pendulum --seconds 0.1").out.find("inconsistent"), std::string::npos);
+}
 
 TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   const fs::path path = folder() / "bad.json";
@@ -402,6 +497,32 @@ TEST(CommandLine, GeneratesTheShippedFiles) {
     plain.recommended.reset();
     EXPECT_TRUE(substep("generate " + std::string(name)).out == write_scene(plain)) << name;
   }
+}
+
+TEST(CommandLine, GeneratesRopesOfOtherSizesMassesAndPlaces) {
+  const fs::path path = folder() / "rope.json";
+  const Outcome made = substep(
+      "generate rope --links 3 --angle 30 --link-length 0.5 --link-width 0.05 "
+      "--link-mass 0.2 --box-size 0.8 --end-mass 40 --anchor 1 7.5 -2 --out \"" +
+      path.string() + "\"");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const auto scene = read_scene_file(path.string()).scene;
+  ASSERT_NE(scene, nullptr);
+  ASSERT_EQ(scene->bodies.size(), 4U);
+  EXPECT_EQ(std::get<Box>(scene->bodies[0].shape).half_extents, Vec3(0.25, 0.025, 0.025));
+  EXPECT_EQ(scene->bodies[0].mass, 0.2);
+  EXPECT_EQ(std::get<Box>(scene->bodies[3].shape).half_extents, Vec3(0.4, 0.4, 0.4));
+  EXPECT_EQ(scene->bodies[3].mass, 40.0);
+  const Vec3 anchor(1.0, 7.5, -2.0);
+  EXPECT_EQ(base(scene->joints[0]).anchor_b, anchor);
+  const Vec3 down(0.5, -std::sqrt(0.75), 0.0);
+  EXPECT_LT((scene->bodies[3].position - anchor - 1.9 * down).norm(), 1e-14);
+  EXPECT_LT(Simulator(scene).observe().joint_gap, 1e-14);
+  // What falling to straight down sets free, and a tenth of it: the anchor's height must not count.
+  EXPECT_NEAR(*scene->criteria.energy_gain,
+              0.1 * 9.81 * (40.0 * 1.9 + 0.2 * (0.25 + 0.75 + 1.25)) * (1.0 - std::sqrt(0.75)),
+              1e-12);
+  EXPECT_EQ(lines_of(substep("run \"" + path.string() + "\" --seconds 1").out).back(), "holds");
 }
 
 TEST(CommandLine, RunsAGeneratedRopeFromStandardInput) {

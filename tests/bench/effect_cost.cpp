@@ -38,6 +38,10 @@ constexpr Effect kEffects[] = {
      [](Scene& scene) {
        for (Body& body : scene.bodies) body.restitution = 0.0;
      }},
+    {"external", &Effects::external,
+     [](Scene& scene) {
+       for (Body& body : scene.bodies) body.force = body.torque = Vec3::Zero();
+     }},
 };
 
 constexpr int kFrames = 240;  // so that building the scene does not count

@@ -220,6 +220,13 @@ inline Scene any_scene() {
   effects.friction = effects.contact && has(&Body::friction);
   effects.restitution = effects.contact && has(&Body::restitution);
   scene.settings = any_settings();
+  scene.start = one_in(2) ? StartPolicy::kProject : StartPolicy::kKeep;
+  effects.external = one_in(4);
+  for (Body& body : scene.bodies) {
+    if (!effects.external || body.is_static) continue;
+    body.force = vector(one_in(20) ? 1e6 : 100.0);
+    if (one_in(2)) body.torque = vector(one_in(20) ? 1e4 : 10.0);
+  }
   return scene;
 }
 

@@ -146,11 +146,10 @@ double stored(const Simulator& simulator) {
   const ConstraintForces forces = simulator.constraint_forces();
   double sum = 0.0;
   for (std::size_t i = 0; i < forces.joints.size(); ++i) {
-    sum += 0.5 * base(scene.joints[i]).compliance *
-           forces.joints[i].force.cast<double>().squaredNorm();
+    sum += 0.5 * base(scene.joints[i]).compliance * forces.joints[i].force.squaredNorm();
   }
   for (const auto& contact : forces.contacts) {
-    sum += 0.5 * scene.contact.compliance * contact.force.cast<double>().squaredNorm();
+    sum += 0.5 * scene.contact.compliance * contact.force.squaredNorm();
   }
   return sum;
 }

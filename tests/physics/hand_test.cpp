@@ -154,9 +154,9 @@ TEST(InterruptedFrame, ShowsForcesAndVelocitiesOfItsLastSubstep) {
       simulator.substep();
       const State& after = simulator.state();
       const Vec3 gained = m * (after.u[box] - before.u[box]).head<3>() / dt;
-      const Eigen::Vector3f pulled = simulator.constraint_forces().joints[index(last)].force;
+      const Vec3 pulled = simulator.constraint_forces().joints[index(last)].force;
       const Vec3 expected = gained - m * scene.gravity;
-      EXPECT_LT((sign * pulled.cast<double>() - expected).norm(), 1e-5 * expected.norm()) << i;
+      EXPECT_LT((sign * pulled - expected).norm(), 1e-5 * expected.norm()) << i;
       for (std::size_t body = 0; body < after.u.size(); ++body) {
         // Turns go with the joints' forces where they act at the new poses.
         const Vec3 now = (after.u[body] + 0.5 * (after.u[body] - before.u[body])).head<3>();
@@ -187,8 +187,8 @@ TEST(ConstraintForces, OfAJointCarryWhatHangsFromIt) {
   for (int frame = 0; frame < 3; ++frame) simulator.step();
   const ConstraintForces forces = simulator.constraint_forces();
   ASSERT_EQ(forces.joints.size(), 2U);
-  EXPECT_LT((forces.joints[0].force - Eigen::Vector3f(0.0F, 98.1F, 0.0F)).norm(), 1e-3F);
-  EXPECT_LT((forces.joints[1].force - Eigen::Vector3f(0.0F, 68.67F, 0.0F)).norm(), 1e-3F);
+  EXPECT_LT((forces.joints[0].force - Vec3(0.0, 98.1, 0.0)).norm(), 1e-3);
+  EXPECT_LT((forces.joints[1].force - Vec3(0.0, 68.67, 0.0)).norm(), 1e-3);
 }
 
 TEST(ConstraintForces, OfContactsCarryWhatStandsOnThem) {
@@ -197,15 +197,14 @@ TEST(ConstraintForces, OfContactsCarryWhatStandsOnThem) {
   for (const Body& body : scene.bodies) weight += body.is_static ? 0.0 : 9.81 * body.mass;
   Simulator simulator = simulator_of(scene, scene.settings);
   for (int frame = 0; frame < 60; ++frame) simulator.step();
-  Eigen::Vector3f carried = Eigen::Vector3f::Zero();
+  Vec3 carried = Vec3::Zero();
   for (const ContactForce& contact : simulator.constraint_forces().contacts) {
     if (scene.bodies[static_cast<std::size_t>(contact.b)].is_static) carried += contact.force;
-    const Vec3 point =
-        simulator.state().x[static_cast<std::size_t>(contact.a)] + contact.arm_a.cast<double>();
+    const Vec3 point = simulator.state().x[static_cast<std::size_t>(contact.a)] + contact.arm_a;
     EXPECT_GT(point.y(), -1e-3);
-    EXPECT_NEAR(static_cast<double>(contact.normal.norm()), 1.0, 1e-6);
+    EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-6);
   }
-  EXPECT_NEAR(static_cast<double>(carried.y()) / weight, 1.0, 1e-3);
+  EXPECT_NEAR(carried.y() / weight, 1.0, 1e-3);
 }
 
 struct Yank {

@@ -37,6 +37,7 @@ inline Scene beside(const std::vector<Scene>& scenes) {
     all.effects.contact |= scene.effects.contact;
     all.effects.friction |= scene.effects.friction;
     all.effects.gyroscopic |= scene.effects.gyroscopic;
+    all.effects.external |= scene.effects.external;
     if (scene.effects.contact) all.contact = scene.contact;
     for (const Body& body : scene.bodies) {
       all.bodies.push_back(body);

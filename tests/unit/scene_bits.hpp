@@ -44,7 +44,8 @@ class SceneBitsWriter {
     if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
   }
   void add(const Effects& e) {
-    for (const bool b : {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution})
+    for (const bool b :
+         {e.gravity, e.gyroscopic, e.joints, e.contact, e.friction, e.restitution, e.external})
       add(b);
   }
   void add(const Body& b) {
@@ -57,6 +58,8 @@ class SceneBitsWriter {
     add(b.orientation);
     add(b.velocity);
     add(b.angular_velocity);
+    add(b.force);
+    add(b.torque);
     add(b.friction);
     add(b.restitution);
     add(b.collision_group);
@@ -100,6 +103,7 @@ inline SceneBits bits_of(const Scene& s) {
   out.add(s.contact.margin);
   out.add(s.contact.restitution_speed);
   out.add(s.regularisation);
+  out.add(static_cast<int>(s.start));
   out.add(s.criteria.duration);
   out.add(s.criteria.joint_gap);
   out.add(s.criteria.energy_gain);

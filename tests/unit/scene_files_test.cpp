@@ -65,6 +65,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   scene.gravity = {1.0, -0.0, 2.0};
   scene.contact = {2e-9, 3e-9, 0.5};
   scene.regularisation = 1e-6;
+  scene.start = StartPolicy::kKeep;
   scene.settings = {.solver = SolverKind::kPgs,
                     .iterations = 7,
                     .share_iterations = true,
@@ -108,6 +109,9 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   body.inertia *= 1.1;
   body.velocity = {1.0, 2.0, 3.0};
   body.angular_velocity = {0.1, 0.2, 0.3};
+  body.force = {-7.0, 0.5, 1e-3};
+  body.torque = {0.0, 1.0 / 3.0, -2e5};
+  scene.effects.external = true;
   body.collides = false;
   body.collision_group = 9;
   scene.title = "Quotes \" and \\ and \xc3\xa9";

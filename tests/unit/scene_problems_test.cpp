@@ -159,7 +159,8 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("mass": 2)",
                 R"("mass": 2, "a/b~c": 3)",
                 {"/bodies/1/a~1b~0c: unknown key (known here: name, static, shape, mass, inertia, "
-                 "position, orientation, velocity, angular_velocity, friction, restitution, "
+                 "position, orientation, velocity, angular_velocity, force, torque, "
+                 "friction, restitution, "
                  "collision_group, collides or color)"}},
         BadFile{"BodyNameTwice",
                 R"("name": "ball", "shape")",
@@ -214,8 +215,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"EffectOfNoKind",
                 R"("friction"],)",
                 R"("friction", "magnetism"],)",
-                {"/effects/4: \"magnetism\" is not gravity, gyroscopic, joints, contact, friction "
-                 "or restitution"}},
+                {"/effects/4: \"magnetism\" is not gravity, gyroscopic, joints, contact, friction, "
+                 "restitution or external"}},
+        BadFile{"EffectOfForcesMissing",
+                R"("shape": {"type": "sphere")",
+                R"("force": [0, 0, 0], "torque": [0, 1, 0], "shape": {"type": "sphere")",
+                {"/effects: \"external\" is missing, and /bodies/2/torque is given"}},
+        BadFile{"ForceOnAStaticBody",
+                R"("shape": {"type": "plane")",
+                R"("force": [1, 0, 0], "torque": [0, 0, 0], "shape": {"type": "plane")",
+                {"/bodies/0/force: a static body never moves",
+                 "/bodies/0/torque: a static body never moves"}},
+        BadFile{"ForceBeyondRange",
+                R"("shape": {"type": "sphere")",
+                R"("force": [1e13, 0, 0], "torque": [0, null, 0], "shape": {"type": "sphere")",
+                {"/bodies/2/force/0: must be at most 1e12 (N), not 1e13",
+                 "/bodies/2/torque/1: null is not a number (N m)"}},
         BadFile{"EffectTwice",
                 R"("friction"],)",
                 R"("friction", "gravity"],)",
@@ -274,14 +289,15 @@ INSTANTIATE_TEST_SUITE_P(
                  "/carried/forces/0/rate: 1 is not a list of up to 5",
                  "/carried/forces/0/rate_change: [1,2,3,4,5,6] is not a list of up to 5",
                  R"(/carried/forces/0/tight: "0~" is not made of -, 0, + and ?)"}},
-        BadFile{"BodiesNoList",
-                R"("joints": [)",
-                R"("joints": 3, "x": [)",
-                {"/joints: 3 is not a list",
-                 "/x: unknown key (known here: format, version, name, title, group, description, "
-                 "look_for, camera, frame, effects, gravity, contact, regularisation, settings, "
-                 "recommended, "
-                 "bodies, criteria, verdicts, joints or carried)"}},
+        BadFile{
+            "BodiesNoList",
+            R"("joints": [)",
+            R"("joints": 3, "x": [)",
+            {"/joints: 3 is not a list",
+             "/x: unknown key (known here: format, version, name, title, group, description, "
+             "look_for, camera, frame, effects, gravity, contact, regularisation, start, settings, "
+             "recommended, "
+             "bodies, criteria, verdicts, joints or carried)"}},
         BadFile{"BodyNoObject",
                 R"("bodies": [)",
                 R"("bodies": [7, )",

@@ -7,6 +7,7 @@
 #include "core/io/json_text.hpp"
 #include "core/io/scene_limits.hpp"
 #include "core/io/scene_reader.hpp"
+#include "core/model/names.hpp"
 #include "tests/unit/scene_text.hpp"
 
 namespace substep {
@@ -151,6 +152,49 @@ TEST(SceneReader, DerivesEffectsThatAreNotListed) {
           .scene;
   ASSERT_NE(ball, nullptr);
   EXPECT_EQ(ball->effects, Effects{});
+}
+
+TEST(SceneReader, InfersExternalForcesFromBodies) {
+  const std::string unlisted =
+      with(R"("effects": ["gravity", "joints", "contact", "friction"],)", "");
+  EXPECT_FALSE(read_scene(unlisted).scene->effects.external);
+  for (const char* key : {R"("force": [0, 0, 2], )", R"("torque": [0, -1, 0], )"}) {
+    const SceneResult pushed =
+        read_scene(with(R"("shape": {"type": "sphere")",
+                        std::string(key) + R"("shape": {"type": "sphere")", unlisted));
+    ASSERT_NE(pushed.scene, nullptr);
+    EXPECT_TRUE(pushed.scene->effects.external);
+  }
+}
+
+TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
+  // The ball 5 cm too far, and at 2 m/s; the arm turns at 3 rad/s across its hinge's axis.
+  const std::string apart =
+      with(R"("position": [1, 3, 0])", R"("position": [1.05, 3, 0], "velocity": [0, 2, 0])");
+  const std::string turning =
+      with(R"("velocity": [0, 0, 0], )",
+           R"("velocity": [0, 0, 0], "angular_velocity": [3, 0, 0], )", apart);
+  const auto told = [](const std::string& start, const std::string& text) {
+    return with(R"("frame": 0.01,)", R"("frame": 0.01, "start": ")" + start + R"(",)", text);
+  };
+  for (const char* start : {"project", "keep"}) {
+    const SceneResult read = read_scene(told(start, turning));
+    ASSERT_NE(read.scene, nullptr);
+    EXPECT_EQ(name_of(read.scene->start), start);
+    EXPECT_EQ(read.scene->bodies[2].position, Vec3(1.05, 3.0, 0.0)) << "as it is written";
+  }
+  EXPECT_EQ(problems_of(told("refuse", kGood)), List{});
+  EXPECT_EQ(
+      problems_of(told("refuse", turning)),
+      (List{"/joints/0: \"start\" is \"refuse\", and this joint is turning across its axis at "
+            "3 rad/s",
+            "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
+            "apart at 2 m/s"}));
+  EXPECT_EQ(problems_of(told("mend", kGood)),
+            List{"/start: \"mend\" is not project, keep or refuse"});
+  EXPECT_EQ(problems_of(with(R"("position": [1, 3, 0])", R"("position": [1.25, 3, 0])")),
+            List{"/joints/1: the anchors start 0.25 apart, which is more than 0.1 (m)"})
+      << "whatever is done about starts";
 }
 
 TEST(SceneReader, LeavesOrientationsAsTheyAreWritten) {

@@ -270,7 +270,7 @@ TEST(Hand, ThrownBallHitsWhatNeverTouchedAnything) {
     session.step();
     for (const ContactForce& c : session.forces().contacts) {
       EXPECT_EQ(std::max(c.a, c.b), static_cast<int>(box) + 1) << "only the ball touches";
-      touched = touched || c.gap < 1e-3F;
+      touched = touched || c.gap < 1e-3;
     }
   }
   EXPECT_TRUE(touched);

@@ -1,0 +1,133 @@
+#include "app/cli/run_outputs.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cstdio>
+#include <utility>
+
+#include "core/io/json.hpp"
+#include "core/io/motion_csv.hpp"
+#include "core/io/result.hpp"
+#include "core/io/setting_fields.hpp"
+
+namespace substep::cli {
+namespace {
+
+/// The flags that name result files, and the files.
+std::array<std::pair<const char*, std::string>, 4> by_flag(const RunFiles& f) {
+  return {{{"--csv", f.csv}, {"--json", f.json}, {"--states", f.states}, {"--joints", f.joints}}};
+}
+
+std::string json_text(const std::string& text) {
+  return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+/// What was found at the start, largest over the joints [m, rad, m/s, rad/s], and done about it
+/// [J].
+Json start_json(const StartReport& start) {
+  const StartErrors& found = start.found;
+  return {{"consistent", found.consistent()},
+          {"gap", found.gap},
+          {"tilt", found.tilt},
+          {"speed", found.speed},
+          {"turning", found.turning},
+          {"projected", start.projected},
+          {"energy_found", start.energy_found},
+          {"energy_begun", start.energy_begun}};
+}
+
+std::string json_head(const Simulator& simulator) {
+  const Scene& scene = simulator.scene();
+  const Settings& settings = simulator.settings();
+  std::string text = "{\n  \"scene\": " + json_text(scene.name) + ",\n  \"settings\": {";
+  const char* separator = "";
+  for (const SettingField& field : setting_fields()) {
+    const std::string value = setting_text(field, settings);
+    text += separator + json_text(std::string(field.name)) + ": ";
+    text += is_choice(field) ? json_text(value) : value;
+    separator = ", ";
+  }
+  return text + "},\n  \"start\": " + start_json(simulator.start()).dump() + ",\n  \"frames\": [";
+}
+
+std::string json_tail(const Metrics& metrics) {
+  char hash[32];
+  std::snprintf(hash, sizeof hash, "%016" PRIx64, metrics.hash);
+  return "\n  ],\n  \"work\": " + work_json(metrics.work).dump() +
+         ",\n  \"timing\": " + timing_json(metrics.timing).dump() + ",\n  \"hash\": \"" + hash +
+         "\",\n  \"holds\": " + (metrics.holds ? "true" : "false") +
+         ",\n  \"verdict\": " + json_text(metrics.verdict) + "\n}\n";
+}
+
+}  // namespace
+
+void RunFiles::add_to(CLI::App& command) {
+  command.add_option("--csv", csv, "write one line per frame to this file, - for stdout");
+  command.add_option("--json", json,
+                     "the same as JSON, with settings, verdict, and work and time by stage");
+  command.add_option("--states", states,
+                     "write pose and velocity of every body, a line per body and frame, the start "
+                     "first; world axes, - for stdout");
+  command.add_option("--joints", joints,
+                     "write force and torque of every joint on its body a, a line per joint and "
+                     "frame: of the frame's last sub-step, about the anchor on a, world axes");
+}
+
+void RunFiles::check() const {
+  const auto files = by_flag(*this);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto& [flag, path] = files[i];
+      if (!same_output(files[j].second, path)) continue;
+      throw CLI::ValidationError(
+          flag, (path == "-" ? "standard output" : path) + " is taken by " + files[j].first);
+    }
+  }
+}
+
+bool RunFiles::take_standard_output() const {
+  const auto files = by_flag(*this);
+  return std::any_of(files.begin(), files.end(), [](const auto& f) { return f.second == "-"; });
+}
+
+bool RunOutputs::open(const RunFiles& files) {
+  return csv_.open(files.csv) && json_.open(files.json) && states_.open(files.states) &&
+         joints_.open(files.joints);
+}
+
+void RunOutputs::begin(const Simulator& simulator) {
+  const Scene& scene = simulator.scene();
+  columns_ = frame_columns(scene);
+  if (csv_.is_open()) csv_.write(csv_header(columns_));
+  if (json_.is_open()) json_.write(json_head(simulator));
+  if (states_.is_open()) states_.write(states_header() + states_lines(scene, simulator.state()));
+  if (joints_.is_open()) joints_.write(joints_header());
+}
+
+void RunOutputs::add(const Simulator& simulator, const FrameReport& frame) {
+  const Scene& scene = simulator.scene();
+  const FrameView view{scene, frame, simulator.state()};
+  if (csv_.is_open()) csv_.write(csv_line(columns_, view));
+  if (json_.is_open()) {
+    json_.write(separator_ + json_line(columns_, view));
+    separator_ = ",\n    ";
+  }
+  if (states_.is_open()) states_.write(states_lines(scene, simulator.state()));
+  if (joints_.is_open()) {
+    joints_.write(joints_lines(scene, simulator.state(), simulator.constraint_forces()));
+  }
+}
+
+bool RunOutputs::end(const Simulator& simulator, const Measure& measure) {
+  if (json_.is_open()) {
+    json_.write(json_tail(measure.metrics(simulator.scene(), simulator.state())));
+  }
+  const bool csv = csv_.close();
+  const bool json = json_.close();
+  const bool states = states_.close();
+  const bool joints = joints_.close();
+  return csv && json && states && joints;
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,78 @@
+#include "core/lab/start_text.hpp"
+
+#include <array>
+#include <cstdio>
+#include <vector>
+
+namespace substep {
+namespace {
+
+std::string short_text(double value, const char* unit) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.3g %s", value, unit);
+  return text.data();
+}
+
+std::string length_text(double metres) {
+  if (metres >= 1.0) return short_text(metres, "m");
+  if (metres >= 1e-2) return short_text(1e2 * metres, "cm");
+  if (metres >= 1e-3) return short_text(1e3 * metres, "mm");
+  if (metres >= 1e-6) return short_text(1e6 * metres, "um");
+  return short_text(1e9 * metres, "nm");
+}
+
+std::string gap_text(double gap) { return "open by " + length_text(gap); }
+std::string tilt_text(double tilt) { return "tilted by " + short_text(tilt, "rad"); }
+std::string speed_text(double speed) { return "moving apart at " + short_text(speed, "m/s"); }
+std::string turning_text(double turning) {
+  return "turning across its axis at " + short_text(turning, "rad/s");
+}
+
+// Both energies are told: what was lost may be little of them.
+std::string energy_text(double energy) {
+  std::array<char, 48> text{};
+  std::snprintf(text.data(), text.size(), "%.6g J", energy);
+  return text.data();
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
+}  // namespace
+
+std::string fault_text(const JointStart& start) {
+  std::vector<std::string> parts;
+  if (start.beyond.gap) parts.push_back(gap_text(start.gap));
+  if (start.beyond.tilt) parts.push_back(tilt_text(start.tilt));
+  if (start.beyond.speed) parts.push_back(speed_text(start.speed));
+  if (start.beyond.turning) parts.push_back(turning_text(start.turning));
+  return joined(parts);
+}
+
+std::string start_text(const Scene& scene, const StartReport& report) {
+  const StartErrors& found = report.found;
+  if (found.consistent() || report.continued) return "";
+  std::vector<std::string> parts;
+  const auto add = [&](bool beyond, int joint, const std::string& what) {
+    if (!beyond) return;
+    const std::string& name = base(scene.joints[static_cast<std::size_t>(joint)]).name;
+    parts.push_back((parts.empty() ? "joint '" : "'") + name + "' " + what);
+  };
+  add(found.beyond.gap, found.gap_joint, gap_text(found.gap));
+  add(found.beyond.tilt, found.tilt_joint, tilt_text(found.tilt));
+  add(found.beyond.speed, found.speed_joint, speed_text(found.speed));
+  add(found.beyond.turning, found.turning_joint, turning_text(found.turning));
+  std::string text = "The start was inconsistent: " + joined(parts);
+  const std::string energy = energy_text(report.energy_found);
+  if (report.projected) {
+    return text + "; projected. Energy " + energy + " before, " + energy_text(report.energy_begun) +
+           " after.";
+  }
+  text += report.failed ? "; no near start closes the joints, so it is kept." : "; kept.";
+  return text + " Energy " + energy + ".";
+}
+
+}  // namespace substep

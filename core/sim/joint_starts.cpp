@@ -1,0 +1,136 @@
+#include "core/sim/joint_starts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/constraints/joint_stage.hpp"
+#include "core/stepping/effective_mass.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kRelative = 1e-9;  // of lengths, angles and velocities [-]
+constexpr double kVelocity = 1e-8;  // [m/s, rad/s]
+constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();  // [-]
+
+/// Mean of J M^-1 J^T over some rows of a block [1/kg or 1/(kg m^2)].
+double mean_inverse_mass(const Block& block, int first, int last,
+                         std::span<const InverseMass> inverse_mass) {
+  double sum = 0.0;
+  for (int row = first; row < last; ++row) {
+    for (const bool of_a : {true, false}) {
+      const int body = of_a ? block.a : block.b;
+      if (body < 0) continue;
+      const Vec6 J = gradient(block, row, of_a);
+      const InverseMass& m = inverse_mass[index(body)];
+      sum += m.linear * J.head<3>().squaredNorm() + J.tail<3>().dot(Vec3(m.angular * J.tail<3>()));
+    }
+  }
+  return sum / (last - first);
+}
+
+/// What the bodies at a joint's two sides have.
+struct SideSizes {
+  double distance = 0.0;  // of the centres from the origin [m]
+  double speed = 0.0;     // of the centres and of the anchors about them [m/s]
+  double turning = 0.0;   // [rad/s]
+};
+
+SideSizes sizes(const JointBase& joint, const State& state) {
+  SideSizes sum;
+  const auto add = [&](int body, const Vec3& arm) {
+    if (body == kWorld) {
+      sum.distance += arm.norm();
+      return;
+    }
+    const Vec6& u = state.u[index(body)];
+    const double omega = u.tail<3>().norm();
+    sum.distance += state.x[index(body)].norm();
+    sum.speed += u.head<3>().norm() + omega * arm.norm();
+    sum.turning += omega;
+  };
+  add(joint.a, joint.anchor_a);
+  add(joint.b, joint.anchor_b);
+  return sum;
+}
+
+JointStart measured(const Scene& scene, const State& state, const Block& block,
+                    const HoldingRows& holds) {
+  const JointBase& joint = base(scene.joints[static_cast<std::size_t>(block.id)]);
+  const SideSizes size = sizes(joint, state);
+  double speeds[kMaxRows];
+  row_speeds(block, state.u, speeds);
+  JointStart start;
+  double sine = 0.0;  // of the tilt
+  if (holds.anchors) {
+    start.gap = Vec3(block.phi[0], block.phi[1], block.phi[2]).norm();
+    start.speed = Vec3(speeds[0], speeds[1], speeds[2]).norm();
+  }
+  if (holds.axes && block.rows == 5) {
+    sine = Eigen::Vector2d(block.phi[3], block.phi[4]).norm();
+    start.tilt = std::asin(std::min(1.0, sine));
+    start.turning = Eigen::Vector2d(speeds[3], speeds[4]).norm();
+  }
+  const double length = kRelative * size_of_joint(scene, joint) + kRounding * size.distance;
+  start.beyond.gap = !(start.gap <= length);
+  start.beyond.tilt = !(sine <= kRelative);
+  start.beyond.speed = !(start.speed <= kVelocity + kRelative * size.speed);
+  start.beyond.turning = !(start.turning <= kVelocity + kRelative * size.turning);
+  return start;
+}
+
+void keep_larger(double& most, int& whose, double value, std::size_t joint) {
+  if (!(value > most)) return;
+  most = value;
+  whose = static_cast<int>(joint);
+}
+
+}  // namespace
+
+double size_of_joint(const Scene& scene, const JointBase& joint) {
+  // An anchor in the world is a place, not an arm.
+  const double arm_b = joint.b == kWorld ? 0.0 : joint.anchor_b.norm();
+  return joint.anchor_a.norm() + arm_b + radius_around(scene.bodies[index(joint.a)].shape);
+}
+
+HoldingRows holding_rows(const Block& block, std::span<const InverseMass> inverse_mass, double h) {
+  const auto yields = [&](int first, int last) {
+    return block.C[first] > 0.0 &&
+           block.C[first] >= h * h * mean_inverse_mass(block, first, last, inverse_mass);
+  };
+  return {!yields(0, 3), block.rows == 5 && !yields(3, 5)};
+}
+
+std::vector<JointStart> joint_starts(const Scene& scene, const State& state) {
+  std::vector<JointStart> starts;
+  if (!scene.effects.joints) return starts;
+  std::vector<Mat3> R_WB;
+  for (const Quat& q : state.q) R_WB.push_back(q.toRotationMatrix());
+  Blocks blocks;
+  JointStage(scene).append(whole(scene), state, R_WB, blocks);
+  std::vector<InverseMass> inverse(scene.bodies.size());
+  inverse_mass(inertia_inverses(scene), whole(scene), R_WB, inverse);
+  for (const Block& block : blocks.all()) {
+    starts.push_back(measured(scene, state, block, holding_rows(block, inverse, scene.frame)));
+  }
+  return starts;
+}
+
+StartErrors start_errors(const Scene& scene, const State& state) {
+  StartErrors errors;
+  const std::vector<JointStart> starts = joint_starts(scene, state);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    keep_larger(errors.gap, errors.gap_joint, starts[i].gap, i);
+    keep_larger(errors.tilt, errors.tilt_joint, starts[i].tilt, i);
+    keep_larger(errors.speed, errors.speed_joint, starts[i].speed, i);
+    keep_larger(errors.turning, errors.turning_joint, starts[i].turning, i);
+    for (bool StartFaults::*fault :
+         {&StartFaults::gap, &StartFaults::tilt, &StartFaults::speed, &StartFaults::turning}) {
+      errors.beyond.*fault = errors.beyond.*fault || starts[i].beyond.*fault;
+    }
+  }
+  return errors;
+}
+
+}  // namespace substep

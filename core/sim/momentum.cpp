@@ -1,0 +1,19 @@
+#include "core/sim/momentum.hpp"
+
+namespace substep {
+
+Momenta momenta_of(const Scene& scene, const State& state) {
+  Momenta sum;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;
+    const Vec6& u = state.u_synchronised[i];
+    const Vec3 p = body.mass * u.head<3>();
+    const Vec3 omega_B = state.q[i].conjugate() * Vec3(u.tail<3>());
+    sum.linear += p;
+    sum.angular += state.x[i].cross(p) + state.q[i] * body.inertia.cwiseProduct(omega_B);
+  }
+  return sum;
+}
+
+}  // namespace substep

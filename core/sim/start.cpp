@@ -1,0 +1,60 @@
+#include "core/sim/start.hpp"
+
+#include <utility>
+
+#include "core/sim/energy.hpp"
+#include "core/sim/start_projection.hpp"
+
+namespace substep {
+namespace {
+
+/// @param poses whether they are to be moved as well
+/// @return false where it fails; the state is spoilt then
+bool project(const Scene& scene, bool poses, State& state) {
+  return (!poses || close_joints(scene, state)) && match_velocities(scene, state);
+}
+
+double energy_at(const Scene& scene, const State& state) {
+  const Energies energies = energies_of(scene, state);
+  return energies.kinetic + energies.potential;
+}
+
+}  // namespace
+
+Start start_of_run(const Scene& scene) {
+  Start start{initial_state(scene), {}};
+  StartReport& report = start.report;
+  report.continued = scene.carried.has_value();
+  report.found = report.left = start_errors(scene, start.state);
+  report.energy_found = report.energy_begun = energy_at(scene, start.state);
+  if (report.found.consistent() || report.continued || scene.start != StartPolicy::kProject) {
+    return start;
+  }
+  State state = start.state;
+  if (!project(scene, report.found.beyond.poses(), state)) {
+    report.failed = true;
+    return start;
+  }
+  start.state = std::move(state);
+  report.projected = true;
+  report.left = start_errors(scene, start.state);
+  report.energy_begun = energy_at(scene, start.state);
+  return start;
+}
+
+std::shared_ptr<const Scene> with_start_of_run(std::shared_ptr<const Scene> scene) {
+  const Start start = start_of_run(*scene);
+  if (!start.report.projected) return scene;
+  Scene begun = *scene;
+  for (std::size_t i = 0; i < begun.bodies.size(); ++i) {
+    Body& body = begun.bodies[i];
+    if (body.is_static) continue;
+    body.position = start.state.x[i];
+    body.orientation = start.state.q[i];
+    body.velocity = start.state.u[i].head<3>();
+    body.angular_velocity = start.state.u[i].tail<3>();
+  }
+  return std::make_shared<const Scene>(std::move(begun));
+}
+
+}  // namespace substep

@@ -1,0 +1,236 @@
+#include "core/sim/start_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/constraints/joint_stage.hpp"
+#include "core/sim/joint_starts.hpp"
+#include "core/solver/bpp.hpp"
+#include "core/stepping/effective_mass.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kClosed = 1e-13;  // error, of the joint's size or in rad, that ends an iteration
+// Softness of a hinge's anchors where only its axes hold, of 1/m: next to no impulse, and no digits
+// lost [-].
+constexpr double kFree = 1e8;
+constexpr int kMostClosing = 50;   // Newton steps
+constexpr int kMostNearing = 100;  // steps towards the least change, which converge linearly
+constexpr int kMostMatching = 8;   // solves for velocities: more than one where rows are redundant
+
+/// The rows of all joints at a state, and the solver for them.
+class JointRows {
+ public:
+  JointRows(const Scene& scene, State& state)
+      : scene_(scene),
+        state_(state),
+        all_(whole(scene)),
+        joints_(scene),
+        own_(inertia_inverses(scene)),
+        R_WB_(scene.bodies.size()),
+        inverse_mass_(scene.bodies.size()) {
+    for (const Joint& joint : scene.joints) sizes_.push_back(size_of_joint(scene, base(joint)));
+    solver_.reserve(scene.bodies.size(), scene.joints.size());
+  }
+
+  /// At the poses of the state. What is a spring there stays one.
+  void update() {
+    for (std::size_t i = 0; i < R_WB_.size(); ++i) R_WB_[i] = state_.q[i].toRotationMatrix();
+    inverse_mass(own_, all_, R_WB_, inverse_mass_);
+    blocks_.clear();
+    joints_.append(all_, state_, R_WB_, blocks_);
+    const bool first = holds_.empty();
+    for (const Block& block : blocks_.all()) {
+      if (first) holds_.push_back(holding_rows(block, inverse_mass_, scene_.frame));
+    }
+  }
+
+  /// Largest error of a row that holds: a gap as a share of the joint's size, or a tilt [-, rad].
+  [[nodiscard]] double error() const {
+    double most = 0.0;
+    for_holding([&](const Block& block, int row, double size) {
+      const double error = std::abs(block.phi[row]) / (row < 3 ? size : 1.0);
+      most = error > most || std::isnan(error) ? error : most;
+    });
+    return most;
+  }
+
+  /// Largest J u of a row that holds, of velocities u [m/s, rad/s].
+  [[nodiscard]] double error_of(std::span<const Vec6> u) const {
+    double most = 0.0;
+    double speeds[kMaxRows];
+    for_holding([&](const Block& block, int row, double) {
+      if (row == 0 || row == 3) row_speeds(block, u, speeds);
+      const double error = std::abs(speeds[row]);
+      most = error > most || std::isnan(error) ? error : most;
+    });
+    return most;
+  }
+
+  /// u := the nearest to u, in the norm of the masses, with J u = -share * phi.
+  void solve(double share, std::vector<Vec6>& u) {
+    held_.clear();
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      if (!holds_[i].anchors && !holds_[i].axes) continue;
+      Block& block = held_.emplace_back(blocks_.all()[i]);
+      if (!holds_[i].axes && block.kind == BlockKind::kHinge) {
+        block.kind = BlockKind::kBall;
+        block.rows = 3;
+      }
+      double free = 0.0;  // [1/kg]
+      for (const int body : {block.a, block.b}) {
+        if (body >= 0) free += kFree * inverse_mass_[index(body)].linear;
+      }
+      for (int row = 0; row < block.rows; ++row) {
+        const bool held = row >= 3 || holds_[i].anchors;
+        block.bias[row] = held ? share * block.phi[row] : 0.0;
+        block.softness[row] = held ? 0.0 : free;
+        block.impulse[row] = 0.0;
+      }
+    }
+    solver_.solve(System{held_, inverse_mass_, u}, Settings{});
+  }
+
+  /// Moves the bodies: along, then about the world's axes by the Cayley map, as sub-steps do.
+  void move(std::span<const Vec6> by) {
+    for (const int body : all_.moving) {
+      const std::size_t i = index(body);
+      state_.x[i] += by[i].head<3>();
+      const Vec3 half = 0.5 * by[i].tail<3>();
+      state_.q[i] = (Quat(1.0, half.x(), half.y(), half.z()) * state_.q[i]).normalized();
+    }
+  }
+
+ private:
+  template <class Visit>
+  void for_holding(Visit visit) const {
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+      const Block& block = blocks_.all()[i];
+      for (int row = 0; row < block.rows; ++row) {
+        const bool held = row < 3 ? holds_[i].anchors : holds_[i].axes;
+        if (held) visit(block, row, sizes_[i]);
+      }
+    }
+  }
+
+  const Scene& scene_;
+  State& state_;
+  Part all_;
+  JointStage joints_;
+  std::vector<InertiaInverse> own_;
+  std::vector<Mat3> R_WB_;
+  std::vector<InverseMass> inverse_mass_;
+  std::vector<double> sizes_;  // per joint [m]
+  std::vector<HoldingRows> holds_;
+  Blocks blocks_;
+  std::vector<Block> held_;  // without the rows of springs
+  Bpp solver_;
+};
+
+/// Largest entry; NaN where one is.
+double largest(std::span<const Vec6> moves) {
+  double most = 0.0;
+  for (const Vec6& move : moves) {
+    const double size = move.cwiseAbs().maxCoeff();
+    most = size > most || !move.allFinite() ? size : most;
+  }
+  return most;
+}
+
+/// Newton's method onto the joints, each step the least one. A step that makes matters worse is
+/// taken in part. @return whether they are closed as far as rounding lets them
+bool onto_joints(JointRows& rows, State& state) {
+  std::vector<Vec6> step(state.x.size());
+  rows.update();
+  double error = rows.error();
+  for (int i = 0; i < kMostClosing && error > kClosed; ++i) {
+    const State before = state;
+    double share = 1.0;
+    double next = error;
+    do {
+      state = before;
+      rows.update();
+      std::fill(step.begin(), step.end(), Vec6::Zero());
+      rows.solve(share, step);
+      rows.move(step);
+      rows.update();
+      next = rows.error();
+      share *= 0.5;
+    } while (!(next < error) && share > 0.02);
+    if (!(next < error)) {  // rounding is all that is left, or there is no way down
+      state = before;
+      rows.update();
+      break;
+    }
+    error = next;
+  }
+  return std::isfinite(error);
+}
+
+/// How far each body is from where it started: along, and its rotation by twice the Cayley vector,
+/// as move() takes it: no function beyond sqrt, so that every build finds the same start [m, rad].
+void moves_from(const State& start, const State& state, std::span<Vec6> moved) {
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Quat turn = state.q[i] * start.q[i].conjugate();
+    moved[i].head<3>() = state.x[i] - start.x[i];
+    moved[i].tail<3>() = 2.0 / turn.w() * turn.vec();
+  }
+}
+
+/// Slides along the joints to where what is left of the move is all along J^T: the least change.
+/// Each step goes to the nearest point, to the start, of the joints as they are linear here.
+void to_least_change(JointRows& rows, const State& start, State& state) {
+  std::vector<Vec6> moved(state.x.size());
+  std::vector<Vec6> step(state.x.size());
+  double last = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMostNearing; ++i) {
+    moves_from(start, state, moved);
+    for (std::size_t k = 0; k < step.size(); ++k) step[k] = -moved[k];
+    rows.solve(1.0, step);
+    const double size = largest(step);
+    // Where the joints curve too much for it the steps do not shrink: what is there will do.
+    if (!(size < 0.9 * last)) return;
+    const State before = state;
+    rows.move(step);
+    if (!onto_joints(rows, state)) {
+      state = before;
+      rows.update();
+      return;
+    }
+    if (size <= kClosed * (1.0 + largest(moved))) return;
+    last = size;
+  }
+}
+
+}  // namespace
+
+bool close_joints(const Scene& scene, State& state) {
+  for (const int body : whole(scene).moving) state.q[index(body)].normalize();
+  const State start = state;
+  JointRows rows(scene, state);
+  if (!onto_joints(rows, state)) return false;
+  if (!start_errors(scene, state).beyond.poses()) to_least_change(rows, start, state);
+  return !start_errors(scene, state).beyond.poses();
+}
+
+bool match_velocities(const Scene& scene, State& state) {
+  JointRows rows(scene, state);
+  rows.update();
+  double error = rows.error_of(state.u);
+  for (int i = 0; i < kMostMatching; ++i) {
+    std::vector<Vec6> u = state.u;
+    rows.solve(0.0, u);
+    const double next = rows.error_of(u);
+    if (!(next < error)) break;
+    state.u = u;
+    error = next;
+  }
+  state.u_synchronised = state.u;
+  return !start_errors(scene, state).beyond.velocities();
+}
+
+}  // namespace substep

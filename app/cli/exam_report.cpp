@@ -100,7 +100,11 @@ void print_summary(const std::vector<ExamOutcome>& outcomes) {
     if (outcome.reached_by_vocabulary()) {
       ++run;
       passed += outcome.result.passed() ? 1 : 0;
-      text = std::string(outcome.result.passed() ? "passes" : "FAILS") + "  " + best_text(outcome);
+      text = outcome.result.passed() ? "passes  " : "FAILS   ";
+      text += outcome.result.passed() || !outcome.result.reached ? best_text(outcome) : "";
+      if (!outcome.result.kept) {
+        text += (outcome.result.reached ? "" : "; ") + broken_text(outcome);
+      }
     }
     std::printf("%-16s %s\n", outcome.entry->name.c_str(), text.c_str());
   }

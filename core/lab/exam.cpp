@@ -134,12 +134,12 @@ double distance(const ExamCase& exam, const ExamRow& row) {
 }  // namespace
 
 std::size_t ExamResult::best(const ExamCase& exam) const {
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (rows[i].passes) return i;
-    if (distance(exam, rows[i]) < distance(exam, rows[found])) found = i;
-  }
-  return found;
+  const auto is_better = [&](const ExamRow& a, const ExamRow& b) {
+    if (a.passes != b.passes) return a.passes;
+    return a.passes ? a.substeps < b.substeps : distance(exam, a) < distance(exam, b);
+  };
+  return static_cast<std::size_t>(std::min_element(rows.begin(), rows.end(), is_better) -
+                                  rows.begin());
 }
 
 ExamResult run_exam(const ExamCase& exam, const std::function<void(const ExamRow&)>& on_row) {

@@ -94,7 +94,8 @@ struct ExamResult {
   bool reached = false;  // a run is within all tolerances
   bool kept = true;      // every run keeps what it should
   [[nodiscard]] bool passed() const { return reached && kept; }
-  /// Index of the first run within all tolerances, else of the one that is closest to that.
+  /// Index of the run within all tolerances that takes the fewest sub-steps, else of the one that
+  /// is closest to them.
   [[nodiscard]] std::size_t best(const ExamCase& exam) const;
 };
 

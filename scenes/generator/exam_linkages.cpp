@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kGravity = 9.81;
 /// Both loops have more hinge rows than they need: six in the plane's four-bar, one in Bricard's.
-/// What the rows share is decided by a compliance, small against every tolerance: 1e-12 m/N moves a
-/// joint by 1e-10 m under 100 N.
-constexpr double kCompliance = 1e-12;
+/// How the rows share a force is decided by a compliance that is rigid to rounding: 1e-16 m/N. One
+/// of 1e-12 would not be: it carries the four-bar off by 1e-4 m where it passes its singular pose.
+constexpr double kCompliance = 1e-16;
 
 HingeJoint hinge(const std::string& name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b,
                  const Vec3& axis) {

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <set>
 
+#include "core/io/scene_reader.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/lab/elliptic.hpp"
 #include "core/lab/exact_motion.hpp"
 #include "core/lab/exam.hpp"
@@ -241,6 +243,9 @@ TEST(Exam, EveryCaseHasASceneAndTolerancesWithReasons) {
     EXPECT_EQ(exam.scene.group, "exam");
     EXPECT_FALSE(exam.scene.bodies.empty());
     EXPECT_FALSE(exam.source.empty());
+    for (const Problem& problem : read_scene(write_scene(exam.scene)).problems) {
+      ADD_FAILURE() << entry.name << ": " << to_string(problem);
+    }
     EXPECT_FALSE(exam.methods.empty());
     for (const ExamQuantity& quantity : exam.quantities) {
       EXPECT_GT(quantity.tolerance, 0.0) << entry.name << ' ' << quantity.name;

@@ -38,6 +38,10 @@ struct ExamView {
 /// may remember what it has seen.
 using ExamMeasure = std::function<void(const ExamView&, std::span<double> errors)>;
 
+/// Where bodies should be: sets the poses of those that it knows. @param t no less than at the last
+/// call [s]  @param x, q per body, at the start the scene's [m, -]
+using ExamMotion = std::function<void(double t, std::vector<Vec3>& x, std::vector<Quat>& q)>;
+
 /// A method and the settings that a case runs it with.
 struct ExamMethod {
   std::string name;  // "leapfrog"
@@ -55,6 +59,7 @@ struct ExamCase {
   Scene scene;             // criteria.duration is how long it runs
   std::vector<ExamQuantity> quantities;
   std::function<ExamMeasure()> measure;
+  std::function<ExamMotion()> motion;  // the reference to look at; empty where it has no poses
   std::vector<ExamMethod> methods;
   bool needs_forces = false;
   /// Errors of the first quantity between these show a method's order: below, the reference's or

@@ -137,6 +137,8 @@ double Bricard::energy() const {
 
 Vec3 Bricard::centre(int rod) const { return centre_of(chain_at(angle_), rod); }
 
+Quat Bricard::orientation(int rod) const { return Quat(chain_at(angle_).frames[index(rod)].R); }
+
 double Bricard::closure_error(double angle) {
   const Frame ground = chain_at(angle).frames.back();
   return (ground.R - Mat3::Identity()).cwiseAbs().maxCoeff() + ground.t.norm();

@@ -21,6 +21,7 @@ class Bricard {
   [[nodiscard]] double angle() const { return angle_; }  ///< of hinges 1, 3 and 5 [rad]
   [[nodiscard]] double energy() const;                   ///< zero at the start [J]
   [[nodiscard]] Vec3 centre(int rod) const;              ///< world [m]
+  [[nodiscard]] Quat orientation(int rod) const;         ///< from that at the start
   /// By how much the chain of six hinges misses its start, for tests [m, -].
   [[nodiscard]] static double closure_error(double angle);
 

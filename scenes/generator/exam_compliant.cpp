@@ -187,6 +187,11 @@ ExamCase exam_compliant_ball() {
                      {"energy changed", "-", 1e-2, "what can be read off their plot"},
                      {"bounces missed", "-", 0.5, "their count of eleven"}};
   exam.measure = measure_bounce;
+  exam.motion = [] {
+    return [](double t, std::vector<Vec3>& x, std::vector<Quat>&) {
+      x[1].y() = kRadius + kBounce.gap_after(t);
+    };
+  };
   exam.methods = contact_methods(scene.settings, {16, 64, 256});
   return exam;
 }

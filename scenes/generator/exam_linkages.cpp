@@ -46,8 +46,24 @@ Body rod(const std::string& name, int axis, const Vec3& centre) {
 // ---- A02. The three uprights turn alike, by theta from straight up, and the two horizontal rods
 //      follow without turning: (3 (1/3) + 2) theta'' = (3/2 + 2) g sin theta.
 
+ExactPendulum four_bar_turn() {
+  return ExactPendulum::over_the_top(std::sqrt(3.5 * kGravity / 3.0), 1.0);
+}
+
+ExamMotion four_bar_motion() {
+  return [exact = four_bar_turn()](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
+    const double from_top = exact.at(t).angle - std::numbers::pi;
+    const Vec3 upright{std::sin(from_top), std::cos(from_top), 0.0};
+    for (int i = 0; i < 3; ++i) {
+      x[index(i)] = Vec3(i, 0.0, 0.0) + 0.5 * upright;
+      q[index(i)] = Eigen::AngleAxisd(-from_top, Vec3::UnitZ());
+    }
+    for (int i = 0; i < 2; ++i) x[index(3 + i)] = Vec3(i + 0.5, 0.0, 0.0) + upright;
+  };
+}
+
 ExamMeasure measure_four_bar() {
-  const ExactPendulum exact = ExactPendulum::over_the_top(std::sqrt(3.5 * kGravity / 3.0), 1.0);
+  const ExactPendulum exact = four_bar_turn();
   const Vec3 top_B{0.0, 0.5, 0.0};
   const Vec3 published{0.32845811154, 0.94451853818, 0.0};  // after 10 s
   const Vec3 velocity{1.42305147020, -0.49486884548, 0.0};
@@ -66,6 +82,17 @@ ExamMeasure measure_four_bar() {
 }
 
 // ---- A04
+
+ExamMotion bricard_motion() {
+  return
+      [motion = std::make_shared<Bricard>()](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
+        motion->advance(t);
+        for (int i = 0; i < Bricard::kRods; ++i) {
+          x[index(i)] = motion->centre(i);
+          q[index(i)] = motion->orientation(i);
+        }
+      };
+}
 
 ExamMeasure measure_bricard(double frame) {
   auto motion = std::make_shared<Bricard>();
@@ -122,6 +149,7 @@ ExamCase exam_four_bar() {
                      {"position after 10 s", "m", 2e-8, why},
                      {"velocity after 10 s", "m/s", 1e-7, "2e-8 m at the 5 rad/s of the motion"}};
   exam.measure = measure_four_bar;
+  exam.motion = four_bar_motion;
   exam.methods = exam_methods(scene.settings, {16, 64, 256});
   exam.least_for_order = 1e-8;
   exam.most_for_order = 0.1;
@@ -161,6 +189,7 @@ ExamCase exam_bricard() {
       {"exact position", "m", six_digits(1.0), kSixDigits},
       {"energy", "J", 1e-3, "the source asks for no drift; 4.6 J are exchanged in a swing"}};
   exam.measure = [frame = scene.frame] { return measure_bricard(frame); };
+  exam.motion = bricard_motion;
   exam.methods = exam_methods(scene.settings, {16, 64, 256});
   exam.least_for_order = 1e-8;
   exam.most_for_order = 0.1;

@@ -39,12 +39,34 @@ ExamMeasure measure_simple_pendulum() {
   };
 }
 
+ExamMotion simple_pendulum_motion() {
+  const ExactPendulum exact = ExactPendulum::released(std::sqrt(kGravity / kLength), kRightAngle);
+  return [exact](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
+    const double angle = exact.at(t).angle;
+    x[0] = -centre_distance() * Vec3(std::sin(angle), std::cos(angle), 0.0);
+    q[0] = Eigen::AngleAxisd(kRightAngle - angle, Vec3::UnitZ());
+  };
+}
+
 // ---- The commercial code's rows: 1 kg, centre 2 m from the joint along the body's x, released
 //      from (2, 0, 0), gravity along -z. It turns about +y from x to -z.
 
 constexpr double kArm = 2.0;  // [m]
 constexpr double kTableGravity = 9.80665;
 const Vec3 kInertia{0.04, 0.1, 0.1};  // about the centre [kg m^2]
+
+ExactPendulum table_swing() {
+  const double about_joint = kInertia.y() + kArm * kArm;
+  return ExactPendulum::released(std::sqrt(kArm * kTableGravity / about_joint), kRightAngle);
+}
+
+ExamMotion table_motion() {
+  return [exact = table_swing()](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
+    const double angle = exact.at(t).angle;
+    x[0] = kArm * Vec3(std::sin(angle), 0.0, -std::cos(angle));
+    q[0] = Eigen::AngleAxisd(kRightAngle - angle, Vec3::UnitY());
+  };
+}
 
 struct TableTolerance {
   double position;     // [m]
@@ -56,9 +78,7 @@ struct TableTolerance {
 
 template <std::size_t n>
 ExamMeasure measure_table(const std::array<PendulumRow, n>& rows) {
-  const double about_joint = kInertia.y() + kArm * kArm;
-  const ExactPendulum exact =
-      ExactPendulum::released(std::sqrt(kArm * kTableGravity / about_joint), kRightAngle);
+  const ExactPendulum exact = table_swing();
   const auto orientation = [](const PendulumRow& row) {
     return Quat(row.e0, row.e1, row.e2, row.e3).normalized();
   };
@@ -103,6 +123,7 @@ ExamCase table_case(const std::string& name, const std::string& title,
                      {"angular velocity", "rad/s", tolerance.rate, why},
                      {"reaction force", "N", tolerance.force, why}};
   exam.needs_forces = true;
+  exam.motion = table_motion;
   exam.least_for_order = 1e-9;
   exam.most_for_order = 0.1;
   return exam;
@@ -132,6 +153,7 @@ ExamCase exam_simple_pendulum() {
       {"position after 10 s", "m", 1e-10,
        "eleven decimals are published; sub-steps leave rounding errors of their own"}};
   exam.measure = measure_simple_pendulum;
+  exam.motion = simple_pendulum_motion;
   exam.methods = exam_methods(scene.settings, {16, 64, 256});
   exam.least_for_order = 2e-11;
   exam.most_for_order = 0.1;

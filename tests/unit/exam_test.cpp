@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
 #include <set>
 
@@ -12,6 +13,7 @@
 #include "core/lab/elliptic.hpp"
 #include "core/lab/exact_motion.hpp"
 #include "core/lab/exam.hpp"
+#include "core/sim/simulator.hpp"
 #include "scenes/generator/bricard.hpp"
 #include "scenes/generator/exam.hpp"
 #include "scenes/generator/exam_contact.hpp"
@@ -228,6 +230,37 @@ TEST(Exam, ForcesBelongToTheStateThatTheyAreShownWith) {
   };
   run_exam(exam);
   EXPECT_EQ(expected, 51) << "the start and 50 frames";
+}
+
+TEST(Exam, MotionsStartAndGoAsTheScenesDo) {
+  int seen = 0;
+  for (const ExamEntry& entry : scenes::exam()) {
+    if (!entry.build || !entry.not_reached.empty()) continue;
+    const ExamCase exam = entry.build();
+    if (!exam.motion) continue;
+    ++seen;
+    Settings settings;
+    settings.mode = Mode::kConst;
+    settings.n = 256;
+    settings.integrator = Integrator::kLeapfrog;
+    Simulator simulator(std::make_shared<const Scene>(exam.scene));
+    simulator.set_settings(settings);
+    const ExamMotion motion = exam.motion();
+    std::vector<Vec3> x = simulator.state().x;
+    std::vector<Quat> q = simulator.state().q;
+    for (int frame = 0; frame <= 3; ++frame) {
+      const State& state = simulator.state();
+      motion(state.time, x, q);
+      const double allowed = frame == 0 ? 1e-12 : 2e-3;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        EXPECT_LT((state.x[i] - x[i]).norm(), allowed) << entry.name << ' ' << i << ' ' << frame;
+        EXPECT_LT(scenes::angle_between(state.q[i], q[i]), allowed)
+            << entry.name << ' ' << i << ' ' << frame;
+      }
+      simulator.step();
+    }
+  }
+  EXPECT_GE(seen, 10);
 }
 
 TEST(Exam, EveryCaseHasASceneAndTolerancesWithReasons) {

@@ -89,7 +89,7 @@ constexpr double kPitch = 0.28;  // of the grid that they start on: nothing over
 void add_box_without_lid(Scene& scene) {
   constexpr double kInside = 0.7;
   constexpr double kThick = 0.2;
-  constexpr double kHigh = 1.2;
+  constexpr double kHigh = 0.5;
   scene.bodies.push_back(floor_plane());
   const double at = 0.5 * (kInside + kThick);
   for (const double side : {-1.0, 1.0}) {

@@ -26,7 +26,7 @@ inline ExamCase exam_case(const std::string& name, const std::string& title,
   exam.scene.title = title;
   exam.scene.group = "exam";
   exam.scene.description = definition;
-  exam.scene.look_for = "Its answer is known: " + source;
+  exam.scene.look_for = "Reference: " + source;
   exam.scene.frame = frame;
   exam.scene.criteria.duration = duration;
   return exam;

@@ -22,7 +22,7 @@ bool same_bodies(const Scene& a, const Scene& b) {
 std::function<ExamMotion()> motion_of(const Scene& scene) {
   if (scene.group != kGroup) return {};
   for (const ExamEntry& entry : scenes::exam()) {
-    if (entry.name != scene.name || !entry.build || !entry.not_reached.empty()) continue;
+    if ("exam_" + entry.name != scene.name || !entry.build || !entry.not_reached.empty()) continue;
     ExamCase exam = entry.build();
     if (same_bodies(exam.scene, scene) && exam.scene.effects == scene.effects) return exam.motion;
   }

@@ -22,7 +22,7 @@ inline ExamCase exam_case(const std::string& name, const std::string& title,
   exam.title = title;
   exam.definition = definition;
   exam.source = source;
-  exam.scene.name = name;
+  exam.scene.name = "exam_" + name;  // shipped scenes have some of the same names
   exam.scene.title = title;
   exam.scene.group = "exam";
   exam.scene.description = definition;

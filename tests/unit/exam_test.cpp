@@ -273,6 +273,7 @@ TEST(Exam, EveryCaseHasASceneAndTolerancesWithReasons) {
     }
     const ExamCase exam = entry.build();
     EXPECT_EQ(exam.name, entry.name);
+    EXPECT_EQ(exam.scene.name, "exam_" + entry.name);
     EXPECT_EQ(exam.scene.group, "exam");
     EXPECT_FALSE(exam.scene.bodies.empty());
     EXPECT_FALSE(exam.source.empty());

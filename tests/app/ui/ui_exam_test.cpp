@@ -13,15 +13,15 @@ TEST(ExamGhost, ScenesStandInAGroupOfTheirOwn) {
   add_exam(library);
   EXPECT_GE(library.scenes().size(), before + 14);
   EXPECT_EQ(library.scenes().front()->name, first);
-  ASSERT_NE(library.find("four_bar"), nullptr);
-  EXPECT_EQ(group_title(library.find("four_bar")->group), "The exam: known answers");
-  EXPECT_FALSE(is_own(*library.find("four_bar")));
+  ASSERT_NE(library.find("exam_four_bar"), nullptr);
+  EXPECT_EQ(group_title(library.find("exam_four_bar")->group), "The exam: known answers");
+  EXPECT_FALSE(is_own(*library.find("exam_four_bar")));
 }
 
 TEST(ExamGhost, MovesAsTheSceneShould) {
   Headless h;
   add_exam(h.app->library);
-  ASSERT_TRUE(h.app->open("revolute"));
+  ASSERT_TRUE(h.app->open("exam_revolute"));
   h.app->session.play();
   h.frames(60);
   EXPECT_EQ(h.renderer->picture.ghost_boxes.size(), 1U);
@@ -45,11 +45,11 @@ TEST(ExamGhost, IsThereOnlyForASceneAsItStands) {
   add_exam(h.app->library);
   h.frames(2);
   EXPECT_EQ(h.app->exam.at(h.app->session), nullptr) << "swinging box";
-  h.app->open("compliant_ball");
+  h.app->open("exam_compliant_ball");
   EXPECT_NE(h.app->exam.at(h.app->session), nullptr);
-  h.app->open("hard_clutter");
+  h.app->open("exam_hard_clutter");
   EXPECT_EQ(h.app->exam.at(h.app->session), nullptr) << "nobody knows its motion";
-  Scene heavier = *h.app->library.find("revolute");
+  Scene heavier = *h.app->library.find("exam_revolute");
   heavier.bodies[0].mass *= 2.0;
   h.app->run(std::make_shared<const Scene>(heavier));
   EXPECT_EQ(h.app->exam.at(h.app->session), nullptr) << "another load";
@@ -58,7 +58,7 @@ TEST(ExamGhost, IsThereOnlyForASceneAsItStands) {
 TEST(ExamGhost, GivesWayToAComparison) {
   Headless h;
   add_exam(h.app->library);
-  h.app->open("revolute");
+  h.app->open("exam_revolute");
   h.app->compare.start(h.app->session, {Overrides{}, Overrides{}});
   h.frames(2);
   EXPECT_EQ(h.renderer->picture.ghost_boxes.size(), 2U);

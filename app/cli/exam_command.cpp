@@ -43,6 +43,7 @@ bool select(const std::vector<std::string>& names, std::vector<const ExamEntry*>
     }
     known = false;
     std::vector<std::string_view> candidates;
+    candidates.reserve(all.size());
     for (const ExamEntry& entry : all) candidates.push_back(entry.name);
     std::fprintf(stderr, "%s: no such case%s; `substep exam --list` lists the cases\n",
                  name.c_str(), did_you_mean(name, candidates).c_str());

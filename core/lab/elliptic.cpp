@@ -5,7 +5,7 @@
 
 namespace substep {
 
-double elliptic_K(double m) {
+double complete_elliptic(double m) {
   double a = 1.0;
   double b = std::sqrt(1.0 - m);
   // The mean converges quadratically: eight steps suffice for every m below 1 - 1e-15.

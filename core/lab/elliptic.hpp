@@ -6,7 +6,7 @@ namespace substep {
 
 /// Complete elliptic integral of the first kind, K(m) = pi / (2 agm(1, sqrt(1 - m))).
 /// @param m parameter k^2, in [0, 1) [-]
-double elliptic_K(double m);
+double complete_elliptic(double m);
 
 /// Jacobi's functions of one argument [-].
 struct Jacobi {

@@ -13,7 +13,7 @@ namespace substep {
 //      theta' = 2 (rate/k) dn(rate t/k + K).
 
 ExactPendulum::ExactPendulum(double rate, double m, bool turns)
-    : rate_(rate), m_(m), quarter_(elliptic_K(m)), turns_(turns) {}
+    : rate_(rate), m_(m), quarter_(complete_elliptic(m)), turns_(turns) {}
 
 ExactPendulum ExactPendulum::released(double rate, double angle) {
   const double k = std::sin(0.5 * angle);
@@ -82,26 +82,26 @@ ExactTumbling::ExactTumbling(const Vec3& inertia, double middle, double largest)
                 std::sqrt(from_least / (I3 * (I3 - I1)))};
   rate_ = std::sqrt((I3 - I2) * from_least / (I1 * I2 * I3));
   m_ = (I2 - I1) * from_largest / ((I3 - I2) * from_least);
-  quarter_ = elliptic_K(m_);
-  q_WL_ = about_L(0.0, 0.0).conjugate();
-  attitude_ = {Quat::Identity(), w_B(0.0)};
+  quarter_ = complete_elliptic(m_);
+  q_WL_ = to_momentum_frame(0.0, 0.0).conjugate();
+  attitude_ = {Quat::Identity(), rate_in_body(0.0)};
 }
 
 double ExactTumbling::half_period() const { return 2.0 * quarter_ / rate_; }
 
-Vec3 ExactTumbling::w_B(double t) const {
+Vec3 ExactTumbling::rate_in_body(double t) const {
   const Jacobi j = jacobi(quarter_ + rate_ * t, m_);
   return amplitude_.cwiseProduct(Vec3(j.cn, j.sn, j.dn));
 }
 
 double ExactTumbling::turn_rate(double t) const {
-  const Vec3 w = w_B(t);
+  const Vec3 w = rate_in_body(t);
   const Vec3 L = inertia_.cwiseProduct(w);
   return L_ * (L.x() * w.x() + L.y() * w.y()) / (L.x() * L.x() + L.y() * L.y());
 }
 
-Quat ExactTumbling::about_L(double t, double phi) const {
-  const Vec3 L = inertia_.cwiseProduct(w_B(t));
+Quat ExactTumbling::to_momentum_frame(double t, double phi) const {
+  const Vec3 L = inertia_.cwiseProduct(rate_in_body(t));
   const double theta = std::atan2(std::hypot(L.x(), L.y()), L.z());
   const double psi = std::atan2(L.x(), L.y());
   return Quat(Eigen::AngleAxisd(phi, Vec3::UnitZ())) *
@@ -125,8 +125,8 @@ const Attitude& ExactTumbling::at(double t) {
     phi_ += half * sum;
     t_ = t - t_ <= longest ? t : t_ + 2.0 * half;
   }
-  attitude_.q_WB = q_WL_ * about_L(t, phi_);
-  attitude_.w = attitude_.q_WB * w_B(t);
+  attitude_.q_WB = q_WL_ * to_momentum_frame(t, phi_);
+  attitude_.w = attitude_.q_WB * rate_in_body(t);
   return attitude_;
 }
 

@@ -58,13 +58,14 @@ class ExactTumbling {
   [[nodiscard]] double half_period() const;
 
  private:
-  [[nodiscard]] Vec3 w_B(double t) const;                  // angular velocity, body [rad/s]
-  [[nodiscard]] double turn_rate(double t) const;          // of the body about L [rad/s]
-  [[nodiscard]] Quat about_L(double t, double phi) const;  // body to a frame with z along L
+  [[nodiscard]] Vec3 rate_in_body(double t) const;  // angular velocity, body [rad/s]
+  [[nodiscard]] double turn_rate(double t) const;   // of the body about L [rad/s]
+  [[nodiscard]] Quat to_momentum_frame(double t,
+                                       double phi) const;  // body to a frame with z along L
 
   Vec3 inertia_;
   double L_ = 0.0;        // angular momentum [kg m^2/s]
-  Vec3 amplitude_{};      // of the components of w_B [rad/s]
+  Vec3 amplitude_{};      // of the body components of w [rad/s]
   double rate_ = 0.0;     // of the elliptic functions' argument [1/s]
   double m_ = 0.0;        // their parameter [-]
   double quarter_ = 0.0;  // K(m)

@@ -143,8 +143,11 @@ ExamCase clutter(const std::string& name, const std::string& title, double compl
   scene.camera = {{1.6, 1.8, 2.2}, {0.0, 0.3, 0.0}};
   add_box_without_lid(scene);
   for (int i = 0; i < 4 * kLayers; ++i) {
-    const Vec3 at{(i % 2 - 0.5) * kPitch, 0.3 + i / 4 * kPitch, (i / 2 % 2 - 0.5) * kPitch};
-    const bool is_cube = (i + i / 2 + i / 4) % 2 == 0;  // never beside another cube
+    const int across = i % 2;
+    const int deep = i / 2 % 2;
+    const int layer = i / 4;
+    const Vec3 at{(across - 0.5) * kPitch, 0.3 + layer * kPitch, (deep - 0.5) * kPitch};
+    const bool is_cube = (across + deep + layer) % 2 == 0;  // never beside another cube
     const Shape shape = is_cube ? Shape(box(kEdge, kEdge, kEdge)) : Shape(Sphere{0.5 * kEdge});
     Body body = solid((is_cube ? "cube_" : "sphere_") + std::to_string(i + 1), shape, 1.0, at);
     // Fixed tilts, so that edges and corners come first: no two bodies fall alike.

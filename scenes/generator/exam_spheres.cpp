@@ -41,8 +41,8 @@ Scene& add_spheres(Scene& scene, double restitution) {
   const auto aside = [&] { return kPerturbation * 0.5 * (1.0 + random.next()); };
   scene.bodies.push_back(floor_plane());
   for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const Vec3 cell(i % kSide, i / kSide % kSide, i / (kSide * kSide));
-    Vec3 at = kGap * cell + Vec3(0.0, kLowest, 0.0);
+    const Eigen::Vector3i cell(i % kSide, i / kSide % kSide, i / (kSide * kSide));
+    Vec3 at = kGap * cell.cast<double>() + Vec3(0.0, kLowest, 0.0);
     for (int axis = 0; axis < 3; ++axis) at[axis] += aside();
     Body ball = solid("ball_" + std::to_string(i + 1), Sphere{kRadius}, kMass, at);
     ball.restitution = restitution;

@@ -10,6 +10,7 @@
 
 #include "app/accuracy.hpp"
 #include "app/compare.hpp"
+#include "app/exam_ghost.hpp"
 #include "app/file_browser.hpp"
 #include "app/library.hpp"
 #include "app/own_scenes.hpp"
@@ -165,6 +166,7 @@ struct App {
   Library library;
   Session session;
   Compare compare;
+  ExamGhost exam;  // of scenes with a known answer
   Accuracy accuracy;
   SceneView view;
   Desk desk;

@@ -96,6 +96,10 @@ void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
     app.pictures[i].part = ui::part_of_window(app, i);
   }
   if (app.panes.size() > 1) return;
+  if (const Poses* exact = app.exam.at(app.session); exact && !app.compare.open()) {
+    const ImVec4 c = ui::to_vec4(app.compare_color(0));
+    SceneView::add_ghost(app.session.scene(), *exact, {c.x, c.y, c.z, 0.5F}, app.pictures.front());
+  }
   for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
     const Compare::Run& run = app.compare.runs()[i];
     const ImVec4 c = ui::to_vec4(app.compare_color(i));

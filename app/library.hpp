@@ -19,6 +19,8 @@ class Library {
 
   [[nodiscard]] const std::vector<std::shared_ptr<const Scene>>& scenes() const { return scenes_; }
   [[nodiscard]] std::shared_ptr<const Scene> find(std::string_view name) const;
+  /// Adds a scene that the program ships as code.
+  void add_shipped(Scene scene);
   /// Adds a person's own scene, or puts it in the place of an older one of the same name. It comes
   /// into a group of its own, and where a shipped scene has its name, under another name.
   /// @return the scene as it is in the library

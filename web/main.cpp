@@ -39,6 +39,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   if (!renderer) return error.c_str();
   substep::Library library("/scenes");
   if (library.scenes().empty()) return "no scenes came with the page";
+  substep::add_exam(library);
   instance->app = std::make_unique<substep::App>(std::move(library), std::move(renderer));
   instance->app->host = substep::web::page_host();
   if (keeps == 0) {

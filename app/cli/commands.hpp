@@ -20,6 +20,7 @@ void add_recommend(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_exam(CLI::App& app, int& exit_code);
 void add_hash(CLI::App& app, int& exit_code);
 void add_scenes(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);

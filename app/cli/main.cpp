@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   add_merge(app, exit_code);
   add_reproduce(app, exit_code);
   add_check(app, exit_code);
+  add_exam(app, exit_code);
   add_hash(app, exit_code);
   add_scenes(app, exit_code);
   add_generate(app, exit_code);

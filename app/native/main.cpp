@@ -153,6 +153,7 @@ int run(const Options& options) {
     std::string error;
     auto renderer = make_gl_renderer(error);
     Library library(options.scenes);
+    if (!library.scenes().empty()) add_exam(library);
     if (!renderer || library.scenes().empty()) {
       std::fprintf(stderr, "substep: %s\n",
                    renderer ? ("no scenes in " + options.scenes).c_str() : error.c_str());

@@ -161,7 +161,8 @@ class FinestRun final : public ReferenceRun::Source {
     coarse_.set_settings(settings);
   }
   [[nodiscard]] std::string name() const override {
-    return "finest run: bpp, leapfrog, " + std::to_string(kFinest) + " sub-steps a frame";
+    std::string text = "finest run: bpp, leapfrog, ";
+    return text.append(std::to_string(kFinest)).append(" sub-steps a frame");
   }
   std::optional<Sample> next() override {
     for (int i = 0; i < kSlice; ++i) {

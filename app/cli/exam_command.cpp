@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/cli/commands.hpp"
+#include "app/cli/exam_report.hpp"
+#include "app/cli/output.hpp"
+#include "app/cli/progress_line.hpp"
+#include "core/io/object_reader.hpp"
+#include "scenes/generator/exam.hpp"
+
+namespace substep::cli {
+namespace {
+
+struct ExamOptions {
+  std::vector<std::string> cases;
+  bool list = false;
+  bool quiet = false;
+  std::string json;
+  std::string html;
+};
+
+int list_cases() {
+  for (const ExamEntry& entry : scenes::exam()) {
+    std::printf("%-16s %s%s%s\n", entry.name.c_str(), entry.title.c_str(),
+                entry.not_reached.empty() ? "" : "; not reached: ", entry.not_reached.c_str());
+  }
+  return kOk;
+}
+
+/// The entries with these names, all where there are none. Says on stderr which names are unknown.
+bool select(const std::vector<std::string>& names, std::vector<const ExamEntry*>& selected) {
+  const std::vector<ExamEntry>& all = scenes::exam();
+  bool known = true;
+  for (const std::string& name : names) {
+    const auto found = std::find_if(all.begin(), all.end(),
+                                    [&](const ExamEntry& entry) { return entry.name == name; });
+    if (found != all.end()) {
+      selected.push_back(&*found);
+      continue;
+    }
+    known = false;
+    std::vector<std::string_view> candidates;
+    candidates.reserve(all.size());
+    for (const ExamEntry& entry : all) candidates.push_back(entry.name);
+    std::fprintf(stderr, "%s: no such case%s; `substep exam --list` lists the cases\n",
+                 name.c_str(), did_you_mean(name, candidates).c_str());
+  }
+  if (names.empty()) {
+    for (const ExamEntry& entry : all) selected.push_back(&entry);
+  }
+  return known;
+}
+
+std::vector<ExamOutcome> run_cases(const std::vector<const ExamEntry*>& entries, bool quiet) {
+  ProgressLine progress(!quiet && stderr_is_terminal());
+  std::vector<ExamOutcome> outcomes;
+  for (const ExamEntry* entry : entries) {
+    ExamOutcome outcome{.entry = entry, .exam = {}, .result = {}};
+    if (entry->not_reached.empty()) {
+      outcome.exam = entry->build();
+      outcome.result = run_exam(outcome.exam, [&](const ExamRow& row) {
+        progress.show(entry->name + ": " + row.method);
+      });
+    }
+    progress.clear();
+    if (!quiet) print_case(outcome);
+    outcomes.push_back(std::move(outcome));
+  }
+  return outcomes;
+}
+
+/// @return false and a message on stderr where it cannot be written
+bool write(const std::string& path, const std::string& text) {
+  if (path.empty()) return true;
+  Output file;
+  if (!file.open(path)) return false;
+  file.write(text);
+  return file.close();
+}
+
+int run(const ExamOptions& options) {
+  std::vector<const ExamEntry*> entries;
+  if (!select(options.cases, entries)) return kBadInput;
+  const bool on_stdout = options.json == "-" || options.html == "-";
+  const std::vector<ExamOutcome> outcomes = run_cases(entries, options.quiet || on_stdout);
+  if (!on_stdout) print_summary(outcomes);
+  const bool written = write(options.json, exam_json(outcomes).dump(2) + "\n") &&
+                       write(options.html, exam_page(outcomes));
+  if (!written) return kBadInput;
+  for (const ExamOutcome& outcome : outcomes) {
+    if (!outcome.reached_by_vocabulary()) continue;
+    if (!outcome.result.passed()) return kUnexpectedVerdict;
+  }
+  return kOk;
+}
+
+}  // namespace
+
+void add_exam(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ExamOptions>();
+  CLI::App* command = app.add_subcommand(
+      "exam", "Run cases whose answers others have published, or that have one in closed form");
+  command->add_option("--case", options->cases, "only these cases");
+  command->add_flag("--list", options->list, "list the cases and run nothing");
+  command->add_option("--json", options->json, "write every run as JSON; - for standard output");
+  command->add_option("--html", options->html, "write a page with every run");
+  command->add_flag("--quiet", options->quiet, "print the summary only");
+  command->footer(
+      "A case passes where at least one run is within all of its tolerances, and every run keeps\n"
+      "what it should: the order of its method, and what a case asks of every run. Columns: "
+      "method;\n"
+      "n or alpha; sub-steps of a frame in the mean; an error for each quantity, with * where it "
+      "is\n"
+      "within its tolerance; observed order of the first quantity against the run before, with !\n"
+      "where the method should do better; wall time. Exit code 1 where a case fails.\n"
+      "Example:\n  substep exam --case revolute --html revolute.html");
+  command->callback(
+      [options, &exit_code] { exit_code = options->list ? list_cases() : run(*options); });
+}
+
+}  // namespace substep::cli

@@ -1,0 +1,50 @@
+#pragma once
+// What the exam's contact cases share, and their closed forms.
+
+#include <vector>
+
+#include "core/lab/exam.hpp"
+
+namespace substep::scenes {
+
+/// The exam's methods without a judgement of their order, which contacts that open and close leave
+/// undefined, and Gauss-Seidel with 100 sweeps.
+/// @param n sub-steps per frame, ascending
+std::vector<ExamMethod> contact_methods(const Settings& base, const std::vector<double>& n);
+
+/// Whether bodies have a constant force: until they do, the cases that need one are listed as not
+/// reached.
+template <class BodyType = Body>
+constexpr bool takes_force() {
+  return requires(BodyType body) { body.force; };
+}
+/// A constant force at the centre of a body, world [N].
+template <class SceneType, class BodyType>
+void pull(SceneType& scene, BodyType& body, const Vec3& force) {
+  if constexpr (requires { body.force = force; }) {
+    body.force = force;
+    scene.effects.external = true;
+  }
+}
+
+/// SimBenchmark's rolling test: constant accelerations along the force [m/s^2].
+struct RollingAccelerations {
+  double box = 0.0;
+  double ball = 0.0;
+};
+RollingAccelerations rolling_accelerations();
+
+/// A ball that falls on a ground with a linear spring and loses nothing.
+struct SpringBounce {
+  double mass = 1.0;       // [kg]
+  double stiffness = 1.0;  // of the ground [N/m]
+  double height = 1.0;     // of the gap at the start, at rest [m]
+  double gravity = 9.81;   // [m/s^2]
+
+  [[nodiscard]] double flight() const;               ///< from the ground up and down again [s]
+  [[nodiscard]] double contact() const;              ///< time on the ground [s]
+  [[nodiscard]] double gap_after(double t) const;    ///< negative: the spring is pressed [m]
+  [[nodiscard]] int bounces_within(double t) const;  ///< deepest points passed
+};
+
+}  // namespace substep::scenes

@@ -1,0 +1,60 @@
+#pragma once
+// What several cases of the exam are put together from.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "core/lab/exam.hpp"
+#include "scenes/generator/parts.hpp"
+
+namespace substep::scenes {
+
+/// A case and its empty scene, which take name and words from each other.
+/// @param duration, frame [s]
+inline ExamCase exam_case(const std::string& name, const std::string& title,
+                          const std::string& definition, const std::string& source, double duration,
+                          double frame) {
+  ExamCase exam;
+  exam.name = name;
+  exam.title = title;
+  exam.definition = definition;
+  exam.source = source;
+  exam.scene.name = "exam_" + name;  // shipped scenes have some of the same names
+  exam.scene.title = title;
+  exam.scene.group = "exam";
+  exam.scene.description = definition;
+  exam.scene.look_for = "Reference: " + source;
+  exam.scene.frame = frame;
+  exam.scene.criteria.duration = duration;
+  return exam;
+}
+
+/// The largest error so far; what is not a number counts as infinite.
+inline void raise(double& error, double value) {
+  error = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(error, value);
+}
+
+/// Angle of the rotation from one orientation to another, in [0, pi] [rad].
+inline double angle_between(const Quat& a, const Quat& b) {
+  const Quat turn = a.conjugate() * b;
+  return 2.0 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
+}
+
+/// Velocity and angular velocity at the time of the poses, world.
+inline Vec3 velocity_of(const State& state, int body) {
+  return state.u_synchronised[index(body)].head<3>();
+}
+inline Vec3 angular_velocity_of(const State& state, int body) {
+  return state.u_synchronised[index(body)].tail<3>();
+}
+
+/// Six digits of a motion of the size `scale`: what is asked of a scheme where the reference is
+/// exact, because the tables of other codes are printed with as many.
+inline double six_digits(double scale) { return 1e-6 * scale; }
+inline constexpr const char* kSixDigits =
+    "the reference is exact; six digits of the motion's size, as printed tables have";
+
+}  // namespace substep::scenes

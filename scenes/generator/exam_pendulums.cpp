@@ -1,0 +1,192 @@
+// Pendulums in a plane: one of the IFToMM benchmark, two that a commercial multibody code computed.
+
+#include <array>
+
+#include "core/lab/exact_motion.hpp"
+#include "scenes/generator/exam.hpp"
+#include "scenes/generator/exam_parts.hpp"
+#include "scenes/generator/exam_tables.hpp"
+
+namespace substep::scenes {
+namespace {
+
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
+
+// ---- IFToMM A01. The point mass is a ball whose centre of oscillation is 1 m from the hinge:
+//      with I about the centre and a the centre's distance, I + m a^2 = m a L, the rigid body moves
+//      as the point mass at L does. A body without inertia needs no limit of its own that way.
+
+constexpr double kLength = 1.0;  // L [m]
+constexpr double kGravity = 9.81;
+constexpr double kBallRadius = 0.05;                              // [m]
+constexpr double kBallInertia = 0.4 * kBallRadius * kBallRadius;  // of 1 kg [kg m^2]
+
+double centre_distance() {
+  return 0.5 * (kLength + std::sqrt(kLength * kLength - 4.0 * kBallInertia));
+}
+
+ExamMeasure measure_simple_pendulum() {
+  const ExactPendulum exact = ExactPendulum::released(std::sqrt(kGravity / kLength), kRightAngle);
+  const Vec3 P_B{centre_distance() - kLength, 0.0, 0.0};
+  const Vec3 published{-0.27508746258, -0.96141920510, 0.0};  // after 10 s
+  return [=](const ExamView& view, std::span<double> errors) {
+    const Vec3 P = view.state.x[0] + view.state.q[0] * P_B;
+    const double angle = exact.at(view.state.time).angle;
+    raise(errors[0], (P - Vec3(-std::sin(angle), -std::cos(angle), 0.0)).norm());
+    if (view.state.time > view.scene.criteria.duration - 0.5 * view.scene.frame) {
+      errors[1] = (P - published).norm();
+    }
+  };
+}
+
+ExamMotion simple_pendulum_motion() {
+  const ExactPendulum exact = ExactPendulum::released(std::sqrt(kGravity / kLength), kRightAngle);
+  return [exact](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
+    const double angle = exact.at(t).angle;
+    x[0] = -centre_distance() * Vec3(std::sin(angle), std::cos(angle), 0.0);
+    q[0] = Eigen::AngleAxisd(kRightAngle - angle, Vec3::UnitZ());
+  };
+}
+
+// ---- The commercial code's rows: 1 kg, centre 2 m from the joint along the body's x, released
+//      from (2, 0, 0), gravity along -z. It turns about +y from x to -z.
+
+constexpr double kArm = 2.0;  // [m]
+constexpr double kTableGravity = 9.80665;
+const Vec3 kInertia{0.04, 0.1, 0.1};  // about the centre [kg m^2]
+
+ExactPendulum table_swing() {
+  const double about_joint = kInertia.y() + kArm * kArm;
+  return ExactPendulum::released(std::sqrt(kArm * kTableGravity / about_joint), kRightAngle);
+}
+
+ExamMotion table_motion() {
+  return [exact = table_swing()](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
+    const double angle = exact.at(t).angle;
+    x[0] = kArm * Vec3(std::sin(angle), 0.0, -std::cos(angle));
+    q[0] = Eigen::AngleAxisd(kRightAngle - angle, Vec3::UnitY());
+  };
+}
+
+struct TableTolerance {
+  double position;     // [m]
+  double velocity;     // [m/s]
+  double orientation;  // [rad]
+  double rate;         // [rad/s]
+  double force;        // [N]
+};
+
+template <std::size_t n>
+ExamMeasure measure_table(const std::array<PendulumRow, n>& rows) {
+  const ExactPendulum exact = table_swing();
+  const auto orientation = [](const PendulumRow& row) {
+    return Quat(row.e0, row.e1, row.e2, row.e3).normalized();
+  };
+  return [&rows, exact, orientation](const ExamView& view, std::span<double> errors) {
+    const State& state = view.state;
+    const double angle = exact.at(state.time).angle;
+    raise(errors[0], (state.x[0] - kArm * Vec3(std::sin(angle), 0.0, -std::cos(angle))).norm());
+    const auto i = static_cast<std::size_t>(std::lround(state.time / 0.1));
+    if (i >= rows.size() || view.forces.joints.empty()) return;
+    const PendulumRow& row = rows[i];
+    raise(errors[1], (state.x[0] - Vec3(row.x, 0.0, row.z)).norm());
+    raise(errors[2], (velocity_of(state, 0) - Vec3(row.vx, 0.0, row.vz)).norm());
+    // Its markers have axes of their own: the rotation since the start is what can be compared.
+    const Quat turned = orientation(row) * orientation(rows[0]).conjugate();
+    raise(errors[3], angle_between(state.q[0], turned));
+    raise(errors[4], (angular_velocity_of(state, 0) - Vec3(0.0, row.wy, 0.0)).norm());
+    const Vec3 on_body = view.forces.joints[0].force.cast<double>();
+    raise(errors[5], (-on_body - Vec3(row.fx, 0.0, row.fz)).norm());
+  };
+}
+
+ExamCase table_case(const std::string& name, const std::string& title,
+                    const TableTolerance& tolerance, const std::string& why) {
+  ExamCase exam = exam_case(
+      name, title,
+      "A body of 1 kg whose centre is 2 m from the joint, released at rest from the horizontal.",
+      "rows of a commercial multibody code, published as a joint benchmark; beside them the closed "
+      "form by elliptic functions",
+      5.0, 0.1);
+  Scene& scene = exam.scene;
+  scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
+  scene.gravity = {0.0, 0.0, -kTableGravity};
+  scene.camera = {{1.0, -8.0, 1.0}, {0.0, 0.0, -1.0}};
+  Body body = solid("body", box(0.6, 0.4, 0.4), 1.0, {kArm, 0.0, 0.0});
+  body.inertia = kInertia;
+  scene.bodies.push_back(body);
+  scene.criteria.track = 0;
+  exam.quantities = {{"exact position", "m", six_digits(kArm), kSixDigits},
+                     {"position", "m", tolerance.position, why},
+                     {"velocity", "m/s", tolerance.velocity, why},
+                     {"orientation", "rad", tolerance.orientation, why},
+                     {"angular velocity", "rad/s", tolerance.rate, why},
+                     {"reaction force", "N", tolerance.force, why}};
+  exam.needs_forces = true;
+  exam.motion = table_motion;
+  exam.least_for_order = 1e-9;
+  exam.most_for_order = 0.1;
+  return exam;
+}
+
+}  // namespace
+
+ExamCase exam_simple_pendulum() {
+  ExamCase exam = exam_case(
+      "simple_pendulum", "IFToMM A01, simple pendulum",
+      "A point mass of 1 kg, 1 m from a hinge, released at rest from the horizontal.",
+      "IFToMM benchmark, the point after 10 s; beside it the closed form by elliptic functions",
+      10.0, 0.1);
+  Scene& scene = exam.scene;
+  scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
+  scene.gravity = {0.0, -kGravity, 0.0};
+  scene.camera = {{0.0, 0.0, 4.0}, {0.0, -0.5, 0.0}};
+  Body ball = solid("ball", Sphere{kBallRadius}, 1.0, {-centre_distance(), 0.0, 0.0});
+  scene.bodies.push_back(ball);
+  HingeJoint hinge;
+  hinge.name = "hinge";
+  hinge.anchor_a = {centre_distance(), 0.0, 0.0};
+  scene.joints.emplace_back(hinge);
+  scene.criteria.track = 0;
+  exam.quantities = {
+      {"exact position", "m", six_digits(kLength), kSixDigits},
+      {"position after 10 s", "m", 1e-10,
+       "eleven decimals are published; sub-steps leave rounding errors of their own"}};
+  exam.measure = measure_simple_pendulum;
+  exam.motion = simple_pendulum_motion;
+  exam.methods = exam_methods(scene.settings, {16, 64, 256});
+  exam.least_for_order = 2e-11;
+  exam.most_for_order = 0.1;
+  return exam;
+}
+
+ExamCase exam_revolute() {
+  ExamCase exam =
+      table_case("revolute", "Revolute joint, commercial code", {1e-5, 1e-5, 4e-6, 1e-5, 1e-3},
+                 "the table's own distance from the closed form, over all 501 rows");
+  HingeJoint hinge;
+  hinge.name = "revolute";
+  hinge.anchor_a = {-kArm, 0.0, 0.0};
+  hinge.axis_a = Vec3::UnitY();
+  hinge.axis_b = Vec3::UnitY();
+  exam.scene.joints.emplace_back(hinge);
+  exam.measure = [] { return measure_table(kRevoluteRows); };
+  exam.methods = exam_methods(exam.scene.settings, {16, 64, 256});
+  return exam;
+}
+
+ExamCase exam_spherical() {
+  ExamCase exam = table_case(
+      "spherical", "Spherical joint, commercial code", {1e-3, 3e-3, 5e-4, 1.2e-3, 1.4e-2},
+      "the table's own distance from the closed form, over all 501 rows: a hundred times that of "
+      "the revolute joint's table, though the motion is the same");
+  BallJoint joint;
+  joint.name = "spherical";
+  joint.anchor_a = {-kArm, 0.0, 0.0};
+  exam.scene.joints.emplace_back(joint);
+  exam.measure = [] { return measure_table(kSphericalRows); };
+  exam.methods = exam_methods(exam.scene.settings, {16, 64, 256});
+  return exam;
+}
+
+}  // namespace substep::scenes

@@ -93,6 +93,7 @@ std::string settings_line(const Settings& s) {
   if (chooses_substeps(s.mode)) {
     line += s.policy == Policy::kFrame ? ", decided per frame" : ", decided per sub-step";
     if (s.islands) line += " for each island";
+    if (!s.rotation_criterion) line += ", without the rotation criterion";
   }
   line += ", ";
   line += name_of(s.integrator);

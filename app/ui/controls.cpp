@@ -243,6 +243,9 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
     }
   }
   if (chooses_substeps(s.mode)) {
+    checkbox(look, "Rotation criterion", s.rotation_criterion, width,
+             "N also follows how fast bodies spin: the turn and the gyroscopic rate in a sub-step. "
+             "Off: the paper's rule alone.");
     checkbox(look, "each island its own N", s.islands, width,
              "Bodies that neither joints nor contacts to come connect within a frame take "
              "sub-steps of their own: what is calm does not pay for what is not. This project's.");

@@ -83,6 +83,10 @@ constexpr std::array kFields{
                  ChoiceSetting<Detection>{&S::detection}},
     SettingField{"contact_stiffness", "contact block in K (Eq. 1): the paper's or the derivative",
                  ChoiceSetting<ContactStiffness>{&S::contact_stiffness}},
+    SettingField{"rotation_criterion",
+                 "N also follows how fast bodies spin: the turn and the gyroscopic rate in a "
+                 "sub-step; off: the paper's rule alone",
+                 FlagSetting{&S::rotation_criterion}},
     SettingField{"watch_stiffness", "evaluate K even where the mode does not need it",
                  FlagSetting{&S::watch_stiffness}},
 };

@@ -66,6 +66,7 @@ struct Settings {
   int drift_order = 1;  // 2: the correction also sees how the joints' rows curve, drift.hpp
   Detection detection = Detection::kSubstep;
   ContactStiffness contact_stiffness = ContactStiffness::kPaper;
+  bool rotation_criterion = true;  // N also follows the turn and the gyroscopic rate of bodies
   bool watch_stiffness = false;  // evaluate K even where the mode does not need it, for a view
 
   friend bool operator==(const Settings&, const Settings&) = default;

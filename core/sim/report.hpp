@@ -121,7 +121,10 @@ struct FrameReport {
   double dt_max = 0.0;  // longest sub-step [s]
   double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10, at the
                                                                // end of the frame [s]
-  StiffnessLeader leader;                                      // who set r
+  StiffnessLeader leader;                                      // who set the stiffness term of r
+  double r_stiffness = 0.0;  // geometric stiffness, Eq. 9: the leader's [1/s^2]
+  double r_rotation = 0.0;   // turn and gyroscopic rate of the body that spins fastest [1/s^2]
+  int rotation_body = -1;    // that body; -1 where none spins or the setting is off
 
   double kinetic = 0.0;           // synchronised with the positions [J]
   double potential = 0.0;         // of gravity [J]

@@ -188,6 +188,7 @@ inline Settings any_settings() {
   s.drift_order = whole(1, 2);
   s.detection = any_of<Detection>();
   s.contact_stiffness = any_of<ContactStiffness>();
+  s.rotation_criterion = one_in(2);
   s.watch_stiffness = one_in(4);
   return s;
 }

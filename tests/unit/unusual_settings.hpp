@@ -33,6 +33,7 @@ inline Settings unusual() {
   s.drift_order = 2;
   s.detection = Detection::kFrame;
   s.contact_stiffness = ContactStiffness::kExact;
+  s.rotation_criterion = false;
   return s;
 }
 

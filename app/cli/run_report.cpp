@@ -100,6 +100,7 @@ std::string settings_line(const Settings& s) {
   line += ", drift ";
   line += name_of(drift_law(s));
   if (s.drift_order == 2) line += " of second order";
+  if (s.friction_cone == FrictionCone::kCone) line += ", friction cone";
   return line;
 }
 

@@ -98,6 +98,13 @@ constexpr std::array<Choice, 2> kContactStiffnesses{
       "The contact as a ball joint that carries its force: the paper's (Giles and Andrews 2024), "
       "steers N."},
      {"exact", "The true derivative of the contact force, friction included. This project's."}}};
+constexpr std::array<Choice, 2> kFrictionCones{
+    {{"box",
+      "The paper's: each tangent resists up to μ times the normal force, so up to 1.41 μ across "
+      "the tangents."},
+     {"cone",
+      "Isotropic Coulomb friction: the length of the friction force is at most μ times the normal "
+      "force."}}};
 constexpr std::array<Choice, 2> kDetections{
     {{"sub-step", "Looked for before every sub-step."},
      {"frame",
@@ -262,6 +269,9 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
     choose(look, "Contacts", kDetections, s.detection, "When contacts are looked for.");
     choose(look, "K contact", kContactStiffnesses, s.contact_stiffness,
            "Which block of a contact enters K (Eq. 1).");
+  }
+  if (effects.friction) {
+    choose(look, "Friction", kFrictionCones, s.friction_cone, "What bounds the friction force.");
   }
   choose(look, "Drift", kDrifts, s.drift, "How errors of position are taken back.");
   if (drift_law(s) == Drift::kSoft) {

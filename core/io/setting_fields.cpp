@@ -87,6 +87,10 @@ constexpr std::array kFields{
                  "N also follows how fast bodies spin: the turn and the gyroscopic rate in a "
                  "sub-step; off: the paper's rule alone",
                  FlagSetting{&S::rotation_criterion}},
+    SettingField{"friction_cone",
+                 "bounds of friction: each tangent up to mu times the normal force (box, the "
+                 "paper's), or the length of the force (cone)",
+                 ChoiceSetting<FrictionCone>{&S::friction_cone}},
     SettingField{"watch_stiffness", "evaluate K even where the mode does not need it",
                  FlagSetting{&S::watch_stiffness}},
 };

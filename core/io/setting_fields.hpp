@@ -37,7 +37,8 @@ struct SettingField {
   std::variant<FlagSetting, CountSetting, NumberSetting, ChoiceSetting<SolverKind>,
                ChoiceSetting<Forces>, ChoiceSetting<Mode>, ChoiceSetting<Policy>,
                ChoiceSetting<Integrator>, ChoiceSetting<Gyroscopic>, ChoiceSetting<Drift>,
-               ChoiceSetting<Detection>, ChoiceSetting<ContactStiffness>>
+               ChoiceSetting<Detection>, ChoiceSetting<ContactStiffness>,
+               ChoiceSetting<FrictionCone>>
       member;
 };
 

@@ -58,6 +58,11 @@ struct NameTable<ContactStiffness> {
                                       Named<ContactStiffness>{"exact", ContactStiffness::kExact}};
 };
 template <>
+struct NameTable<FrictionCone> {
+  static constexpr std::array entries{Named<FrictionCone>{"box", FrictionCone::kBox},
+                                      Named<FrictionCone>{"cone", FrictionCone::kCone}};
+};
+template <>
 struct NameTable<Forces> {
   static constexpr std::array entries{Named<Forces>{"end", Forces::kEnd},
                                       Named<Forces>{"mean", Forces::kMean},

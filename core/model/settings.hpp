@@ -31,6 +31,8 @@ enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer };
 enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
 enum class ContactStiffness : std::uint8_t { kPaper, kExact };
+/// Bounds of the friction force: each tangent up to mu times the normal force, or its length.
+enum class FrictionCone : std::uint8_t { kBox, kCone };
 enum class Gyroscopic : std::uint8_t { kExplicit, kImplicit };
 /// When contacts are looked for: before every sub-step, or once a frame, as far ahead as bodies can
 /// come in it; then they are carried along with the bodies.
@@ -67,6 +69,7 @@ struct Settings {
   Detection detection = Detection::kSubstep;
   ContactStiffness contact_stiffness = ContactStiffness::kPaper;
   bool rotation_criterion = true;  // N also follows the turn and the gyroscopic rate of bodies
+  FrictionCone friction_cone = FrictionCone::kBox;
   bool watch_stiffness = false;  // evaluate K even where the mode does not need it, for a view
 
   friend bool operator==(const Settings&, const Settings&) = default;

@@ -189,6 +189,7 @@ inline Settings any_settings() {
   s.detection = any_of<Detection>();
   s.contact_stiffness = any_of<ContactStiffness>();
   s.rotation_criterion = one_in(2);
+  s.friction_cone = any_of<FrictionCone>();
   s.watch_stiffness = one_in(4);
   return s;
 }

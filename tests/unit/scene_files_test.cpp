@@ -89,6 +89,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .detection = Detection::kFrame,
                     .contact_stiffness = ContactStiffness::kExact,
                     .rotation_criterion = false,
+                    .friction_cone = FrictionCone::kCone,
                     .watch_stiffness = true};
   scene.criteria = {.duration = 3.0,
                     .joint_gap = 0.3,

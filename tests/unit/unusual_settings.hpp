@@ -34,6 +34,7 @@ inline Settings unusual() {
   s.detection = Detection::kFrame;
   s.contact_stiffness = ContactStiffness::kExact;
   s.rotation_criterion = false;
+  s.friction_cone = FrictionCone::kCone;
   return s;
 }
 

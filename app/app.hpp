@@ -50,7 +50,7 @@ struct Trouble {
 /// Which of the phone's panels is open; beside the picture, the controls always are.
 enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy };
 
-enum class Plot : unsigned char { kSubsteps, kEnergy, kError, kTime, kCount };
+enum class Plot : unsigned char { kSubsteps, kEnergy, kDrift, kError, kTime, kCount };
 
 /// A panel at a side of the picture.
 struct PanelSide {

@@ -22,6 +22,7 @@ constexpr std::array<Column, static_cast<std::size_t>(Channel::kCount)> kColumns
      {Channel::kKinetic, "kinetic", nullptr},
      {Channel::kPotential, "potential", nullptr},
      {Channel::kTotal, "energy", nullptr},
+     {Channel::kDrift, "energy_drift", nullptr},
      {Channel::kJointError, "constraint_error", &Effects::joints},
      {Channel::kJointGap, "joint_gap", &Effects::joints},
      {Channel::kPenetration, "penetration", &Effects::contact},
@@ -50,12 +51,11 @@ std::string quoted(const std::string& name) {
   return text + '"';
 }
 
-// Samples hold energies from the start on; a file holds them as they are.
+// Samples count the potential from the start; a file holds it as it is.
 double value_of(const History& history, Channel channel, std::size_t i) {
   const auto value = static_cast<double>(history[channel][i]);
-  if (channel == Channel::kPotential) return value + history.potential_at_start();
-  if (channel == Channel::kTotal) return value + history.energy_at_start();
-  return value;
+  const bool counted = channel == Channel::kPotential || channel == Channel::kTotal;
+  return counted ? value + history.potential_at_start() : value;
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/lab/energy_scale.hpp"
+
 namespace substep {
 namespace {
 
@@ -90,6 +92,17 @@ Unit unit_for(double scale) {
   const double factor = std::pow(10.0, 3 * thousands);
   if (thousands < kFirst || thousands > last) return {power_of_ten(3 * thousands) + " ", factor};
   return {kPrefixes.at(static_cast<std::size_t>(thousands - kFirst)), factor};
+}
+
+std::string energy_change(double joules) {
+  if (joules == 0.0) return "0 J";
+  const Unit unit = unit_for(std::abs(joules));
+  return (joules > 0.0 ? "+" : "") + short_number(joules / unit.factor) + " " + unit.prefix + "J";
+}
+
+std::string energy_change(double joules, std::optional<double> scale) {
+  const auto share = energy_share(joules, scale);
+  return energy_change(joules) + (share ? " (" + percent(*share) + ")" : "");
 }
 
 std::string percent(double share) {

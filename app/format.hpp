@@ -1,6 +1,7 @@
 #pragma once
 // Numbers as people read them. Minus signs are real ones, and powers of ten stand high.
 
+#include <optional>
 #include <string>
 
 namespace substep {
@@ -19,6 +20,11 @@ struct Unit {
   double factor = 1.0;  // value of one unit
 };
 Unit unit_for(double scale);
+/// A change of energy with its sign: "−12.3 mJ", "+1.20 kJ", "0 J"
+std::string energy_change(double joules);
+/// The same and, where there is a scale to compare it with, its share: "−12.3 mJ (−0.02 %)".
+/// @param scale core/lab/energy_scale.hpp [J]
+std::string energy_change(double joules, std::optional<double> scale);
 /// Fixed digits after the point, with a real minus and no minus zero.
 std::string fixed(double value, int digits);
 /// "+0.01 %", "−20.3 %"

@@ -102,7 +102,9 @@ void History::add(const FrameReport& report) {
   add_to(Channel::kLimit, 0.5 * frame_ * std::sqrt(report.leader.r));  // Eqs. 10, 11, alpha = 1
   add_to(Channel::kKinetic, report.kinetic);
   add_to(Channel::kPotential, report.potential - potential_at_start_);
-  add_to(Channel::kTotal, report.energy - energy_at_start_);
+  add_to(Channel::kTotal, report.kinetic + (report.potential - potential_at_start_));
+  // In double precision first: a drift is many digits smaller than the energies.
+  add_to(Channel::kDrift, report.energy - energy_at_start_);
   add_to(Channel::kJointError, report.constraint_error);
   add_to(Channel::kJointGap, report.joint_gap);
   add_to(Channel::kPenetration, report.penetration);
@@ -112,6 +114,21 @@ void History::add(const FrameReport& report) {
   add_to(Channel::kTimeContact, 1e3 * report.times.contact);
   add_to(Channel::kTimeFriction, 1e3 * report.times.friction);
   add_to(Channel::kTimeStiffness, 1e3 * report.times.stiffness);
+}
+
+double History::potential_offset() const {
+  const Extent all = samples(Channel::kPotential).extent(0, size());
+  return all.empty() ? 0.0 : -std::min(0.0, static_cast<double>(all.low));  // the start is at 0
+}
+
+double History::largest_drift() const {
+  const Extent all = samples(Channel::kDrift).extent(0, size());
+  return all.empty() ? 0.0 : static_cast<double>(std::max(-all.low, all.high));
+}
+
+double History::largest_kinetic() const {
+  const Extent all = samples(Channel::kKinetic).extent(0, size());
+  return all.empty() ? 0.0 : static_cast<double>(all.high);
 }
 
 void History::cut(double time) {

@@ -18,7 +18,8 @@ enum class Channel : std::uint8_t {
   kLimit,        // N at alpha = 1: fewer than this is unstable [-], 0 where K is not known
   kKinetic,      // [J]
   kPotential,    // minus that at the start [J]
-  kTotal,        // kinetic and potential, minus that at the start: 0, ideally [J]
+  kTotal,        // the sum of these two [J]
+  kDrift,        // change of the total energy since the start: 0, ideally [J]
   kJointError,   // sum over joints of the 1-norm of phi [m, rad]
   kJointGap,     // largest distance between the anchors of a joint [m]
   kPenetration,  // largest overlap of a contact [m]
@@ -98,7 +99,14 @@ class History {
   /// Value of the sample nearest to a time. NaN where there is none within a frame.
   [[nodiscard]] double at(Channel channel, double time) const;
   [[nodiscard]] double potential_at_start() const { return potential_at_start_; }  ///< [J]
-  [[nodiscard]] double energy_at_start() const { return energy_at_start_; }        ///< [J]
+  /// What the samples of the potential count from so that the lowest is 0, added to them and to
+  /// those of the total [J]. The zero of a potential is free; this one keeps kinetic, potential
+  /// and total energy on one readable scale.
+  [[nodiscard]] double potential_offset() const;
+  /// The largest change of the total energy so far, up or down [J].
+  [[nodiscard]] double largest_drift() const;
+  /// The largest kinetic energy so far [J].
+  [[nodiscard]] double largest_kinetic() const;
   [[nodiscard]] double start_time() const { return start_time_; }
   [[nodiscard]] double end_time() const { return size() == 0 ? start_time_ : time(size() - 1); }
   [[nodiscard]] double frame() const { return frame_; }

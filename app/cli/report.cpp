@@ -13,6 +13,7 @@
 #include "core/io/experiment.hpp"
 #include "core/io/number_text.hpp"
 #include "core/io/result.hpp"
+#include "core/lab/energy_scale.hpp"
 
 namespace substep::cli {
 namespace {
@@ -199,7 +200,7 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
                   reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
                   reference.value("window", 0.0));
     std::string line = text;
-    if (const double scale = reference.value("energy_scale", 0.0); scale > 0.0) {
+    if (const double scale = reference.value("energy_scale", 0.0); scale >= kLeastEnergyScale) {
       std::snprintf(text, sizeof text, " 100 %% of the energy drift are %g J, %s.", scale,
                     reference.value("energy_scale_source", "").c_str());
       line += text;

@@ -5,6 +5,7 @@
 
 #include "app/cli/format_text.hpp"
 #include "core/io/number_text.hpp"
+#include "core/lab/energy_scale.hpp"
 #include "core/lab/experiment.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -29,9 +30,12 @@ void RunReport::add(const FrameReport& report) {
 
 std::string RunReport::energy_text() const {
   const double change = last_.energy - energy_at_start_;
-  if (!scene_.criteria.energy_scale) return format_text("%+.6g J", change);
-  return format_text("%+.3g %% of %g J", 100.0 * change / *scene_.criteria.energy_scale,
-                     *scene_.criteria.energy_scale);
+  // Only of an energy that the scene states: what this run exchanges is not known yet.
+  const auto& stated = scene_.criteria.energy_scale;
+  const auto scale = stated ? energy_scale(stated, 0.0, 0.0) : std::nullopt;
+  const auto share = energy_share(change, scale);
+  if (!share) return format_text("%+.6g J", change);
+  return format_text("%+.3g %% of %g J", 100.0 * *share, *scale);
 }
 
 std::string RunReport::progress(std::int64_t frames) const {
@@ -89,12 +93,14 @@ std::string settings_line(const Settings& s) {
   if (chooses_substeps(s.mode)) {
     line += s.policy == Policy::kFrame ? ", decided per frame" : ", decided per sub-step";
     if (s.islands) line += " for each island";
+    if (!s.rotation_criterion) line += ", without the rotation criterion";
   }
   line += ", ";
   line += name_of(s.integrator);
   line += ", drift ";
   line += name_of(drift_law(s));
   if (s.drift_order == 2) line += " of second order";
+  if (s.friction_cone == FrictionCone::kCone) line += ", friction cone";
   return line;
 }
 

@@ -98,6 +98,13 @@ constexpr std::array<Choice, 2> kContactStiffnesses{
       "The contact as a ball joint that carries its force: the paper's (Giles and Andrews 2024), "
       "steers N."},
      {"exact", "The true derivative of the contact force, friction included. This project's."}}};
+constexpr std::array<Choice, 2> kFrictionCones{
+    {{"box",
+      "The paper's: each tangent resists up to μ times the normal force, so up to 1.41 μ across "
+      "the tangents."},
+     {"cone",
+      "Isotropic Coulomb friction: the length of the friction force is at most μ times the normal "
+      "force."}}};
 constexpr std::array<Choice, 2> kDetections{
     {{"sub-step", "Looked for before every sub-step."},
      {"frame",
@@ -243,6 +250,9 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
     }
   }
   if (chooses_substeps(s.mode)) {
+    checkbox(look, "Rotation criterion", s.rotation_criterion, width,
+             "N also follows how fast bodies spin: the turn and the gyroscopic rate in a sub-step. "
+             "Off: the paper's rule alone.");
     checkbox(look, "each island its own N", s.islands, width,
              "Bodies that neither joints nor contacts to come connect within a frame take "
              "sub-steps of their own: what is calm does not pay for what is not. This project's.");
@@ -259,6 +269,9 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
     choose(look, "Contacts", kDetections, s.detection, "When contacts are looked for.");
     choose(look, "K contact", kContactStiffnesses, s.contact_stiffness,
            "Which block of a contact enters K (Eq. 1).");
+  }
+  if (effects.friction) {
+    choose(look, "Friction", kFrictionCones, s.friction_cone, "What bounds the friction force.");
   }
   choose(look, "Drift", kDrifts, s.drift, "How errors of position are taken back.");
   if (drift_law(s) == Drift::kSoft) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/app.hpp"
+#include "app/criterion.hpp"
 
 namespace substep::ui {
 
@@ -34,6 +35,8 @@ std::string file_stem(const App& app);
 void why_summary(App& app);
 /// All of it: the law with its numbers, and every body's part.
 void why(App& app);
+/// The two terms of the criterion, and which of them sets N.
+void criterion_terms(App& app, const Criterion& criterion);
 /// What runs beside this run.
 void compare(App& app);
 /// The effects of the scene, to be switched off while it runs, with what each costs.

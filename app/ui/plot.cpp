@@ -70,9 +70,10 @@ void find_range(const PlotSpec& spec, const PlotFrame& f, double from, PlotState
   Extent all;
   for (const Series& series : spec.series) {
     const History::Slice slice = visible(*series.history, f, from);
-    all.add(series.history->samples(series.channel).extent(slice.first, slice.last));
+    all.add(shifted(series.history->samples(series.channel).extent(slice.first, slice.last),
+                    series.offset));
   }
-  const Range goal = state.logarithmic ? logarithmic_range(all) : linear_range(spec, all);
+  const Range goal = f.logarithmic ? logarithmic_range(all) : linear_range(spec, all);
   if (!state.set) {
     state.low = goal.low;
     state.high = goal.high;
@@ -202,7 +203,7 @@ void draw_hover(const Look& look, const PlotSpec& spec, const PlotFrame& f, cons
   }
   draw.AddLine({x, f.min.y}, {x, f.max.y}, fade(look.theme->text, 0.5F));
   for (const Series& series : spec.series) {
-    const double value = shown_value(*series.history, series.channel, axis);
+    const double value = shown_value(*series.history, series.channel, axis) + series.offset;
     if (drawable(static_cast<float>(value), f)) {
       draw.AddCircleFilled({x, f.y(value)}, 3.0F, series.color);
     }
@@ -319,14 +320,14 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   f.min = {origin.x + kGutter, origin.y};
   f.max = {origin.x + size.x, origin.y + size.y - below};
   std::tie(f.t0, f.t1) = axis.window(now);
-  f.logarithmic = state.logarithmic;
+  f.logarithmic = state.logarithmic && !spec.linear;
   find_range(spec, f, axis.from, state);
   f.low = state.low;
   f.high = state.high;
 
   ImGui::PushID(spec.id);
   const bool pointed = ImGui::IsMouseHoveringRect(origin, f.max);
-  const bool toggle = scale_toggle(look, origin, pointed, state);
+  const bool toggle = !spec.linear && scale_toggle(look, origin, pointed, state);
   draw.AddRectFilled(f.min, f.max, look.theme->well, 4.0F);
   draw_time(look, spec, f, draw);
   draw_values(look, spec, f, toggle ? kToggle : 0.0F, draw);

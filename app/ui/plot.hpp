@@ -43,6 +43,7 @@ struct Series {
   bool steps = false;   // holds its value for a frame
   bool filled = false;  // down to zero
   float width = 1.5F;
+  double offset = 0.0;  // added to every sample; on linear axes only
 };
 
 /// A level drawn across the plot.
@@ -75,6 +76,7 @@ struct PlotSpec {
   std::vector<Mark> marks;
   bool from_zero = false;    // a linear axis starts at 0
   bool counts = false;       // whole numbers: no lines between them
+  bool linear = false;       // no logarithmic axis: of values that are below 0 or add up
   double most = 0.0;         // a linear axis shows no more to either side of 0; 0: all
   double least_span = 1.0;   // smallest range shown, in units of the values
   double factor = 1.0;       // value of one unit of the labels

@@ -21,7 +21,7 @@ std::vector<Column> samples_of(const Series& series, const History::Slice& slice
     }
     // A stepped series holds from the start of its frame.
     const double time = series.history->time(i) - (series.steps ? series.history->frame() : 0.0);
-    const float y = f.y(static_cast<double>(values[i]));
+    const float y = f.y(static_cast<double>(values[i]) + series.offset);
     columns.push_back({f.x(time), y, y, y, false, gap});
     gap = false;
   }
@@ -49,13 +49,14 @@ std::vector<Column> decimated(const Series& series, const History::Slice& slice,
     const std::size_t first = sample(time);
     const std::size_t last = sample(time + width);
     if (first >= last) continue;
-    const Extent extent = samples.extent(first, last);
+    const Extent extent = shifted(samples.extent(first, last), series.offset);
     const float low = f.logarithmic ? extent.least_positive : extent.low;
     if (!drawable(low, f)) {
       gap = true;
       continue;
     }
-    const float newest = samples.values()[last - 1];
+    const auto newest =
+        static_cast<float>(static_cast<double>(samples.values()[last - 1]) + series.offset);
     columns.push_back({f.x(time), f.y(static_cast<double>(low)),
                        f.y(static_cast<double>(extent.high)),
                        f.y(static_cast<double>(drawable(newest, f) ? newest : low)), true, gap});
@@ -142,6 +143,14 @@ History::Slice visible(const History& history, const PlotFrame& f, double from) 
   }
   slice.last = std::max(slice.first, slice.last);
   return slice;
+}
+
+Extent shifted(const Extent& extent, double offset) {
+  if (offset == 0.0 || extent.empty()) return extent;
+  Extent moved;
+  moved.add(static_cast<float>(static_cast<double>(extent.low) + offset));
+  moved.add(static_cast<float>(static_cast<double>(extent.high) + offset));
+  return moved;
 }
 
 bool drawable(float value, const PlotFrame& f) {

@@ -38,6 +38,9 @@ struct PlotFrame {
 /// [s]
 History::Slice visible(const History& history, const PlotFrame& f, double from);
 
+/// The extent of samples to each of which an offset is added.
+Extent shifted(const Extent& extent, double offset);
+
 /// Whether a value has a place on the axis: it is finite, and positive on a logarithmic one.
 bool drawable(float value, const PlotFrame& f);
 

@@ -9,43 +9,15 @@
 #include "app/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/plot_headings.hpp"
+#include "app/ui/plots.hpp"
 #include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
-namespace {
 
-constexpr float kLeastPlot = 56.0F;
-
-struct PlotInfo {
-  Plot plot;
-  const char* name;
-};
-constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
-    {{Plot::kSubsteps, "Sub-steps per frame"},
-     {Plot::kEnergy, "Energy"},
-     {Plot::kError, "Error and overlap"},
-     {Plot::kTime, "Time by stage"}}};
-
-// A scene with nothing to violate has no plot of errors.
-bool exists(const App& app, Plot plot) {
-  const Effects& effects = app.session.scene().effects;
-  return plot != Plot::kError || effects.joints || effects.contact;
-}
-
-std::vector<Plot> shown_plots(App& app) {
-  std::vector<Plot> shown;
-  for (const PlotInfo& info : kPlots) {
-    if (exists(app, info.plot) && app.desk.plot(info.plot).shown) shown.push_back(info.plot);
-  }
-  return shown;
-}
-
-// The others of a comparison, in the colours that they have in the picture; where they part from
-// this run is marked.
-void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps = false) {
+void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps) {
   for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
     const Compare::Run& run = app.compare.runs()[i];
     const ImU32 color = app.compare_color(i);
@@ -66,6 +38,35 @@ void draw_plot(App& app, Plot which, PlotSpec spec, float height) {
     app.session.go_to(session.timeline().at_time(*app.desk.time.clicked));
     app.desk.time.clicked.reset();
   }
+}
+
+namespace {
+
+constexpr float kLeastPlot = 46.0F;  // four of them fit into a window of 720
+
+struct PlotInfo {
+  Plot plot;
+  const char* name;
+};
+constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
+    {{Plot::kSubsteps, "Sub-steps per frame"},
+     {Plot::kEnergy, "Energy"},
+     {Plot::kDrift, "Energy drift"},
+     {Plot::kError, "Error and overlap"},
+     {Plot::kTime, "Time by stage"}}};
+
+// A scene with nothing to violate has no plot of errors.
+bool exists(const App& app, Plot plot) {
+  const Effects& effects = app.session.scene().effects;
+  return plot != Plot::kError || effects.joints || effects.contact;
+}
+
+std::vector<Plot> shown_plots(App& app) {
+  std::vector<Plot> shown;
+  for (const PlotInfo& info : kPlots) {
+    if (exists(app, info.plot) && app.desk.plot(info.plot).shown) shown.push_back(info.plot);
+  }
+  return shown;
 }
 
 // The largest N at alpha = 1 so far: what a constant N would have to be to hold throughout.
@@ -108,80 +109,6 @@ void substeps_plot(App& app, float height, bool last) {
     spec.levels.push_back({static_cast<double>(cap), "cap " + std::to_string(cap), t.orange});
   }
   draw_plot(app, Plot::kSubsteps, spec, height);
-}
-
-// Of the total energy since the start, so far, up or down [J].
-double greatest_change(const History& history) {
-  const Extent total = history.samples(Channel::kTotal).extent(0, history.size());
-  return total.empty() ? 0.0 : static_cast<double>(std::max(-total.low, total.high));
-}
-
-void energy_plot(App& app, float height, bool last) {
-  const Look& look = app.look;
-  const Theme& t = *look.theme;
-  const History& h = app.session.history();
-  const Extent kinetic = h.samples(Channel::kKinetic).extent(0, h.size());
-  const double scale = kinetic.empty() ? 0.0 : static_cast<double>(kinetic.high);
-  const auto& exchanged = app.session.scene().criteria.energy_scale;
-  const bool potential = has_potential(app.session.scene().effects);
-  const Unit unit = unit_for(std::max(scale, 1e-3));
-  const bool several = app.compare.open();
-  const double whole = exchanged.value_or(scale);
-  // What stands exchanges nothing, and is compared in joules; other runs by what they exchange.
-  const double changed = greatest_change(h);
-  const bool stands = several && changed > whole;
-  const Unit compared = stands ? unit_for(std::max(changed, 1e-3)) : Unit{};
-  const double one = stands ? compared.factor : 0.01 * (whole > 0.0 ? whole : 1.0);
-  const std::string heading = several && !stands
-                                  ? std::string("Energy, %")
-                                  : "Energy, " + (several ? compared : unit).prefix + "J";
-
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float right = origin.x + ImGui::GetContentRegionAvail().x;
-  section(look, heading.c_str());
-  tooltip(look, "Energy",
-          "Kinetic energy, and how much the potential and the total energy have changed since the "
-          "start: the total not at all, ideally. Percentages are of the energy that the motion "
-          "exchanges.");
-  const auto change = [&](double joules) {
-    return whole <= 0.0 || std::abs(joules) > 99.0 * whole
-               ? coarse_number(joules / unit.factor) + " " + unit.prefix + "J"
-               : percent(joules / whole);
-  };
-  PlotSpec spec;
-  spec.id = "energy";
-  spec.time_labels = last;
-  spec.from_zero = true;
-  spec.factor = unit.factor;
-  spec.least_span = unit.factor;
-  if (several) {
-    // What each has lost or gained; one that explodes must not make the others a line at zero.
-    const auto share_text = [one](double joules, double most, int digits) {
-      const double share = joules / one;
-      const std::string limit = fixed(most, 0);
-      if (std::abs(share) > most) return share > 0.0 ? ">" + limit : "<−" + limit;
-      return fixed(share, std::abs(share) < 9.95 ? digits : 0);
-    };
-    compared_values(
-        app, origin, origin.x + heading_width(look, heading.c_str()), Channel::kTotal,
-        [&](double joules) { return share_text(joules, 999.0, 2); },
-        [&](double joules) { return share_text(joules, 99.0, 1); });
-    spec.factor = one;
-    spec.least_span = 0.01 * one;
-    spec.most = stands ? 1.5 * changed : 150.0 * one;
-    spec.series.push_back({&h, Channel::kTotal, t.blue});
-    add_compared(app, spec, Channel::kTotal);
-  } else {
-    const double now = shown_value(h, Channel::kTotal, app.desk.time);
-    float x = legend(look, right, origin.y, t.orange,
-                     std::isfinite(now) ? "total " + change(now) : "total");
-    if (potential) x = legend(look, x, origin.y, t.purple, "pot.");
-    legend(look, x, origin.y, t.teal, "kin.");
-    spec.series.push_back({&h, Channel::kKinetic, t.teal, false, true});
-    if (potential) spec.series.push_back({&h, Channel::kPotential, t.purple, false, false, 1.0F});
-    spec.series.push_back({&h, Channel::kTotal, t.orange});
-  }
-  draw_plot(app, Plot::kEnergy, spec, height);
 }
 
 void error_plot(App& app, float height, bool last) {
@@ -247,6 +174,8 @@ void draw_one(App& app, Plot which, float height, bool last) {
       return substeps_plot(app, height, last);
     case Plot::kEnergy:
       return energy_plot(app, height, last);
+    case Plot::kDrift:
+      return drift_plot(app, height, last);
     case Plot::kError:
       return error_plot(app, height, last);
     case Plot::kTime:
@@ -262,6 +191,8 @@ std::vector<Channel> channels_of(Plot plot) {
       return {Channel::kSubsteps, Channel::kMean, Channel::kLimit};
     case Plot::kEnergy:
       return {Channel::kKinetic, Channel::kPotential, Channel::kTotal};
+    case Plot::kDrift:
+      return {Channel::kDrift};
     case Plot::kError:
       return {Channel::kJointError, Channel::kJointGap, Channel::kPenetration};
     case Plot::kTime:

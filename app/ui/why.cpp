@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/criterion.hpp"
 #include "app/format.hpp"
 #include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
@@ -23,16 +24,16 @@ const std::string& name_of_body(const Scene& scene, const StiffnessLeader& who) 
   return scene.bodies[static_cast<std::size_t>(who.body)].name;
 }
 
-std::string degree_of_freedom(const StiffnessLeader& who) {
-  static constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
-  return std::string(who.dof < 3 ? "along " : "rotation about ") +
-         kAxes[static_cast<std::size_t>(who.dof % 3)];
-}
-
 std::string stiffness_and_mass(const StiffnessLeader& who) {
   const bool turns = who.dof >= 3;
   return "k " + short_number(who.k) + (turns ? " N m/rad" : " N/m") + "  ·  M " +
          short_number(who.mass) + (turns ? " kg m²" : " kg");
+}
+
+Criterion criterion_of(const App& app) {
+  const Session& session = app.session;
+  return substep::criterion_of(session.scene(), session.settings(), session.state(),
+                               session.report());
 }
 
 // N by Eqs. 10 and 11.
@@ -60,7 +61,7 @@ void body_columns(App& app, float height) {
     if (!scene.bodies[i].is_static) moving.push_back(i);
   }
   if (moving.empty()) return;
-  const int leader = app.session.report().leader.body;
+  const int leader = criterion_of(app).body();
   const float inner = width - 8.0F;
   const float pitch = inner / static_cast<float>(moving.size());
   const float gap = pitch >= 4.0F ? std::min(2.0F, 0.25F * pitch) : 0.0F;
@@ -98,16 +99,24 @@ void law_line(const Look& look, const std::string& law, const std::string& numbe
   ImGui::Dummy({width, 34.0F});
 }
 
-void law(App& app, const StiffnessLeader& leader) {
+void law(App& app, const Criterion& criterion) {
   const Look& look = app.look;
   const double h = app.session.scene().frame;
   const double alpha = app.session.settings().alpha;
-  const double dt = stable_step(alpha, leader.r);
-  law_line(look, "r = max k/M = " + short_number(leader.r) + " s⁻²",
-           "= " + short_number(leader.k) + " / " + short_number(leader.mass), "Eq. 9");
+  const bool rotates = criterion.set_by == CriterionTerm::kRotation;
+  const StiffnessLeader& leader = criterion.stiffness;
+  const double r = rotates ? criterion.r_rotation : leader.r;
+  const double dt = stable_step(alpha, r);
+  if (rotates) {
+    law_line(look, "r = rotation term = " + short_number(r) + " s⁻²",
+             rotation_meaning(app.session.scene(), criterion), "");
+  } else {
+    law_line(look, "r = max k/M = " + short_number(r) + " s⁻²",
+             "= " + short_number(leader.k) + " / " + short_number(leader.mass), "Eq. 9");
+  }
   law_line(look, "Δt max = 2 √(α/r) = " + duration(dt),
-           "= 2 √(" + plain_number(alpha) + " / " + short_number(leader.r) + ")", "Eq. 10");
-  law_line(look, "N = h/Δt max, rounded up = " + grouped(substeps_for(app.session, leader.r)),
+           "= 2 √(" + plain_number(alpha) + " / " + short_number(r) + ")", "Eq. 10");
+  law_line(look, "N = h/Δt max, rounded up = " + grouped(substeps_for(app.session, r)),
            "= " + short_number(1e3 * h) + " ms / " + duration(dt) + " = " + short_number(h / dt),
            "Eq. 11");
 }
@@ -142,15 +151,23 @@ std::string taken_note(const Session& session) {
   return "";
 }
 
-void without_leader(App& app, const std::vector<StiffnessLeader>& list) {
+// What would set N if the one that does were not there.
+void without_leader(App& app, const Criterion& criterion,
+                    const std::vector<StiffnessLeader>& list) {
   const Look& look = app.look;
   const Scene& scene = app.session.scene();
-  std::string text = "Without " + name_of_body(scene, list[0]) + " ";
-  if (list.size() < 2 || !(list[1].r > 0.0)) {
-    text += "nothing would be stiff: N = 1.";
+  const int next = list.size() < 2 ? 1 : substeps_for(app.session, list[1].r);
+  std::string text;
+  if (criterion.set_by == CriterionTerm::kRotation) {
+    text = "Without the rotation term N would be " + grouped(criterion.n_stiffness) + ".";
+  } else if (criterion.n_rotation > next) {
+    text = "Without " + name_of_body(scene, list[0]) + " N would be " +
+           grouped(criterion.n_rotation) + ", set by rotation.";
+  } else if (list.size() < 2 || !(list[1].r > 0.0)) {
+    text = "Without " + name_of_body(scene, list[0]) + " nothing would be stiff: N = 1.";
   } else {
-    text += "N would be " + grouped(substeps_for(app.session, list[1].r)) + ", set by " +
-            name_of_body(scene, list[1]) + ".";
+    text = "Without " + name_of_body(scene, list[0]) + " N would be " + grouped(next) +
+           ", set by " + name_of_body(scene, list[1]) + ".";
   }
   label(look.fonts.small, look.theme->dim, text.c_str());
 }
@@ -164,15 +181,16 @@ void bar_tooltip(const Look& look, const Session& session, const StiffnessLeader
 }
 
 // One bar per body: the N that it alone would ask for.
-void bars(App& app, const std::vector<StiffnessLeader>& list) {
+void bars(App& app, const Criterion& criterion, const std::vector<StiffnessLeader>& list) {
   constexpr float kRow = 20.0F;
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const Scene& scene = app.session.scene();
-  section(look, "N by body");
-  tooltip(look, "N by body",
+  const bool sets = criterion.set_by == CriterionTerm::kStiffness;
+  section(look, "N by stiffness of each body");
+  tooltip(look, "N by stiffness of each body",
           "The N that each body alone would ask for, from the k/M of its stiffest degree of "
-          "freedom. The largest decides for all. A click selects the body.");
+          "freedom. The largest is the stiffness term. A click selects the body.");
   const float width = ImGui::GetContentRegionAvail().x;
   const float names = std::min(112.0F, 0.4F * width);
   constexpr float kNumbers = 34.0F;
@@ -191,14 +209,15 @@ void bars(App& app, const std::vector<StiffnessLeader>& list) {
     bar_tooltip(look, app.session, who);
     ImGui::PopID();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
-    const ImU32 ink = i == 0 || hovered ? t.text : t.dim;
+    const bool leads = sets && i == 0;
+    const ImU32 ink = leads || hovered ? t.text : t.dim;
     draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, ink,
               fitted(look.fonts.small, name_of_body(scene, who), names - 4.0F).c_str());
     const float x = at.x + names;
     const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N goes with √r
     draw.AddRectFilled({x, at.y + 5.0F}, {x + most, at.y + kRow - 5.0F}, t.well, 2.0F);
     draw.AddRectFilled({x, at.y + 5.0F}, {x + std::max(2.0F, share * most), at.y + kRow - 5.0F},
-                       i == 0 ? t.orange : t.blue, 2.0F);
+                       leads ? t.orange : t.blue, 2.0F);
     const std::string n = grouped(substeps_for(app.session, who.r));
     const float n_width = text_size(look.fonts.small, n.c_str()).x;
     draw_text(draw, look.fonts.small, {at.x + width - n_width, at.y + 3.0F}, ink, n.c_str());
@@ -228,7 +247,7 @@ void why_summary(App& app) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const FrameReport& report = app.session.report();
-  const StiffnessLeader& leader = report.leader;
+  const Criterion criterion = criterion_of(app);
   const std::string note = report.capped ? cap_note(report)
                            : std::isfinite(report.dt_stable)
                                ? "Δt max " + duration(report.dt_stable)
@@ -237,12 +256,11 @@ void why_summary(App& app) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  std::string first = "nothing stiff yet";
+  const std::string first = setter_text(app.session.scene(), criterion);
   std::string second = "K is zero or not evaluated in this mode.";
-  if (leader.body >= 0) {
-    first = name_of_body(app.session.scene(), leader) + ", " + degree_of_freedom(leader);
-    second = stiffness_and_mass(leader);
-  }
+  if (criterion.set_by == CriterionTerm::kStiffness)
+    second = stiffness_and_mass(criterion.stiffness);
+  if (criterion.set_by == CriterionTerm::kRotation) second = both_terms_text(criterion);
   if (ImGui::InvisibleButton("why", {width, 36.0F})) app.desk.tab = Tab::kWhy;
   const bool hovered = ImGui::IsItemHovered();
   draw_text(draw, look.fonts.medium, origin, hovered ? t.accent_hover : t.text,
@@ -250,9 +268,12 @@ void why_summary(App& app) {
   draw_text(draw, look.fonts.small, {origin.x, origin.y + 20.0F}, t.dim,
             fitted(look.fonts.small, second, width).c_str());
   draw_focus(look, draw, origin, {origin.x + width, origin.y + 36.0F});
-  tooltip(look, "Why this N",
-          "The degree of freedom with the largest k/M sets r (Eq. 9), with it the longest stable "
-          "step Δt max = 2 √(α/r) (Eq. 10), and with it N (Eq. 11). Click for all of it.");
+  const std::string tip =
+      "The largest r sets the longest stable step Δt max = 2 √(α/r) (Eq. 10), and with it N "
+      "(Eq. 11). r is the largest k/M (Eq. 9), or the rotation term where a body spins fast. "
+      "Now: " +
+      both_terms_text(criterion) + ". Click for details.";
+  tooltip(look, "Why this N", tip.c_str());
   body_columns(app, kColumns);
 }
 
@@ -261,24 +282,29 @@ void why(App& app) {
   const Theme& t = *look.theme;
   const Scene& scene = app.session.scene();
   const std::vector<StiffnessLeader> list = stiffness_by_body(scene, app.session.state());
+  const Criterion criterion = criterion_of(app);
   section(look, "Why this N");
-  if (list.empty() || !(list[0].r > 0.0)) {
+  const bool stiff = !list.empty() && list[0].r > 0.0;
+  if (criterion.set_by == CriterionTerm::kNone) {
     nothing_stiff(app);
     return;
   }
-  const StiffnessLeader& leader = list[0];
-  label(look.fonts.medium, t.text,
-        (name_of_body(scene, leader) + ", " + degree_of_freedom(leader)).c_str());
+  label(look.fonts.medium, t.text, setter_text(scene, criterion).c_str());
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4.0F);
-  label(look.fonts.small, t.dim, stiffness_and_mass(leader).c_str());
-  law(app, leader);
+  const bool rotates = criterion.set_by == CriterionTerm::kRotation;
+  label(look.fonts.small, t.dim,
+        (rotates ? both_terms_text(criterion) : stiffness_and_mass(criterion.stiffness)).c_str());
+  law(app, criterion);
   const std::string note = taken_note(app.session);
   if (!note.empty()) {
     label(look.fonts.small, app.session.report().capped ? t.orange : t.dim, note.c_str());
   }
-  without_leader(app, list);
+  without_leader(app, criterion, list);
   space(look.m.section);
-  bars(app, list);
+  criterion_terms(app, criterion);
+  if (!stiff) return;
+  space(look.m.section);
+  bars(app, criterion, list);
 }
 
 }  // namespace substep::ui

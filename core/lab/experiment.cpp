@@ -90,6 +90,8 @@ std::string series_name(const Settings& s) {
   if (s.drift_order == 2) name += ", drift order 2";
   if (s.detection == Detection::kFrame) name += ", contacts once a frame";
   if (s.contact_stiffness == ContactStiffness::kExact) name += ", exact contact block";
+  if (!s.rotation_criterion) name += ", without the rotation criterion";
+  if (s.friction_cone == FrictionCone::kCone) name += ", friction cone";
   if (s.gyroscopic == Gyroscopic::kExplicit) name += ", explicit gyroscopic torque";
   return name;
 }

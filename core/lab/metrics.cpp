@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/lab/energy_scale.hpp"
+
 namespace substep {
 namespace {
 
@@ -124,7 +126,7 @@ Metrics Measure::metrics(const Scene& scene, const State& state) const {
   }
   if (scene.effects.contact) m.errors.penetration = peak_and_median(penetration_);
   m.errors.energy_drift = energy_ - energy_at_start_;
-  if (reference_.energy_scale > 0.0) {
+  if (reference_.energy_scale >= kLeastEnergyScale) {
     m.errors.energy_drift_percent = 100.0 * m.errors.energy_drift / reference_.energy_scale;
   }
   if (!n_.empty()) {

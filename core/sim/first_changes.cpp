@@ -6,6 +6,7 @@
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/external.hpp"
 #include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 
@@ -73,13 +74,19 @@ void Simulator::Impl::find_accelerations(double s, std::span<const Vec6> a,
   out.a.assign(n, Vec6::Zero());
   for (const int body : part().moving) {
     const std::size_t i = index(body);
-    if (scene->effects.gravity) out.a[i].head<3>() = scene->gravity;
     if (!tumbles(i)) continue;
     const Vec3& I = scene->bodies[i].inertia;
     const Vec3 omega_B = R_WB[i].transpose() * u[i].tail<3>();
     out.a[i].tail<3>() = R_WB[i] * gyroscopic_torque(I, omega_B).cwiseQuotient(I);
   }
   const std::vector<Vec6> free = out.a;
+  for (const int body : part().moving) {
+    if (scene->effects.gravity) out.a[index(body)].head<3>() = scene->gravity;
+  }
+  if (scene->effects.external) {
+    const std::vector<double> one(n, 1.0);
+    add_external(*scene, part(), inertia_inverse, R_WB, one, out.a);
+  }
   solver->solve({rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}},
                 settings);
   out.torque.assign(n, Vec3::Zero());

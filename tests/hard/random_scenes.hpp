@@ -188,6 +188,8 @@ inline Settings any_settings() {
   s.drift_order = whole(1, 2);
   s.detection = any_of<Detection>();
   s.contact_stiffness = any_of<ContactStiffness>();
+  s.rotation_criterion = one_in(2);
+  s.friction_cone = any_of<FrictionCone>();
   s.watch_stiffness = one_in(4);
   return s;
 }

@@ -89,6 +89,8 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .drift_tau = 0.01,
                     .detection = Detection::kFrame,
                     .contact_stiffness = ContactStiffness::kExact,
+                    .rotation_criterion = false,
+                    .friction_cone = FrictionCone::kCone,
                     .watch_stiffness = true};
   scene.criteria = {.duration = 3.0,
                     .joint_gap = 0.3,

@@ -33,6 +33,8 @@ inline Settings unusual() {
   s.drift_order = 2;
   s.detection = Detection::kFrame;
   s.contact_stiffness = ContactStiffness::kExact;
+  s.rotation_criterion = false;
+  s.friction_cone = FrictionCone::kCone;
   return s;
 }
 

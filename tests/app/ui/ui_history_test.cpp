@@ -15,7 +15,9 @@ FrameReport report_at(int frame) {
   report.frame = frame;
   report.time = frame / 60.0;
   report.n_substeps = frame % 7;
-  report.energy = 100.0 + frame;
+  report.kinetic = 3.0;
+  report.potential = 97.0 + frame;
+  report.energy = report.kinetic + report.potential;
   return report;
 }
 
@@ -27,7 +29,8 @@ TEST(History, KeepsOneSampleAFrameWithItsTime) {
   EXPECT_NEAR(history.end_time(), 2.0, 1e-12);
   EXPECT_NEAR(history.time(0), 1.0 / 60.0, 1e-12);
   EXPECT_EQ(history[Channel::kSubsteps][6], 0.0F);
-  EXPECT_FLOAT_EQ(history[Channel::kTotal][9], 10.0F);
+  EXPECT_FLOAT_EQ(history[Channel::kTotal][9], 13.0F);
+  EXPECT_FLOAT_EQ(history[Channel::kDrift][9], 10.0F);
 }
 
 TEST(History, ForgetsTheOldestAndKeepsItsTimes) {

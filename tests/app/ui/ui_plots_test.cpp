@@ -163,8 +163,8 @@ TEST(Export, TableHoldsTheChannelsOfTheShownPlots) {
   ASSERT_EQ(lines.size(), 31U);
   EXPECT_EQ(
       lines[0],
-      "frame,time,substeps,substeps_mean,substeps_least,kinetic,potential,energy,constraint_error,"
-      "joint_gap");
+      "frame,time,substeps,substeps_mean,substeps_least,kinetic,potential,energy,energy_drift,"
+      "constraint_error,joint_gap");
   EXPECT_TRUE(lines[30].starts_with("30,0.5,")) << lines[30];
   // The energy is the whole one, not its change.
   const FrameReport& r = h.app->session.report();

@@ -41,6 +41,21 @@ TEST(Settings, StormerIsToldToBeLeapfrogWhereItIs) {
   EXPECT_EQ(height("newton"), plain);
 }
 
+TEST(Settings, TheConeIsOfferedWhereThereIsFriction) {
+  Headless h(1280.0F, 2400.0F);
+  h.app->desk.more = true;
+  h.app->run(shipped("sliding_box"));
+  h.frames(3);
+  ASSERT_NE(find_handle("cone"), nullptr);
+  EXPECT_EQ(h.app->session.settings().friction_cone, FrictionCone::kBox);
+  h.press("cone");
+  EXPECT_EQ(h.app->session.settings().friction_cone, FrictionCone::kCone);
+  EXPECT_NE(h.app->link().find("friction_cone=cone"), std::string::npos);
+  h.app->run(shipped("pendulum"));
+  h.frames(3);
+  EXPECT_EQ(find_handle("cone"), nullptr);
+}
+
 TEST(Presets, AButtonSetsAllOfTheMethodAndTheLinkKeepsIt) {
   Headless h;
   h.app->open("bridge");

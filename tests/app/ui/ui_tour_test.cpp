@@ -22,7 +22,7 @@ class Step {
   const Compare::Run& ghost() { return h.app->compare.runs().at(0); }
   // Share of the exchanged energy that is gone since the start.
   double lost(const History& history) {
-    return -static_cast<double>(history[Channel::kTotal].back()) /
+    return -static_cast<double>(history[Channel::kDrift].back()) /
            *session().scene().criteria.energy_scale;
   }
   Extent substeps(const History& history) {

@@ -1,0 +1,53 @@
+// The two terms of the criterion, each with the N that it asks for: the larger sets N.
+
+#include <string>
+
+#include "app/criterion.hpp"
+#include "app/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+// What a term says, its meaning below, its N at the right; the one that sets N in orange.
+void term(const Look& look, const std::string& what, const std::string& meaning, int n, bool sets) {
+  constexpr float kText = 14.0F;  // right of the mark
+  const Theme& t = *look.theme;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::string number = grouped(n);
+  const float number_width = text_size(look.fonts.medium, number.c_str()).x;
+  draw.AddRectFilled({at.x, at.y + 4.0F}, {at.x + 8.0F, at.y + 12.0F}, sets ? t.orange : t.faint,
+                     2.0F);
+  draw_text(draw, look.fonts.small_medium, {at.x + kText, at.y}, sets ? t.text : t.dim,
+            fitted(look.fonts.small_medium, what, width - kText - number_width - 8.0F).c_str());
+  draw_text(draw, look.fonts.medium, {at.x + width - number_width, at.y - 1.0F},
+            sets ? t.orange : t.dim, number.c_str());
+  draw_text(draw, look.fonts.small, {at.x + kText, at.y + 18.0F}, t.dim,
+            fitted(look.fonts.small, meaning, width - kText).c_str());
+  ImGui::Dummy({width, 36.0F});
+}
+
+}  // namespace
+
+void criterion_terms(App& app, const Criterion& c) {
+  const Look& look = app.look;
+  const Scene& scene = app.session.scene();
+  section(look, "Which term sets N", "N");
+  tooltip(
+      look, "Which term sets N",
+      "Two things limit a sub-step. Stiffness: a force that turns with a body pushes back like "
+      "a spring, r = max k/M (Eq. 9). Rotation: a body that spins fast must not turn too far in "
+      "a sub-step; the paper's rule does not see it. Each gives an r and with it an N (Eqs. 10, "
+      "11). The larger N is taken.");
+  term(look, stiffness_text(scene, c),
+       c.stiffness.body < 0 ? "No constraint force turns with a body."
+                            : "k/M " + short_number(c.stiffness.r) + " s⁻², by Eq. 9",
+       c.n_stiffness, c.set_by == CriterionTerm::kStiffness);
+  term(look, rotation_text(scene, c), rotation_meaning(scene, c), c.n_rotation,
+       c.set_by == CriterionTerm::kRotation);
+}
+
+}  // namespace substep::ui

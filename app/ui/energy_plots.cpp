@@ -1,0 +1,179 @@
+// The plots of energy: its parts and their sum, and how much of the sum was gained or lost.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/format.hpp"
+#include "app/ui/plot_headings.hpp"
+#include "app/ui/plots.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/lab/energy_scale.hpp"
+
+namespace substep::ui {
+namespace {
+
+// Less than this is rounding in the energies of the scenes [J].
+constexpr double kLeastEnergy = 1e-6;
+constexpr double kLeastDrift = 1e-9;
+
+// A run that exploded must not make the others a line at zero: it may leave the plot.
+constexpr double kRoomForFailed = 1.5;
+
+/// The largest of a quantity over this run and those compared with it; failed ones count only where
+/// all failed.
+template <class Largest>
+double largest_of_stable(const App& app, Largest largest) {
+  double stable = 0.0;
+  double any = largest(app.session.history());
+  if (app.session.verdict().holds()) stable = any;
+  for (const Compare::Run& run : app.compare.runs()) {
+    const double one = largest(run.history);
+    any = std::max(any, one);
+    if (run.verdict->holds()) stable = std::max(stable, one);
+  }
+  return stable > 0.0 ? stable : any;
+}
+
+/// "0.85", "12.3", ">999": a value in the unit that the heading names.
+std::string in_unit(double value, const Unit& unit, double most, int digits) {
+  const double v = value / unit.factor;
+  if (std::abs(v) > most) return (v > 0.0 ? ">" : "<−") + fixed(most, 0);
+  return fixed(v, std::abs(v) < 9.95 ? digits : std::abs(v) < 99.5 ? digits - 1 : 0);
+}
+
+void compared_energies(App& app, ImVec2 heading, float left, Channel channel, const Unit& unit) {
+  compared_values(
+      app, heading, left, channel, [&](double joules) { return in_unit(joules, unit, 9999.0, 2); },
+      [&](double joules) { return in_unit(joules, unit, 99.0, 1); });
+}
+
+/// Names with their values at the right of a heading, short ones where there is little room, and
+/// where there is less still the names alone.
+struct EnergyLegend {
+  const char* name;
+  const char* brief;
+  const char* alone;
+  Channel channel;
+  ImU32 color;
+  double offset;
+};
+void energy_legend(App& app, ImVec2 heading, float left, const Unit& unit,
+                   const std::vector<EnergyLegend>& shown) {
+  const float end = heading.x + ImGui::GetContentRegionAvail().x;
+  const auto text = [&](const EnergyLegend& one, int detail) {
+    const double value =
+        shown_value(app.session.history(), one.channel, app.desk.time) + one.offset;
+    if (detail == 0 || !std::isfinite(value)) return std::string(one.alone);
+    return (detail == 2 ? one.name : one.brief) + (" " + in_unit(value, unit, 9999.0, 2));
+  };
+  const auto width = [&](int detail) {
+    float sum = 0.0F;
+    for (const EnergyLegend& one : shown) {
+      sum += text_size(app.look.fonts.small, text(one, detail).c_str()).x + 22.0F;
+    }
+    return sum;
+  };
+  const int detail = end - width(2) >= left ? 2 : end - width(1) >= left ? 1 : 0;
+  float right = end;
+  for (const EnergyLegend& one : shown) {
+    right = legend(app.look, right, heading.y, one.color, text(one, detail));
+  }
+}
+
+}  // namespace
+
+std::vector<Series> energy_series(const Theme& theme, const History& history, bool gravity) {
+  const double zero = history.potential_offset();
+  std::vector<Series> series{{&history, Channel::kKinetic, theme.teal, false, true}};
+  if (!gravity) return series;  // the total is the same curve
+  series.push_back({&history, Channel::kPotential, theme.purple, false, false, 1.0F, zero});
+  series.push_back({&history, Channel::kTotal, theme.orange, false, false, 1.5F, zero});
+  return series;
+}
+
+void energy_plot(App& app, float height, bool last) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const History& h = app.session.history();
+  const bool gravity = has_potential(app.session.scene().effects);
+  const bool several = app.compare.open();
+  const double zero = h.potential_offset();
+  double most = largest_of_stable(app, [](const History& one) { return one.largest_kinetic(); });
+  if (!several && gravity) most = std::max(most, zero);
+  const Unit unit = unit_for(std::max(most, kLeastEnergy));
+  const std::string heading = (several ? "Kinetic, " : "Energy, ") + unit.prefix + "J";
+
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  section(look, heading.c_str());
+  const float left = origin.x + heading_width(look, heading.c_str());
+  PlotSpec spec;
+  spec.id = "energy";
+  spec.time_labels = last;
+  spec.from_zero = true;
+  spec.linear = true;  // what adds up can be seen only there
+  spec.factor = unit.factor;
+  spec.least_span = std::max(unit.factor, kLeastEnergy);
+  if (several) {
+    tooltip(look, "Kinetic energy", "Of each run. One that explodes leaves the plot.");
+    compared_energies(app, origin, left, Channel::kKinetic, unit);
+    spec.most = kRoomForFailed * most;
+    spec.series.push_back({&h, Channel::kKinetic, t.blue});
+    add_compared(app, spec, Channel::kKinetic);
+  } else {
+    tooltip(look, "Energy",
+            gravity ? "Kinetic + potential = total, on one scale. The potential energy of gravity "
+                      "is zero at its lowest value so far. Where energy is conserved the total is "
+                      "a flat line; the plot of the drift shows changes too small to see here."
+                    : "Kinetic energy. There is no gravity, so it is also the total.");
+    std::vector<EnergyLegend> shown;
+    if (gravity) {
+      shown.push_back({"total", "total", "total", Channel::kTotal, t.orange, zero});
+      shown.push_back(
+          {"pot. (lowest = 0)", "pot. ≥ 0:", "pot. ≥ 0", Channel::kPotential, t.purple, zero});
+    }
+    shown.push_back({"kin.", "kin.", "kin.", Channel::kKinetic, t.teal, 0.0});
+    energy_legend(app, origin, left, unit, shown);
+    spec.series = energy_series(t, h, gravity);
+  }
+  draw_plot(app, Plot::kEnergy, spec, height);
+}
+
+void drift_plot(App& app, float height, bool last) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const History& h = app.session.history();
+  const bool several = app.compare.open();
+  const double most =
+      largest_of_stable(app, [](const History& one) { return one.largest_drift(); });
+  const Unit unit = unit_for(std::max(most, kLeastDrift));
+  const std::string heading = (several ? "Drift, " : "Energy drift, ") + unit.prefix + "J";
+  const auto scale = energy_scale(app.session.scene().criteria.energy_scale, h.largest_kinetic(),
+                                  h.largest_drift());
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const double now = shown_value(h, Channel::kDrift, app.desk.time);
+  const bool named = !several && std::isfinite(now);
+  section(look, heading.c_str(), named ? energy_change(now, scale).c_str() : "");
+  tooltip(look, "Energy drift",
+          "How much the total energy has changed since the start, on its own scale: not at all, "
+          "ideally. Friction, impacts and damping take energy out. The percentage is of the energy "
+          "that the motion exchanges; a scene at rest exchanges none, and has no percentage.");
+  PlotSpec spec;
+  spec.id = "drift";
+  spec.time_labels = last;
+  spec.from_zero = true;
+  spec.linear = true;  // a loss is below zero
+  spec.factor = unit.factor;
+  spec.least_span = std::max(0.1 * unit.factor, kLeastDrift);
+  spec.series.push_back({&h, Channel::kDrift, several ? t.blue : t.orange});
+  if (several) {
+    compared_energies(app, origin, origin.x + heading_width(look, heading.c_str()), Channel::kDrift,
+                      unit);
+    spec.most = kRoomForFailed * most;
+    add_compared(app, spec, Channel::kDrift);
+  }
+  draw_plot(app, Plot::kDrift, spec, height);
+}
+
+}  // namespace substep::ui

@@ -65,7 +65,8 @@ struct Block {
 
   // Of compliant rows, compliance.hpp.
   double elastic[kMaxRows] = {};       // of phi, what is the spring's own [m or rad]
-  double spring_ahead[kMaxRows] = {};  // w+
+  double spring_ahead[kMaxRows] = {};  // w+, 0 where the row is no spring
+  double given[kMaxRows] = {};         // impulse that is known before the solve [N s or N m s]
   double spring_rest[kMaxRows] = {};   // what of its mean is known before the solve [m or rad]
 
   // What Newton with forces numerov needs of the sub-steps before.

@@ -34,7 +34,9 @@ void Simulator::Impl::set_joint_springs(double dt) {
   if (!stored && !averages_springs(settings)) return;  // Eq. 3 as it stands
   for (Block& block : rows()) {
     if (block.is_contact() || is_grab(block)) continue;
-    if (!stored || !block.seeded) std::copy_n(block.phi, kMaxRows, block.elastic);
+    // At the start, and after the probe, all of phi is the spring's own.
+    const bool known = stored && block.seeded && dt_previous_of(block) > 0.0;
+    if (!known) std::copy_n(block.phi, kMaxRows, block.elastic);
     set_springs(settings, times_of(block, dt), rate, inverse_mass, u_start, scene->regularisation,
                 block);
   }

@@ -87,6 +87,7 @@ void Simulator::Impl::find_accelerations(double s, std::span<const Vec6> a,
     const std::vector<double> one(n, 1.0);
     add_external(*scene, part(), inertia_inverse, R_WB, one, out.a);
   }
+  for (const Block& block : rows()) apply_impulse(block, block.given, inverse_mass, out.a);
   solver->solve({rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}},
                 settings);
   out.torque.assign(n, Vec3::Zero());

@@ -133,6 +133,12 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
     report.work.flops += stormer_flops(own, part().moving.size());
   }
   if (holds_grab()) soften_grab(*grab, dt, own.back());
+  const bool gives = has_springs && follows_accelerations(settings) && !probing;
+  if (gives) {
+    for (const Block& block : own) {
+      if (block.pinned) apply_impulse(block, block.given, inverse_mass, state.u);
+    }
+  }
   const System system{own,
                       inverse_mass,
                       state.u,
@@ -144,8 +150,16 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
   const SolveReport solved = solver->find_velocities(system, asked);
-  if (watched || probing || schedule.needs_stiffness() || starts_from_last_forces(settings)) {
+  if (watched || probing || schedule.needs_stiffness() || starts_from_last_forces(settings) ||
+      springs_are_stored()) {
     solver->find_impulses(own);
+  }
+  if (gives) {
+    for (Block& block : own) {
+      for (int row = 0; block.pinned && row < block.rows; ++row) {
+        block.impulse[row] += block.given[row];
+      }
+    }
   }
   smooth = !contact || std::none_of(own.begin(), own.end(), [](const Block& block) {
     return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;

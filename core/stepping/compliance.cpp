@@ -6,7 +6,7 @@ namespace substep {
 
 namespace {
 
-constexpr double kLeast = 1e-9;  // of w+, which rows are divided by
+constexpr double kResolved = 0.25;  // kappa up to which Störmer's springs are given forces
 
 /// w+ = w- of a spring that is resolved, or nothing where all of its force is the end's.
 double resolved_weight(const Settings& settings) {
@@ -49,7 +49,14 @@ SpringWeights spring_weights(const Settings& settings, double kappa) {
   const double square = kappa * kappa;
   const double sigma = square < 1e12 ? square / (square + 4.0) : 1.0;
   const double sum = 2.0 * resolved + (1.0 - 2.0 * resolved) * sigma;
-  return {std::max(kLeast, 0.5 * (sum + sigma)), 0.5 * (sum - sigma)};
+  if (resolved == 0.0 && kappa < kResolved) return {0.0, 0.0};
+  return {0.5 * (sum + sigma), 0.5 * (sum - sigma)};
+}
+
+void give_force(Block& joint, int row, double impulse) {
+  joint.given[row] = impulse;
+  joint.bias[row] = 0.0;
+  joint.softness[row] = kGivenForce;
 }
 
 void set_springs(const Settings& settings, const SubstepTimes& times, double drift_rate,
@@ -59,6 +66,7 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
   if (averages_springs(settings)) row_speeds(joint, u_before, speed);
   const auto set_rows = [&](int first, int end) {  // those that share a compliance
     const double C = joint.C[first];
+    for (int row = first; row < end; ++row) joint.spring_ahead[row] = joint.given[row] = 0.0;
     if (!(C > 0.0)) return;
     double most = 0.0;
     for (int row = first; row < end; ++row) {
@@ -68,6 +76,10 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
     const SpringWeights w = spring_weights(settings, step * most / C);
     for (int row = first; row < end; ++row) {
       const double elastic = joint.elastic[row];
+      if (w.ahead == 0.0) {
+        give_force(joint, row, -times.force_time * elastic / C);
+        continue;
+      }
       const double behind = w.behind * times.dt_previous * speed[row];
       joint.bias[row] =
           drift_rate * (joint.phi[row] - elastic) + (elastic - behind) / (w.ahead * times.dt);
@@ -83,7 +95,7 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
 void store_elastic(const double* lambda, Block& joint) {
   for (int row = 0; row < joint.rows; ++row) {
     joint.elastic[row] =
-        joint.C[row] > 0.0
+        joint.spring_ahead[row] > 0.0
             ? -(joint.C[row] * lambda[row] + joint.spring_rest[row]) / joint.spring_ahead[row]
             : 0.0;
   }

@@ -21,7 +21,7 @@ namespace substep {
 //   Euler, Newton's forces at the end   w+ = 1: implicit Euler, the paper's;
 //   leapfrog, Newton's Numerov          w+ = w- = 1/12, Numerov's: of fourth order for one spring;
 //   Newton's forces at the mean         w+ = w- = 1/4, average acceleration;
-//   Störmer                             w+ = w- = 0: the force of the poses themselves;
+//   Störmer                             w+ = w- = 0: the force of the poses, given to the rows;
 // and where a spring is too stiff to be resolved, they go over into implicit Euler, by
 // sigma = kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a spring that is resolved by the
 // fourth order of dt.
@@ -42,6 +42,12 @@ struct SubstepTimes {
   double dt_previous = 0.0;  // of the sub-step before [s]
   double force_time = 0.0;   // t, that forces act for [s]
 };
+
+/// Softness of a row that is given its impulse: past all that J u could add to it [1/kg].
+inline constexpr double kGivenForce = 1e12;
+/// A row whose impulse is known before the solve, Block::given, which adds nothing to it. As softness
+/// and bias alone it would be a small difference of large numbers. @param impulse [N s, N m s]
+void give_force(Block& joint, int row, double impulse);
 
 /// Bias and softness of the compliant rows of a joint.
 /// @param elastic per row: what of phi is the spring's own, the rest is drift [m, rad]

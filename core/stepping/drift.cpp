@@ -1,6 +1,7 @@
 #include "core/stepping/drift.hpp"
 
 #include "core/constraints/hinge_joint.hpp"
+#include "core/stepping/compliance.hpp"
 
 namespace substep {
 
@@ -55,7 +56,8 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
     for (int row = 0; row < block.rows; ++row) {
       block.bias[row] = curvature[row];
       block.softness[row] = regularisation;
-      block.impulse[row] = 0.0;
+      block.impulse[row] = block.given[row] = 0.0;
+      if (block.C[row] > 0.0) give_force(block, row, -block.phi[row] / block.C[row]);
     }
   }
 }

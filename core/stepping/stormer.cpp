@@ -2,6 +2,7 @@
 
 #include "core/math/flops.hpp"
 #include "core/solver/system.hpp"
+#include "core/stepping/compliance.hpp"
 
 namespace substep {
 
@@ -45,6 +46,7 @@ void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceler
       per_g = 1.0 / (1.0 + stormer_growth(dt, time) * dt / (6.0 * time));
     }
     for (int row = 0; row < block.rows; ++row) {
+      if (block.softness[row] >= kGivenForce) continue;
       // Of a spring the bias is that of a mean over the sub-step.
       const double aimed = block.C[row] > 0.0 ? per_g * (block.bias[row] + gained[row] / dt)
                                               : per_g / dt * (block.phi[row] + gained[row]);

@@ -1,0 +1,136 @@
+// A compliant joint obeys its own law, C lambda = -phi, whatever N, dt, the solver and the drift law.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/model/names.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kMass = 100.0;    // [kg]
+constexpr double kGravity = 9.81;  // [m/s^2]
+
+/// A weight on a ball joint that gives way, at the joint's own point.
+Scene weight_on_a_spring(double compliance) {
+  Scene scene;
+  scene.gravity = {0.0, -kGravity, 0.0};
+  scene.effects.gravity = scene.effects.joints = true;
+  Body body;
+  body.name = "weight";
+  body.shape = Sphere{0.1};
+  body.mass = kMass;
+  body.inertia = Vec3::Constant(0.4);
+  body.collides = false;
+  scene.bodies.push_back(body);
+  BallJoint joint;
+  joint.name = "spring";
+  joint.compliance = compliance;
+  scene.joints.emplace_back(joint);
+  scene.criteria.joint_gap = 10.0;
+  return scene;
+}
+
+Settings settings_of(SolverKind solver, int n, Integrator integrator, Drift drift) {
+  Settings settings;
+  settings.solver = solver;
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  settings.integrator = integrator;
+  settings.drift = drift;
+  return settings;
+}
+
+constexpr SolverKind kSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd,
+                                   SolverKind::kNewton};
+
+}  // namespace
+
+// Let go where it hangs: it stays there. The soft law once multiplied the compliance by
+// (tau/dt)^2: 603 mm at 64 sub-steps a frame.
+TEST(Compliance, SagsByWhatItIsWhateverTheSubsteps) {
+  const double C = 1e-5;
+  const double sag = C * kMass * kGravity;
+  for (const SolverKind solver : kSolvers) {
+    for (const Drift drift : {Drift::kFull, Drift::kSoft}) {
+      for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+        for (const int n : {1, 8, 64, 256}) {
+          Scene scene = weight_on_a_spring(C);
+          scene.bodies[0].position.y() = -sag;
+          const auto run = test::run(scene, settings_of(solver, n, integrator, drift), 2.0);
+          EXPECT_NEAR(-run.end.x[0].y(), sag, 0.005 * sag)
+              << name_of(solver) << ", " << name_of(drift) << ", " << name_of(integrator) << ", n "
+              << n;
+        }
+      }
+    }
+  }
+}
+
+TEST(Compliance, SwingsWithTheOrderOfTheIntegrator) {
+  const double C = 1e-3;
+  const double omega = 1.0 / std::sqrt(C * kMass);
+  const double seconds = 2.0;
+  const double exact =
+      -C * kMass * kGravity * (1.0 - std::cos(omega * seconds));
+  struct Method {
+    SolverKind solver;
+    Integrator integrator;
+    Forces forces;
+    Drift drift;
+    double order;
+  };
+  const Method methods[] = {
+      {SolverKind::kBpp, Integrator::kEuler, Forces::kEnd, Drift::kFull, 0.9},
+      {SolverKind::kBpp, Integrator::kLeapfrog, Forces::kEnd, Drift::kFull, 1.9},
+      {SolverKind::kBpp, Integrator::kLeapfrog, Forces::kEnd, Drift::kSoft, 1.9},
+      {SolverKind::kPgs, Integrator::kLeapfrog, Forces::kEnd, Drift::kSoft, 1.9},
+      {SolverKind::kXpbd, Integrator::kLeapfrog, Forces::kEnd, Drift::kFull, 1.9},
+      {SolverKind::kNewton, Integrator::kLeapfrog, Forces::kMean, Drift::kFull, 1.9},
+      {SolverKind::kNewton, Integrator::kLeapfrog, Forces::kNumerov, Drift::kFull, 1.9},
+      {SolverKind::kBpp, Integrator::kStormer, Forces::kEnd, Drift::kFull, 3.6}};
+  for (const Method& method : methods) {
+    double error[2];
+    for (int i = 0; i < 2; ++i) {
+      Settings settings = settings_of(method.solver, 4 << i, method.integrator, method.drift);
+      settings.forces = method.forces;
+      const auto run = test::run(weight_on_a_spring(C), settings, seconds);
+      error[i] = std::abs(run.end.x[0].y() - exact);
+    }
+    const std::string name = std::string(name_of(method.solver)) + ", " +
+                             std::string(name_of(method.integrator)) + ", " +
+                             std::string(name_of(method.forces)) + ", " +
+                             std::string(name_of(method.drift));
+    if (error[1] < 1e-9) continue;
+    EXPECT_GT(std::log2(error[0] / error[1]), method.order) << name;
+  }
+}
+
+// From springs that are resolved to those that are not, nothing grows.
+TEST(Compliance, IsStableForEverySpring) {
+  for (const Integrator integrator :
+       {Integrator::kEuler, Integrator::kLeapfrog, Integrator::kStormer}) {
+    for (double C = 1e-3; C > 1e-12; C *= 0.5) {
+      for (const int n : {1, 3}) {
+        const Scene scene = weight_on_a_spring(C);
+        double lowest = 0.0;
+        double highest = 0.0;
+        test::run(scene, settings_of(SolverKind::kBpp, n, integrator, Drift::kFull), 5.0,
+                  [&](const Simulator& simulator, const FrameReport&) {
+                    lowest = std::min(lowest, simulator.state().x[0].y());
+                    highest = std::max(highest, simulator.state().x[0].y());
+                  });
+        const double sag = C * kMass * kGravity;
+        const double dt = scene.frame / n;
+        const double fall = 0.5 * kGravity * dt * dt;  // before a spring that is not resolved acts
+        EXPECT_GT(lowest, -2.3 * sag - fall) << name_of(integrator) << " C " << C << " n " << n;
+        EXPECT_LT(highest, 0.3 * sag + fall) << name_of(integrator) << " C " << C << " n " << n;
+      }
+    }
+  }
+}
+
+}  // namespace substep

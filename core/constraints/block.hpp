@@ -50,8 +50,11 @@ struct Block {
   double J_a[kMaxRows][6];       // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
   double J_b[kMaxRows][6];       // d phi / d q_b
 
-  // Contact only: row 0 is the normal, rows 1 and 2 friction with bounds +-mu * impulse[0].
-  double mu = 0.0;         // [-]
+  // Contact only: row 0 is the normal, rows 1 and 2 friction with bounds +-mu * impulse[0] * share.
+  double mu = 0.0;  // [-]
+  // Of the box of friction 1 each. Of the cone |cos|, |sin| of the force's direction: the box whose
+  // corner lies on the circle there, which the solver turns until it is against the sliding.
+  double share[2] = {1.0, 1.0};
   Vec3 n = Vec3::Zero();   // from b to a, world
   Vec3 t1 = Vec3::Zero();  // tangents, world; filled where there is friction
   Vec3 t2 = Vec3::Zero();

@@ -48,14 +48,11 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
   set_row(block, 0, point.n);
 }
 
-void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block& block) {
-  // x unless the normal is nearly along it: a fixed preference, not a comparison that rounding
-  // decides.
-  const Vec3 x = R_WB.col(0);
-  const Vec3 helper = std::abs(block.n.dot(x)) < 0.8 ? x : Vec3(R_WB.col(2));
-  block.t1 = (helper - block.n * block.n.dot(helper)).normalized();
+void friction_rows(const ContactModel& model, double mu, const Vec3& along, Block& block) {
+  block.t1 = (along - block.n * block.n.dot(along)).normalized();
   block.t2 = block.n.cross(block.t1);
   block.mu = mu;
+  block.share[0] = block.share[1] = 1.0;
   block.rows = 3;
   for (int row = 1; row < 3; ++row) {
     block.phi[row] = 0.0;  // where it slid, it stays

@@ -14,10 +14,9 @@ namespace substep {
 void contact_row(const ContactPoint& point, const ContactModel& model, const Vec3& x_a,
                  const Vec3& x_b, Block& block);
 
-/// Rows 1 and 2: no sliding along t1, t2. The tangents come from an axis of body b, so that turning
-/// the scene turns the answer.
-/// @param R_WB rotation of body b
-void friction_rows(const ContactModel& model, double mu, const Mat3& R_WB, Block& block);
+/// Rows 1 and 2: no sliding along t1, t2.
+/// @param along t1 is its part across the normal, world
+void friction_rows(const ContactModel& model, double mu, const Vec3& along, Block& block);
 
 /// The paper's block: the contact as a ball-and-socket joint that carries l = lambda_n n +
 /// friction. It is not the derivative of the contact force (it stiffens a sphere's spin); it steers

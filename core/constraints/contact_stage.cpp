@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "core/constraints/moved_rows.hpp"
 
@@ -108,14 +109,42 @@ FrictionStage::FrictionStage(const Scene& scene) {
   for (const Body& body : scene.bodies) sqrt_mu_.push_back(std::sqrt(body.friction));
 }
 
+namespace {
+
+constexpr double kAcross = 1e-6;  // of its length that a direction has across the normal to count
+
+/// The first of some directions that is not along the normal of a contact: a fixed preference, not
+/// a comparison that rounding decides.
+Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
+  for (const Vec3& d : directions) {
+    const double length = d.norm();
+    if (length > 0.0 && n.cross(d).norm() > kAcross * length) return d;
+  }
+  return n.unitOrthogonal();
+}
+
+}  // namespace
+
+// The box of friction has axes, and they must not hang on which body a file names first, nor on how
+// a shape is turned about the normal: down the slope; on the level, an axis of what stands still;
+// else the line between the centres, and where that is the normal, what both bodies' axes have in
+// common. All of them turn with the scene.
 void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB,
                            std::span<Block> blocks) const {
+  const Vec3 slope = scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero());
   for (Block& block : blocks) {
     if (!block.is_contact()) continue;
     const auto a = static_cast<std::size_t>(block.body_a);
     const auto b = static_cast<std::size_t>(block.body_b);
     const double mu = sqrt_mu_[a] * sqrt_mu_[b];
-    if (mu > 0.0) friction_rows(scene.contact, mu, R_WB[b], block);
+    if (!(mu > 0.0)) continue;
+    const Mat3 still = block.a < 0 ? R_WB[a] : block.b < 0 ? R_WB[b] : Mat3(Mat3::Zero());
+    const Mat3 both = R_WB[a] + R_WB[b];
+    const Vec3 centres = block.r_b - block.r_a;  // from b's to a's
+    friction_rows(scene.contact, mu,
+                  first_across(block.n, {slope, still.col(0), still.col(2), centres, both.col(0),
+                                         both.col(2)}),
+                  block);
   }
 }
 

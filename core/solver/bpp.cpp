@@ -7,9 +7,10 @@ namespace substep {
 
 namespace {
 
-constexpr double kTolerance = 1e-10;  // on bounds and complementarity, times 1 + |impulse|
-constexpr int kPasses = 4;            // refreshes of the friction bounds, the first included
-constexpr int kSinglePivots = 50;     // per solve: Murty's rule is finite; this bounds its time
+constexpr double kTolerance = 1e-10;     // on bounds and complementarity, times 1 + |impulse|
+constexpr double kConeTolerance = 1e-4;  // on the direction of friction [rad]
+constexpr int kPasses = 4;               // refreshes of the friction bounds, the first included
+constexpr int kSinglePivots = 50;        // per solve: Murty's rule is finite; this bounds its time
 constexpr int kSweeps = 100;  // in place of a direct solve: 25 do not carry a house of cards
 
 bool any_tight(const Block& block) {
@@ -37,10 +38,11 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
 void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
   report.status = SolveStatus::kSolved;
   if (!any_contact_) return solve_free(system, report);
+  const bool cone = settings.friction_cone == FrictionCone::kCone;
   int single_pivots = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     ++report.passes;
-    set_friction_bounds(system.blocks);
+    set_friction_bounds(system, cone, pass == 0);
     for (int step = 0;; ++step) {
       solve_active_set(system, report);
       const bool one_only = step >= settings.pivots;
@@ -51,7 +53,7 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
       report.status = SolveStatus::kUnsolved;
       return;
     }
-    if (bounds_settled(system.blocks)) return;
+    if (bounds_settled(system, cone)) return;
   }
   report.status = SolveStatus::kUnsettled;
 }
@@ -140,9 +142,9 @@ std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& 
   const std::int64_t flops = gauss_seidel_.solve(system, sweeps).flops;
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
-    const double bound = block.mu * block.impulse[0];
     block.tight[0] = block.impulse[0] > 0.0 ? std::int8_t{0} : std::int8_t{-1};
     for (int row = 1; row < block.rows; ++row) {
+      const double bound = friction_bound(block, row, block.impulse[0]);
       block.tight[row] = block.impulse[row] >= bound    ? std::int8_t{1}
                          : block.impulse[row] <= -bound ? std::int8_t{-1}
                                                         : std::int8_t{0};
@@ -166,28 +168,58 @@ void Bpp::start_active_set(const System& system) {
   }
 }
 
-void Bpp::set_friction_bounds(std::span<Block> blocks) {
+// Where a contact slides, half way between its force and what is against the sliding: that halves
+// the angle between them with each pass. Where it sticks, its force. Before the first solve, what
+// forces from outside would make it slide by.
+void Bpp::turn_cone(const System& system, bool first, Block& block) const {
+  double speed[kMaxRows];
+  row_speeds(block, system.u, speed);
+  double along[2] = {};
+  double length = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    along[k] = first || block.tight[1 + k] != 0 ? -speed[1 + k] : 0.0;
+    length += along[k] * along[k];
+  }
+  length = std::sqrt(length);
+  const double bound = block.mu * std::max(0.0, block.impulse[0]);
+  for (int k = 0; k < 2; ++k) {
+    if (length > 0.0) along[k] *= first ? 1.0 : bound / length;
+    if (!first) along[k] += block.impulse[1 + k];
+  }
+  point_cone(block, along[0], along[1]);
+}
+
+void Bpp::set_friction_bounds(const System& system, bool cone, bool first) {
+  const std::span<Block> blocks = system.blocks;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     Block& block = blocks[i];
     if (block.rows != 3 || !block.is_contact()) continue;
+    if (cone) turn_cone(system, first, block);
     friction_bound_[i] = block.mu * std::max(0.0, block.impulse[0]);
-    if (friction_bound_[i] > 0.0) continue;
     for (int row = 1; row < 3; ++row) {  // no room to be free in
-      if (block.tight[row] != 0) continue;
+      if (friction_bound_[i] * block.share[row - 1] > 0.0 || block.tight[row] != 0) continue;
       block.tight[row] = -1;
       change_factor(i);
     }
   }
 }
 
-bool Bpp::bounds_settled(std::span<const Block> blocks) const {
+bool Bpp::bounds_settled(const System& system, bool cone) const {
+  const std::span<const Block> blocks = system.blocks;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const Block& block = blocks[i];
     if (block.rows != 3 || !block.is_contact()) continue;
     const double bound = block.mu * std::max(0.0, block.impulse[0]);
     const double room = tolerance(bound);
+    if (cone) {
+      Block turned = block;
+      turn_cone(system, false, turned);
+      const double off = block.share[0] * turned.share[1] - block.share[1] * turned.share[0];
+      if (bound * std::abs(off) > kConeTolerance * bound + room) return false;
+    }
     for (int row = 1; row < 3; ++row) {
-      if (block.tight[row] == 0 && std::abs(block.impulse[row]) > bound + room) return false;
+      const double free_bound = bound * block.share[row - 1];
+      if (block.tight[row] == 0 && std::abs(block.impulse[row]) > free_bound + room) return false;
       if (block.tight[row] != 0 && std::abs(bound - friction_bound_[i]) > room) return false;
     }
   }
@@ -200,7 +232,8 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
     if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
       if (block.tight[row] != 0)
-        block.impulse[row] = row == 0 ? 0.0 : block.tight[row] * friction_bound_[i];
+        block.impulse[row] =
+            row == 0 ? 0.0 : block.tight[row] * (friction_bound_[i] * block.share[row - 1]);
     }
   }
   solve_free(system, report);
@@ -233,7 +266,7 @@ int Bpp::pivot(const System& system, bool one_only) {
     double speed[kMaxRows];
     if (any_tight(block)) row_speeds(block, system.u, speed);
     for (int row = 0; row < block.rows; ++row) {
-      const double hi = row == 0 ? kUnbounded : friction_bound_[i];
+      const double hi = row == 0 ? kUnbounded : friction_bound_[i] * block.share[row - 1];
       const double lo = row == 0 ? 0.0 : -hi;
       if (hi == lo) continue;
       const double x = block.impulse[row];

@@ -38,9 +38,11 @@ class Bpp final : public Solver {
     std::int8_t set = 0;
   };
   void start_active_set(const System& system);
-  void set_friction_bounds(std::span<Block> blocks);
+  void set_friction_bounds(const System& system, bool cone, bool first);
+  /// Turns a contact's box towards what is against its sliding. @param first of the passes
+  void turn_cone(const System& system, bool first, Block& block) const;
   /// True if the friction bounds that follow from the solution leave it a solution.
-  [[nodiscard]] bool bounds_settled(std::span<const Block> blocks) const;
+  [[nodiscard]] bool bounds_settled(const System& system, bool cone) const;
   void solve_active_set(const System& system, SolveReport& report);
   void solve_free(const System& system, SolveReport& report);  // whatever rows are free
   /// Moves rows on the wrong side to their right set. @param one_only only the last such row

@@ -1,6 +1,7 @@
 #include "core/solver/pgs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <type_traits>
 
@@ -25,6 +26,7 @@ struct Head {
   std::int8_t rows;
   bool contact;
   bool pinned;
+  bool cone;
 };
 
 /// What an iteration reads of a block. J is kept by component, so that the speeds of all rows are
@@ -174,11 +176,26 @@ void pack_side(const Block& block, bool is_a, const InverseMass& inverse, V& vis
   (is_a ? visit.mass_a : visit.mass_b) = inverse.linear;
 }
 
+/// Both tangents take one step, short enough for both together: then what is left at last is along
+/// the sliding.
 template <class V>
-void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, V& visit) {
-  visit.head = {
-      block.a,     block.b, block.mu, static_cast<std::int8_t>(block.rows), block.is_contact(),
-      block.pinned};
+void pack_cone(V& visit) {
+  const double most = std::max(visit.coupling[1][1], visit.coupling[2][2]) +
+                      std::abs(visit.coupling[1][2]) + visit.softness[1];
+  visit.inverse_diagonal[1] = visit.inverse_diagonal[2] = 1.0 / most;
+  visit.coupling[1][2] = 0.0;
+}
+
+template <class V>
+void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, bool cone,
+                V& visit) {
+  visit.head = {block.a,
+                block.b,
+                block.mu,
+                static_cast<std::int8_t>(block.rows),
+                block.is_contact(),
+                block.pinned,
+                cone && block.is_contact() && block.rows == 3};
   for (int i = 0; i < V::Rows; ++i) {
     for (int later = i; later < V::Rows; ++later) visit.coupling[i][later] = 0.0;
   }
@@ -192,8 +209,25 @@ void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, V
     visit.impulse[i] = block.impulse[i];
     visit.inverse_diagonal[i] = 1.0 / (visit.coupling[i][i] + block.softness[i]);
   }
+  if constexpr (V::Rows == 3 && !V::Pinned) {
+    if (visit.head.cone) pack_cone(visit);
+  }
   for (int i = V::Rows; i < V::kPadded; ++i) {
     visit.bias[i] = visit.softness[i] = visit.impulse[i] = 0.0;
+  }
+}
+
+/// The impulse of friction no longer than mu times the normal one.
+template <class V>
+void keep_in_cone(V& block, Numbers<V::Rows>& change) {
+  const double bound = block.head.mu * block.impulse[0];
+  const double square = block.impulse[1] * block.impulse[1] + block.impulse[2] * block.impulse[2];
+  if (square <= bound * bound) return;
+  const double scale = bound / std::sqrt(square);
+  for (int i = 1; i < 3; ++i) {
+    const double kept = scale * block.impulse[i];
+    change[i] += kept - block.impulse[i];
+    block.impulse[i] = kept;
   }
 }
 
@@ -225,13 +259,16 @@ void update(V& block, std::span<Vec6> u) {
     const double x = block.impulse[i];
     double next = x - w[i] * block.inverse_diagonal[i];
     if (!V::Pinned && block.head.contact) {  // joints are unbounded
-      const double hi = i == 0 ? kUnbounded : block.head.mu * block.impulse[0];
+      const double hi = i == 0 || block.head.cone ? kUnbounded : block.head.mu * block.impulse[0];
       const double lo = i == 0 ? 0.0 : -hi;
       next = std::min(hi, std::max(lo, next));
     }
     change[i] = next - x;
     block.impulse[i] = next;
     for (int later = i + 1; later < Rows; ++later) w[later] += block.coupling[i][later] * change[i];
+  }
+  if constexpr (Rows == 3 && !V::Pinned) {
+    if (block.head.cone) keep_in_cone(block, change);
   }
   if (a >= 0) kick<V>(block.W_a, block.mass_a, change, u[static_cast<std::size_t>(a)]);
   if (b >= 0) kick<V>(block.W_b, -block.mass_b, change, u[static_cast<std::size_t>(b)]);
@@ -245,13 +282,13 @@ void Pgs::reserve(std::size_t /*bodies*/, std::size_t blocks) {
   records_.reset(new std::byte[capacity_]);  // unlike make_unique, without writing zeros
 }
 
-void Pgs::pack(const System& system, bool warm_start) {
+void Pgs::pack(const System& system, bool warm_start, bool cone) {
   reserve(system.u.size(), system.blocks.size());
   std::byte* at = records_.get();
   for (Block& block : system.blocks) {
     if (!warm_start) std::fill(block.impulse, block.impulse + block.rows, 0.0);
     with_type(block.rows, block.pinned, [&]<class Record>(Record* /*type*/) {
-      pack_block(block, system.inverse_mass, *::new (at) Record);
+      pack_block(block, system.inverse_mass, cone, *::new (at) Record);
       at += sizeof(Record);
     });
     if (warm_start) apply_impulse(block, block.impulse, system.inverse_mass, system.u);
@@ -259,7 +296,8 @@ void Pgs::pack(const System& system, bool warm_start) {
 }
 
 SolveReport Pgs::find_velocities(const System& system, const Settings& settings) {
-  pack(system, settings.warm_start);
+  const bool cone = settings.friction_cone == FrictionCone::kCone;
+  pack(system, settings.warm_start, cone);
   const std::size_t count = system.blocks.size();
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
     std::byte* at = records_.get();
@@ -273,6 +311,9 @@ SolveReport Pgs::find_velocities(const System& system, const Settings& settings)
   for (Block& block : system.blocks) {
     take(at,
          [&](auto& visit) { std::copy(visit.impulse, visit.impulse + block.rows, block.impulse); });
+    if (cone && block.is_contact() && block.rows == 3) {
+      point_cone(block, block.impulse[1], block.impulse[2]);
+    }
     report.row_updates += static_cast<std::int64_t>(block.rows) * settings.iterations;
     report.flops += pack_flops(block) + visit_flops(block) * settings.iterations;
   }

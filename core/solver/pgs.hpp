@@ -17,7 +17,7 @@ class Pgs final : public Solver {
   SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
-  void pack(const System& system, bool warm_start);
+  void pack(const System& system, bool warm_start, bool cone);
 
   /// What an iteration reads of the blocks, one record after the other in the order of the visits,
   /// each as long as its rows ask for (pgs.cpp: Visit). Never copied: every sub-step packs anew.

@@ -98,6 +98,17 @@ void apply_impulse(const Block& block, const double* impulse,
   }
 }
 
+double friction_bound(const Block& block, int row, double normal) {
+  return block.mu * std::max(0.0, normal) * block.share[row - 1];
+}
+
+void point_cone(Block& block, double along_t1, double along_t2) {
+  const double length = std::sqrt(along_t1 * along_t1 + along_t2 * along_t2);
+  const double even = std::sqrt(0.5);
+  block.share[0] = length > 0.0 ? std::abs(along_t1) / length : even;
+  block.share[1] = length > 0.0 ? std::abs(along_t2) / length : even;
+}
+
 double lcp_residual(const System& system) {
   double worst = 0.0;
   double speed[kMaxRows];
@@ -107,7 +118,7 @@ double lcp_residual(const System& system) {
       double lo = -kUnbounded;
       double hi = kUnbounded;
       if (block.is_contact()) {
-        hi = row == 0 ? kUnbounded : block.mu * std::max(0.0, block.impulse[0]);
+        hi = row == 0 ? kUnbounded : friction_bound(block, row, block.impulse[0]);
         lo = row == 0 ? 0.0 : -hi;
       }
       const double x = block.impulse[row];

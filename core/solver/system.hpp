@@ -67,6 +67,12 @@ void push(const Block& block, const double* x, Vec6* a, Vec6* b);
 void apply_impulse(const Block& block, const double* impulse,
                    std::span<const InverseMass> inverse_mass, std::span<Vec6> u);
 
+/// The bound of a contact's row, given its normal impulse [N s].
+double friction_bound(const Block& block, int row, double normal);
+
+/// Block::share of the cone whose force points along an impulse of friction; even where it is none.
+void point_cone(Block& block, double along_t1, double along_t2);
+
 /// Largest violation of bounds [N s] and complementarity [m/s] of a solved system.
 double lcp_residual(const System& system);
 

@@ -61,9 +61,9 @@ bool Xpbd::stays_open(const System& system, const Block& block) const {
 // so p = -c/(w + softness). The source goes along the error without the softness, which is the same
 // in the first sweep, and in further ones of soft joints may stop where its two parts are only
 // across each other.
-void Xpbd::correct(const System& system, std::size_t index, RowRange rows, double bound) {
-  Block& block = system.blocks[index];
-  Block& moved = moved_[index];
+void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double bound) {
+  Block& block = system.blocks[at];
+  Block& moved = moved_[at];
   move_rows(block, motion_of(block.a), motion_of(block.b), moved, rows);
 
   const double softness = block.softness[rows.first];
@@ -99,12 +99,28 @@ void Xpbd::correct(const System& system, std::size_t index, RowRange rows, doubl
     w += g.dot(du_b);
   }
   double p = -left / w;
-  if (block.is_contact()) {
+  if (block.is_contact() && rows.count == 1) {
     const double before = block.impulse[rows.first];
     const double lowest = rows.first == 0 ? 0.0 : -bound;
     p = std::min(bound, std::max(lowest, before + p)) - before;
   }
   if (p == 0.0) return;
+  if (block.is_contact() && rows.count == 2) {  // the cone's: the sum, no longer than its bound
+    double sum[2];
+    for (int i = 0; i < 2; ++i) sum[i] = block.impulse[rows.first + i] + p * direction[i];
+    const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1]);
+    const double scale = length > bound ? bound / length : 1.0;
+    for (int i = 0; i < 2; ++i) {
+      direction[i] = scale * sum[i] - block.impulse[rows.first + i];
+    }
+    p = 1.0;
+    if (block.a >= 0) {
+      du_a = response(system.inverse_mass[index(block.a)], gradient(moved, rows, true, direction));
+    }
+    if (block.b >= 0) {
+      du_b = response(system.inverse_mass[index(block.b)], gradient(moved, rows, false, direction));
+    }
+  }
   for (int i = 0; i < rows.count; ++i) block.impulse[rows.first + i] += p * direction[i];
   const auto move = [&](int body, const Vec6& du) {
     if (body < 0) return;
@@ -117,6 +133,7 @@ void Xpbd::correct(const System& system, std::size_t index, RowRange rows, doubl
 }
 
 SolveReport Xpbd::find_velocities(const System& system, const Settings& settings) {
+  const bool cone = settings.friction_cone == FrictionCone::kCone;
   SolveReport report;
   report.iterations = settings.iterations;
   for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
@@ -138,6 +155,13 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
           report.flops += move_flops(block, 1);
         } else {
           visit(i, {0, 1});
+        }
+        if (cone && block.rows == 3) {
+          const double bound = block.mu * block.impulse[0];
+          const bool rubs = block.impulse[1] != 0.0 || block.impulse[2] != 0.0;
+          if (bound > 0.0 || rubs) visit(i, {1, 2}, bound);
+          point_cone(system.blocks[i], block.impulse[1], block.impulse[2]);
+          continue;
         }
         for (int row = 1; row < block.rows; ++row) {
           const double bound = block.mu * block.impulse[0];

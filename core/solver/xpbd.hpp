@@ -25,7 +25,8 @@ class Xpbd final : public Solver {
 
  private:
   /// Sets the error of some rows of a block right, with one impulse along it.
-  /// @param bound on the impulse of a single row, symmetric: friction; unbounded else
+  /// @param bound on the impulse of a single row, symmetric, or on the length of both rows' of
+  /// friction; unbounded else
   void correct(const System& system, std::size_t block, RowRange rows, double bound = kUnbounded);
   /// Whether a contact that carries nothing would not carry anything now either.
   [[nodiscard]] bool stays_open(const System& system, const Block& block) const;

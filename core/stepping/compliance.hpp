@@ -45,8 +45,9 @@ struct SubstepTimes {
 
 /// Softness of a row that is given its impulse: past all that J u could add to it [1/kg].
 inline constexpr double kGivenForce = 1e12;
-/// A row whose impulse is known before the solve, Block::given, which adds nothing to it. As softness
-/// and bias alone it would be a small difference of large numbers. @param impulse [N s, N m s]
+/// A row whose impulse is known before the solve, Block::given, which adds nothing to it. As
+/// softness and bias alone it would be a small difference of large numbers. @param impulse [N s, N
+/// m s]
 void give_force(Block& joint, int row, double impulse);
 
 /// Bias and softness of the compliant rows of a joint.

@@ -1,4 +1,5 @@
-// A compliant joint obeys its own law, C lambda = -phi, whatever N, dt, the solver and the drift law.
+// A compliant joint obeys its own law, C lambda = -phi, whatever N, dt, the solver and the drift
+// law.
 
 #include <gtest/gtest.h>
 
@@ -74,8 +75,7 @@ TEST(Compliance, SwingsWithTheOrderOfTheIntegrator) {
   const double C = 1e-3;
   const double omega = 1.0 / std::sqrt(C * kMass);
   const double seconds = 2.0;
-  const double exact =
-      -C * kMass * kGravity * (1.0 - std::cos(omega * seconds));
+  const double exact = -C * kMass * kGravity * (1.0 - std::cos(omega * seconds));
   struct Method {
     SolverKind solver;
     Integrator integrator;
@@ -100,10 +100,9 @@ TEST(Compliance, SwingsWithTheOrderOfTheIntegrator) {
       const auto run = test::run(weight_on_a_spring(C), settings, seconds);
       error[i] = std::abs(run.end.x[0].y() - exact);
     }
-    const std::string name = std::string(name_of(method.solver)) + ", " +
-                             std::string(name_of(method.integrator)) + ", " +
-                             std::string(name_of(method.forces)) + ", " +
-                             std::string(name_of(method.drift));
+    const std::string name =
+        std::string(name_of(method.solver)) + ", " + std::string(name_of(method.integrator)) +
+        ", " + std::string(name_of(method.forces)) + ", " + std::string(name_of(method.drift));
     if (error[1] < 1e-9) continue;
     EXPECT_GT(std::log2(error[0] / error[1]), method.order) << name;
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/lab/closed_form.hpp"
+#include "core/lab/energy_scale.hpp"
 #include "core/lab/experiment.hpp"
 #include "core/lab/joint_tree.hpp"
 #include "core/lab/planar_chain.hpp"
@@ -15,7 +16,6 @@ namespace substep {
 namespace {
 
 constexpr double kChaoticWindow = 2.0;      // [s]
-constexpr double kLeastEnergyScale = 1e-3;  // less is no motion to speak of [J]
 constexpr double kChainUncertainty = 1e-9;  // of the integrator and of rounding over 10 s [m]
 constexpr int kFinest = 256;                // sub-steps a frame
 // A chain is exact for rigid hinges. Where compliance stretches it by more, the finest run is

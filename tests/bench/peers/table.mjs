@@ -52,18 +52,27 @@ export function sceneLines({ title, kind }, entries, best) {
   return lines;
 }
 
-const integrator = ({ engine, setting }) => setting.integrator ?? (engine.ours ? "euler" : null);
+/** Newton's steps bring their own scheme with them; null where an engine has one integrator only. */
+function integrator({ engine, setting }) {
+  if (setting.forces) return `newton, forces ${setting.forces}`;
+  return setting.integrator ?? (engine.ours ? "euler" : null);
+}
 
-/** Which integrator did best, of every engine that was tried with several: the least error. */
+const kAlike = 1.01; // errors of one size
+
+/** Which integrator did best, of every engine that was tried with several: the least error, and of
+ *  those with as little the cheapest. */
 export function integratorLines(entries, best) {
   const engines = [...new Set(best.map(({ engine }) => engine))];
   return engines.flatMap((engine) => {
     const own = (list) => list.filter((entry) => entry.engine === engine);
     const tried = new Set(own(entries).map(integrator));
     if (tried.size < 2) return [];
-    const [first] = own(best).sort((a, b) => a.error - b.error);
+    const least = Math.min(...own(best).map(({ error }) => error));
+    const alike = own(best).filter(({ error }) => error <= kAlike * least);
+    const [first] = alike.sort((a, b) => a.ms - b.ms);
     const cost = `${millimetres(first.error)} mm at ${first.ms.toPrecision(3)} ms`;
-    return [`  ${engine.title}: ${integrator(first)} did best of ${[...tried].join(", ")}: ${cost}`];
+    return [`  ${engine.title}: ${integrator(first)} did best of: ${[...tried].join("; ")}: ${cost}`];
   });
 }
 

@@ -12,6 +12,7 @@ export const ladder = {
   swinging_box: [...iterate(10, 2, 8, 16, 32)],
   bridge: [...iterate(10, 2, 4, 8, 16, 32)],
   stack: [...iterate(10, 2, 8, 32), ...iterate(200, 50, 8)],
+  in_space: [...iterate(10, 2, 4, 8, 16, 32)],
 };
 
 let Jolt;
@@ -71,7 +72,7 @@ function massProperties(body) {
   return properties;
 }
 
-function addBody(bodies, body, layer) {
+function addBody(bodies, body, layer, gyroscopic) {
   const [w, x, y, z] = body.q;
   const settings = new Jolt.BodyCreationSettings(
     shape(body),
@@ -85,6 +86,7 @@ function addBody(bodies, body, layer) {
   settings.mAngularDamping = 0;
   settings.mAllowSleeping = false;
   settings.mMaxAngularVelocity = 1e4;
+  settings.mApplyGyroscopicForce = gyroscopic;
   if (!body.fixed) {
     settings.mOverrideMassProperties = Jolt.EOverrideMassProperties_MassAndInertiaProvided;
     settings.mMassPropertiesOverride = massProperties(body);
@@ -133,7 +135,7 @@ export async function build(scene, setting) {
   const system = jolt.GetPhysicsSystem();
   tune(system, scene, setting);
   const bodies = system.GetBodyInterface();
-  const rigid = scene.bodies.map((body) => addBody(bodies, body, of(body)));
+  const rigid = scene.bodies.map((body) => addBody(bodies, body, of(body), scene.gyroscopic));
   const world = Jolt.Body.prototype.sFixedToWorld;
   for (const joint of scene.joints) addJoint(system, joint, (i) => (i < 0 ? world : rigid[i]));
   return {

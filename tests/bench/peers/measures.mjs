@@ -1,6 +1,5 @@
 // What a run is judged by, from its poses alone and the same for every engine.
 
-import { readFileSync } from "node:fs";
 import { add, conjugate, length, rotate, subtract } from "./rotation.mjs";
 
 const kNumbers = 7; // of a body's pose: x y z, w x y z
@@ -67,15 +66,6 @@ function penetration(scene, poses) {
 const largest = (frames, measure) => frames.reduce((most, f) => Math.max(most, measure(f.poses)), 0);
 const indexOf = (scene, name) => scene.bodies.findIndex((body) => body.name === name);
 
-/** Of the heavy box at the end of every frame [m]. */
-function exactPath(reference) {
-  const [, , ...lines] = readFileSync(reference, "utf8").trim().split("\n"); // from frame 1 on
-  return lines.map((line) => {
-    const [, x, y] = line.split(",").map(Number);
-    return [x, y, 0];
-  });
-}
-
 /** How a scene broke by its own criteria, as a word; null where it did not. */
 export function broken(scene, poses) {
   const { joint_gap, displacement } = scene.criteria;
@@ -97,20 +87,33 @@ function whyBroken(scene, frames) {
   return null;
 }
 
-/** Error: the heavy box from the exact motion at 3 s. */
-function swingingBox(scene, frames, reference) {
-  const kTime = 3.0; // [s]
-  const kLost = 0.5; // off by more is another motion: how reduced coordinates explode [m]
-  const box = indexOf(scene, scene.criteria.track);
-  const exact = exactPath(reference);
-  const off = frames.map(({ poses }, i) => length(subtract(position(poses, box), exact[i])));
-  const lost = off.findIndex((distance) => distance > kLost);
+/**
+ * Of the tracked body from the exact motion.
+ * @param exact its places after every frame [m]
+ * @param most off by more is another motion: how reduced coordinates explode [m]
+ * @param error of the distances after every frame
+ */
+function off(scene, frames, exact, most, error) {
+  const body = indexOf(scene, scene.criteria.track);
+  const distances = frames.map(({ poses }, i) => length(subtract(position(poses, body), exact[i])));
+  const lost = distances.findIndex((distance) => distance > most);
   return {
     failure: lost < 0 ? null : `another motion at ${seconds(scene, lost)}`,
-    error: off[Math.round(kTime / scene.frame) - 1],
+    error: error(distances),
     other: largest(frames, (poses) => jointGap(scene, poses)),
     costFrames: frames,
   };
+}
+
+/** Error: the heavy box from the exact motion at 3 s. */
+function swingingBox(scene, frames, exact) {
+  const kTime = 3.0; // [s]
+  return off(scene, frames, exact, 0.5, (distances) => distances[Math.round(kTime / scene.frame) - 1]);
+}
+
+/** Error: the largest distance of the last body from the exact motion. */
+function inSpace(scene, frames, exact) {
+  return off(scene, frames, exact, 0.25, (distances) => Math.max(...distances));
 }
 
 /** The ball crosses; error: the largest joint gap. */
@@ -142,13 +145,14 @@ function stack(scene, frames) {
 }
 
 /**
- * @param kind swinging_box, bridge or stack
+ * @param kind swinging_box, in_space, bridge or stack
+ * @param exact where the tracked body is after every frame, if that is known [m]
  * @return failure (null where the scene holds), error [m], other [m], ms: median cost of a frame
  */
-export function judge(kind, scene, frames, reference) {
+export function judge(kind, scene, frames, exact) {
   const failure = whyBroken(scene, frames);
   if (failure) return { failure };
-  const rules = { swinging_box: swingingBox, bridge, stack };
-  const { costFrames, ...result } = rules[kind](scene, frames, reference);
+  const rules = { swinging_box: swingingBox, in_space: inSpace, bridge, stack };
+  const { costFrames, ...result } = rules[kind](scene, frames, exact);
   return { ...result, ms: median(costFrames.map(({ ms }) => ms)) };
 }

@@ -2,7 +2,7 @@
 // or in maximal ones (free bodies and equality constraints).
 
 import loadMujoco from "@mujoco/mujoco";
-import { collisionBits, jointTree } from "./scene.mjs";
+import { collisionBits, jointTree, relativeTurn } from "./scene.mjs";
 import { between, conjugate, multiply, rotate, subtract } from "./rotation.mjs";
 
 export const title = "MuJoCo";
@@ -11,31 +11,39 @@ const reduced = (integrator, ...counts) =>
   counts.map((substeps) => ({ substeps, coordinates: "reduced", integrator }));
 /** @param timeconst in which an error decays [sub-steps]
  *  @param impedance the part of a constraint that is enforced, the rest is soft */
-const maximal = (timeconst, impedance, ...counts) =>
+const maximal = (integrator, timeconst, impedance, ...counts) =>
   counts.map((substeps) => ({
     substeps,
     coordinates: "maximal",
-    integrator: "Euler",
+    integrator,
     timeconst,
     impedance,
   }));
+/** Of first order and cheap; without damping they differ in maximal coordinates only. */
+const kCheap = ["Euler", "implicitfast", "discrete"];
 
 export const ladder = {
   swinging_box: [
     ...reduced("Euler", 6, 7, 8, 16),
     ...reduced("implicit", 4, 6),
+    ...reduced("implicitfast", 4, 6, 7, 8, 16),
+    ...reduced("discrete", 4, 6, 7, 8, 16),
     ...reduced("RK4", 3, 4, 5),
-    ...maximal(2, 0.9999, 8),
+    ...kCheap.flatMap((integrator) => maximal(integrator, 2, 0.9999, 8)),
   ],
-  bridge: [
-    ...maximal(2, 0.99, 8, 12, 16),
-    ...maximal(4, 0.99, 6, 8, 12),
-    ...maximal(4, 0.999, 12, 16, 24),
-  ],
-  stack: [
-    ...maximal(2, 0.9999, 8, 12, 16, 32),
-    ...maximal(2, 0.99999, 8, 16),
-    ...maximal(4, 0.9999, 32),
+  bridge: kCheap.flatMap((integrator) => [
+    ...maximal(integrator, 2, 0.99, 8, 12, 16),
+    ...maximal(integrator, 4, 0.99, 6, 8, 12),
+    ...maximal(integrator, 4, 0.999, 12, 16, 24),
+  ]),
+  stack: kCheap.flatMap((integrator) => [
+    ...maximal(integrator, 2, 0.9999, 8, 12, 16, 32),
+    ...maximal(integrator, 2, 0.99999, 8, 16),
+    ...maximal(integrator, 4, 0.9999, 32),
+  ]),
+  in_space: [
+    ...[...kCheap, "implicit", "RK4"].flatMap((integrator) => reduced(integrator, 2, 4, 8, 16, 32)),
+    ...[...kCheap, "RK4"].flatMap((integrator) => maximal(integrator, 2, 0.9999, 4, 8, 16, 32)),
   ],
 };
 
@@ -72,7 +80,6 @@ function nestedBody(scene, tree, link) {
   const { body: i, parent, joint, flipped } = link;
   const body = scene.bodies[i];
   if (!joint) return freeBody(body, i, scene.collides);
-  if (Math.hypot(...body.v, ...body.w) > 0) throw new Error("a jointed body starts at speed");
   const origin = parent < 0 ? { x: [0, 0, 0], q: [1, 0, 0, 0] } : scene.bodies[parent];
   const back = conjugate(origin.q);
   const anchor = flipped ? joint.anchorB : joint.anchorA;
@@ -122,6 +129,24 @@ function xml(scene, setting) {
   </mujoco>`;
 }
 
+const freeVelocity = ({ q, v, w }) => [...v, ...rotate(conjugate(q), w)];
+
+function freeStart(scene) {
+  const moving = [...scene.bodies.keys()].filter((i) => !scene.bodies[i].fixed);
+  return moving.map((body) => ({ body, qvel: freeVelocity(scene.bodies[body]) }));
+}
+
+function reducedStart(scene) {
+  return jointTree(scene).map((link) => {
+    const { body, joint, flipped } = link;
+    if (!joint) return { body, qvel: freeVelocity(scene.bodies[body]) };
+    const turn = relativeTurn(scene, link);
+    if (!joint.hinge) return { body, qvel: turn };
+    const axis = flipped ? joint.axisB : joint.axisA;
+    return { body, qvel: [turn.reduce((sum, w, i) => sum + w * axis[i], 0)] };
+  });
+}
+
 let mujoco;
 
 export async function build(scene, setting) {
@@ -131,11 +156,8 @@ export async function build(scene, setting) {
   const id = scene.bodies.map((_, i) =>
     mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY.value, `b${i}`),
   );
-  scene.bodies.forEach((body, i) => {
-    if (body.fixed || Math.hypot(...body.v, ...body.w) === 0) return;
-    const at = model.body_dofadr[id[i]];
-    data.qvel.set([...body.v, ...rotate(conjugate(body.q), body.w)], at);
-  });
+  const start = setting.coordinates === "reduced" ? reducedStart(scene) : freeStart(scene);
+  for (const { body, qvel } of start) data.qvel.set(qvel, model.body_dofadr[id[body]]);
   return {
     step() {
       for (let i = 0; i < setting.substeps; ++i) mujoco.mj_step(model, data);

@@ -39,5 +39,13 @@ export const ladder = {
     ...[5, 10].map((steps) => newton("end", 1, steps)),
     newton("end", 2, 5),
   ],
+  in_space: [
+    kPaper,
+    ...[2, 4, 8, 16, 32].map(leapfrog),
+    ...[2, 4, 8, 16, 32].map(stormer),
+    adaptive_stormer(0.1),
+    inertia(1),
+    ...[4, 8].map((n) => newton("numerov", n, 2)),
+  ],
   stack: [...[1, 2, 4].map(euler), { mode: "damping" }, blend(1), kPaper],
 };

@@ -8,8 +8,6 @@
 
 namespace substep::bench {
 
-namespace {
-
 std::shared_ptr<const Scene> load(const char* path) {
   SceneResult read = read_scene_file(path);
   for (const Problem& problem : read.problems) {
@@ -18,8 +16,6 @@ std::shared_ptr<const Scene> load(const char* path) {
   if (!read.scene) std::exit(2);
   return read.scene;
 }
-
-}  // namespace
 
 void refuse(const std::string& why) {
   std::fprintf(stderr, "error: %s\n", why.c_str());

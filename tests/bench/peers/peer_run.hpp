@@ -19,6 +19,7 @@ struct PeerArguments {
 };
 
 /// Where something is wrong the program ends, with the reason on stderr.
+std::shared_ptr<const Scene> load(const char* path);
 PeerArguments read_peer_arguments(int argc, char** argv);
 [[noreturn]] void refuse(const std::string& why);
 

@@ -4,8 +4,8 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import loadPhysX from "physx-js-webidl";
-import { collisionBits, jointTree } from "./scene.mjs";
-import { between, conjugate, multiply } from "./rotation.mjs";
+import { collisionBits, jointTree, relativeTurn } from "./scene.mjs";
+import { between, conjugate, multiply, rotate } from "./rotation.mjs";
 
 export const title = "PhysX";
 
@@ -17,6 +17,7 @@ const maximal = (solver, iterations, ...counts) =>
 export const ladder = {
   swinging_box: [...articulation(6, 7, 8, 16), ...maximal("TGS", 32, 4, 8)],
   bridge: [...maximal("TGS", 32, 4, 8, 16), ...maximal("TGS", 8, 8, 16, 32), ...maximal("PGS", 32, 16)],
+  in_space: [...articulation(2, 4, 8, 16, 32), ...maximal("TGS", 32, 4, 8, 16)],
   stack: [...maximal("TGS", 32, 4, 16), ...maximal("PGS", 32, 16), ...maximal("TGS", 250, 8)],
 };
 
@@ -55,6 +56,8 @@ const vector = (v) => new PhysX.PxVec3(...v);
 const transform = (x, [w, qx, qy, qz]) =>
   new PhysX.PxTransform(vector(x), new PhysX.PxQuat(qx, qy, qz, w));
 const kNoTurn = [1, 0, 0, 0];
+// PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, which the package does not name.
+const kGyroscopic = 1 << 10;
 
 /** PhysX turns about x. @return what turns x into a joint's axis, if it has one */
 const axisFrame = (axis) => (axis ? between([1, 0, 0], axis) : kNoTurn);
@@ -80,13 +83,14 @@ function attachShape(actor, body) {
   actor.attachShape(shape);
 }
 
-function setMass(rigid, body) {
+function setMass(rigid, body, gyroscopic) {
   rigid.setMass(body.mass);
   rigid.setMassSpaceInertiaTensor(vector(body.inertia));
   rigid.setLinearDamping(0);
   rigid.setAngularDamping(0);
   rigid.setMaxAngularVelocity(1e4);
   rigid.setMaxDepenetrationVelocity(1e3);
+  rigid.setRigidBodyFlag(kGyroscopic, gyroscopic);
 }
 
 /** A body that no articulation holds. */
@@ -95,7 +99,7 @@ function addBody(scene, body, setting, world) {
   const rigid = body.fixed ? physics.createRigidStatic(pose) : physics.createRigidDynamic(pose);
   if (world.collides) attachShape(rigid, body);
   if (!body.fixed) {
-    setMass(rigid, body);
+    setMass(rigid, body, world.gyroscopic);
     rigid.setLinearVelocity(vector(body.v));
     rigid.setAngularVelocity(vector(body.w));
     rigid.setSleepThreshold(0);
@@ -140,6 +144,18 @@ function tuneJoint(inbound, joint, flipped, parentTurn, childTurn) {
   inbound.setMaxJointVelocity(1e4);
 }
 
+/** Lets a joint start at the speed that its body has. */
+function startJoint(inbound, world, link) {
+  const { joint, flipped } = link;
+  const { PxArticulationAxisEnum: axes } = PhysX;
+  const frame = axisFrame(flipped ? joint.axisB : joint.axisA);
+  const [x, y, z] = rotate(conjugate(frame), relativeTurn(world, link));
+  inbound.setJointVelocity(axes.eTWIST, x);
+  if (joint.hinge) return;
+  inbound.setJointVelocity(axes.eSWING1, y);
+  inbound.setJointVelocity(axes.eSWING2, z);
+}
+
 /** All jointed bodies as one tree on a base that stays at the origin. */
 function addArticulation(scene, world, setting) {
   const articulation = physics.createArticulationReducedCoordinate();
@@ -150,15 +166,17 @@ function addArticulation(scene, world, setting) {
   base.setMass(1);
   base.setMassSpaceInertiaTensor(vector([1, 1, 1]));
   const links = [];
-  for (const { body, parent, joint, flipped } of jointTree(world)) {
+  const tree = jointTree(world);
+  for (const { body, parent, joint, flipped } of tree) {
     if (!joint) throw new Error("a free body beside an articulation is not made here");
     const { x, q } = world.bodies[body];
     links[body] = articulation.createLink(parent < 0 ? base : links[parent], transform(x, q));
-    setMass(links[body], world.bodies[body]);
+    setMass(links[body], world.bodies[body], world.gyroscopic);
     const parentTurn = parent < 0 ? kNoTurn : world.bodies[parent].q;
     tuneJoint(links[body].getInboundJoint(), joint, flipped, parentTurn, q);
   }
   scene.addArticulation(articulation);
+  for (const link of tree) startJoint(links[link.body].getInboundJoint(), world, link);
   return links;
 }
 

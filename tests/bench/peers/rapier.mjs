@@ -27,6 +27,10 @@ export const ladder = {
     ...[4, 8, 16].map((steps) => impulse(steps, 4, 8, 1000)),
     ...[4, 8, 16, 32].map((steps) => impulse(steps, 8, 1, 1000)),
   ],
+  in_space: [
+    ...[8, 32].map((iterations) => impulse(1, iterations, 8)),
+    ...[2, 4, 8, 16, 32].map((steps) => impulse(steps, 4, 8)),
+  ],
   stack: [impulse(1, 32, 8, 1000), impulse(8, 8, 8, 1000), impulse(16, 100, 8, 1000)],
 };
 

@@ -1,6 +1,7 @@
 // A scene file of this project as plain numbers, for every engine to build the same world from.
 
 import { readFileSync } from "node:fs";
+import { conjugate, rotate, subtract } from "./rotation.mjs";
 
 /** Principal moments of inertia of the solid shape [kg m^2]. */
 function solidInertia(mass, shape) {
@@ -42,6 +43,7 @@ export function readScene(path) {
     frame: file.frame,
     gravity: file.gravity,
     collides: file.effects.includes("contact"),
+    gyroscopic: file.effects.includes("gyroscopic"),
     criteria: file.criteria,
     settings: file.settings,
     bodies: file.bodies.map(readBody),
@@ -55,6 +57,12 @@ export function readScene(path) {
       axisB: joint.axis_b,
     })),
   };
+}
+
+/** Of a link of the joint tree relative to its parent at the start, in the link's axes [rad/s]. */
+export function relativeTurn(scene, { body, parent }) {
+  const { q, w } = scene.bodies[body];
+  return rotate(conjugate(q), parent < 0 ? w : subtract(w, scene.bodies[parent].w));
 }
 
 /** Bits for engines that filter pairs by "my bit is in your mask": one bit a group, 1 for none. */

@@ -2,6 +2,7 @@
 
 const kColumns = {
   swinging_box: ["off at 3 s", "joint gap"],
+  in_space: ["largest off", "joint gap"],
   bridge: ["joint gap", "ball sinks"],
   stack: ["penetration", "box moved"],
 };
@@ -51,6 +52,30 @@ export function sceneLines({ title, kind }, entries, best) {
   return lines;
 }
 
+/** Newton's steps bring their own scheme with them; null where an engine has one integrator only. */
+function integrator({ engine, setting }) {
+  if (setting.forces) return `newton, forces ${setting.forces}`;
+  return setting.integrator ?? (engine.ours ? "euler" : null);
+}
+
+const kAlike = 1.01; // errors of one size
+
+/** Which integrator did best, of every engine that was tried with several: the least error, and of
+ *  those with as little the cheapest. */
+export function integratorLines(entries, best) {
+  const engines = [...new Set(best.map(({ engine }) => engine))];
+  return engines.flatMap((engine) => {
+    const own = (list) => list.filter((entry) => entry.engine === engine);
+    const tried = new Set(own(entries).map(integrator));
+    if (tried.size < 2) return [];
+    const least = Math.min(...own(best).map(({ error }) => error));
+    const alike = own(best).filter(({ error }) => error <= kAlike * least);
+    const [first] = alike.sort((a, b) => a.ms - b.ms);
+    const cost = `${millimetres(first.error)} mm at ${first.ms.toPrecision(3)} ms`;
+    return [`  ${engine.title}: ${integrator(first)} did best of: ${[...tried].join("; ")}: ${cost}`];
+  });
+}
+
 const platform = ({ engine }) => engine.title.split(", ").at(-1);
 
 /** Our cheapest setting on a peer's platform at an error no larger than the peer's. */
@@ -59,6 +84,12 @@ function answer(best, peer) {
     .filter((entry) => entry.engine.ours && platform(entry) === platform(peer))
     .filter((entry) => entry.error <= peer.error)
     .sort((a, b) => a.ms - b.ms)[0];
+}
+
+function aimText(aim, least) {
+  if (!aim) return "";
+  const verdict = least >= aim ? "reached" : `missed by a factor of ${(aim / least).toFixed(1)}`;
+  return `; aim ${aim}: ${verdict}`;
 }
 
 /** For every timed setting of a peer: how many times cheaper we are at an error no larger. */
@@ -80,9 +111,8 @@ export function factorLines({ aim }, best) {
     }
     if (answered.length === 0) continue;
     const least = Math.min(...answered.map(({ peer, ours }) => peer.ms / ours.ms));
-    const verdict = least >= aim ? "reached" : `missed by a factor of ${(aim / least).toFixed(1)}`;
     const times = `${least.toFixed(1)} times as much`;
-    lines.push(`  ${name}: the others cost at least ${times}; aim ${aim}: ${verdict}`);
+    lines.push(`  ${name}: the others cost at least ${times}${aimText(aim, least)}`);
   }
   return lines;
 }

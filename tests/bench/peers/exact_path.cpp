@@ -1,0 +1,21 @@
+// Where the tracked body of a scene is after every frame, exactly: exact_path SCENE.json prints
+// x y z [m], a line a frame. A scene whose exact motion is not known is refused.
+
+#include <cstdio>
+
+#include "core/lab/reference.hpp"
+#include "tests/bench/peers/peer_run.hpp"
+
+int main(int argc, char** argv) {
+  using namespace substep;
+  if (argc != 2) bench::refuse("usage: exact_path SCENE.json");
+  const std::shared_ptr<const Scene> scene = bench::load(argv[1]);
+  const Reference reference = find_reference(scene, scene->criteria.duration);
+  if (!reference.source.starts_with("exact")) bench::refuse("known by a " + reference.source);
+  std::fprintf(stderr, "%s, within %.1e m\n", reference.source.c_str(), reference.uncertainty);
+  for (std::size_t i = 1; i < reference.track.size(); ++i) {
+    const Vec3& x = reference.track[i];
+    std::printf("%.15g %.15g %.15g\n", x.x(), x.y(), x.z());
+  }
+  return 0;
+}

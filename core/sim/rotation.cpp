@@ -1,6 +1,8 @@
 // Bodies whose moments of inertia differ, as they tumble: their angular momentum is what torques
 // change, and how they turn follows from it (stepping/gyroscopic.hpp, free_turn.hpp).
 
+#include <algorithm>
+
 #include "core/constraints/grab_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
@@ -52,6 +54,7 @@ void Simulator::Impl::resize_torques() {
 void Simulator::Impl::foretell_gyroscopic(double dt) {
   resize_torques();
   const bool damps = settings.solver == SolverKind::kNewton && settings.forces == Forces::kEnd;
+  loops_bend = bends_rows() && closes_loops() && any_out_of_axis();
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
     if (!tumbles(i)) continue;
@@ -60,7 +63,7 @@ void Simulator::Impl::foretell_gyroscopic(double dt) {
     Spin& spin = spins[i];
     const Vec3 omega_B = R.transpose() * state.u[i].tail<3>();
     spin = {I.cwiseProduct(omega_B), Vec3::Zero(), state.u[i].tail<3>(), false, false};
-    if (is_zero(gyroscopic_torque(I, omega_B))) continue;  // about a principal axis
+    if (is_zero(gyroscopic_torque(I, omega_B)) && !loops_bend) continue;  // about a principal axis
     spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
     spin.damped = damps || changes_mass_of(i, *scene, settings, state, dt);
     Vec3 pushed = Vec3::Zero();
@@ -90,6 +93,26 @@ bool Simulator::Impl::bends_rows() const {
                            settings.solver == SolverKind::kXpbd || follows_accelerations(settings);
   return scene->effects.gyroscopic && settings.gyroscopic == Gyroscopic::kImplicit && joints &&
          !contact && settings.drift_order == 1 && !looks_ahead;
+}
+
+// Around a loop either all rows are bent or none: rows of a mechanism that has more of them than it
+// needs contradict each other where some see the turn and some do not, by dt/2 phi''. Then bodies
+// about a principal axis are foretold like the others.
+bool Simulator::Impl::closes_loops() {
+  const auto joined = std::count_if(rows().begin(), rows().end(), [](const Block& block) {
+    return !block.is_contact() && !is_grab(block);
+  });
+  return joined > std::ssize(part().moving);
+}
+
+bool Simulator::Impl::any_out_of_axis() const {
+  const std::vector<int>& moving = part().moving;
+  return std::any_of(moving.begin(), moving.end(), [&](int body) {
+    const auto i = static_cast<std::size_t>(body);
+    if (!tumbles(i)) return false;
+    const Vec3 omega_B = R_WB[i].transpose() * state.u[i].tail<3>();
+    return !is_zero(gyroscopic_torque(scene->bodies[i].inertia, omega_B));
+  });
 }
 
 void Simulator::Impl::bend_rows(double dt) {
@@ -136,7 +159,8 @@ void Simulator::Impl::settle_gyroscopic(double dt) {
     state.torque[i].setZero();
     state.torque_change[i].setZero();
     if (spin.damped) continue;
-    if (is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.foretold)) continue;
+    const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.foretold);
+    if (turns_freely && !loops_bend) continue;
     // From the momentum that it had: turned to and fro it would lose a digit every thousand steps.
     const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - u_before[i].tail<3>()));
     if (smooth) {

@@ -70,6 +70,8 @@ struct Simulator::Impl {
   void resize_torques();
   void foretell_gyroscopic(double dt);
   bool bends_rows() const;
+  bool closes_loops();  // of the part: it has more joints than bodies
+  bool any_out_of_axis() const;
   void bend_rows(double dt);          // of joints, as their bodies turn
   static void meet(Block& joint);     // in one point
   void settle_gyroscopic(double dt);  // after the solve
@@ -165,6 +167,7 @@ struct Simulator::Impl {
   std::vector<Motion> motions;    // and how bodies would move by that
   std::vector<Vec6> w;            // what they move by
   std::vector<Spin> spins;        // of what tumbles
+  bool loops_bend = false;        // rows of all of their joints, in this sub-step
   std::vector<Vec3> bent_torque;  // what turns add to the torques of joints [N m s]
   struct Changes {                // per body; of what tumbles of its torque, in dt
     Vec6 a = Vec6::Zero();

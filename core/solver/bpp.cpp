@@ -75,7 +75,7 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
   SolveReport report;
   ldlt_.begin(system);
   factor_valid_ = false;
-  swept_ = false;
+  has_impulses_ = false;
   any_contact_ = std::any_of(system.blocks.begin(), system.blocks.end(),
                              [](const Block& block) { return block.is_contact(); });
   if (any_contact_) start_active_set(system);
@@ -89,6 +89,10 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
     find_impulses(system.blocks);
     centre(system);
     find_active_set(system, settings, report);
+  }
+  if (!any_contact_ && ldlt_.held()) {
+    ldlt_.refine(system);
+    has_impulses_ = true;
   }
   report.flops += ldlt_.flops();
   return report;
@@ -119,12 +123,12 @@ bool Bpp::better_than_none(const System& system) const {
 }
 
 void Bpp::find_impulses(std::span<Block> blocks) {
-  if (!swept_) ldlt_.find_impulses(blocks);
+  if (!has_impulses_) ldlt_.find_impulses(blocks);
 }
 
 std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings) {
   find_impulses(system.blocks);
-  swept_ = true;
+  has_impulses_ = true;
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
     block.impulse[0] = std::max(0.0, block.impulse[0]);

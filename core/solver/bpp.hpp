@@ -60,7 +60,7 @@ class Bpp final : public Solver {
   Pgs gauss_seidel_;
   bool any_contact_ = false;
   bool factor_valid_ = false;           // the factor belongs to the present active set
-  bool swept_ = false;                  // Gauss-Seidel had the last word
+  bool has_impulses_ = false;           // all: of Gauss-Seidel, or refined
   std::vector<double> friction_bound_;  // per block [N s]
   struct Centre {
     double row[kMaxRows];

@@ -64,8 +64,11 @@ inline double inverse_of_pivot(double d, double least) {
 
 /// A = L D L^T in place: L below the diagonal, 1/D apart.
 /// @param A only on and below the diagonal  @param inverse in: least pivots; out: 1/D
-inline void factor_ldlt(double* A, int n, double* inverse) {
+/// @return whether a pivot was less and is held
+inline bool factor_ldlt(double* A, int n, double* inverse) {
+  bool held = false;
   for (int j = 0; j < n; ++j) {
+    held |= A[j * n + j] < inverse[j];
     inverse[j] = inverse_of_pivot(A[j * n + j], inverse[j]);
     for (int i = j + 1; i < n; ++i) {
       const double l = A[i * n + j] * inverse[j];
@@ -73,15 +76,18 @@ inline void factor_ldlt(double* A, int n, double* inverse) {
     }
     for (int i = j + 1; i < n; ++i) A[i * n + j] *= inverse[j];
   }
+  return held;
 }
 
 /// The same in registers, and in the same order.
 template <int N>
-void factor_ldlt(double* A, Known<N> /*n*/, double* inverse) {
+bool factor_ldlt(double* A, Known<N> /*n*/, double* inverse) {
+  bool held = false;
   constexpr auto size = static_cast<std::size_t>(N);
   double a[size][size];
   unrolled<0, N>([&](auto i) { unrolled<0, i + 1>([&](auto k) { a[i][k] = A[i * N + k]; }); });
   unrolled<0, N>([&](auto j) {
+    held |= a[j][j] < inverse[j];
     const double per_d = inverse_of_pivot(a[j][j], inverse[j]);
     inverse[j] = per_d;
     unrolled<j + 1, N>([&](auto i) {
@@ -90,6 +96,7 @@ void factor_ldlt(double* A, Known<N> /*n*/, double* inverse) {
     });
     unrolled<j + 1, N>([&](auto i) { A[i * N + j] = a[i][j] *= per_d; });
   });
+  return held;
 }
 
 /// X := L^-1 X, X n x width.

@@ -1,6 +1,7 @@
 // The factor of a node.
 
 #include <algorithm>
+#include <utility>
 
 #include "core/math/flops.hpp"
 #include "core/solver/body_products.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 // Exact rows that are redundant on the body of their node, as in closed loops of exact joints, need
 // not be redundant in the whole. They are softened by this much of J A^-1 J^T: as much is wrong
-// with the answer, and rounding makes as much again.
+// with the answer, and rounding makes as much again. refine() takes both back.
 constexpr double kLeastPivot = 1e-8;
 
 // An even number of them, two at a time: as memory WebAssembly would call for it.
@@ -150,6 +151,44 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
   if (node.folds || node.n_rows != node.counted_rows) count(node);
 }
 
+// A small pivot above larger ones makes large multipliers, and those a held pivot below makes
+// larger still: of 1e4 and 1e-8 come 1e16 on the later bodies, and all digits are lost. So where a
+// pivot is held they go from large to small, each beside what it would be held at. Rows of joints
+// keep that order; those of contacts are gathered anew each time, and are left alone.
+void SaddleLdlt::hold_last(const Node& node, const auto& form) {
+  held_ = true;
+  if (!node.gathered) return;
+  const Factor f = at(node);
+  form();
+  order_by_pivots(f.S, f.S_inverse, node.n_rows, rows_.data() + node.first_row);
+  form();
+  factor_ldlt(f.S, node.n_rows, f.S_inverse);
+}
+
+void SaddleLdlt::order_by_pivots(double* S, double* least, int n, Row* rows) {
+  constexpr double kWorse = 1e-3;  // than another, and it waits
+  const auto at = [&](int i, int j) -> double& { return S[std::max(i, j) * n + std::min(i, j)]; };
+  for (int j = 0; j < n; ++j) {
+    int best = j;
+    for (int i = j + 1; i < n; ++i) {
+      if (at(i, i) * least[best] > at(best, best) * least[i]) best = i;
+    }
+    if (at(j, j) * least[best] < kWorse * at(best, best) * least[j]) {
+      for (int k = 0; k < n; ++k) {
+        if (k != j && k != best) std::swap(at(j, k), at(best, k));
+      }
+      std::swap(at(j, j), at(best, best));
+      std::swap(least[j], least[best]);
+      std::swap(rows[j], rows[best]);
+    }
+    const double per_d = inverse_of_pivot(at(j, j), least[j]);
+    for (int i = j + 1; i < n; ++i) {
+      const double l = at(i, j) * per_d;
+      for (int k = j + 1; k <= i; ++k) at(i, k) -= l * at(k, j);
+    }
+  }
+}
+
 void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
   with_known(node.n_rows, [&](auto rows) {
     with_known_width(node, [&](auto n) { factor_bare(node, blocks, rows, n); });
@@ -161,24 +200,27 @@ void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto row
   int* first = first_filled_.data() + node.first_coupled;
   std::fill(first, first + node.coupled, rows);
   if (rows == 0) return;
-  set_zero(f.Z, rows * n);
-  const InverseMass& inverse = inverse_mass_[index(node.body)];
-  for (int i = 0; i < rows; ++i) {
-    const Row& row = rows_[node.first_row + index(i)];
-    const Attached& attached = attached_[node.first_attached + index(row.attached)];
-    const Block& block = blocks[index(attached.block)];
-    Vec6 of_pin;
-    const double* J = gradient(block, row.row, attached.is_a, of_pin);
-    weigh(inverse, J, f.V + 6 * i);
-    for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(J, f.V + 6 * j);
-    f.S_inverse[i] = kLeastPivot * f.S[i * rows + i];
-    f.S[i * rows + i] += block.softness[row.row];
-    if (attached.other < 0) continue;
-    const double* J_other = gradient(block, row.row, !attached.is_a, of_pin);
-    std::copy(J_other, J_other + 6, f.Z + i * n + 6 * attached.other);
-    first[attached.other] = std::min(first[attached.other], i);
-  }
-  factor_ldlt(f.S, rows, f.S_inverse);
+  const auto form = [&] {
+    set_zero(f.Z, rows * n);
+    const InverseMass& inverse = inverse_mass_[index(node.body)];
+    for (int i = 0; i < rows; ++i) {
+      const Row& row = rows_[node.first_row + index(i)];
+      const Attached& attached = attached_[node.first_attached + index(row.attached)];
+      const Block& block = blocks[index(attached.block)];
+      Vec6 of_pin;
+      const double* J = gradient(block, row.row, attached.is_a, of_pin);
+      weigh(inverse, J, f.V + 6 * i);
+      for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(J, f.V + 6 * j);
+      f.S_inverse[i] = kLeastPivot * f.S[i * rows + i];
+      f.S[i * rows + i] += block.softness[row.row];
+      if (attached.other < 0) continue;
+      const double* J_other = gradient(block, row.row, !attached.is_a, of_pin);
+      std::copy(J_other, J_other + 6, f.Z + i * n + 6 * attached.other);
+      first[attached.other] = std::min(first[attached.other], i);
+    }
+  };
+  form();
+  if (factor_ldlt(f.S, rows, f.S_inverse)) hold_last(node, form);
   solve_lower(f.S, rows, n, f.Z);
 }
 
@@ -220,31 +262,34 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
   const int rows = node.n_rows;
   const int n = width(node);
   const Factor f = at(node);
-  set_zero(f.Z, rows * n);
-  for (int i = 0; i < rows; ++i) {
-    const Row& row = rows_[node.first_row + index(i)];
-    const Attached& attached = attached_[node.first_attached + index(row.attached)];
-    const Block& block = blocks[index(attached.block)];
-    double* V = f.V + 6 * i;
-    Vec6 of_pin;
-    const double* J = gradient(block, row.row, attached.is_a, of_pin);
-    std::copy(J, J + 6, V);
-    solve_lower(f.A, Known<6>{}, Known<1>{}, V);
-    double weighted[6];
-    for (int j = 0; j < 6; ++j) weighted[j] = f.A_inverse[j] * V[j];
-    for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(weighted, f.V + 6 * j);
-    f.S[i * rows + i] += block.softness[row.row];
-    double on_body[6];
-    weigh(inverse_mass_[index(node.body)], J, on_body);
-    f.S_inverse[i] = kLeastPivot * dot6(J, on_body);
-    double* Z = f.Z + i * n;
-    if (attached.other >= 0) {
-      const double* J_other = gradient(block, row.row, !attached.is_a, of_pin);
-      std::copy(J_other, J_other + 6, Z + 6 * attached.other);
+  const auto form = [&] {
+    set_zero(f.Z, rows * n);
+    for (int i = 0; i < rows; ++i) {
+      const Row& row = rows_[node.first_row + index(i)];
+      const Attached& attached = attached_[node.first_attached + index(row.attached)];
+      const Block& block = blocks[index(attached.block)];
+      double* V = f.V + 6 * i;
+      Vec6 of_pin;
+      const double* J = gradient(block, row.row, attached.is_a, of_pin);
+      std::copy(J, J + 6, V);
+      solve_lower(f.A, Known<6>{}, Known<1>{}, V);
+      double weighted[6];
+      for (int j = 0; j < 6; ++j) weighted[j] = f.A_inverse[j] * V[j];
+      for (int j = 0; j <= i; ++j) f.S[i * rows + j] = dot6(weighted, f.V + 6 * j);
+      f.S[i * rows + i] += block.softness[row.row];
+      double on_body[6];
+      weigh(inverse_mass_[index(node.body)], J, on_body);
+      f.S_inverse[i] = kLeastPivot * dot6(J, on_body);
+      double* Z = f.Z + i * n;
+      if (attached.other >= 0) {
+        const double* J_other = gradient(block, row.row, !attached.is_a, of_pin);
+        std::copy(J_other, J_other + 6, Z + 6 * attached.other);
+      }
+      for (int j = 0; j < 6; ++j) subtract_row(f.Y + j * n, weighted[j], n, Z);
     }
-    for (int j = 0; j < 6; ++j) subtract_row(f.Y + j * n, weighted[j], n, Z);
-  }
-  factor_ldlt(f.S, rows, f.S_inverse);
+  };
+  form();
+  if (factor_ldlt(f.S, rows, f.S_inverse)) hold_last(node, form);
   solve_lower(f.S, rows, n, f.Z);
   add_gram(f.Z, f.S_inverse, rows, 1.0, n, values_.data() + node.update);
 }

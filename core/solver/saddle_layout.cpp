@@ -44,6 +44,9 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   w_.reserve(blocks * kMaxRows);
   v_.reserve(bodies);
   c_.reserve(blocks * kMaxRows);
+  found_.reserve(blocks);
+  u_begun_.reserve(bodies);
+  u_earlier_.reserve(bodies);
 }
 
 bool SaddleLdlt::foldable(const Block& block, const System& system) const {
@@ -73,6 +76,7 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
 
 void SaddleLdlt::begin(const System& system) {
   flops_ = 0;
+  held_ = false;
   inverse_mass_ = system.inverse_mass;
   u_star_.resize(system.u.size());
   copy(system.u, u_star_);

@@ -50,6 +50,12 @@ class SaddleLdlt {
   /// articulated or folded.
   void find_impulses(std::span<Block> blocks);
 
+  /// Whether a pivot was held since `begin`: then the solution is one of softer rows.
+  [[nodiscard]] bool held() const { return held_; }
+  /// Takes that softness back, with the factor as it is; all rows are free. Leaves all impulses,
+  /// and ends what `begin` began.
+  void refine(const System& system);
+
   /// Floating-point operations since `begin`.
   [[nodiscard]] std::int64_t flops() const { return flops_; }
   [[nodiscard]] std::span<const Vec6> u_star() const { return u_star_; }
@@ -170,6 +176,12 @@ class SaddleLdlt {
   /// @param B, U of the parent, n wide: where there are more coupled bodies than the parent
   void add_left(const Node& child, Square6& A, double* B, double* U, int n);
   void eliminate_rows(Node& node, std::span<const Block> blocks);
+  /// Factors the rows of a node anew where a pivot was held. @param form makes S, Z and least
+  /// pivots
+  void hold_last(const Node& node, const auto& form);
+  /// @param S, least n rows as before they are factored, which is spent  @param rows in: as in S;
+  /// out: from large pivots to small ones
+  static void order_by_pivots(double* S, double* least, int n, Row* rows);
 
   void set_momenta(std::span<const Block> blocks);
   [[nodiscard]] Vec6* of_body(int body);
@@ -181,6 +193,10 @@ class SaddleLdlt {
   /// @param change in: L^-1 g, bare: Mt^-1 g; out: with the pushes of the rows
   void backward_rows(const Node& node, const Factor& f, auto rows, auto n, std::span<Block> blocks,
                      double* change);
+
+  /// Takes the velocity that the impulses found so far lead to as u*, and leaves a system for what
+  /// is to be added to them. @return its largest |w| without any of it [m/s, rad/s]
+  double start_correction(const System& system);
 
   EliminationOrder order_;
   std::size_t bodies_ = 0;
@@ -197,6 +213,7 @@ class SaddleLdlt {
   std::vector<Row> rows_;
   std::vector<ArticulatedJoint> joints_;  // nodes point to them
   bool any_folded_ = false;
+  bool held_ = false;  // a pivot
   std::vector<double> values_;
   std::int64_t flops_ = 0;
 
@@ -206,6 +223,16 @@ class SaddleLdlt {
   std::vector<Vec6> v_;    // per node: momentum, then what is left of it, then the velocity; of an
                            // articulated node that nobody pushes only the velocity
   std::vector<double> c_;  // per row of a node, from forward to backward
+
+  // Of refine():
+  struct RowValues {
+    double bias[kMaxRows];
+    double impulse[kMaxRows];  // before the correction that is being made
+    double earlier[kMaxRows];  // before the last one
+  };
+  std::vector<RowValues> found_;  // per block
+  std::vector<Vec6> u_begun_;     // u* of the system
+  std::vector<Vec6> u_earlier_;   // u+ before the last correction
 };
 
 }  // namespace substep

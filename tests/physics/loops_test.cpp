@@ -1,0 +1,204 @@
+// Closed loops of hinges, whose rows are redundant: on a body of the loop, where pivots are held
+// (solver/saddle_factor.cpp), and in the whole. What is held is taken back (saddle_refine.cpp), so
+// loops keep the order of their integrator and hold to its truncation.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "core/solver/bpp.hpp"
+#include "scenes/generator/exam.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+HingeJoint hinge(int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
+  HingeJoint joint;
+  joint.name = "hinge " + std::to_string(a) + " " + std::to_string(b);
+  joint.a = a;
+  joint.b = b;
+  joint.anchor_a = anchor_a;
+  joint.anchor_b = anchor_b;
+  joint.axis_a = Vec3::UnitZ();
+  joint.axis_b = Vec3::UnitZ();
+  return joint;
+}
+
+/// Two rods of 1 kg and 1 m hang side by side and carry a coupler of 300 kg: a four-bar of exact
+/// hinges, three of whose rows are redundant. It is pushed at 1 m/s and stays under the horizontal,
+/// where it would be singular.
+constexpr double kCoupler = 300.0;
+Scene swing() {
+  Scene scene;
+  scene.name = "swing";
+  scene.frame = 1.0 / 60.0;
+  scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
+  scene.gravity = {0.0, -kGravity, 0.0};
+  const auto rod = [](const Vec3& centre, const Vec3& velocity, double spin) {
+    Body body;
+    body.name = "rod";
+    body.shape = Box{{0.02, 0.5, 0.02}};
+    body.inertia = {1.0 / 12.0, 1e-3, 1.0 / 12.0};
+    body.position = centre;
+    body.velocity = velocity;
+    body.angular_velocity = {0.0, 0.0, spin};
+    return body;
+  };
+  scene.bodies = {rod({0.0, -0.5, 0.0}, {0.5, 0.0, 0.0}, 1.0),
+                  rod({1.0, -0.5, 0.0}, {0.5, 0.0, 0.0}, 1.0),
+                  rod({0.5, -1.0, 0.0}, {1.0, 0.0, 0.0}, 0.0)};
+  scene.bodies[2].mass = kCoupler;
+  scene.bodies[2].inertia = kCoupler * Vec3(1e-3, 1.0 / 12.0, 1.0 / 12.0);
+  const Vec3 up{0.0, 0.5, 0.0};
+  const Vec3 right{0.5, 0.0, 0.0};
+  scene.joints = {hinge(0, up, kWorld, Vec3::Zero()), hinge(1, up, kWorld, Vec3::UnitX()),
+                  hinge(0, -up, 2, -right), hinge(1, -up, 2, right)};
+  return scene;
+}
+
+/// Angle of its rods after each frame, by Runge and Kutta's classical step [rad].
+std::vector<double> swing_angles(double frame, int frames) {
+  constexpr double kSquare = (1.0 + kCoupler) * kGravity / (2.0 / 3.0 + kCoupler);  // [1/s^2]
+  constexpr int kSteps = 64;
+  const double h = frame / kSteps;
+  const auto f = [](double angle) { return -kSquare * std::sin(angle); };
+  std::vector<double> angles;
+  double angle = 0.0;
+  double speed = 1.0;
+  for (int i = 0; i < frames; ++i) {
+    for (int k = 0; k < kSteps; ++k) {
+      const double a1 = f(angle);
+      const double v2 = speed + 0.5 * h * a1;
+      const double a2 = f(angle + 0.5 * h * speed);
+      const double v3 = speed + 0.5 * h * a2;
+      const double a3 = f(angle + 0.5 * h * v2);
+      const double v4 = speed + h * a3;
+      const double a4 = f(angle + h * v3);
+      angle += h / 6.0 * (speed + 2.0 * v2 + 2.0 * v3 + v4);
+      speed += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+    }
+    angles.push_back(angle);
+  }
+  return angles;
+}
+
+Settings stormer(const Scene& scene, int n) {
+  Settings settings = scene.settings;
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  settings.integrator = Integrator::kStormer;
+  return settings;
+}
+
+/// A case of the exam with exact hinges.
+ExamCase exact(ExamCase exam) {
+  for (Joint& joint : exam.scene.joints) {
+    base(joint).compliance = 0.0;
+    std::get<HingeJoint>(joint).angular_compliance = 0.0;
+  }
+  return exam;
+}
+
+struct Found {
+  std::vector<double> errors;  // as the case of the exam names them
+  double gap = 0.0;            // largest [m]
+};
+
+Found run_case(const ExamCase& exam, int n) {
+  Found found;
+  found.errors.assign(exam.quantities.size(), 0.0);
+  const ExamMeasure measure = exam.measure();
+  Simulator simulator = test::simulator_of(exam.scene, stormer(exam.scene, n));
+  measure({exam.scene, simulator.state(), simulator.observe(), {}}, found.errors);
+  const auto frames = std::lround(exam.scene.criteria.duration / exam.scene.frame);
+  for (long i = 0; i < frames; ++i) {
+    const FrameReport report = simulator.step();
+    measure({exam.scene, simulator.state(), report, {}}, found.errors);
+    found.gap = std::max(found.gap, report.joint_gap);
+  }
+  return found;
+}
+
+double order(const Found& coarse, const Found& fine, double ratio) {
+  return std::log(coarse.errors[0] / fine.errors[0]) / std::log(ratio);
+}
+
+// Before: 2e-11 m at any N, of the pivots' softness.
+TEST(Loops, AFourBarWithAHeavyCouplerIsExactToRounding) {
+  constexpr int kFrames = 300;
+  const Scene scene = swing();
+  const std::vector<double> exact = swing_angles(scene.frame, kFrames);
+  for (const int n : {16, 64}) {
+    Simulator simulator = test::simulator_of(scene, stormer(scene, n));
+    double error = 0.0;
+    double gap = 0.0;
+    for (const double angle : exact) {
+      const FrameReport report = simulator.step();
+      gap = std::max(gap, report.joint_gap);
+      const Vec3 coupler{0.5 + std::sin(angle), -std::cos(angle), 0.0};
+      error = std::max(error, (simulator.state().x[2] - coupler).norm());
+    }
+    EXPECT_LT(error, n == 16 ? 1e-10 : 1e-12) << n;
+    EXPECT_LT(gap, 1e-13) << n;
+  }
+}
+
+// Before: 3e-6 m at 16, 2e-7 at 64, with hinges of 1e-16 m/N; millimetres with exact ones.
+TEST(Loops, BricardsMechanismIsOfFourthOrder) {
+  const ExamCase exam = exact(scenes::exam_bricard());
+  const Found coarse = run_case(exam, 16);
+  const Found middle = run_case(exam, 32);
+  const Found fine = run_case(exam, 64);
+  const Found finest = run_case(exam, 256);
+  EXPECT_LT(coarse.errors[0], 2e-7);
+  EXPECT_GT(order(coarse, middle, 2.0), 4.0);
+  EXPECT_GT(order(middle, fine, 2.0), 3.8);
+  EXPECT_LT(finest.errors[0], 2e-11);
+  EXPECT_LT(finest.errors[1], 1e-10) << "energy";
+}
+
+// The singular pose is passed ten times; the errors of 64 and more stopped at some 1e-6 before.
+TEST(Loops, TheDoubleFourBarKeepsItsOrderThroughTheSingularPose) {
+  const ExamCase exam = exact(scenes::exam_four_bar());
+  const Found coarse = run_case(exam, 32);
+  const Found fine = run_case(exam, 64);
+  const Found finest = run_case(exam, 256);
+  EXPECT_GT(order(coarse, fine, 2.0), 4.5);
+  EXPECT_GT(order(fine, finest, 4.0), 4.3);
+  EXPECT_LT(finest.errors[1], 1e-9) << "published position after 10 s";
+  EXPECT_LT(finest.errors[2], 3e-9) << "published velocity after 10 s";
+}
+
+// With the usual frame of 1/60 s.
+TEST(Loops, JointsStayClosed) {
+  for (ExamCase exam : {exact(scenes::exam_four_bar()), exact(scenes::exam_bricard())}) {
+    exam.scene.frame = 1.0 / 60.0;
+    Simulator simulator = test::simulator_of(exam.scene, stormer(exam.scene, 16));
+    double gap = 0.0;
+    for (int i = 0; i < 600; ++i) gap = std::max(gap, simulator.step().joint_gap);
+    EXPECT_LT(gap, 1e-11) << exam.name;
+  }
+}
+
+// Rows that contradict each other: a coupler 1 mm too long for the pins that it hangs between. What
+// no impulse can mend is left to the held pivots, and no correction pushes harder.
+TEST(Loops, RowsThatContradictEachOtherDoNotRunAway) {
+  Scene scene = swing();
+  base(scene.joints[3]).anchor_a.z() = 1e-3;  // out of the plane, where nothing gives way
+  scene.start = StartPolicy::kKeep;
+  Simulator simulator = test::simulator_of(scene, stormer(scene, 16));
+  for (int i = 0; i < 300; ++i) {
+    const FrameReport report = simulator.step();
+    ASSERT_EQ(report.status, StepStatus::kOk);
+    EXPECT_LT(report.joint_gap, 2e-3);
+  }
+}
+
+}  // namespace
+}  // namespace substep

@@ -111,7 +111,9 @@ FrictionStage::FrictionStage(const Scene& scene) {
 
 namespace {
 
-constexpr double kAcross = 1e-6;  // of its length that a direction has across the normal to count
+// Of its length that a direction has across the normal to count. What stands on something rocks,
+// and a direction that is nearly the normal would turn its axes about with every rounding.
+constexpr double kAcross = 0.05;
 
 /// The first of some directions that is not along the normal of a contact: a fixed preference, not
 /// a comparison that rounding decides.
@@ -126,9 +128,9 @@ Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
 }  // namespace
 
 // The box of friction has axes, and they must not hang on which body a file names first, nor on how
-// a shape is turned about the normal: down the slope; on the level, an axis of what stands still;
-// else the line between the centres, and where that is the normal, what both bodies' axes have in
-// common. All of them turn with the scene.
+// a shape is turned about the normal. On what stands still they lie down the slope, on the level
+// along an axis of it; between two that move along the line of their centres, and where that is the
+// normal, along what both bodies' axes have in common. All of them turn with the scene.
 void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB,
                            std::span<Block> blocks) const {
   const Vec3 slope = scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero());
@@ -140,10 +142,11 @@ void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB,
     if (!(mu > 0.0)) continue;
     const Mat3 still = block.a < 0 ? R_WB[a] : block.b < 0 ? R_WB[b] : Mat3(Mat3::Zero());
     const Mat3 both = R_WB[a] + R_WB[b];
+    const bool stands = block.a < 0 || block.b < 0;
     const Vec3 centres = block.r_b - block.r_a;  // from b's to a's
     friction_rows(scene.contact, mu,
-                  first_across(block.n, {slope, still.col(0), still.col(2), centres, both.col(0),
-                                         both.col(2)}),
+                  first_across(block.n, {stands ? slope : Vec3(Vec3::Zero()), still.col(0),
+                                         still.col(2), centres, both.col(0), both.col(2)}),
                   block);
   }
 }

@@ -139,7 +139,7 @@ void Simulator::Impl::store_changes(std::size_t body, const Vec6& a, double dt) 
     state.torque_change[body] = growth * torque_change;
     state.torque[body] = torque;
   }
-  if (late != 0.0) state.u[body] += correction;
+  if (late != 0.0 && correction.allFinite()) state.u[body] += correction;
 }
 
 // Joints are to hold where the poses go, from where accelerations that go on changing as they did

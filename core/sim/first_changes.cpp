@@ -25,13 +25,13 @@ void Simulator::Impl::find_first_changes(double dt) {
   const std::size_t n = state.u.size();
   const Accelerations none{std::vector<Vec6>(n, Vec6::Zero()), {}};
   Accelerations at_start;
-  find_accelerations(0.0, none.a, none.a, at_start);
+  find_accelerations(dt, 0.0, none.a, none.a, at_start);
   Accelerations before;
   Accelerations after;
   std::vector<Vec6> rate = none.a;
   for (int pass = 0; pass < 2; ++pass) {
-    find_accelerations(-dt, at_start.a, rate, before);
-    find_accelerations(dt, at_start.a, rate, after);
+    find_accelerations(dt, -dt, at_start.a, rate, before);
+    find_accelerations(dt, dt, at_start.a, rate, after);
     for (std::size_t i = 0; i < n; ++i) rate[i] = 0.5 / dt * (after.a[i] - before.a[i]);
   }
   // A parabola through the three tells the change before the first of them.
@@ -52,7 +52,7 @@ void Simulator::Impl::find_first_changes(double dt) {
 
 // J a = -phi'' at the poses and velocities that accelerations `a` and their rate of change lead to
 // in the time s.
-void Simulator::Impl::find_accelerations(double s, std::span<const Vec6> a,
+void Simulator::Impl::find_accelerations(double dt, double s, std::span<const Vec6> a,
                                          std::span<const Vec6> rate, Accelerations& out) {
   const std::vector<Vec3> x = state.x;
   const std::vector<Quat> q = state.q;
@@ -69,7 +69,7 @@ void Simulator::Impl::find_accelerations(double s, std::span<const Vec6> a,
   substep::inverse_mass(inertia_inverse, part(), R_WB, inverse_mass);
   blocks.keep(first_block);
   if (joints) joints->append(part(), state, R_WB, blocks);
-  set_acceleration_rows(rows(), u, scene->regularisation);
+  set_acceleration_rows(rows(), u, inverse_mass, dt, scene->regularisation);
 
   out.a.assign(n, Vec6::Zero());
   for (const int body : part().moving) {

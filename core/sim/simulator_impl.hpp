@@ -104,7 +104,7 @@ struct Simulator::Impl {
   };
   bool needs_first_changes() const;
   void find_first_changes(double dt);
-  void find_accelerations(double s, std::span<const Vec6> a, std::span<const Vec6> rate,
+  void find_accelerations(double dt, double s, std::span<const Vec6> a, std::span<const Vec6> rate,
                           Accelerations& out);
   // carry.cpp
   void hand_over(double dt);                         // to sub-steps of another length

@@ -6,8 +6,6 @@ namespace substep {
 
 namespace {
 
-constexpr double kResolved = 0.25;  // kappa up to which Störmer's springs are given forces
-
 /// w+ = w- of a spring that is resolved, or nothing where all of its force is the end's.
 double resolved_weight(const Settings& settings) {
   if (settings.solver == SolverKind::kNewton) {
@@ -53,6 +51,15 @@ SpringWeights spring_weights(const Settings& settings, double kappa) {
   return {0.5 * (sum + sigma), 0.5 * (sum - sigma)};
 }
 
+double spring_kappa(const SubstepTimes& times, std::span<const InverseMass> inverse_mass,
+                    const Block& joint, int first, int end) {
+  double most = 0.0;
+  for (int row = first; row < end; ++row) {
+    most = std::max(most, mobility(joint, row, inverse_mass));
+  }
+  return times.dt * times.force_time * most / joint.C[first];
+}
+
 void give_force(Block& joint, int row, double impulse) {
   joint.given[row] = impulse;
   joint.bias[row] = 0.0;
@@ -68,12 +75,9 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
     const double C = joint.C[first];
     for (int row = first; row < end; ++row) joint.spring_ahead[row] = joint.given[row] = 0.0;
     if (!(C > 0.0)) return;
-    double most = 0.0;
-    for (int row = first; row < end; ++row) {
-      most = std::max(most, mobility(joint, row, inverse_mass));
-    }
     const double step = times.dt * times.force_time;
-    const SpringWeights w = spring_weights(settings, step * most / C);
+    const SpringWeights w =
+        spring_weights(settings, spring_kappa(times, inverse_mass, joint, first, end));
     for (int row = first; row < end; ++row) {
       const double elastic = joint.elastic[row];
       if (w.ahead == 0.0) {

@@ -50,6 +50,11 @@ inline constexpr double kGivenForce = 1e12;
 /// m s]
 void give_force(Block& joint, int row, double impulse);
 
+/// kappa of the rows that share a compliance, by the softest way that they can move.
+double spring_kappa(const SubstepTimes& times, std::span<const InverseMass> inverse_mass,
+                    const Block& joint, int first, int end);
+inline constexpr double kResolved = 0.25;  ///< kappa up to which Störmer's springs are given forces
+
 /// Bias and softness of the compliant rows of a joint.
 /// @param elastic per row: what of phi is the spring's own, the rest is drift [m, rad]
 /// @param drift_rate at which drift is taken back [1/s]  @param inverse_mass, u_before per body of

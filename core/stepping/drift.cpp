@@ -1,5 +1,7 @@
 #include "core/stepping/drift.hpp"
 
+#include <algorithm>
+
 #include "core/constraints/hinge_joint.hpp"
 #include "core/stepping/compliance.hpp"
 
@@ -49,15 +51,21 @@ void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double
 }
 
 void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
+                           std::span<const InverseMass> inverse_mass, double dt,
                            double regularisation) {
   double curvature[kMaxRows];
   for (Block& block : joints) {
     curvature_of(block, u, curvature);
+    const auto is_spring = [&](int first, int end) {
+      return first < end && block.C[first] > 0.0 &&
+             spring_kappa({dt, dt, dt}, inverse_mass, block, first, end) < kResolved;
+    };
+    const bool springs[2] = {is_spring(0, std::min(3, block.rows)), is_spring(3, block.rows)};
     for (int row = 0; row < block.rows; ++row) {
       block.bias[row] = curvature[row];
       block.softness[row] = regularisation;
       block.impulse[row] = block.given[row] = 0.0;
-      if (block.C[row] > 0.0) give_force(block, row, -block.phi[row] / block.C[row]);
+      if (springs[row < 3 ? 0 : 1]) give_force(block, row, -block.phi[row] / block.C[row]);
     }
   }
 }

@@ -4,6 +4,7 @@
 
 #include "core/constraints/block.hpp"
 #include "core/model/settings.hpp"
+#include "core/solver/system.hpp"
 
 namespace substep {
 
@@ -28,8 +29,12 @@ double drift_rate(Drift law, double tau, double dt);
 void add_curvature_bias(std::span<Block> blocks, std::span<const Vec6> u, double dt);
 
 /// J a = -phi'' for joints: the accelerations a that keep their velocities. Compliant rows are
-/// springs that push with -phi/C. @param u velocities [m/s, rad/s]  @param regularisation [1/kg]
-void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u, double regularisation);
+/// springs that push with -phi/C where sub-steps of dt resolve them, else they hold as rigid ones
+/// do.
+/// @param u velocities [m/s, rad/s]  @param regularisation [1/kg]
+void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
+                           std::span<const InverseMass> inverse_mass, double dt,
+                           double regularisation);
 
 /// For the probe: no error is taken back, open contacts stay open. @param dt [s]
 void set_probe_bias(std::span<Block> blocks, double dt);

@@ -360,11 +360,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"AngleNoNumber", "generate rope --angle nan", "not in range"},
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
-        BadCall{"UnknownCommand", "chek",
-                "chek is not run, sweep, cost, recommend, merge, reproduce, check, hash, scenes, "
-                "generate or "
-                "map (did "
-                "you mean \"check\"?)"},
+        BadCall{
+            "UnknownCommand", "chek",
+            "chek is not run, sweep, cost, recommend, merge, reproduce, check, exam, hash, scenes, "
+            "generate or "
+            "map (did "
+            "you mean \"check\"?)"},
         BadCall{"NoCommand", "", "subcommand"},
         BadCall{"NoScene", "run", "scene or --experiments is required"},
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},

@@ -32,7 +32,7 @@ substep_mutation(outer_friction_passes core/solver/bpp.cpp "kPasses = [0-9]+" "k
 substep_mutation(compliance_on_redundant_rows core/sim/substep.cpp
   "block\\.C\\[row\\] \\* per_dt2" "0.0 * per_dt2"
   paper_tests HeavyStack.ContactComplianceFallsWhateverTheSteps)
-substep_mutation(soft_drift_with_PGS core/sim/substep.cpp "drift_law\\(settings\\)" "Drift::kFull"
+substep_mutation(soft_drift_with_PGS core/stepping/drift.cpp "law == Drift::kSoft && dt < tau" "false"
   paper_tests SwingingBoxPgs.AdaptiveHoldsWithTheSoftDriftLaw)
 substep_mutation(the_diagonal_in_Newtons_mass core/solver/newton.cpp
   "k\\.cwiseMax\\(0\\.0\\)" "(0.0 * k)" paper_tests NewtonAtTheEnd.StandsAtOneSubstepAndDamps)

@@ -218,6 +218,7 @@ TEST(OrderInSpace, IsKeptByAdaptiveSubsteps) {
         substeps[i] = static_cast<double>(run.substeps());
         error[i] = error_of(scene, end, method.settings);
       }
+      if (error[1] < 40.0 * kLastDigits) continue;
       const double order = std::log(error[0] / error[1]) / std::log(substeps[1] / substeps[0]);
       EXPECT_GT(order, method.order) << start.name << ", " << method.name;
     }
@@ -264,7 +265,7 @@ TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
 }
 
 // It has no stiffness to speak of, so that the paper's rule gives it one sub-step a frame: a whole
-// radian. The rotation criterion asks for turns of 2 sqrt(alpha)/2 = 0.32 rad, four a frame.
+// radian. The rotation criterion asks for turns of 2 sqrt(alpha)/3.2 = 0.2 rad, six a frame.
 /// A disc that spins fast enough to stand: (I_3 w)^2 > 4 I_1 m g l.
 BallChain standing_top() {
   BallChain::Link top;
@@ -301,7 +302,7 @@ TEST(RotationCriterion, KeepsATopUpThatTheStiffnessKnowsNothingOf) {
   Settings settings;
   int n = 0;
   EXPECT_NEAR(lowest(settings, n), y_exact, 0.003);
-  EXPECT_EQ(n, 4);
+  EXPECT_EQ(n, 6);
   settings.rotation_criterion = false;
   EXPECT_LT(lowest(settings, n), y_exact - 0.003) << "the paper's own rule, with N = " << n;
 }

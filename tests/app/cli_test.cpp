@@ -209,7 +209,7 @@ TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   EXPECT_EQ(error.exit_code, 0) << error.err;
   EXPECT_NE(error.out.find("The cheapest within 0.01 m: "), std::string::npos) << error.out;
   EXPECT_NE(error.out.find("the largest alpha that does is "), std::string::npos) << error.out;
-  const std::size_t command = error.out.find("substep run pendulum ");
+  const std::size_t command = error.out.find("substep run pendulum");
   ASSERT_NE(command, std::string::npos);
   const std::string line = error.out.substr(command, error.out.find('\n', command) - command);
   EXPECT_EQ(substep(line.substr(8) + " --seconds 2").exit_code, 0) << "what it tells can be run";

@@ -202,7 +202,7 @@ TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
     EXPECT_LT(share(loss(start, fine, 1e-9), own), 0.1);
   }
   EXPECT_GT(finest, 1.0);
-  EXPECT_GT(micrometre, 0.3);
+  EXPECT_GT(micrometre, 0.1);
 }
 
 // What the ball loses where it lands, beside leapfrog with 128 sub-steps, in the mean of the starts

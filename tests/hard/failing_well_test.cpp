@@ -124,8 +124,8 @@ TEST(Remedies, ASmallerAlphaHelpsTheTallStack) {
   expect_helped(scene, {.alpha = 0.1});
 }
 
-TEST(Remedies, TheSoftDriftLawHelpsAChainBesideFallingCrates) {
-  expect_helped(scenes::wrecking_ball(), {.integrator = Integrator::kLeapfrog});
+TEST(Remedies, TheSoftDriftLawHelpsSweeps) {
+  expect_helped(scenes::swinging_box(), {.solver = SolverKind::kPgs, .drift = Drift::kFull});
 }
 
 TEST(Remedies, TheDirectSolverIsOneWhereSweepsAreNotEnough) {

@@ -40,7 +40,8 @@ bool same_output(const std::string& a, const std::string& b) {
   if (a == "-" || b == "-") return a == b;
   namespace fs = std::filesystem;
   std::error_code error;
-  if (fs::is_character_file(a, error)) return false;  // /dev/null takes what it is given
+  if (fs::is_character_file(a, error))
+    return false;  // a device such as /dev/null may be named twice
   if (a == b || fs::equivalent(a, b, error)) return true;
   const fs::path path_a = fs::weakly_canonical(a, error);
   const fs::path path_b = fs::weakly_canonical(b, error);

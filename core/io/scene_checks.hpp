@@ -18,7 +18,7 @@ struct SoundParts {
 void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems);
 
 /// Every joint of a sound scene agrees with its poses and velocities, within the tolerances of
-/// sim/joint_starts.hpp. A scene that goes on from a saved run is not looked at.
+/// sim/joint_starts.hpp. A scene that continues a saved run is not checked.
 void check_refused(const Scene& scene, Problems& problems);
 
 /// Rows that say the same twice have no unique forces: without compliance the answer is NaN.

@@ -1,5 +1,5 @@
 #pragma once
-// The exam: scenes whose answer somebody else has published, or that have one in closed form, run
+// The exam: scenes with a published answer or a closed form, run
 // by several methods and measured from that answer. No file is read and nothing is printed here.
 
 #include <functional>

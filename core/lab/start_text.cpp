@@ -28,7 +28,7 @@ std::string turning_text(double turning) {
   return "turning across its axis at " + short_text(turning, "rad/s");
 }
 
-// Both energies are told: what was lost may be little of them.
+// Prints both energies: their difference may be a small part of either.
 std::string energy_text(double energy) {
   std::array<char, 48> text{};
   std::snprintf(text.data(), text.size(), "%.6g J", energy);

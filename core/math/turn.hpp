@@ -23,7 +23,7 @@ inline Mat3 turn_matrix(const Vec3& c) {
 }
 
 /// tan(x)/x to the third order of x, |x| half the angle of a turn: what its Cayley vector is longer
-/// by. Past a radian it grows no more: such a turn is nobody's solution, but its numbers stay
+/// by. Clamped past one radian, where the expansion no longer holds, so that its numbers stay
 /// finite.
 inline double half_tangent_factor(const Vec3& half_turn) {
   const double square = half_turn.squaredNorm();

@@ -14,10 +14,11 @@ namespace substep {
 
 namespace {
 
-// Turn of a sub-step up to which torques are foretold [rad]. What they change of the turn comes
-// back as a torque, by some four times the turn with each sub-step: a top that turned by 0.25 rad
-// tore off. Past it a body turns as if there were no torque: of first order, and stable.
-constexpr double kMostForetold = 0.2;
+// Largest turn of a sub-step for which the torque is predicted [rad]. The error of a prediction
+// feeds back into the next torque with a gain of about four times the turn: at 0.25 rad a heavy
+// top's joint failed. For larger turns the torque is taken as zero, which is stable and of first
+// order.
+constexpr double kMaxPredictedTurn = 0.2;
 
 bool is_zero(const Vec3& v) { return v.isZero(0.0); }
 
@@ -33,7 +34,7 @@ bool Simulator::Impl::tumbles(std::size_t body) const {
 
 void Simulator::Impl::gyroscopic_torques(double dt) {
   if (settings.gyroscopic == Gyroscopic::kImplicit) {
-    return follows_accelerations(settings) ? carry_momentum(dt) : foretell_gyroscopic(dt);
+    return follows_accelerations(settings) ? carry_momentum(dt) : predict_gyroscopic(dt);
   }
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
@@ -50,13 +51,14 @@ void Simulator::Impl::resize_torques() {
   spins.resize(state.u.size());
 }
 
-// The solver knows M u+ = M u* + J^T impulse, while in truth the momentum p at the start of the
-// sub-step goes on as p + J^T impulse = I u+ - dt/2 (I u+) x u+. What is on the right beside I u+
-// is foretold from torques that go on changing as they did, and settle_gyroscopic() puts right what
-// they changed: to the third order of dt, which the drift correction takes back, while momentum is
-// exact. Where a mode has put another mass in the place of I, or Newton's forces damp as those of
-// the end do, a body turns as if there were no torque: of first order they are in any case.
-void Simulator::Impl::foretell_gyroscopic(double dt) {
+// The solver assumes M u+ = M u* + J^T impulse, while the angular momentum p at the start of the
+// sub-step obeys p + J^T impulse = I u+ - dt/2 (I u+) x u+. The gyroscopic term on the right is
+// predicted by extrapolating the torques linearly; settle_gyroscopic() then solves for u+ with the
+// exact momentum. The correction is O(dt^3) and violates the joints by as much, which the drift
+// correction removes. No torque is predicted where a mode replaces the mass, where Newton takes its
+// forces at the end of the sub-step, or where the turn is large: these cases are of first order
+// anyway.
+void Simulator::Impl::predict_gyroscopic(double dt) {
   resize_torques();
   const bool damps = settings.solver == SolverKind::kNewton && settings.forces == Forces::kEnd;
   loops_bend = bends_rows() && closes_loops() && any_out_of_axis();
@@ -70,7 +72,7 @@ void Simulator::Impl::foretell_gyroscopic(double dt) {
     spin = {I.cwiseProduct(omega_B), Vec3::Zero(), state.u[i].tail<3>(), false, false};
     if (is_zero(gyroscopic_torque(I, omega_B)) && !loops_bend) continue;  // about a principal axis
     spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
-    spin.damped = damps || dt * state.u[i].tail<3>().norm() > kMostForetold ||
+    spin.damped = damps || dt * state.u[i].tail<3>().norm() > kMaxPredictedTurn ||
                   changes_mass_of(i, *scene, settings, state, dt);
     Vec3 pushed = Vec3::Zero();
     if (!spin.damped) {
@@ -78,22 +80,21 @@ void Simulator::Impl::foretell_gyroscopic(double dt) {
     }
     const Vec3 guess = omega_B + pushed.cwiseQuotient(I);
     const Vec3 then = velocity_of_momentum(I, spin.momentum + pushed, dt, guess);
-    spin.foretold = 0.5 * dt * gyroscopic_torque(I, then);
+    spin.predicted = 0.5 * dt * gyroscopic_torque(I, then);
     spin.omega = R * then;
     spin.out_of_axis = true;
     state.u[i].tail<3>() =
-        R * (spin.damped ? then : Vec3((spin.momentum + spin.foretold).cwiseQuotient(I)));
+        R * (spin.damped ? then : Vec3((spin.momentum + spin.predicted).cwiseQuotient(I)));
   }
 }
 
-// A sub-step is solved with the gradients at its start, and what its turns bend, dt^2/2 phi'', is
-// left for the next one. Where axes stay parallel that is a steady lag along the joint's arm; in
-// space the force then turns the bodies about where it acts, and their momentum and energy drift.
-// There the rows are to hold where the turns lead that were foretold:
+// A sub-step is solved with the gradients at its start, which leaves dt^2/2 phi'' as an error for
+// the next one. In a plane that is a steady lag along the joint's arm. In space the force acts off
+// the joint by as much, and angular momentum and energy drift. The rows therefore hold at the
+// predicted poses:
 //   phi + (r_a^ - r_a) - (r_b^ - r_b) + dt (J u+ - J_omega omega^) = 0,
-// and in the same way those of a hinge. Centres go in a straight line: they drop out.
-// Torques are foretold where they go on changing as they did. Blows do not, and light links that
-// they throw about would be aimed at turns that never come: with contacts, joints keep to Eq. 3.
+// and likewise for a hinge. The centres move in straight lines, so they drop out. Impacts cannot be
+// predicted: in scenes with contacts joints keep to Eq. 3.
 bool Simulator::Impl::bends_rows() const {
   const bool looks_ahead = settings.solver == SolverKind::kNewton ||
                            settings.solver == SolverKind::kXpbd || follows_accelerations(settings);
@@ -103,7 +104,7 @@ bool Simulator::Impl::bends_rows() const {
 
 // Around a loop either all rows are bent or none: rows of a mechanism that has more of them than it
 // needs contradict each other where some see the turn and some do not, by dt/2 phi''. Then bodies
-// about a principal axis are foretold like the others.
+// about a principal axis are predicted like the others.
 bool Simulator::Impl::closes_loops() {
   const auto joined = std::count_if(rows().begin(), rows().end(), [](const Block& block) {
     return !block.is_contact() && !is_grab(block);
@@ -123,7 +124,7 @@ bool Simulator::Impl::any_out_of_axis() const {
 
 void Simulator::Impl::bend_rows(double dt) {
   const auto turns = [&](int body) { return body >= 0 && spins[index(body)].out_of_axis; };
-  const auto foretold_turn = [&](int body) {
+  const auto predicted_turn = [&](int body) {
     Vec6 u = Vec6::Zero();
     if (body >= 0) {
       const std::size_t i = index(body);
@@ -133,9 +134,9 @@ void Simulator::Impl::bend_rows(double dt) {
   };
   for (Block& block : rows()) {
     if (block.is_contact() || is_grab(block) || !(turns(block.a) || turns(block.b))) continue;
-    const Vec6 u_a = foretold_turn(block.a);
-    const Vec6 u_b = foretold_turn(block.b);
-    if (dt * std::max(u_a.tail<3>().norm(), u_b.tail<3>().norm()) > kMostForetold) continue;
+    const Vec6 u_a = predicted_turn(block.a);
+    const Vec6 u_b = predicted_turn(block.b);
+    if (dt * std::max(u_a.tail<3>().norm(), u_b.tail<3>().norm()) > kMaxPredictedTurn) continue;
     double bent[kMaxRows];
     double speed[kMaxRows];
     moved_errors(block, motion(u_a, dt), motion(u_b, dt), bent);
@@ -166,7 +167,7 @@ void Simulator::Impl::settle_gyroscopic(double dt) {
     state.torque[i].setZero();
     state.torque_change[i].setZero();
     if (spin.damped) continue;
-    const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.foretold);
+    const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.predicted);
     if (turns_freely && !loops_bend) continue;
     // From the momentum that it had: turned to and fro it would lose a digit every thousand steps.
     const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - u_before[i].tail<3>()));

@@ -23,7 +23,7 @@ class Schedule {
   [[nodiscard]] int number() const { return turns_[at_].clock.taken() + 1; }  ///< 1 is the first
   [[nodiscard]] bool last_of_part() const { return turns_[at_].clock.left() == 1; }
   [[nodiscard]] bool needs_stiffness() const { return turns_[at_].clock.needs_stiffness(); }
-  /// Goes on to the next one. @param r, r_rotation of this one, where they are needed [1/s^2]
+  /// Advances to the next sub-step. @param r, r_rotation of this one, where they are needed [1/s^2]
   void advance(double r, double r_rotation);
 
   [[nodiscard]] int left() const;  ///< sub-steps of the frame to come, as decided so far

@@ -61,14 +61,14 @@ struct Simulator::Impl {
   bool tumbles(std::size_t body) const;          // and keeps to its angular momentum
   struct Spin {                                  // about the principal axes [N m s]
     Vec3 momentum = Vec3::Zero();                // at the start of the sub-step
-    Vec3 foretold = Vec3::Zero();                // dt/2 of the gyroscopic torque in it
-    Vec3 omega = Vec3::Zero();                   // foretold, world [rad/s]
+    Vec3 predicted = Vec3::Zero();               // dt/2 of the gyroscopic torque in it
+    Vec3 omega = Vec3::Zero();                   // predicted, world [rad/s]
     bool out_of_axis = false;                    // else it turns about a principal axis
     bool damped = false;                         // its momentum is not kept
   };
   void gyroscopic_torques(double dt);  // into u, before the solve
   void resize_torques();
-  void foretell_gyroscopic(double dt);
+  void predict_gyroscopic(double dt);
   bool bends_rows() const;
   bool closes_loops();  // of the part: it has more joints than bodies
   bool any_out_of_axis() const;

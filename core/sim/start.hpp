@@ -13,7 +13,7 @@ namespace substep {
 struct StartReport {
   StartErrors found;          // of the scene as it stands
   StartErrors left;           // of the state that the run begins with
-  bool continued = false;     // the scene goes on from a saved run: its errors are left alone
+  bool continued = false;     // the scene continues a saved run: its errors are not corrected
   bool projected = false;     // poses or velocities were changed
   bool failed = false;        // no near start agrees with the joints: kept as it stands
   double energy_found = 0.0;  // kinetic and potential, of the scene as it stands [J]
@@ -26,7 +26,7 @@ struct Start {
 };
 
 /// The state that a run of the scene begins with, by Scene::start. A start within tolerance
-/// (joint_starts.hpp), and a scene that goes on from a saved run, is initial_state() bit for bit.
+/// (joint_starts.hpp), and a scene that continues a saved run, is initial_state() bit for bit.
 /// A scene in memory that is to be refused is kept: refusing is the reader's.
 Start start_of_run(const Scene& scene);
 

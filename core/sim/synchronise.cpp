@@ -1,4 +1,4 @@
-// Velocities at the time of the poses, which those of a sub-step stand half of one behind.
+// Velocities at the time of the poses; those of a sub-step are half a sub-step older.
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 
 namespace substep {
 
-// The forces just found push on for half a sub-step; an impact is no force, so nothing is added
-// then. A joint's force acts where the joint is at the new poses: there it does no work, and
-// angular momentum about what holds a chain stays what it is.
+// Applies the forces of the sub-step for half of its length; after an impact nothing is added.
+// Joint forces are applied along the rows at the new poses: there they do no work, and the angular
+// momentum about a fixed anchor is conserved.
 void Simulator::Impl::synchronise(double dt) {
   if (extends_changes()) return extend_changes(dt);
   const auto ahead_after = [&](double dt_previous) {
@@ -21,7 +21,7 @@ void Simulator::Impl::synchronise(double dt) {
     return smooth ? dt / (before + dt) : 0.0;
   };
   const double ahead_of_all = ahead_after(state.dt_previous);
-  // Of solvers that look at the end of the sub-step, forces are at home in the middle of its turns.
+  // Newton and XPBD apply forces along rows at later poses already.
   const bool turns_forces = smooth && joints && settings.solver != SolverKind::kNewton &&
                             settings.solver != SolverKind::kXpbd;
   if (turns_forces) turn_joint_forces(dt);
@@ -38,7 +38,7 @@ void Simulator::Impl::synchronise(double dt) {
   }
 }
 
-// What the torques of joints gain by the turns of their bodies, in momentum: (J+ - J)^T impulse.
+// The change of the joints' angular impulse as their bodies turn: (J+ - J)^T impulse [N m s].
 void Simulator::Impl::turn_joint_forces(double dt) {
   bent_torque.assign(state.u.size(), Vec3::Zero());
   const auto turn_of = [&](int body) {

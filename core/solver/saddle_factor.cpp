@@ -154,7 +154,7 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
 // A small pivot above larger ones makes large multipliers, and those a held pivot below makes
 // larger still: of 1e4 and 1e-8 come 1e16 on the later bodies, and all digits are lost. So where a
 // pivot is held they go from large to small, each beside what it would be held at. Rows of joints
-// keep that order; those of contacts are gathered anew each time, and are left alone.
+// keep that order; contact rows are gathered for each factorisation and keep their order.
 void SaddleLdlt::hold_last(const Node& node, const auto& form) {
   held_ = true;
   if (!node.gathered) return;

@@ -11,7 +11,7 @@ namespace substep {
 // that turns by a radian a sub-step takes one. The rotation criterion puts two rates beside r, both
 // bounded by the same Eq. 10, dt <= 2 sqrt(alpha/r):
 //   the turn itself, r = (kTurnShare |omega|)^2, so that a sub-step turns a body by no more than
-//   2 sqrt(alpha)/kTurnShare (0.2 rad at alpha = 0.1, up to which torques are foretold);
+//   2 sqrt(alpha)/kTurnShare (0.2 rad at alpha = 0.1, up to which torques are predicted);
 //   the gyroscopic rate of Euler's equations linearised about omega,
 //   rate^2 = sum_i omega_i^2 |(I_i - I_j)(I_i - I_k)|/(I_j I_k), at which a disturbance of the axis
 //   swings (or grows), at most |omega| for the moments of any solid.

@@ -64,7 +64,8 @@ ExamMotion rolling_motion(const Scene& scene, const Vec3& along) {
   };
 }
 
-ExamCase rolling(const std::string& name, const std::string& title, const Vec3& along) {
+ExamCase rolling(const std::string& name, const std::string& title, const Vec3& along,
+                 FrictionCone cone) {
   ExamCase exam = exam_case(name, title,
                             "A force of 150 N pulls a box of 10 kg over the ground; 25 balls on "
                             "it roll without slipping.",
@@ -72,6 +73,7 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
   scene.gravity = {0.0, -kGravity, 0.0};
+  scene.settings.friction_cone = cone;
   scene.camera = {{14.0, 9.0, 18.0}, {0.0, 0.5, 0.0}};
   // A pair has the root of its two coefficients' product.
   scene.bodies.push_back(floor_plane());
@@ -100,12 +102,13 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
 }  // namespace
 
 ExamCase exam_rolling() {
-  return rolling("rolling", "SimBenchmark, rolling along an axis", {0.0, 0.0, 1.0});
+  return rolling("rolling", "SimBenchmark, rolling along an axis", {0.0, 0.0, 1.0},
+                 FrictionCone::kBox);
 }
 
 ExamCase exam_rolling_oblique() {
   return rolling("rolling_oblique", "SimBenchmark, rolling at 60 degrees to an axis",
-                 {0.5, 0.0, 0.866025403784439});
+                 {0.5, 0.0, 0.866025403784439}, FrictionCone::kCone);
 }
 
 }  // namespace substep::scenes

@@ -11,6 +11,7 @@
 #include "core/io/scene_reader.hpp"
 #include "core/model/names.hpp"
 #include "core/sim/simulator.hpp"
+#include "scenes/generator/exam.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/bench/allocations.hpp"
 #include "tests/bench/cases.hpp"
@@ -79,6 +80,25 @@ TEST(SmallStepsAndRefinements, AllocateNothingAfterTheFirstFrame) {
                             .mode = Mode::kConst,
                             .detection = Detection::kFrame};
     EXPECT_EQ(allocated(name, settings), 0) << name << ", " << name_of(solver);
+  }
+}
+
+// Bodies that tumble on joints, the closed loop whose redundant rows are refined, and the cone.
+TEST(BodiesInSpaceLoopsAndCones, AllocateNothingAfterTheFirstFrame) {
+  for (const char* name : {"spherical_pendulum", "heavy_top", "whirling_chain"}) {
+    for (const Integrator integrator :
+         {Integrator::kEuler, Integrator::kLeapfrog, Integrator::kStormer}) {
+      EXPECT_EQ(allocated(name, {.integrator = integrator}), 0)
+          << name << ", " << name_of(integrator);
+    }
+  }
+  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
+    const Settings settings{.mode = Mode::kConst, .integrator = integrator};
+    EXPECT_EQ(allocated(scenes::exam_bricard().scene, settings), 0) << name_of(integrator);
+  }
+  for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd}) {
+    const Settings settings{.solver = solver, .friction_cone = FrictionCone::kCone};
+    EXPECT_EQ(allocated("bridge", settings), 0) << name_of(solver);
   }
 }
 

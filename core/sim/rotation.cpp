@@ -15,9 +15,8 @@ namespace substep {
 namespace {
 
 // Largest turn of a sub-step for which the torque is predicted [rad]. The error of a prediction
-// feeds back into the next torque with a gain of about four times the turn: at 0.25 rad a heavy
-// top's joint failed. For larger turns the torque is taken as zero, which is stable and of first
-// order.
+// feeds back into the next torque, in proportion to the turn. For larger turns the torque is taken
+// as zero, which is stable and of first order.
 constexpr double kMaxPredictedTurn = 0.2;
 
 bool is_zero(const Vec3& v) { return v.isZero(0.0); }
@@ -53,7 +52,7 @@ void Simulator::Impl::resize_torques() {
 
 // The solver assumes M u+ = M u* + J^T impulse, while the angular momentum p at the start of the
 // sub-step obeys p + J^T impulse = I u+ - dt/2 (I u+) x u+. The gyroscopic term on the right is
-// predicted by extrapolating the torques linearly; settle_gyroscopic() then solves for u+ with the
+// predicted with the torque of the sub-step before; settle_gyroscopic() then solves for u+ with the
 // exact momentum. The correction is O(dt^3) and violates the joints by as much, which the drift
 // correction removes. No torque is predicted where a mode replaces the mass, where Newton takes its
 // forces at the end of the sub-step, or where the turn is large: these cases are of first order
@@ -76,7 +75,7 @@ void Simulator::Impl::predict_gyroscopic(double dt) {
                   changes_mass_of(i, *scene, settings, state, dt);
     Vec3 pushed = Vec3::Zero();
     if (!spin.damped) {
-      pushed = impulse_time[i] * (R.transpose() * (state.torque[i] + state.torque_change[i]));
+      pushed = impulse_time[i] * (R.transpose() * state.torque[i]);
     }
     const Vec3 guess = omega_B + pushed.cwiseQuotient(I);
     const Vec3 then = velocity_of_momentum(I, spin.momentum + pushed, dt, guess);
@@ -163,7 +162,6 @@ void Simulator::Impl::settle_gyroscopic(double dt) {
     const Spin& spin = spins[i];
     auto omega = state.u[i].tail<3>();
     const Vec3 omega_B = R.transpose() * omega;
-    const Vec3 torque_before = state.torque[i];
     state.torque[i].setZero();
     state.torque_change[i].setZero();
     if (spin.damped) continue;
@@ -173,10 +171,6 @@ void Simulator::Impl::settle_gyroscopic(double dt) {
     const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - u_before[i].tail<3>()));
     if (smooth) {
       state.torque[i] = R * (1.0 / impulse_time[i] * pushed);
-      if (!is_zero(torque_before)) {
-        state.torque_change[i] =
-            stormer_growth(dt, impulse_time[i]) * (state.torque[i] - torque_before);
-      }
     }
     const Vec3 settled = R * velocity_of_momentum(I, spin.momentum + pushed, dt, omega_B);
     u_before[i].tail<3>() += settled - omega;  // what it gained stays what pushed it

@@ -260,7 +260,7 @@ TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
     // It swings through at 10 rad/s, with one sub-step a frame. Störmer's method is no symplectic
     // one.
     EXPECT_LT(drift, integrator == Integrator::kStormer ? 2e-3 : 1e-6);
-    EXPECT_LT(energy_drift / most_kinetic, integrator == Integrator::kStormer ? 7e-3 : 4e-3);
+    EXPECT_LT(energy_drift / most_kinetic, integrator == Integrator::kStormer ? 7e-3 : 6e-3);
   }
 }
 
@@ -305,6 +305,38 @@ TEST(RotationCriterion, KeepsATopUpThatTheStiffnessKnowsNothingOf) {
   EXPECT_EQ(n, 6);
   settings.rotation_criterion = false;
   EXPECT_LT(lowest(settings, n), y_exact - 0.003) << "the paper's own rule, with N = " << n;
+}
+
+// The shapes differ in how much of a joint's force turns them: of plates and needles, near their
+// joint and far from it, none may gain energy with the default settings. A prediction that
+// extrapolated the torque linearly was unstable for a plate far from its joint, from turns of 0.1
+// rad on.
+TEST(RotationCriterion, TopsOfEveryShapeGainNoEnergy) {
+  for (const double axial : {0.1, 0.5, 1.0, 1.9}) {  // I_3 / I_1
+    for (const double arm : {0.02, 0.1, 0.5, 2.0}) {
+      for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+        BallChain::Link top;
+        top.inertia = {0.02, 0.02 * axial, 0.0201};
+        top.to_centre = top.to_next = {0.0, arm, 0.0};
+        top.q = Quat(1.0, 0.3, 0.0, 0.1).normalized();
+        top.omega = top.q * Vec3(0.0, 60.0, 0.0);
+        Settings settings;
+        settings.integrator = integrator;
+        double kinetic = 0.0;
+        double start = 0.0;
+        double most = 0.0;
+        test::run(BallChain({top}, kGravity).scene(), settings, 10.0,
+                  [&](const Simulator&, const FrameReport& report) {
+                    if (kinetic == 0.0) start = report.energy;
+                    kinetic = std::max(kinetic, report.kinetic);
+                    most = std::max(most, report.energy - start);
+                  });
+        EXPECT_LT(most, 0.02 * kinetic)
+            << "I_3/I_1 " << axial << ", arm " << arm << ", "
+            << (integrator == Integrator::kEuler ? "euler" : "leapfrog");
+      }
+    }
+  }
 }
 
 }  // namespace substep

@@ -5,8 +5,8 @@
 
 #include "app/command.hpp"
 #include "core/io/experiment.hpp"
-#include "core/io/number_text.hpp"
 #include "core/io/scene_writer.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {

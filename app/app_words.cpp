@@ -7,10 +7,10 @@
 #include "app/app.hpp"
 #include "app/link.hpp"
 #include "app/tour.hpp"
-#include "core/io/number_text.hpp"
-#include "core/io/scene_limits.hpp"
-#include "core/io/setting_fields.hpp"
 #include "core/lab/presets.hpp"
+#include "core/model/number_text.hpp"
+#include "core/model/scene_limits.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {

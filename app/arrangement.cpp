@@ -5,7 +5,7 @@
 
 #include "app/app.hpp"
 #include "app/link.hpp"
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {

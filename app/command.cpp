@@ -1,6 +1,6 @@
 #include "app/command.hpp"
 
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 

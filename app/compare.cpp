@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 #include <optional>
 
-#include "core/io/number_text.hpp"
-#include "core/io/setting_fields.hpp"
 #include "core/io/settings_json.hpp"
+#include "core/model/number_text.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {

@@ -9,8 +9,8 @@
 #include "app/format.hpp"
 #include "app/ui/handles.hpp"
 #include "core/io/scene_writer.hpp"
-#include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
+#include "core/model/setting_fields.hpp"
 #include "web/instance.hpp"
 
 using nlohmann::json;

@@ -9,8 +9,8 @@
 #include "app/cli/scene_source.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/json.hpp"
-#include "core/io/number_text.hpp"
 #include "core/model/names.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep::cli {
 namespace {

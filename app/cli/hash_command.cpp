@@ -3,10 +3,12 @@
 #include <memory>
 #include <string>
 
+#include "app/cli/budget_flags.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/length_flags.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
+#include "core/lab/stop_text.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep::cli {
@@ -16,6 +18,7 @@ struct HashOptions {
   std::string scene;
   LengthFlags length;
   SettingsFlags settings;
+  BudgetFlags budget;
 };
 
 int hash(const HashOptions& options) {
@@ -23,11 +26,12 @@ int hash(const HashOptions& options) {
   if (!scene) return kBadInput;
   Simulator simulator(scene);
   simulator.set_settings(options.settings.applied_to(*scene));
+  simulator.set_budget(options.budget.budget());
   const std::int64_t frames = options.length.count(*scene);
   for (std::int64_t i = 0; i < frames; ++i) {
     const FrameReport report = simulator.step();
     if (report.status == StepStatus::kOk) continue;
-    std::fprintf(stderr, "the state stopped being finite at %.3f s\n", report.time);
+    std::fprintf(stderr, "stopped at %.3f s: %s\n", report.time, stop_text(*scene, report).c_str());
     return kNotFinite;
   }
   std::printf("%016" PRIx64 "\n", state_hash(simulator.state()));
@@ -44,6 +48,7 @@ void add_hash(CLI::App& app, int& exit_code) {
       ->required();
   options->length.add_to(*command);
   options->settings.add_to(*command);
+  options->budget.add_to(*command);
   command->footer("Example:\n  substep hash bridge --frames 600 --mode const --n 16");
   command->callback([options, &exit_code] { exit_code = hash(*options); });
 }

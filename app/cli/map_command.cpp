@@ -10,8 +10,8 @@
 #include "app/cli/map_picture.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/within.hpp"
-#include "core/io/number_text.hpp"
 #include "core/model/names.hpp"
+#include "core/model/number_text.hpp"
 #include "scenes/generator/scenes.hpp"
 
 namespace substep::cli {

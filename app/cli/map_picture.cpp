@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/cli/format_text.hpp"
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep::cli {
 namespace {

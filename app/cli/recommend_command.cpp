@@ -19,11 +19,11 @@
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
-#include "core/io/setting_fields.hpp"
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"
 #include "core/model/names.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep::cli {
 namespace {

@@ -11,9 +11,9 @@
 #include "app/cli/run_trace.hpp"
 #include "app/report/page.hpp"
 #include "core/io/experiment.hpp"
-#include "core/io/number_text.hpp"
 #include "core/io/result.hpp"
 #include "core/lab/energy_scale.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep::cli {
 namespace {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/cli/budget_flags.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/experiments_input.hpp"
 #include "app/cli/length_flags.hpp"
@@ -15,12 +16,12 @@
 #include "app/cli/settings_flags.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
-#include "core/io/number_text.hpp"
 #include "core/lab/experiment.hpp"
 #include "core/lab/forecast.hpp"
 #include "core/lab/metrics.hpp"
 #include "core/lab/remedy.hpp"
 #include "core/lab/start_text.hpp"
+#include "core/model/number_text.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep::cli {
@@ -35,6 +36,7 @@ struct RunOptions {
   bool quiet = false;
   LengthFlags length;
   SettingsFlags settings;
+  BudgetFlags budget;
 };
 
 /// What the scene will ask for, told before it moves.
@@ -67,6 +69,13 @@ int run(const RunOptions& options) {
 
   Simulator simulator(scene);
   simulator.set_settings(options.settings.applied_to(*scene));
+  simulator.set_budget(options.budget.budget());
+  if (const Problems problems = simulator.problems(); !problems.empty()) {  // --load, for example
+    for (const Problem& problem : problems) {
+      std::fprintf(stderr, "%s: %s\n", scene->name.c_str(), to_string(problem).c_str());
+    }
+    return kBadInput;
+  }
   const FrameReport start = simulator.observe();
   Measure measure(*scene, simulator.state(), start, no_reference());
   const Verdict& verdict = measure.verdict();
@@ -122,6 +131,7 @@ void add_run(CLI::App& app, int& exit_code) {
                       "input; print one result a line");
   command->add_flag("--quiet", options->quiet, "print the verdict only");
   options->settings.add_to(*command);
+  options->budget.add_to(*command);
   command->footer(
       "The last line is the verdict by the scene's own criteria: `holds`, or `fails at 0.352 s: "
       "...`,\n"

@@ -9,7 +9,7 @@
 #include "core/io/json.hpp"
 #include "core/io/motion_csv.hpp"
 #include "core/io/result.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep::cli {
 namespace {

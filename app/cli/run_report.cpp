@@ -4,10 +4,10 @@
 #include <cinttypes>
 
 #include "app/cli/format_text.hpp"
-#include "core/io/number_text.hpp"
 #include "core/lab/energy_scale.hpp"
 #include "core/lab/experiment.hpp"
 #include "core/model/names.hpp"
+#include "core/model/number_text.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep::cli {

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/setting_fields.hpp"
 #include "core/lab/presets.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep::cli {
 

@@ -21,8 +21,8 @@
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
 #include "core/io/experiment.hpp"
-#include "core/io/number_text.hpp"
 #include "core/io/result.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep::cli {
 namespace {

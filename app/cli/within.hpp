@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep::cli {
 

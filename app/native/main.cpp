@@ -21,7 +21,7 @@
 #include "app/native/host.hpp"
 #include "app/render/gl_renderer.hpp"
 #include "app/ui/context.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {

@@ -7,7 +7,7 @@
 #include "app/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep::ui {
 namespace {

@@ -1,6 +1,6 @@
 #include "core/io/body_names.hpp"
 
-#include "core/io/scene_limits.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 
@@ -31,10 +31,6 @@ std::optional<int> BodyNames::read(ObjectReader& in, std::string_view key,
   for (const auto& entry : index_) names.push_back(entry.first);
   in.problem(key, "no body is named " + value_text(name) + in.guess(name, names));
   return std::nullopt;
-}
-
-bool BodyNames::is_static(int body) const {
-  return bodies_[static_cast<std::size_t>(body)].is_static;
 }
 
 }  // namespace substep

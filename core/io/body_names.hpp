@@ -21,8 +21,7 @@ class BodyNames {
   /// The body that a member names, or nothing and a problem.
   std::optional<int> read(ObjectReader& in, std::string_view key, Presence presence) const;
 
-  /// Whether the body never moves.
-  [[nodiscard]] bool is_static(int body) const;
+  [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }
 
  private:
   const std::vector<Body>& bodies_;

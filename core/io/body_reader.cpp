@@ -1,13 +1,12 @@
 #include "core/io/body_reader.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <string>
 
 #include "core/io/object_reader.hpp"
-#include "core/io/scene_limits.hpp"
+#include "core/model/body_checks.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 namespace {
@@ -26,7 +25,7 @@ Shape read_shape(const Json& json, const std::string& pointer, bool is_static, P
     in.vector("size", kSizeRange, size, kRequired);
     shape = Box{0.5 * size};
   } else if (type == "plane") {
-    if (!is_static) in.problem("type", "a plane cannot move: its body needs \"static\": true");
+    if (!is_static) in.problem("type", std::string(kMovingPlane));
     shape = Plane{};
   } else {
     in.problem("type", value_text(type) + " is not sphere, box or plane");
@@ -40,19 +39,12 @@ Shape read_shape(const Json& json, const std::string& pointer, bool is_static, P
 void read_orientation(ObjectReader& in, Quat& target) {
   double q[4] = {1.0, 0.0, 0.0, 0.0};
   if (!in.numbers("orientation", symmetric(2.0, "-"), q, 4, kOptional)) return;
-  const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (!kUnitLength.contains(length)) {
-    std::string message =
-        "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance);
-    if (length > kUnitTolerance) {
-      message += "; at length 1 it is [";
-      for (int i = 0; i < 4; ++i) message += (i > 0 ? ", " : "") + number_text(q[i] / length);
-      message += "]";
-    }
-    in.problem("orientation", message);
+  const Quat orientation(q[0], q[1], q[2], q[3]);
+  if (const auto fault = orientation_fault(orientation)) {
+    in.problem("orientation", *fault);
     return;
   }
-  target = Quat(q[0], q[1], q[2], q[3]);
+  target = orientation;
 }
 
 void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
@@ -62,19 +54,11 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
     if (!has_mass || problems_of_shape > 0) return;
     body.inertia = solid_inertia(body.shape, body.mass);
     if (!(body.inertia.minCoeff() > 0.0) && !std::holds_alternative<Plane>(body.shape)) {
-      in.problem("inertia", "mass and shape are so small that their inertia is 0");
+      in.problem("inertia", std::string(kNoInertia));
     }
     return;
   }
-  Vec3 moments = body.inertia;
-  std::sort(moments.data(), moments.data() + 3);
-  const double sum = moments[0] + moments[1];
-  // A flat body reaches equality: leave room for rounding.
-  if (moments[2] > sum * (1.0 + 1e-9)) {
-    in.problem("inertia", "no body has these moments: " + number_text(moments[2]) +
-                              " is more than the sum of the other two, " + number_text(sum) +
-                              " (kg m^2)");
-  }
+  if (const auto fault = inertia_fault(body.inertia)) in.problem("inertia", *fault);
 }
 
 /// "#rrggbb", as everywhere on the web.
@@ -118,10 +102,10 @@ Body read_body(const Json& json, const std::string& pointer, Problems& problems)
   in.vector("position", kPositionRange, body.position, kRequired);
   read_orientation(in, body.orientation);
   if (body.is_static) {
-    refuse(in, "velocity", "a static body never moves");
-    refuse(in, "angular_velocity", "a static body never moves");
-    refuse(in, "force", "a static body never moves");
-    refuse(in, "torque", "a static body never moves");
+    refuse(in, "velocity", std::string(kStaticMoves));
+    refuse(in, "angular_velocity", std::string(kStaticMoves));
+    refuse(in, "force", std::string(kStaticMoves));
+    refuse(in, "torque", std::string(kStaticMoves));
   } else {
     in.vector("velocity", kVelocityRange, body.velocity, kOptional);
     in.vector("angular_velocity", kAngularVelocityRange, body.angular_velocity, kOptional);

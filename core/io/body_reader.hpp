@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/io/json.hpp"
-#include "core/io/problem.hpp"
 #include "core/model/body.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep {
 

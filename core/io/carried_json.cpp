@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/io/scene_limits.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 

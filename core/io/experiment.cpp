@@ -3,11 +3,11 @@
 #include <cinttypes>
 #include <cstdio>
 
-#include "core/io/number_text.hpp"
-#include "core/io/scene_limits.hpp"
 #include "core/io/scene_writer.hpp"
-#include "core/io/setting_fields.hpp"
 #include "core/io/settings_json.hpp"
+#include "core/model/number_text.hpp"
+#include "core/model/scene_limits.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {

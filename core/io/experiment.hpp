@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "core/io/json.hpp"
-#include "core/io/problem.hpp"
-#include "core/io/range.hpp"
 #include "core/lab/experiment.hpp"
+#include "core/model/problem.hpp"
+#include "core/model/range.hpp"
 
 namespace substep {
 

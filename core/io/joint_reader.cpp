@@ -1,7 +1,8 @@
 #include "core/io/joint_reader.hpp"
 
 #include "core/io/body_reader.hpp"
-#include "core/io/scene_limits.hpp"
+#include "core/model/body_checks.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 namespace {
@@ -9,12 +10,9 @@ namespace {
 void read_bodies(ObjectReader& in, const BodyNames& bodies, JointBase& joint) {
   const auto a = bodies.read(in, "a", kRequired);
   const auto b = bodies.read(in, "b", kRequired);
-  if (a && *a == kWorld) {
-    in.problem("a", "\"world\" never moves: a must move, b may be static or \"world\"");
-  } else if (a && bodies.is_static(*a)) {
-    in.problem("a", "this body is static: a must move, b may be static or \"world\"");
-  } else if (a && b && *a == *b) {
-    in.problem("b", "the same body as a");
+  if (a) {
+    const auto fault = side_fault(bodies.bodies(), *a, b.value_or(kWorld));
+    if (fault) in.problem(fault->side, fault->message);
   }
   if (a && *a != kWorld) joint.a = *a;
   if (b) joint.b = *b;
@@ -23,12 +21,10 @@ void read_bodies(ObjectReader& in, const BodyNames& bodies, JointBase& joint) {
 void read_axis(ObjectReader& in, std::string_view key, Vec3& target) {
   Vec3 axis;
   if (!in.vector(key, symmetric(2.0, "-"), axis, kRequired)) return;
-  const double length = axis.norm();
-  if (kUnitLength.contains(length)) {
-    target = axis;
+  if (const auto fault = axis_fault(axis)) {
+    in.problem(key, *fault);
   } else {
-    in.problem(key,
-               "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance));
+    target = axis;
   }
 }
 

@@ -4,8 +4,8 @@
 
 #include "core/io/body_names.hpp"
 #include "core/io/json.hpp"
-#include "core/io/problem.hpp"
 #include "core/model/joint.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep {
 

@@ -1,6 +1,6 @@
 #include "core/io/json_print.hpp"
 
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {
@@ -147,25 +147,6 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
     const std::string null = "null" + std::string(check.overflow_size - 4, ' ');
     copy.replace(check.overflow_begin, check.overflow_size, null);
   }
-}
-
-std::string pointer_to(std::string_view parent, std::string_view key) {
-  std::string pointer(parent);
-  pointer += '/';
-  for (const char c : key) {
-    if (c == '~') {
-      pointer += "~0";
-    } else if (c == '/') {
-      pointer += "~1";
-    } else {
-      pointer += c;
-    }
-  }
-  return pointer;
-}
-
-std::string pointer_to(std::string_view parent, std::size_t index) {
-  return std::string(parent) + "/" + std::to_string(index);
 }
 
 std::string value_text(const Json& value) {

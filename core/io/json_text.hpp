@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "core/io/json.hpp"
-#include "core/io/problem.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep {
 
@@ -19,10 +19,6 @@ inline constexpr std::size_t kMaxJsonValues = 4'000'000;  // values of any kind
 /// stands twice in an object (the last one counts) and a number beyond the range of doubles (null
 /// stands in its place) are problems with a pointer, and there is a document all the same.
 std::optional<Json> parse_json(std::string_view text, Problems& problems);
-
-/// The pointer of a member: "/bodies" and "a/b" give "/bodies/a~1b" (RFC 6901).
-std::string pointer_to(std::string_view parent, std::string_view key);
-std::string pointer_to(std::string_view parent, std::size_t index);
 
 /// A value as messages show it: on one line, cut when it is long.
 std::string value_text(const Json& value);

@@ -7,9 +7,9 @@
 
 #include "core/io/json.hpp"
 #include "core/io/json_text.hpp"
-#include "core/io/problem.hpp"
-#include "core/io/range.hpp"
 #include "core/math/types.hpp"
+#include "core/model/problem.hpp"
+#include "core/model/range.hpp"
 
 namespace substep {
 

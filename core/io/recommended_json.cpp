@@ -3,10 +3,10 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/number_text.hpp"
-#include "core/io/scene_limits.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/model/names.hpp"
+#include "core/model/number_text.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 namespace {

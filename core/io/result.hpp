@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "core/io/json.hpp"
-#include "core/io/problem.hpp"
 #include "core/lab/effect_cost.hpp"
 #include "core/lab/experiment_run.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep {
 

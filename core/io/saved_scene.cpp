@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "core/io/scene_limits.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 namespace {

@@ -11,15 +11,17 @@
 #include "core/io/body_reader.hpp"
 #include "core/io/carried_json.hpp"
 #include "core/io/effect_names.hpp"
-#include "core/io/effects_of.hpp"
 #include "core/io/joint_reader.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/io/recommended_json.hpp"
-#include "core/io/scene_checks.hpp"
-#include "core/io/scene_limits.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
+#include "core/lab/start_text.hpp"
+#include "core/model/effects_of.hpp"
 #include "core/model/names.hpp"
+#include "core/model/scene_checks.hpp"
+#include "core/model/scene_limits.hpp"
+#include "core/sim/joint_starts.hpp"
 
 namespace substep {
 namespace {
@@ -183,7 +185,7 @@ bool read_effects(ObjectReader& in, Scene& scene) {
 }
 
 /// A listed scene must list all that its content needs.
-void check_effects(ObjectReader& in, const Scene& scene) {
+void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& problems) {
   const Effects& listed = scene.effects;
   const auto missing = [&](std::string_view effect, const std::string& why) {
     std::string message = value_text(effect);
@@ -192,35 +194,8 @@ void check_effects(ObjectReader& in, const Scene& scene) {
     in.problem("effects", message);
   };
   if (!listed.gravity && in.member("gravity", kOptional)) missing("gravity", "/gravity is given");
-  if (!listed.joints && !scene.joints.empty()) {
-    missing("joints", "/joints has " + std::to_string(scene.joints.size()));
-  }
   if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");
-  for (std::size_t i = 0; i < scene.bodies.size() && !listed.external; ++i) {
-    const Body& body = scene.bodies[i];
-    if (body.force == Vec3::Zero() && body.torque == Vec3::Zero()) continue;
-    const char* key = body.force != Vec3::Zero() ? "force" : "torque";
-    missing("external", pointer_to(pointer_to("/bodies", i), key) + " is given");
-    break;
-  }
-  // What contacts can have besides their normal rows, and who asks for it.
-  const auto needs_contact = [&](bool Effects::*effect, const char* name, double Body::*coefficient,
-                                 bool of_static) {
-    if (!listed.contact && listed.*effect) {
-      missing("contact", "\"" + std::string(name) + "\" needs it");
-    }
-    if (!listed.contact || listed.*effect) return;
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const Body& body = scene.bodies[i];
-      if ((body.is_static && !of_static) || !body.collides || body.*coefficient == 0.0) continue;
-      missing(name,
-              pointer_to(pointer_to("/bodies", i), name) + " is " + number_text(body.*coefficient));
-      return;
-    }
-  };
-  // Both bodies must rub, but one that bounces is enough: a static one counts too.
-  needs_contact(&Effects::friction, "friction", &Body::friction, false);
-  needs_contact(&Effects::restitution, "restitution", &Body::restitution, true);
+  check_effects(scene, problems);
 }
 
 void read_start(ObjectReader& in, Scene& scene) {
@@ -233,6 +208,18 @@ void read_start(ObjectReader& in, Scene& scene) {
   std::vector<std::string_view> names;
   for (const auto& entry : NameTable<StartPolicy>::entries) names.push_back(entry.name);
   in.problem("start", value_text(name) + " is not " + one_of(names));
+}
+
+/// Every joint of a sound scene agrees with its poses and velocities, within the tolerances of
+/// sim/joint_starts.hpp. A scene that continues a saved run is not checked.
+void check_refused(const Scene& scene, Problems& problems) {
+  if (scene.carried) return;
+  const std::vector<JointStart> starts = joint_starts(scene, initial_state(scene));
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (!starts[i].beyond.any()) continue;
+    problems.push_back({pointer_to("/joints", i),
+                        "\"start\" is \"refuse\", and this joint is " + fault_text(starts[i])});
+  }
 }
 
 void read_all(const Json& json, Scene& scene, Problems& problems) {
@@ -262,7 +249,7 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
   in.finish();
 
   if (listed) {
-    check_effects(in, scene);
+    check_listed_effects(in, scene, problems);
   } else {
     scene.effects = effects_of(scene);
   }
@@ -272,10 +259,6 @@ void read_all(const Json& json, Scene& scene, Problems& problems) {
 }
 
 }  // namespace
-
-std::string to_string(const Problem& problem) {
-  return problem.pointer.empty() ? problem.message : problem.pointer + ": " + problem.message;
-}
 
 SceneResult read_scene(std::string_view text) {
   SceneResult result;

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/problem.hpp"
+#include "core/model/problem.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "core/io/number_text.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/model/number_text.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {

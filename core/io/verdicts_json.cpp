@@ -2,9 +2,9 @@
 
 #include <string_view>
 
-#include "core/io/scene_limits.hpp"
-#include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
+#include "core/model/scene_limits.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {

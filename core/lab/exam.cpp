@@ -8,19 +8,13 @@
 #include <utility>
 
 #include "core/lab/experiment.hpp"
+#include "core/lab/stop_text.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-std::string status_text(const FrameReport& report, const Scene& scene) {
-  if (report.status == StepStatus::kOk) return "";
-  std::string text = report.status == StepStatus::kNotFinite ? "not finite" : "too many contacts";
-  if (report.failed_body >= 0) text += " (" + scene.bodies[index(report.failed_body)].name + ")";
-  return text;
-}
 
 /// Steps a run to its end and measures it.
 class Run {
@@ -63,7 +57,7 @@ class Run {
     // A frame of one sub-step is over by now.
     if (!exam_.needs_forces || simulator_.substeps_left() > 0) report = simulator_.step();
     row_.substeps += report.n_substeps;
-    row_.status = status_text(report, exam_.scene);
+    row_.status = stop_text(exam_.scene, report);
     if (row_.status.empty() && !exam_.needs_forces) look(simulator_.state(), report, {});
   }
 

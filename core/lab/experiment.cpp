@@ -6,6 +6,7 @@
 
 #include "core/math/random.hpp"
 #include "core/model/names.hpp"
+#include "core/model/scene_limits.hpp"
 #include "core/stepping/mode_rules.hpp"
 #include "core/stepping/substep_clock.hpp"
 
@@ -20,20 +21,33 @@ Body& heaviest(std::vector<Body>& bodies) {
   });
 }
 
+/// The number itself, or the end of the range that it is beyond.
+double kept(double value, const Range& range) {
+  const double least = range.open_below ? std::numeric_limits<double>::min() : range.least;
+  return std::clamp(value, least, range.most);
+}
+
 void apply_load(double load, Scene& scene) {
   if (scene.bodies.empty()) return;
   Body& body = heaviest(scene.bodies);
-  body.mass *= load;
-  body.inertia *= load;
-  if (scene.criteria.energy_gain) *scene.criteria.energy_gain *= load;
-  if (scene.criteria.energy_scale) *scene.criteria.energy_scale *= load;
+  if (body.is_static) return;
+  const double most =
+      std::min(kMassRange.most / body.mass, kInertiaRange.most / body.inertia.maxCoeff());
+  load = std::min(load, most);  // the scene stays one that can be run
+  body.mass = kept(body.mass * load, kMassRange);
+  for (double& moment : body.inertia) moment = kept(moment * load, kInertiaRange);
+  for (auto* energy : {&scene.criteria.energy_gain, &scene.criteria.energy_scale}) {
+    if (*energy) **energy = kept(**energy * load, kEnergyRange);
+  }
 }
 
 void nudge(int seed, Scene& scene) {
   Random random(static_cast<std::uint64_t>(seed));
   for (Body& body : scene.bodies) {
     if (body.is_static) continue;
-    for (int axis = 0; axis < 3; ++axis) body.velocity[axis] += kNudge * random.next();
+    for (double& speed : body.velocity) {
+      speed = kept(speed + kNudge * random.next(), kVelocityRange);
+    }
   }
 }
 

@@ -1,17 +1,18 @@
 #include "core/lab/experiment_run.hpp"
 
 #include <chrono>
+#include <memory>
 
 namespace substep {
 
 ExperimentRun::ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference)
     : experiment_(std::move(experiment)),
-      scene_(std::make_shared<const Scene>(start_of(scene, experiment_.load, experiment_.seed))),
-      simulator_(scene_),
+      simulator_(
+          std::make_shared<const Scene>(start_of(scene, experiment_.load, experiment_.seed))),
       report_(simulator_.observe()),
       reference_(experiment_.load == 1.0 ? reference : no_reference()),
-      measure_(*scene_, simulator_.state(), report_, reference_),
-      frames_(frames_of(*scene_, experiment_.duration)) {
+      measure_(simulator_.scene(), simulator_.state(), report_, reference_),
+      frames_(frames_of(simulator_.scene(), experiment_.duration)) {
   simulator_.set_settings(experiment_.settings);
 }
 
@@ -23,7 +24,7 @@ bool ExperimentRun::advance() {
   const auto before = std::chrono::steady_clock::now();
   report_ = simulator_.step();
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
-  measure_.add(*scene_, simulator_.state(), report_, wall.count());
+  measure_.add(simulator_.scene(), simulator_.state(), report_, wall.count());
   return !is_over();
 }
 
@@ -33,7 +34,7 @@ double ExperimentRun::progress() const {
 }
 
 Result ExperimentRun::result() const {
-  return {experiment_, measure_.metrics(*scene_, simulator_.state()), reference_};
+  return {experiment_, measure_.metrics(simulator_.scene(), simulator_.state()), reference_};
 }
 
 }  // namespace substep

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <memory>
-
 #include "core/lab/experiment.hpp"
 #include "core/lab/metrics.hpp"
 #include "core/lab/reference.hpp"
@@ -34,7 +32,6 @@ class ExperimentRun {
 
  private:
   Experiment experiment_;
-  std::shared_ptr<const Scene> scene_;
   Simulator simulator_;
   FrameReport report_;  // of the last frame
   const Reference& reference_;

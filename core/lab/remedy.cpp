@@ -18,7 +18,10 @@ int larger(int cap, int wanted) {
 
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) {
   std::vector<Remedy> all;
-  if (last.status == StepStatus::kTooManyContacts) return all;  // it is the scene that has too many
+  if (last.status == StepStatus::kTooManyContacts ||  // it is the scene that has too many
+      last.status == StepStatus::kOverBudget || last.status == StepStatus::kInvalid) {
+    return all;
+  }
   const auto add = [&](const std::string& text, const std::string& why = {}) -> Settings& {
     return all.emplace_back(Remedy{text, why, settings}).settings;
   };

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/collision/detector.hpp"
+#include "core/lab/stop_text.hpp"
 
 namespace substep {
 
@@ -21,15 +21,14 @@ std::string exceeds(const char* what, double value, double limit, const char* un
 
 Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& start)
     : energy_at_start_(start.energy) {
-  if (scene.criteria.displacement) {
-    watched_start_ = state.x[static_cast<std::size_t>(scene.criteria.displacement->body)];
-  }
+  if (start.status == StepStatus::kInvalid || !scene.criteria.displacement) return;
+  watched_start_ = state.x[static_cast<std::size_t>(scene.criteria.displacement->body)];
 }
 
 void Verdict::add(const Scene& scene, const State& state, const FrameReport& report) {
   if (failed_) return;
   const Criteria& criteria = scene.criteria;
-  std::string why;
+  std::string why = stop_text(scene, report);
   // The first criterion that is passed is the reason; all of them strain.
   const auto judge = [&](const char* what, double value, double limit, const char* unit,
                          const std::string& who) {
@@ -38,22 +37,17 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
     why = exceeds(what, value, limit, unit);
     if (!who.empty()) why += " (" + who + ")";
   };
-  if (report.status == StepStatus::kNotFinite) {
-    why = "not finite (" + scene.bodies[static_cast<std::size_t>(report.failed_body)].name + ")";
-  }
-  if (report.status == StepStatus::kTooManyContacts) {
-    why = "more than " + std::to_string(kMaxContacts) + " contacts or " +
-          std::to_string(kMaxPairs) + " pairs of bodies near each other";
-  }
   stopped_ = report.status != StepStatus::kOk;
   if (report.joint_gap_joint >= 0) {
     const auto joint = static_cast<std::size_t>(report.joint_gap_joint);
     judge("joint gap", report.joint_gap, criteria.joint_gap, "m", base(scene.joints[joint]).name);
   }
-  if (!disturbed_ && criteria.energy_gain) {
+  // Of an invalid scene there is no state.
+  const bool judged = !disturbed_ && report.status != StepStatus::kInvalid;
+  if (judged && criteria.energy_gain) {
     judge("energy gain", report.energy - energy_at_start_, *criteria.energy_gain, "J", {});
   }
-  if (!disturbed_ && criteria.displacement) {
+  if (judged && criteria.displacement) {
     const auto body = static_cast<std::size_t>(criteria.displacement->body);
     judge("moved", (state.x[body] - watched_start_).norm(), criteria.displacement->distance, "m",
           scene.bodies[body].name);

@@ -56,13 +56,13 @@ void Simulator::Impl::probe(FrameReport& report) {
   settings.mode = Mode::kNone;               // Mt = M: there is no k to damp by yet
   settings.integrator = Integrator::kEuler;  // forces act for the whole of h
   begin_substep(report);
-  const bool has_rows = append_rows(report);
-  if (has_rows) {
+  bool solved = append_rows(report);
+  if (solved) {
     external_forces(h, report);
-    solve(h, true, report);
+    solved = solve(h, report, true);
   }
   settings = chosen;
-  if (has_rows && finite(report)) {
+  if (solved && finite(report)) {
     std::swap(state.forces, forces);
     if (evaluate_stiffness(report)) state.r = bound.r;
   }
@@ -149,6 +149,13 @@ RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const
 
 double Simulator::Impl::r_rotation_again() const {
   return decides_again(settings) ? rotation_bound(part().moving).r : 0.0;
+}
+
+FrameReport Simulator::Impl::refusal() {
+  FrameReport report;
+  observe(measures, report);
+  report.status = StepStatus::kInvalid;
+  return report;
 }
 
 FrameReport Simulator::Impl::end(StageClock& wall) {

@@ -11,6 +11,21 @@ enum class StepStatus : std::uint8_t {
   kNotFinite,        // a kinetic energy, or K, left the range of numbers; the state is that of the
                      // last finite sub-step
   kTooManyContacts,  // detector.hpp; the state is that of the last sub-step that had fewer
+  kOverBudget,       // the next sub-step, or the frame, would take more than Simulator::budget();
+                     // the state is that of the last sub-step taken
+  kInvalid,          // something given to the simulator was refused: Simulator::problems()
+};
+
+/// What a frame would have taken, where it was over budget.
+struct Overrun {
+  double memory = 0.0;        // [bytes]; 0 where it was the work
+  double work = 0.0;          // of the whole frame [floating-point operations]; 0: the memory
+  double budget = 0.0;        // of the two that was passed [bytes or operations]
+  std::int64_t contacts = 0;  // of the sub-step that was not taken
+  std::int64_t rows = 0;      // of joints, contacts, friction and a hand
+  std::int64_t bodies = 0;    // that move
+  int substeps = 0;           // of the frame, those to come included
+  int iterations = 0;         // of a sub-step; 0 of the direct solver
 };
 
 /// The body and degree of freedom with the largest k/M at the end of a frame: what the next frame's
@@ -111,6 +126,7 @@ struct FrameReport {
                            // sub-step
   StepStatus status = StepStatus::kOk;
   int failed_body = -1;  // where the first number that is not finite appeared
+  Overrun overrun;       // of status kOverBudget
 
   int n_substeps = 0;   // taken in this frame, by the island that takes most
   double n_mean = 0.0;  // sub-steps of a moving body, in the mean

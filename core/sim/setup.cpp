@@ -1,9 +1,9 @@
 // Building a simulator, and what others may ask of it.
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
+#include "core/model/validate.hpp"
 #include "core/sim/simulator_impl.hpp"
 
 namespace substep {
@@ -57,8 +57,12 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
   if (effects.gyroscopic) resize_torques();
 }
 
-Simulator::Simulator(std::shared_ptr<const Scene> scene)
-    : impl_(std::make_unique<Impl>(std::move(scene))) {}
+Simulator::Simulator(std::shared_ptr<const Scene> scene) {
+  Problems problems = scene ? check_values(*scene) : Problems{{"", "there is no scene"}};
+  if (!problems.empty()) scene = std::make_shared<const Scene>();
+  impl_ = std::make_unique<Impl>(std::move(scene));
+  impl_->refused.scene = std::move(problems);
+}
 Simulator::~Simulator() = default;
 Simulator::Simulator(Simulator&&) noexcept = default;
 Simulator& Simulator::operator=(Simulator&&) noexcept = default;
@@ -67,6 +71,8 @@ FrameReport Simulator::observe() const {
   FrameReport report;
   report.status = impl_->stopped.status;
   report.failed_body = impl_->stopped.failed_body;
+  report.overrun = impl_->stopped.overrun;
+  if (impl_->refused.any()) report.status = StepStatus::kInvalid;
   impl_->observe(Measures{}, report);
   return report;
 }
@@ -78,8 +84,9 @@ const Scene& Simulator::scene() const { return *impl_->scene; }
 const State& Simulator::state() const { return impl_->state; }
 
 void Simulator::set_state(State state) {
-  assert(state.x.size() == impl_->scene->bodies.size() &&
-         "a state goes on in the scene it is from");
+  impl_->refused.state = validate(state, *impl_->scene);
+  if (!impl_->refused.state.empty()) return;
+  impl_->refused.grab.clear();
   impl_->state = std::move(state);
   impl_->state.forces.reserve(impl_->blocks.capacity());  // a frame to come must not allocate
   impl_->state.k.reserve(impl_->state.x.size());
@@ -91,9 +98,8 @@ void Simulator::set_state(State state) {
 }
 
 void Simulator::set_grab(const std::optional<Grab>& grab) {
-  assert((!grab || !impl_->scene->bodies[static_cast<std::size_t>(grab->body)].is_static) &&
-         "what is held can move");
-  impl_->grab = grab;
+  impl_->refused.grab = grab ? validate(*grab, *impl_->scene) : Problems{};
+  if (impl_->refused.grab.empty()) impl_->grab = grab;
 }
 const std::optional<Grab>& Simulator::grab() const { return impl_->grab; }
 
@@ -119,11 +125,22 @@ ConstraintForces Simulator::constraint_forces() const {
   return out;
 }
 
+Problems Simulator::problems() const { return impl_->refused.all(); }
+
+const Budget& Simulator::budget() const { return impl_->budget; }
+
+void Simulator::set_budget(const Budget& budget) {
+  impl_->refused.budget = validate(budget);
+  if (impl_->refused.budget.empty()) impl_->budget = budget;
+}
+
 void Simulator::set_measures(const Measures& measures) { impl_->measures = measures; }
 
 const Settings& Simulator::settings() const { return impl_->settings; }
 
 void Simulator::set_settings(const Settings& settings) {
+  impl_->refused.settings = validate(settings);
+  if (!impl_->refused.settings.empty()) return;
   const bool other_solver = settings.solver != impl_->settings.solver;
   Settings only_watched = impl_->settings;
   only_watched.watch_stiffness = settings.watch_stiffness;

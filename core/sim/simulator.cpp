@@ -8,6 +8,7 @@ namespace substep {
 
 // Giles and Andrews 2024, Algorithm 1: a whole frame, or as much of one as is asked for.
 FrameReport Simulator::Impl::advance(int most) {
+  if (refused.any()) return refusal();
   if (stopped.status != StepStatus::kOk) return stopped;
 
   StageClock wall;
@@ -19,7 +20,7 @@ FrameReport Simulator::Impl::advance(int most) {
     begin_substep(report);
     if (!append_rows(report)) break;  // phi, J
     external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
-    solve(dt, false, report);         // dt lambda, u+                                    Eq. 3
+    if (!solve(dt, report)) break;    // dt lambda, u+                                    Eq. 3
     if (!finite(report)) break;
     // K, k, r, with the arms that lambda belongs to                                  Eqs. 1, 4, 9
     if (schedule.needs_stiffness() && !evaluate_stiffness(report)) break;

@@ -3,7 +3,9 @@
 #include <memory>
 #include <optional>
 
+#include "core/model/budget.hpp"
 #include "core/model/grab.hpp"
+#include "core/model/problem.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 #include "core/sim/constraint_forces.hpp"
@@ -13,8 +15,13 @@
 namespace substep {
 
 /// Steps one scene. Scene is const, State is a value, Settings may change between any two frames.
+///
+/// What it is given is checked (model/validate.hpp). What is invalid is not taken: the simulator
+/// stays as it was, step() and substep() do nothing and return kInvalid, and problems() tells why,
+/// until something valid is given in its place.
 class Simulator {
  public:
+  /// @param scene where it is null or fails check_values(), scene() is an empty one
   explicit Simulator(std::shared_ptr<const Scene> scene);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
@@ -29,6 +36,14 @@ class Simulator {
   FrameReport substep();
   /// Sub-steps that the frame begun by substep() still has, as decided so far; 0 between frames.
   [[nodiscard]] int substeps_left() const;
+
+  /// What was given and refused; empty where all is well.
+  [[nodiscard]] Problems problems() const;
+
+  /// What a frame may take. Past it a frame stops with kOverBudget, before the sub-step that would
+  /// take more: FrameReport::overrun tells what asked for it.
+  void set_budget(const Budget& budget);
+  [[nodiscard]] const Budget& budget() const;
 
   /// What the reports of frames measure: everything, unless told otherwise. Nothing of it changes
   /// the motion.

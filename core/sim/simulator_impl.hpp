@@ -9,7 +9,9 @@
 #include "core/constraints/joint_stage.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/constraints/restitution_stage.hpp"
+#include "core/sim/budget.hpp"
 #include "core/sim/islands.hpp"
+#include "core/sim/refused.hpp"
 #include "core/sim/schedule.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/sim/stage_clock.hpp"
@@ -34,9 +36,15 @@ struct Simulator::Impl {
   bool append_rows(FrameReport& report);
   bool append_contacts();                                // false where there are too many
   void external_forces(double dt, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
-  void solve(double dt, bool probing, FrameReport& report);
+  bool solve(double dt, FrameReport& report, bool probing = false);
+  void count_work(const SolveReport& solved, FrameReport& report);
   bool finite(FrameReport& report);
   void stop(std::size_t body, FrameReport& report);  // of which a number is not finite
+  // over_budget.cpp
+  FrameProgress progress(const FrameReport& report) const;
+  bool within_budget(FrameReport& report);
+  void refuse_solve(const SolveReport& solved, double dt, FrameReport& report);
+  void stop_over_budget(Overrun over, FrameReport& report);
   bool evaluate_stiffness(FrameReport& report);
   void remember_stiffness();
   void advance_poses(double dt, FrameReport& report);
@@ -120,6 +128,7 @@ struct Simulator::Impl {
   void put_to_rest(std::span<const int> island);
   void keep_forces_at_rest();
   void time_rest();
+  FrameReport refusal();  // of a frame that is not begun, since something given was refused
   FrameReport end(StageClock& wall);  // of a call: closes the frame where it is done
   void close(FrameReport& report);
   void observe(const Measures& asked, FrameReport& report);
@@ -127,6 +136,8 @@ struct Simulator::Impl {
   std::shared_ptr<const Scene> scene;
   Settings settings;
   Measures measures;
+  Budget budget;
+  Refused refused;
   State state;
   StartReport start;
   std::optional<Grab> grab;

@@ -66,7 +66,7 @@ bool Simulator::Impl::append_rows(FrameReport& report) {
     grab_rows(*grab, {state.x[body], R_WB[body]}, blocks.append());
     clock.lap(report.times.grab);
   }
-  return true;
+  return within_budget(report);
 }
 
 bool Simulator::Impl::append_contacts() {
@@ -113,7 +113,7 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   clock.lap(report.times.mass);
 }
 
-void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
+bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
   const std::span<Block> own = rows();
   if (forces_are_stored()) seed_forces();
   if (probing) {
@@ -146,10 +146,15 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
                       dt,
                       R_WB,
                       scene->regularisation,
-                      extrapolated_velocities()};
+                      extrapolated_velocities(),
+                      limits_of_solve(progress(report), settings, budget)};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
   const SolveReport solved = solver->find_velocities(system, asked);
+  if (solved.status == SolveStatus::kOverLimits) {
+    refuse_solve(solved, dt, report);
+    return false;
+  }
   if (watched || probing || schedule.needs_stiffness() || starts_from_last_forces(settings) ||
       springs_are_stored()) {
     solver->find_impulses(own);
@@ -167,10 +172,15 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   if (scene->effects.gyroscopic && !probing && !follows_accelerations(settings)) {
     settle_gyroscopic(dt);
   }
+  count_work(solved, report);
+  clock.lap(report.times.solve);
+  return true;
+}
 
+void Simulator::Impl::count_work(const SolveReport& solved, FrameReport& report) {
   SolverWork& work = report.work;
   ++work.solves;
-  work.rows += count_rows(own);
+  work.rows += count_rows(rows());
   work.iterations += solved.iterations;
   work.row_updates += solved.row_updates;
   work.pivots += solved.pivots;
@@ -179,7 +189,6 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   work.flops += solved.flops;
   if (solved.status == SolveStatus::kUnsolved) ++work.unsolved;
   if (solved.status == SolveStatus::kUnsettled) ++work.unsettled;
-  clock.lap(report.times.solve);
 }
 
 // Velocities have their kinetic energy within the range of numbers, which ends long before theirs.

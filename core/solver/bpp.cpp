@@ -45,12 +45,12 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
     set_friction_bounds(system, cone, pass == 0);
     for (int step = 0;; ++step) {
       solve_active_set(system, report);
+      if (over_limits(system, report)) return;
       const bool one_only = step >= settings.pivots;
       if (pivot(system, one_only) == 0) break;
       ++report.pivots;
       if (!one_only || ++single_pivots <= kSinglePivots) continue;
-      report.flops += go_on_with_gauss_seidel(system, settings);
-      report.status = SolveStatus::kUnsolved;
+      go_on_with_gauss_seidel(system, settings, report);
       return;
     }
     if (bounds_settled(system, cone)) return;
@@ -73,7 +73,11 @@ void Bpp::centre(const System& system) {
 
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
   SolveReport report;
-  ldlt_.begin(system);
+  if (!ldlt_.begin(system)) {
+    report.status = SolveStatus::kOverLimits;
+    report.memory_needed = ldlt_.needed_memory();
+    return report;
+  }
   factor_valid_ = false;
   has_impulses_ = false;
   any_contact_ = std::any_of(system.blocks.begin(), system.blocks.end(),
@@ -85,11 +89,12 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
     centre(system);
   }
   find_active_set(system, settings, report);
-  for (int i = 0; i < refinements && report.status != SolveStatus::kUnsolved; ++i) {
+  for (int i = 0; i < refinements && report.status < SolveStatus::kUnsolved; ++i) {
     find_impulses(system.blocks);
     centre(system);
     find_active_set(system, settings, report);
   }
+  if (report.status == SolveStatus::kOverLimits) return report;
   if (!any_contact_ && ldlt_.held()) {
     ldlt_.refine(system);
     has_impulses_ = true;
@@ -126,7 +131,17 @@ void Bpp::find_impulses(std::span<Block> blocks) {
   if (!has_impulses_) ldlt_.find_impulses(blocks);
 }
 
-std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings) {
+bool Bpp::over_limits(const System& system, SolveReport& report) const {
+  const double work = static_cast<double>(report.flops + ldlt_.flops());
+  if (work <= system.limits.work) return false;
+  report.status = SolveStatus::kOverLimits;
+  report.work_needed = work;
+  return true;
+}
+
+void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings,
+                                  SolveReport& report) {
+  report.status = SolveStatus::kUnsolved;
   find_impulses(system.blocks);
   has_impulses_ = true;
   for (Block& block : system.blocks) {
@@ -143,7 +158,12 @@ std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& 
   sweeps.iterations = std::max(settings.iterations, kSweeps);
   sweeps.warm_start = better_than_none(system);
   restore();
-  const std::int64_t flops = gauss_seidel_.solve(system, sweeps).flops;
+  const SolveReport swept = gauss_seidel_.solve(system, sweeps);
+  report.flops += swept.flops;
+  if (swept.status == SolveStatus::kOverLimits) {
+    report.status = swept.status;
+    report.work_needed = swept.work_needed;
+  }
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
     block.tight[0] = block.impulse[0] > 0.0 ? std::int8_t{0} : std::int8_t{-1};
@@ -154,7 +174,6 @@ std::int64_t Bpp::go_on_with_gauss_seidel(const System& system, const Settings& 
                                                         : std::int8_t{0};
     }
   }
-  return flops;
 }
 
 // A row that was tight in the last sub-step starts tight. A new contact starts free if the bodies

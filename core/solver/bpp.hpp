@@ -53,8 +53,10 @@ class Bpp final : public Solver {
   /// Whether the impulses are a better start than none are.
   /// @param system with u at u*, which is spent
   [[nodiscard]] bool better_than_none(const System& system) const;
-  /// From the impulses as they stand, clamped to their bounds, or from none. @return its flops
-  std::int64_t go_on_with_gauss_seidel(const System& system, const Settings& settings);
+  /// Whether more work is done than allowed; the report says so.
+  bool over_limits(const System& system, SolveReport& report) const;
+  /// From the impulses as they stand, clamped to their bounds, or from none.
+  void go_on_with_gauss_seidel(const System& system, const Settings& settings, SolveReport& report);
 
   SaddleLdlt ldlt_;
   Pgs gauss_seidel_;

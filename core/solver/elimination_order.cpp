@@ -12,6 +12,15 @@ constexpr std::size_t kTypicalJoints = 4;
 constexpr int kNone = -1;
 constexpr int kUnordered = -2;  // a position to come
 
+constexpr std::size_t kMostBare = 8;  // neighbours of a body that may leave no matrix on them
+constexpr double kCountedOn = 64.0;   // times the limit, to tell by how much it is passed
+
+/// Of the symmetric matrix that a body leaves on its neighbours [bytes].
+double update_memory(std::size_t neighbours) {
+  const double width = 6.0 * static_cast<double>(neighbours);
+  return width * width * sizeof(double);
+}
+
 void insert(std::vector<int>& sorted, int value) {
   const auto at = std::lower_bound(sorted.begin(), sorted.end(), value);
   if (at == sorted.end() || *at != value) sorted.insert(at, value);
@@ -39,14 +48,16 @@ void EliminationOrder::make_room(std::size_t bodies) {
   while (joined_.size() < bodies) joined_.emplace_back().reserve(kTypicalJoints);
 }
 
-bool EliminationOrder::update(std::span<const Block> blocks, std::size_t bodies) {
+bool EliminationOrder::update(std::span<const Block> blocks, std::size_t bodies,
+                              double most_memory) {
   const int world = static_cast<int>(bodies);
   read_edges(blocks, world);
   if (world == world_ && found_ == edges_) return false;
   std::swap(found_, edges_);
   world_ = world;
   build_graph(world);
-  eliminate(world);
+  eliminate(world, most_memory);
+  if (needed_memory_ > most_memory) world_ = -1;  // to be found anew
   return true;
 }
 
@@ -124,7 +135,7 @@ void EliminationOrder::dequeue(int body) {
   (previous != kNone ? next_[index(previous)] : first_[priority_[index(body)]]) = next;
 }
 
-void EliminationOrder::eliminate(int world) {
+void EliminationOrder::eliminate(int world, double most_memory) {
   const std::size_t bodies = index(world);
   first_.assign(4 * bodies + 8, kNone);
   reached_.assign(bodies, false);
@@ -132,6 +143,7 @@ void EliminationOrder::eliminate(int world) {
   previous_.resize(bodies);
   priority_.resize(bodies);
   order_.clear();
+  needed_memory_ = 0.0;
   std::size_t left = 0;
   for (int body = world; body-- > 0;) {  // of equal priority, the first is eliminated first
     if (position(body) == kNone) continue;
@@ -150,6 +162,8 @@ void EliminationOrder::eliminate(int world) {
       if (other != world) joint_rows_[index(other)] -= edge.rows;
     }
     const std::vector<int>& clique = graph_[index(body)];
+    if (clique.size() > kMostBare) needed_memory_ += update_memory(clique.size());
+    if (needed_memory_ > kCountedOn * most_memory) return;
     for (const int other : clique) {
       if (other == world) continue;
       merged_.clear();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -22,8 +23,14 @@ class EliminationOrder {
  public:
   void reserve(std::size_t bodies, std::size_t blocks);
 
-  /// @return true if the graph, and with it the order, has changed
-  bool update(std::span<const Block> blocks, std::size_t bodies);
+  /// @param most_memory that a factor may take [bytes]
+  /// @return true if the graph, and with it the order, has changed. Where needed_memory() is more
+  /// than the limit there is no order.
+  bool update(std::span<const Block> blocks, std::size_t bodies,
+              double most_memory = std::numeric_limits<double>::infinity());
+  /// No more than what a factor in this order takes; past 64 times the limit it is not counted on
+  /// [bytes].
+  [[nodiscard]] double needed_memory() const { return needed_memory_; }
 
   /// Bodies with a constraint, in the order of elimination.
   [[nodiscard]] std::span<const int> order() const { return order_; }
@@ -43,7 +50,7 @@ class EliminationOrder {
   void make_room(std::size_t bodies);
   void read_edges(std::span<const Block> blocks, int world);
   void build_graph(int world);
-  void eliminate(int world);
+  void eliminate(int world, double most_memory);
   [[nodiscard]] std::size_t priority(int body) const;
   void enqueue(int body);
   void dequeue(int body);
@@ -51,6 +58,7 @@ class EliminationOrder {
   std::vector<Edge> edges_;  // the graph that the order belongs to, as the blocks name it
   std::vector<Edge> found_;
   int world_ = -1;
+  double needed_memory_ = 0.0;
   std::vector<std::vector<int>> graph_;  // per body, sorted; ends as `coupled`
   std::vector<int> merged_;
   std::vector<int> joint_rows_;           // per body: to the world and bodies not yet eliminated

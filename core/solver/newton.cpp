@@ -234,8 +234,16 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
     }
     relinearise(system, settings.forces);
     stiffen(system, settings.forces);
-    const SolveReport step =
-        linear_.solve({rows_, inverse_mass_, u_, system.u_before, system.dt}, settings);
+    System linear{rows_, inverse_mass_, u_, system.u_before, system.dt};
+    linear.limits = {system.limits.memory, system.limits.work - static_cast<double>(report.flops)};
+    const SolveReport step = linear_.solve(linear, settings);
+    if (step.status == SolveStatus::kOverLimits) {
+      report.status = step.status;
+      report.memory_needed = step.memory_needed;
+      report.work_needed =
+          step.work_needed > 0.0 ? step.work_needed + static_cast<double>(report.flops) : 0.0;
+      return report;
+    }
     change = take(system);
     ++report.iterations;
     report.status = step.status;

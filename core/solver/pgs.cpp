@@ -297,6 +297,15 @@ void Pgs::pack(const System& system, bool warm_start, bool cone) {
 
 SolveReport Pgs::find_velocities(const System& system, const Settings& settings) {
   const bool cone = settings.friction_cone == FrictionCone::kCone;
+  SolveReport report;
+  report.iterations = settings.iterations;
+  for (const Block& block : system.blocks) {
+    report.row_updates += static_cast<std::int64_t>(block.rows) * settings.iterations;
+    report.flops += pack_flops(block) + visit_flops(block) * settings.iterations;
+  }
+  if (static_cast<double>(report.flops) > system.limits.work) {
+    return {.status = SolveStatus::kOverLimits, .work_needed = static_cast<double>(report.flops)};
+  }
   pack(system, settings.warm_start, cone);
   const std::size_t count = system.blocks.size();
   for (int iteration = 0; iteration < settings.iterations; ++iteration) {
@@ -305,8 +314,6 @@ SolveReport Pgs::find_velocities(const System& system, const Settings& settings)
       take(at, [&](auto& visit) { update(visit, system.u); });
     }
   }
-  SolveReport report;
-  report.iterations = settings.iterations;
   std::byte* at = records_.get();
   for (Block& block : system.blocks) {
     take(at,
@@ -314,8 +321,6 @@ SolveReport Pgs::find_velocities(const System& system, const Settings& settings)
     if (cone && block.is_contact() && block.rows == 3) {
       point_cone(block, block.impulse[1], block.impulse[2]);
     }
-    report.row_updates += static_cast<std::int64_t>(block.rows) * settings.iterations;
-    report.flops += pack_flops(block) + visit_flops(block) * settings.iterations;
   }
   return report;
 }

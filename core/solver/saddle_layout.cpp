@@ -74,16 +74,22 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
   return true;
 }
 
-void SaddleLdlt::begin(const System& system) {
+bool SaddleLdlt::begin(const System& system) {
   flops_ = 0;
   held_ = false;
   inverse_mass_ = system.inverse_mass;
   u_star_.resize(system.u.size());
   copy(system.u, u_star_);
-  if (!layout_is_the_same(system)) lay_out(system);
+  if (!layout_is_the_same(system) && !lay_out(system)) {
+    bodies_ = 0;  // to be laid out anew
+    nodes_.clear();
+    pushed_.clear();
+    return false;
+  }
   w_.resize(system.blocks.size() * kMaxRows);
   for (Node& node : nodes_) node.dirty = true;
   read(system.blocks);
+  return true;
 }
 
 // From the root on: a joint refers to the pivot of its parent.
@@ -121,7 +127,7 @@ bool SaddleLdlt::layout_is_the_same(const System& system) {
     bodies_ = system.u.size();
     keys_.clear();
     for (const Block& block : system.blocks) keys_.push_back(key_of(block));
-    order_.update(system.blocks, bodies_);
+    order_.update(system.blocks, bodies_, system.limits.memory);
     return false;
   }
   for (const Node& node : nodes_) {
@@ -134,7 +140,9 @@ bool SaddleLdlt::layout_is_the_same(const System& system) {
   return true;
 }
 
-void SaddleLdlt::lay_out(const System& system) {
+bool SaddleLdlt::lay_out(const System& system) {
+  needed_memory_ = order_.needed_memory();
+  if (needed_memory_ > system.limits.memory) return false;
   nodes_.clear();
   coupled_.clear();
   for (const int body : order_.order()) {
@@ -146,6 +154,16 @@ void SaddleLdlt::lay_out(const System& system) {
     if (node.coupled > 0) node.parent = coupled_[node.first_coupled];
     nodes_.push_back(node);
   }
+  link_nodes();
+  attach(system.blocks);
+  any_folded_ = false;
+  for (Node& node : nodes_) choose_way(node, system);
+  if (!make_room(system)) return false;
+  link_articulated();
+  return true;
+}
+
+void SaddleLdlt::link_nodes() {
   // What a node leaves goes to the first of its coupled bodies, and with it to its coupled bodies.
   place_.resize(coupled_.size());
   first_filled_.assign(coupled_.size(), 0);
@@ -176,14 +194,15 @@ void SaddleLdlt::lay_out(const System& system) {
     const std::int64_t handed = width(nodes_[i]);
     parent.handed_flops += handed * (handed + 6) / 2;
   }
+}
 
-  attach(system.blocks);
-  any_folded_ = false;
+// Capacity grows in doubles, so that contacts that come one by one rarely allocate; what was there
+// is let go first, as nothing of it is read again.
+bool SaddleLdlt::make_room(const System& system) {
   std::size_t articulated = 0;
   std::size_t values = 0;
   std::size_t rows = 0;
   for (Node& node : nodes_) {
-    choose_way(node, system);
     if (node.way == Way::kArticulated) count(node);
     if (node.way == Way::kArticulated) ++articulated;
     const std::size_t w = index(width(node));
@@ -195,12 +214,20 @@ void SaddleLdlt::lay_out(const System& system) {
     node.first_row = rows;
     rows += r;
   }
+  needed_memory_ = static_cast<double>(values) * sizeof(double);
+  if (needed_memory_ > system.limits.memory) return false;
   joints_.resize(articulated);
+  if (values > values_.capacity()) {
+    const double most = std::max(needed_memory_, system.limits.memory);
+    const double doubled = 2.0 * needed_memory_;
+    values_ = std::vector<double>();
+    values_.reserve(static_cast<std::size_t>(std::min(doubled, most)) / sizeof(double));
+  }
   values_.resize(values);
   rows_.resize(rows);
   c_.resize(rows);
   v_.resize(nodes_.size());
-  link_articulated();
+  return true;
 }
 
 // What articulated nodes and their neighbours hand each other: among each other at the pivots, to

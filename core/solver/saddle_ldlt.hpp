@@ -38,8 +38,11 @@ class SaddleLdlt {
   SaddleLdlt& operator=(const SaddleLdlt&) = delete;
 
   void reserve(std::size_t bodies, std::size_t blocks);
-  /// Takes a new system, its u as u*.
-  void begin(const System& system);
+  /// Takes a new system, its u as u*. @return false where the factor would take more memory than
+  /// System::limits allow; then there is nothing to solve, and needed_memory() tells how much
+  bool begin(const System& system);
+  /// For the numbers of the factor [bytes].
+  [[nodiscard]] double needed_memory() const { return needed_memory_; }
   /// Takes the bias of the same rows anew; what is factored stays.
   void read(std::span<const Block> blocks);
   /// Says that rows of a block have become tight or free.
@@ -144,7 +147,9 @@ class SaddleLdlt {
   [[nodiscard]] bool foldable(const Block& block, const System& system) const;
   void read_rows(const Node& node, std::span<const Block> blocks);
   bool layout_is_the_same(const System& system);
-  void lay_out(const System& system);
+  bool lay_out(const System& system);
+  void link_nodes();
+  bool make_room(const System& system);
   void attach(std::span<const Block> blocks);
   void link_articulated();
   void choose_way(Node& node, const System& system);
@@ -216,6 +221,7 @@ class SaddleLdlt {
   bool held_ = false;  // a pivot
   std::vector<double> values_;
   std::int64_t flops_ = 0;
+  double needed_memory_ = 0.0;
 
   std::span<const InverseMass> inverse_mass_;  // of the system that was begun with
   std::vector<Vec6> u_star_;

@@ -19,7 +19,7 @@ class Solver {
   /// Velocities and all impulses.
   SolveReport solve(const System& system, const Settings& settings) {
     const SolveReport report = find_velocities(system, settings);
-    find_impulses(system.blocks);
+    if (report.status != SolveStatus::kOverLimits) find_impulses(system.blocks);
     return report;
   }
   /// Velocities. Impulses of joints may be left as they are where no velocity follows from them.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "core/constraints/block.hpp"
@@ -12,6 +13,12 @@ namespace substep {
 struct InverseMass {
   double linear = 0.0;          // [1/kg]
   Mat3 angular = Mat3::Zero();  // world axes [1/(kg m^2)], symmetric
+};
+
+/// What a solve may take.
+struct SolveLimits {
+  double memory = std::numeric_limits<double>::infinity();  // for a factor [bytes]
+  double work = std::numeric_limits<double>::infinity();    // [floating-point operations]
 };
 
 /// What a solver is given: find impulses and u+ = u* + Mt^-1 J^T impulse with
@@ -34,13 +41,16 @@ struct System {
 
   // Per body: where Newton may begin, or empty: at u_before [m/s, rad/s].
   std::span<const Vec6> u_guess{};
+
+  SolveLimits limits{};
 };
 
 enum class SolveStatus : std::uint8_t {
-  kSolved,     // BPP, Newton: complementary to their tolerance. PGS, XPBD: the sweeps are done
-  kUnsettled,  // BPP: complementary for friction bounds that still move; the next sub-step goes on
-  kUnsolved,   // BPP: the bound of pivots was reached; Gauss-Seidel took over. Newton: its steps
-               // ran out before it had converged
+  kSolved,      // BPP, Newton: complementary to their tolerance. PGS, XPBD: the sweeps are done
+  kUnsettled,   // BPP: complementary for friction bounds that still move; the next sub-step goes on
+  kUnsolved,    // BPP: the bound of pivots was reached; Gauss-Seidel took over. Newton: its steps
+                // ran out before it had converged
+  kOverLimits,  // more than System::limits; impulses and velocities are of no use
 };
 
 struct SolveReport {
@@ -51,6 +61,8 @@ struct SolveReport {
   int passes = 0;                // the same: refreshes of the friction bounds, the first included
   int factorisations = 0;        // BPP, also in Newton
   std::int64_t flops = 0;        // to form, factor and solve, and of row updates: flops.hpp
+  double memory_needed = 0.0;    // of kOverLimits [bytes], 0 where it was the work
+  double work_needed = 0.0;      // of kOverLimits [operations], 0 where it was the memory
 };
 
 /// J u of all rows of a block: the relative speeds that it is about.

@@ -136,6 +136,19 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
   const bool cone = settings.friction_cone == FrictionCone::kCone;
   SolveReport report;
   report.iterations = settings.iterations;
+  double most = 0.0;  // where every row is corrected in every sweep
+  for (const Block& block : system.blocks) {
+    std::int64_t sweep = block.rows * correction_flops(block, 1);
+    if (!block.is_contact()) {
+      sweep = correction_flops(block, 3) + (block.rows == 5 ? correction_flops(block, 2) : 0);
+    }
+    most += static_cast<double>(settings.iterations) * static_cast<double>(sweep);
+  }
+  if (most > system.limits.work) {
+    report.status = SolveStatus::kOverLimits;
+    report.work_needed = most;
+    return report;
+  }
   for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
   moved_.assign(system.blocks.begin(), system.blocks.end());
   motions_.clear();

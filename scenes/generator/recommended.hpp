@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/problem.hpp"
+#include "core/model/problem.hpp"
 #include "core/model/recommended.hpp"
 #include "core/model/scene.hpp"
 

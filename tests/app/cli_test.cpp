@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "core/io/json.hpp"
-#include "core/io/number_text.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
-#include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
+#include "core/model/number_text.hpp"
+#include "core/model/setting_fields.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/app/program.hpp"
 

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/io/setting_fields.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep::test {
 

@@ -7,7 +7,7 @@
 #include "core/io/experiment.hpp"
 #include "core/io/json_text.hpp"
 #include "core/io/scene_reader.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/unit/unusual_settings.hpp"
 

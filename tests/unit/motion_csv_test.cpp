@@ -6,7 +6,7 @@
 
 #include <sstream>
 
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 #include "core/sim/momentum.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/support/run.hpp"

@@ -10,9 +10,9 @@
 #include <set>
 #include <string>
 
-#include "core/io/number_text.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
+#include "core/model/number_text.hpp"
 #include "scenes/generator/parts.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/reference/golden_cases.hpp"

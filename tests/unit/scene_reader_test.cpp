@@ -5,9 +5,9 @@
 #include <string>
 
 #include "core/io/json_text.hpp"
-#include "core/io/scene_limits.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/model/names.hpp"
+#include "core/model/scene_limits.hpp"
 #include "tests/unit/scene_text.hpp"
 
 namespace substep {

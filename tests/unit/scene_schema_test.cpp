@@ -12,7 +12,7 @@
 #include "core/io/json.hpp"
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/unit/scene_schema_validator.hpp"
 

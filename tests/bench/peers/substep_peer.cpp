@@ -1,6 +1,6 @@
 // One run of a scene by this project, natively or, compiled to WebAssembly, under Node.js.
 
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/bench/peers/peer_run.hpp"
 

@@ -1,10 +1,10 @@
-#include "core/io/setting_fields.hpp"
+#include "core/model/setting_fields.hpp"
 
 #include <algorithm>
 #include <array>
 
-#include "core/io/number_text.hpp"
 #include "core/model/names.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {

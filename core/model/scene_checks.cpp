@@ -1,13 +1,10 @@
-#include "core/io/scene_checks.hpp"
+#include "core/model/scene_checks.hpp"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "core/io/json_text.hpp"
-#include "core/io/number_text.hpp"
-#include "core/lab/start_text.hpp"
-#include "core/sim/joint_starts.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {
@@ -69,16 +66,6 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
   }
 }
 
-void check_refused(const Scene& scene, Problems& problems) {
-  if (scene.carried) return;
-  const std::vector<JointStart> starts = joint_starts(scene, initial_state(scene));
-  for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (!starts[i].beyond.any()) continue;
-    problems.push_back({pointer_to("/joints", i),
-                        "\"start\" is \"refuse\", and this joint is " + fault_text(starts[i])});
-  }
-}
-
 void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems& problems) {
   if (scene.regularisation > 0.0) return;                    // it does what compliance does
   using First = std::map<std::pair<int, int>, std::size_t>;  // the first stiff joint of two bodies
@@ -112,6 +99,41 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
         {"/contact/friction_compliance",
          "must be above 0 (m/N), not 0: a box that lies on its face has redundant contacts"});
   }
+}
+
+void check_effects(const Scene& scene, Problems& problems) {
+  const Effects& listed = scene.effects;
+  const auto missing = [&](const std::string& effect, const std::string& why) {
+    problems.push_back({"/effects", '"' + effect + "\" is missing, and " + why});
+  };
+  if (!listed.joints && !scene.joints.empty()) {
+    missing("joints", "/joints has " + std::to_string(scene.joints.size()));
+  }
+  for (std::size_t i = 0; i < scene.bodies.size() && !listed.external; ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.force == Vec3::Zero() && body.torque == Vec3::Zero()) continue;
+    const char* key = body.force != Vec3::Zero() ? "force" : "torque";
+    missing("external", pointer_to(pointer_to("/bodies", i), key) + " is given");
+    break;
+  }
+  // What contacts can have besides their normal rows, and who asks for it.
+  const auto needs_contact = [&](bool Effects::*effect, const char* name, double Body::*coefficient,
+                                 bool of_static) {
+    if (!listed.contact && listed.*effect) {
+      missing("contact", "\"" + std::string(name) + "\" needs it");
+    }
+    if (!listed.contact || listed.*effect) return;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      const Body& body = scene.bodies[i];
+      if ((body.is_static && !of_static) || !body.collides || body.*coefficient == 0.0) continue;
+      missing(name,
+              pointer_to(pointer_to("/bodies", i), name) + " is " + number_text(body.*coefficient));
+      return;
+    }
+  };
+  // Both bodies must rub, but one that bounces is enough: a static one counts too.
+  needs_contact(&Effects::friction, "friction", &Body::friction, false);
+  needs_contact(&Effects::restitution, "restitution", &Body::restitution, true);
 }
 
 }  // namespace substep

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "core/io/problem.hpp"
+#include "core/model/problem.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
 
-/// Which parts could be read: what hangs on a broken part is not looked at.
+/// Which parts are right by themselves: what hangs on a broken part is not looked at.
 struct SoundParts {
   std::vector<bool> bodies;
   std::vector<bool> joints;
@@ -17,11 +17,11 @@ struct SoundParts {
 /// The two sides of every joint coincide at the start, to the gap that counts as a failure.
 void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems);
 
-/// Every joint of a sound scene agrees with its poses and velocities, within the tolerances of
-/// sim/joint_starts.hpp. A scene that continues a saved run is not checked.
-void check_refused(const Scene& scene, Problems& problems);
-
 /// Rows that say the same twice have no unique forces: without compliance the answer is NaN.
 void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems& problems);
+
+/// Joints, constant forces and coefficients of contacts have no effect unless Scene::effects says
+/// so: an effect that the content asks for is on.
+void check_effects(const Scene& scene, Problems& problems);
 
 }  // namespace substep

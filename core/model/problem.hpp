@@ -1,13 +1,14 @@
 #pragma once
-// What is wrong with outside data, place by place.
+// What is wrong with data that was given, place by place.
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace substep {
 
-/// One thing wrong with outside data.
+/// One thing wrong with data from a file or from a program.
 struct Problem {
   std::string pointer;  // JSON pointer to the place, "" for the whole document
   std::string message;  // value and allowed range: "must be above 0 (kg), not -1"
@@ -19,5 +20,12 @@ inline constexpr std::size_t kMaxProblems = 1000;
 
 /// "/bodies/3/mass: must be above 0 (kg), not -1"
 std::string to_string(const Problem& problem);
+
+/// The same with the place as C++ spells it: "bodies[3].mass: must be above 0 (kg), not -1"
+std::string to_code(const Problem& problem);
+
+/// The pointer of a member: "/bodies" and "a/b" give "/bodies/a~1b" (RFC 6901).
+std::string pointer_to(std::string_view parent, std::string_view key);
+std::string pointer_to(std::string_view parent, std::size_t index);
 
 }  // namespace substep

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-#include "core/io/range.hpp"
+#include "core/model/range.hpp"
 #include "core/model/settings.hpp"
 
 namespace substep {

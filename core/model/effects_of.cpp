@@ -1,4 +1,4 @@
-#include "core/io/effects_of.hpp"
+#include "core/model/effects_of.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include "core/io/range.hpp"
+#include "core/model/range.hpp"
 
 namespace substep {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 

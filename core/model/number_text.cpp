@@ -1,4 +1,4 @@
-#include "core/io/number_text.hpp"
+#include "core/model/number_text.hpp"
 
 #include <array>
 #include <charconv>

@@ -1,0 +1,69 @@
+#include "core/lab/stop_text.hpp"
+
+#include <array>
+#include <cstdio>
+
+#include "core/collision/detector.hpp"
+#include "core/model/budget.hpp"
+
+namespace substep {
+namespace {
+
+std::string memory_text(double bytes) {
+  constexpr double kGibibyte = 1024.0 * kMebibyte;
+  std::array<char, 40> text{};
+  if (bytes >= kGibibyte) {
+    std::snprintf(text.data(), text.size(), "%.1f GiB", bytes / kGibibyte);
+  } else {
+    std::snprintf(text.data(), text.size(), "%.0f MiB", bytes / kMebibyte);
+  }
+  return text.data();
+}
+
+std::string work_text(double operations) {
+  std::array<char, 40> text{};
+  std::snprintf(text.data(), text.size(), "%.2g", operations);
+  return text.data();
+}
+
+std::string counted(std::int64_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+}  // namespace
+
+std::string overrun_text(const Overrun& overrun) {
+  const std::string of_bodies =
+      " of " + std::to_string(overrun.bodies) + (overrun.bodies == 1 ? " body" : " bodies");
+  if (overrun.memory > 0.0) {
+    const std::string what =
+        overrun.contacts > 0 ? counted(overrun.contacts, "contact") : counted(overrun.rows, "row");
+    return what + of_bodies + " would need " + memory_text(overrun.memory) +
+           " for the direct solver; the budget is " + memory_text(overrun.budget);
+  }
+  std::string what = counted(overrun.substeps, "sub-step");
+  if (overrun.iterations > 0) what += " of " + counted(overrun.iterations, "iteration");
+  return what + " on " + counted(overrun.rows, "row") + of_bodies + " would need " +
+         work_text(overrun.work) + " operations in a frame; the budget is " +
+         work_text(overrun.budget);
+}
+
+std::string stop_text(const Scene& scene, const FrameReport& report) {
+  switch (report.status) {
+    case StepStatus::kOk:
+      return "";
+    case StepStatus::kNotFinite:
+      if (report.failed_body < 0) return "not finite";
+      return "not finite (" + scene.bodies[index(report.failed_body)].name + ")";
+    case StepStatus::kTooManyContacts:
+      return "more than " + std::to_string(kMaxContacts) + " contacts or " +
+             std::to_string(kMaxPairs) + " pairs of bodies near each other";
+    case StepStatus::kOverBudget:
+      return overrun_text(report.overrun);
+    case StepStatus::kInvalid:
+      return "what the simulator was given is invalid";
+  }
+  return "";  // not reached: the switch is exhaustive
+}
+
+}  // namespace substep

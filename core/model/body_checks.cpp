@@ -1,0 +1,145 @@
+#include "core/model/body_checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/model/number_checks.hpp"
+#include "core/model/scene_limits.hpp"
+
+namespace substep {
+namespace {
+
+std::string not_unit_text(double length) {
+  return "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance);
+}
+
+void check_shape(const Body& body, const std::string& pointer, Problems& problems) {
+  if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
+    check_number(sphere->radius, kSizeRange, pointer_to(pointer, "radius"), problems);
+  } else if (const auto* box = std::get_if<Box>(&body.shape)) {
+    const Vec3 size = 2.0 * box->half_extents;  // as files have it
+    check_numbers(size, kSizeRange, pointer_to(pointer, "size"), problems);
+  } else if (!body.is_static) {
+    problems.push_back({pointer_to(pointer, "type"), std::string(kMovingPlane)});
+  }
+}
+
+void check_motion(const Body& body, const std::string& pointer, Problems& problems) {
+  struct Quantity {
+    const char* key;
+    const Vec3& value;
+    const Range& range;
+  };
+  const Quantity quantities[] = {{"velocity", body.velocity, kVelocityRange},
+                                 {"angular_velocity", body.angular_velocity, kAngularVelocityRange},
+                                 {"force", body.force, kBodyForceRange},
+                                 {"torque", body.torque, kBodyTorqueRange}};
+  for (const Quantity& quantity : quantities) {
+    const std::string place = pointer_to(pointer, quantity.key);
+    if (!body.is_static) {
+      check_numbers(quantity.value, quantity.range, place, problems);
+    } else if (!(quantity.value == Vec3::Zero())) {
+      problems.push_back({place, std::string(kStaticMoves)});
+    }
+  }
+}
+
+void check_mass(const Body& body, const std::string& pointer, Problems& problems) {
+  check_number(body.mass, kMassRange, pointer_to(pointer, "mass"), problems);
+  const std::string place = pointer_to(pointer, "inertia");
+  const std::size_t before = problems.size();
+  check_numbers(body.inertia, kInertiaRange, place, problems);
+  if (problems.size() > before) return;
+  if (const auto fault = inertia_fault(body.inertia)) problems.push_back({place, *fault});
+}
+
+}  // namespace
+
+std::optional<std::string> inertia_fault(const Vec3& inertia) {
+  Vec3 moments = inertia;
+  std::sort(moments.data(), moments.data() + 3);
+  const double sum = moments[0] + moments[1];
+  // A flat body reaches equality: leave room for rounding.
+  if (!(moments[2] > sum * (1.0 + 1e-9))) return std::nullopt;
+  return "no body has these moments: " + number_text(moments[2]) +
+         " is more than the sum of the other two, " + number_text(sum) + " (kg m^2)";
+}
+
+std::optional<std::string> orientation_fault(const Quat& q) {
+  const double numbers[] = {q.w(), q.x(), q.y(), q.z()};
+  const double length = std::sqrt(q.w() * q.w() + q.x() * q.x() + q.y() * q.y() + q.z() * q.z());
+  if (kUnitLength.contains(length)) return std::nullopt;
+  std::string message = not_unit_text(length);
+  if (length > kUnitTolerance && std::isfinite(length)) {
+    message += "; at length 1 it is [";
+    for (int i = 0; i < 4; ++i) message += (i > 0 ? ", " : "") + number_text(numbers[i] / length);
+    message += "]";
+  }
+  return message;
+}
+
+std::optional<std::string> axis_fault(const Vec3& axis) {
+  const double length = axis.norm();
+  if (kUnitLength.contains(length)) return std::nullopt;
+  return not_unit_text(length);
+}
+
+std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b) {
+  const auto unknown = [&](int side) {
+    return side != kWorld && (side < 0 || index(side) >= bodies.size());
+  };
+  const auto no_body = [&](int side, const char* world) {
+    return std::to_string(side) + " is no body: must be from 0 to " +
+           std::to_string(bodies.size() - 1) + world;
+  };
+  if (bodies.empty()) return SideFault{"a", "the scene has no bodies"};
+  if (a == kWorld) {
+    return SideFault{"a", "\"world\" never moves: a must move, b may be static or \"world\""};
+  }
+  if (unknown(a)) return SideFault{"a", no_body(a, "")};
+  if (unknown(b)) return SideFault{"b", no_body(b, ", or -1 for the world")};
+  if (bodies[index(a)].is_static) {
+    return SideFault{"a", "this body is static: a must move, b may be static or \"world\""};
+  }
+  if (a == b) return SideFault{"b", "the same body as a"};
+  return std::nullopt;
+}
+
+void check_body(const Body& body, const std::string& pointer, Problems& problems) {
+  check_shape(body, pointer_to(pointer, "shape"), problems);
+  if (!body.is_static) check_mass(body, pointer, problems);
+  check_numbers(body.position, kPositionRange, pointer_to(pointer, "position"), problems);
+  if (const auto fault = orientation_fault(body.orientation)) {
+    problems.push_back({pointer_to(pointer, "orientation"), *fault});
+  }
+  check_motion(body, pointer, problems);
+  check_number(body.friction, kFrictionRange, pointer_to(pointer, "friction"), problems);
+  check_number(body.restitution, kRestitutionRange, pointer_to(pointer, "restitution"), problems);
+  if (body.collision_group < -1 || body.collision_group > kMaxCollisionGroup) {
+    problems.push_back({pointer_to(pointer, "collision_group"),
+                        std::to_string(body.collision_group) + " is not a whole number from 0 to " +
+                            std::to_string(kMaxCollisionGroup) + ", or -1 for none"});
+  }
+}
+
+void check_joint(const Joint& joint, const std::vector<Body>& bodies, const std::string& pointer,
+                 Problems& problems) {
+  const JointBase& j = base(joint);
+  if (const auto fault = side_fault(bodies, j.a, j.b)) {
+    problems.push_back({pointer_to(pointer, fault->side), fault->message});
+  }
+  check_numbers(j.anchor_a, kPositionRange, pointer_to(pointer, "anchor_a"), problems);
+  check_numbers(j.anchor_b, kPositionRange, pointer_to(pointer, "anchor_b"), problems);
+  check_number(j.compliance, kComplianceRange, pointer_to(pointer, "compliance"), problems);
+  const auto* hinge = std::get_if<HingeJoint>(&joint);
+  if (hinge == nullptr) return;
+  const auto check_axis = [&](const char* key, const Vec3& axis) {
+    if (const auto fault = axis_fault(axis)) problems.push_back({pointer_to(pointer, key), *fault});
+  };
+  check_axis("axis_a", hinge->axis_a);
+  check_axis("axis_b", hinge->axis_b);
+  check_number(hinge->angular_compliance, kAngularComplianceRange,
+               pointer_to(pointer, "angular_compliance"), problems);
+}
+
+}  // namespace substep

@@ -1,0 +1,40 @@
+#pragma once
+// What must hold of one body or joint, whether it comes from a file or from code.
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/model/body.hpp"
+#include "core/model/joint.hpp"
+#include "core/model/problem.hpp"
+
+namespace substep {
+
+// What is wrong with one value, or nothing.
+std::optional<std::string> inertia_fault(const Vec3& inertia);  // moments that no body has
+std::optional<std::string> orientation_fault(const Quat& q);    // length
+std::optional<std::string> axis_fault(const Vec3& axis);        // length
+inline constexpr std::string_view kNoInertia =
+    "mass and shape are so small that their inertia is 0";
+inline constexpr std::string_view kMovingPlane =
+    "a plane cannot move: its body needs \"static\": true";
+inline constexpr std::string_view kStaticMoves = "a static body never moves";
+
+/// What is wrong with the bodies of a joint.
+struct SideFault {
+  std::string_view side;  // "a" or "b"
+  std::string message;
+};
+/// @param a, b indices into bodies, or kWorld; any other number is a fault
+std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b);
+
+/// All problems of one body. @param pointer of the body, such as "/bodies/3"
+void check_body(const Body& body, const std::string& pointer, Problems& problems);
+
+/// All problems of one joint. @param pointer of the joint, such as "/joints/3"
+void check_joint(const Joint& joint, const std::vector<Body>& bodies, const std::string& pointer,
+                 Problems& problems);
+
+}  // namespace substep

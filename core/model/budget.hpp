@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/model/range.hpp"
+
+namespace substep {
+
+inline constexpr double kMebibyte = 1024.0 * 1024.0;  // [bytes]
+
+/// What a frame may take of the machine. It belongs to the program that runs a scene, so that no
+/// file and no link can raise it. Past it a simulator stops before the sub-step in question.
+struct Budget {
+  double memory = 512.0 * kMebibyte;  // for the factor of the direct solver [bytes]
+  double work = 2e10;                 // of a frame [floating-point operations]
+
+  friend bool operator==(const Budget&, const Budget&) = default;
+};
+
+inline constexpr Range kMemoryBudgetRange{kMebibyte, 65536.0 * kMebibyte, false, false, "bytes"};
+inline constexpr Range kWorkBudgetRange{1e6, 1e15, false, false, "operations"};
+
+}  // namespace substep

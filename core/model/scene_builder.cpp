@@ -1,0 +1,91 @@
+#include "core/model/scene_builder.hpp"
+
+#include <utility>
+
+#include "core/model/effects_of.hpp"
+
+namespace substep {
+namespace {
+
+/// A body's pose; that of the world for kWorld, and for an index that no body has.
+std::pair<Vec3, Quat> pose_of(const Scene& scene, int body) {
+  if (body < 0 || index(body) >= scene.bodies.size()) return {Vec3::Zero(), Quat::Identity()};
+  return {scene.bodies[index(body)].position, scene.bodies[index(body)].orientation};
+}
+
+Vec3 point_in(const Scene& scene, int body, const Vec3& point) {
+  const auto [x, q] = pose_of(scene, body);
+  return q.conjugate() * (point - x);
+}
+
+Vec3 axis_in(const Scene& scene, int body, const Vec3& axis) {
+  return pose_of(scene, body).second.conjugate() * axis.normalized();
+}
+
+void place(const Scene& scene, int a, int b, const Vec3& point, JointBase& joint) {
+  joint.name = "joint_" + std::to_string(scene.joints.size());
+  joint.a = a;
+  joint.b = b;
+  joint.anchor_a = point_in(scene, a, point);
+  joint.anchor_b = point_in(scene, b, point);
+}
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(std::string name) {
+  scene_.title = name;
+  scene_.name = std::move(name);
+}
+
+int SceneBuilder::add(Body body) {
+  body.name = "body_" + std::to_string(scene_.bodies.size());
+  scene_.bodies.push_back(std::move(body));
+  return static_cast<int>(scene_.bodies.size()) - 1;
+}
+
+int SceneBuilder::add(Joint joint) {
+  scene_.joints.push_back(std::move(joint));
+  return static_cast<int>(scene_.joints.size()) - 1;
+}
+
+int SceneBuilder::add_body(const Shape& shape, double mass, const Vec3& position) {
+  Body body;
+  body.shape = shape;
+  body.mass = mass;
+  body.position = position;
+  return add(std::move(body));
+}
+
+int SceneBuilder::add_fixed(const Shape& shape, const Vec3& position) {
+  Body body;
+  body.shape = shape;
+  body.is_static = true;
+  body.position = position;
+  return add(std::move(body));
+}
+
+int SceneBuilder::add_ball_joint(int a, int b, const Vec3& point) {
+  BallJoint joint;
+  place(scene_, a, b, point, joint);
+  return add(Joint(std::move(joint)));
+}
+
+int SceneBuilder::add_hinge(int a, int b, const Vec3& point, const Vec3& axis) {
+  HingeJoint joint;
+  place(scene_, a, b, point, joint);
+  joint.axis_a = axis_in(scene_, a, axis);
+  joint.axis_b = axis_in(scene_, b, axis);
+  return add(Joint(std::move(joint)));
+}
+
+std::shared_ptr<const Scene> SceneBuilder::build() const {
+  auto scene = std::make_shared<Scene>(scene_);
+  for (Body& body : scene->bodies) {
+    if (body.is_static || !body.inertia.isZero(0.0)) continue;
+    body.inertia = solid_inertia(body.shape, body.mass);
+  }
+  scene->effects = effects_of(*scene);
+  return scene;
+}
+
+}  // namespace substep

@@ -1,0 +1,32 @@
+#include "core/sim/budget.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kBodyWork = 200.0;  // to move a body: external forces, masses, pose
+constexpr int kTypical = 16;         // sub-steps whose mean tells what the others take
+
+double work_of_bodies(const FrameProgress& at) {
+  return kBodyWork * static_cast<double>(at.bodies) * at.left;
+}
+
+}  // namespace
+
+bool is_shared(const Settings& settings) {
+  return settings.solver == SolverKind::kPgs || settings.solver == SolverKind::kXpbd;
+}
+
+double forecast_work(const FrameProgress& at, const Settings& settings) {
+  const double done = static_cast<double>(at.flops);
+  double to_come = work_of_bodies(at);
+  if (!is_shared(settings) && at.taken >= kTypical) to_come += done / at.taken * at.left;
+  return done + to_come;
+}
+
+SolveLimits limits_of_solve(const FrameProgress& at, const Settings& settings,
+                            const Budget& budget) {
+  const double left = budget.work - static_cast<double>(at.flops) - work_of_bodies(at);
+  return {budget.memory, is_shared(settings) ? left / at.left : left};
+}
+
+}  // namespace substep

@@ -1,0 +1,54 @@
+// A sub-step that is not taken, since it or its frame would take more than the budget.
+
+#include "core/sim/budget.hpp"
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/small_steps.hpp"
+
+namespace substep {
+
+FrameProgress Simulator::Impl::progress(const FrameReport& report) const {
+  FrameProgress at;
+  at.taken = open ? schedule.number() - 1 : 0;
+  at.left = open ? schedule.left() : 1;
+  at.flops = report.work.flops;
+  at.bodies = part().moving.size();
+  return at;
+}
+
+bool Simulator::Impl::within_budget(FrameReport& report) {
+  const double work = forecast_work(progress(report), settings);
+  if (work <= budget.work) return true;
+  stop_over_budget({.work = work, .budget = budget.work}, report);
+  return false;
+}
+
+void Simulator::Impl::refuse_solve(const SolveReport& solved, double dt, FrameReport& report) {
+  Overrun over;
+  if (solved.memory_needed > 0.0) {
+    over.memory = solved.memory_needed;
+    over.budget = budget.memory;
+  } else {
+    const FrameProgress at = progress(report);
+    const double times = is_shared(settings) ? at.left : 1.0;
+    over.work = static_cast<double>(at.flops) + times * solved.work_needed;
+    over.budget = budget.work;
+  }
+  const bool direct = settings.solver == SolverKind::kBpp;
+  over.iterations = direct ? 0 : iterations_of(settings, dt / scene->frame);
+  stop_over_budget(over, report);
+}
+
+void Simulator::Impl::stop_over_budget(Overrun over, FrameReport& report) {
+  const RowCounts rows = count_rows(this->rows());
+  over.contacts = rows.contact;
+  over.rows = rows.joint + rows.contact + rows.friction + rows.grab;
+  over.bodies = static_cast<std::int64_t>(part().moving.size());
+  const FrameProgress at = progress(report);
+  over.substeps = at.taken + at.left;
+  report.status = StepStatus::kOverBudget;
+  report.overrun = over;
+  blocks.keep(first_block);  // nothing solves them
+  copy(u_start, state.u);
+}
+
+}  // namespace substep

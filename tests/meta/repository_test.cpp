@@ -185,6 +185,16 @@ TEST(Repository, EverySceneHasGoldenLines) {
   }
 }
 
+TEST(Repository, TheReadmesExampleIsTheOneThatIsBuilt) {
+  std::ifstream readme_file(kRoot / "README.md");
+  const std::string readme{std::istreambuf_iterator<char>(readme_file), {}};
+  std::ifstream example_file(kRoot / "tests/install/consumer/pendulum.cpp");
+  const std::string example{std::istreambuf_iterator<char>(example_file), {}};
+  ASSERT_FALSE(example.empty());
+  EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos)
+      << "README.md does not show tests/install/consumer/pendulum.cpp as it is";
+}
+
 TEST(Tests, AreNamedSubjectAndLaw) {
   const std::regex test(R"(^(TYPED_)?TEST(_[FP])?\()");
   const std::regex named(R"(^(TYPED_)?TEST(_[FP])?\(([A-Z][A-Za-z0-9]*), ([A-Z][A-Za-z0-9]*)\))");

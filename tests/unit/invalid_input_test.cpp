@@ -149,7 +149,7 @@ void spoil(test::Random& random, Scene& scene) {
     scene.criteria.track = any_index(random);
   } else {
     scene.carried = Carried{};
-    scene.carried->k.resize(index(whole_number(random, 0, 9)));
+    scene.carried->k.resize(index(whole_number(random, 0, 9)), Vec6::Zero());
     scene.carried->u.resize(index(whole_number(random, 0, 9)), Vec6::Zero());
   }
 }

@@ -13,18 +13,18 @@ std::string not_unit_text(double length) {
   return "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance);
 }
 
-void check_shape(const Body& body, const std::string& pointer, Problems& problems) {
+void check_shape(const Body& body, const Place& place, Problems& problems) {
   if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-    check_number(sphere->radius, kSizeRange, pointer_to(pointer, "radius"), problems);
+    check_number(sphere->radius, kSizeRange, place.at("radius"), problems);
   } else if (const auto* box = std::get_if<Box>(&body.shape)) {
     const Vec3 size = 2.0 * box->half_extents;  // as files have it
-    check_numbers(size, kSizeRange, pointer_to(pointer, "size"), problems);
+    check_numbers(size, kSizeRange, place.at("size"), problems);
   } else if (!body.is_static) {
-    problems.push_back({pointer_to(pointer, "type"), std::string(kMovingPlane)});
+    problems.push_back({place.at("type").pointer(), std::string(kMovingPlane)});
   }
 }
 
-void check_motion(const Body& body, const std::string& pointer, Problems& problems) {
+void check_motion(const Body& body, const Place& place, Problems& problems) {
   struct Quantity {
     const char* key;
     const Vec3& value;
@@ -35,22 +35,22 @@ void check_motion(const Body& body, const std::string& pointer, Problems& proble
                                  {"force", body.force, kBodyForceRange},
                                  {"torque", body.torque, kBodyTorqueRange}};
   for (const Quantity& quantity : quantities) {
-    const std::string place = pointer_to(pointer, quantity.key);
+    const Place there = place.at(quantity.key);
     if (!body.is_static) {
-      check_numbers(quantity.value, quantity.range, place, problems);
+      check_numbers(quantity.value, quantity.range, there, problems);
     } else if (!(quantity.value == Vec3::Zero())) {
-      problems.push_back({place, std::string(kStaticMoves)});
+      problems.push_back({there.pointer(), std::string(kStaticMoves)});
     }
   }
 }
 
-void check_mass(const Body& body, const std::string& pointer, Problems& problems) {
-  check_number(body.mass, kMassRange, pointer_to(pointer, "mass"), problems);
-  const std::string place = pointer_to(pointer, "inertia");
+void check_mass(const Body& body, const Place& place, Problems& problems) {
+  check_number(body.mass, kMassRange, place.at("mass"), problems);
+  const Place there = place.at("inertia");
   const std::size_t before = problems.size();
-  check_numbers(body.inertia, kInertiaRange, place, problems);
+  check_numbers(body.inertia, kInertiaRange, there, problems);
   if (problems.size() > before) return;
-  if (const auto fault = inertia_fault(body.inertia)) problems.push_back({place, *fault});
+  if (const auto fault = inertia_fault(body.inertia)) problems.push_back({there.pointer(), *fault});
 }
 
 }  // namespace
@@ -105,41 +105,41 @@ std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int 
   return std::nullopt;
 }
 
-void check_body(const Body& body, const std::string& pointer, Problems& problems) {
-  check_shape(body, pointer_to(pointer, "shape"), problems);
-  if (!body.is_static) check_mass(body, pointer, problems);
-  check_numbers(body.position, kPositionRange, pointer_to(pointer, "position"), problems);
+void check_body(const Body& body, const Place& place, Problems& problems) {
+  check_shape(body, place.at("shape"), problems);
+  if (!body.is_static) check_mass(body, place, problems);
+  check_numbers(body.position, kPositionRange, place.at("position"), problems);
   if (const auto fault = orientation_fault(body.orientation)) {
-    problems.push_back({pointer_to(pointer, "orientation"), *fault});
+    problems.push_back({place.at("orientation").pointer(), *fault});
   }
-  check_motion(body, pointer, problems);
-  check_number(body.friction, kFrictionRange, pointer_to(pointer, "friction"), problems);
-  check_number(body.restitution, kRestitutionRange, pointer_to(pointer, "restitution"), problems);
+  check_motion(body, place, problems);
+  check_number(body.friction, kFrictionRange, place.at("friction"), problems);
+  check_number(body.restitution, kRestitutionRange, place.at("restitution"), problems);
   if (body.collision_group < -1 || body.collision_group > kMaxCollisionGroup) {
-    problems.push_back({pointer_to(pointer, "collision_group"),
+    problems.push_back({place.at("collision_group").pointer(),
                         std::to_string(body.collision_group) + " is not a whole number from 0 to " +
                             std::to_string(kMaxCollisionGroup) + ", or -1 for none"});
   }
 }
 
-void check_joint(const Joint& joint, const std::vector<Body>& bodies, const std::string& pointer,
+void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Place& place,
                  Problems& problems) {
   const JointBase& j = base(joint);
   if (const auto fault = side_fault(bodies, j.a, j.b)) {
-    problems.push_back({pointer_to(pointer, fault->side), fault->message});
+    problems.push_back({place.at(fault->side).pointer(), fault->message});
   }
-  check_numbers(j.anchor_a, kPositionRange, pointer_to(pointer, "anchor_a"), problems);
-  check_numbers(j.anchor_b, kPositionRange, pointer_to(pointer, "anchor_b"), problems);
-  check_number(j.compliance, kComplianceRange, pointer_to(pointer, "compliance"), problems);
+  check_numbers(j.anchor_a, kPositionRange, place.at("anchor_a"), problems);
+  check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);
+  check_number(j.compliance, kComplianceRange, place.at("compliance"), problems);
   const auto* hinge = std::get_if<HingeJoint>(&joint);
   if (hinge == nullptr) return;
   const auto check_axis = [&](const char* key, const Vec3& axis) {
-    if (const auto fault = axis_fault(axis)) problems.push_back({pointer_to(pointer, key), *fault});
+    if (const auto fault = axis_fault(axis)) problems.push_back({place.at(key).pointer(), *fault});
   };
   check_axis("axis_a", hinge->axis_a);
   check_axis("axis_b", hinge->axis_b);
-  check_number(hinge->angular_compliance, kAngularComplianceRange,
-               pointer_to(pointer, "angular_compliance"), problems);
+  check_number(hinge->angular_compliance, kAngularComplianceRange, place.at("angular_compliance"),
+               problems);
 }
 
 }  // namespace substep

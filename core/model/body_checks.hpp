@@ -8,6 +8,7 @@
 
 #include "core/model/body.hpp"
 #include "core/model/joint.hpp"
+#include "core/model/place.hpp"
 #include "core/model/problem.hpp"
 
 namespace substep {
@@ -30,11 +31,11 @@ struct SideFault {
 /// @param a, b indices into bodies, or kWorld; any other number is a fault
 std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b);
 
-/// All problems of one body. @param pointer of the body, such as "/bodies/3"
-void check_body(const Body& body, const std::string& pointer, Problems& problems);
+/// All problems of one body. @param place of the body, such as "/bodies/3"
+void check_body(const Body& body, const Place& place, Problems& problems);
 
-/// All problems of one joint. @param pointer of the joint, such as "/joints/3"
-void check_joint(const Joint& joint, const std::vector<Body>& bodies, const std::string& pointer,
+/// All problems of one joint. @param place of the joint, such as "/joints/3"
+void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Place& place,
                  Problems& problems);
 
 }  // namespace substep

@@ -97,15 +97,17 @@ Problems check_all_values(const Scene& scene, SoundParts& sound) {
   check_count(scene.bodies.size(), kMaxBodies, "/bodies", problems);
   check_count(scene.joints.size(), kMaxJoints, "/joints", problems);
   check_count(scene.verdicts.size(), kMaxVerdictRules, "/verdicts", problems);
+  const Place bodies("/bodies");
+  const Place joints("/joints");
   for (std::size_t i = 0; i < scene.bodies.size() && problems.size() < kMaxProblems; ++i) {
     const std::size_t before = problems.size();
-    check_body(scene.bodies[i], pointer_to("/bodies", i), problems);
+    check_body(scene.bodies[i], bodies.at(i), problems);
     sound.bodies.push_back(problems.size() == before);
   }
   check_criteria(scene, problems);
   for (std::size_t i = 0; i < scene.joints.size() && problems.size() < kMaxProblems; ++i) {
     const std::size_t before = problems.size();
-    check_joint(scene.joints[i], scene.bodies, pointer_to("/joints", i), problems);
+    check_joint(scene.joints[i], scene.bodies, joints.at(i), problems);
     sound.joints.push_back(problems.size() == before);
   }
   if (scene.carried) check_carried(*scene.carried, scene, "/carried", problems);

@@ -76,8 +76,14 @@ BallChain dzhanibekov() {
   return {{body}, Vec3::Zero()};
 }
 
+/// Equal moments: no torque of its own, and yet its turns do not commute.
+BallChain cube() {
+  return {{box(2.0, {0.3, 0.3, 0.3}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})}, kGravity};
+}
+
 std::vector<Case> cases() {
   return {{"spherical pendulum", pendulum()},
+          {"cube", cube()},
           {"top at 60 rad/s", heavy_top()},
           {"six boxes", six_boxes()},
           {"double pendulum", double_pendulum()},

@@ -139,6 +139,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
       if (block.pinned) apply_impulse(block, block.given, inverse_mass, state.u);
     }
   }
+  if (extrapolates(settings)) prepare_courses();
   const System system{own,
                       inverse_mass,
                       state.u,
@@ -146,7 +147,10 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
                       dt,
                       R_WB,
                       scene->regularisation,
-                      extrapolated_velocities()};
+                      extrapolated_velocities(),
+                      impulse_time,
+                      momentum_inertia,
+                      courses};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
   const SolveReport solved = solver->find_velocities(system, asked);
@@ -164,7 +168,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   smooth = !contact || std::none_of(own.begin(), own.end(), [](const Block& block) {
     return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;
   });
-  if (scene->effects.gyroscopic && !probing && !follows_accelerations(settings)) {
+  if (scene->effects.gyroscopic && !probing && !carries_momentum(settings)) {
     settle_gyroscopic(dt);
   }
 
@@ -257,7 +261,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   const std::span<const Vec6> move_by = pose_velocities(dt);
   store_accelerations(dt);
   integrate(part(), dt, move_by, state);
-  if (scene->effects.gyroscopic && follows_accelerations(settings)) settle_momentum(dt);
+  if (scene->effects.gyroscopic && carries_momentum(settings)) settle_momentum(dt);
   if (watched) synchronise(dt);
   state.time += dt;
   state.dt_previous = dt;

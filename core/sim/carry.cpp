@@ -43,6 +43,19 @@ void Simulator::Impl::set_joint_springs(double dt) {
   }
 }
 
+bool Simulator::Impl::averages_contacts() const {
+  return scene->contact.compliance > 0.0 && drift_law(settings) == Drift::kFull &&
+         averages_springs(settings);
+}
+
+void Simulator::Impl::set_contact_springs(double dt) {
+  for (Block& block : rows()) {
+    if (!block.is_contact()) continue;
+    set_contact_spring(settings, times_of(block, dt), inverse_mass, u_start, scene->regularisation,
+                       block);
+  }
+}
+
 void Simulator::Impl::seed_forces() {
   std::size_t next = 0;  // blocks mostly come in the order of the last sub-step
   const bool goes_on = open && !schedule.first_of_part();

@@ -36,6 +36,7 @@ struct Simulator::Impl {
   bool append_contacts();                                // false where there are too many
   void external_forces(double dt, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
   void solve(double dt, bool probing, FrameReport& report);
+  bool breaks_motion(const Block& contact) const;
   bool finite(FrameReport& report);
   void stop(std::size_t body, FrameReport& report);  // of which a number is not finite
   bool evaluate_stiffness(FrameReport& report);
@@ -90,6 +91,8 @@ struct Simulator::Impl {
   bool forces_are_stored() const;   // of any constraint, from sub-step to sub-step
   bool springs_are_stored() const;  // those of joints
   void set_joint_springs(double dt);
+  bool averages_contacts() const;  // their springs' forces, over the poses of a sub-step
+  void set_contact_springs(double dt);
   SubstepTimes times_of(const Block& block, double dt) const;
   void seed_forces();
   void store_forces();

@@ -113,6 +113,16 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   clock.lap(report.times.mass);
 }
 
+// A blow is no acceleration that goes on. A spring that is resolved gives none; but how
+// accelerations change is not known across the time when it begins or ends to push.
+bool Simulator::Impl::breaks_motion(const Block& contact) const {
+  const bool closed = contact.impulse[0] > 0.0;
+  if (follows_accelerations(settings) && contact.spring_ahead[0] > 0.0) {
+    return closed != contact.was_closed;
+  }
+  return closed && !contact.was_closed && !(contact.spring_ahead[0] > 0.0);
+}
+
 void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   const std::span<Block> own = rows();
   if (forces_are_stored()) seed_forces();
@@ -124,6 +134,7 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
   set_softness(own, scene->regularisation, dt);
   if (!probing) {
     if (has_springs) set_joint_springs(dt);
+    if (contact && averages_contacts()) set_contact_springs(dt);
     if (settings.drift_order == 2) add_curvature_bias(own, u_start, dt);
     if (bends_rows()) bend_rows(dt);
     if (restitution) restitution->apply(*scene, u_before, dt, own);
@@ -165,8 +176,8 @@ void Simulator::Impl::solve(double dt, bool probing, FrameReport& report) {
       }
     }
   }
-  smooth = !contact || std::none_of(own.begin(), own.end(), [](const Block& block) {
-    return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;
+  smooth = !contact || std::none_of(own.begin(), own.end(), [&](const Block& block) {
+    return block.is_contact() && breaks_motion(block);
   });
   if (scene->effects.gyroscopic && !probing && !carries_momentum(settings)) {
     settle_gyroscopic(dt);

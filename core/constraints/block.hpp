@@ -73,9 +73,11 @@ struct Block {
   double spring_rest[kMaxRows] = {};   // what of its mean is known before the solve [m or rad]
 
   // What Newton with forces numerov needs of the sub-steps before.
-  double gain[kMaxRows] = {};       // of the impulse in a sub-step about this one [N s or N m s]
-  double last[kMaxRows] = {};       // the force of the last one [N or N m]
-  double last_rate[kMaxRows] = {};  // and its rate [N/s or N m/s]
+  double rate[kMaxRows] = {};         // of the force at these poses [N/s or N m/s]
+  double rate_change[kMaxRows] = {};  // [N/s^2 or N m/s^2]
+  double last[kMaxRows] = {};         // the force of the last one [N or N m]
+  double last_rate[kMaxRows] = {};    // its rate [N/s or N m/s]
+  double last_rate_age = 0.0;         // how long before that force the rate was so [s]
 
   [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
 };

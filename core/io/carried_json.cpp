@@ -85,6 +85,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
   rows("lambda", kForceRange, force.lambda, kRequired);
   rows("rate", kForceRateRange, force.rate, kOptional);
   rows("rate_change", kForceRateChangeRange, force.rate_change, kOptional);
+  in.number("rate_age", not_negative(1.0, "s"), force.rate_age, kOptional);
   rows("elastic", kElasticRange, force.elastic, kOptional);
   std::string tight;
   if (in.text("tight", kRows, tight, kOptional)) {
@@ -115,6 +116,7 @@ Json force_json(const StoredForce& force) {
   json["lambda"] = rows(force.lambda);
   if (const auto rate = rows(force.rate); !rate.empty()) json["rate"] = rate;
   if (const auto change = rows(force.rate_change); !change.empty()) json["rate_change"] = change;
+  if (force.rate_age != 0.0) json["rate_age"] = force.rate_age;
   if (const auto elastic = rows(force.elastic); !elastic.empty()) json["elastic"] = elastic;
   if (!tight.empty()) json["tight"] = tight;
   return json;

@@ -171,7 +171,7 @@ std::vector<ExamMethod> exam_methods(const Settings& base, const std::vector<dou
   methods.push_back({"stormer", settings, n, 4.0});
   settings.integrator = Integrator::kLeapfrog;
   settings.solver = SolverKind::kNewton;
-  settings.iterations = 2;  // with one, Numerov's weights are of third order
+  settings.iterations = 2;  // with one, Numerov's forces are of third order
   settings.forces = Forces::kMean;
   methods.push_back({"newton mean", settings, n, 2.0});
   settings.forces = Forces::kNumerov;

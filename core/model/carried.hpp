@@ -14,6 +14,7 @@ struct StoredForce {
   // Per row, where extrapolates(); 0 where it is not known yet.
   double rate[5] = {};         // of lambda [N/s or N m/s]
   double rate_change[5] = {};  // of the rate [N/s^2 or N m/s^2]
+  double rate_age = 0.0;       // how long before lambda the rate was so [s]
   double elastic[5] = {};      // per row, of phi under the soft drift law: Block::elastic [m, rad]
   std::int8_t tight[5] = {};   // per row, of contacts: active set of BPP, as Block::tight
 };

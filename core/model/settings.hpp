@@ -81,7 +81,8 @@ inline bool starts_from_last_forces(const Settings& s) {
          (s.solver == SolverKind::kBpp && s.refinements > 0);
 }
 
-/// Whether a sub-step begins with forces and velocities that go on as they changed before.
+/// Whether a sub-step begins with forces and velocities that go on as they changed before, and
+/// carries means over it (numerov.hpp).
 inline bool extrapolates(const Settings& s) {
   return s.solver == SolverKind::kNewton && s.forces == Forces::kNumerov;
 }
@@ -91,6 +92,11 @@ inline bool extrapolates(const Settings& s) {
 inline bool follows_accelerations(const Settings& s) {
   return s.integrator == Integrator::kStormer && s.solver != SolverKind::kNewton &&
          s.solver != SolverKind::kXpbd;
+}
+
+/// Whether bodies carry angular momentum through a sub-step and turn by free_turn.hpp.
+inline bool carries_momentum(const Settings& s) {
+  return follows_accelerations(s) || extrapolates(s);
 }
 
 /// kAuto resolved: the law that the solver is used with.

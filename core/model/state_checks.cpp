@@ -68,6 +68,7 @@ bool has_sound_numbers(const StoredForce& force) {
   const auto side = [](std::int8_t tight) { return kLeastSide <= tight && tight <= kMostSide; };
   return std::all_of(std::begin(force.lambda), std::end(force.lambda), finite) &&
          std::all_of(std::begin(force.rate), std::end(force.rate), finite) &&
+         std::isfinite(force.rate_age) && force.rate_age >= 0.0 &&
          std::all_of(std::begin(force.rate_change), std::end(force.rate_change), finite) &&
          std::all_of(std::begin(force.elastic), std::end(force.elastic), finite) &&
          std::all_of(std::begin(force.tight), std::end(force.tight), side);

@@ -5,6 +5,7 @@
 
 #include "core/constraints/grab_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
+#include "core/solver/numerov.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/stormer.hpp"
 
@@ -39,6 +40,19 @@ void Simulator::Impl::set_joint_springs(double dt) {
     if (!known) std::copy_n(block.phi, kMaxRows, block.elastic);
     set_springs(settings, times_of(block, dt), rate, inverse_mass, u_start, scene->regularisation,
                 block);
+  }
+}
+
+bool Simulator::Impl::averages_contacts() const {
+  return scene->contact.compliance > 0.0 && drift_law(settings) == Drift::kFull &&
+         averages_springs(settings);
+}
+
+void Simulator::Impl::set_contact_springs(double dt) {
+  for (Block& block : rows()) {
+    if (!block.is_contact()) continue;
+    set_contact_spring(settings, times_of(block, dt), inverse_mass, u_start, scene->regularisation,
+                       block);
   }
 }
 
@@ -87,6 +101,14 @@ std::span<const Vec6> Simulator::Impl::extrapolated_velocities() {
     u_guess[i] = u_before[i] + impulse_time[i] * state.acceleration[i];
   }
   return u_guess;
+}
+
+void Simulator::Impl::prepare_courses() {
+  momentum_inertia.resize(state.u.size());
+  courses.resize(state.u.size());
+  for (std::size_t i = 0; i < momentum_inertia.size(); ++i) {
+    momentum_inertia[i] = tumbles(i) ? scene->bodies[i].inertia : Vec3(Vec3::Zero());
+  }
 }
 
 void Simulator::Impl::hand_over(double dt) {
@@ -168,6 +190,11 @@ void Simulator::Impl::aim_at_poses(double dt) {
 
 // An impact is no acceleration: poses go with the velocities then.
 std::span<const Vec6> Simulator::Impl::pose_velocities(double dt) {
+  if (extrapolates(settings)) {
+    w.resize(state.u.size());
+    for (const int body : part().moving) w[index(body)] = courses[index(body)].move_by;
+    return w;
+  }
   if (!follows_accelerations(settings)) return state.u;
   for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &w}) {
     of_bodies->resize(state.u.size(), Vec6::Zero());
@@ -185,28 +212,34 @@ std::span<const Vec6> Simulator::Impl::pose_velocities(double dt) {
   return w;
 }
 
-// The gain about this sub-step, half of what comes between the forces of its neighbours, is a
-// sub-step and a half after the one that is known.
 void Simulator::Impl::extrapolate(const StoredForce& force, Block& block) const {
-  const double dt = dt_previous_of(block);  // between the poses of two forces
-  const double time = impulse_time_of(block);
+  const double age = force.rate_age + dt_previous_of(block);
   for (int row = 0; row < block.rows; ++row) {
     block.last[row] = force.lambda[row];
     block.last_rate[row] = force.rate[row];
-    block.gain[row] = time * dt * (force.rate[row] + 1.5 * dt * force.rate_change[row]);
+    block.rate_change[row] = force.rate_change[row];
+    block.rate[row] = force.rate[row] + age * force.rate_change[row];
   }
+  block.last_rate_age = force.rate_age;
 }
 
 void Simulator::Impl::find_rates(const Block& block, StoredForce& force) const {
-  const double dt = dt_previous_of(block);
-  if (dt == 0.0) return;
-  const double per_dt = 1.0 / dt;
+  const double dt = dt_previous_of(block);  // between the poses of both forces
+  const double bent = numerov_weights(schedule.dt(), dt).bent(schedule.dt());
+  for (int row = 0; row < block.rows; ++row) force.lambda[row] -= bent * block.rate_change[row];
   for (int row = 0; row < block.rows; ++row) {
-    force.rate[row] = per_dt * (block.lambda[row] - block.last[row]);
+    if (dt == 0.0) {  // those that the run begins with
+      force.rate[row] = block.rate[row];
+      force.rate_change[row] = block.rate_change[row];
+      continue;
+    }
+    force.rate[row] = (force.lambda[row] - block.last[row]) / dt;
     if (block.last_rate[row] != 0.0) {
-      force.rate_change[row] = per_dt * (force.rate[row] - block.last_rate[row]);
+      const double apart = 0.5 * dt + block.last_rate_age;
+      force.rate_change[row] = (force.rate[row] - block.last_rate[row]) / apart;
     }
   }
+  force.rate_age = 0.5 * dt;
 }
 
 void Simulator::Impl::store_forces() {

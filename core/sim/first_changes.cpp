@@ -1,19 +1,20 @@
-// Störmer's method goes by how accelerations change. Before its first sub-step there is none to go
-// by: they are found at trial poses, a sub-step before the start and one after it.
+// Störmer's method goes by how accelerations change, Numerov's by how forces do. Before the first
+// sub-step there is none to go by: they are found at trial poses, a sub-step before the start and
+// one after it.
 
 #include <algorithm>
 
+#include "core/math/gyroscopic.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/external.hpp"
-#include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 
 namespace substep {
 
 bool Simulator::Impl::needs_first_changes() const {
-  if (!open || !follows_accelerations(settings) || contact || holds_grab()) return false;
+  if (!open || !carries_momentum(settings) || contact || holds_grab()) return false;
   const std::vector<int>& moving = part().moving;
   return std::none_of(moving.begin(), moving.end(),
                       [&](int i) { return state.dt_previous_of(index(i)) > 0.0; });
@@ -23,17 +24,20 @@ bool Simulator::Impl::needs_first_changes() const {
 // second one; a second pass with the first one's changes is of third order.
 void Simulator::Impl::find_first_changes(double dt) {
   const std::size_t n = state.u.size();
-  const Accelerations none{std::vector<Vec6>(n, Vec6::Zero()), {}};
+  const Accelerations none{std::vector<Vec6>(n, Vec6::Zero()), {}, {}};
+  const auto own = extrapolates(settings) ? make_solver(SolverKind::kBpp) : nullptr;
+  Solver& linear = own ? *own : *solver;
   Accelerations at_start;
-  find_accelerations(dt, 0.0, none.a, none.a, at_start);
+  find_accelerations(dt, 0.0, none.a, none.a, linear, at_start);
   Accelerations before;
   Accelerations after;
   std::vector<Vec6> rate = none.a;
   for (int pass = 0; pass < 2; ++pass) {
-    find_accelerations(dt, -dt, at_start.a, rate, before);
-    find_accelerations(dt, dt, at_start.a, rate, after);
+    find_accelerations(dt, -dt, at_start.a, rate, linear, before);
+    find_accelerations(dt, dt, at_start.a, rate, linear, after);
     for (std::size_t i = 0; i < n; ++i) rate[i] = 0.5 / dt * (after.a[i] - before.a[i]);
   }
+  if (extrapolates(settings)) return store_first_rates(dt, before, at_start, after);
   // A parabola through the three tells the change before the first of them.
   const auto change = [&](const auto& quantity, std::size_t i) {
     return (3.0 * quantity(at_start)[i] - 2.0 * quantity(before)[i] - quantity(after)[i]).eval();
@@ -50,10 +54,40 @@ void Simulator::Impl::find_first_changes(double dt) {
   }
 }
 
+// Forces of a joint as a sub-step before the first would have left them.
+void Simulator::Impl::store_first_rates(double dt, const Accelerations& before,
+                                        const Accelerations& at_start, const Accelerations& after) {
+  state.acceleration.resize(state.u.size(), Vec6::Zero());
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    state.acceleration[i] = at_start.a[i];
+    if (tumbles(i)) state.acceleration[i].tail<3>() = velocity_of(i, at_start.torque[i]);
+  }
+  if (!joints) return;
+  joints->append(part(), state, R_WB, blocks);
+  for (std::size_t k = 0; k < at_start.lambda.size(); ++k) {
+    const std::uint64_t id = rows()[k].id;
+    const auto known = std::find_if(state.forces.begin(), state.forces.end(),
+                                    [&](const StoredForce& force) { return force.id == id; });
+    StoredForce& force = known == state.forces.end() ? state.forces.emplace_back() : *known;
+    force.id = id;
+    force.rate_age = 0.0;
+    for (std::size_t row = 0; row < kMaxRows; ++row) {
+      force.lambda[row] = at_start.lambda[k][row];
+      force.rate[row] = (after.lambda[k][row] - before.lambda[k][row]) / (2.0 * dt);
+      force.rate_change[row] =
+          (after.lambda[k][row] - 2.0 * at_start.lambda[k][row] + before.lambda[k][row]) /
+          (dt * dt);
+    }
+  }
+  blocks.keep(first_block);
+}
+
 // J a = -phi'' at the poses and velocities that accelerations `a` and their rate of change lead to
 // in the time s.
 void Simulator::Impl::find_accelerations(double dt, double s, std::span<const Vec6> a,
-                                         std::span<const Vec6> rate, Accelerations& out) {
+                                         std::span<const Vec6> rate, Solver& linear,
+                                         Accelerations& out) {
   const std::vector<Vec3> x = state.x;
   const std::vector<Quat> q = state.q;
   const std::size_t n = state.u.size();
@@ -88,8 +122,14 @@ void Simulator::Impl::find_accelerations(double dt, double s, std::span<const Ve
     add_external(*scene, part(), inertia_inverse, R_WB, one, out.a);
   }
   for (const Block& block : rows()) apply_impulse(block, block.given, inverse_mass, out.a);
-  solver->solve({rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}},
-                settings);
+  linear.solve({rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}}, settings);
+  out.lambda.clear();
+  for (const Block& block : rows()) {
+    auto& lambda = out.lambda.emplace_back();
+    for (int row = 0; row < kMaxRows; ++row) {
+      lambda[index(row)] = row < block.rows ? block.impulse[row] : 0.0;
+    }
+  }
   out.torque.assign(n, Vec3::Zero());
   for (const int body : part().moving) {
     const std::size_t i = index(body);

@@ -1,13 +1,13 @@
 // Bodies whose moments of inertia differ, as they tumble: their angular momentum is what torques
-// change, and how they turn follows from it (stepping/gyroscopic.hpp, free_turn.hpp).
+// change, and how they turn follows from it (math/gyroscopic.hpp, free_turn.hpp).
 
 #include <algorithm>
 
 #include "core/constraints/grab_rows.hpp"
+#include "core/math/free_turn.hpp"
+#include "core/math/gyroscopic.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
-#include "core/stepping/free_turn.hpp"
-#include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/stormer.hpp"
 
 namespace substep {
@@ -33,7 +33,7 @@ bool Simulator::Impl::tumbles(std::size_t body) const {
 
 void Simulator::Impl::gyroscopic_torques(double dt) {
   if (settings.gyroscopic == Gyroscopic::kImplicit) {
-    return follows_accelerations(settings) ? carry_momentum(dt) : predict_gyroscopic(dt);
+    return carries_momentum(settings) ? carry_momentum(dt) : predict_gyroscopic(dt);
   }
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
@@ -178,7 +178,7 @@ void Simulator::Impl::settle_gyroscopic(double dt) {
   }
 }
 
-// Störmer's sub-steps solve for the momentum l: of what tumbles u is I^-1 l until
+// Sub-steps of fourth order solve for the momentum l: of what tumbles u is I^-1 l until
 // settle_momentum().
 void Simulator::Impl::carry_momentum(double dt) {
   resize_torques();
@@ -188,7 +188,8 @@ void Simulator::Impl::carry_momentum(double dt) {
     const Vec3& I = scene->bodies[i].inertia;
     const Mat3& R = R_WB[i];
     Vec3 l = momentum_after(I, R.transpose() * state.u[i].tail<3>(), state.dt_previous_of(i));
-    if (impulse_time[i] != dt && !is_zero(state.torque_change[i])) {
+    if (follows_accelerations(settings) && impulse_time[i] != dt &&
+        !is_zero(state.torque_change[i])) {
       l += R.transpose() * Vec3(stormer_hand_over(dt, impulse_time[i]) * state.torque_change[i]);
     }
     state.u[i].tail<3>() = R * l.cwiseQuotient(I);

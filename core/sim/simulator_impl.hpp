@@ -1,6 +1,7 @@
 #pragma once
 // What a Simulator is made of: the stages that its scene calls for, and scratch.
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -38,6 +39,7 @@ struct Simulator::Impl {
   void external_forces(double dt, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
   bool solve(double dt, FrameReport& report, bool probing = false);
   void count_work(const SolveReport& solved, FrameReport& report);
+  bool breaks_motion(const Block& contact) const;
   bool finite(FrameReport& report);
   void stop(std::size_t body, FrameReport& report);  // of which a number is not finite
   // over_budget.cpp
@@ -55,6 +57,7 @@ struct Simulator::Impl {
   void keep_finite(std::size_t body);
   bool extends_changes() const;
   void extend_changes(double dt);
+  void extend_courses(double dt);
 
   // Of the sub-step: what moves in it, and its rows.
   const Part& part() const { return open ? schedule.part() : all; }
@@ -96,6 +99,8 @@ struct Simulator::Impl {
   bool forces_are_stored() const;   // of any constraint, from sub-step to sub-step
   bool springs_are_stored() const;  // those of joints
   void set_joint_springs(double dt);
+  bool averages_contacts() const;  // their springs' forces, over the poses of a sub-step
+  void set_contact_springs(double dt);
   SubstepTimes times_of(const Block& block, double dt) const;
   void seed_forces();
   void store_forces();
@@ -103,17 +108,21 @@ struct Simulator::Impl {
   void extrapolate(const StoredForce& force, Block& block) const;
   void find_rates(const Block& block, StoredForce& force) const;
   std::span<const Vec6> extrapolated_velocities();
+  void prepare_courses();
   void store_accelerations(double dt);
   void store_changes(std::size_t body, const Vec6& a, double dt);
   // Where follows_accelerations(): first_changes.cpp.
   struct Accelerations {
-    std::vector<Vec6> a;       // per body [m/s^2, rad/s^2]
-    std::vector<Vec3> torque;  // per body that tumbles, world [N m]
+    std::vector<Vec6> a;                               // per body [m/s^2, rad/s^2]
+    std::vector<Vec3> torque;                          // per body that tumbles, world [N m]
+    std::vector<std::array<double, kMaxRows>> lambda;  // per block of the part [N, N m]
   };
   bool needs_first_changes() const;
   void find_first_changes(double dt);
   void find_accelerations(double dt, double s, std::span<const Vec6> a, std::span<const Vec6> rate,
-                          Accelerations& out);
+                          Solver& linear, Accelerations& out);
+  void store_first_rates(double dt, const Accelerations& before, const Accelerations& at_start,
+                         const Accelerations& after);
   // carry.cpp
   void hand_over(double dt);                         // to sub-steps of another length
   void aim_at_poses(double dt);                      // bias and softness of joints
@@ -185,10 +194,12 @@ struct Simulator::Impl {
     Vec6 now = Vec6::Zero();
     Vec6 before = Vec6::Zero();
   };
-  std::vector<Changes> changes;      // where follows_accelerations()
-  std::vector<double> impulse_time;  // per body: external forces act for it [s]
-  bool smooth = true;                // no contact closed in this sub-step
-  bool watched = true;               // whether anybody may look at what it leaves
+  std::vector<Changes> changes;        // where follows_accelerations()
+  std::vector<BodyCourse> courses;     // where extrapolates()
+  std::vector<Vec3> momentum_inertia;  // and the principal moments of what tumbles, else 0
+  std::vector<double> impulse_time;    // per body: external forces act for it [s]
+  bool smooth = true;                  // no contact closed in this sub-step
+  bool watched = true;                 // whether anybody may look at what it leaves
   StiffnessBound bound;
   StageClock clock;
 };

@@ -113,6 +113,16 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   clock.lap(report.times.mass);
 }
 
+// A blow is no acceleration that goes on. A spring that is resolved gives none; but how
+// accelerations change is not known across the time when it begins or ends to push.
+bool Simulator::Impl::breaks_motion(const Block& contact) const {
+  const bool closed = contact.impulse[0] > 0.0;
+  if (follows_accelerations(settings) && contact.spring_ahead[0] > 0.0) {
+    return closed != contact.was_closed;
+  }
+  return closed && !contact.was_closed && !(contact.spring_ahead[0] > 0.0);
+}
+
 bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
   const std::span<Block> own = rows();
   if (forces_are_stored()) seed_forces();
@@ -124,6 +134,7 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
   set_softness(own, scene->regularisation, dt);
   if (!probing) {
     if (has_springs) set_joint_springs(dt);
+    if (contact && averages_contacts()) set_contact_springs(dt);
     if (settings.drift_order == 2) add_curvature_bias(own, u_start, dt);
     if (bends_rows()) bend_rows(dt);
     if (restitution) restitution->apply(*scene, u_before, dt, own);
@@ -139,6 +150,7 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
       if (block.pinned) apply_impulse(block, block.given, inverse_mass, state.u);
     }
   }
+  if (extrapolates(settings)) prepare_courses();
   const System system{own,
                       inverse_mass,
                       state.u,
@@ -147,6 +159,9 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
                       R_WB,
                       scene->regularisation,
                       extrapolated_velocities(),
+                      impulse_time,
+                      momentum_inertia,
+                      courses,
                       limits_of_solve(progress(report), settings, budget)};
   Settings asked = settings;
   asked.iterations = iterations_of(settings, dt / scene->frame);
@@ -166,10 +181,10 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
       }
     }
   }
-  smooth = !contact || std::none_of(own.begin(), own.end(), [](const Block& block) {
-    return block.is_contact() && !block.was_closed && block.impulse[0] > 0.0;
+  smooth = !contact || std::none_of(own.begin(), own.end(), [&](const Block& block) {
+    return block.is_contact() && breaks_motion(block);
   });
-  if (scene->effects.gyroscopic && !probing && !follows_accelerations(settings)) {
+  if (scene->effects.gyroscopic && !probing && !carries_momentum(settings)) {
     settle_gyroscopic(dt);
   }
   count_work(solved, report);
@@ -266,7 +281,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   const std::span<const Vec6> move_by = pose_velocities(dt);
   store_accelerations(dt);
   integrate(part(), dt, move_by, state);
-  if (scene->effects.gyroscopic && follows_accelerations(settings)) settle_momentum(dt);
+  if (scene->effects.gyroscopic && carries_momentum(settings)) settle_momentum(dt);
   if (watched) synchronise(dt);
   state.time += dt;
   state.dt_previous = dt;

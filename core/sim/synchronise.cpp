@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/gyroscopic.hpp"
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
-#include "core/stepping/gyroscopic.hpp"
 
 namespace substep {
 
@@ -15,6 +15,7 @@ namespace substep {
 // momentum about a fixed anchor is conserved.
 void Simulator::Impl::synchronise(double dt) {
   if (extends_changes()) return extend_changes(dt);
+  if (extrapolates(settings) && smooth) return extend_courses(dt);
   const auto ahead_after = [&](double dt_previous) {
     const double before =
         settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
@@ -106,6 +107,25 @@ void Simulator::Impl::extend_changes(double dt) {
     const Vec3 pushed = dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before).tail<3>();
     state.u_synchronised[i].tail<3>() =
         q * Vec3((momentum_after(I, omega_B, dt) + q.conjugate() * pushed).cwiseQuotient(I));
+    keep_finite(i);
+  }
+}
+
+// From a mean over the sub-step to its end, with the accelerations' parabola:
+//   q'+ = v + dt (a/6 + a+/3 - dt^2 a''/24).
+void Simulator::Impl::extend_courses(double dt) {
+  for (const int body : part().moving) {
+    const std::size_t i = index(body);
+    const BodyCourse& by = courses[i];
+    const Vec6 gained = dt * (by.start / 6.0 + by.end / 3.0 - by.bend / 24.0);
+    state.u_synchronised[i] = state.u[i] + gained;
+    if (!tumbles(i)) continue;
+    const Vec3& I = scene->bodies[i].inertia;
+    const Quat& q = state.q[i];
+    const Vec3 omega_B = q.conjugate() * Vec3(state.u[i].tail<3>());
+    const Vec3 pushed = q.conjugate() * Vec3(gained.tail<3>());
+    state.u_synchronised[i].tail<3>() =
+        q * Vec3((momentum_after(I, omega_B, dt) + pushed).cwiseQuotient(I));
     keep_finite(i);
   }
 }

@@ -15,24 +15,15 @@ namespace {
 
 constexpr double kConverged = 1e-9;  // largest change of a velocity in a step, relative
 
-/// The share of each of the two neighbouring poses, and of q+ in the Hessian.
-double weight_of(Forces forces) {
-  switch (forces) {
-    case Forces::kEnd:
-      return 1.0;
-    case Forces::kMean:
-      return 1.0 / 4.0;
-    case Forces::kNumerov:
-      return 1.0 / 12.0;
-  }
-  return 1.0;
-}
+/// Of the mean, average acceleration.
+constexpr PoseWeights kMean{0.25, 0.5, 0.25, 0.0};
 
 /// Of a step but for the linear system's own: rows at other poses, their averages, and the Hessian.
 std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies, Forces forces) {
   constexpr std::int64_t kBody = 2 * product_flops(3, 3, 3) + 30 +  // D
                                  2 * product_flops(3, 3, 3) + 40 +  // Mt^-1
                                  2 * product_flops(3, 3, 1) + 30;   // u, its change
+  constexpr std::int64_t kCourse = 2 * 400;  // both turns, of three iterations each
   std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
   for (const Block& block : blocks) {
     const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
@@ -41,8 +32,10 @@ std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies
     if (forces == Forces::kEnd) continue;
     const std::int64_t averaged = block.rows * (block.pinned ? 3 : 6) + 3;
     flops += 4 * averaged * sides;
-    if (forces == Forces::kNumerov) flops += 20 * block.rows * sides;
+    if (forces != Forces::kNumerov) continue;
+    flops += move_flops(block, block.rows) + (20 + 3 * 12) * block.rows * sides;
   }
+  if (forces == Forces::kNumerov) flops += kCourse * static_cast<std::int64_t>(bodies);
   return flops;
 }
 
@@ -74,6 +67,7 @@ void Newton::reserve(std::size_t bodies, std::size_t blocks) {
   back_.reserve(blocks);
   K_.reserve(bodies);
   motions_.reserve(bodies + 1);
+  numerov_.reserve(bodies);
 }
 
 void Newton::move_bodies(std::span<const Vec6> u, double dt) {
@@ -91,6 +85,10 @@ void Newton::read_rows(const System& system, Forces forces) {
   for (std::size_t i = 0; i < rows_.size(); ++i) copy_start(system.blocks[i], rows_[i]);
   if (forces == Forces::kEnd) return;
   if (back_.size() < rows_.size()) back_.resize(rows_.size());
+  if (forces == Forces::kNumerov) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) copy_start(system.blocks[i], back_[i]);
+    return numerov_.begin(system, u_star_);
+  }
   move_bodies(system.u_before, -system.dt);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
@@ -103,13 +101,21 @@ void Newton::read_rows(const System& system, Forces forces) {
 // so the linear system has the bias phi/dt - J u. phi is that of the end; J' stands for its J.
 void Newton::relinearise(const System& system, Forces forces) {
   aim_ = u_star_;
-  move_bodies(system.u, system.dt);
+  if (forces == Forces::kNumerov) {
+    move_along_courses(system);
+  } else {
+    move_bodies(system.u, system.dt);
+  }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
     Block& block = rows_[i];
-    move_rows(start, motion_of(start.a), motion_of(start.b), block);
-    if (forces != Forces::kEnd) {
-      average(system, i, weight_of(forces), forces == Forces::kNumerov);
+    if (forces == Forces::kNumerov) {
+      const PoseWeights w = numerov_.weights_of(system, start);
+      if (start.pinned) add_gained(system, i, w);
+      average(start, back_[i], w, block);
+    } else {
+      move_rows(start, motion_of(start.a), motion_of(start.b), block);
+      if (forces == Forces::kMean) average(start, back_[i], kMean, block);
     }
     double speed[kMaxRows];
     row_speeds(block, system.u, speed);
@@ -117,18 +123,24 @@ void Newton::relinearise(const System& system, Forces forces) {
       block.bias[row] = start.bias[row] + block.phi[row] / system.dt - speed[row];
     }
   }
-  if (forces == Forces::kNumerov) straighten_turns(system);
 }
 
-// J' = w J- + (1 - 2 w) J + w J+.
-void Newton::average(const System& system, std::size_t index, double w, bool numerov) {
-  const Block& start = system.blocks[index];
-  Block& end = rows_[index];
-  const Block& back = back_[index];
-  if (numerov && start.pinned) add_gained(system, index, w);
+void Newton::move_along_courses(const System& system) {
+  numerov_.find_turns(system);
+  numerov_.clear_forces();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Block& start = system.blocks[i];
+    move_rows(start, numerov_.motion_ahead(start.a), numerov_.motion_ahead(start.b), rows_[i]);
+    move_rows(start, numerov_.motion_behind(start.a), numerov_.motion_behind(start.b), back_[i]);
+    numerov_.add_forces(system, start, back_[i], rows_[i]);
+  }
+}
+
+// J' = w- J- + w0 J + w+ J+.
+void Newton::average(const Block& start, const Block& back, const PoseWeights& w, Block& end) {
   const auto averaged = [&](int row, int j, auto J) {
     (end.*J)[row][j] =
-        w * ((back.*J)[row][j] + (end.*J)[row][j]) + (1.0 - 2.0 * w) * (start.*J)[row][j];
+        w.behind * (back.*J)[row][j] + w.here * (start.*J)[row][j] + w.ahead * (end.*J)[row][j];
   };
   const int first = start.pinned ? 3 : 0;  // rows 0 to 2 of a pin are linear in its arms
   for (int row = first; row < start.rows; ++row) {
@@ -137,46 +149,28 @@ void Newton::average(const System& system, std::size_t index, double w, bool num
       if (!start.pinned) averaged(row, j, &Block::J_b);
     }
   }
-  end.r_a = w * (back.r_a + end.r_a) + (1.0 - 2.0 * w) * start.r_a;
-  end.r_b = w * (back.r_b + end.r_b) + (1.0 - 2.0 * w) * start.r_b;
+  end.r_a = w.behind * back.r_a + w.here * start.r_a + w.ahead * end.r_a;
+  end.r_b = w.behind * back.r_b + w.here * start.r_b + w.ahead * end.r_b;
 }
 
-// Numerov's method has the forces of the neighbours with their own impulses, (J- p- + 10 J p +
-// J+ p+)/12. With p-+ = p -+ g, g what they gain in a sub-step, that is J'^T p + (J+ - J-)^T g/12;
-// what is bent about p acts along J and only changes the multiplier. g is half of what lies between
-// the neighbours: p - p- would be half a sub-step late, and the whole of third order. J+ - J- of a
-// pin has no linear part.
-void Newton::add_gained(const System& system, std::size_t index, double w) {
+// Numerov's method has the forces of the other poses with their own impulses. With those behind,
+// p - b p', and ahead, p + dt p', the sum is J'^T p + (w+ dt J+ - w- b J-)^T p'. What is bent about
+// p acts along J and only changes the multiplier.
+void Newton::add_gained(const System& system, std::size_t index, const PoseWeights& w) {
   const Block& start = system.blocks[index];
-  const Block& end = rows_[index];
-  const Block& back = back_[index];
-  double gain[kMaxRows] = {};
+  if (!start.seeded) return;
+  double time = 0.0;
+  for (const int body : {start.a, start.b}) {
+    if (body >= 0) time = std::max(time, system.force_time[static_cast<std::size_t>(body)]);
+  }
+  double ahead[kMaxRows];
+  double behind[kMaxRows];
   for (int row = 0; row < start.rows; ++row) {
-    gain[row] = start.seeded ? w * start.gain[row] : 0.0;
+    ahead[row] = time * w.ahead * system.dt * start.rate[row];
+    behind[row] = -time * w.behind * w.reach * start.rate[row];
   }
-  const auto turn = [&](int body, double sign, const Vec3& arm_gained) {
-    Vec3 torque = arm_gained.cross(Vec3(gain[0], gain[1], gain[2]));
-    for (int row = 3; row < start.rows; ++row) {
-      for (int j = 0; j < 3; ++j) {
-        torque[j] += (end.J_a[row][3 + j] - back.J_a[row][3 + j]) * gain[row];
-      }
-    }
-    const auto i = static_cast<std::size_t>(body);
-    aim_[i].tail<3>() += sign * (system.inverse_mass[i].angular * torque);
-  };
-  if (start.a >= 0) turn(start.a, 1.0, end.r_a - back.r_a);
-  if (start.b >= 0) turn(start.b, -1.0, end.r_b - back.r_b);
-}
-
-// u turns a body by the angle 2 atan(dt |omega|/2), so omega is longer than the turn by dt by
-// dt^2 |omega|^2/12, and its change by the derivative of that.
-void Newton::straighten_turns(const System& system) {
-  const double c = system.dt * system.dt / 12.0;
-  for (std::size_t i = 0; i < aim_.size(); ++i) {
-    const Vec3 w = 0.5 * (system.u[i] + system.u_before[i]).tail<3>();
-    const Vec3 change = (system.u[i] - system.u_before[i]).tail<3>();
-    aim_[i].tail<3>() += c * (w.squaredNorm() * change + 2.0 * w.dot(change) * w);
-  }
+  apply_impulse(rows_[index], ahead, system.inverse_mass, aim_);
+  apply_impulse(back_[index], behind, system.inverse_mass, aim_);
 }
 
 // The forces turn with q+, so the Hessian is -w dt K(impulse), and D, what of its diagonal resists,
@@ -184,9 +178,12 @@ void Newton::straighten_turns(const System& system) {
 //   Mt (u+ - u) = -M (u - u*) + J'^T impulse
 // is the linear system that starts from u - A (u - u*).
 void Newton::stiffen(const System& system, Forces forces) {
-  const double w = weight_of(forces);
   K_.assign(system.u.size(), Mat3::Zero());
   for (Block& block : rows_) {
+    const double w = forces == Forces::kEnd ? 1.0
+                     : forces == Forces::kMean
+                         ? kMean.ahead
+                         : std::max(0.0, numerov_.weights_of(system, block).ahead);
     // K is linear in the forces: dt^2 K(impulse/dt) = dt K(impulse).
     for (int row = 0; row < block.rows; ++row) {
       block.lambda[row] = w * system.dt * block.impulse[row];
@@ -225,6 +222,7 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
   read_rows(system, settings.forces);
   // The guess: nothing changes, or what changes goes on as it did.
   copy(system.u_guess.empty() ? system.u_before : system.u_guess, system.u);
+  if (settings.forces == Forces::kNumerov) move_along_courses(system);  // by no torques
 
   SolveReport report;
   for (double change = 1.0; change > kConverged;) {  // false for what is not a number
@@ -252,6 +250,7 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
     report.factorisations += step.factorisations;
     report.flops += step.flops + relinearise_flops(rows_, u_.size(), settings.forces);
   }
+  if (settings.forces == Forces::kNumerov) numerov_.find_turns(system);
   return report;
 }
 

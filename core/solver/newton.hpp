@@ -4,6 +4,7 @@
 
 #include "core/constraints/moved_rows.hpp"
 #include "core/solver/bpp.hpp"
+#include "core/solver/numerov.hpp"
 #include "core/solver/solver.hpp"
 
 namespace substep {
@@ -19,11 +20,10 @@ namespace substep {
 ///            acceleration of Newmark's family.
 ///   numerov  J' = (J- + 10 J + J+)/12, after Numerov's q+ - 2 q + q- = dt^2 (a- + 10 a + a+)/12.
 ///            On the model of Eq. 5 the error is of fourth order, and stable while dt^2 k < 6 M.
-///            The forces of the neighbours differ from this one by what they gain in a sub-step,
-///            Block::gain, and the Cayley vector of a turn from the turn itself; both are put
-///            right. Chains that swing in a plane converge at fourth order, what tumbles in space
-///            at second. Gain and first guess go on as the sub-steps before had them: two steps do,
-///            and one is a scheme of third order, stable for about half the dt^2 k.
+///            The forces of the neighbours differ from this one by how they change, Block::rate;
+///            velocities are means over a sub-step, and turns follow from the torques at its ends
+///            (numerov.hpp). Rates and first guess go on as the sub-steps before had them: two
+///            steps do, and one is a scheme of third order, stable for about half the dt^2 k.
 /// How far they are stable: where q grows by the factor z in a sub-step, the model of Eq. 5 with
 /// kappa = dt^2 k/M and the share w of each neighbouring pose is
 ///   (1 + w kappa) (z^2 + 1) - (2 - (1 - 2 w) kappa) z = 0.
@@ -45,9 +45,9 @@ class Newton final : public Solver {
   /// Into rows_, and into back_ where the forces are those of more poses than the end's.
   void read_rows(const System& system, Forces forces);
   void relinearise(const System& system, Forces forces);
-  void average(const System& system, std::size_t block, double weight, bool numerov);
-  void add_gained(const System& system, std::size_t block, double weight);
-  void straighten_turns(const System& system);
+  void move_along_courses(const System& system);
+  static void average(const Block& start, const Block& back, const PoseWeights& w, Block& end);
+  void add_gained(const System& system, std::size_t block, const PoseWeights& w);
   void stiffen(const System& system, Forces forces);
   /// Takes the solution of the linear system. @return the largest change of a velocity, relative
   double take(const System& system);
@@ -63,6 +63,7 @@ class Newton final : public Solver {
   std::vector<Block> back_;   // arms and J at the poses of the last sub-step, nothing else
   std::vector<Motion> motions_;  // per body, and of what stands still at the end
   std::vector<Mat3> K_;          // per body: what its turning does to its torque, times dt^2
+  NumerovCourses numerov_;
 };
 
 }  // namespace substep

@@ -21,6 +21,17 @@ struct SolveLimits {
   double work = std::numeric_limits<double>::infinity();    // [floating-point operations]
 };
 
+/// How a body goes through a sub-step, of a solver that finds more of it than a velocity: what
+/// integrate() moves it by, its acceleration at both ends and dt^2 times the second derivative of
+/// that. Of what keeps to its angular momentum, the torque stands in place of the angular
+/// acceleration. [m/s, rad/s; m/s^2, rad/s^2 or N m]
+struct BodyCourse {
+  Vec6 move_by = Vec6::Zero();
+  Vec6 start = Vec6::Zero();
+  Vec6 end = Vec6::Zero();
+  Vec6 bend = Vec6::Zero();
+};
+
 /// What a solver is given: find impulses and u+ = u* + Mt^-1 J^T impulse with
 ///   w = J u+ + softness * impulse + bias,
 ///   w = 0 where lo < impulse < hi,  w >= 0 at lo,  w <= 0 at hi.
@@ -41,6 +52,13 @@ struct System {
 
   // Per body: where Newton may begin, or empty: at u_before [m/s, rad/s].
   std::span<const Vec6> u_guess{};
+
+  // For Newton with forces numerov, per body: for how long forces act [s]; principal moments of
+  // what keeps to its angular momentum, of which u is I^-1 of the mean over a sub-step, else 0
+  // [kg m^2]; and, out, where it goes.
+  std::span<const double> force_time{};
+  std::span<const Vec3> inertia{};
+  std::span<BodyCourse> courses{};
 
   SolveLimits limits{};
 };

@@ -37,6 +37,12 @@ double mobility(const Block& joint, int row, std::span<const InverseMass> invers
   return sum;
 }
 
+const Settings kLeapfrog = [] {
+  Settings settings;
+  settings.integrator = Integrator::kLeapfrog;
+  return settings;
+}();
+
 }  // namespace
 
 bool averages_springs(const Settings& settings) { return resolved_weight(settings) < 1.0; }
@@ -94,6 +100,28 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
   };
   set_rows(0, std::min(3, joint.rows));
   set_rows(3, joint.rows);
+}
+
+// The solver has to find whether the contact pushes, so none is given its force. Where it was open
+// it did not pull: without that an impact would gain energy. Where it opens ahead the mean is cut
+// short, and loses a little.
+void set_contact_spring(const Settings& settings, const SubstepTimes& times,
+                        std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
+                        double regularisation, Block& contact) {
+  const double kappa = spring_kappa(times, inverse_mass, contact, 0, 1);
+  if (!(kappa < kResolvedContact)) return;
+  SpringWeights w = spring_weights(settings, kappa);
+  if (w.ahead == 0.0) w = spring_weights(kLeapfrog, kappa);
+  double speed[kMaxRows];
+  row_speeds(contact, u_before, speed);
+  const double ahead = w.ahead * times.dt;
+  const double phi = contact.phi[0];
+  const double pressed = std::min(phi, 0.0);
+  const double pressed_behind = std::min(phi - times.dt_previous * speed[0], 0.0);
+  contact.bias[0] =
+      (w.ahead * phi + (1.0 - w.ahead - w.behind) * pressed + w.behind * pressed_behind) / ahead;
+  contact.softness[0] = contact.C[0] / (ahead * times.force_time) + regularisation;
+  contact.spring_ahead[0] = w.ahead;
 }
 
 void store_elastic(const double* lambda, Block& joint) {

@@ -8,8 +8,9 @@
 
 namespace substep {
 
-// A compliant joint is a spring: its force is -phi/C at the poses that the integrator takes forces
-// from, not an error that is taken back. Of the poses before, at and after the sub-step,
+// A compliant joint or contact is a spring: its force is -phi/C at the poses that the integrator
+// takes forces from, not an error that is taken back. Of the poses before, at and after the
+// sub-step,
 //   C lambda = -(w+ phi+ + w0 phi + w- phi-),   w+ + w0 + w- = 1,
 // so that at rest it gives way by C lambda whatever the weights, dt and N. With phi+ = phi + dt J
 // u+, phi- = phi - dt- J u- and the impulse p = t lambda, t the time that forces act for, a row is
@@ -62,6 +63,15 @@ inline constexpr double kResolved = 0.25;  ///< kappa up to which Störmer's spr
 void set_springs(const Settings& settings, const SubstepTimes& times, double drift_rate,
                  std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
                  double regularisation, Block& joint);
+
+/// kappa up to which a contact's spring is averaged: its weights are implicit Euler's to 1e-3
+/// there.
+inline constexpr double kResolvedContact = 100.0;
+/// Bias and softness of the normal of a compliant contact under the full drift law, where all of
+/// phi is the spring's own: the mean force of the three poses, and never a pull.
+void set_contact_spring(const Settings& settings, const SubstepTimes& times,
+                        std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
+                        double regularisation, Block& contact);
 
 /// What is the spring's own of phi after the sub-step, by its law and the force found: into
 /// Block::elastic. @param lambda per row [N, N m]

@@ -18,10 +18,16 @@ Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& accelerat
   const double scaled = changes_are_known(acceleration) ? stormer_growth(dt, time) * dt : 0.0;
   const double per_time = 1.0 / time;
   Vec6 w;
+  Vec3 middle;  // angular acceleration
   for (int j = 0; j < 6; ++j) {
-    const double change = per_time * (u[j] - u_before[j]) - acceleration[j];
+    const double a = per_time * (u[j] - u_before[j]);
+    const double change = a - acceleration[j];
     w[j] = (u[j] - scaled / 12.0 * acceleration_change[j]) + scaled / 6.0 * change;
+    if (j < 3) continue;
+    const double growth = scaled / dt;
+    middle[j - 3] = a + growth * (7.0 * change - 3.0 * acceleration_change[j]) / 8.0;
   }
+  w.tail<3>() += dt * dt / 12.0 * middle.cross(w.tail<3>());
   w.tail<3>() *= half_tangent_factor(0.5 * dt * w.tail<3>());
   return w;
 }

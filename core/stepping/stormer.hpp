@@ -23,7 +23,8 @@ namespace substep {
 // D- by dt/dt-, and with them g = 1 + dt/dt- dt/(6 t)), and what velocities leave out, which goes
 // with dt^2, is handed over:
 //   u = q' - dt^2/24 a'  in the middle of a sub-step, so that  u += (dt^2 - dt-^2)/12 a'.
-// How a turn goes with its angular velocity is put right in the same way: the Cayley vector of
+// Turns do not commute: by Magnus' expansion a body whose angular velocity changes turns, in world
+// axes, by dt w + dt^3/12 w' x w. (Of what tumbles, free_turn.hpp.) The Cayley vector of
 // integrate() is dt w/2, that of a turn by dt |w| longer by (dt |w|/2)^2/3.
 
 /// dt/dt-. Where there was no sub-step before, changes are those of a trial one as long as this.

@@ -67,13 +67,13 @@ ExamMeasure measure_bounce() {
     const double gap = state.x[1].y() - kRadius;
     raise(errors[0], std::abs(gap - kBounce.gap_after(state.time)));
     const double v = velocity_of(state, 1).y();
-    const double pressed = std::min(0.0, gap);
-    const double at_start = kBounce.mass * kBounce.gravity * kBounce.height;
-    const double energy = 0.5 * kBounce.mass * v * v + kBounce.mass * kBounce.gravity * gap +
-                          0.5 * kBounce.stiffness * pressed * pressed;
-    const double change = energy / at_start - 1.0;
-    raise(errors[1], change);
-    raise(errors[2], std::abs(change));
+    if (gap > 0.0) {
+      const double at_start = kBounce.mass * kBounce.gravity * kBounce.height;
+      const double energy = 0.5 * kBounce.mass * v * v + kBounce.mass * kBounce.gravity * gap;
+      const double change = energy / at_start - 1.0;
+      raise(errors[1], change);
+      raise(errors[2], std::abs(change));
+    }
     if (falling && v > 0.0) ++bounces;
     falling = v < 0.0;
     errors[3] = std::abs(bounces - kBounce.bounces_within(state.time));
@@ -186,8 +186,11 @@ ExamCase exam_compliant_ball() {
       solid("ball", Sphere{kRadius}, kBounce.mass, {0.0, kRadius + kBounce.height, 0.0}));
   scene.criteria.track = 1;
   exam.quantities = {{"height", "m", 1e-3, "the accuracy that their integrator is run with"},
-                     {"energy gained", "-", 1e-3, "the same, of the energy at the start", true},
-                     {"energy changed", "-", 1e-2, "what can be read off their plot"},
+                     {"energy gained", "-", 1e-3,
+                      "the same, of the energy at the start; in flight, because on the spring it "
+                      "swings to and fro with the order of the velocity",
+                      true},
+                     {"energy changed", "-", 1e-2, "what can be read off their plot; in flight"},
                      {"bounces missed", "-", 0.5, "their count of eleven"}};
   exam.measure = measure_bounce;
   exam.motion = [] {
@@ -195,7 +198,7 @@ ExamCase exam_compliant_ball() {
       x[1].y() = kRadius + kBounce.gap_after(t);
     };
   };
-  exam.methods = contact_methods(scene.settings, {16, 64, 256});
+  exam.methods = contact_methods(scene.settings, {16, 64, 256, 1024});
   return exam;
 }
 

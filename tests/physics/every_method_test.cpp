@@ -123,7 +123,10 @@ TEST(EveryMethod, KeepsTheEnergyOfASpinningTop) {
   for (const auto& [name, best] : best_of(scenes::spinning_top(), ErrorAxis::kEnergy, 3.0)) {
     EXPECT_EQ(best.holds, best.runs) << name;
     if (best.method.gyroscopic == Gyroscopic::kImplicit) {
-      EXPECT_LT(best.error, 1e-12) << name;
+      // Turns of fourth order keep the momentum exactly, and the energy to their error.
+      const bool fourth_order =
+          best.method.integrator == Integrator::kStormer || best.method.forces == Forces::kNumerov;
+      EXPECT_LT(best.error, fourth_order ? 1e-11 : 1e-12) << name;
     } else {
       EXPECT_GT(best.error, 1e-2) << "what the implicit torque is for";
     }

@@ -1,12 +1,12 @@
 #include <cmath>
 
+#include "core/math/gyroscopic.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/damping.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/geometric_inertia.hpp"
-#include "core/stepping/gyroscopic.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/substep_clock.hpp"
 #include "tests/unit/support.hpp"

@@ -1,7 +1,7 @@
-#include "core/stepping/free_turn.hpp"
+#include "core/math/free_turn.hpp"
 
+#include "core/math/gyroscopic.hpp"
 #include "core/math/turn.hpp"
-#include "core/stepping/gyroscopic.hpp"
 
 namespace substep {
 

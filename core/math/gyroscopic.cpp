@@ -1,4 +1,4 @@
-#include "core/stepping/gyroscopic.hpp"
+#include "core/math/gyroscopic.hpp"
 
 #include <Eigen/LU>
 

@@ -23,7 +23,7 @@ Result run_for(const Scene& scene, double seconds, const Reference& reference) {
 
 TEST(RecommendedOfScenes, KeepsItsErrorAtItsCost) {
   for (const Scene& scene : scenes::shipped()) {
-    if (!scene.recommended) continue;  // where nothing is solved, or in space
+    if (!scene.recommended) continue;  // where nothing is solved
     SCOPED_TRACE(scene.name);
     const Recommended& kept = *scene.recommended;
     const Reference reference =

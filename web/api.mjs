@@ -1,24 +1,116 @@
 // What programs may ask of a laboratory: window.substep, and what createSubstep gives. README.md
 // says it for people. Nothing throws: what is wrong comes back, and what ran goes on.
+import { isObject, isText, largest, makeGuards, messageOf, optionOf, right, show, tooLong, wrong }
+  from "./answers.mjs";
 
 const longest = 100_000; // frames of one call
-const right = { ok: true, problems: [] };
-const wrong = (pointer, message) => ({ ok: false, problems: [{ pointer, message }] });
-const show = (value) => {
-  try {
-    return JSON.stringify(value) ?? String(value);
-  } catch {
-    return String(value);
+const gone = "this laboratory was removed: createSubstep opens another";
+
+const parse = (text) => JSON.parse(text);
+
+function load(wasm, scene, from) {
+  if (!isText(scene) && !isObject(scene)) {
+    return wrong("scene", `${show(scene)} is no scene's name, JSON text or object`);
   }
-};
-const isObject = (value) => typeof value === "object" && value !== null && !Array.isArray(value);
+  const name = typeof from === "string" ? from.slice(0, 200) : show(from);
+  let text = scene;
+  try {
+    if (isObject(scene)) text = JSON.stringify(scene) ?? "";
+  } catch (error) {
+    return wrong("scene", messageOf(error));
+  }
+  if (text.length > largest) return tooLong("scene");
+  return parse(text.includes("{") ? wasm.openText(text, name) : wasm.open(text));
+}
 
-/** A text without what would end it early on its way. */
-const isText = (value) => typeof value === "string" && !value.includes("\0");
+function set(wasm, settings) {
+  if (!isObject(settings)) return wrong("", `${show(settings)} is not an object of settings`);
+  const entries = Object.entries(settings); // a getter may give something else the next time
+  for (const [key, value] of entries) {
+    if (!["string", "number", "boolean"].includes(typeof value)) {
+      return wrong(key, `${show(value)} is not a text, a number, true or false`);
+    }
+  }
+  const text = JSON.stringify(Object.fromEntries(entries));
+  return text.length > largest ? tooLong("") : parse(wasm.set(text));
+}
 
-export function makeApi({ wasm, wake, address, capture, clock, frame }) {
-  const parse = (text) => JSON.parse(text);
-  const report = () => parse(wasm.report());
+/** Calls that change the run. */
+function makeChanging(wasm, report) {
+  const done = () => ({ ...right(), ...report() });
+  return {
+    load: (scene, from = "The scene") => load(wasm, scene, from),
+    set: (settings) => set(wasm, settings),
+    step(frames = 1) {
+      if (!Number.isInteger(frames) || frames < 0 || frames > longest) {
+        return wrong("frames", `${show(frames)} is not a whole number from 0 to ${longest}`);
+      }
+      wasm.step(frames);
+      return done();
+    },
+    substep() {
+      wasm.substep();
+      return done();
+    },
+    goTo(time) {
+      if (!Number.isFinite(time) || time < 0) return wrong("time", `${show(time)} is no time in s`);
+      wasm.play(0);
+      wasm.goTo(time);
+      return done();
+    },
+    play() {
+      wasm.play(1);
+      return right();
+    },
+    pause() {
+      wasm.play(0);
+      return right();
+    },
+    reset() {
+      wasm.reset();
+      return right();
+    },
+  };
+}
+
+/** Calls that only look. */
+const makeLooking = (wasm, report) => ({
+  report,
+  settings: () => parse(wasm.settings()),
+  scenes: () => parse(wasm.scenes()),
+  widgets: () => parse(wasm.widgets()),
+  memory: () => parse(wasm.memory()),
+  hash: () => wasm.hash(),
+  command: () => wasm.command(),
+  history: () => wasm.history(),
+  saved: () => wasm.savedScene(),
+});
+
+/** Calls that promise what only takes shape later, or fail. */
+const makePromised = (address, capture, report) => ({
+  link: () => address.url(),
+  screenshot(options) {
+    const part = optionOf(options, "part", "window");
+    if (part !== "window" && part !== "view") {
+      throw new Error(`part: ${show(part)} is not "window" or "view"`);
+    }
+    const [x, y, width, height] = report().view;
+    return capture.picture(part === "view" ? { x, y, width, height } : undefined);
+  },
+  record(options) {
+    const seconds = optionOf(options, "seconds", 5);
+    if (typeof seconds !== "number" || !(seconds > 0 && seconds <= 600)) {
+      throw new Error(`seconds: ${show(seconds)} is not above 0 and at most 600`);
+    }
+    const video = capture.begin();
+    if (!video) throw new Error("a video is being recorded, or this browser cannot");
+    setTimeout(capture.end, 1000 * seconds);
+    return video;
+  },
+});
+
+/** Those who hear of frames and verdicts. @param trouble why nobody can begin to listen, or "" */
+function makeListeners(report, trouble) {
   const listeners = { frame: new Set(), verdict: new Set() };
   let last = { run: "", frame: -1, verdict: "" };
 
@@ -31,119 +123,19 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
       }
     }
   }
-
-  const changing = {
-    load(scene, from = "The scene") {
-      if (!isText(scene) && !isObject(scene)) {
-        return wrong("scene", `${show(scene)} is no scene's name, JSON text or object`);
-      }
-      let text = scene;
-      try {
-        if (isObject(scene)) text = JSON.stringify(scene) ?? "";
-      } catch (error) {
-        return wrong("scene", error.message);
-      }
-      return parse(text.includes("{") ? wasm.openText(text, String(from)) : wasm.open(text));
-    },
-    set(settings) {
-      if (!isObject(settings)) return wrong("", `${show(settings)} is not an object of settings`);
-      for (const [key, value] of Object.entries(settings)) {
-        if (!["string", "number", "boolean"].includes(typeof value)) {
-          return wrong(key, `${show(value)} is not a text, a number, true or false`);
-        }
-      }
-      return parse(wasm.set(JSON.stringify(settings)));
-    },
-    step(frames = 1) {
-      if (!Number.isInteger(frames) || frames < 0 || frames > longest) {
-        return wrong("frames", `${show(frames)} is not a whole number from 0 to ${longest}`);
-      }
-      wasm.step(frames);
-      return { ...right, ...report() };
-    },
-    substep() {
-      wasm.substep();
-      return { ...right, ...report() };
-    },
-    goTo(time) {
-      if (!Number.isFinite(time) || time < 0) return wrong("time", `${show(time)} is no time in s`);
-      wasm.play(0);
-      wasm.goTo(time);
-      return { ...right, ...report() };
-    },
-    play() {
-      wasm.play(1);
-      return right;
-    },
-    pause() {
-      wasm.play(0);
-      return right;
-    },
-    reset() {
-      wasm.reset();
-      return right;
-    },
-    openLink(link) {
-      if (!isText(link)) return Promise.resolve(wrong("link", `${show(link)} is not a text`));
-      return address.open(link.includes("#") ? link.slice(link.indexOf("#")) : link);
-    },
-  };
-  const calls = {
-    report,
-    settings: () => parse(wasm.settings()),
-    scenes: () => parse(wasm.scenes()),
-    widgets: () => parse(wasm.widgets()),
-    memory: () => parse(wasm.memory()),
-    hash: () => wasm.hash(),
-    command: () => wasm.command(),
-    link: () => address.url(),
-    history: () => wasm.history(),
-    saved: () => wasm.savedScene(),
-    screenshot(options) {
-      const { part = "window" } = options ?? {};
-      if (part !== "window" && part !== "view") {
-        return Promise.reject(new Error(`part: ${show(part)} is not "window" or "view"`));
-      }
-      const [x, y, width, height] = report().view;
-      return capture.picture(part === "view" ? { x, y, width, height } : undefined);
-    },
-    record(options) {
-      const { seconds = 5 } = options ?? {};
-      if (!(seconds > 0 && seconds <= 600)) {
-        return Promise.reject(new Error(`seconds: ${show(seconds)} is not above 0 and at most 600`));
-      }
-      const video = capture.begin();
-      if (!video) {
-        return Promise.reject(new Error("a video is being recorded, or this browser cannot"));
-      }
-      setTimeout(capture.end, 1000 * seconds);
-      return video;
-    },
+  return {
+    /** @returns what ends it; where it could not begin, that bears {ok, problems} */
     on(event, listener) {
-      if (!Object.hasOwn(listeners, event) || typeof listener !== "function") {
-        console.error(`substep.on(${show(event)}): events are ${Object.keys(listeners).join(", ")}` +
-          ", each with a function");
-        return () => {};
+      const known = typeof event === "string" && Object.hasOwn(listeners, event);
+      const problem = trouble() || (known && typeof listener === "function" ? ""
+        : `events are ${Object.keys(listeners).join(", ")}, each with a function`);
+      if (problem) {
+        console.error(`substep.on(${show(event)}): ${problem}`);
+        return Object.assign(() => {}, wrong("", problem));
       }
       listeners[event].add(listener);
       return () => listeners[event].delete(listener);
     },
-    remove() {
-      clock.stop();
-      address.stop();
-      wasm.close();
-      frame.end();
-    },
-  };
-  for (const [name, call] of Object.entries(changing)) {
-    calls[name] = (...args) => {
-      wake();
-      return call(...args);
-    };
-  }
-
-  return {
-    calls,
     /** Tells those who listen what the last picture shows. */
     afterDraw() {
       if (listeners.frame.size + listeners.verdict.size === 0) return;
@@ -153,5 +145,45 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
       if (run !== last.run || now.verdict !== last.verdict) emit("verdict", now.verdict);
       last = { run, frame: now.frame, verdict: now.verdict };
     },
+    close() { for (const set of Object.values(listeners)) set.clear(); },
   };
+}
+
+export function makeApi({ wasm, wake, address, capture, clock, frame }) {
+  const report = () => parse(wasm.report());
+  let removed = false;
+  const trouble = () => (removed ? gone : "");
+  const { answering, promising, telling } = makeGuards(trouble);
+  const listeners = makeListeners(report, trouble);
+  const waking = (call) => (...args) => {
+    wake();
+    return call(...args);
+  };
+
+  const calls = {
+    on: listeners.on,
+    openLink: telling(waking((link) => {
+      if (!isText(link)) return wrong("link", `${show(link)} is not a text`);
+      if (link.length > largest) return tooLong("link");
+      return address.open(link.includes("#") ? link.slice(link.indexOf("#")) : link);
+    })),
+    remove() {
+      if (removed) return wrong("", gone);
+      removed = true;
+      listeners.close();
+      clock.stop();
+      address.stop();
+      capture.close(gone);
+      wasm.close();
+      frame.end();
+      return right();
+    },
+  };
+  const add = (guard, some) => {
+    for (const [name, call] of Object.entries(some)) calls[name] = guard(call);
+  };
+  add((call) => answering(waking(call)), makeChanging(wasm, report));
+  add(answering, makeLooking(wasm, report));
+  add(promising, makePromised(address, capture, report));
+  return { calls, afterDraw: listeners.afterDraw };
 }

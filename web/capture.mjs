@@ -17,7 +17,7 @@ function toPng(canvas, part) {
 export function makeCapture(frame, wasm, host, save) {
   const { canvas } = frame;
   const name = () => JSON.parse(wasm.report()).scene;
-  const wanted = []; // what is done with the pixels when they are there
+  const wanted = []; // {take, fail}: what is done with the pixels when they are there, or never
   let recorder = null;
   let ending = false;
   let started = () => false;
@@ -26,8 +26,8 @@ export function makeCapture(frame, wasm, host, save) {
   function picture(part) {
     const box = canvas.getBoundingClientRect();
     const whole = { x: 0, y: 0, width: box.width, height: box.height };
-    return new Promise((done) => {
-      wanted.push(() => done(toPng(canvas, part ?? whole)));
+    return new Promise((done, fail) => {
+      wanted.push({ take: () => done(toPng(canvas, part ?? whole)), fail });
       wasm.readBack();
       host.changed?.();
     });
@@ -95,7 +95,12 @@ export function makeCapture(frame, wasm, host, save) {
     /** Right after drawing, while the pixels are there. */
     afterDraw() {
       if (recorder) host.changed?.(); // a video of a run that rests has pictures too
-      for (const take of wanted.splice(0)) take();
+      for (const { take } of wanted.splice(0)) take();
+    },
+    /** A video ends with what it has; pictures that are waited for never come. */
+    close(reason) {
+      stop();
+      for (const { fail } of wanted.splice(0)) fail(new Error(reason));
     },
   };
 }

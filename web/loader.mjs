@@ -80,17 +80,18 @@ function wrap(module, name, signature) {
   const call = module[`_substep_${name}`];
   return (...args) => {
     const texts = [];
-    const raw = types.map((type, i) => {
+    const raw = (type, i) => {
       if (type === "n") return Number(args[i]);
       const text = String(args[i]);
       const size = module.lengthBytesUTF8(text) + 1;
       const at = module._malloc(size);
-      module.stringToUTF8(text, at, size);
+      if (at === 0) throw new Error(`there is no memory for a text of ${size} bytes`);
       texts.push(at);
+      module.stringToUTF8(text, at, size);
       return at;
-    });
+    };
     try {
-      const value = call(...raw);
+      const value = call(...types.map(raw));
       return result === "s" ? module.UTF8ToString(value) : value;
     } finally {
       texts.forEach((at) => module._free(at));

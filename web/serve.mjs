@@ -3,9 +3,9 @@
 //   node web/serve.mjs FOLDER [--port N]
 // A taken port is replaced by the next free one. Also a module: serve(folder, port).
 import { createReadStream } from "node:fs";
-import { stat } from "node:fs/promises";
-import { createServer } from "node:http";
-import { extname, join, normalize, resolve, sep } from "node:path";
+import { realpath, stat } from "node:fs/promises";
+import { createServer, STATUS_CODES } from "node:http";
+import { extname, join, normalize, sep } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const types = {
@@ -23,46 +23,80 @@ const types = {
   ".woff2": "font/woff2",
 };
 
-/** The file that a request asks for, or null for what is not there or outside the folder. */
+// What a page from this server may load: its own files alone. Styles are also written in the pages
+// and set by the program; pictures and videos are made in memory.
+const policy = [
+  "default-src 'none'", "script-src 'self' 'wasm-unsafe-eval'", "style-src 'self' 'unsafe-inline'",
+  "img-src 'self' blob: data:", "media-src 'self' blob:", "font-src 'self'", "connect-src 'self'",
+  "worker-src 'self'", "base-uri 'none'", "form-action 'none'", "frame-ancestors 'self'",
+].join("; ");
+
+const everyAnswer = { "Content-Security-Policy": policy, "X-Content-Type-Options": "nosniff" };
+
+/** The path of an address below the server's root: "/", "/example/article.html". */
+const pathOf = (url) => decodeURIComponent(new URL(url, "http://x").pathname).replace(/^\/+/, "/");
+
+/**
+ * The file that a request asks for, or null for what is not there or outside the folder.
+ * @param folder without symbolic links
+ */
 async function find(folder, url) {
   try {
-    let path = normalize(join(folder, decodeURIComponent(new URL(url, "http://x").pathname)));
-    if (path !== folder && !path.startsWith(folder + sep)) return null;
-    let info = await stat(path);
-    const isFolder = info.isDirectory();
-    if (isFolder) {
-      path = join(path, "index.html");
-      info = await stat(path);
-    }
-    return info.isFile() ? { path, isFolder, size: info.size } : null;
+    const inside = (path) => path === folder || path.startsWith(folder.replace(/\/$/, "") + sep);
+    const asked = normalize(join(folder, pathOf(url)));
+    if (!inside(asked)) return null;
+    const isFolder = (await stat(asked)).isDirectory();
+    // A symbolic link may be on the way: what counts is where the file is.
+    const path = await realpath(isFolder ? join(asked, "index.html") : asked);
+    const info = await stat(path);
+    return inside(path) && info.isFile() ? { path, isFolder, size: info.size } : null;
   } catch {
     return null; // no such file, or an address that cannot be read
   }
 }
 
-/** Starts a server; port 0 is any free one. Resolves to it once it listens. */
-export function serve(folder, port = 0) {
-  folder = resolve(folder);
-  const server = createServer(async (request, response) => {
-    const file = await find(folder, request.url);
-    if (!file) {
-      response.writeHead(404, { "Content-Type": "text/plain" }).end("not found\n");
-      return;
-    }
-    if (file.isFolder && !new URL(request.url, "http://x").pathname.endsWith("/")) {
-      // What the page names beside itself is found only below a slash.
-      response.writeHead(301, { Location: `${new URL(request.url, "http://x").pathname}/` }).end();
-      return;
-    }
-    const type = types[extname(file.path)] ?? "application/octet-stream";
-    response.writeHead(200, {
-      "Content-Type": type,
-      "Content-Length": file.size,
-      "Cache-Control": "no-cache", // a rebuilt page shows at the next reload
-    });
-    if (request.method === "HEAD") response.end();
-    else createReadStream(file.path).on("error", () => response.destroy()).pipe(response);
+/** Answers without a file. */
+function refuse(response, status, headers = {}) {
+  response.writeHead(status, { ...everyAnswer, "Content-Type": "text/plain", ...headers });
+  response.end(`${STATUS_CODES[status]}\n`);
+}
+
+async function answer(folder, request, response) {
+  if (request.method !== "GET" && request.method !== "HEAD") {
+    refuse(response, 405, { Allow: "GET, HEAD" });
+    return;
+  }
+  const file = await find(folder, request.url);
+  if (!file) {
+    refuse(response, 404);
+    return;
+  }
+  const path = pathOf(request.url);
+  if (file.isFolder && !path.endsWith("/")) {
+    // What the page names beside itself is found only below a slash.
+    refuse(response, 301, { Location: `${path.split("/").map(encodeURIComponent).join("/")}/` });
+    return;
+  }
+  response.writeHead(200, {
+    ...everyAnswer,
+    "Content-Type": types[extname(file.path)] ?? "application/octet-stream",
+    "Content-Length": file.size,
+    "Cache-Control": "no-cache", // a rebuilt page shows at the next reload
   });
+  if (request.method === "HEAD") response.end();
+  else createReadStream(file.path).on("error", () => response.destroy()).pipe(response);
+}
+
+/**
+ * Starts a server of the files in a folder. Symbolic links are followed only to what is in the
+ * folder, too. Only GET and HEAD are answered.
+ * @param port 0: any free one
+ * @returns a promise of the server once it listens; it fails where there is no such folder, or the
+ *   port is taken
+ */
+export async function serve(folder, port = 0) {
+  const root = await realpath(folder);
+  const server = createServer((request, response) => answer(root, request, response));
   return new Promise((done, fail) => {
     server.once("error", fail);
     server.listen(port, "127.0.0.1", () => done(server));
@@ -86,6 +120,10 @@ async function main(args) {
       process.on("SIGINT", end).on("SIGTERM", end);
       return undefined;
     } catch (error) {
+      if (error.code === "ENOENT") {
+        console.error(`There is no folder ${folder}.`);
+        return 2;
+      }
       if (error.code !== "EADDRINUSE") {
         console.error(`Port ${port} cannot be used: ${error.message}. Try --port with another.`);
         return 1;

@@ -150,8 +150,8 @@ async function open(frame, options) {
   let twin = null;
   const clock = new Clock(wasm, frame, () => {
     capture.afterDraw();
-    api?.afterDraw();
     twin?.afterDraw();
+    api?.afterDraw(); // last: one who listens may remove the laboratory
   });
   const wake = () => clock.wake();
   host.changed = wake;

@@ -1,11 +1,12 @@
 // For people who see, point or move otherwise: node tests/web/access_test.mjs [BUILT PAGE]
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { after, before, describe, test } from "node:test";
 import { call, drawn, open, openPage, picture, quiet, reports, save } from "./browser.mjs";
 import { difference, part } from "./pixels.mjs";
 
-const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
+const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 let session;
 before(async () => { session = await open(); });
@@ -26,7 +27,7 @@ for (const light of [false, true]) {
     test(`axe finds nothing serious on ${path || "index.html"}, ${light ? "light" : "dark"}`, async () => {
       const page = await openPage(session, { path, light, before: "1" });
       await page.waitForFunction(() => window.substep ?? window.laboratories, null, { timeout: 60000 });
-      await page.addScriptTag({ path: axe });
+      await page.evaluate(axe);
       assert.deepEqual(await findings(page), []);
       await page.locator("select").first().focus(); // the controls come into sight
       assert.deepEqual(await findings(page), []);
@@ -59,7 +60,7 @@ describe("axe finds nothing serious in any state", { concurrency: true }, () => 
       test(`${width}x${height}, ${light ? "light" : "dark"}`, async () => {
         const page = await openPage(session, { width, height, light });
         await call(page, "pause");
-        await page.addScriptTag({ path: axe });
+        await page.evaluate(axe);
         for (const [state, reach] of Object.entries(states)) {
           await reach(page);
           await page.waitForTimeout(1100); // the twin has followed

@@ -2,7 +2,7 @@
 // complain, and its pictures.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
-import { mkdir, mkdtemp, rm, symlink, writeFile } from "node:fs/promises";
+import { cp, mkdir, mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -38,14 +38,15 @@ export const renderer = ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--u
   "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 
 /**
- * A browser with a software renderer, and a server of the page below a sub-path.
- * @param options {dist, flags}: another folder with the page, more flags of the browser
+ * A browser with a software renderer, and a server of a copy of the page below a sub-path.
+ * @param options {flags}: more flags of the browser
+ * @returns {browser, server, folder, address, close}; folder is the copy, which a test may change
  */
-export async function open({ dist = distFolder(), flags = [] } = {}) {
-  const folder = await mkdtemp(join(tmpdir(), "substep-web-"));
-  await mkdir(join(folder, "some"));
-  await symlink(dist, join(folder, "some/path"));
-  const server = await serve(folder, 0);
+export async function open({ flags = [] } = {}) {
+  const root = await mkdtemp(join(tmpdir(), "substep-web-"));
+  const folder = join(root, "some/path");
+  await cp(distFolder(), folder, { recursive: true });
+  const server = await serve(root, 0);
   const browser = await chromium.launch({
     executablePath: chromiumPath(),
     args: [...renderer, ...flags],
@@ -53,12 +54,13 @@ export async function open({ dist = distFolder(), flags = [] } = {}) {
   return {
     browser,
     server,
+    folder,
     address: `http://127.0.0.1:${server.address().port}/some/path/`,
     async close() {
       await browser.close();
       server.close();
       server.closeAllConnections();
-      await rm(folder, { recursive: true });
+      await rm(root, { recursive: true });
     },
   };
 }

@@ -1,26 +1,21 @@
 // Hosting, loading and living without a network:
 // node tests/web/offline_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
-import { cp, mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { measure, total } from "../../web/sizes.mjs";
-import { call, distFolder, drawn, open, openPage, quiet, save } from "./browser.mjs";
+import { call, drawn, open, openPage, quiet, save } from "./browser.mjs";
 
 const mostBytes = 1.5e6; // of all files, packed with gzip
 
-let folder; // a copy of the page that tests may change
+let folder; // what the server serves, a copy that tests may change
 let session;
 before(async () => {
-  folder = await mkdtemp(join(tmpdir(), "substep-dist-"));
-  await cp(distFolder(), folder, { recursive: true });
-  session = await open({ dist: folder });
+  session = await open();
+  folder = session.folder;
 });
-after(async () => {
-  await session?.close();
-  await rm(folder, { recursive: true });
-});
+after(() => session?.close());
 
 const running = (page) => page.waitForFunction(() => window.substep, null, { timeout: 60000 });
 

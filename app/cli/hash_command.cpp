@@ -5,6 +5,7 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/length_flags.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
 #include "core/sim/simulator.hpp"
@@ -27,7 +28,7 @@ int hash(const HashOptions& options) {
   for (std::int64_t i = 0; i < frames; ++i) {
     const FrameReport report = simulator.step();
     if (report.status == StepStatus::kOk) continue;
-    std::fprintf(stderr, "the state stopped being finite at %.3f s\n", report.time);
+    complain("the state stopped being finite at %.3f s", report.time);
     return kNotFinite;
   }
   std::printf("%016" PRIx64 "\n", state_hash(simulator.state()));

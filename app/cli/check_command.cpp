@@ -3,9 +3,11 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/cancel.hpp"
 #include "app/cli/checks.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/hard_table.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/json.hpp"
@@ -78,16 +80,23 @@ int check_all(const CheckOptions& options) {
   Json results = Json::array();
   std::size_t unexpected = 0;
   std::size_t depends = 0;
-  run_checks(checks, options.jobs, [&](const Check& check) {
-    if (!check.judgement.as_expected) ++unexpected;
-    if (check.cell.expected.verdict == Expected::kDepends) ++depends;
-    options.json ? results.push_back(json_of(check)) : print(check);
-  });
+  const bool complete = run_checks(
+      checks, options.jobs,
+      [&](const Check& check) {
+        if (!check.judgement.as_expected) ++unexpected;
+        if (check.cell.expected.verdict == Expected::kDepends) ++depends;
+        options.json ? results.push_back(json_of(check)) : print(check);
+      },
+      cancel_on_signal());
   if (options.json) {
     std::printf("%s\n", results.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-  } else if (checks.size() > 1) {
+  } else if (complete && checks.size() > 1) {
     std::printf("%zu runs: %zu not as expected, %zu depend on rounding\n", checks.size(),
                 unexpected, depends);
+  }
+  if (!complete) {
+    complain("cancelled; the runs before are printed");
+    return kCancelled;
   }
   return exit_code == kOk && unexpected > 0 ? kUnexpectedVerdict : exit_code;
 }
@@ -118,7 +127,7 @@ void add_check(CLI::App& app, int& exit_code) {
       "Example:\n  substep check swinging_box bridge");
   command->callback([options, &exit_code] {
     if (options->hard) {
-      print_hard_table(options->jobs);
+      exit_code = print_hard_table(options->jobs) ? kOk : kCancelled;
       return;
     }
     if (options->scenes.empty() && !options->all) {

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdio>
+#include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "core/io/experiment.hpp"
@@ -11,41 +14,70 @@
 namespace substep::cli {
 namespace {
 
-void run(Check& check) {
+/// @return false where it was cancelled
+bool run(Check& check, const std::atomic<bool>& cancelled) {
   const auto start = std::chrono::steady_clock::now();
   const Scene& scene = *check.scene;
   ExperimentRun run(scene, experiment_of(scene, check.cell.settings, check.seed), no_reference());
-  while (run.advance()) {
+  while (!cancelled && run.advance()) {
   }
+  if (cancelled) return false;
   check.judgement = judge(scene, check.cell.expected, run);
   check.metrics = run.result().metrics;
   check.time = run.simulator().state().time;
   check.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   check.done = true;
+  return true;
+}
+
+/// So many threads less this one; fewer where the machine has no more.
+std::vector<std::thread> threads_of(std::size_t count, const std::function<void()>& work) {
+  std::vector<std::thread> threads;
+  try {
+    while (threads.size() + 1 < count) threads.emplace_back(work);
+  } catch (const std::system_error&) {
+    // Fewer do it.
+  }
+  return threads;
 }
 
 }  // namespace
 
-void run_checks(std::vector<Check>& checks, int jobs,
-                const std::function<void(const Check&)>& on_done) {
+bool run_checks(std::vector<Check>& checks, int jobs,
+                const std::function<void(const Check&)>& on_done,
+                const std::atomic<bool>& cancelled) {
   std::atomic<std::size_t> next{0};
   std::size_t told = 0;
   std::mutex mutex;
+  std::exception_ptr error;
+  const auto one = [&](std::size_t i) {
+    Check check = checks[i];
+    if (!run(check, cancelled)) return;
+    const std::lock_guard lock(mutex);
+    checks[i] = std::move(check);
+    while (told < checks.size() && checks[told].done) on_done(checks[told++]);
+    if (std::ferror(stdout) != 0) next = checks.size();  // no one is told: no use to go on
+  };
   const auto work = [&] {
-    for (std::size_t i = next++; i < checks.size(); i = next++) {
-      Check check = checks[i];
-      run(check);
+    try {
+      for (std::size_t i = next++; i < checks.size() && !cancelled; i = next++) one(i);
+    } catch (...) {
       const std::lock_guard lock(mutex);
-      checks[i] = std::move(check);
-      while (told < checks.size() && checks[told].done) on_done(checks[told++]);
+      error = std::current_exception();
+      next = checks.size();
     }
   };
   const auto processors = static_cast<int>(std::thread::hardware_concurrency());
   if (jobs == 0) jobs = std::max(1, processors);
-  std::vector<std::thread> others;
-  for (int i = 1; i < jobs; ++i) others.emplace_back(work);
+  std::vector<std::thread> others =
+      threads_of(std::min(static_cast<std::size_t>(jobs), checks.size()), work);
   work();
   for (std::thread& other : others) other.join();
+  if (error) std::rethrow_exception(error);
+  for (; told < checks.size(); ++told) {  // done behind one that was cancelled
+    if (checks[told].done) on_done(checks[told]);
+  }
+  return !cancelled;
 }
 
 }  // namespace substep::cli

@@ -1,6 +1,7 @@
 #pragma once
 // Many runs, each beside what is expected of it, on several threads.
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <string>
@@ -24,9 +25,13 @@ struct Check {
   double seconds = 0.0;  // wall time [s]
 };
 
+inline const std::atomic<bool> kNeverCancelled{false};
+
 /// @param jobs runs at a time; 0: one for each processor
 /// @param on_done called in order, as soon as a run and those before it are over
-void run_checks(std::vector<Check>& checks, int jobs,
-                const std::function<void(const Check&)>& on_done);
+/// @return false where it was cancelled: the runs that were done are told all the same
+bool run_checks(std::vector<Check>& checks, int jobs,
+                const std::function<void(const Check&)>& on_done,
+                const std::atomic<bool>& cancelled = kNeverCancelled);
 
 }  // namespace substep::cli

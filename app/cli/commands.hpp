@@ -10,6 +10,7 @@ inline constexpr int kOk = 0;
 inline constexpr int kUnexpectedVerdict = 1;
 inline constexpr int kBadInput = 2;
 inline constexpr int kNotFinite = 3;
+inline constexpr int kUnforeseen = 4;   // not enough memory, or a defect of the program
 inline constexpr int kCancelled = 130;  // as shells have it for Ctrl-C
 
 // Each adds its subcommand. The result is the exit code of the one that ran.

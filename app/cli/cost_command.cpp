@@ -8,6 +8,7 @@
 #include "app/cli/run_report.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
 
@@ -92,7 +93,7 @@ int cost(const CostOptions& options) {
     all.update(costs_json(costs));
     json.write(all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n');
     if (!json.close()) return kBadInput;
-    if (options.json == "-") return kOk;
+    if (is_standard_output(options.json)) return kOk;
   }
   std::printf("%s: %s; %lld frames\n", scene->name.c_str(),
               settings_line(experiment.settings).c_str(),
@@ -112,7 +113,8 @@ void add_cost(CLI::App& app, int& exit_code) {
       "cost", "Tell what stages, rows, effects and the criterion cost in a scene");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
       ->required();
-  command->add_option("--json", options->json, "write it to this file, - for stdout");
+  command->add_option("--json", options->json, "write it to this file, - for stdout")
+      ->check(named());
   options->length.add_to(*command);
   options->settings.add_to(*command);
   command->footer(
@@ -124,7 +126,10 @@ void add_cost(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  substep cost bridge\n"
       "  substep cost bridge --solver pgs --seconds 2 --json costs.json");
-  command->callback([options, &exit_code] { exit_code = cost(*options); });
+  command->callback([options, &exit_code] {
+    keep_apart({{"--json", options->json}}, {scene_path(options->scene)});
+    exit_code = cost(*options);
+  });
 }
 
 }  // namespace substep::cli

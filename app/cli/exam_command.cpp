@@ -6,8 +6,10 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/exam_report.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/progress_line.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/object_reader.hpp"
 #include "scenes/generator/exam.hpp"
 
@@ -45,8 +47,8 @@ bool select(const std::vector<std::string>& names, std::vector<const ExamEntry*>
     std::vector<std::string_view> candidates;
     candidates.reserve(all.size());
     for (const ExamEntry& entry : all) candidates.push_back(entry.name);
-    std::fprintf(stderr, "%s: no such case%s; `substep exam --list` lists the cases\n",
-                 name.c_str(), did_you_mean(name, candidates).c_str());
+    complain("%s: no such case%s; `substep exam --list` lists the cases", name.c_str(),
+             did_you_mean(name, candidates).c_str());
   }
   if (names.empty()) {
     for (const ExamEntry& entry : all) selected.push_back(&entry);
@@ -72,24 +74,19 @@ std::vector<ExamOutcome> run_cases(const std::vector<const ExamEntry*>& entries,
   return outcomes;
 }
 
-/// @return false and a message on stderr where it cannot be written
-bool write(const std::string& path, const std::string& text) {
-  if (path.empty()) return true;
-  Output file;
-  if (!file.open(path)) return false;
-  file.write(text);
-  return file.close();
-}
-
 int run(const ExamOptions& options) {
   std::vector<const ExamEntry*> entries;
   if (!select(options.cases, entries)) return kBadInput;
-  const bool on_stdout = options.json == "-" || options.html == "-";
+  Output json;
+  Output html;
+  if (!json.open(options.json) || !html.open(options.html)) return kBadInput;
+  const bool on_stdout = is_standard_output(options.json) || is_standard_output(options.html);
   const std::vector<ExamOutcome> outcomes = run_cases(entries, options.quiet || on_stdout);
   if (!on_stdout) print_summary(outcomes);
-  const bool written = write(options.json, exam_json(outcomes).dump(2) + "\n") &&
-                       write(options.html, exam_page(outcomes));
-  if (!written) return kBadInput;
+  if (json.is_open()) json.write(exam_json(outcomes).dump(2) + "\n");
+  if (html.is_open()) html.write(exam_page(outcomes));
+  const bool written = json.close();
+  if (!html.close() || !written) return kBadInput;
   for (const ExamOutcome& outcome : outcomes) {
     if (!outcome.reached_by_vocabulary()) continue;
     if (!outcome.result.passed()) return kUnexpectedVerdict;
@@ -105,8 +102,9 @@ void add_exam(CLI::App& app, int& exit_code) {
       "exam", "Run cases whose answers others have published, or that have one in closed form");
   command->add_option("--case", options->cases, "only these cases");
   command->add_flag("--list", options->list, "list the cases and run nothing");
-  command->add_option("--json", options->json, "write every run as JSON; - for standard output");
-  command->add_option("--html", options->html, "write a page with every run");
+  command->add_option("--json", options->json, "write every run as JSON; - for standard output")
+      ->check(named());
+  command->add_option("--html", options->html, "write a page with every run")->check(named());
   command->add_flag("--quiet", options->quiet, "print the summary only");
   command->footer(
       "A case passes where at least one run is within all of its tolerances, and every run keeps\n"
@@ -117,8 +115,10 @@ void add_exam(CLI::App& app, int& exit_code) {
       "within its tolerance; observed order of the first quantity against the run before, with !\n"
       "where the method should do better; wall time. Exit code 1 where a case fails.\n"
       "Example:\n  substep exam --case revolute --html revolute.html");
-  command->callback(
-      [options, &exit_code] { exit_code = options->list ? list_cases() : run(*options); });
+  command->callback([options, &exit_code] {
+    keep_apart({{"--json", options->json}, {"--html", options->html}}, {});
+    exit_code = options->list ? list_cases() : run(*options);
+  });
 }
 
 }  // namespace substep::cli

@@ -8,9 +8,15 @@
 #include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
+#include <string>
 #include <utility>
 
+#include "app/cli/bounded_text.hpp"
+#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/message.hpp"
+#include "app/cli/output.hpp"
 #include "app/cli/scene_source.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/json_text.hpp"
@@ -27,11 +33,12 @@ class Runner {
   /// @return whether the result could be printed
   bool run(const Experiment& experiment, const std::shared_ptr<const Scene>& scene) {
     ExperimentRun run(*scene, experiment, reference(scene, experiment.duration));
-    while (run.advance()) {
+    while (!cancel_on_signal() && run.advance()) {
     }
+    if (cancel_on_signal()) return true;
     const std::string line =
         result_json(run.result()).dump(-1, ' ', false, Json::error_handler_t::replace);
-    return std::printf("%s\n", line.c_str()) >= 0 && std::fflush(stdout) == 0;
+    return std::printf("%s\n", line.c_str()) >= 0 && flush_standard_output();
   }
 
   std::shared_ptr<const Scene> find(const std::string& name) {
@@ -55,6 +62,64 @@ class Runner {
   std::map<std::pair<std::string, double>, std::unique_ptr<Reference>> references_;
 };
 
+/// Runs a list of experiments, a line each.
+class Experiments {
+ public:
+  explicit Experiments(std::shared_ptr<const Scene> given) : runner_(std::move(given)) {}
+
+  /// @return main()'s
+  int run(std::istream& input, const std::string& place) {
+    std::string line;
+    for (number_ = 1;; ++number_) {
+      const Reading reading = read_line_bounded(input, kMostLine, line);
+      if (reading == Reading::kEnd) return bad_ > 0 ? kBadInput : kOk;
+      if (reading == Reading::kFailed) {
+        complain("%s: %s", place.c_str(), std::strerror(errno));
+        return kBadInput;
+      }
+      if (reading == Reading::kTooLong) {
+        complain("%s:%zu: the line is longer than %zu bytes; the rest is not read", place.c_str(),
+                 number_, kMostLine);
+        return kBadInput;
+      }
+      if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
+      const auto end = run_line(line, place);
+      if (end) return *end;
+    }
+  }
+
+ private:
+  /// @return main()'s where the list ends with this line
+  std::optional<int> run_line(const std::string& line, const std::string& place) {
+    Problems problems;
+    const auto json = parse_json(line, problems);
+    ExperimentInput experiment;
+    if (json) {
+      experiment = read_experiment(
+          *json, [&](const std::string& name) { return runner_.find(name); }, problems);
+    }
+    for (const Problem& problem : problems) {
+      complain("%s:%zu: %s", place.c_str(), number_, to_string(problem).c_str());
+    }
+    if (!problems.empty() || !experiment.experiment) {
+      if (++bad_ < kMostBad) return std::nullopt;
+      complain("%s: %zu lines are wrong; the rest is not read", place.c_str(), bad_);
+      return kBadInput;
+    }
+    if (!runner_.run(*experiment.experiment, experiment.scene)) return kBadInput;
+    if (!cancel_on_signal()) return std::nullopt;
+    complain("cancelled at line %zu; the results before are printed", number_);
+    return kCancelled;
+  }
+
+  static constexpr std::size_t kMostLine = 1U << 20U;  // [bytes]
+  static constexpr std::size_t kMostBad = 100;         // lines
+
+  Runner runner_;
+  std::size_t number_ = 0;  // of the line
+  std::size_t bad_ = 0;     // lines
+};
+
 }  // namespace
 
 int run_experiments(const std::string& path, const std::string& scene) {
@@ -64,37 +129,12 @@ int run_experiments(const std::string& path, const std::string& scene) {
   if (path != "-") {
     file.open(path);
     if (!file) {
-      std::fprintf(stderr, "%s: %s\n", path.c_str(), std::strerror(errno));
+      complain("%s: %s", path.c_str(), std::strerror(errno));
       return kBadInput;
     }
   }
   std::istream& input = path == "-" ? std::cin : file;
-  const std::string place = path == "-" ? "standard input" : path;
-
-  Runner runner(given);
-  int exit_code = kOk;
-  std::size_t number = 0;
-  for (std::string line; std::getline(input, line);) {
-    ++number;
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    Problems problems;
-    const auto json = parse_json(line, problems);
-    ExperimentInput experiment;
-    if (json) {
-      experiment = read_experiment(
-          *json, [&](const std::string& name) { return runner.find(name); }, problems);
-    }
-    for (const Problem& problem : problems) {
-      std::fprintf(stderr, "%s:%zu: %s\n", place.c_str(), number, to_string(problem).c_str());
-    }
-    if (!problems.empty() || !experiment.experiment) {
-      exit_code = kBadInput;
-    } else if (!runner.run(*experiment.experiment, experiment.scene)) {
-      std::fprintf(stderr, "standard output: could not be written to its end\n");
-      return kBadInput;
-    }
-  }
-  return exit_code;
+  return Experiments(given).run(input, path == "-" ? "standard input" : path);
 }
 
 }  // namespace substep::cli

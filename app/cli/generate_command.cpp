@@ -1,11 +1,10 @@
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <memory>
 #include <string>
 
 #include "app/cli/commands.hpp"
+#include "app/cli/output.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/scene_writer.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -32,16 +31,7 @@ struct GenerateOptions {
 };
 
 int write(const Scene& scene, const std::string& out) {
-  const std::string text = write_scene(scene);
-  if (out == "-") {
-    std::fwrite(text.data(), 1, text.size(), stdout);
-    return kOk;
-  }
-  std::ofstream file(out, std::ios::binary);
-  file << text;
-  if (file.flush()) return kOk;
-  std::fprintf(stderr, "%s: cannot be written\n", out.c_str());
-  return kBadInput;
+  return write_file(out, write_scene(scene)) ? kOk : kBadInput;
 }
 
 }  // namespace
@@ -61,7 +51,7 @@ void add_generate(CLI::App& app, int& exit_code) {
   const auto add = [&](const char* name, const char* help, Scene (*make)(const GenerateOptions&)) {
     CLI::App* kind = command->add_subcommand(name, help);
     kind->option_defaults()->always_capture_default();
-    kind->add_option("--out", o.out, "file to write, - for standard output");
+    kind->add_option("--out", o.out, "file to write, - for standard output")->check(named());
     kind->callback(
         [options, make, &exit_code] { exit_code = write(make(*options), options->out); });
     return kind;

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/cancel.hpp"
 #include "app/cli/checks.hpp"
+#include "app/cli/message.hpp"
 #include "core/lab/presets.hpp"
 #include "scenes/generator/hard_set.hpp"
 
@@ -45,12 +47,15 @@ class HardTable {
         checks_.push_back({.scene = scene, .cell = {candidate.settings, {}}});
       }
     }
-    run_checks(checks_, jobs, [&](const Check& check) {
-      const auto i = static_cast<std::size_t>(&check - checks_.data());
-      std::fprintf(stderr, "%4zu of %zu  %-26s %-38s %6.1f s  %s\n", i + 1, checks_.size(),
+    complete_ = run_checks(
+        checks_, jobs,
+        [&](const Check& check) {
+          const auto i = static_cast<std::size_t>(&check - checks_.data());
+          complain("%4zu of %zu  %-26s %-38s %6.1f s  %s", i + 1, checks_.size(),
                    check.scene->name.c_str(), candidates_[i % candidates_.size()].name.c_str(),
                    check.seconds, check.metrics.verdict.c_str());
-    });
+        },
+        cancel_on_signal());
   }
 
   static void print_heading() {
@@ -123,6 +128,8 @@ class HardTable {
     std::printf("\n");
   }
 
+  [[nodiscard]] bool complete() const { return complete_; }
+
  private:
   [[nodiscard]] const Check& at(std::size_t scene, std::size_t candidate) const {
     return checks_[scene * candidates_.size() + candidate];
@@ -148,15 +155,18 @@ class HardTable {
   std::vector<scenes::HardCase> set_;
   std::vector<Candidate> candidates_;
   std::vector<Check> checks_;
+  bool complete_ = false;
 };
 
 }  // namespace
 
-void print_hard_table(int jobs) {
+bool print_hard_table(int jobs) {
   const HardTable table(jobs);
+  if (!table.complete()) return false;
   HardTable::print_heading();
   table.print_settings();
   table.print_scenes();
+  return true;
 }
 
 }  // namespace substep::cli

@@ -6,6 +6,7 @@
 #include "app/cli/budget_flags.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/length_flags.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
 #include "core/lab/stop_text.hpp"
@@ -31,7 +32,7 @@ int hash(const HashOptions& options) {
   for (std::int64_t i = 0; i < frames; ++i) {
     const FrameReport report = simulator.step();
     if (report.status == StepStatus::kOk) continue;
-    std::fprintf(stderr, "stopped at %.3f s: %s\n", report.time, stop_text(*scene, report).c_str());
+    complain("stopped at %.3f s: %s", report.time, stop_text(*scene, report).c_str());
     return kNotFinite;
   }
   std::printf("%016" PRIx64 "\n", state_hash(simulator.state()));

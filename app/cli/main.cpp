@@ -1,11 +1,22 @@
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
-#include <cstdio>
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/message.hpp"
+#include "app/cli/output.hpp"
+#include "app/cli/visible_text.hpp"
 #include "core/io/object_reader.hpp"
 
+namespace substep::cli {
 namespace {
 
 /// Whether the first word is a command or a flag. If not, it says what would be: the library would
@@ -18,19 +29,29 @@ bool knows_command(const CLI::App& app, const std::string& word) {
     names.push_back(command->get_name());
   }
   if (word.empty() || word.front() == '-') return true;
-  std::fprintf(stderr, "%s is not %s%s\nRun with --help for more information.\n", word.c_str(),
-               substep::one_of(names).c_str(), substep::did_you_mean(word, names).c_str());
+  complain("%s is not %s%s", word.c_str(), one_of(names).c_str(),
+           did_you_mean(word, names).c_str());
+  complain("Run with --help for more information.");
   return false;
 }
 
-}  // namespace
+/// The library's one line, and where to find more; what it quotes is made visible.
+std::string failure(const CLI::App* app, const CLI::Error& error) {
+  const std::string text = CLI::FailureMessage::simple(app, error);
+  std::string shown;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    shown += visible_text(text.substr(at, end - at)) + '\n';
+    at = end + 1;
+  }
+  return shown;
+}
 
-int main(int argc, char** argv) {
-  using namespace substep::cli;
+int parse_and_run(int argc, char** argv) {
   CLI::App app{"substep: stable simulation of constrained rigid bodies by adaptive sub-steps."};
   app.set_version_flag("--version", SUBSTEP_VERSION);
   app.require_subcommand(1);
-  app.failure_message(CLI::FailureMessage::simple);
+  app.failure_message(failure);
   app.footer(
       "Examples:\n"
       "  substep scenes\n"
@@ -42,7 +63,7 @@ int main(int argc, char** argv) {
       "  substep check --all\n"
       "Exit code: 0 all went well, 1 a verdict is not as expected, 2 bad input, 3 the state "
       "stopped\n"
-      "being finite, 130 cancelled.");
+      "being finite, 4 not enough memory or a defect of this program, 130 cancelled.");
   int exit_code = kOk;
   add_run(app, exit_code);
   add_sweep(app, exit_code);
@@ -65,4 +86,51 @@ int main(int argc, char** argv) {
     return is_help ? kOk : kBadInput;
   }
   return exit_code;
+}
+
+/// Ends the program where there is no memory. An exception would not always come through: the JSON
+/// library needs memory to free memory.
+[[noreturn]] void end_without_memory() {
+  std::set_new_handler(nullptr);
+  end_outputs(false);
+  constexpr std::string_view kText = "substep: there is not enough memory for this\n";
+  [[maybe_unused]] const auto n = ::write(STDERR_FILENO, kText.data(), kText.size());
+  std::_Exit(kUnforeseen);
+}
+
+/// Where an exception cannot be caught: one of Eigen's within what is noexcept.
+[[noreturn]] void end_terminated() {
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
+  } catch (...) {
+    // All that can be said of others is that they are not expected.
+  }
+  end_outputs(false);
+  complain("substep: ended by an error that it did not expect");
+  std::_Exit(kUnforeseen);
+}
+
+/// Nothing that is thrown ends the program without a word.
+int caught(int argc, char** argv) {
+  std::set_new_handler(end_without_memory);
+  std::set_terminate(end_terminated);
+  cancel_on_signal();
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    complain("substep: ended by an error that it did not expect: %s", error.what());
+  }
+  return kUnforeseen;
+}
+
+}  // namespace
+}  // namespace substep::cli
+
+int main(int argc, char** argv) {
+  using namespace substep::cli;
+  prepare_streams();
+  const int exit_code = caught(argc, argv);
+  return flush_standard_output() ? exit_code : kBadInput;
 }

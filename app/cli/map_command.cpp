@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "app/cli/cancel.hpp"
 #include "app/cli/checks.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/map_picture.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/within.hpp"
 #include "core/model/names.hpp"
@@ -95,16 +97,24 @@ int run_map(const MapOptions& options) {
     }
   }
   out.write("map,value,alpha,solver,holds,seconds,n_median,n_max,substeps\n");
-  run_checks(checks, options.jobs, [&](const Check& check) {
-    MapCell& cell = cells[static_cast<std::size_t>(&check - checks.data())];
-    const Metrics& m = check.metrics;
-    cell.holds = m.holds;
-    cell.seconds = check.time;
-    cell.n_median = m.work.n_median;
-    cell.n_max = m.work.n_max;
-    cell.substeps = m.work.substeps;
-    out.write(line_of(cell));
-  });
+  out.keep_if_ended();
+  const bool complete = run_checks(
+      checks, options.jobs,
+      [&](const Check& check) {
+        MapCell& cell = cells[static_cast<std::size_t>(&check - checks.data())];
+        const Metrics& m = check.metrics;
+        cell.holds = m.holds;
+        cell.seconds = check.time;
+        cell.n_median = m.work.n_median;
+        cell.n_max = m.work.n_max;
+        cell.substeps = m.work.substeps;
+        out.write(line_of(cell));
+      },
+      cancel_on_signal());
+  if (!complete) {
+    complain("cancelled; the runs before are in the table, and there is no picture");
+    return out.close() ? kCancelled : kBadInput;
+  }
   if (picture.is_open()) picture.write(map_picture(cells));
   const bool told = out.close();
   return picture.close() && told ? kOk : kBadInput;
@@ -116,8 +126,9 @@ void add_map(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<MapOptions>();
   CLI::App* command = app.add_subcommand(
       "map", "Where adaptive sub-steps hold, by alpha: mass ratio, chain length, stack height");
-  command->add_option("--out", options->out, "the table as CSV; - for standard output");
-  command->add_option("--picture", options->picture, "the maps as SVG");
+  command->add_option("--out", options->out, "the table as CSV; - for standard output")
+      ->check(named());
+  command->add_option("--picture", options->picture, "the maps as SVG")->check(named());
   command
       ->add_option("--seconds", options->seconds,
                    "simulated time of each run; without it 4 or 5 s, as the map is usually drawn")
@@ -128,7 +139,10 @@ void add_map(CLI::App& app, int& exit_code) {
       "Columns: what is varied and its value; alpha; solver; whether it holds; how long it ran "
       "[s];\n"
       "sub-steps a frame, their median and most, and all of them.");
-  command->callback([options, &exit_code] { exit_code = run_map(*options); });
+  command->callback([options, &exit_code] {
+    keep_apart({{"--out", options->out}, {"--picture", options->picture}}, {});
+    exit_code = run_map(*options);
+  });
 }
 
 }  // namespace substep::cli

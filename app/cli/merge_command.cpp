@@ -4,17 +4,19 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "app/cli/bounded_text.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/report.hpp"
 #include "app/cli/results_file.hpp"
 #include "app/cli/scene_source.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/lab/sweep.hpp"
 
@@ -44,24 +46,51 @@ std::vector<fs::path> parts_of(const fs::path& folder) {
   return parts;
 }
 
-/// Without the line that a killed program was writing.
-std::string whole_lines(const std::string& text) { return text.substr(0, text.rfind('\n') + 1); }
+/// Reads a file of results, without the line that a killed program was writing. @return false and
+/// a message on stderr where it cannot be read, or is too large to be one
+bool read_part(const std::string& path, std::string& text) {
+  constexpr std::size_t kMostLine = 1U << 20U;  // [bytes]
+  std::ifstream stream(path, std::ios::binary);
+  text.clear();
+  std::string line;
+  while (stream) {
+    const Reading reading = read_line_bounded(stream, kMostLine, line);
+    if (reading == Reading::kFailed) break;
+    if (reading == Reading::kEnd || reading == Reading::kCut) return true;
+    if (reading == Reading::kTooLong || text.size() + line.size() >= kMostResults) {
+      complain("%s: has a line of more than %zu bytes, or more than %zu in all", path.c_str(),
+               kMostLine, kMostResults);
+      return false;
+    }
+    text += line + '\n';
+  }
+  complain("%s: %s", path.c_str(), std::strerror(errno));
+  return false;
+}
+
+/// Whether there is something to merge. A folder that is not there has no parts; it is made only
+/// for results from elsewhere.
+bool has_parts(const fs::path& folder, const std::vector<fs::path>& parts) {
+  std::error_code error;
+  if (!parts.empty() || fs::exists(folder / "results.jsonl", error)) return true;
+  const char* what =
+      fs::is_directory(folder, error) ? "there are no results to merge" : "there is no such folder";
+  complain("%s: %s", folder.string().c_str(), what);
+  return false;
+}
 
 int merge(const MergeOptions& options) {
   const fs::path folder = options.folder;
   std::vector<fs::path> parts = parts_of(folder);
   parts.insert(parts.end(), options.files.begin(), options.files.end());
+  if (!has_parts(folder, parts)) return kBadInput;
 
   std::map<std::string, std::string> lines;
   std::vector<std::string> order;
   for (const fs::path& part : parts) {
-    std::ifstream stream(part, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    if (!stream) {
-      std::fprintf(stderr, "%s: %s\n", part.string().c_str(), std::strerror(errno));
-      return kBadInput;
-    }
-    if (!read_results(part.string(), whole_lines(text), lines, order)) return kBadInput;
+    std::string text;
+    if (!read_part(part.string(), text)) return kBadInput;
+    if (!read_results(part.string(), text, lines, order)) return kBadInput;
   }
   std::error_code error;
   fs::create_directories(folder, error);
@@ -73,7 +102,7 @@ int merge(const MergeOptions& options) {
     }
   }
   if (file.size() == 0) {
-    std::fprintf(stderr, "%s: there are no results to merge\n", folder.string().c_str());
+    complain("%s: there are no results to merge", folder.string().c_str());
     return kBadInput;
   }
 
@@ -120,11 +149,22 @@ void add_merge(CLI::App& app, int& exit_code) {
   command->add_option("folder", options->folder, "where the parts are and the results go")
       ->required();
   command->add_option("file", options->files, "further files of results, from `run --experiments`");
-  command->add_option("--scene", options->scene,
-                      "file of the scene, where it is not one of `substep scenes`");
+  command
+      ->add_option("--scene", options->scene,
+                   "file of the scene, where it is not one of `substep scenes`")
+      ->check(named());
   command->add_flag("--quiet", options->quiet, "no summary");
   command->footer("Example:\n  substep merge bridge.sweep");
-  command->callback([options, &exit_code] { exit_code = merge(*options); });
+  command->callback([options, &exit_code] {
+    std::vector<std::string> inputs = options->files;
+    inputs.push_back(options->scene);
+    const fs::path folder = options->folder;
+    keep_apart({{"folder", (folder / "report.html").string()}}, inputs);
+    if (!options->scene.empty()) {
+      keep_apart({{"folder", (folder / "results.jsonl").string()}}, {options->scene});
+    }
+    exit_code = merge(*options);
+  });
 }
 
 }  // namespace substep::cli

@@ -1,51 +1,260 @@
 #include "app/cli/output.hpp"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
+#include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <system_error>
 
+#include "app/cli/message.hpp"
+
 namespace substep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<struct stat> about(const std::string& path) {
+  struct stat found {};
+  if (::stat(path.c_str(), &found) != 0) return std::nullopt;
+  return found;
+}
+
+std::optional<struct stat> about(int descriptor) {
+  struct stat found {};
+  if (::fstat(descriptor, &found) != 0) return std::nullopt;
+  return found;
+}
+
+bool same(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+std::timed_mutex g_mutex;  // of everything about the outputs, while end_outputs() may come
+
+/// Those with a file.
+std::set<Output*>& open_outputs() {
+  static auto* const outputs = new std::set<Output*>;  // outlives every thread
+  return *outputs;
+}
+
+/// Where a path leads in the end: all links followed, one to a file that is not there yet too.
+fs::path target_of(const std::string& path, std::error_code& error) {
+  constexpr int kMostLinks = 40;  // as Linux has it
+  fs::path at = path;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(at, error); ++i) {
+    const fs::path next = fs::read_symlink(at, error);
+    if (error) return {};
+    at = at.parent_path() / next;  // which is `next` where that is absolute
+  }
+  error.clear();
+  at = fs::absolute(at, error);
+  return error ? fs::path() : fs::weakly_canonical(at, error);
+}
+
+/// A name beside the target that nothing else has, in the same folder because only there it can
+/// take the target's place in one step.
+std::string beside(const fs::path& target) {
+  constexpr std::size_t kLongest = 200;  // leaves room within the 255 bytes of a name
+  static std::atomic<int> count{0};
+  const std::string name = target.filename().string().substr(0, kLongest) + "." +
+                           std::to_string(::getpid()) + "." + std::to_string(count++) + ".new";
+  return (target.parent_path() / name).string();
+}
+
+}  // namespace
 
 Output::~Output() {
-  if (file_ && file_ != stdout) std::fclose(file_);
+  const std::lock_guard lock(g_mutex);
+  discard();
+}
+
+bool Output::fail(int error) {
+  complain("%s: %s", path_.c_str(), std::strerror(error));
+  return false;
 }
 
 bool Output::open(const std::string& path) {
+  const std::lock_guard lock(g_mutex);
   path_ = path;
   if (path.empty()) return true;
-  file_ = path == "-" ? stdout : std::fopen(path.c_str(), "wb");
-  if (!file_) std::fprintf(stderr, "%s: %s\n", path.c_str(), std::strerror(errno));
-  return file_ != nullptr;
+  open_outputs().insert(this);
+  if (is_standard_output(path)) {
+    file_ = stdout;
+    return true;
+  }
+  const auto found = about(path);
+  if (found && S_ISDIR(found->st_mode)) return fail(EISDIR);
+  if (!found || S_ISREG(found->st_mode)) return open_beside();
+  file_ = std::fopen(path.c_str(), "wb");
+  return file_ != nullptr || fail(errno);
+}
+
+bool Output::open_beside() {
+  std::error_code error;
+  const fs::path target = target_of(path_, error);
+  if (error) return fail(error.value());
+  if (target.filename().empty()) return fail(EISDIR);
+  target_ = target.string();
+  const auto old = about(target_);
+  if (old && ::access(target_.c_str(), W_OK) != 0) return fail(errno);
+  temporary_ = beside(target);
+  const int descriptor =
+      ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (descriptor < 0) {
+    const int why = errno;
+    temporary_.clear();
+    return fail(why);
+  }
+  if (old) ::fchmod(descriptor, old->st_mode & 07777U);
+  file_ = ::fdopen(descriptor, "wb");
+  return file_ != nullptr || fail(errno);
 }
 
 void Output::write(const std::string& text) {
-  if (file_) std::fwrite(text.data(), 1, text.size(), file_);
+  const std::lock_guard lock(g_mutex);
+  if (!file_ || failed()) return;
+  if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) error_ = errno;
+}
+
+void Output::keep_if_ended(const std::string& ending) {
+  const std::lock_guard lock(g_mutex);
+  ending_ = ending;
 }
 
 bool Output::close() {
+  const std::lock_guard lock(g_mutex);
   if (!file_) return true;
-  const bool written = std::fflush(file_) == 0 && std::ferror(file_) == 0;
-  const bool closed = file_ == stdout || std::fclose(file_) == 0;
-  file_ = nullptr;
-  if (written && closed) return true;
-  std::fprintf(stderr, "%s: could not be written to its end\n", path_.c_str());
+  if (file_ == stdout) {
+    discard();
+    return flush_standard_output() && !failed();
+  }
+  finish();
+  discard();
+  if (!failed()) return true;
+  complain("%s: could not be written to its end: %s", path_.c_str(), std::strerror(error_));
   return false;
+}
+
+/// To the disk and in its place, or an error.
+void Output::finish() {
+  if (!failed() && std::fflush(file_) != 0) error_ = errno;
+  if (!failed() && !temporary_.empty() && ::fsync(::fileno(file_)) != 0) error_ = errno;
+  if (std::fclose(std::exchange(file_, nullptr)) != 0 && !failed()) error_ = errno;
+  if (!failed() && !temporary_.empty()) {
+    if (std::rename(temporary_.c_str(), target_.c_str()) == 0) {
+      temporary_.clear();
+    } else {
+      error_ = errno;
+    }
+  }
+}
+
+void Output::discard() {
+  open_outputs().erase(this);
+  if (file_ && file_ != stdout) std::fclose(file_);
+  file_ = nullptr;
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+  temporary_.clear();
+}
+
+void end_outputs(bool keep) {
+  constexpr std::chrono::milliseconds kWait{20};  // a write may stand before a pipe for ever
+  const std::unique_lock lock(g_mutex, kWait);
+  if (!lock.owns_lock()) return;
+  while (!open_outputs().empty()) {
+    Output* output = *open_outputs().begin();
+    const bool kept = keep && output->ending_ && output->is_open() && !output->failed();
+    if (kept) std::fputs(output->ending_->c_str(), output->file_);
+    if (kept && output->file_ != stdout) output->finish();
+    output->discard();  // no longer among those that are open
+  }
+  if (::ftrylockfile(stdout) != 0) return;
+  std::fflush(stdout);
+  ::funlockfile(stdout);
+}
+
+bool write_file(const std::string& path, const std::string& text) {
+  Output file;
+  if (!file.open(path)) return false;
+  file.write(text);
+  return file.close();
+}
+
+void prepare_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
+    // The lowest free descriptor is this one. Writing to what is open for reading fails, as it
+    // should.
+    if (::open("/dev/null", O_RDONLY) != stream) return;
+  }
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+bool flush_standard_output() {
+  static bool told = false;
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
+  const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
+  if (!told) complain("standard output: could not be written to its end%s", why.c_str());
+  told = true;
+  return false;
+}
+
+bool is_standard_output(const std::string& path) {
+  if (path.empty()) return false;
+  if (path == "-") return true;
+  const auto named = about(path);
+  const auto standard = about(STDOUT_FILENO);
+  // /dev/null is what it is, whoever writes to it.
+  return named && standard && same(*named, *standard) &&
+         (!S_ISCHR(named->st_mode) || ::isatty(STDOUT_FILENO) != 0);
 }
 
 bool same_output(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
-  if (a == "-" || b == "-") return a == b;
-  namespace fs = std::filesystem;
+  const bool a_is_standard = is_standard_output(a);
+  if (a_is_standard || is_standard_output(b)) return a_is_standard == is_standard_output(b);
+  const auto about_a = about(a);
+  const auto about_b = about(b);
+  if (about_a && S_ISCHR(about_a->st_mode)) return false;
+  if (a == b) return true;
+  if (about_a && about_b) return same(*about_a, *about_b);
   std::error_code error;
-  if (fs::is_character_file(a, error))
-    return false;  // a device such as /dev/null may be named twice
-  if (a == b || fs::equivalent(a, b, error)) return true;
-  const fs::path path_a = fs::weakly_canonical(a, error);
-  const fs::path path_b = fs::weakly_canonical(b, error);
+  const fs::path path_a = target_of(a, error);
+  if (error) return false;
+  const fs::path path_b = target_of(b, error);
   return !error && path_a == path_b;
+}
+
+void keep_apart(const NamedPaths& outputs, const std::vector<std::string>& inputs) {
+  const auto standard_input = about(STDIN_FILENO);
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const auto& [flag, path] = outputs[i];
+    if (path.empty()) continue;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!same_output(outputs[j].second, path)) continue;
+      throw CLI::ValidationError(
+          flag, (path == "-" ? "standard output" : path) + " is taken by " + outputs[j].first);
+    }
+    const auto there = about(path == "-" ? "/dev/stdout" : path);
+    if (!there || !S_ISREG(there->st_mode)) continue;
+    for (const std::string& input : inputs) {
+      const auto from = input == "-" ? standard_input : about(input);
+      if (!from || !same(*from, *there)) continue;
+      throw CLI::ValidationError(flag, path + " is read: it would be overwritten");
+    }
+  }
 }
 
 bool stderr_is_terminal() { return isatty(fileno(stderr)) != 0; }

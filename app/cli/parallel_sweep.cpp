@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <mutex>
 #include <numeric>
+#include <system_error>
 #include <thread>
 
 namespace substep::cli {
@@ -34,13 +37,18 @@ class Workers {
     reference_ = reference();
     if (!stopping()) {
       std::vector<std::thread> threads;
-      for (int i = 0; i < std::max(1, sweep_.jobs); ++i) threads.emplace_back([this] { work(); });
+      try {
+        for (int i = 0; i < sweep_.jobs; ++i) threads.emplace_back([this] { caught(); });
+      } catch (const std::system_error&) {
+        if (threads.empty()) caught();  // the machine has no more: fewer do it, or this one
+      }
       while (working_.load() > 0 || next_.load() < order_.size()) {
         if (stopping()) break;
         sweep_.on_progress(progress());
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
       }
       for (std::thread& thread : threads) thread.join();
+      if (error_) std::rethrow_exception(error_);
     }
     return !stopping();
   }
@@ -52,6 +60,17 @@ class Workers {
     ReferenceRun run(sweep_.scene, longest_);
     while (!stopping() && run.advance()) sweep_.on_progress(0.0);
     return stopping() ? Reference{} : run.reference();
+  }
+
+  /// work(), with what it throws kept for the thread that waits.
+  void caught() {
+    try {
+      work();
+    } catch (...) {
+      const std::lock_guard lock(mutex_);
+      error_ = std::current_exception();
+      failed_ = true;
+    }
   }
 
   void work() {
@@ -83,6 +102,8 @@ class Workers {
   std::atomic<std::size_t> next_{0};
   std::atomic<int> working_{0};
   std::atomic<bool> failed_{false};
+  std::mutex mutex_;
+  std::exception_ptr error_;  // under the mutex
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/format_text.hpp"
 #include "app/cli/length_flags.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/recommend_shipped.hpp"
 #include "app/cli/scene_source.hpp"
@@ -121,10 +122,8 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
 
 /// Writes the scene with what is recommended for it. @return main()'s
 int write_with(const Recommended& recommended, const Scene& scene, const std::string& path) {
-  Output out;  // opened late: it may be the file that the scene was read from
-  if (!out.open(path)) return kBadInput;
-  out.write(write_scene(with_recommended(scene, recommended)));
-  return out.close() ? kOk : kBadInput;
+  // It may be the file that the scene was read from, which is meant to have it from now on.
+  return write_file(path, write_scene(with_recommended(scene, recommended))) ? kOk : kBadInput;
 }
 
 int recommend(const RecommendOptions& options) {
@@ -133,8 +132,7 @@ int recommend(const RecommendOptions& options) {
   if (!scene) return kBadInput;
   const Want want = want_of(options, *scene);
   if (const std::string why = why_without(want.error, *scene); !why.empty()) {
-    std::fprintf(stderr, "%s has no %s; %s\n", scene->name.c_str(), axis_name(want.error),
-                 why.c_str());
+    complain("%s has no %s; %s", scene->name.c_str(), axis_name(want.error), why.c_str());
     return kBadInput;
   }
 
@@ -145,7 +143,7 @@ int recommend(const RecommendOptions& options) {
 
   const std::vector<RunPoint> points = run_points(results, want.error, want.cost);
   // Where the scene takes standard output, words for people go to stderr.
-  std::FILE* words = options.out == "-" ? stderr : stdout;
+  std::FILE* words = is_standard_output(options.out) ? stderr : stdout;
   std::fprintf(words, "%s: %zu of %zu runs hold. Error: %s.\n", scene->name.c_str(), points.size(),
                results.size(), axis_name(want.error));
   if (points.empty()) return kUnexpectedVerdict;
@@ -203,9 +201,11 @@ void add_recommend(CLI::App& app, int& exit_code) {
           ->excludes(error)
           ->excludes(ms);
   CLI::Option* out =
-      command->add_option("--out", options->out,
-                          "write the scene with what is recommended within the error to this file, "
-                          "- for stdout; it starts with that unless it has settings of its own");
+      command
+          ->add_option("--out", options->out,
+                       "write the scene with what is recommended within the error to this file, "
+                       "- for stdout; it starts with that unless it has settings of its own")
+          ->check(named());
   out->excludes(ms)->excludes(operations);
   command
       ->add_flag("--all", options->all,

@@ -7,6 +7,7 @@
 #include "app/cli/all_methods.hpp"
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "core/io/json_print.hpp"
 #include "core/io/recommended_json.hpp"
@@ -28,20 +29,17 @@ int recommend_shipped(const std::string& out, int jobs) {
     if (!results) return kCancelled;
     const auto recommended = recommended_of(*results, wanted->of, wanted->within);
     if (!recommended) {
-      std::fprintf(stderr, "%s: no method keeps within %g %s\n", wanted->scene, wanted->within,
-                   unit_of(wanted->of));
+      complain("%s: no method keeps within %g %s", wanted->scene, wanted->within,
+               unit_of(wanted->of));
       exit_code = kUnexpectedVerdict;
       continue;
     }
     const SeriesParameter parameter = series_parameter(recommended->settings);
-    std::fprintf(stderr, "%s: %s, %s = %g\n", wanted->scene,
-                 series_name(recommended->settings).c_str(), parameter.name, parameter.value);
+    complain("%s: %s, %s = %g", wanted->scene, series_name(recommended->settings).c_str(),
+             parameter.name, parameter.value);
     all[wanted->scene] = recommended_json(*recommended);
   }
-  Output file;
-  if (!file.open(out)) return kBadInput;
-  file.write(json_file(all));
-  return file.close() ? exit_code : kBadInput;
+  return write_file(out, json_file(all)) ? exit_code : kBadInput;
 }
 
 }  // namespace substep::cli

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <memory>
 
+#include "app/cli/message.hpp"
+#include "app/cli/output.hpp"
 #include "app/cli/run_report.hpp"
 #include "app/cli/run_trace.hpp"
 #include "app/report/page.hpp"
@@ -144,9 +145,8 @@ Json chart_json(const std::string& title, const std::string& note, const std::st
 
 bool write_page(const fs::path& path, const Json& data, bool quiet) {
   if (report::kHead.empty()) {
-    std::fprintf(stderr,
-                 "%s: not written, this program was built without Node.js and the chart library\n",
-                 path.string().c_str());
+    complain("%s: not written, this program was built without Node.js and the chart library",
+             path.string().c_str());
     return true;  // the results are there
   }
   std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
@@ -154,17 +154,10 @@ bool write_page(const fs::path& path, const Json& data, bool quiet) {
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     text.replace(at, 1, "\\u003c");
   }
-  const fs::path temporary = path.string() + ".new";
-  std::ofstream file(temporary, std::ios::binary);
-  file << report::kHead << text << report::kTail;
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(temporary, path, error);
-  if (!file || error) {
-    std::fprintf(stderr, "%s: could not be written\n", path.string().c_str());
-    fs::remove(temporary, error);
-    return false;
-  }
+  std::string page(report::kHead);
+  page += text;
+  page += report::kTail;
+  if (!write_file(path.string(), page)) return false;
   if (!quiet) std::printf("report   %s\n", path.string().c_str());
   return true;
 }

@@ -7,10 +7,12 @@
 
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/progress_line.hpp"
 #include "app/cli/report.hpp"
 #include "app/cli/reproduction.hpp"
+#include "app/cli/within.hpp"
 
 namespace substep::cli {
 namespace {
@@ -66,7 +68,7 @@ int run(const ReproduceOptions& options) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    std::fprintf(stderr, "%s: %s\n", folder.string().c_str(), error.message().c_str());
+    complain("%s: %s", folder.string().c_str(), error.message().c_str());
     return kBadInput;
   }
   ProgressLine progress(!options.quiet && stderr_is_terminal());
@@ -79,7 +81,7 @@ int run(const ReproduceOptions& options) {
   const std::vector<Card> cards = reproduce(reproduction);
   progress.clear();
   if (*reproduction.cancelled) {
-    std::fprintf(stderr, "cancelled; nothing was written\n");
+    complain("cancelled; nothing was written");
     return kCancelled;
   }
   bool all = true;
@@ -100,7 +102,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReproduceOptions>();
   CLI::App* command = app.add_subcommand(
       "reproduce", "Run the paper's figures and claims and put them beside what it says");
-  command->add_option("--out", options->out, "folder for report.html");
+  command->add_option("--out", options->out, "folder for report.html")->check(named());
   command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   command->footer("Exit code 1 where something is not as it was found before.");

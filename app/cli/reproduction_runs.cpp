@@ -1,6 +1,9 @@
 #include "app/cli/reproduction_runs.hpp"
 
 #include <algorithm>
+#include <exception>
+#include <mutex>
+#include <system_error>
 #include <thread>
 
 #include "app/cli/format_text.hpp"
@@ -30,14 +33,28 @@ std::shared_ptr<const Scene> shared(Scene scene) {
 std::vector<RunTrace> trace_all(const std::vector<Run>& runs, const Reproduction& options) {
   std::vector<RunTrace> traces(runs.size());
   std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr error;
   const auto work = [&] {
-    for (std::size_t i = next++; i < runs.size() && !*options.cancelled; i = next++) {
-      traces[i] = trace_run(runs[i].scene, runs[i].settings, runs[i].seconds);
+    try {
+      for (std::size_t i = next++; i < runs.size() && !*options.cancelled; i = next++) {
+        traces[i] = trace_run(runs[i].scene, runs[i].settings, runs[i].seconds);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      error = std::current_exception();
+      next = runs.size();
     }
   };
   std::vector<std::thread> threads;
-  for (int i = 0; i < options.jobs; ++i) threads.emplace_back(work);
+  try {
+    for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
+  } catch (const std::system_error&) {
+    // The machine has no more: fewer do it.
+  }
+  work();
   for (std::thread& thread : threads) thread.join();
+  if (error) std::rethrow_exception(error);
   return traces;
 }
 

@@ -10,19 +10,20 @@
 #include <cstring>
 #include <set>
 
+#include "app/cli/message.hpp"
 #include "core/io/json_text.hpp"
 #include "core/io/result.hpp"
 
 namespace substep::cli {
 namespace {
 
-void complain(const std::string& path, const std::string& what) {
-  std::fprintf(stderr, "%s: %s\n", path.c_str(), what.c_str());
+void tell(const std::string& path, const std::string& what) {
+  complain("%s: %s", path.c_str(), what.c_str());
 }
 
-void complain(const std::string& path, std::size_t line, const Problems& problems) {
+void tell(const std::string& path, std::size_t line, const Problems& problems) {
   for (const Problem& problem : problems) {
-    std::fprintf(stderr, "%s:%zu: %s\n", path.c_str(), line, to_string(problem).c_str());
+    complain("%s:%zu: %s", path.c_str(), line, to_string(problem).c_str());
   }
 }
 
@@ -62,15 +63,15 @@ bool read_results(const std::string& path, const std::string& text,
     }
     const auto id = json && problems.empty() ? result_id(*json, problems) : std::nullopt;
     if (!id) {
-      complain(path, number, problems);
+      tell(path, number, problems);
       return false;
     }
     const auto [entry, is_new] = lines.emplace(*id, line);
     if (is_new) {
       order.push_back(*id);
     } else if (without_timing(entry->second) != without_timing(line)) {
-      complain(path, "line " + std::to_string(number) + ": another result of experiment " + *id +
-                         " differs; were they made by different versions?");
+      tell(path, "line " + std::to_string(number) + ": another result of experiment " + *id +
+                     " differs; were they made by different versions?");
       return false;
     }
   }
@@ -84,16 +85,16 @@ ResultsFile::~ResultsFile() {
 bool ResultsFile::take_lock() {
   descriptor_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (descriptor_ < 0) {
-    complain(path_, std::strerror(errno));
+    tell(path_, std::strerror(errno));
     return false;
   }
   struct stat about {};
   if (::fstat(descriptor_, &about) != 0 || !S_ISREG(about.st_mode)) {
-    complain(path_, "is no regular file");
+    tell(path_, "is no regular file");
     return false;
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-    complain(path_, "another sweep is writing it");
+    tell(path_, "another sweep is writing it");
     return false;
   }
   return true;
@@ -105,29 +106,33 @@ bool ResultsFile::read() {
   for (ssize_t n = 0;
        (n = ::pread(descriptor_, part, sizeof part, static_cast<off_t>(text.size()))) != 0;) {
     if (n < 0) {
-      complain(path_, std::strerror(errno));
+      tell(path_, std::strerror(errno));
       return false;
     }
     text.append(part, static_cast<std::size_t>(n));
+    if (text.size() > kMostResults) {
+      tell(path_, "has more than " + std::to_string(kMostResults) + " bytes");
+      return false;
+    }
   }
   // What a killed program was writing: no line feed yet. Our own header, or part of it, begins it.
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   const std::string header = results_header();
   if (whole == 0 && text != header.substr(0, text.size())) {
-    complain(path_, "is no results file of substep; it is left as it is");
+    tell(path_, "is no results file of substep; it is left as it is");
     return false;
   }
   if (whole > 0) {
     Problems problems;
     check_results_header(text.substr(0, text.find('\n')), problems);
-    complain(path_, 1, problems);
+    tell(path_, 1, problems);
     if (!problems.empty() || !read_results(path_, text.substr(0, whole), lines_, order_)) {
-      complain(path_, "is no results file of substep, or broken; it is left as it is");
+      tell(path_, "is no results file of substep, or broken; it is left as it is");
       return false;
     }
   }
   if (whole < text.size() && ::ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) {
-    complain(path_, std::strerror(errno));
+    tell(path_, std::strerror(errno));
     return false;
   }
   return whole > 0 || write(header);
@@ -146,7 +151,7 @@ bool ResultsFile::write(const std::string& text) {
   if (::ftruncate(descriptor_, before) != 0) {
     // The next reader takes the half line off.
   }
-  complain(path_, std::string(std::strerror(error)) + "; all results before are kept");
+  tell(path_, std::string(std::strerror(error)) + "; all results before are kept");
   return false;
 }
 
@@ -177,7 +182,7 @@ bool ResultsFile::finish(const std::vector<std::string>& order) {
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (!written || std::rename(temporary.c_str(), path_.c_str()) != 0) {
-    complain(path_, "not put in order: " + std::string(std::strerror(written ? errno : error)));
+    tell(path_, "not put in order: " + std::string(std::strerror(written ? errno : error)));
     ::unlink(temporary.c_str());
     return false;
   }

@@ -9,6 +9,9 @@
 
 namespace substep::cli {
 
+/// The most that a file of results may have [bytes]: some 250,000 results.
+inline constexpr std::size_t kMostResults = 512U << 20U;
+
 /// A file of results that a killed program leaves whole: every line is appended in one write, a
 /// line that was cut short is taken off when the file is opened again, and nothing else ever is.
 /// While one program has it open no other can.

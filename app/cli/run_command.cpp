@@ -1,3 +1,4 @@
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -5,9 +6,11 @@
 #include <string>
 
 #include "app/cli/budget_flags.hpp"
+#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/experiments_input.hpp"
 #include "app/cli/length_flags.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/progress_line.hpp"
 #include "app/cli/run_outputs.hpp"
@@ -95,7 +98,9 @@ int run(const RunOptions& options) {
   }
   const std::int64_t frames = options.length.count(*scene);
   std::optional<FrameReport> failed;  // the frame in which it failed
-  for (std::int64_t i = 0; i < frames && !verdict.stopped(); ++i) {
+  const std::atomic<bool>& cancelled = cancel_on_signal();
+  const auto goes_on = [&] { return !verdict.stopped() && !outputs.failed() && !cancelled; };
+  for (std::int64_t i = 0; i < frames && goes_on(); ++i) {
     const FrameReport frame = simulator.step();
     measure.add(*scene, simulator.state(), frame, frame.times.total);
     report.add(frame);
@@ -105,6 +110,10 @@ int run(const RunOptions& options) {
   }
   progress.clear();
   if (!outputs.end(simulator, measure)) return kBadInput;
+  if (cancelled) {
+    complain("cancelled at %.3f s; the frames before are kept", simulator.state().time);
+    return kCancelled;
+  }
 
   if (!options.quiet) {
     std::fprintf(words, "%s%s", report.summary(state_hash(simulator.state())).c_str(),
@@ -112,6 +121,18 @@ int run(const RunOptions& options) {
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());
   return verdict.stopped() ? kNotFinite : kOk;
+}
+
+/// Each line says how it is run: what is said of all of them would be ignored.
+void refuse_beside_experiments(const CLI::App& command, const RunOptions& options) {
+  for (const CLI::Option* option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || name == "--experiments" || name == "scene") continue;
+    throw CLI::ExcludesError(name, "--experiments");
+  }
+  if (options.scene == "-" && options.experiments == "-") {
+    throw CLI::ValidationError("--experiments", "standard input is taken by the scene");
+  }
 }
 
 }  // namespace
@@ -126,9 +147,11 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(within(kLoadRange.least, kLoadRange.most));
   command->add_option("--seed", options->seed, "nudge the start by up to 1e-9 m/s")
       ->check(CLI::Range(0, kMostSeed));
-  command->add_option("--experiments", options->experiments,
-                      "run the experiments of this file, one JSON object a line, - for standard "
-                      "input; print one result a line");
+  command
+      ->add_option("--experiments", options->experiments,
+                   "run the experiments of this file, one JSON object a line, - for standard "
+                   "input; print one result a line")
+      ->check(named());
   command->add_flag("--quiet", options->quiet, "print the verdict only");
   options->settings.add_to(*command);
   options->budget.add_to(*command);
@@ -142,13 +165,14 @@ void add_run(CLI::App& app, int& exit_code) {
       "  substep run pendulum --states states.csv --joints joints.csv\n"
       "  substep sweep bridge --list | parallel --pipe -N4 substep run --experiments - > "
       "bridge.jsonl");
-  command->callback([options, &exit_code] {
+  command->callback([options, command, &exit_code] {
     if (!options->experiments.empty()) {
+      refuse_beside_experiments(*command, *options);
       exit_code = run_experiments(options->experiments, options->scene);
       return;
     }
     if (options->scene.empty()) throw CLI::RequiredError("scene or --experiments");
-    options->files.check();
+    options->files.check(options->scene);
     exit_code = run(*options);
   });
 }

@@ -1,11 +1,11 @@
 #include "app/cli/run_outputs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cinttypes>
 #include <cstdio>
-#include <utility>
 
+#include "app/cli/scene_source.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/json.hpp"
 #include "core/io/motion_csv.hpp"
 #include "core/io/result.hpp"
@@ -15,8 +15,8 @@ namespace substep::cli {
 namespace {
 
 /// The flags that name result files, and the files.
-std::array<std::pair<const char*, std::string>, 4> by_flag(const RunFiles& f) {
-  return {{{"--csv", f.csv}, {"--json", f.json}, {"--states", f.states}, {"--joints", f.joints}}};
+NamedPaths by_flag(const RunFiles& f) {
+  return {{"--csv", f.csv}, {"--json", f.json}, {"--states", f.states}, {"--joints", f.joints}};
 }
 
 std::string json_text(const std::string& text) {
@@ -63,32 +63,32 @@ std::string json_tail(const Metrics& metrics) {
 }  // namespace
 
 void RunFiles::add_to(CLI::App& command) {
-  command.add_option("--csv", csv, "write one line per frame to this file, - for stdout");
-  command.add_option("--json", json,
-                     "the same as JSON, with settings, verdict, and work and time by stage");
-  command.add_option("--states", states,
-                     "write pose and velocity of every body, a line per body and frame, the start "
-                     "first; world axes, - for stdout");
-  command.add_option("--joints", joints,
-                     "write force and torque of every joint on its body a, a line per joint and "
-                     "frame: of the frame's last sub-step, about the anchor on a, world axes");
+  command.add_option("--csv", csv, "write one line per frame to this file, - for stdout")
+      ->check(named());
+  command
+      .add_option("--json", json,
+                  "the same as JSON, with settings, verdict, and work and time by stage")
+      ->check(named());
+  command
+      .add_option("--states", states,
+                  "write pose and velocity of every body, a line per body and frame, the start "
+                  "first; world axes, - for stdout")
+      ->check(named());
+  command
+      .add_option("--joints", joints,
+                  "write force and torque of every joint on its body a, a line per joint and "
+                  "frame: of the frame's last sub-step, about the anchor on a, world axes")
+      ->check(named());
 }
 
-void RunFiles::check() const {
-  const auto files = by_flag(*this);
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const auto& [flag, path] = files[i];
-      if (!same_output(files[j].second, path)) continue;
-      throw CLI::ValidationError(
-          flag, (path == "-" ? "standard output" : path) + " is taken by " + files[j].first);
-    }
-  }
+void RunFiles::check(const std::string& scene) const {
+  keep_apart(by_flag(*this), {scene_path(scene)});
 }
 
 bool RunFiles::take_standard_output() const {
   const auto files = by_flag(*this);
-  return std::any_of(files.begin(), files.end(), [](const auto& f) { return f.second == "-"; });
+  return std::any_of(files.begin(), files.end(),
+                     [](const auto& f) { return is_standard_output(f.second); });
 }
 
 bool RunOutputs::open(const RunFiles& files) {
@@ -103,6 +103,8 @@ void RunOutputs::begin(const Simulator& simulator) {
   if (json_.is_open()) json_.write(json_head(simulator));
   if (states_.is_open()) states_.write(states_header() + states_lines(scene, simulator.state()));
   if (joints_.is_open()) joints_.write(joints_header());
+  for (Output* lines : {&csv_, &states_, &joints_}) lines->keep_if_ended();
+  json_.keep_if_ended("\n  ],\n  \"cancelled\": true\n}\n");
 }
 
 void RunOutputs::add(const Simulator& simulator, const FrameReport& frame) {
@@ -117,6 +119,10 @@ void RunOutputs::add(const Simulator& simulator, const FrameReport& frame) {
   if (joints_.is_open()) {
     joints_.write(joints_lines(scene, simulator.state(), simulator.constraint_forces()));
   }
+}
+
+bool RunOutputs::failed() const {
+  return csv_.failed() || json_.failed() || states_.failed() || joints_.failed();
 }
 
 bool RunOutputs::end(const Simulator& simulator, const Measure& measure) {

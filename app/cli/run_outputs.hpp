@@ -20,8 +20,8 @@ struct RunFiles {
   std::string joints;
 
   void add_to(CLI::App& command);
-  /// Throws a CLI::ValidationError where two results go to the same place.
-  void check() const;
+  /// Throws a CLI::ValidationError where two results go to the same place, or one to the scene's.
+  void check(const std::string& scene) const;
   [[nodiscard]] bool take_standard_output() const;
 };
 
@@ -32,6 +32,8 @@ class RunOutputs {
   bool open(const RunFiles& files);
   void begin(const Simulator& simulator);
   void add(const Simulator& simulator, const FrameReport& frame);
+  /// Whether a result could not be written: no use to go on.
+  [[nodiscard]] bool failed() const;
   /// @return false and a message on stderr where not all could be written
   bool end(const Simulator& simulator, const Measure& measure);
 

@@ -1,12 +1,15 @@
 #include "app/cli/scene_source.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <iterator>
 
+#include "app/cli/bounded_text.hpp"
+#include "app/cli/message.hpp"
+#include "core/io/json_text.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/io/scene_reader.hpp"
 
@@ -30,26 +33,37 @@ std::vector<std::string> shipped_names() {
   return names;
 }
 
+std::string scene_path(const std::string& name_or_path) {
+  const std::vector<std::string> names = shipped_names();
+  if (std::find(names.begin(), names.end(), name_or_path) == names.end()) return name_or_path;
+  return (std::filesystem::path(scenes_folder()) / (name_or_path + ".json")).string();
+}
+
 std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
   SceneResult result;
   std::string place = name_or_path;
   if (name_or_path == "-") {
     place = "standard input";
-    result = read_scene(std::string(std::istreambuf_iterator<char>(std::cin), {}));
+    std::string text;  // more than allowed is told by read_scene()
+    if (read_bounded(std::cin, kMaxTextSize, text) == Reading::kFailed) {
+      complain("%s: %s", place.c_str(), std::strerror(errno));
+      return nullptr;
+    }
+    result = read_scene(text);
   } else {
-    const std::vector<std::string> names = shipped_names();
-    if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
-      place = (std::filesystem::path(scenes_folder()) / (name_or_path + ".json")).string();
-    } else if (!std::filesystem::exists(name_or_path)) {
+    place = scene_path(name_or_path);
+    std::error_code error;
+    if (!std::filesystem::exists(place, error)) {
+      const std::vector<std::string> names = shipped_names();
       const std::vector<std::string_view> candidates(names.begin(), names.end());
-      std::fprintf(stderr, "%s: no such scene or file%s; `substep scenes` lists the scenes\n",
-                   name_or_path.c_str(), did_you_mean(name_or_path, candidates).c_str());
+      complain("%s: no such scene or file%s; `substep scenes` lists the scenes",
+               name_or_path.c_str(), did_you_mean(name_or_path, candidates).c_str());
       return nullptr;
     }
     result = read_scene_file(place);
   }
   for (const Problem& problem : result.problems) {
-    std::fprintf(stderr, "%s: %s\n", place.c_str(), to_string(problem).c_str());
+    complain("%s: %s", place.c_str(), to_string(problem).c_str());
   }
   return result.scene;
 }

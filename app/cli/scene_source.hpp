@@ -12,6 +12,9 @@ namespace substep::cli {
 /// cannot be read, every problem is printed to stderr and the result is null.
 std::shared_ptr<const Scene> load_scene(const std::string& name_or_path);
 
+/// Where load_scene() reads it: the file of a shipped scene, else what is given.
+std::string scene_path(const std::string& name_or_path);
+
 /// Names of the shipped scenes, in alphabetical order.
 std::vector<std::string> shipped_names();
 

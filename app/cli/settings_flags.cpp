@@ -29,6 +29,7 @@ void SettingsFlags::add_to(CLI::App& command) {
               "--" + name + ",!--no-" + name,
               [this, &field](std::int64_t count) { take(field, count > 0 ? "true" : "false"); },
               help)
+          ->disable_flag_override()  // the library takes any text after '=', and throws
           ->group(kGroup);
     } else {
       command

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/length_flags.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/parallel_sweep.hpp"
 #include "app/cli/progress_line.hpp"
@@ -20,6 +20,8 @@
 #include "app/cli/results_file.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
+#include "app/cli/sweep_scene.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
 #include "core/model/number_text.hpp"
@@ -112,23 +114,23 @@ int sweep(const SweepOptions& options, const Shard& shard) {
     for (const Experiment& experiment : all) {
       std::printf("%s\n", experiment_json(experiment).dump().c_str());
     }
-    return std::fflush(stdout) == 0 ? kOk : kBadInput;
+    return kOk;
   }
 
   const fs::path folder =
       options.out.empty() ? fs::path(scene->name + ".sweep") : fs::path(options.out);
+  keep_apart({{"--out", (folder / "report.html").string()}}, {scene_path(options.scene)});
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    std::fprintf(stderr, "%s: %s\n", folder.string().c_str(), error.message().c_str());
+    complain("%s: %s", folder.string().c_str(), error.message().c_str());
     return kBadInput;
   }
   const std::string name = shard.count == 1 ? "results.jsonl"
                                             : "results." + std::to_string(shard.index) + "-of-" +
                                                   std::to_string(shard.count) + ".jsonl";
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to tell, not an end
   ResultsFile file;
-  if (!file.open((folder / name).string())) return kBadInput;
+  if (!keep_scene(folder, *scene) || !file.open((folder / name).string())) return kBadInput;
 
   ParallelSweep parallel{scene, {}, options.jobs, {}, {}, &cancelled};
   std::vector<std::string> order;
@@ -138,7 +140,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   }
   const std::size_t known = all.size() - parallel.experiments.size();
   if (known > 0 && !options.quiet) {
-    std::fprintf(stderr, "%zu of %zu runs are there already\n", known, all.size());
+    complain("%zu of %zu runs are there already", known, all.size());
   }
 
   const auto start = std::chrono::steady_clock::now();
@@ -163,9 +165,8 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   progress.clear();
   if (!written) return kBadInput;
   if (!complete) {
-    std::fprintf(stderr,
-                 "cancelled: %zu of %zu runs are in %s; the same command goes on from there\n",
-                 known + runs, all.size(), (folder / name).string().c_str());
+    complain("cancelled: %zu of %zu runs are in %s; the same command goes on from there",
+             known + runs, all.size(), (folder / name).string().c_str());
     return kCancelled;
   }
   if (!file.finish(order)) return kBadInput;
@@ -186,7 +187,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
       app.add_subcommand("sweep", "Run all methods over a scene: what accuracy costs in time");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
       ->required();
-  command->add_option("--out", options->out, "folder for results.jsonl and report.html");
+  command->add_option("--out", options->out, "folder for results.jsonl and report.html")
+      ->check(named());
   command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
   command
       ->add_option("--seeds", options->seeds,

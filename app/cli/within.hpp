@@ -18,4 +18,9 @@ inline CLI::Validator within(double least, double most) {
           "in [" + range + "]"};
 }
 
+/// A file or folder: an empty text names none, and is likely a variable that was not set.
+inline CLI::Validator named() {
+  return {[](std::string& text) { return text.empty() ? "the name is empty" : std::string(); }, ""};
+}
+
 }  // namespace substep::cli

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -241,9 +242,7 @@ Bytes font_file(const stbtt_fontinfo& font, const Bytes& source) {
   return out;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int embed(int argc, char** argv) {
   if (argc != 4) {
     std::fputs("usage: embed_font FONT.otf NAME OUT.cpp\n", stderr);
     return 2;
@@ -267,4 +266,15 @@ int main(int argc, char** argv) {
   }
   out << "};\n}  // namespace substep\n";
   return out.flush() ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return embed(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "embed_font: %s\n", error.what());
+    return 1;
+  }
 }

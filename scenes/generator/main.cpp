@@ -1,6 +1,7 @@
 // Writes the scene files: generate_scenes --out DIR
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <string_view>
@@ -8,7 +9,9 @@
 #include "core/io/scene_writer.hpp"
 #include "scenes/generator/scenes.hpp"
 
-int main(int argc, char** argv) {
+namespace {
+
+int generate(int argc, char** argv) {
   if (argc != 3 || std::string_view(argv[1]) != "--out") {
     std::fputs(
         "usage: generate_scenes --out DIR\n"
@@ -29,4 +32,15 @@ int main(int argc, char** argv) {
     std::printf("%s\n", path.string().c_str());
   }
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return generate(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "generate_scenes: %s\n", error.what());
+    return 1;
+  }
 }

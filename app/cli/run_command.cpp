@@ -75,7 +75,7 @@ int run(const RunOptions& options) {
   simulator.set_budget(options.budget.budget());
   if (const Problems problems = simulator.problems(); !problems.empty()) {  // --load, for example
     for (const Problem& problem : problems) {
-      std::fprintf(stderr, "%s: %s\n", scene->name.c_str(), to_string(problem).c_str());
+      complain("%s: %s", scene->name.c_str(), to_string(problem).c_str());
     }
     return kBadInput;
   }

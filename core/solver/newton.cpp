@@ -140,7 +140,7 @@ void Newton::move_along_courses(const System& system) {
 void Newton::average(const Block& start, const Block& back, const PoseWeights& w, Block& end) {
   const auto averaged = [&](int row, int j, auto J) {
     (end.*J)[row][j] =
-        w.behind * (back.*J)[row][j] + w.here * (start.*J)[row][j] + w.ahead * (end.*J)[row][j];
+        (w.behind * (back.*J)[row][j] + w.ahead * (end.*J)[row][j]) + w.here * (start.*J)[row][j];
   };
   const int first = start.pinned ? 3 : 0;  // rows 0 to 2 of a pin are linear in its arms
   for (int row = first; row < start.rows; ++row) {
@@ -149,8 +149,8 @@ void Newton::average(const Block& start, const Block& back, const PoseWeights& w
       if (!start.pinned) averaged(row, j, &Block::J_b);
     }
   }
-  end.r_a = w.behind * back.r_a + w.here * start.r_a + w.ahead * end.r_a;
-  end.r_b = w.behind * back.r_b + w.here * start.r_b + w.ahead * end.r_b;
+  end.r_a = (w.behind * back.r_a + w.ahead * end.r_a) + w.here * start.r_a;
+  end.r_b = (w.behind * back.r_b + w.ahead * end.r_b) + w.here * start.r_b;
 }
 
 // Numerov's method has the forces of the other poses with their own impulses. With those behind,

@@ -157,12 +157,12 @@ Scene ball_on_a_spring() {
 }
 
 /// Energy in flight, of that at the start: the most and the least of it in 10 s.
-struct Range {
+struct EnergyRange {
   double least = 1.0;
   double most = 1.0;
 };
-Range energy_in_flight(const Settings& settings) {
-  Range range;
+EnergyRange energy_in_flight(const Settings& settings) {
+  EnergyRange range;
   test::run(ball_on_a_spring(), settings, 10.0,
             [&](const Simulator& simulator, const FrameReport&) {
               const State& state = simulator.state();
@@ -185,7 +185,7 @@ TEST(Compliance, AContactGivesBackWhatItTakes) {
     double lost[2];
     for (int i = 0; i < 2; ++i) {
       settings.n = i == 0 ? 64 : 256;
-      const Range range = energy_in_flight(settings);
+      const EnergyRange range = energy_in_flight(settings);
       EXPECT_LT(range.most, 1.0 + 1e-12);
       lost[i] = 1.0 - range.least;
     }
@@ -200,7 +200,7 @@ TEST(Compliance, AContactGivesBackWhatItTakes) {
     newton.forces = forces;
     EXPECT_LT(lost(newton), 6e-3);
   }
-  const Range euler =
+  const EnergyRange euler =
       energy_in_flight(settings_of(SolverKind::kBpp, 64, Integrator::kEuler, Drift::kFull));
   EXPECT_LT(euler.least, 0.3);
 }

@@ -158,7 +158,7 @@ TEST(Hostile, NoMessageSteersTheTerminal) {
 
 /// Runs a command and sends it a signal so much later. @return its outcome, and how long it still
 /// took [s]
-std::pair<Outcome, double> interrupted(const std::string& command, const char* signal) {
+std::pair<Outcome, double> interrupted_once(const std::string& command, const char* signal) {
   const fs::path took = folder() / "took";
   const Outcome run = substep(
       command,
@@ -166,6 +166,18 @@ std::pair<Outcome, double> interrupted(const std::string& command, const char* s
           " $pid; wait $pid; code=$?; echo $(( $(date +%s%N) - begin )) >\"$0\"; exit $code' \"" +
           took.string() + "\"");
   return {run, 1e-9 * std::stod(text_of(took))};
+}
+
+constexpr double kSoon = 0.3;  // [s], with the start of the shell's own programs
+
+/// The soonest of three, because the machine may have other work; one that waits always takes long.
+std::pair<Outcome, double> interrupted(const std::string& command, const char* signal) {
+  auto soonest = interrupted_once(command, signal);
+  for (int i = 0; i < 2 && soonest.second > kSoon; ++i) {
+    auto next = interrupted_once(command, signal);
+    if (next.second < soonest.second) soonest = std::move(next);
+  }
+  return soonest;
 }
 
 TEST(Hostile, InterruptedItEndsAtOnceWithWhatWasFinished) {
@@ -183,7 +195,7 @@ TEST(Hostile, InterruptedItEndsAtOnceWithWhatWasFinished) {
       const auto [run, seconds] = interrupted(command, signal);
       EXPECT_EQ(run.exit_code, 130) << command << " " << signal << run.err;
       EXPECT_NE(run.err.find("cancelled"), std::string::npos) << command << run.err;
-      EXPECT_LT(seconds, 0.6) << command << " on a machine that has other work";
+      EXPECT_LT(seconds, kSoon) << command;
     }
   }
   const auto lines = lines_of(text_of(csv));
@@ -207,7 +219,7 @@ TEST(Hostile, InterruptedInALongFrameItEndsAtOnce) {
                         csv + " --json " + json,
                     signal);
     EXPECT_EQ(run.exit_code, 130) << run.err;
-    EXPECT_LT(seconds, 0.6);
+    EXPECT_LT(seconds, kSoon);
   }
   EXPECT_EQ(lines_of(text_of(csv)).size(), 1U) << "the header";
   EXPECT_TRUE(Json::parse(text_of(json))["frames"].empty());

@@ -75,7 +75,7 @@ TEST(Output, TwoOfOneCommandDoNotShareAFile) {
   const fs::path at = with_scene();
   const std::string file = (at / "one").string();
   const std::string same = (at / "." / "one").string();
-  for (const std::string command :
+  for (const std::string& command :
        {"run pendulum --frames 1 --csv " + file + " --json " + same,
         "exam --case revolute --json " + file + " --html " + same,
         "map --seconds 0.01 --out " + file + " --picture " + same,
@@ -197,7 +197,7 @@ TEST(Output, OtherNamesOfStandardOutputAreStandardOutput) {
   const Outcome run = substep("run free_fall --frames 2 --csv /dev/stdout");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(lines_of(run.out).size(), 3U) << run.out;
-  EXPECT_EQ(lines_of(run.err).back(), "holds");
+  EXPECT_NE(run.err.find("\nholds\n"), std::string::npos) << run.err;
 }
 
 TEST(Output, WhatIsNoNumberIsWrittenAsTheReadmeSays) {

@@ -22,17 +22,21 @@ export function loseContext(canvas) {
 /**
  * @param view the laboratory's canvas, which can be seen through
  * @param createContext of a canvas, for the WebAssembly: (canvas, options) => number
+ * @param deleteContext forgets one of those: (number)
  */
-export function makeBackdrop(view, createContext) {
+export function makeBackdrop(view, createContext, deleteContext) {
   let canvas = null;
   let context = 0;
   let lost = false;
 
   function make() {
-    canvas = document.createElement("canvas");
+    const made = document.createElement("canvas");
+    canvas = made;
+    lost = false;
     canvas.className = "substep-backdrop";
     canvas.setAttribute("aria-hidden", "true");
     canvas.addEventListener("webglcontextlost", () => {
+      if (canvas !== made) return; // it was closed
       lost = true; // for good: the laboratory draws on its own canvas from then on
       canvas.remove();
     });
@@ -52,6 +56,13 @@ export function makeBackdrop(view, createContext) {
       if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
       return context;
     },
-    close() { if (canvas) loseContext(canvas); },
+    /** Gives its context back; the next fit makes another. */
+    close() {
+      if (!canvas) return;
+      loseContext(canvas);
+      canvas.remove();
+      deleteContext(context);
+      canvas = null;
+    },
   };
 }

@@ -106,7 +106,7 @@ const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase(
  * @param engine what loadEngine gave
  * @param host what the application may ask of the page: see web/host.cpp
  * @returns the exports by their names in camel case; run() starts it, once the host is complete,
- *   close() gives the graphics back
+ *   handOnGraphics() gives the graphics up until takeGraphics(), close() for good
  */
 export async function makeEngine(engine, canvas, host) {
   const module = await engine.create({
@@ -127,19 +127,30 @@ export async function makeEngine(engine, canvas, host) {
   for (const [name, signature] of Object.entries(exported)) {
     wasm[camel(name)] = wrap(module, name, signature);
   }
+  let backdrop = null;
+  let losing = null; // WebGL's own way to lose a context and to have it back
   wasm.run = (keeps) => {
     const software = drawsInSoftware();
     const context = createContext(canvas, { alpha: software, preserveDrawingBuffer: software });
     if (!context) throw new Error("The browser gave no WebGL 2 context");
+    losing = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
     if (software) {
-      const backdrop = makeBackdrop(canvas, createContext);
+      backdrop = makeBackdrop(canvas, createContext, module.GL.deleteContext);
       host.backdrop = backdrop.fit;
-      closing.push(backdrop.close);
     }
     const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);
   };
-  const closing = [() => loseContext(canvas)];
-  wasm.close = () => closing.forEach((close) => close());
+  wasm.canHandOn = () => losing !== null;
+  wasm.handOnGraphics = () => {
+    wasm.contextLost();
+    backdrop?.close();
+    losing.loseContext();
+  };
+  wasm.takeGraphics = () => losing.restoreContext();
+  wasm.close = () => {
+    backdrop?.close();
+    loseContext(canvas);
+  };
   return wasm;
 }

@@ -5,6 +5,7 @@ import { loseContext } from "./backdrop.mjs";
 import { makeCapture } from "./capture.mjs";
 import { makeFiles } from "./files.mjs";
 import { makeFrame } from "./frame.mjs";
+import { Graphics } from "./graphics.mjs";
 import { listen } from "./input.mjs";
 import { LoadError, loadEngine, makeEngine } from "./loader.mjs";
 import { makeTwin } from "./twin.mjs";
@@ -48,10 +49,11 @@ class Clock {
     Object.assign(this, { wasm, frame, afterDraw });
     this.before = performance.now();
     this.awakeUntil = 0;
-    this.lost = false; // the graphics context
+    this.graphics = new Graphics(wasm, frame, () => this.wake());
     this.seen = false; // until the watcher says so
-    this.watcher = new IntersectionObserver(([entry]) => {
-      this.seen = entry.isIntersecting;
+    this.watcher = new IntersectionObserver((entries) => {
+      this.seen = entries.at(-1).isIntersecting; // there are several where the page was busy
+      this.graphics.see(this.seen);
       this.wake();
     });
     this.watcher.observe(frame.canvas);
@@ -59,7 +61,7 @@ class Clock {
       this.request = requestAnimationFrame(this.tick);
       const dt = Math.max(0, (now - this.before) / 1000);
       this.before = now;
-      if (this.lost || !this.seen) return;
+      if (!this.graphics.canDraw() || !this.seen) return;
       if (frame.fit(wasm)) this.wake();
       if (wasm.busy() || now < this.awakeUntil) this.draw(dt);
     };
@@ -79,28 +81,8 @@ class Clock {
   stop() {
     cancelAnimationFrame(this.request);
     this.watcher.disconnect();
+    this.graphics.close();
   }
-}
-
-function watchContext(wasm, frame, clock) {
-  frame.canvas.addEventListener("webglcontextlost", (event) => {
-    if (!frame.canvas.isConnected) return;
-    event.preventDefault();
-    clock.lost = true;
-    wasm.contextLost();
-    frame.say("The graphics context was lost", "The system took the graphics away, perhaps to " +
-      "save memory. The picture comes back by itself when it is given again; the run waits.");
-  });
-  frame.canvas.addEventListener("webglcontextrestored", () => {
-    const error = wasm.contextRestored();
-    if (error) {
-      frame.say("The graphics did not come back", `${error} Reloading the page helps.`);
-      return;
-    }
-    clock.lost = false;
-    frame.clear();
-    clock.wake();
-  });
 }
 
 /**
@@ -172,8 +154,7 @@ async function open(frame, options) {
   twin = makeTwin(frame.twin, calls);
 
   listen(frame.canvas, wasm, wake, !frame.wholePage, frame.signal);
-  watchContext(wasm, frame, clock);
-  clock.draw(0);
-  frame.clear();
+  if (clock.graphics.canDraw()) clock.draw(0);
+  if (!clock.graphics.wasTaken()) frame.clear();
   return calls;
 }

@@ -1,0 +1,82 @@
+// Twenty laboratories on a page: node tests/web/many_test.mjs [FOLDER OF THE BUILT PAGE]
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { drawn, open, openPage, picture, quiet } from "./browser.mjs";
+import { variance } from "./pixels.mjs";
+
+const count = 20; // browsers give a page some 16 contexts of WebGL
+
+let session;
+before(async () => { session = await open(); });
+after(() => session?.close());
+
+/** A page with laboratories below each other, of which two are in sight. */
+async function openMany() {
+  const page = await openPage(session, { path: "files.json", before: "1", width: 640 });
+  await page.evaluate(async (n) => {
+    const { createSubstep } = await import(new URL("substep.mjs", location.href).href);
+    const openOne = (i) => {
+      const place = Object.assign(document.createElement("div"), { id: `place${i}` });
+      place.style.height = "360px";
+      document.body.append(place);
+      return createSubstep(place, { scene: "bridge", settings: { panels: "off" }, play: false });
+    };
+    const half = n / 2; // some one after the other, the others at once
+    window.laboratories = [];
+    for (let i = 0; i < half; ++i) window.laboratories.push(await openOne(i));
+    const others = Array.from({ length: n - half }, (_, i) => openOne(half + i));
+    window.laboratories.push(...await Promise.all(others));
+  }, count);
+  return page;
+}
+
+/** Brings one into sight and waits until it draws. @returns its picture */
+async function look(page, i) {
+  await page.evaluate((n) => document.getElementById(`place${n}`).scrollIntoView(), i);
+  const heard = await page.evaluate((n) => new Promise((done) => {
+    const lab = window.laboratories[n];
+    const leave = lab.on("frame", () => {
+      leave();
+      done(true);
+    });
+    lab.step();
+    setTimeout(() => done(false), 10000);
+  }), i);
+  assert.ok(heard, `laboratory ${i} draws nothing`);
+  await drawn(page);
+  const hidden = await page.evaluate((n) =>
+    document.querySelector(`#place${n} .substep-overlay`).hidden, i);
+  assert.ok(hidden, `a card covers laboratory ${i}`);
+  return picture(page, await page.locator(`#place${i}`).boundingBox());
+}
+
+test("each of twenty laboratories draws whenever it is seen", async () => {
+  const page = await openMany();
+  const order = Array.from({ length: count }, (_, i) => i);
+  // All of them, back again, and here and there.
+  for (const i of [...order, 0, 19, 7, 3, 12, 0]) {
+    assert.ok(variance(await look(page, i)) > 20, `laboratory ${i} is blank`);
+  }
+  page.complaints = page.complaints.filter((text) => !/404/.test(text)); // this page has no icon
+  const frames = await page.evaluate(() => window.laboratories.map((lab) => lab.report().frame));
+  assert.deepEqual(frames, order.map((i) => (i === 0 ? 3 : [19, 7, 3, 12].includes(i) ? 2 : 1)));
+  quiet(page);
+  await page.context().close();
+});
+
+test("graphics that others of the page took come back", async () => {
+  const page = await openMany();
+  await look(page, 0);
+  await page.evaluate(() => {
+    const canvases = Array.from({ length: 16 }, () => document.createElement("canvas"));
+    window.others = canvases.map((canvas) => canvas.getContext("webgl2"));
+  });
+  const card = (hidden) => page.waitForFunction((h) =>
+    document.querySelector("#place0 .substep-overlay").hidden === h, hidden);
+  await card(false);
+  await card(true);
+  for (const i of [0, 15, 19, 1]) {
+    assert.ok(variance(await look(page, i)) > 20, `laboratory ${i} is blank`);
+  }
+  await page.context().close();
+});

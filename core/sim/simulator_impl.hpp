@@ -39,7 +39,7 @@ struct Simulator::Impl {
   void external_forces(double dt, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
   bool solve(double dt, FrameReport& report, bool probing = false);
   void count_work(const SolveReport& solved, FrameReport& report);
-  bool breaks_motion(const Block& contact) const;
+  bool breaks_motion(const Block& touching) const;
   bool finite(FrameReport& report);
   void stop(std::size_t body, FrameReport& report);  // of which a number is not finite
   // over_budget.cpp

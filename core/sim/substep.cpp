@@ -115,12 +115,12 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
 
 // A blow is no acceleration that goes on. A spring that is resolved gives none; but how
 // accelerations change is not known across the time when it begins or ends to push.
-bool Simulator::Impl::breaks_motion(const Block& contact) const {
-  const bool closed = contact.impulse[0] > 0.0;
-  if (follows_accelerations(settings) && contact.spring_ahead[0] > 0.0) {
-    return closed != contact.was_closed;
+bool Simulator::Impl::breaks_motion(const Block& touching) const {
+  const bool closed = touching.impulse[0] > 0.0;
+  if (follows_accelerations(settings) && touching.spring_ahead[0] > 0.0) {
+    return closed != touching.was_closed;
   }
-  return closed && !contact.was_closed && !(contact.spring_ahead[0] > 0.0);
+  return closed && !touching.was_closed && !(touching.spring_ahead[0] > 0.0);
 }
 
 bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {

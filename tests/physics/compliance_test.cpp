@@ -182,15 +182,15 @@ EnergyRange energy_in_flight(const Settings& settings) {
 // pulled before the ball touched the ground would bring some in.
 TEST(Compliance, AContactGivesBackWhatItTakes) {
   const auto lost = [](Settings settings) {
-    double lost[2];
+    double shares[2];
     for (int i = 0; i < 2; ++i) {
       settings.n = i == 0 ? 64 : 256;
       const EnergyRange range = energy_in_flight(settings);
       EXPECT_LT(range.most, 1.0 + 1e-12);
-      lost[i] = 1.0 - range.least;
+      shares[i] = 1.0 - range.least;
     }
-    EXPECT_GT(std::log2(lost[0] / lost[1]) / 2.0, 1.9);
-    return lost[0];
+    EXPECT_GT(std::log2(shares[0] / shares[1]) / 2.0, 1.9);
+    return shares[0];
   };
   for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
     EXPECT_LT(lost(settings_of(SolverKind::kBpp, 64, integrator, Drift::kFull)), 2e-3);

@@ -44,7 +44,7 @@ void Simulator::Impl::set_joint_springs(double dt) {
 }
 
 bool Simulator::Impl::averages_contacts() const {
-  return scene->contact.compliance > 0.0 && drift_law(settings) == Drift::kFull &&
+  return scene->contact.compliance >= kSoftContact && drift_law(settings) == Drift::kFull &&
          averages_springs(settings);
 }
 

@@ -64,6 +64,9 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
                  std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
                  double regularisation, Block& joint);
 
+/// The least compliance of a contact that is meant as a spring. Stiffer ones stand for rigid
+/// bodies, which land without a rebound: their implicit Euler takes the energy of the impact [m/N].
+inline constexpr double kSoftContact = 1e-6;
 /// kappa up to which a contact's spring is averaged: its weights are implicit Euler's to 1e-3
 /// there.
 inline constexpr double kResolvedContact = 100.0;

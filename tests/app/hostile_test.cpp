@@ -214,10 +214,11 @@ TEST(Hostile, InterruptedInALongFrameItEndsAtOnce) {
   const std::string csv = (at / "run.csv").string();
   const std::string json = (at / "run.json").string();
   for (const char* signal : {"INT", "TERM"}) {
-    const auto [run, seconds] =
-        interrupted("run bridge --solver pgs --iterations 100000 --mode const --n 10000 --csv " +
-                        csv + " --json " + json,
-                    signal);
+    const auto [run, seconds] = interrupted(
+        "run bridge --solver pgs --iterations 100000 --mode const --n 10000 --work-budget 1e15 "
+        "--csv " +
+            csv + " --json " + json,
+        signal);
     EXPECT_EQ(run.exit_code, 130) << run.err;
     EXPECT_LT(seconds, kSoon);
   }

@@ -23,8 +23,8 @@ namespace substep {
 ///            The forces of the neighbours differ from this one by how they change, Block::rate;
 ///            velocities are means over a sub-step, and turns follow from the torques at its ends
 ///            (numerov.hpp). Rates and first guess go on as the sub-steps before had them: two
-///            steps do; one is of third order where bodies tumble, and stable for about half the
-///            dt^2 k.
+///            steps do; one is of third order where bodies tumble, and lets what is near the limit
+///            swing a little wider.
 /// How far they are stable: where q grows by the factor z in a sub-step, the model of Eq. 5 with
 /// kappa = dt^2 k/M and the share w of each neighbouring pose is
 ///   (1 + w kappa) (z^2 + 1) - (2 - (1 - 2 w) kappa) z = 0.

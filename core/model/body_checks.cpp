@@ -13,7 +13,7 @@ std::string not_unit_text(double length) {
   return "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance);
 }
 
-void check_shape(const Body& body, const Place& place, Problems& problems) {
+void check_shape(const Body& body, const DataPlace& place, Problems& problems) {
   if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
     check_number(sphere->radius, kSizeRange, place.at("radius"), problems);
   } else if (const auto* box = std::get_if<Box>(&body.shape)) {
@@ -24,7 +24,7 @@ void check_shape(const Body& body, const Place& place, Problems& problems) {
   }
 }
 
-void check_motion(const Body& body, const Place& place, Problems& problems) {
+void check_motion(const Body& body, const DataPlace& place, Problems& problems) {
   struct Quantity {
     const char* key;
     const Vec3& value;
@@ -35,7 +35,7 @@ void check_motion(const Body& body, const Place& place, Problems& problems) {
                                  {"force", body.force, kBodyForceRange},
                                  {"torque", body.torque, kBodyTorqueRange}};
   for (const Quantity& quantity : quantities) {
-    const Place there = place.at(quantity.key);
+    const DataPlace there = place.at(quantity.key);
     if (!body.is_static) {
       check_numbers(quantity.value, quantity.range, there, problems);
     } else if (!(quantity.value == Vec3::Zero())) {
@@ -44,9 +44,9 @@ void check_motion(const Body& body, const Place& place, Problems& problems) {
   }
 }
 
-void check_mass(const Body& body, const Place& place, Problems& problems) {
+void check_mass(const Body& body, const DataPlace& place, Problems& problems) {
   check_number(body.mass, kMassRange, place.at("mass"), problems);
-  const Place there = place.at("inertia");
+  const DataPlace there = place.at("inertia");
   const std::size_t before = problems.size();
   check_numbers(body.inertia, kInertiaRange, there, problems);
   if (problems.size() > before) return;
@@ -105,7 +105,7 @@ std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int 
   return std::nullopt;
 }
 
-void check_body(const Body& body, const Place& place, Problems& problems) {
+void check_body(const Body& body, const DataPlace& place, Problems& problems) {
   check_shape(body, place.at("shape"), problems);
   if (!body.is_static) check_mass(body, place, problems);
   check_numbers(body.position, kPositionRange, place.at("position"), problems);
@@ -122,7 +122,7 @@ void check_body(const Body& body, const Place& place, Problems& problems) {
   }
 }
 
-void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Place& place,
+void check_joint(const Joint& joint, const std::vector<Body>& bodies, const DataPlace& place,
                  Problems& problems) {
   const JointBase& j = base(joint);
   if (const auto fault = side_fault(bodies, j.a, j.b)) {

@@ -32,10 +32,10 @@ struct SideFault {
 std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b);
 
 /// All problems of one body. @param place of the body, such as "/bodies/3"
-void check_body(const Body& body, const Place& place, Problems& problems);
+void check_body(const Body& body, const DataPlace& place, Problems& problems);
 
 /// All problems of one joint. @param place of the joint, such as "/joints/3"
-void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Place& place,
+void check_joint(const Joint& joint, const std::vector<Body>& bodies, const DataPlace& place,
                  Problems& problems);
 
 }  // namespace substep

@@ -13,14 +13,14 @@ namespace substep {
 /// wrong: a simulator checks all of its scene, and pointers would take most of that time.
 ///
 /// It refers to the place that it is in: keep none that was made from a temporary.
-class Place {
+class DataPlace {
  public:
   /// @param pointer JSON pointer, "" for the whole document
   template <std::convertible_to<std::string_view> Text>
-  Place(const Text& pointer) : key_(pointer) {}
+  DataPlace(const Text& pointer) : key_(pointer) {}
 
-  [[nodiscard]] Place at(std::string_view key) const { return {this, key, 0}; }
-  [[nodiscard]] Place at(std::size_t index) const { return {this, {}, index}; }
+  [[nodiscard]] DataPlace at(std::string_view key) const { return {this, key, 0}; }
+  [[nodiscard]] DataPlace at(std::size_t index) const { return {this, {}, index}; }
 
   [[nodiscard]] std::string pointer() const {
     if (parent_ == nullptr) return std::string(key_);
@@ -29,10 +29,10 @@ class Place {
   }
 
  private:
-  Place(const Place* parent, std::string_view key, std::size_t index)
+  DataPlace(const DataPlace* parent, std::string_view key, std::size_t index)
       : parent_(parent), key_(key), index_(index) {}
 
-  const Place* parent_ = nullptr;
+  const DataPlace* parent_ = nullptr;
   std::string_view key_;  // empty in a list
   std::size_t index_ = 0;
 };

@@ -97,8 +97,8 @@ Problems check_all_values(const Scene& scene, SoundParts& sound) {
   check_count(scene.bodies.size(), kMaxBodies, "/bodies", problems);
   check_count(scene.joints.size(), kMaxJoints, "/joints", problems);
   check_count(scene.verdicts.size(), kMaxVerdictRules, "/verdicts", problems);
-  const Place bodies("/bodies");
-  const Place joints("/joints");
+  const DataPlace bodies("/bodies");
+  const DataPlace joints("/joints");
   for (std::size_t i = 0; i < scene.bodies.size() && problems.size() < kMaxProblems; ++i) {
     const std::size_t before = problems.size();
     check_body(scene.bodies[i], bodies.at(i), problems);

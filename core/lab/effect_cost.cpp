@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -28,6 +29,16 @@ std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) 
   return std::make_shared<const Scene>(std::move(less));
 }
 
+/// What each of the simulators may take, which all keep their memory until the end: together no
+/// more than one alone. Those are the run, the scene as it is and the scene without each effect.
+Budget shared_budget(const Effects& effects) {
+  const auto count = 2 + std::count_if(std::begin(kEffects), std::end(kEffects),
+                                       [&](const NamedEffect& e) { return effects.*e.effect; });
+  Budget budget;
+  budget.memory /= static_cast<double>(count);
+  return budget;
+}
+
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
@@ -45,8 +56,10 @@ double trimmed_mean(std::vector<double> values) {
 /// Single frames of a scene from given states.
 class EffectCostRun::Again {
  public:
-  Again(std::shared_ptr<const Scene> scene, std::string_view without)
-      : simulator_(std::move(scene)), without_(without) {}
+  Again(std::shared_ptr<const Scene> scene, std::string_view without, const Budget& budget)
+      : simulator_(std::move(scene)), without_(without) {
+    simulator_.set_budget(budget);
+  }
 
   void step(const State& state, const Settings& settings) {
     simulator_.set_settings(settings);
@@ -86,11 +99,12 @@ class EffectCostRun::Again {
 };
 
 EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment)
-    : run_(scene, std::move(experiment), no_reference()) {
+    : run_(scene, std::move(experiment), no_reference(), shared_budget(scene.effects)) {
   const Scene& start = run_.simulator().scene();
-  again_.emplace_back(std::make_shared<const Scene>(start), "");
+  const Budget budget = run_.simulator().budget();
+  again_.emplace_back(std::make_shared<const Scene>(start), "", budget);
   for (const auto& [name, effect] : kEffects) {
-    if (start.effects.*effect) again_.emplace_back(without(start, effect), name);
+    if (start.effects.*effect) again_.emplace_back(without(start, effect), name, budget);
   }
   next_ = again_.size();
   same_ = run_.experiment().settings;

@@ -5,7 +5,8 @@
 
 namespace substep {
 
-ExperimentRun::ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference)
+ExperimentRun::ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference,
+                             const Budget& budget)
     : experiment_(std::move(experiment)),
       simulator_(
           std::make_shared<const Scene>(start_of(scene, experiment_.load, experiment_.seed))),
@@ -14,6 +15,7 @@ ExperimentRun::ExperimentRun(const Scene& scene, Experiment experiment, const Re
       measure_(simulator_.scene(), simulator_.state(), report_, reference_),
       frames_(frames_of(simulator_.scene(), experiment_.duration)) {
   simulator_.set_settings(experiment_.settings);
+  simulator_.set_budget(budget);
 }
 
 bool ExperimentRun::advance() {

@@ -19,7 +19,9 @@ class ExperimentRun {
   /// @param scene the scene as it stands, without the experiment's load and seed
   /// @param reference of the scene as it stands; must outlive this. Another load moves otherwise:
   /// its distance from the reference is not measured
-  ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference);
+  /// @param budget of each of its frames
+  ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference,
+                const Budget& budget = {});
 
   /// One more frame. @return false when the run is over
   bool advance();

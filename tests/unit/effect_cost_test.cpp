@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <memory>
+#include <string>
 
 #include "core/io/experiment.hpp"
 #include "core/lab/effect_cost.hpp"
+#include "core/model/scene_builder.hpp"
+#include "core/sim/simulator.hpp"
 #include "scenes/generator/scenes.hpp"
 
 namespace substep::test {
@@ -47,6 +51,23 @@ TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
   EXPECT_EQ(costs.effects[1].effect, "joints");
   EXPECT_DOUBLE_EQ(costs.effects[1].row_updates * frames,
                    25.0 * 130.0 * static_cast<double>(work.substeps));  // the probe is no frame's
+}
+
+// Each of them keeps what it has taken: the run, the scene as it is, and without gravity and
+// contact.
+TEST(EffectCost, ItsSimulatorsTogetherTakeNoMoreMemoryThanOneMay) {
+  SceneBuilder builder("spheres");
+  for (int i = 0; i < 130; ++i) builder.add_body(Sphere{0.1}, 1.0, {0, 0, 0});
+  const std::shared_ptr<const Scene> scene = builder.build();
+  ASSERT_NE(scene, nullptr);
+  Simulator alone(scene);
+  EXPECT_EQ(alone.step().status, StepStatus::kOk);
+  Experiment experiment = experiment_of(*scene, scene->settings);
+  experiment.duration = scene->frame;
+  const CostBreakdown costs = cost_of_effects(*scene, experiment);
+  ASSERT_EQ(costs.effects.size(), 2U);
+  EXPECT_NE(costs.run.verdict.find("the budget is 128 MiB"), std::string::npos)
+      << costs.run.verdict;
 }
 
 // Until the ball hits the tower its chain takes 12 sub-steps a frame and the tower one.

@@ -100,11 +100,14 @@ void add_exam(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ExamOptions>();
   CLI::App* command = app.add_subcommand(
       "exam", "Run cases whose answers others have published, or that have one in closed form");
-  command->add_option("--case", options->cases, "only these cases");
-  command->add_flag("--list", options->list, "list the cases and run nothing");
+  auto* list = command->add_flag("--list", options->list, "list the cases and run nothing");
+  command->add_option("--case", options->cases, "only these cases")->excludes(list);
   command->add_option("--json", options->json, "write every run as JSON; - for standard output")
-      ->check(named());
-  command->add_option("--html", options->html, "write a page with every run")->check(named());
+      ->check(named())
+      ->excludes(list);
+  command->add_option("--html", options->html, "write a page with every run")
+      ->check(named())
+      ->excludes(list);
   command->add_flag("--quiet", options->quiet, "print the summary only");
   command->footer(
       "A case passes where at least one run is within all of its tolerances, and every run keeps\n"

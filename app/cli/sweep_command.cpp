@@ -187,8 +187,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
       app.add_subcommand("sweep", "Run all methods over a scene: what accuracy costs in time");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
       ->required();
-  command->add_option("--out", options->out, "folder for results.jsonl and report.html")
-      ->check(named());
+  auto* out = command->add_option("--out", options->out, "folder for results.jsonl and report.html")
+                  ->check(named());
   command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
   command
       ->add_option("--seeds", options->seeds,
@@ -199,8 +199,10 @@ void add_sweep(CLI::App& app, int& exit_code) {
       ->check([](const std::string& text) -> std::string {
         return parse_shard(text) ? "" : text + " is not i/n with 1 <= i <= n";
       });
-  command->add_flag("--list", options->list,
-                    "print the experiments, one JSON object a line, and run none");
+  command
+      ->add_flag("--list", options->list,
+                 "print the experiments, one JSON object a line, and run none")
+      ->excludes(out);
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   options->length.add_to(*command);
   options->settings.add_to(*command);

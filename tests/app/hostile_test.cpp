@@ -94,6 +94,16 @@ TEST(Hostile, WhatWouldBeIgnoredBesideExperimentsIsNamed) {
   EXPECT_EQ(substep("run free_fall" + run.substr(3)).exit_code, 0) << "its scene";
 }
 
+TEST(Hostile, WhatWouldBeIgnoredBesideAListIsNamed) {
+  for (const std::string command :
+       {"exam --list --json new", "exam --list --html new", "exam --list --case revolute",
+        "sweep pendulum --list --out new"}) {
+    const fs::path at = fresh();
+    expect_refused(substep(command, "cd \"" + at.string() + "\" &&"), "excludes --");
+    EXPECT_TRUE(fs::is_empty(at)) << command;
+  }
+}
+
 TEST(Hostile, AnEmptyNameOfAFileIsRefused) {
   for (const std::string command :
        {"run pendulum --frames 1 --csv \"\"", "run pendulum --frames 1 --json \"\"",

@@ -41,6 +41,9 @@ State with_ball(State state, const Ball& ball, std::size_t slot) {
   put(state.u_synchronised, u);
   if (!state.k.empty()) put(state.k, Vec6(Vec6::Zero()));
   if (!state.own.empty()) put(state.own, OwnSubstep{});
+  if (!state.rotation.empty()) put(state.rotation, RotationPeak{});
+  if (!state.torque.empty()) put(state.torque, Vec3(Vec3::Zero()));
+  if (!state.torque_change.empty()) put(state.torque_change, Vec3(Vec3::Zero()));
   if (!state.rest.empty()) put(state.rest, 0.0);
   if (!state.acceleration.empty()) put(state.acceleration, Vec6(Vec6::Zero()));
   if (!state.acceleration_change.empty()) put(state.acceleration_change, Vec6(Vec6::Zero()));

@@ -7,6 +7,7 @@
 
 #include "app/format.hpp"
 #include "app/stiffness.hpp"
+#include "core/stepping/rotation_bound.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep {
@@ -17,7 +18,7 @@ const std::string& name_of_body(const Scene& scene, int body) {
 }
 
 std::string speed_text(const Criterion& criterion) {
-  return plain_number(criterion.angular_speed) + " rad/s";
+  return plain_number(criterion.angular_speed) + (criterion.remembered ? " rad/s now" : " rad/s");
 }
 
 }  // namespace
@@ -52,6 +53,7 @@ Criterion criterion_of(const Scene& scene, const Settings& settings, const State
   c.rotation_body = report.rotation_body;
   c.r_rotation = report.r_rotation;
   c.angular_speed = state.u[body].tail<3>().norm();
+  c.remembered = !state.rotation.empty() && state.rotation[body].now > 0.0;
   c.n_rotation = substeps(c.r_rotation);
   if (c.r_rotation > c.stiffness.r) c.set_by = CriterionTerm::kRotation;
   return c;
@@ -94,8 +96,10 @@ std::string rotation_meaning(const Scene& scene, const Criterion& criterion) {
   if (!criterion.rotation_on) return "The paper's rule alone sets N.";
   if (criterion.rotation_body < 0) return "No body spins fast enough to matter.";
   const double degrees = criterion.angular_speed * scene.frame * 180.0 / std::numbers::pi;
-  return "It turns " + plain_number(degrees) + "° in a frame; r " +
-         short_number(criterion.r_rotation) + " s⁻²";
+  const std::string now = plain_number(degrees) + "° in a frame";
+  if (!criterion.remembered) return "It turns " + now;
+  return "Now " + now + "; the fastest of the last " + plain_number(2.0 * kRotationWindow) +
+         " s counts";
 }
 
 std::string both_terms_text(const Criterion& criterion) {

@@ -20,6 +20,7 @@ struct Criterion {
   int rotation_body = -1;      // -1 where no body rotates, or the term is switched off
   double angular_speed = 0.0;  // of that body [rad/s]
   bool rotation_on = false;    // the setting
+  bool remembered = false;     // the fastest rotation of the last seconds counts
   int n_stiffness = 1;         // N that each term alone asks for
   int n_rotation = 1;
 
@@ -32,10 +33,10 @@ Criterion criterion_of(const Scene& scene, const Settings& settings, const State
 
 /// "along x", "rotation about z": a degree of freedom of a body, about its principal axes.
 std::string degree_of_freedom(const StiffnessLeader& who);
-/// "link_3, rotation about z"; "top, spinning at 60 rad/s"; what sets N.
+/// "link_3, rotation about z"; "top, spinning at 60 rad/s now"; what sets N.
 std::string setter_text(const Scene& scene, const Criterion& criterion);
 /// One term in words, with what it asks for: "Stiffness of link_3, along y" and
-/// "Rotation of top, 60 rad/s".
+/// "Rotation of top, 60 rad/s now".
 std::string stiffness_text(const Scene& scene, const Criterion& criterion);
 std::string rotation_text(const Scene& scene, const Criterion& criterion);
 /// Why the rotation term asks for what it asks for, in words.

@@ -1,9 +1,13 @@
 #include "core/constraints/restitution_stage.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace substep {
 namespace {
+
+// No contact that is so far open closes, whatever the impact [m/s].
+constexpr double kOpen = 1e30;
 
 /// Speed along the normal, positive when the bodies part [m/s].
 double normal_speed(const Block& block, std::span<const Vec6> u) {
@@ -17,22 +21,80 @@ double normal_speed(const Block& block, std::span<const Vec6> u) {
 
 }  // namespace
 
-RestitutionStage::RestitutionStage(const Scene& scene) {
+RestitutionStage::RestitutionStage(const Scene& scene) : impact_(scene.bodies.size()) {
   for (const Body& body : scene.bodies) e_.push_back(body.restitution);
+}
+
+double RestitutionStage::restitution_of(const Block& contact) const {
+  return std::max(e_[static_cast<std::size_t>(contact.body_a)],
+                  e_[static_cast<std::size_t>(contact.body_b)]);
+}
+
+double RestitutionStage::impact_speed(const Scene& scene, std::span<const Vec6> u, double dt,
+                                      const Block& block) const {
+  if (!block.is_contact() || restitution_of(block) == 0.0) return 0.0;
+  const double approach = normal_speed(block, u);
+  const bool closes = block.phi[0] + approach * dt < 0.0;
+  return closes && approach <= -scene.contact.restitution_speed ? -approach : 0.0;
 }
 
 void RestitutionStage::apply(const Scene& scene, std::span<const Vec6> u_before, double dt,
                              std::span<Block> blocks) const {
-  for (Block& block : blocks) {
-    if (!block.is_contact()) continue;
-    const double e = std::max(e_[static_cast<std::size_t>(block.body_a)],
-                              e_[static_cast<std::size_t>(block.body_b)]);
-    if (e == 0.0) continue;
-    const double approach = normal_speed(block, u_before);
-    const bool closes = block.phi[0] + approach * dt < 0.0;
-    if (!closes || approach > -scene.contact.restitution_speed) continue;
-    block.bias[0] = std::min(block.bias[0], e * approach);
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Block& block = blocks[i];
+    const double speed = impact_speed(scene, u_before, dt, block);
+    if (speed > 0.0) block.bias[0] = std::min(block.bias[0], -restitution_of(block) * speed);
+    if (!struck(i)) continue;
+    block.bias[0] = std::min(block.bias[0], -normal_speed(block, u_before));
   }
+}
+
+bool RestitutionStage::spreads(const Scene& scene, std::span<const Vec6> u, double dt,
+                               std::span<const Block> blocks) {
+  struck_.clear();
+  std::fill(impact_.begin(), impact_.end(), 0.0);
+  bool any = false;
+  for (const Block& block : blocks) {
+    const double speed = impact_speed(scene, u, dt, block);
+    if (speed == 0.0) continue;
+    any = true;
+    for (const int body : {block.a, block.b}) {
+      if (body < 0) continue;
+      double& most = impact_[static_cast<std::size_t>(body)];
+      most = std::max(most, speed);
+    }
+  }
+  if (!any) return false;
+  const bool spread = std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+    if (!block.is_contact() || restitution_of(block) == 0.0) return false;
+    if (impact_speed(scene, u, dt, block) > 0.0) return false;
+    double change = 0.0;  // no impact makes a body faster than it, by more than twice its speed
+    for (const int body : {block.a, block.b}) {
+      if (body >= 0) change += 2.0 * impact_[static_cast<std::size_t>(body)];
+    }
+    return change > 0.0 && block.phi[0] + (normal_speed(block, u) - change) * dt < 0.0;
+  });
+  if (spread) struck_.assign(blocks.size(), 0);
+  return spread;
+}
+
+bool RestitutionStage::set_impacts(const Scene& scene, std::span<const Vec6> u, double dt,
+                                   std::span<Block> blocks) {
+  bool any = false;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Block& block = blocks[i];
+    std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
+    std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
+    if (!block.is_contact()) continue;
+    const double speed = impact_speed(scene, u, dt, block);
+    if (speed > 0.0) {
+      any = true;
+      struck_[i] = 1;
+    }
+    block.bias[0] = speed > 0.0 ? -restitution_of(block) * speed : kOpen;
+    std::fill(std::begin(block.tight), std::end(block.tight), kUnknownSet);
+  }
+  return any;
 }
 
 }  // namespace substep

@@ -55,6 +55,23 @@ void read_own(ObjectReader& in, std::size_t bodies, std::vector<OwnSubstep>& own
   for (std::size_t i = 0; i < bodies; ++i) own.push_back({dt[i], r[i]});
 }
 
+/// How fast every body has rotated lately.
+void read_rotation(ObjectReader& in, std::size_t bodies, Carried& carried) {
+  std::vector<double> before(bodies);
+  std::vector<double> now(bodies);
+  const bool has_before =
+      in.numbers("rotation_before", kStiffnessOverMassRange, before.data(), bodies, kOptional);
+  const bool has_now =
+      in.numbers("rotation_now", kStiffnessOverMassRange, now.data(), bodies, kOptional);
+  in.number("rotation_age", not_negative(10.0, "s"), carried.rotation_age, kOptional);
+  if ((in.member("rotation_before", kOptional) == nullptr) !=
+      (in.member("rotation_now", kOptional) == nullptr)) {
+    in.problem("rotation_now", "needs rotation_before, and that needs it");
+  }
+  if (!has_before || !has_now) return;
+  for (std::size_t i = 0; i < bodies; ++i) carried.rotation.push_back({before[i], now[i]});
+}
+
 std::string id_text(std::uint64_t id) {
   char text[16];
   return {text, std::to_chars(text, text + sizeof text, id, 16).ptr};
@@ -143,6 +160,7 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   read_items(in, "k", kStiffnessRange, n, carried.k);
   read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting);
   read_own(in, n, carried.own);
+  read_rotation(in, n, carried);
   for (const char* key : {"k", "k_resisting"}) {
     if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "needs r");
   }
@@ -190,6 +208,17 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
     }
     json["own_dt_previous"] = std::move(dt);
     json["own_r"] = std::move(r);
+  }
+  if (!carried.rotation.empty()) {
+    Json before = Json::array();
+    Json now = Json::array();
+    for (const RotationPeak& peak : carried.rotation) {
+      before.push_back(peak.before);
+      now.push_back(peak.now);
+    }
+    json["rotation_before"] = std::move(before);
+    json["rotation_now"] = std::move(now);
+    json["rotation_age"] = carried.rotation_age;
   }
   if (!carried.acceleration.empty()) json["acceleration"] = items_json(carried.acceleration);
   if (!carried.acceleration_change.empty()) {

@@ -25,6 +25,13 @@ struct OwnSubstep {
   double r = 0.0;            // as Carried::r, of this body [1/s^2]
 };
 
+/// How fast a body has rotated, for the rotation criterion: the largest rates of two windows of
+/// time, so that N does not follow every swing (rotation_bound.hpp).
+struct RotationPeak {
+  double before = 0.0;  // in the last whole window [1/s^2]
+  double now = 0.0;     // in the present one [1/s^2]
+};
+
 /// What a run takes from one sub-step into the next besides poses.
 struct Carried {
   std::vector<Vec6> u;            // (velocity [m/s], angular velocity [rad/s]), world
@@ -44,8 +51,10 @@ struct Carried {
   // as that of the acceleration. Empty without the gyroscopic effect.
   std::vector<Vec3> torque;
   std::vector<Vec3> torque_change;
-  std::vector<OwnSubstep> own;  // per body, or empty: dt_previous is that of all bodies
-  std::vector<double> rest;     // per body: how long it has been slow [s]; empty: not looked at
+  std::vector<OwnSubstep> own;         // per body, or empty: dt_previous is that of all bodies
+  std::vector<RotationPeak> rotation;  // per body, or empty: the criterion has no memory
+  double rotation_age = 0.0;           // of the present window [s]
+  std::vector<double> rest;  // per body: how long it has been slow [s]; empty: not looked at
 
   /// The last sub-step of a body [s].
   [[nodiscard]] double dt_previous_of(std::size_t body) const {

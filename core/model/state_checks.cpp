@@ -56,6 +56,10 @@ class Lists {
     return std::isfinite(item.dt_previous) && item.dt_previous >= 0.0 && std::isfinite(item.r) &&
            item.r >= 0.0;
   }
+  static bool finite(const RotationPeak& item) {
+    return std::isfinite(item.before) && item.before >= 0.0 && std::isfinite(item.now) &&
+           item.now >= 0.0;
+  }
   static bool finite(const auto& item) { return item.allFinite(); }
 
   std::string pointer_;
@@ -89,6 +93,8 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
                problems);
   check_number(carried.r, not_negative(std::numeric_limits<double>::max(), "1/s^2"),
                pointer_to(pointer, "r"), problems);
+  check_number(carried.rotation_age, not_negative(10.0, "s"), pointer_to(pointer, "rotation_age"),
+               problems);
   Lists lists(pointer, scene.bodies.size(), problems);
   lists.required("u", carried.u);
   lists.optional("k", carried.k);
@@ -98,6 +104,7 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
   lists.optional("torque", carried.torque);
   lists.optional("torque_change", carried.torque_change);
   lists.optional("own", carried.own);
+  lists.optional("rotation", carried.rotation);
   lists.optional("rest", carried.rest);
   if (carried.k.empty() && !carried.K_resisting.empty()) {
     problems.push_back({pointer_to(pointer, "k_resisting"), "needs k"});

@@ -89,6 +89,12 @@ void Simulator::Impl::begin_frame() {
   first_block = first_force = 0;
   turn_axes(all.bodies);
   if (probe_due()) probe(report);  // the first frame has no lambda yet
+  if (heeds_rotation()) {
+    rotation->remember(*scene, state);
+  } else {
+    state.rotation.clear();
+    state.rotation_age = 0.0;
+  }
   deal_out(report);
   blocks.clear();
   forces.clear();
@@ -142,9 +148,12 @@ void Simulator::Impl::deal_out_islands(FrameReport& report) {
   }
 }
 
+bool Simulator::Impl::heeds_rotation() const {
+  return rotation && settings.rotation_criterion && chooses_substeps(settings.mode);
+}
+
 RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const {
-  if (!rotation || !settings.rotation_criterion || !chooses_substeps(settings.mode)) return {};
-  return rotation->bound(*scene, bodies, state.u, state.q);
+  return heeds_rotation() ? rotation->bound(*scene, bodies, state) : RotationBound{};
 }
 
 double Simulator::Impl::r_rotation_again() const {

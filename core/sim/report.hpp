@@ -58,6 +58,7 @@ struct RowCounts {
 /// What the solver did, summed over the sub-steps of a frame.
 struct SolverWork {
   std::int64_t solves = 0;
+  std::int64_t impacts = 0;  // of these, simultaneous impacts that spread within a sub-step
   RowCounts rows;  // of all solves: what a kind of row costs, PGS visits each once an iteration
   std::int64_t iterations = 0;   // sweeps of PGS and XPBD, steps of Newton
   std::int64_t row_updates = 0;  // PGS and XPBD: rows visited

@@ -51,6 +51,7 @@ struct Simulator::Impl {
   void remember_stiffness();
   void advance_poses(double dt, FrameReport& report);
   // Velocities that stand half a sub-step behind the poses: synchronise.cpp.
+  void find_struck();
   void synchronise(double dt);
   void turn_joint_forces(double dt);
   void synchronise_spin(std::size_t body, double ahead, const Vec3& bent, double dt);
@@ -94,6 +95,7 @@ struct Simulator::Impl {
   Vec3 turn_velocity(std::size_t body, const Vec3& l, const Vec3& torque, double dt) const;
 
   static RowCounts count_rows(std::span<const Block> of);
+  bool propagate_impacts(double dt, FrameReport& report);  // impacts.cpp
   bool probe_due() const;
   void probe(FrameReport& report);
   bool forces_are_stored() const;   // of any constraint, from sub-step to sub-step
@@ -131,6 +133,7 @@ struct Simulator::Impl {
   void turn_axes(std::span<const int> bodies);  // R_WB
   void deal_out(FrameReport& report);           // the sub-steps of the frame to come
   void deal_out_islands(FrameReport& report);
+  bool heeds_rotation() const;                                      // whether N follows it
   RotationBound rotation_bound(std::span<const int> bodies) const;  // none where it is off
   double r_rotation_again() const;  // of the part, where N is decided after every sub-step
   bool is_at_rest(std::span<const int> island) const;
@@ -168,6 +171,7 @@ struct Simulator::Impl {
   std::unique_ptr<StiffnessStage> stiffness;  // built when a mode or a view first needs K
   std::unique_ptr<RotationCriterion> rotation;
   std::unique_ptr<Solver> solver;
+  std::unique_ptr<Solver> impacts;  // built when one first spreads
 
   // Of every part that has moved in the frame, as its last sub-step left them.
   Blocks blocks;
@@ -181,7 +185,8 @@ struct Simulator::Impl {
   // Scratch, valid within a sub-step.
   std::vector<Mat3> R_WB;  // of bodies that stand still since the frame began
   std::vector<InverseMass> inverse_mass;
-  std::vector<Vec6> u_start;      // at the start of the sub-step
+  std::vector<InverseMass> rigid_mass;  // of impacts, in modes that put another mass in its place
+  std::vector<Vec6> u_start;            // at the start of the sub-step
   std::vector<Vec6> u_before;     // after the gyroscopic torque, before forces and constraints
   std::vector<Vec6> u_guess;      // where accelerations stay as they are, or change as they did
   std::vector<Motion> motions;    // and how bodies would move by that
@@ -198,6 +203,7 @@ struct Simulator::Impl {
   std::vector<BodyCourse> courses;     // where extrapolates()
   std::vector<Vec3> momentum_inertia;  // and the principal moments of what tumbles, else 0
   std::vector<double> impulse_time;    // per body: external forces act for it [s]
+  std::vector<std::uint8_t> hit;       // per body: an impact of this sub-step reached it
   bool smooth = true;                  // no contact closed in this sub-step
   bool watched = true;                 // whether anybody may look at what it leaves
   StiffnessBound bound;

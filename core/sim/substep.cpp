@@ -125,13 +125,14 @@ bool Simulator::Impl::breaks_motion(const Block& touching) const {
 
 bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
   const std::span<Block> own = rows();
+  set_softness(own, scene->regularisation, dt);
+  if (restitution && !probing && !propagate_impacts(dt, report)) return false;
   if (forces_are_stored()) seed_forces();
   if (probing) {
     set_probe_bias(own, dt);
   } else {
     set_drift_bias(own, drift_law(settings), settings.drift_tau, dt);
   }
-  set_softness(own, scene->regularisation, dt);
   if (!probing) {
     if (has_springs) set_joint_springs(dt);
     if (contact && averages_contacts()) set_contact_springs(dt);
@@ -184,6 +185,7 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
   smooth = !contact || std::none_of(own.begin(), own.end(), [&](const Block& block) {
     return block.is_contact() && breaks_motion(block);
   });
+  if (restitution && restitution->struck()) smooth = false;
   if (scene->effects.gyroscopic && !probing && !carries_momentum(settings)) {
     settle_gyroscopic(dt);
   }

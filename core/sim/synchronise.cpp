@@ -10,25 +10,44 @@
 
 namespace substep {
 
-// Applies the forces of the sub-step for half of its length; after an impact nothing is added.
-// Joint forces are applied along the rows at the new poses: there they do no work, and the angular
-// momentum about a fixed anchor is conserved.
+// In a sub-step with an impact, marks the bodies that constraints act on: the impact may be in what
+// they carry. What flies freely goes on.
+void Simulator::Impl::find_struck() {
+  hit.assign(state.u.size(), 0);
+  if (smooth) return;
+  const std::span<const Block> own = rows();
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const Block& block = own[i];
+    const bool acts =
+        !block.is_contact() || block.impulse[0] > 0.0 || (restitution && restitution->struck(i));
+    for (const int body : {block.a, block.b}) {
+      if (acts && body >= 0) hit[index(body)] = 1;
+    }
+  }
+}
+
+// Applies the forces of the sub-step for half of its length; to what may have been struck nothing
+// is added. Joint forces are applied along the rows at the new poses: there they do no work, and
+// the angular momentum about a fixed anchor is conserved.
 void Simulator::Impl::synchronise(double dt) {
   if (extends_changes()) return extend_changes(dt);
   if (extrapolates(settings) && smooth) return extend_courses(dt);
   const auto ahead_after = [&](double dt_previous) {
     const double before =
         settings.integrator == Integrator::kEuler && dt_previous == 0.0 ? dt : dt_previous;
-    return smooth ? dt / (before + dt) : 0.0;
+    return dt / (before + dt);
   };
   const double ahead_of_all = ahead_after(state.dt_previous);
   // Newton and XPBD apply forces along rows at later poses already.
-  const bool turns_forces = smooth && joints && settings.solver != SolverKind::kNewton &&
-                            settings.solver != SolverKind::kXpbd;
+  const bool turns_forces =
+      joints && settings.solver != SolverKind::kNewton && settings.solver != SolverKind::kXpbd;
   if (turns_forces) turn_joint_forces(dt);
+  find_struck();
   for (const int body : part().moving) {
     const std::size_t i = index(body);
-    const double ahead = state.own.empty() ? ahead_of_all : ahead_after(state.own[i].dt_previous);
+    const double ahead = hit[i] != 0         ? 0.0
+                         : state.own.empty() ? ahead_of_all
+                                             : ahead_after(state.own[i].dt_previous);
     const Vec3 bent = turns_forces ? Vec3(ahead * bent_torque[i]) : Vec3(Vec3::Zero());
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
     if (turns_otherwise(i)) {

@@ -20,6 +20,22 @@ double gyroscopic_rate_squared(const Vec3& I, const Vec3& omega_B) {
 
 bool differ(const Vec3& I) { return !(I[0] == I[1] && I[1] == I[2]); }
 
+constexpr double square(double x) { return x * x; }
+
+/// By the turn and the gyroscopic rate [1/s^2].
+double rate_squared(const Vec3& I, const Vec3& omega_B) {
+  const double turn = square(kTurnShare) * omega_B.squaredNorm();
+  return differ(I) && turn > 0.0 ? std::max(turn, gyroscopic_rate_squared(I, omega_B)) : turn;
+}
+
+Vec3 angular_velocity_B(const State& state, int body) {
+  return state.q[index(body)].conjugate() * Vec3(state.u[index(body)].tail<3>());
+}
+
+bool moves(const Scene& scene, int body) {
+  return body != kWorld && !scene.bodies[index(body)].is_static;
+}
+
 }  // namespace
 
 RotationCriterion::RotationCriterion(const Scene& scene) : counts_(scene.bodies.size(), 0) {
@@ -30,26 +46,58 @@ RotationCriterion::RotationCriterion(const Scene& scene) : counts_(scene.bodies.
   if (!scene.effects.joints) return;
   for (const Joint& joint : scene.joints) {
     for (const int body : {base(joint).a, base(joint).b}) {
-      if (body != kWorld && !scene.bodies[index(body)].is_static) counts_[index(body)] = 1;
+      if (moves(scene, body)) counts_[index(body)] = 1;
     }
+  }
+  if (!scene.effects.contact) find_pendulums(scene);
+}
+
+void RotationCriterion::find_pendulums(const Scene& scene) {
+  std::vector<int> joints(scene.bodies.size(), 0);
+  for (const Joint& joint : scene.joints) {
+    for (const int body : {base(joint).a, base(joint).b}) {
+      if (moves(scene, body)) ++joints[index(body)];
+    }
+  }
+  for (const Joint& joint : scene.joints) {
+    const bool by_a = moves(scene, base(joint).a);
+    if (by_a == moves(scene, base(joint).b)) continue;
+    const int body = by_a ? base(joint).a : base(joint).b;
+    if (joints[index(body)] != 1) continue;
+    const Vec3& arm = by_a ? base(joint).anchor_a : base(joint).anchor_b;
+    pendulums_.push_back({body, arm.norm() > 0.0 ? Vec3(arm.normalized()) : arm});
   }
 }
 
 RotationBound RotationCriterion::bound(const Scene& scene, std::span<const int> bodies,
-                                       std::span<const Vec6> u, std::span<const Quat> q_WB) const {
+                                       const State& state) const {
   RotationBound most;
   for (const int body : bodies) {
-    const std::size_t i = index(body);
-    if (counts_[i] == 0) continue;
-    const Vec3 omega = u[i].tail<3>();
-    const Vec3& I = scene.bodies[i].inertia;
-    double r = kTurnShare * kTurnShare * omega.squaredNorm();
-    if (differ(I) && r > 0.0) {
-      r = std::max(r, gyroscopic_rate_squared(I, q_WB[i].conjugate() * omega));
+    if (counts_[index(body)] == 0) continue;
+    double r = rate_squared(scene.bodies[index(body)].inertia, angular_velocity_B(state, body));
+    if (!state.rotation.empty()) {
+      const RotationPeak& peak = state.rotation[index(body)];
+      r = std::max({r, peak.before, peak.now});
     }
     if (r > most.r) most = {r, body};
   }
   return most;
+}
+
+void RotationCriterion::remember(const Scene& scene, State& state) const {
+  if (pendulums_.empty()) return;
+  state.rotation.resize(scene.bodies.size());
+  const bool shift = state.rotation_age >= kRotationWindow;
+  if (shift) state.rotation_age = 0.0;
+  state.rotation_age += scene.frame;
+  for (const Pendulum& pendulum : pendulums_) {
+    RotationPeak& peak = state.rotation[index(pendulum.body)];
+    if (shift) peak = {peak.now, 0.0};
+    const Vec3 omega_B = angular_velocity_B(state, pendulum.body);
+    const double arm = square(kArmShare) * omega_B.cross(pendulum.arm).squaredNorm();
+    const double turn = rate_squared(scene.bodies[index(pendulum.body)].inertia, omega_B);
+    peak.now = std::max({peak.now, arm, turn});
+  }
 }
 
 }  // namespace substep

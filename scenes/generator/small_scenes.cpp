@@ -102,8 +102,8 @@ Scene newtons_cradle() {
       "Five equal balls on rods of 1 m, 4 mm apart; the first is let go 36.87 degrees from "
       "straight down. They lose nothing at an impact.";
   scene.look_for =
-      "One in, one out: the blow passes from ball to ball. In a single step a frame it strikes the "
-      "whole row, which leaves together, and the first bounces back.";
+      "One in, one out: the blow passes from ball to ball, and nothing is lost. Within a step "
+      "impacts follow one another, so that one step per frame does it too.";
   scene.effects = {.gravity = true, .joints = true, .contact = true, .restitution = true};
   scene.settings.mode = Mode::kConst;
   scene.settings.n = 32;  // in a step no ball comes through more than a third of the gap

@@ -167,10 +167,11 @@ TEST(NewtonsCradle, OneBallInIsOneBallOut) {
     Forces forces;
     double loss;  // at most, of 1.96 J
   };
-  // What 25 sweeps leave of a blow stays behind. Implicit Euler (`xpbd` and forces at the end)
-  // damps the swing itself: by half as much with twice the sub-steps, as below.
+  // At twice the sub-steps bpp is 2e-5 off. What 25 sweeps leave of a blow stays behind. Implicit
+  // Euler (`xpbd` and forces at the end) damps the swing itself: by half as much with twice the
+  // sub-steps, as below.
   for (const auto& [solver, forces, loss] :
-       {Row{SolverKind::kBpp, Forces::kEnd, 1e-4}, Row{SolverKind::kPgs, Forces::kEnd, 0.1},
+       {Row{SolverKind::kBpp, Forces::kEnd, 2e-4}, Row{SolverKind::kPgs, Forces::kEnd, 0.1},
         Row{SolverKind::kXpbd, Forces::kEnd, 0.15}, Row{SolverKind::kNewton, Forces::kEnd, 0.15},
         Row{SolverKind::kNewton, Forces::kMean, 1e-3}}) {
     Settings settings = scene.settings;
@@ -198,10 +199,12 @@ TEST(NewtonsCradle, ImplicitEulerDampsItsSwingAtFirstOrder) {
   EXPECT_NEAR(coarse / fine, 2.0, 0.1);
 }
 
-TEST(NewtonsCradle, InOneStepAFrameTheWholeRowIsStruck) {
+// Impacts follow one another within the sub-step, however long it is.
+TEST(NewtonsCradle, InOneStepAFrameTheBlowPassesThroughTheRowToo) {
   const Cradle cradle = swing({.mode = Mode::kNone}, 2.0);
-  EXPECT_TRUE(cradle.last.empty() || cradle.last.front() < 0.15);
-  EXPECT_LT(cradle.energy_change, -0.1);
+  ASSERT_FALSE(cradle.last.empty());
+  EXPECT_NEAR(cradle.last.front(), 0.2, 0.02);
+  EXPECT_NEAR(cradle.energy_change, 0.0, 0.02);
 }
 
 // Two balls head on: momentum stays, and they part with e times the speed of their approach.

@@ -210,6 +210,7 @@ TEST(Simulator, RefusesStatesOfOtherScenesAndGoesOnWithItsOwn) {
       {"/state/q/1", [](State& s) { s.q[1].coeffs().setZero(); }},
       {"/state/u_synchronised", [](State& s) { s.u_synchronised.clear(); }},
       {"/state/k", [](State& s) { s.k.resize(3); }},
+      {"/state/rotation", [](State& s) { s.rotation.resize(1); }},
       {"/state/own", [](State& s) { s.own.resize(1); }},
       {"/state/rest", [](State& s) { s.rest.resize(9); }},
       {"/state/forces/0",

@@ -67,9 +67,13 @@ TEST_F(TwoTerms, ItIsSaidWhichBodyAndHowFast) {
   const Criterion c = criterion();
   const std::string& name = scene().bodies[static_cast<std::size_t>(c.rotation_body)].name;
   EXPECT_DOUBLE_EQ(c.angular_speed, 60.0);
-  EXPECT_EQ(setter_text(scene(), c), name + ", spinning at 60 rad/s");
-  EXPECT_EQ(rotation_text(scene(), c), "Rotation of " + name + ", 60 rad/s");
-  EXPECT_TRUE(rotation_meaning(scene(), c).starts_with("It turns 57.3° in a frame"));
+  EXPECT_EQ(setter_text(scene(), c), name + ", spinning at 60 rad/s now");
+  EXPECT_EQ(rotation_text(scene(), c), "Rotation of " + name + ", 60 rad/s now");
+  EXPECT_EQ(rotation_meaning(scene(), c),
+            "Now 57.3° in a frame; the fastest of the last 8 s counts");
+  state.rotation.clear();  // as where bodies may touch
+  EXPECT_EQ(setter_text(scene(), criterion()), name + ", spinning at 60 rad/s");
+  EXPECT_EQ(rotation_meaning(scene(), criterion()), "It turns 57.3° in a frame");
   EXPECT_EQ(both_terms_text(c), "stiffness alone N = " + std::to_string(c.n_stiffness) +
                                     ", rotation alone N = " + std::to_string(c.n_rotation));
   spin(0.5);

@@ -9,9 +9,11 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <new>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -43,7 +45,9 @@ std::timed_mutex g_mutex;  // of everything about the outputs, while end_outputs
 
 /// Those with a file.
 std::set<Output*>& open_outputs() {
-  static auto* const outputs = new std::set<Output*>;  // outlives every thread
+  // It outlives every thread, and is there when there is no memory left.
+  alignas(std::set<Output*>) static std::byte room[sizeof(std::set<Output*>)];
+  static auto* const outputs = new (room) std::set<Output*>;
   return *outputs;
 }
 

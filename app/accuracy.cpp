@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "app/frame_slices.hpp"
 #include "core/io/experiment.hpp"
 
 namespace substep {
@@ -52,7 +53,7 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   search_.reset();
   paper_ = paper_settings(*scene_);
-  sweep_.emplace(scene_, plan(*scene_));
+  sweep_.emplace(scene_, plan(*scene_), kWindowBudget);
   cancelled_ = false;
   elapsed_ = 0.0;
   last_ = -1.0;

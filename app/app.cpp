@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "app/command.hpp"
+#include "app/heavy_start.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/number_text.hpp"
@@ -28,7 +29,7 @@ Desk::Desk() {
 
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : library(std::move(shipped)), session(library.scenes().front()), renderer(std::move(draws)) {
-  session.frame_taken = [this] { compare.take_frame(session); };
+  session.frame_taken = [this] { return compare.take_frame(session); };
   session.scene_edited = [this](const SceneEdit& edit) { compare.edit(session, edit); };
   run(library.scenes().front());
 }
@@ -71,7 +72,13 @@ bool App::open_result(SceneResult result, const std::string& from) {
   trouble = {};
   run(add_own(*result.scene));
   session.play();
+  hold_if_heavy();
   return true;
+}
+
+void App::hold_if_heavy() {
+  heavy = {heavy_start(session.shared_scene(), session.settings()), run_count};
+  if (!heavy.why.empty()) session.pause();
 }
 
 void App::recall_scenes() {

@@ -47,6 +47,12 @@ struct Trouble {
   std::string aftermath = kSceneKept;  // what was done all the same; may be empty
 };
 
+/// A run that waits for a person to start it, since its frames take long.
+struct HeavyStart {
+  std::string why;  // empty where there is none
+  int run = 0;      // App::run_count then
+};
+
 /// Which of the phone's panels is open; beside the picture, the controls always are.
 enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy };
 
@@ -144,8 +150,12 @@ struct App {
   /// What to type for the same run on the command line.
   [[nodiscard]] std::string command() const;
   void reset();
+  /// Pauses a run whose frames take long, and says so: after what came from outside.
+  void hold_if_heavy();
   /// Whether something goes on by itself: a run that plays, a sweep, a search.
-  [[nodiscard]] bool busy() const { return session.playing() || accuracy.busy(); }
+  [[nodiscard]] bool busy() const {
+    return session.playing() || accuracy.busy() || compare.behind(session);
+  }
   /// Runs the scene from another of its starts, with the settings as they are.
   void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.
@@ -174,6 +184,8 @@ struct App {
   std::unique_ptr<Renderer> renderer;
   Trouble trouble;  // none where the title is empty
   Notice notice;
+  HeavyStart heavy;
+  int pictures_in_frame = 0;  // that were drawn while the session computes one frame
   std::optional<Capture> capture;
   OwnScenes own;
   FileBrowser browser;

@@ -182,6 +182,7 @@ void App::open_link(std::string_view fragment) {
     problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
     scene_refused = scene_refused || part.key == "scene";
   }
+  hold_if_heavy();
   if (problems.empty()) return;
   const bool kept = scene_refused && plain_scene == scene_before;
   std::string aftermath = kept ? kSceneKept : "";

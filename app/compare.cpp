@@ -109,6 +109,8 @@ void Compare::use_scene(Run& run, const std::shared_ptr<const Scene>& scene) con
   if (run.scene == scene && run.simulator) return;
   run.scene = scene;
   run.simulator = std::make_unique<Simulator>(scene);
+  run.simulator->set_budget(kWindowBudget);
+  run.slices.forget();
   run.simulator->set_settings(settings_of(run.overrides, settings_));
 }
 
@@ -143,21 +145,26 @@ void Compare::remove(const Session& session, std::size_t index) {
 void Compare::change(const Session& session, std::size_t index, const Settings& settings) {
   Run& run = runs_[index];
   run.overrides = differences(settings, session.settings());
+  run.slices.drop(*run.simulator);
   run.simulator->set_settings(settings_of(run.overrides, session.settings()));
 }
 
-void Compare::step(Run& run) {
+// @return whether the frame has ended
+bool Compare::step(Run& run, FrameSlices::Clock::time_point until) {
   const State& state = run.simulator->state();
-  if (run.report.status != StepStatus::kOk) return;
-  run.previous = {state.x, state.q};
-  run.simulator->set_grab(hand_at(state.frame));
-  if (run.simulator->grab()) run.verdict->disturb(state.time);
-  run.report = run.simulator->step();
+  if (!run.slices.open()) {
+    run.previous = {state.x, state.q};
+    run.simulator->set_grab(hand_at(state.frame));
+    if (run.simulator->grab()) run.verdict->disturb(state.time);
+  }
+  const std::optional<FrameReport> ended = run.slices.advance(*run.simulator, until);
+  if (!ended) return false;
+  run.report = *ended;
   run.verdict->add(*run.scene, state, run.report);
-  if (run.report.status != StepStatus::kOk) return;
+  if (run.report.status != StepStatus::kOk) return true;
   run.history.add(run.report);
   add_frame(run.cost, run.report);
-  if (state.frame % kCheckpointFrames != 0) return;
+  if (state.frame % kCheckpointFrames != 0) return true;
   if (run.checkpoints.size() >= kMostCheckpoints) {
     // Every second one goes: a long run is seen from farther apart. The first stays.
     std::vector<Run::Checkpoint> kept;
@@ -167,6 +174,7 @@ void Compare::step(Run& run) {
     run.checkpoints = std::move(kept);
   }
   run.checkpoints.push_back({run.scene, state, *run.verdict, run.cost});
+  return true;
 }
 
 void Compare::watch(Run& run, const Session& session) {
@@ -199,17 +207,26 @@ const std::optional<Grab>& Compare::hand_at(std::int64_t frame) const {
   return later == hands_.begin() ? kNone : std::prev(later)->grab;
 }
 
-void Compare::take_frame(const Session& session) {
-  if (!open()) return;
+bool Compare::take_frame(const Session& session) {
+  if (!open()) return true;
+  const auto until = end_of_slice(kSlice);
   if (session.state().frame != frame_ + 1) {  // it was set back since it was looked at
-    for (Run& run : runs_) seek(run, session, session.state().frame - 1);
+    for (Run& run : runs_) seek(run, session, session.state().frame - 1, until);
   }
   frame_ = session.state().frame;
   note_hand(session);
   for (Run& run : runs_) {
-    step(run);
+    seek(run, session, frame_, until);
     watch(run, session);
   }
+  return !behind(session);
+}
+
+bool Compare::behind(const Session& session) const {
+  return std::any_of(runs_.begin(), runs_.end(), [&](const Run& run) {
+    return run.report.status == StepStatus::kOk &&
+           (run.slices.open() || run.simulator->state().frame < session.state().frame);
+  });
 }
 
 void Compare::edit(const Session& session, const SceneEdit& edit) {
@@ -233,7 +250,8 @@ std::vector<const SceneEdit*> Compare::edits_up_to(const Scene& scene) const {
 
 // To a frame of the session's run: on from where it is if that is on the way, from the last
 // checkpoint that is otherwise. A checkpoint later than the edit of its scene is of another future.
-void Compare::seek(Run& run, const Session& session, std::int64_t frame) {
+void Compare::seek(Run& run, const Session& session, std::int64_t frame,
+                   FrameSlices::Clock::time_point until) {
   const std::vector<const SceneEdit*> path = edits_up_to(session.scene());
   const auto edit_of = [&](const std::shared_ptr<const Scene>& scene) -> const SceneEdit* {
     for (const SceneEdit* edit : path) {
@@ -250,6 +268,7 @@ void Compare::seek(Run& run, const Session& session, std::int64_t frame) {
     while (list.size() > 1 && !on_the_way(list.back().scene, list.back().state.frame)) {
       list.pop_back();
     }
+    run.slices.drop(*run.simulator);
     use_scene(run, list.back().scene);
     run.simulator->set_state(list.back().state);
     run.verdict = list.back().verdict;
@@ -269,7 +288,7 @@ void Compare::seek(Run& run, const Session& session, std::int64_t frame) {
       run.verdict->disturb(run.simulator->state().time);
       run.previous = {run.simulator->state().x, run.simulator->state().q};
     } else if (run.simulator->state().frame < frame) {
-      step(run);
+      if (!step(run, until) || FrameSlices::Clock::now() >= until) return;
     } else {
       break;
     }
@@ -284,16 +303,20 @@ void Compare::follow(const Session& session) {
   if (first != scene_.get() || before) restart(session);
   if (settings_ != session.settings()) {
     settings_ = session.settings();
-    for (Run& run : runs_) run.simulator->set_settings(settings_of(run.overrides, settings_));
+    for (Run& run : runs_) {
+      run.slices.drop(*run.simulator);
+      run.simulator->set_settings(settings_of(run.overrides, settings_));
+    }
   }
   frame_ = session.state().frame;
+  const auto until = end_of_slice(kSlice);
   for (Run& run : runs_) {
-    seek(run, session, frame_);
+    seek(run, session, frame_, until);
     watch(run, session);
   }
   const double t = session.between();
   for (Run& run : runs_) {
-    const State& now = run.simulator->state();
+    const State& now = run.slices.state(*run.simulator);
     run.poses = run.previous;
     for (std::size_t i = 0; i < now.x.size(); ++i) {
       run.poses.x[i] = run.previous.x[i] + t * (now.x[i] - run.previous.x[i]);

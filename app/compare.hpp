@@ -55,6 +55,7 @@ class Compare {
 
    private:
     friend class Compare;
+    FrameSlices slices;
     Poses previous;
     struct Checkpoint {
       std::shared_ptr<const Scene> scene;
@@ -81,11 +82,15 @@ class Compare {
   /// Changes the method of one that runs, live.
   void change(const Session& session, std::size_t index, const Settings& settings);
 
-  /// The session has taken a frame: so do the others.
-  void take_frame(const Session& session);
+  /// The session has taken a frame: so do the others, as far as a slice of time allows; follow()
+  /// goes on with it. @return whether they are all there
+  bool take_frame(const Session& session);
+  /// Whether one of them has not reached the session's frame yet.
+  [[nodiscard]] bool behind(const Session& session) const;
   /// The session's scene was edited: so are the others'.
   void edit(const Session& session, const SceneEdit& edit);
-  /// Once a picture: follows the session where it was set back or changed, and sets the poses.
+  /// Once a picture: follows the session where it was set back or changed, as far as a slice of
+  /// time allows, and sets the poses.
   void follow(const Session& session);
 
   /// The settings of one: those of the session but for its overrides.
@@ -100,8 +105,9 @@ class Compare {
 
   void begin(Run& run, const Session& session);
   void use_scene(Run& run, const std::shared_ptr<const Scene>& scene) const;
-  void step(Run& run);
-  void seek(Run& run, const Session& session, std::int64_t frame);
+  bool step(Run& run, FrameSlices::Clock::time_point until);
+  void seek(Run& run, const Session& session, std::int64_t frame,
+            FrameSlices::Clock::time_point until);
   static void watch(Run& run, const Session& session);
   void note_hand(const Session& session);
   [[nodiscard]] const std::optional<Grab>& hand_at(std::int64_t frame) const;

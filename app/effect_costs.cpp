@@ -2,13 +2,14 @@
 
 #include <utility>
 
+#include "app/frame_slices.hpp"
 #include "core/lab/slice.hpp"
 
 namespace substep {
 
 void EffectCosts::start(std::shared_ptr<const Scene> scene, Experiment experiment) {
   scene_ = std::move(scene);
-  run_.emplace(*scene_, std::move(experiment));
+  run_.emplace(*scene_, std::move(experiment), kWindowBudget);
   breakdown_.reset();
   running_ = true;
 }

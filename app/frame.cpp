@@ -115,7 +115,7 @@ void frame(App& app, double wall_dt) {
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.quality.observe(wall_dt, app.own_time);
   const auto begun = std::chrono::steady_clock::now();
-  app.session.advance(wall_dt);
+  if (!app.compare.behind(app.session)) app.session.advance(wall_dt);
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
     app.session.pause();
     app.pause_at = 0.0;  // whoever plays on wants to see more

@@ -1,7 +1,6 @@
 #include "app/session.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "app/library.hpp"
@@ -38,18 +37,27 @@ Session::Session(std::shared_ptr<const Scene> scene, std::size_t past_bytes)
 void Session::load(std::shared_ptr<const Scene> scene) {
   loaded_ = std::move(scene);
   scene_ = loaded_;
-  simulator_ = std::make_unique<Simulator>(scene_);
+  make_simulator();
   ++generation_;
   restart();
 }
 
+void Session::make_simulator() {
+  simulator_ = std::make_unique<Simulator>(scene_);
+  simulator_->set_budget(kWindowBudget);
+  slices_.forget();
+}
+
 void Session::reset() {
+  slices_.drop(*simulator_);
   use_scene(loaded_);
   simulator_->reset();
   restart();
 }
 
 void Session::restart() {
+  hand_.reset();
+  one_frame_ = false;
   report_ = simulator_->observe();
   forces_ = {};
   verdict_ = std::make_unique<Verdict>(*scene_, state(), report_);
@@ -68,7 +76,7 @@ void Session::use_scene(std::shared_ptr<const Scene> scene) {
   if (scene == scene_) return;
   const Settings settings = simulator_->settings();
   scene_ = std::move(scene);
-  simulator_ = std::make_unique<Simulator>(scene_);
+  make_simulator();
   simulator_->set_settings(settings);
 }
 
@@ -83,8 +91,20 @@ void Session::show_present() {
   poses_ = previous_;
 }
 
+void Session::pause() {
+  playing_ = one_frame_ = false;
+  slices_.drop(*simulator_);
+}
+
+void Session::set_settings(const Settings& settings) {
+  slices_.drop(*simulator_);
+  if (settings != this->settings()) slices_.forget();
+  simulator_->set_settings(settings);
+}
+
 void Session::go_to(std::size_t index) {
   pause();
+  hand_.reset();
   timeline_.go_to(index);
   const Moment& m = timeline_.now();
   use_scene(m.scene);
@@ -125,26 +145,21 @@ void Session::forget_future() {
 
 void Session::grab(int body, const Vec3& anchor, const Vec3& target) {
   forget_future();
-  simulator_->set_grab(Grab{body, anchor, target, joined_mass(*scene_, body)});
+  hand_ = Grab{body, anchor, target, joined_mass(*scene_, body)};
   verdict_->disturb(state().time);
 }
 
 void Session::pull_to(const Vec3& target) {
-  if (!held()) return;
-  Grab grab = *held();
-  grab.target = target;
-  simulator_->set_grab(grab);
+  if (hand_) hand_->target = target;
 }
 
 // Another scene from the present frame on: the run is no longer that of the one loaded.
 void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   forget_future();
-  const std::optional<Grab> holding = held();
   const std::shared_ptr<const Scene> from = scene_;
   State carried = carry(state());
   use_scene(std::make_shared<const Scene>(std::move(scene)));
   simulator_->set_state(std::move(carried));
-  simulator_->set_grab(holding);
   verdict_->disturb(state().time);
   // A link has little room: from it the run goes on like any start.
   Scene edition = as_scene();
@@ -164,7 +179,7 @@ const Session::Edition* Session::edition() const {
 }
 
 void Session::throw_ball(const Ball& ball) {
-  if (substeps_left() > 0) take_frame();
+  come_between_frames();
   if (stopped()) return;
   const std::size_t slot =
       loaded_->bodies.size() + static_cast<std::size_t>(thrown_++ % Ball::kMost);
@@ -173,7 +188,7 @@ void Session::throw_ball(const Ball& ball) {
 }
 
 void Session::set_effects(const Effects& effects) {
-  if (substeps_left() > 0) take_frame();
+  come_between_frames();
   if (stopped() || effects == scene_->effects) return;
   Scene scene = *scene_;
   scene.effects = effects;
@@ -203,14 +218,32 @@ void Session::smooth_times() {
   settle(times_.total, report_.times.total);
 }
 
-void Session::take_frame() {
+// Before something that happens between two frames: one of single sub-steps is ended where that is
+// quick.
+void Session::come_between_frames() {
+  slices_.drop(*simulator_);
+  if (substeps_left() == 0) return;
+  if (slices_.quick()) {
+    take_frame();
+  } else {
+    simulator_->set_state(substeps_from_);
+  }
+}
+
+void Session::begin_frame() {
   forget_future();
+  simulator_->set_grab(hand_);
+}
+
+void Session::take_frame() {
+  begin_frame();
   previous_ = {state().x, state().q};
-  report_ = simulator_->step();
+  report_ = *slices_.advance(*simulator_, FrameSlices::Clock::time_point::max());
   end_frame();
 }
 
-void Session::end_frame() {
+// @return whether what runs beside has kept step
+bool Session::end_frame() {
   forces_ = simulator_->constraint_forces();
   verdict_->add(*scene_, state(), report_);
   if (stopped()) {
@@ -221,25 +254,56 @@ void Session::end_frame() {
     smooth_times();
     timeline_.add(moment());
   }
-  if (frame_taken) frame_taken();
+  return !frame_taken || frame_taken();
+}
+
+// @return whether there may be more of them: a frame has ended, and nothing lags behind
+bool Session::run_slice(FrameSlices::Clock::time_point until) {
+  if (!slices_.open()) {
+    begin_frame();
+    previous_ = {state().x, state().q};
+  }
+  const std::optional<FrameReport> ended = slices_.advance(*simulator_, until);
+  if (!ended) return false;
+  report_ = *ended;
+  const bool together = end_frame();
+  accumulator_ -= scene_->frame;
+  if (one_frame_) {
+    pause();
+    show_present();
+  }
+  return together;
+}
+
+// Where the run is looked at in the past: the frame that followed then.
+bool Session::step_in_past() {
+  const std::size_t next = timeline_.index() + 1;
+  if (timeline_.at_end() || held() || substeps_left() > 0) return false;
+  if (timeline_[next].settings != settings()) return false;
+  go_to(next);
+  return true;
 }
 
 void Session::step() {
-  if (stopped()) return;
-  const std::size_t next = timeline_.index() + 1;
-  if (!timeline_.at_end() && !held() && substeps_left() == 0 &&
-      timeline_[next].settings == settings()) {
-    go_to(next);
-    return;
-  }
+  if (stopped() || step_in_past()) return;
   take_frame();
   show_present();
+}
+
+void Session::request_step() {
+  pause();
+  if (stopped() || step_in_past()) return;
+  if (slices_.quick()) return step();
+  if (substeps_left() > 0) simulator_->set_state(substeps_from_);
+  playing_ = one_frame_ = true;
+  run_slice(end_of_slice(kSlice));
 }
 
 void Session::substep() {
   if (stopped()) return;
   pause();
-  forget_future();
+  if (substeps_left() == 0) substeps_from_ = state();
+  begin_frame();
   report_ = simulator_->substep();
   if (substeps_left() == 0) {
     end_frame();
@@ -259,21 +323,17 @@ int Session::advance(double wall_dt, double budget) {
   const double gap = std::clamp(wall_dt, 0.0, kLongestGap);
   accumulator_ += gap * speed_;
 
-  using Clock = std::chrono::steady_clock;
-  const auto begin = Clock::now();
-  int frames = 0;
-  while (playing_ && accumulator_ >= scene_->frame) {
-    take_frame();
-    accumulator_ -= scene_->frame;
-    ++frames;
-    if (std::chrono::duration<double>(Clock::now() - begin).count() > budget) break;
+  const auto until = end_of_slice(budget);
+  const std::int64_t before = report_.frame;
+  while (playing_ && (slices_.open() || one_frame_ || accumulator_ >= scene_->frame)) {
+    if (!run_slice(until) || FrameSlices::Clock::now() >= until) break;
   }
   const double asked = std::max(gap * speed_, 1e-9);
   const double dropped = std::max(0.0, accumulator_ - scene_->frame);
   accumulator_ -= dropped;
   pace_ += 0.05 * (std::max(0.0, 1.0 - dropped / asked) - pace_);
   update_poses();
-  return frames;
+  return static_cast<int>(report_.frame - before);
 }
 
 double Session::between() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/ball.hpp"
+#include "app/frame_slices.hpp"
 #include "app/history.hpp"
 #include "app/timeline.hpp"
 #include "core/lab/verdict.hpp"
@@ -41,14 +42,19 @@ class Session {
   /// Back to the start of the scene as it was loaded.
   void reset();
 
-  /// Lets wall time pass: whole frames are taken while there is time for them. The time that one
-  /// call can ask for is capped, so that a tab that slept does not come back to a backlog, and
-  /// what does not fit into `budget` is dropped: the run is then slower than the wall, see pace().
-  /// @return frames taken
-  int advance(double wall_dt, double budget = 0.025);
+  /// Lets wall time pass: frames are taken while there is time for them. The time that one call can
+  /// ask for is capped, so that a tab that slept does not come back to a backlog, and what does not
+  /// fit into `budget` is dropped: the run is then slower than the wall, see pace(). A frame that
+  /// takes longer goes on at the next call.
+  /// @param budget [s] @return frames taken
+  int advance(double wall_dt, double budget = kSlice);
   /// One frame, whether it plays or not: what is left of the one that substep() began. Where the
   /// run is looked at in the past and nothing was changed since, the frame that followed then.
   void step();
+  /// The same, by calls of advance() to come where it takes long.
+  void request_step();
+  /// The frame that advance() has begun, if it is open.
+  [[nodiscard]] const FrameSlices& slices() const { return slices_; }
   /// One sub-step.
   void substep();
   /// Sub-steps that the frame begun by substep() still has; 0 between frames.
@@ -66,8 +72,8 @@ class Session {
   /// Holds a body. @param anchor where, in its frame [m]; @param target world [m]
   void grab(int body, const Vec3& anchor, const Vec3& target);
   void pull_to(const Vec3& target);  ///< world [m]
-  void let_go() { simulator_->set_grab(std::nullopt); }
-  [[nodiscard]] const std::optional<Grab>& held() const { return simulator_->grab(); }
+  void let_go() { hand_.reset(); }
+  [[nodiscard]] const std::optional<Grab>& held() const { return hand_; }
   void throw_ball(const Ball& ball);
   /// Goes on with some of the scene's effects switched off, or on again.
   void set_effects(const Effects& effects);
@@ -87,7 +93,8 @@ class Session {
   [[nodiscard]] std::size_t balls() const { return scene_->bodies.size() - loaded_->bodies.size(); }
 
   void play() { playing_ = !stopped(); }
-  void pause() { playing_ = false; }
+  /// Leaves a frame that has not ended: the run is where it began.
+  void pause();
   void toggle() { playing_ ? pause() : play(); }
   [[nodiscard]] bool playing() const { return playing_; }
   /// The state stopped being finite: only a reset or the past goes on.
@@ -102,9 +109,11 @@ class Session {
   [[nodiscard]] const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
   /// The scene without what was thrown into it.
   [[nodiscard]] const std::shared_ptr<const Scene>& loaded_scene() const { return loaded_; }
-  [[nodiscard]] const State& state() const { return simulator_->state(); }
+  /// At the end of the last frame, or sub-step where those are single.
+  [[nodiscard]] const State& state() const { return slices_.state(*simulator_); }
   [[nodiscard]] const Settings& settings() const { return simulator_->settings(); }
-  void set_settings(const Settings& settings) { simulator_->set_settings(settings); }
+  /// A frame that advance() has begun begins anew with them.
+  void set_settings(const Settings& settings);
   [[nodiscard]] const FrameReport& report() const { return report_; }
   [[nodiscard]] const Verdict& verdict() const { return *verdict_; }
   [[nodiscard]] const History& history() const { return history_; }
@@ -119,8 +128,9 @@ class Session {
   [[nodiscard]] const Poses& poses() const { return poses_; }
   /// How far the poses to draw are from the frame before (0) to the last one (1).
   [[nodiscard]] double between() const;
-  /// Called after every frame: what runs beside this session keeps step with it.
-  std::function<void()> frame_taken;
+  /// Called after every frame: what runs beside this session keeps step with it. @return whether it
+  /// has; where it has not, advance() takes no further frame in this call
+  std::function<bool()> frame_taken;
   /// Called after the scene was edited, for the same to be done there.
   std::function<void(const SceneEdit&)> scene_edited;
   /// Where the tracked body was in the last frames, oldest first; empty where none is tracked.
@@ -130,10 +140,15 @@ class Session {
 
  private:
   void restart();
+  void make_simulator();
   void use_scene(std::shared_ptr<const Scene> scene);
   void go_on_in(Scene scene, std::function<State(State)> carry);
+  bool step_in_past();
+  void begin_frame();
   void take_frame();
-  void end_frame();
+  bool end_frame();
+  bool run_slice(FrameSlices::Clock::time_point until);
+  void come_between_frames();
   void forget_future();
   [[nodiscard]] Moment moment() const;
   void show_present();
@@ -150,6 +165,10 @@ class Session {
   ConstraintForces forces_;
   History history_;
   Timeline timeline_;
+  FrameSlices slices_;
+  State substeps_from_;       // where the frame of single sub-steps began
+  bool one_frame_ = false;    // is all that is to be taken
+  std::optional<Grab> hand_;  // acts from the next frame on
   Poses previous_;
   Poses poses_;
   std::deque<Vec3> trail_;

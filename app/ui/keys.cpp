@@ -43,7 +43,7 @@ constexpr std::array<KeyAction, 19> kActions{
      {",  .", ",.", "one frame back, one forward",
       [](App& app, char typed) {
         app.session.pause();
-        typed == '.' ? app.session.step() : app.session.step_back();
+        typed == '.' ? app.session.request_step() : app.session.step_back();
       }},
      {";", ";", "one sub-step", [](App& app, char) { app.session.substep(); }},
      {"R", "rR", "back to the start", [](App& app, char) { app.reset(); }},

@@ -91,6 +91,10 @@ void selection_card(App& app, bool phone);
 void tint_scale(App& app);
 void failure_card(App& app);
 void trouble_card(App& app);
+/// Why a run was not started, with a button that starts it.
+void heavy_card(App& app);
+/// How far a long frame is, with a button that leaves it.
+void long_frame_card(App& app);
 void help_card(App& app);
 
 /// Heights that the right panel's fixed parts need.

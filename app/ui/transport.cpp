@@ -41,8 +41,7 @@ void play_buttons(App& app, float height, float gap) {
   ImGui::SameLine(0.0F, gap);
   if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 36.0F, height,
              "One frame (.), back with the comma key")) {
-    app.session.pause();
-    app.session.step();
+    app.session.request_step();
   }
   ImGui::SameLine(0.0F, gap);
   if (button(look, "substep", Icon::kSubstep, "", ButtonKind::kPlain, 36.0F, height,

@@ -99,6 +99,54 @@ void failure_card(App& app) {
   ImGui::End();
 }
 
+void heavy_card(App& app) {
+  HeavyStart& heavy = app.heavy;
+  if (heavy.why.empty() || app.session.stopped()) return;
+  const Look& look = app.look;
+  bool close = app.session.playing() || heavy.run != app.run_count;  // it is out of date
+  if (close) {
+    heavy = {};
+    return;
+  }
+  if (begin_card(app, "##heavy", 400.0F, card_middle(app), 0.5F)) {
+    card_title(look, look.theme->amber, Icon::kPause, "Paused: this run is heavy");
+    label(look.fonts.small, look.theme->dim, heavy.why.c_str());
+    if (button(look, "run", Icon::kPlay, "Run it", ButtonKind::kPrimary, 0.0F, 28.0F,
+               "Play (Space)")) {
+      app.session.play();
+    }
+    close = card_closed(look) || ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+  }
+  ImGui::End();
+  if (close) heavy = {};
+}
+
+void long_frame_card(App& app) {
+  constexpr int kPatience = 20;  // pictures
+  const FrameSlices& slices = app.session.slices();
+  const bool behind = app.compare.behind(app.session);
+  const int change = slices.open() || behind ? 1 : -1;
+  app.pictures_in_frame = std::clamp(app.pictures_in_frame + change, 0, 2 * kPatience);
+  if (change < 0 || app.pictures_in_frame < kPatience) return;
+  const Look& look = app.look;
+  const CardPlace place = below_what_failed(app.view_rect);
+  bool cancel = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+  if (begin_card(app, "##long_frame", 300.0F, place.y, place.pivot)) {
+    const int taken = slices.taken();
+    card_title(look, look.theme->amber, Icon::kSubstep,
+               behind ? "A compared method is slow"
+                      : "Sub-step " + grouped(taken) + " of " + grouped(taken + slices.left()));
+    label(look.fonts.small, look.theme->dim,
+          behind ? "The run waits for it." : "This frame takes long to compute.");
+    cancel |= button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, 0.0F, 28.0F,
+                     behind ? "Ends the comparison (Esc)" : "Back to the last frame, paused (Esc)");
+  }
+  ImGui::End();
+  if (!cancel) return;
+  if (behind) app.compare.close();
+  app.session.pause();
+}
+
 void trouble_card(App& app) {
   if (app.trouble.title.empty()) return;
   const Look& look = app.look;

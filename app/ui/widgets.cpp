@@ -34,13 +34,13 @@ ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width)
 
 /// What a slider goes along: its value, that logarithmically, or its power of ten. Dear ImGui's
 /// logarithmic ones end at what their format prints as zero.
-enum class Track : std::uint8_t { kValue, kLogarithmic, kPower };
+enum class TrackScale : std::uint8_t { kValue, kLogarithmic, kPower };
 
 template <class T>
-bool slide(const ImRect& frame, ImGuiID id, T& value, T least, T most, Track track,
+bool slide(const ImRect& frame, ImGuiID id, T& value, T least, T most, TrackScale track,
            ImGuiDataType type, const char* format, ImRect& grab) {
   if constexpr (std::is_same_v<T, double>) {
-    if (track == Track::kPower) {
+    if (track == TrackScale::kPower) {
       double power = std::log10(value);
       const double from = std::min(power, std::log10(least));
       const double to = std::max(power, std::log10(most));
@@ -54,11 +54,12 @@ bool slide(const ImRect& frame, ImGuiID id, T& value, T least, T most, Track tra
   }
   return ImGui::SliderBehavior(
       frame, id, type, &value, &least, &most, format,
-      track == Track::kLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None, &grab);
+      track == TrackScale::kLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None,
+      &grab);
 }
 
 template <class T>
-bool slider_row(const Look& look, const char* name, T& value, T least, T most, Track track,
+bool slider_row(const Look& look, const char* name, T& value, T least, T most, TrackScale track,
                 ImGuiDataType type, const char* format, const char* tip) {
   constexpr float kValueWidth = 48.0F;
   ImGuiWindow* window = ImGui::GetCurrentWindow();
@@ -379,19 +380,19 @@ bool segmented_row(const Look& look, const char* name, std::span<const Choice> c
 bool slider(const Look& look, const char* name, double& value, double least, double most,
             bool logarithmic, const char* format, const char* tip) {
   return slider_row(look, name, value, least, most,
-                    logarithmic ? Track::kLogarithmic : Track::kValue, ImGuiDataType_Double, format,
-                    tip);
+                    logarithmic ? TrackScale::kLogarithmic : TrackScale::kValue,
+                    ImGuiDataType_Double, format, tip);
 }
 bool power_slider(const Look& look, const char* name, double& value, double least, double most,
                   const char* tip) {
-  return slider_row(look, name, value, least, most, Track::kPower, ImGuiDataType_Double, "%.2g",
-                    tip);
+  return slider_row(look, name, value, least, most, TrackScale::kPower, ImGuiDataType_Double,
+                    "%.2g", tip);
 }
 bool slider(const Look& look, const char* name, int& value, int least, int most, bool logarithmic,
             const char* tip) {
   return slider_row(look, name, value, least, most,
-                    logarithmic ? Track::kLogarithmic : Track::kValue, ImGuiDataType_S32, "%d",
-                    tip);
+                    logarithmic ? TrackScale::kLogarithmic : TrackScale::kValue, ImGuiDataType_S32,
+                    "%d", tip);
 }
 
 bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip) {

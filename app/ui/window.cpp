@@ -268,6 +268,8 @@ void draw_window(App& app) {
   failure_card(app);
   help_card(app);
   file_card(app);
+  heavy_card(app);
+  long_frame_card(app);
   trouble_card(app);
 }
 

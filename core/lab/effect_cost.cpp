@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/lab/slice.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/stepping/substep_clock.hpp"
 
@@ -31,10 +32,9 @@ std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) 
 
 /// What each of the simulators may take, which all keep their memory until the end: together no
 /// more than one alone. Those are the run, the scene as it is and the scene without each effect.
-Budget shared_budget(const Effects& effects) {
+Budget shared_budget(const Effects& effects, Budget budget) {
   const auto count = 2 + std::count_if(std::begin(kEffects), std::end(kEffects),
                                        [&](const NamedEffect& e) { return effects.*e.effect; });
-  Budget budget;
   budget.memory /= static_cast<double>(count);
   return budget;
 }
@@ -61,12 +61,17 @@ class EffectCostRun::Again {
     simulator_.set_budget(budget);
   }
 
-  void step(const State& state, const Settings& settings) {
+  void begin(const State& state, const Settings& settings) {
     simulator_.set_settings(settings);
     simulator_.set_state(state);
-    const FrameReport report = simulator_.step();
+  }
+  /// A part of the frame. @return whether it is complete
+  bool advance() {
+    const FrameReport report = simulator_.step_some(kPartWork);
+    if (simulator_.substeps_left() > 0) return false;
     frames_.push_back({1e3 * report.times.total, static_cast<double>(report.work.flops),
                        static_cast<double>(report.work.row_updates)});
+    return true;
   }
 
   /// What the scene as it is costs more than this, over the frames that both have taken.
@@ -98,13 +103,13 @@ class EffectCostRun::Again {
   std::vector<FrameCost> frames_;
 };
 
-EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment)
-    : run_(scene, std::move(experiment), no_reference(), shared_budget(scene.effects)) {
+EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Budget& budget)
+    : run_(scene, std::move(experiment), no_reference(), shared_budget(scene.effects, budget)) {
   const Scene& start = run_.simulator().scene();
-  const Budget budget = run_.simulator().budget();
-  again_.emplace_back(std::make_shared<const Scene>(start), "", budget);
+  const Budget share = run_.simulator().budget();
+  again_.emplace_back(std::make_shared<const Scene>(start), "", share);
   for (const auto& [name, effect] : kEffects) {
-    if (start.effects.*effect) again_.emplace_back(without(start, effect), name, budget);
+    if (start.effects.*effect) again_.emplace_back(without(start, effect), name, share);
   }
   next_ = again_.size();
   same_ = run_.experiment().settings;
@@ -116,12 +121,14 @@ EffectCostRun::~EffectCostRun() = default;
 
 bool EffectCostRun::advance() {
   if (next_ < again_.size()) {
-    again_[next_++].step(before_, same_);
+    if (again_[next_].advance()) ++next_;
   } else if (more_) {
-    before_ = run_.simulator().state();
+    if (run_.simulator().substeps_left() == 0) before_ = run_.simulator().state();
     more_ = run_.advance();
+    if (run_.simulator().substeps_left() > 0) return true;
     if (run_.simulator().state().frame == before_.frame) return false;  // it could not be stepped
     same_.n = std::max(1, run_.report().n_substeps);
+    for (Again& again : again_) again.begin(before_, same_);
     next_ = 0;
   }
   return more_ || next_ < again_.size();

@@ -27,17 +27,18 @@ struct CostBreakdown {
 /// difference is the effect's own cost, in the direct solver too, where rows of all kinds are
 /// eliminated together. Islands with numbers of their own find them again; that bodies share one
 /// number because an effect ties them together is part of what it costs. Without contact there is
-/// no friction and no restitution. It goes in steps of a single frame, for a page that must stay
+/// no friction and no restitution. It goes in parts of a single frame, for a page that must stay
 /// alive.
 class EffectCostRun {
  public:
   /// @param scene as it stands, without the experiment's load and seed
-  EffectCostRun(const Scene& scene, Experiment experiment);
+  /// @param budget of a frame, its memory shared by all that are stepped beside each other
+  EffectCostRun(const Scene& scene, Experiment experiment, const Budget& budget = {});
   ~EffectCostRun();
   EffectCostRun(const EffectCostRun&) = delete;
   EffectCostRun& operator=(const EffectCostRun&) = delete;
 
-  /// Steps one frame of the run, or one again. @return false when all is done
+  /// Steps a part of a frame of the run, or of one again. @return false when all is done
   bool advance();
   [[nodiscard]] double progress() const { return run_.progress(); }  ///< 0 to 1
   /// Of the frames so far.

@@ -2,6 +2,9 @@
 
 #include <chrono>
 #include <memory>
+#include <utility>
+
+#include "core/lab/slice.hpp"
 
 namespace substep {
 
@@ -24,9 +27,11 @@ bool ExperimentRun::advance() {
   };
   if (is_over()) return false;
   const auto before = std::chrono::steady_clock::now();
-  report_ = simulator_.step();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - before;
-  measure_.add(simulator_.scene(), simulator_.state(), report_, wall.count());
+  const FrameReport report = simulator_.step_some(kPartWork);
+  wall_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  if (simulator_.substeps_left() > 0) return true;
+  report_ = report;
+  measure_.add(simulator_.scene(), simulator_.state(), report_, std::exchange(wall_, 0.0));
   return !is_over();
 }
 

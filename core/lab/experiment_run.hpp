@@ -23,7 +23,7 @@ class ExperimentRun {
   ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference,
                 const Budget& budget = {});
 
-  /// One more frame. @return false when the run is over
+  /// One more frame, or a part of it. @return false when the run is over
   bool advance();
   [[nodiscard]] double progress() const;  ///< 0 to 1
   [[nodiscard]] Result result() const;
@@ -35,10 +35,11 @@ class ExperimentRun {
  private:
   Experiment experiment_;
   Simulator simulator_;
-  FrameReport report_;  // of the last frame
+  FrameReport report_;  // of the last frame that is complete
   const Reference& reference_;
   Measure measure_;
   std::int64_t frames_ = 0;
+  double wall_ = 0.0;  // of the frame so far [s]
 };
 
 }  // namespace substep

@@ -10,6 +10,7 @@
 #include "core/lab/experiment.hpp"
 #include "core/lab/joint_tree.hpp"
 #include "core/lab/planar_chain.hpp"
+#include "core/lab/slice.hpp"
 #include "core/sim/simulator.hpp"
 
 namespace substep {
@@ -148,8 +149,10 @@ class TreeCoordinates final : public ReferenceRun::Source {
 /// The scene itself, twice.
 class FinestRun final : public ReferenceRun::Source {
  public:
-  explicit FinestRun(const std::shared_ptr<const Scene>& scene)
+  FinestRun(const std::shared_ptr<const Scene>& scene, const Budget& budget)
       : scene_(*scene), fine_(scene), coarse_(scene) {
+    fine_.set_budget(budget);
+    coarse_.set_budget(budget);
     Settings settings = own_settings(*scene);
     settings.solver = SolverKind::kBpp;
     settings.mode = Mode::kConst;
@@ -165,25 +168,17 @@ class FinestRun final : public ReferenceRun::Source {
     return text.append(std::to_string(kFinest)).append(" sub-steps a frame");
   }
   std::optional<Sample> next() override {
-    for (int i = 0; i < kSlice; ++i) {
-      Simulator& simulator = fine_done_ ? coarse_ : fine_;
-      const FrameReport report = simulator.substep();
-      if (simulator.substeps_left() > 0) continue;
-      if (!fine_done_) {
-        kinetic_ = report.kinetic;
-        fine_done_ = true;
-        continue;
-      }
-      fine_done_ = false;
-      return sample();
-    }
+    Simulator& simulator = fine_done_ ? coarse_ : fine_;
+    const FrameReport report = simulator.step_some(kPartWork);
+    if (simulator.substeps_left() > 0) return std::nullopt;
+    fine_done_ = !fine_done_;
+    if (!fine_done_) return sample();
+    kinetic_ = report.kinetic;
     return std::nullopt;
   }
   [[nodiscard]] double uncertainty() const override { return apart_; }
 
  private:
-  static constexpr int kSlice = 48;  // sub-steps of a call
-
   Sample sample() {
     if (!scene_.criteria.track) return {Vec3::Zero(), kinetic_};
     const auto body = static_cast<std::size_t>(*scene_.criteria.track);
@@ -200,7 +195,8 @@ class FinestRun final : public ReferenceRun::Source {
   double apart_ = 0.0;      // [m]
 };
 
-std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scene>& scene) {
+std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scene>& scene,
+                                                const Budget& budget) {
   if (const auto motion = closed_form(*scene)) return std::make_unique<ClosedForm>(*scene, *motion);
   if (scene->criteria.track) {
     if (auto chain = PlanarChain::of(*scene)) {
@@ -215,7 +211,7 @@ std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scen
       return std::make_unique<TreeCoordinates>(*scene, *tree);
     }
   }
-  return std::make_unique<FinestRun>(scene);
+  return std::make_unique<FinestRun>(scene, budget);
 }
 
 }  // namespace
@@ -226,8 +222,9 @@ double predictable_window(const Scene& scene, double duration) {
 }
 
 // References read the start in the scene's bodies: it must be the one that runs begin with.
-ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration)
-    : scene_(with_start_of_run(std::move(scene))), source_(source_of(scene_)) {
+ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration,
+                           const Budget& budget)
+    : scene_(with_start_of_run(std::move(scene))), source_(source_of(scene_, budget)) {
   reference_.source = source_->name();
   reference_.window = predictable_window(*scene_, duration);
   frames_ = frames_of(*scene_, reference_.window);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/model/budget.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
@@ -36,7 +37,8 @@ double predictable_window(const Scene& scene, double duration);
 /// leapfrog and 256 sub-steps, its distance from 128 being the uncertainty.
 class ReferenceRun {
  public:
-  ReferenceRun(std::shared_ptr<const Scene> scene, double duration);
+  /// @param budget of a frame of the finest run
+  ReferenceRun(std::shared_ptr<const Scene> scene, double duration, const Budget& budget = {});
   ~ReferenceRun();
   ReferenceRun(ReferenceRun&&) noexcept;
   ReferenceRun& operator=(ReferenceRun&&) noexcept;

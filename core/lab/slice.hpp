@@ -4,6 +4,10 @@
 
 namespace substep {
 
+/// Of a frame that is taken in parts where something must answer meanwhile [floating-point
+/// operations]: some hundredths of a second.
+inline constexpr double kPartWork = 2e7;
+
 /// Takes steps for about that long, at least one: what goes on in slices where there are no
 /// threads. @param step one more; returns whether there is another  @return the same of the last
 template <class Step>

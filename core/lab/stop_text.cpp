@@ -41,11 +41,11 @@ std::string overrun_text(const Overrun& overrun) {
     return what + of_bodies + " would need " + memory_text(overrun.memory) +
            " for the direct solver; the budget is " + memory_text(overrun.budget);
   }
-  std::string what = counted(overrun.substeps, "sub-step");
+  std::string what = overrun.of_substep ? "A sub-step" : counted(overrun.substeps, "sub-step");
   if (overrun.iterations > 0) what += " of " + counted(overrun.iterations, "iteration");
   return what + " on " + counted(overrun.rows, "row") + of_bodies + " would need " +
-         work_text(overrun.work) + " operations in a frame; the budget is " +
-         work_text(overrun.budget);
+         work_text(overrun.work) + " operations" + (overrun.of_substep ? "" : " in a frame") +
+         "; the budget is " + work_text(overrun.budget);
 }
 
 std::string stop_text(const Scene& scene, const FrameReport& report) {

@@ -266,14 +266,15 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
   return static_cast<double>(frames_of(scene, experiment.duration)) * (per_frame + n * per_substep);
 }
 
-Sweep::Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments)
-    : scene_(std::move(scene)), experiments_(std::move(experiments)) {
+Sweep::Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments,
+             const Budget& budget)
+    : scene_(std::move(scene)), experiments_(std::move(experiments)), budget_(budget) {
   double longest = 0.0;
   for (const Experiment& experiment : experiments_) {
     work_ += expected_work(*scene_, experiment);
     longest = std::max(longest, experiment.duration);
   }
-  finding_reference_.emplace(scene_, longest);
+  finding_reference_.emplace(scene_, longest, budget_);
 }
 
 const Reference* Sweep::reference() const { return reference_.get(); }
@@ -286,7 +287,7 @@ void Sweep::advance_by_a_frame() {
     return;
   }
   if (!run_) {
-    run_ = std::make_unique<ExperimentRun>(*scene_, experiments_[next_++], *reference_);
+    run_ = std::make_unique<ExperimentRun>(*scene_, experiments_[next_++], *reference_, budget_);
     return;
   }
   if (run_->advance()) return;

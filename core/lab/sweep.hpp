@@ -34,9 +34,11 @@ double expected_work(const Scene& scene, const Experiment& experiment);
 /// A sweep in slices, for a page that has no threads and must stay alive.
 class Sweep {
  public:
-  Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments);
+  /// @param budget of each frame
+  Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments,
+        const Budget& budget = {});
 
-  /// Goes on for about that long, by a frame of one run at least. @return false when done
+  /// Goes on for about that long, by a part of a frame of one run at least. @return false when done
   bool advance(double seconds);
   [[nodiscard]] bool done() const { return next_ == experiments_.size() && !run_; }
   [[nodiscard]] double progress() const;  ///< 0 to 1
@@ -50,6 +52,7 @@ class Sweep {
 
   std::shared_ptr<const Scene> scene_;
   std::vector<Experiment> experiments_;
+  Budget budget_;
   std::optional<ReferenceRun> finding_reference_;
   std::unique_ptr<const Reference> reference_;
   std::unique_ptr<ExperimentRun> run_;

@@ -11,6 +11,7 @@ inline constexpr double kMebibyte = 1024.0 * 1024.0;  // [bytes]
 struct Budget {
   double memory = 512.0 * kMebibyte;  // for the factor of the direct solver [bytes]
   double work = 2e10;                 // of a frame [floating-point operations]
+  double substep = 1e15;              // of the solve of one sub-step [floating-point operations]
 
   friend bool operator==(const Budget&, const Budget&) = default;
 };

@@ -150,6 +150,7 @@ Problems validate(const Budget& budget) {
   Problems problems;
   check_number(budget.memory, kMemoryBudgetRange, "/budget/memory", problems);
   check_number(budget.work, kWorkBudgetRange, "/budget/work", problems);
+  check_number(budget.substep, kWorkBudgetRange, "/budget/substep", problems);
   return problems;
 }
 

@@ -1,16 +1,23 @@
 #include "core/sim/budget.hpp"
 
+#include <algorithm>
+
 namespace substep {
 namespace {
 
-constexpr double kBodyWork = 200.0;  // to move a body: external forces, masses, pose
-constexpr int kTypical = 16;         // sub-steps whose mean tells what the others take
+constexpr double kBodyWork = 200.0;    // to move a body: external forces, masses, pose
+constexpr double kBlockWork = 1000.0;  // to find, make, store and report a joint or contact point
+constexpr int kTypical = 16;           // sub-steps whose mean tells what the others take
 
 double work_of_bodies(const FrameProgress& at) {
   return kBodyWork * static_cast<double>(at.bodies) * at.left;
 }
 
 }  // namespace
+
+double work_beside_solver(const FrameProgress& at) {
+  return kBodyWork * static_cast<double>(at.bodies) + kBlockWork * static_cast<double>(at.blocks);
+}
 
 bool is_shared(const Settings& settings) {
   return settings.solver == SolverKind::kPgs || settings.solver == SolverKind::kXpbd;
@@ -26,7 +33,8 @@ double forecast_work(const FrameProgress& at, const Settings& settings) {
 SolveLimits limits_of_solve(const FrameProgress& at, const Settings& settings,
                             const Budget& budget) {
   const double left = budget.work - static_cast<double>(at.flops) - work_of_bodies(at);
-  return {budget.memory, is_shared(settings) ? left / at.left : left};
+  const double in_frame = is_shared(settings) ? left / at.left : left;
+  return {budget.memory, std::min(in_frame, budget.substep - work_beside_solver(at))};
 }
 
 }  // namespace substep

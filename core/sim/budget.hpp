@@ -16,7 +16,12 @@ struct FrameProgress {
   int left = 1;            // sub-steps, the one to come included
   std::int64_t flops = 0;  // of the solver, so far
   std::size_t bodies = 0;  // that the one to come moves
+  std::size_t blocks = 0;  // of rows, in it
 };
+
+/// What a sub-step takes beside the solver: bodies that move, rows that are made and read
+/// [operations].
+double work_beside_solver(const FrameProgress& at);
 
 /// The work of the whole frame, as far as it can be told before the next sub-step: of bodies that
 /// move, and of the direct solver as much in each sub-step as in the mean of those taken. Sweeps

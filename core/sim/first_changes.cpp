@@ -10,8 +10,11 @@
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/external.hpp"
 #include "core/stepping/integrate.hpp"
-
 namespace substep {
+
+namespace {
+constexpr int kSolves = 5;  // at poses beside the start, which a sub-step begins with
+}
 
 bool Simulator::Impl::needs_first_changes() const {
   if (!open || !carries_momentum(settings) || contact || holds_grab()) return false;
@@ -122,7 +125,10 @@ void Simulator::Impl::find_accelerations(double dt, double s, std::span<const Ve
     add_external(*scene, part(), inertia_inverse, R_WB, one, out.a);
   }
   for (const Block& block : rows()) apply_impulse(block, block.given, inverse_mass, out.a);
-  linear.solve({rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}}, settings);
+  System system{rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}};
+  system.limits = limits_of_solve(progress(*open), settings, budget);
+  system.limits.work /= kSolves;  // where that is too little so is it for the sub-step
+  if (linear.solve(system, settings).status == SolveStatus::kOverLimits) out.a = free;
   out.lambda.clear();
   for (const Block& block : rows()) {
     auto& lambda = out.lambda.emplace_back();

@@ -12,13 +12,21 @@ FrameProgress Simulator::Impl::progress(const FrameReport& report) const {
   at.left = open ? schedule.left() : 1;
   at.flops = report.work.flops;
   at.bodies = part().moving.size();
+  at.blocks = blocks.size() - first_block;
   return at;
 }
 
 bool Simulator::Impl::within_budget(FrameReport& report) {
-  const double work = forecast_work(progress(report), settings);
-  if (work <= budget.work) return true;
-  stop_over_budget({.work = work, .budget = budget.work}, report);
+  const FrameProgress at = progress(report);
+  const double frame = forecast_work(at, settings);
+  const double substep = work_beside_solver(at);
+  if (frame > budget.work) {
+    stop_over_budget({.work = frame, .budget = budget.work}, report);
+  } else if (substep > budget.substep) {
+    stop_over_budget({.work = substep, .budget = budget.substep, .of_substep = true}, report);
+  } else {
+    return true;
+  }
   return false;
 }
 
@@ -32,6 +40,11 @@ void Simulator::Impl::refuse_solve(const SolveReport& solved, double dt, FrameRe
     const double times = is_shared(settings) ? at.left : 1.0;
     over.work = static_cast<double>(at.flops) + times * solved.work_needed;
     over.budget = budget.work;
+    if (over.work <= budget.work) {
+      over.work = solved.work_needed + work_beside_solver(at);
+      over.budget = budget.substep;
+      over.of_substep = true;
+    }
   }
   const bool direct = settings.solver == SolverKind::kBpp;
   over.iterations = direct ? 0 : iterations_of(settings, dt / scene->frame);

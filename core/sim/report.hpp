@@ -19,8 +19,10 @@ enum class StepStatus : std::uint8_t {
 /// What a frame would have taken, where it was over budget.
 struct Overrun {
   double memory = 0.0;        // [bytes]; 0 where it was the work
-  double work = 0.0;          // of the whole frame [floating-point operations]; 0: the memory
-  double budget = 0.0;        // of the two that was passed [bytes or operations]
+  double work = 0.0;          // of the whole frame, or of the sub-step [floating-point operations];
+                              // 0: it was the memory
+  double budget = 0.0;        // which was passed [bytes or operations]
+  bool of_substep = false;    // it was the work of one sub-step
   std::int64_t contacts = 0;  // of the sub-step that was not taken
   std::int64_t rows = 0;      // of joints, contacts, friction and a hand
   std::int64_t bodies = 0;    // that move

@@ -34,7 +34,11 @@ class Simulator {
   /// One sub-step. The state between two sub-steps of a frame is to look at, not to keep: only from
   /// frame to frame is it a snapshot. @return of the frame so far; complete where none is left
   FrameReport substep();
-  /// Sub-steps that the frame begun by substep() still has, as decided so far; 0 between frames.
+  /// A part of a frame, for who must answer meanwhile: sub-steps until they have taken so much, at
+  /// least one. The bits are those of step(). A report of a frame that is not complete tells of its
+  /// work and status alone, and its state is not one to look at. @param work [operations]
+  FrameReport step_some(double work);
+  /// Sub-steps that the frame begun by either still has, as decided so far; 0 between frames.
   [[nodiscard]] int substeps_left() const;
 
   /// What was given and refused; empty where all is well.

@@ -2,6 +2,8 @@
 // What a Simulator is made of: the stages that its scene calls for, and scratch.
 
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,8 +30,14 @@ struct Simulator::Impl {
   explicit Impl(std::shared_ptr<const Scene> scene_in);
   Impl(std::shared_ptr<const Scene> scene_in, Start start);
 
-  /// @param most sub-steps to take, >= 1; the frame that is open goes on, else one begins
-  FrameReport advance(int most);
+  /// How much of a frame is asked for.
+  struct Share {
+    int most = std::numeric_limits<int>::max();                    // sub-steps to take, >= 1
+    double work = std::numeric_limits<double>::infinity();         // none follows once it is done
+    [[nodiscard]] bool whole() const { return std::isinf(work); }  // or looked at where it ends
+  };
+  /// The frame that is open goes on, else one begins.
+  FrameReport advance(Share share);
 
   // The parts of a sub-step, in the order in which advance() calls them. Those that can fail tell,
   // and leave the state and a status that says why.
@@ -141,7 +149,7 @@ struct Simulator::Impl {
   void keep_forces_at_rest();
   void time_rest();
   FrameReport refusal();  // of a frame that is not begun, since something given was refused
-  FrameReport end(StageClock& wall);  // of a call: closes the frame where it is done
+  FrameReport end(StageClock& wall, bool looked_at);  // of a call: closes a frame that is done
   void close(FrameReport& report);
   void observe(const Measures& asked, FrameReport& report);
 

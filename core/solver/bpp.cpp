@@ -37,7 +37,11 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
 
 void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
   report.status = SolveStatus::kSolved;
-  if (!any_contact_) return solve_free(system, report);
+  if (!any_contact_) {
+    solve_free(system, report);
+    over_limits(system, report);
+    return;
+  }
   const bool cone = settings.friction_cone == FrictionCone::kCone;
   int single_pivots = 0;
   for (int pass = 0; pass < kPasses; ++pass) {

@@ -63,16 +63,18 @@ Vec6* SaddleLdlt::of_body(int body) {
   return body < 0 ? nullptr : &v_[index(order_.position(body))];
 }
 
-void SaddleLdlt::factor_node(Node& node, std::span<const Block> blocks) {
+bool SaddleLdlt::factor_node(Node& node, const System& system) {
+  if (node.way != Way::kArticulated) gather_rows(node, system.blocks);
+  flops_ += node.factor_flops;
+  if (static_cast<double>(flops_) > system.limits.work) return false;
   node.dirty = false;
   if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
   if (node.way == Way::kArticulated) {
     factor_articulated(node);
   } else {
-    gather_rows(node, blocks);
-    node.way == Way::kBare ? factor_bare(node, blocks) : factor_general(node, blocks);
+    node.way == Way::kBare ? factor_bare(node, system.blocks) : factor_general(node, system.blocks);
   }
-  flops_ += node.factor_flops;
+  return true;
 }
 
 void SaddleLdlt::factor_articulated(Node& node) {
@@ -184,10 +186,10 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, aut
 }
 
 // A node is factored just before it is solved forward: neither waits for the other.
-void SaddleLdlt::solve(const System& system) {
+bool SaddleLdlt::solve(const System& system) {
   set_momenta(system.blocks);
   for (Node& node : nodes_) {
-    if (node.dirty) factor_node(node, system.blocks);
+    if (node.dirty && !factor_node(node, system)) return false;
     if (node.way == Way::kArticulated) {
       node.joint->forward(node.pushed ? v_[position(node)].data() : nullptr, node.handed_to);
     } else {
@@ -206,6 +208,7 @@ void SaddleLdlt::solve(const System& system) {
     system.u[body] = u_star_[body] + v_[i];
   }
   find_spring_impulses(system.blocks, false);
+  return true;
 }
 
 void SaddleLdlt::find_impulses(std::span<Block> blocks) {

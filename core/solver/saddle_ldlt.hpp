@@ -48,7 +48,11 @@ class SaddleLdlt {
   /// Says that rows of a block have become tight or free.
   void touch(std::size_t block);
   /// Impulses of free rows from those of tight rows, and u+. Factors what has changed.
-  void solve(const System& system);
+  /// @return false where that would take more work than System::limits allow; then needed_work()
+  /// tells how much, as far as it is known, and nothing else is of use
+  bool solve(const System& system);
+  /// Since `begin` [floating-point operations].
+  [[nodiscard]] double needed_work() const { return static_cast<double>(flops_); }
   /// What solve() leaves out, as no velocity follows from it: impulses of joints that are
   /// articulated or folded.
   void find_impulses(std::span<Block> blocks);
@@ -154,7 +158,8 @@ class SaddleLdlt {
   void link_articulated();
   void choose_way(Node& node, const System& system);
 
-  void factor_node(Node& node, std::span<const Block> blocks);
+  /// @return false where it would take too much work
+  bool factor_node(Node& node, const System& system);
   void count(Node& node) const;  // its operations
   void factor_articulated(Node& node);
   void sum_carried(const Node& node, Square6& sum);

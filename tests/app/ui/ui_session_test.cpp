@@ -249,6 +249,117 @@ TEST(Hand, EnergyThatItBringsIsNoFailure) {
   EXPECT_TRUE(session.verdict().holds());
 }
 
+// A frame of 400 sub-steps, in slices that end after some of them.
+Settings long_frames() {
+  Settings settings;
+  settings.mode = Mode::kConst;
+  settings.n = 400;
+  settings.solver = SolverKind::kPgs;
+  settings.iterations = 2000;
+  return settings;
+}
+
+TEST(Slices, OfAFrameAreTheSameBits) {
+  Session session(shipped("swinging_box"));
+  session.set_settings(long_frames());
+  session.play();
+  int calls = 0;
+  for (; session.state().frame < 2; ++calls) session.advance(1.0 / 60.0, 0.0);
+  EXPECT_GT(calls, 20);
+  Simulator whole(shipped("swinging_box"));
+  whole.set_settings(long_frames());
+  for (int i = 0; i < 2; ++i) whole.step();
+  session.pause();
+  EXPECT_EQ(state_hash(session.state()), state_hash(whole.state()));
+}
+
+TEST(Slices, OfAFrameThatIsLeftChangeNothing) {
+  Session session(shipped("swinging_box"));
+  take(session, 3);
+  const std::uint64_t before = session.hash();
+  session.set_settings(long_frames());
+  const auto begin = [&] {
+    session.play();
+    for (int i = 0; i < 3; ++i) session.advance(1.0 / 60.0, 0.0);
+    ASSERT_TRUE(session.slices().open());
+    EXPECT_GT(session.slices().taken(), 0);
+    EXPECT_EQ(session.hash(), before) << "what is seen is the last whole frame";
+  };
+  begin();
+  session.pause();
+  EXPECT_EQ(session.hash(), before);
+  EXPECT_EQ(session.substeps_left(), 0);
+  begin();
+  session.throw_ball({{0.0, 9.0, 20.0}});
+  EXPECT_EQ(session.balls(), 1U);
+  EXPECT_EQ(session.state().frame, 3);
+  session.pause();
+  session.go_to(3);
+  begin();
+  session.set_settings(Settings{});  // the frame begins anew with them
+  EXPECT_FALSE(session.slices().open());
+  EXPECT_EQ(session.hash(), before);
+  session.step();
+  Session other(shipped("swinging_box"));
+  take(other, 3);
+  other.set_settings(Settings{});
+  take(other, 1);
+  EXPECT_EQ(session.hash(), other.hash());
+}
+
+TEST(Slices, ARequestedFrameIsOne) {
+  Session session(shipped("swinging_box"));
+  session.set_settings(long_frames());
+  session.request_step();
+  for (int i = 0; i < 500 && session.playing(); ++i) session.advance(1.0 / 60.0);
+  EXPECT_FALSE(session.playing());
+  EXPECT_EQ(session.state().frame, 1);
+}
+
+TEST(Slices, AHandActsFromTheNextFrameOn) {
+  Session session(shipped("pendulum"));
+  Settings settings = long_frames();
+  settings.iterations = 20000;
+  session.set_settings(settings);
+  session.play();
+  session.advance(1.0 / 60.0, 0.0);
+  ASSERT_TRUE(session.slices().open());
+  const int taken = session.slices().taken();
+  session.grab(static_cast<int>(session.scene().bodies.size()) - 1, Vec3::Zero(), Vec3::Ones());
+  session.advance(1.0 / 60.0, 0.0);
+  EXPECT_GT(session.slices().taken(), taken) << "the frame goes on";
+  EXPECT_TRUE(session.held());
+}
+
+TEST(HeavyStart, ALinkToOneWaitsForAPerson) {
+  Headless h;
+  h.app->session.play();
+  h.app->open_link("scene=swinging_box&solver=pgs&iterations=400&mode=const&n=10000");
+  EXPECT_FALSE(h.app->session.playing());
+  EXPECT_NE(h.app->heavy.why.find("10,000 sub-steps"), std::string::npos) << h.app->heavy.why;
+  h.frames(2);
+  ASSERT_NE(find_handle("Run it"), nullptr);
+  h.app->session.play();
+  for (int i = 0; i < 60; ++i) h.frames(1);
+  EXPECT_TRUE(h.app->session.slices().open());
+  ASSERT_NE(find_handle("Cancel"), nullptr);
+  h.app->session.pause();
+  EXPECT_EQ(h.app->session.state().frame, 0);
+  h.app->open_link("scene=pendulum");
+  EXPECT_EQ(h.app->heavy.why, "");
+}
+
+TEST(HeavyStart, WhatWouldStopAtOnceIsSaid) {
+  Headless h;
+  h.app->open_link("scene=swinging_box&solver=pgs&iterations=100000&mode=const&n=10000");
+  EXPECT_FALSE(h.app->session.playing());
+  EXPECT_NE(h.app->heavy.why.find("100000 iterations"), std::string::npos) << h.app->heavy.why;
+  h.app->session.play();
+  h.frames(3);
+  EXPECT_EQ(h.app->session.report().status, StepStatus::kOverBudget);
+  EXPECT_EQ(h.app->session.state().frame, 0);
+}
+
 Ball ball_at(const Vec3& position, const Vec3& velocity) {
   Ball ball;
   ball.position = position;

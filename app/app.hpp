@@ -178,7 +178,6 @@ struct App {
   OwnScenes own;
   FileBrowser browser;
   bool recording = false;  // a video, see Host::record
-  bool read_back = false;  // the shell reads the next frame's pixels
   // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
   std::shared_ptr<const Scene> plain_scene;
   double load = 1.0;  // [-]
@@ -195,7 +194,6 @@ struct App {
   double frame_time = 1.0 / 60.0;  // smoothed [s]
   double own_time = 0.0;           // that the last frame took to simulate [s]
   QualityGovernor quality;
-  LayerKeeper keeper;
   ViewRect view_rect;
   /// Where runs are seen: this one in the first or only pane, those compared in the others.
   std::vector<ViewRect> panes{1};

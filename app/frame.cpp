@@ -142,19 +142,12 @@ void frame(App& app, double wall_dt) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewOptions shown = app.desk.view;
   if (app.compare.open()) shown.tint = false;  // colours say who is who then
-  const Eigen::Matrix4f before = app.pictures.front().view_projection;
   draw_pictures(app, shown, io.DisplaySize);
-  const bool moves = app.session.playing() || app.pictures.front().view_projection != before;
   ui::draw_over_picture(app);
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
-  const DrawOptions drawing{width, height, app.quality.quality(),
-                            app.capture || app.recording || std::exchange(app.read_back, false)};
-  std::vector<Layer> layers = layers_of(*ImGui::GetDrawData());
-  // A picture that rests leaves the time to draw all panels.
-  app.keeper.plan(layers, drawing.moving <= Quality::kCoarse && moves && !app.capture);
-  app.renderer->draw(app.pictures, layers, drawing);
+  app.renderer->draw(app.pictures, *ImGui::GetDrawData(), {width, height, app.quality.quality()});
   if (app.capture) take_capture(app, width, height);
 
   remember_arrangement(app);

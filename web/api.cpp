@@ -148,8 +148,6 @@ void substep_tell(const char* text) { app().tell(text); }
 
 void substep_recording(int on) { app().recording = on != 0; }
 
-void substep_read_back() { app().read_back = true; }
-
 const char* substep_hash() { return keep_text(substep::hex(app().session.hash())); }
 
 const char* substep_report() {

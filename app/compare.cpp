@@ -42,17 +42,8 @@ std::vector<Overrides> all_overrides(const std::vector<Compare::Run>& runs) {
 }
 
 std::string_view solver_title(std::string_view name) {
-  switch (value_of<SolverKind>(name).value_or(SolverKind::kBpp)) {
-    case SolverKind::kPgs:
-      return "PGS";
-    case SolverKind::kBpp:
-      return "BPP";
-    case SolverKind::kNewton:
-      return "Newton";
-    case SolverKind::kXpbd:
-      return "XPBD";
-  }
-  return name;
+  const auto solver = value_of<SolverKind>(name);
+  return solver ? entry_of(*solver).title : name;
 }
 
 void add_frame(Cost& cost, const FrameReport& report) {

@@ -3,64 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/lab/presets.hpp"
-#include "core/model/names.hpp"
-#include "core/stepping/substep_clock.hpp"
+#include "core/model/methods.hpp"
 
 namespace substep::ui {
 namespace {
 
-constexpr std::array<Choice, 5> kModes{
-    {{"none", "One step per frame and nothing against instability: N = 1."},
-     {"const",
-      "The same number of sub-steps in every frame, chosen by you: dt = h/N "
-      "(Macklin et al. 2019, Small steps). Every frame pays for the worst one."},
-     {"damping",
-      "One step per frame; rotations that are too stiff for it are damped implicitly: "
-      "b = max(0, (h² k − 4 α M)/h), Eq. 6 (Andrews et al. 2017)."},
-     {"adaptive",
-      "As many sub-steps as the stiffest degree of freedom needs: "
-      "r = max k/M (Eq. 9), dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up "
-      "(Eq. 11). The paper's (Giles and Andrews 2024)."},
-     {"capped",
-      "Adaptive up to a cap, damping for what is left over: the combination that the "
-      "paper leaves for future work (Giles and Andrews 2024)."}}};
-// What stands beside and beyond the paper: the modes that follow those.
-constexpr std::array<Choice, 3> kFurtherModes{
-    {{"stiffness",
-      "One step per frame with the geometric stiffness itself in the mass: M - h² K, its "
-      "stabilising part (Tournier et al. 2015). Damps more than damping does."},
-     {"inertia",
-      "Adaptive up to a cap; what is left over turns with a larger inertia, dt² k/(4 αm), that "
-      "neither gains nor loses energy. This project's."},
-     {"blend",
-      "Adaptive up to a cap, then geometric inertia of which a share 1 - β damps: steadier where "
-      "contacts come and go. This project's."}}};
-
-constexpr std::array<const char*, 8> kModeLines{
-    "One step a frame, unprotected.",          "The same N in every frame.",
-    "One step a frame; less α, more damping.", "N ~ 1/√α: a quarter of α, twice the N.",
-    "Adaptive up to a cap, then damping.",     "One step a frame, K in the mass.",
-    "Adaptive up to a cap, then inertia.",     "Adaptive up to a cap, then both."};
-
-constexpr std::array<Choice, 4> kSolvers{
-    {{"PGS",
-      "Projected Gauss-Seidel (Erleben 2013): a fixed number of sweeps over the rows of Eq. 3."},
-     {"BPP",
-      "Block principal pivoting (Judice and Pires 1994): solves the boxed problem of Eq. 3 "
-      "exactly."},
-     {"XPBD",
-      "Extended position-based dynamics (Mueller et al. 2020): sweeps that move the bodies "
-      "themselves, each row along its error as it is at that moment."},
-     {"Newton",
-      "Non-smooth Newton (Macklin et al. 2019, Non-smooth Newton methods): errors vanish at the "
-      "end of the sub-step, and the "
-      "forces belong to poses around it."}}};
 constexpr std::array<Choice, 3> kForces{
     {{"end", "The end of the sub-step: implicit Euler, which damps (Macklin et al. 2019)."},
      {"mean",
@@ -69,17 +24,6 @@ constexpr std::array<Choice, 3> kForces{
      {"Numerov",
       "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): fourth order "
       "with two steps, for scenes of joints, while dt² k < 6 M."}}};
-constexpr std::array<Choice, 3> kIntegrators{
-    {{"Euler",
-      "Semi-implicit Euler, the paper's (Giles and Andrews 2024): first order, loses energy when N "
-      "changes."},
-     {"leapfrog",
-      "External forces act over (dt before + dt)/2 (Verlet 1967): second order at the same "
-      "cost."},
-     {"Störmer",
-      "Leapfrog whose poses take in how accelerations change (Störmer 1907), with joints that hold "
-      "at the end of the sub-step: fourth order with one solve, for scenes of joints, while "
-      "dt² k < 2 M."}}};
 constexpr std::array<Choice, 2> kPolicies{
     {{"frame",
       "N is decided once a frame, from the forces of its last sub-step: the paper's (Giles and "
@@ -117,14 +61,47 @@ constexpr std::array<Choice, 2> kGyroscopics{
      {"implicit",
       "Half a step explicit, half implicit: keeps energy and angular momentum. This project's."}}};
 
-template <class Enum, std::size_t N>
-bool choose(const Look& look, const char* name, const std::array<Choice, N>& choices, Enum& value,
+template <class Enum>
+bool choose(const Look& look, const char* name, std::span<const Choice> choices, Enum& value,
             const char* tip) {
   int index = static_cast<int>(value);
   const bool changed = segmented_row(look, name, choices, index, tip);
   value = static_cast<Enum>(index);
   return changed;
 }
+
+std::string about(const SolverEntry& e) {
+  return std::string(e.full_name) + " (" + e.reference + "): " + e.about;
+}
+
+template <class Entry>
+std::string about(const Entry& e) {
+  return *e.reference == '\0' ? e.about : std::string(e.about) + " " + e.reference + ".";
+}
+
+const char* title(const ModeEntry& e) { return e.name.data(); }
+template <class Entry>
+const char* title(const Entry& e) {
+  return e.title;
+}
+
+// The entries of a table of methods as the choices of a row.
+class MethodChoices {
+ public:
+  template <class Entries>
+  explicit MethodChoices(const Entries& entries) {
+    tips_.reserve(std::size(entries));
+    for (const auto& entry : entries) {
+      tips_.push_back(about(entry));
+      choices_.push_back({title(entry), tips_.back().c_str()});
+    }
+  }
+  operator std::span<const Choice>() const { return choices_; }
+
+ private:
+  std::vector<std::string> tips_;
+  std::vector<Choice> choices_;
+};
 
 void scene_picker(App& app) {
   const Look& look = app.look;
@@ -170,39 +147,52 @@ void preset_row(const Look& look, const Scene& scene, Settings& s) {
   }
 }
 
+// The paper's modes, and below them what stands beside and beyond it.
+void mode_rows(const Look& look, Mode& mode) {
+  const std::span<const ModeEntry> all = kModes;
+  const auto beyond = std::find_if(all.begin(), all.end(),
+                                   [](const ModeEntry& entry) { return entry.beyond_paper; });
+  const std::span<const ModeEntry> paper(all.begin(), beyond);
+  const std::span<const ModeEntry> further(beyond, all.end());
+  const auto first = static_cast<int>(paper.size());
+  const float width = ImGui::GetContentRegionAvail().x;
+  int index = static_cast<int>(mode);
+  segmented(look, "mode", MethodChoices(paper), index, width);
+  int in_further = index - first;
+  if (segmented(look, "further mode", MethodChoices(further), in_further, width)) {
+    index = first + in_further;
+  }
+  mode = static_cast<Mode>(index);
+}
+
 void stabilisation(const Look& look, const Scene& scene, Settings& s) {
   section(look, "Stabilisation");
   preset_row(look, scene, s);
-  const Mode mode = s.mode;
-  int index = static_cast<int>(mode);
-  constexpr int kFirst = static_cast<int>(kModes.size());
-  const float width = ImGui::GetContentRegionAvail().x;
-  segmented(look, "mode", kModes, index, width);
-  int further = index - kFirst;
-  if (segmented(look, "further mode", kFurtherModes, further, width)) index = kFirst + further;
-  s.mode = static_cast<Mode>(index);
-  label(look.fonts.small, look.theme->dim, kModeLines[static_cast<std::size_t>(index)]);
+  mode_rows(look, s.mode);
+  label(look.fonts.small, look.theme->dim, entry_of(s.mode).line);
 
-  if (s.mode == Mode::kDamping || chooses_substeps(s.mode)) {
+  if (reads(s, "alpha")) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
            "Stability threshold of Eq. 5: 1 is the limit itself, less keeps a distance from it. "
            "N goes with 1/√α (Eq. 10): a quarter of alpha doubles N.");
   }
-  if (s.mode == Mode::kConst) {
+  if (reads(s, "n")) {
     slider(look, "N", s.n, 1, 128, true, "Sub-steps in every frame: dt = h/N.");
-  } else if (s.mode == Mode::kAdaptive) {
+  }
+  if (reads(s, "n_max")) {
     slider(look, "N at most", s.n_max, 1, 512, true,
            "An impact or a start that does not fit asks for thousands: this many are given.");
-  } else if (chooses_substeps(s.mode)) {
+  }
+  if (reads(s, "n_cap")) {
     slider(look, "N cap", s.n_cap, 1, 64, true,
            "Sub-steps up to here; at dt = h/N cap the mode takes over what they do not reach.");
   }
-  if (s.mode == Mode::kInertia || s.mode == Mode::kBlend) {
+  if (reads(s, "alpha_m")) {
     slider(look, "Alpha m", s.alpha_m, 0.1, 0.99, false, "%.2f",
            "How near to the limit of stability the larger inertia goes: forces may grow by 1/αm "
            "from one sub-step to the next. Less is safer and less exact.");
   }
-  if (s.mode == Mode::kBlend) {
+  if (reads(s, "beta")) {
     slider(look, "Beta  β", s.beta, 0.0, 1.0, false, "%.3f",
            "Share of the velocity that is not damped: 1 is geometric inertia, 0 is damping.");
   }
@@ -210,29 +200,29 @@ void stabilisation(const Look& look, const Scene& scene, Settings& s) {
 
 void solving(const Look& look, const Scene& scene, Settings& s) {
   section(look, "Solver");
-  choose(look, "Method", kSolvers, s.solver, "What solves the velocities of a sub-step, Eq. 3.");
-  if (s.solver == SolverKind::kPgs) {
-    slider(look, "Sweeps", s.iterations, 1, 400, true, "Iterations of PGS in every sub-step.");
-  } else if (s.solver == SolverKind::kXpbd) {
-    slider(look, "Sweeps", s.iterations, 1, 400, true,
-           "Sweeps in every sub-step; the source recommends one, and many sub-steps.");
-  } else if (s.solver == SolverKind::kNewton) {
+  choose(look, "Method", MethodChoices(kSolvers), s.solver,
+         "What solves the velocities of a sub-step, Eq. 3.");
+  const SolverEntry& solver = entry_of(s.solver);
+  if (reads(s, "forces")) {
     choose(look, "Forces", kForces, s.forces, "Poses that the constraint forces belong to.");
-    slider(look, "Steps", s.iterations, 1, 50, true,
-           "Newton steps at most in every sub-step; two are mostly enough.");
   }
-  if (s.solver == SolverKind::kBpp && scene.regularisation > 0.0) {
+  if (reads(s, "iterations")) {
+    slider(look, solver.sweeps ? "Sweeps" : "Steps", s.iterations, 1, solver.iterations, true,
+           solver.about_iterations);
+  }
+  if (reads(s, "refinements") && scene.regularisation > 0.0) {
     slider(look, "Refine", s.refinements, 0, 32, false,
            "Solves, after the first, that take the scene's regularisation back, from the last "
            "forces on: the proximal point method (Rockafellar 1976). Each costs a solve with the "
            "factor as it is.");
   }
-  if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
+  if (reads(s, "share_iterations")) {
     checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
              "The sweeps are those of a whole frame, shared out over its sub-steps: small steps "
              "(Macklin et al. 2019, Small steps).");
   }
-  choose(look, "Integrator", kIntegrators, s.integrator, "How a sub-step advances time.");
+  choose(look, "Integrator", MethodChoices(kIntegrators), s.integrator,
+         "How a sub-step advances time.");
   if (s.integrator == Integrator::kStormer && !follows_accelerations(s)) {
     label(look.fonts.small, look.theme->dim, "Newton and XPBD take it as leapfrog.");
   }
@@ -241,7 +231,7 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
 // What most people never touch; only what acts in this scene, mode and solver.
 void finer_points(const Look& look, const Effects& effects, Settings& s) {
   const float width = ImGui::GetContentRegionAvail().x;
-  if (chooses_substeps(s.mode)) {
+  if (reads(s, "policy")) {
     choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
     if (s.policy == Policy::kSubstep) {
       slider(look, "Memory", s.memory, 0.0, 0.99, false, "%.2f",
@@ -249,10 +239,12 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
              "sub-step does not let the next one grow.");
     }
   }
-  if (chooses_substeps(s.mode)) {
+  if (reads(s, "rotation_criterion")) {
     checkbox(look, "Rotation criterion", s.rotation_criterion, width,
              "N also follows how fast bodies spin: the turn and the gyroscopic rate in a sub-step. "
              "Off: the paper's rule alone.");
+  }
+  if (reads(s, "islands")) {
     checkbox(look, "each island its own N", s.islands, width,
              "Bodies that neither joints nor contacts to come connect within a frame take "
              "sub-steps of their own: what is calm does not pay for what is not. This project's.");
@@ -260,7 +252,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   checkbox(look, "let what rests sleep", s.sleep, width,
            "Bodies stand still and cost nothing once all that is connected with them has been "
            "slower than 1 cm/s for half a second. They wake where something comes near.");
-  if (s.mode != Mode::kNone && s.mode != Mode::kConst) {
+  if (reads(s, "probe")) {
     checkbox(look, "probe before the first frame", s.probe, width,
              "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "
              "without it the first N is 1. Acts from a reset on.");
@@ -291,10 +283,11 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
              "where they are soft. This project's.");
     s.drift_order = second ? 2 : 1;
   }
-  if (s.solver == SolverKind::kPgs) {
+  if (reads(s, "warm_start")) {
     checkbox(look, "warm start", s.warm_start, width,
              "Sweeps start from the forces of the last sub-step.");
-  } else if (effects.contact && s.solver != SolverKind::kXpbd) {
+  }
+  if (reads(s, "pivots") && effects.contact) {
     slider(look, "Pivots", s.pivots, 1, 100, true,
            "Block pivots of BPP (Judice and Pires 1994) before it goes on one row at a time, which "
            "always ends.");

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/format.hpp"
-#include "app/ui/accuracy_picture.hpp"
+#include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/timing.hpp"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/caption.hpp"
 #include "app/format.hpp"
 #include "app/stiffness.hpp"
 #include "app/ui/over_picture.hpp"
@@ -17,53 +18,23 @@ namespace substep::ui {
 namespace {
 
 std::string solver_words(const Settings& s) {
-  const std::string sweeps = std::to_string(s.iterations) + (s.share_iterations ? " a frame" : "");
-  switch (s.solver) {
-    case SolverKind::kPgs:
-      return "PGS " + sweeps;
-    case SolverKind::kBpp:
-      return s.refinements > 0 ? "BPP, refined " + std::to_string(s.refinements) : "BPP";
-    case SolverKind::kXpbd:
-      return "XPBD " + sweeps;
-    case SolverKind::kNewton:
-      return "Newton, forces " + std::string(name_of(s.forces));
+  std::string words = entry_of(s.solver).title;
+  if (entry_of(s.solver).sweeps) words += " " + std::to_string(s.iterations);
+  if (reads(s, "share_iterations") && s.share_iterations) words += " a frame";
+  if (reads(s, "refinements") && s.refinements > 0) {
+    words += ", refined " + std::to_string(s.refinements);
   }
-  return "";
+  if (reads(s, "forces")) words += ", forces " + std::string(name_of(s.forces));
+  return words;
 }
 
 std::string method_line(const Settings& s) {
-  std::string line(name_of(s.mode));
-  switch (s.mode) {
-    case Mode::kNone:
-      line = "no sub-steps";
-      break;
-    case Mode::kConst:
-      line = "constant N " + std::to_string(s.n);
-      break;
-    case Mode::kDamping:
-      line = "adaptive damping, α " + plain_number(s.alpha);
-      break;
-    case Mode::kAdaptive:
-      line = "adaptive sub-steps, α " + plain_number(s.alpha);
-      break;
-    case Mode::kCapped:
-      line = "N up to " + std::to_string(s.n_cap) + ", then damping";
-      break;
-    case Mode::kStiffness:
-      line = "full geometric stiffness";
-      break;
-    case Mode::kInertia:
-      line = "N up to " + std::to_string(s.n_cap) + ", then geometric inertia";
-      break;
-    case Mode::kBlend:
-      line = "N up to " + std::to_string(s.n_cap) + ", then inertia and damping";
-      break;
-  }
+  std::string line = with_values(entry_of(s.mode).caption, s);
   if (has_islands(s)) line += ", by island";
   line += "  ·  " + solver_words(s);
-  line += s.integrator == Integrator::kEuler ? "  ·  Euler"
-          : follows_accelerations(s)         ? "  ·  Störmer"
-                                             : "  ·  leapfrog";
+  const bool as_leapfrog = s.integrator == Integrator::kStormer && !follows_accelerations(s);
+  line += "  ·  ";
+  line += entry_of(as_leapfrog ? Integrator::kLeapfrog : s.integrator).title;
   return line;
 }
 

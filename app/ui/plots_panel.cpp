@@ -102,7 +102,7 @@ void substeps_plot(App& app, float height, bool last) {
         {static_cast<double>(beat), "constant N to beat " + grouped(beat), t.amber});
   }
   // A cap is worth a line once N comes near it.
-  const int cap = s.mode == Mode::kAdaptive ? s.n_max : chooses_substeps(s.mode) ? s.n_cap : 0;
+  const int cap = reads(s, "n_max") ? s.n_max : reads(s, "n_cap") ? s.n_cap : 0;
   const std::size_t recent = h.size() - std::min<std::size_t>(h.size(), 600);
   const Extent taken = h.samples(Channel::kSubsteps).extent(recent, h.size());
   if (cap > 0 && taken.high >= 0.7F * static_cast<float>(cap)) {

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "app/caption.hpp"
 #include "app/criterion.hpp"
 #include "app/format.hpp"
 #include "app/stiffness.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/model/methods.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
@@ -125,30 +127,14 @@ void law(App& app, const Criterion& criterion) {
 std::string taken_note(const Session& session) {
   const FrameReport& report = session.report();
   const Settings& s = session.settings();
-  switch (s.mode) {
-    case Mode::kNone:
-      return "Mode none takes 1 all the same.";
-    case Mode::kConst:
-      return "Mode const takes " + grouped(s.n) + " all the same.";
-    case Mode::kDamping:
-      return "Mode damping takes 1 and damps what is too stiff for it.";
-    case Mode::kAdaptive:
-      if (report.capped) return "N at most is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
-      return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
-    case Mode::kStiffness:
-      return "Mode stiffness takes 1: K itself resists what is too stiff for it.";
-    case Mode::kCapped:
-    case Mode::kInertia:
-    case Mode::kBlend:
-      if (report.capped) {
-        return "The cap bit: " + cap_note(report) + "; " +
-               (s.mode == Mode::kCapped    ? "damping does the rest."
-                : s.mode == Mode::kInertia ? "geometric inertia does the rest."
-                                           : "inertia and damping do the rest.");
-      }
-      return "The cap of " + grouped(s.n_cap) + " did not bite.";
+  const ModeEntry& mode = entry_of(s.mode);
+  if (mode.takes != nullptr) return with_values(mode.takes, s);
+  if (mode.then != nullptr) {
+    return report.capped ? "The cap bit: " + cap_note(report) + "; " + mode.then + "."
+                         : "The cap of " + grouped(s.n_cap) + " did not bite.";
   }
-  return "";
+  if (report.capped) return "N at most is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
+  return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
 }
 
 // What would set N if the one that does were not there.

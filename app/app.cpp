@@ -3,7 +3,7 @@
 #include <array>
 #include <utility>
 
-#include "app/command.hpp"
+#include "app/text/command.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/number_text.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "app/app.hpp"
-#include "app/arrangement.hpp"
-#include "app/png.hpp"
+#include "app/render/png.hpp"
+#include "app/shell/arrangement.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/keys.hpp"
 #include "app/ui/panels.hpp"

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/export.hpp"
-#include "app/format.hpp"
+#include "app/text/export.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/handles.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/png.hpp"
+#include "app/render/png.hpp"
 
 namespace substep {
 namespace {

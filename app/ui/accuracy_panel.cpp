@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/accuracy_picture.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/panels.hpp"

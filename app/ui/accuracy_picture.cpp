@@ -7,7 +7,7 @@
 #include <map>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"

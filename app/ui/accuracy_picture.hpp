@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "app/accuracy.hpp"
+#include "app/lab/accuracy.hpp"
 #include "app/ui/look.hpp"
 
 namespace substep::ui {

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/setting_fields.hpp"

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "app/criterion.hpp"
-#include "app/format.hpp"
+#include "app/lab/criterion.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 

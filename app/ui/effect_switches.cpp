@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/io/effect_names.hpp"

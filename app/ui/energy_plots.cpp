@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/plot_headings.hpp"
 #include "app/ui/plots.hpp"
 #include "app/ui/widgets.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/app.hpp"
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 
 namespace substep::ui {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "app/caption.hpp"
-#include "app/format.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/caption.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/app.hpp"
-#include "app/criterion.hpp"
+#include "app/lab/criterion.hpp"
 
 namespace substep::ui {
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <tuple>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/plot_curves.hpp"
 #include "app/ui/widgets.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/plot.hpp"
 #include "app/ui/widgets.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "app/export.hpp"
-#include "app/format.hpp"
+#include "app/text/export.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/plot_headings.hpp"
 #include "app/ui/plots.hpp"

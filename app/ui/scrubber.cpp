@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"

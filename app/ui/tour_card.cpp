@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/tour.hpp"
+#include "app/text/tour.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/card.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"

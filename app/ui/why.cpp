@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/caption.hpp"
-#include "app/criterion.hpp"
-#include "app/format.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/criterion.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/caption.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/export.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/export.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/plot.hpp"
 #include "app/ui/plot_curves.hpp"

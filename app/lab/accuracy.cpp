@@ -1,4 +1,4 @@
-#include "app/accuracy.hpp"
+#include "app/lab/accuracy.hpp"
 
 #include <algorithm>
 #include <chrono>

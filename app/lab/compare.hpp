@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/session.hpp"
+#include "app/lab/session.hpp"
 
 namespace substep {
 

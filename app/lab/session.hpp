@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "app/ball.hpp"
-#include "app/history.hpp"
-#include "app/timeline.hpp"
+#include "app/lab/ball.hpp"
+#include "app/lab/history.hpp"
+#include "app/lab/timeline.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/model/scene.hpp"
 #include "core/sim/simulator.hpp"

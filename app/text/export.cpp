@@ -1,4 +1,4 @@
-#include "app/export.hpp"
+#include "app/text/export.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "app/file_browser.hpp"
+#include "app/shell/file_browser.hpp"
 
 #include <algorithm>
 #include <system_error>

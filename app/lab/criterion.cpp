@@ -1,12 +1,12 @@
-#include "app/criterion.hpp"
+#include "app/lab/criterion.hpp"
 
 #include <algorithm>
 #include <array>
 #include <numbers>
 #include <vector>
 
-#include "app/format.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/format.hpp"
 #include "core/stepping/rotation_bound.hpp"
 #include "core/stepping/substep_clock.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "app/app.hpp"
-#include "app/link.hpp"
-#include "app/tour.hpp"
+#include "app/text/link.hpp"
+#include "app/text/tour.hpp"
 #include "core/lab/presets.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/scene_limits.hpp"

@@ -1,4 +1,4 @@
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "app/effect_costs.hpp"
+#include "app/lab/effect_costs.hpp"
 
 #include <utility>
 

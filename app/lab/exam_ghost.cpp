@@ -1,4 +1,4 @@
-#include "app/exam_ghost.hpp"
+#include "app/lab/exam_ghost.hpp"
 
 #include <algorithm>
 #include <utility>

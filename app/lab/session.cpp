@@ -1,10 +1,10 @@
-#include "app/session.hpp"
+#include "app/lab/session.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <utility>
 
-#include "app/library.hpp"
+#include "app/lab/library.hpp"
 #include "core/io/saved_scene.hpp"
 
 namespace substep {

@@ -1,4 +1,4 @@
-#include "app/quality.hpp"
+#include "app/render/quality.hpp"
 
 #include <algorithm>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "app/history.hpp"
+#include "app/lab/history.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {

@@ -1,4 +1,4 @@
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
 
 #include <algorithm>
 

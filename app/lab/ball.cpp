@@ -1,4 +1,4 @@
-#include "app/ball.hpp"
+#include "app/lab/ball.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/timeline.hpp"
+#include "app/lab/timeline.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "app/link.hpp"
+#include "app/text/link.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
-#include "app/caption.hpp"
+#include "app/text/caption.hpp"
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/setting_fields.hpp"
 

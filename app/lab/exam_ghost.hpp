@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "app/library.hpp"
-#include "app/session.hpp"
+#include "app/lab/library.hpp"
+#include "app/lab/session.hpp"
 #include "core/lab/exam.hpp"
 
 namespace substep {

@@ -1,4 +1,4 @@
-#include "app/own_scenes.hpp"
+#include "app/lab/own_scenes.hpp"
 
 #include "core/io/json_text.hpp"
 #include "core/io/scene_reader.hpp"

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/effect_costs.hpp"
+#include "app/lab/effect_costs.hpp"
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"

@@ -1,4 +1,4 @@
-#include "app/library.hpp"
+#include "app/lab/library.hpp"
 
 #include <algorithm>
 #include <array>

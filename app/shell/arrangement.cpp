@@ -1,10 +1,10 @@
-#include "app/arrangement.hpp"
+#include "app/shell/arrangement.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include "app/app.hpp"
-#include "app/link.hpp"
+#include "app/text/link.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep {

@@ -1,4 +1,4 @@
-#include "app/png.hpp"
+#include "app/render/png.hpp"
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION

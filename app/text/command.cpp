@@ -1,4 +1,4 @@
-#include "app/command.hpp"
+#include "app/text/command.hpp"
 
 #include "core/model/setting_fields.hpp"
 

@@ -146,7 +146,7 @@ void substep_trouble(const char* title, const char* place, const char* message) 
 
 void substep_tell(const char* text) { app().tell(text); }
 
-void substep_recording(int on) { app().recording = on != 0; }
+void substep_recording(int on) { app().desk.recording = on != 0; }
 
 const char* substep_hash() { return keep_text(substep::hex(app().session.hash())); }
 

@@ -28,6 +28,9 @@ void FileBrowser::show(const fs::path& folder) {
     return a.folder != b.folder ? a.folder : a.name < b.name;
   });
   folder_ = whole;
+  const std::string path = folder_.string().substr(0, typed_.size() - 1);
+  typed_.fill('\0');
+  std::copy(path.begin(), path.end(), typed_.begin());
   entries_ = std::move(found);
   problem_.clear();
 }

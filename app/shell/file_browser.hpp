@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,12 +26,15 @@ class FileBrowser {
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Folders first, each by name; what is hidden is left out.
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  /// What stands in the field for the path: the folder, or what a person types over it.
+  [[nodiscard]] std::array<char, 1024>& typed() { return typed_; }
   /// Why the last folder could not be shown, or "".
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:
   bool open_ = false;
   std::filesystem::path folder_;
+  std::array<char, 1024> typed_{};
   std::vector<Entry> entries_;
   std::string problem_;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "app/app.hpp"
 #include "app/text/link.hpp"
@@ -68,18 +70,18 @@ std::string go_on_tour(App& app, std::string_view value) {
   return "";
 }
 
-}  // namespace
-
-std::string App::set(std::string_view key, std::string_view value) {
-  if (key == "scene") {
-    return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
-  }
-  // What belongs to the window: taken from links and scripts, never written into links.
-  if (key == "speed") {
-    const auto speed = parse_number(value);
-    if (!speed || *speed < 0.01 || *speed > 16.0)
-      return "must be from 0.01 to 16, not " + std::string(value);
-    session.set_speed(*speed);
+// What belongs to the window: taken from links and scripts, never written into links.
+// @return what is wrong with it, or ""; nothing where the key is another
+std::optional<std::string> set_window(App& app, std::string_view key, std::string_view value) {
+  Desk& desk = app.desk;
+  if (key == "speed" || key == "scale") {
+    const auto number = parse_number(value);
+    const Range range = key == "speed" ? Range{0.01, 16.0} : Range{0.8, 1.5};
+    if (!number || !range.contains(*number)) {
+      return "must be " + range.text() + ", not " + std::string(value);
+    }
+    if (key == "speed") app.session.set_speed(*number);
+    if (key == "scale") desk.scale = *number;
     return "";
   }
   if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
@@ -93,57 +95,65 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "help") return choose(value, {"off", "on"}, desk.help);
   if (key == "more") return choose(value, {"off", "on"}, desk.more);
   if (key == "menu") return choose(value, {"none", "share"}, desk.open_share_menu);
-  if (key == "select") return select_body(*this, value);
+  if (key == "select") return select_body(app, value);
   if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
   if (key == "panel") return choose_panel(value, desk.tab);
-  if (key == "tour") return go_on_tour(*this, value);
-  if (key == "scale") {
-    const auto scale = parse_number(value);
-    if (!scale || *scale < 0.8 || *scale > 1.5)
-      return "must be from 0.8 to 1.5, not " + std::string(value);
-    desk.scale = *scale;
-    return "";
-  }
-  if (key == "load" || key == "seed" || key == "seconds") {
-    const auto number = parse_number(value);
-    const Range range = key == "load"   ? kLoadRange
-                        : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
-                                        : kDurationRange;
-    if (!number || !range.contains(*number))
-      return "must be " + range.text() + ", not " + std::string(value);
-    if (key == "seed" && *number != std::round(*number)) return "is not a whole number";
-    if (key == "load") vary(*number, seed);
-    if (key == "seed") vary(load, static_cast<int>(*number));
-    if (key == "seconds") pause_at = *number;
-    return "";
-  }
-  if (key == "accuracy") {
-    if (value == "run") {
-      accuracy.start(plain_scene);
-    } else if (value == "cancel") {
-      accuracy.cancel();
-      accuracy.cancel_search();
-      accuracy.effects.cancel();
-    } else if (value == "alpha") {
-      if (accuracy.reference() == nullptr) {
-        return "'alpha' searches beside a sweep that has found its reference: set accuracy=run "
-               "first";
-      }
-      accuracy.search_alpha();
-    } else if (value == "map") {
-      accuracy.picture = AccuracyPicture::kStabilityMap;
-    } else if (value == "error") {
-      accuracy.picture = AccuracyPicture::kErrorAgainstCost;
-    } else if (value == "stages") {
-      accuracy.picture = AccuracyPicture::kEffectCosts;
-    } else if (value == "measure") {
-      measure_costs();
-    } else {
-      return "'" + std::string(value) +
-             "' is not run, cancel, alpha, measure, error, map or stages";
+  if (key == "tour") return go_on_tour(app, value);
+  return std::nullopt;
+}
+
+// Another start of the scene, or how long it runs.
+std::string set_experiment(Lab& lab, std::string_view key, std::string_view value) {
+  const auto number = parse_number(value);
+  const Range range = key == "load"   ? kLoadRange
+                      : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
+                                      : kDurationRange;
+  if (!number || !range.contains(*number))
+    return "must be " + range.text() + ", not " + std::string(value);
+  if (key == "seed" && *number != std::round(*number)) return "is not a whole number";
+  if (key == "load") lab.vary(*number, lab.seed);
+  if (key == "seed") lab.vary(lab.load, static_cast<int>(*number));
+  if (key == "seconds") lab.pause_at = *number;
+  return "";
+}
+
+std::string set_accuracy(Lab& lab, std::string_view value) {
+  Accuracy& accuracy = lab.accuracy;
+  if (value == "run") {
+    accuracy.start(lab.plain_scene);
+  } else if (value == "cancel") {
+    accuracy.cancel();
+    accuracy.cancel_search();
+    accuracy.effects.cancel();
+  } else if (value == "alpha") {
+    if (accuracy.reference() == nullptr) {
+      return "'alpha' searches beside a sweep that has found its reference: set accuracy=run "
+             "first";
     }
-    return "";
+    accuracy.search_alpha();
+  } else if (value == "map") {
+    accuracy.picture = AccuracyPicture::kStabilityMap;
+  } else if (value == "error") {
+    accuracy.picture = AccuracyPicture::kErrorAgainstCost;
+  } else if (value == "stages") {
+    accuracy.picture = AccuracyPicture::kEffectCosts;
+  } else if (value == "measure") {
+    lab.measure_costs();
+  } else {
+    return "'" + std::string(value) + "' is not run, cancel, alpha, measure, error, map or stages";
   }
+  return "";
+}
+
+}  // namespace
+
+std::string App::set(std::string_view key, std::string_view value) {
+  if (key == "scene") {
+    return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
+  }
+  if (auto problem = set_window(*this, key, value)) return *std::move(problem);
+  if (key == "load" || key == "seed" || key == "seconds") return set_experiment(*this, key, value);
+  if (key == "accuracy") return set_accuracy(*this, value);
   if (key == "compare") {
     std::string problem;
     const std::vector<Overrides> runs =
@@ -189,28 +199,6 @@ void App::open_link(std::string_view fragment) {
     aftermath += std::string(kept ? " " : "") + "The rest of the link was followed.";
   }
   trouble = {"The link could not be followed in full", std::move(problems), std::move(aftermath)};
-}
-
-const Scene& App::link_scene() const {
-  // Without load and seed, which stand beside it: they would act twice.
-  return session.edition() != nullptr ? *session.edition()->start : *plain_scene;
-}
-
-std::string App::link() const {
-  Experiment experiment;
-  experiment.settings = session.settings();
-  experiment.duration = session.scene().criteria.duration;
-  if (session.edition() == nullptr) {  // else its bodies have them already
-    experiment.load = load;
-    experiment.seed = seed;
-  }
-  std::string link = make_link(link_scene(), experiment);
-  if (compare.open()) {
-    std::vector<Overrides> runs;
-    for (const Compare::Run& run : compare.runs()) runs.push_back(run.overrides);
-    link += "&compare=" + overrides_text(runs);
-  }
-  return link;
 }
 
 }  // namespace substep

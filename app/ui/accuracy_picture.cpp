@@ -16,7 +16,7 @@ namespace substep::ui {
 namespace {
 
 constexpr float kErrorGutter = 38.0F;  // labels of the errors
-constexpr float kFoot = 38.0F;         // labels of the costs, and what they are
+constexpr float kFootHeight = 38.0F;   // labels of the costs, and what they are
 constexpr float kRail = 20.0F;         // the failed runs
 constexpr float kReach = 14.0F;        // a point is pointed at from so far
 
@@ -192,7 +192,7 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   const std::vector<Point> points = accuracy.points();
   const std::vector<Point> failed = accuracy.failed();
   const Axes axes{{origin.x + kErrorGutter, origin.y + kRail + 8.0F},
-                  {origin.x + size.x - 12.0F, origin.y + size.y - kFoot},
+                  {origin.x + size.x - 12.0F, origin.y + size.y - kFootHeight},
                   range_of(
                       points, failed, [](const Point& p) { return p.cost; }, 0.04),
                   range_of(

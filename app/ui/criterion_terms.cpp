@@ -32,9 +32,8 @@ void term(const Look& look, const std::string& what, const std::string& meaning,
 
 }  // namespace
 
-void criterion_terms(App& app, const Criterion& c) {
-  const Look& look = app.look;
-  const Scene& scene = app.session.scene();
+void criterion_terms(const Look& look, const Session& session, const Criterion& c) {
+  const Scene& scene = session.scene();
   section(look, "Which term sets N", "N");
   tooltip(
       look, "Which term sets N",

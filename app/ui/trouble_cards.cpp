@@ -38,31 +38,30 @@ std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
 }
 
 /// A button: the same scene from its start, with what would have helped.
-void reset_with(App& app, const Remedy& remedy, ButtonKind kind) {
+void reset_with(const Look& look, Lab& lab, const Remedy& remedy, ButtonKind kind) {
   const std::string tip =
       "The same scene with " + remedy.text + (remedy.why.empty() ? "" : "; " + remedy.why);
-  if (button(app.look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text).c_str(),
-             kind, 0.0F, 28.0F, tip.c_str())) {
-    app.change(remedy.settings);
-    app.reset();
+  if (button(look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text).c_str(), kind,
+             0.0F, 28.0F, tip.c_str())) {
+    lab.change(remedy.settings);
+    lab.reset();
   }
 }
 
 }  // namespace
 
-void failure_card(App& app) {
-  const Verdict& verdict = app.session.verdict();
-  if (verdict.holds() || app.desk.dismissed_failure == app.run_count) return;
-  const Look& look = app.look;
-  const bool stopped = app.session.stopped();
-  if (app.desk.tour >= 0 && !stopped) return;  // its card says what is seen
-  const ViewRect& v = app.view_rect;
+void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
+  const Verdict& verdict = lab.session.verdict();
+  if (verdict.holds() || desk.dismissed_failure == lab.run_count) return;
+  const bool stopped = lab.session.stopped();
+  if (desk.tour >= 0 && !stopped) return;  // its card says what is seen
+  const ViewRect& v = viewport.view_rect;
   const CardPlace place = below_what_failed(v);
-  if (begin_card(app, "##failure", 380.0F, place.y, place.pivot)) {
+  if (begin_card(look, viewport, "##failure", 380.0F, place.y, place.pivot)) {
     card_title(look, look.theme->orange, Icon::kCross,
-               stopped ? "The run stopped at " + fixed(app.session.state().time, 2) + " s"
+               stopped ? "The run stopped at " + fixed(lab.session.state().time, 2) + " s"
                        : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
-    const FrameReport& report = app.session.report();
+    const FrameReport& report = lab.session.report();
     std::string what = verdict.text();
     if (const std::size_t colon = what.find(": "); colon != std::string::npos)
       what.erase(0, colon + 2);
@@ -70,52 +69,51 @@ void failure_card(App& app) {
       what = "The motion";
       if (report.failed_body >= 0) {
         what +=
-            " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
+            " of " + lab.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
       }
       what += " has left the range of numbers. What you see is the last state within it.";
     }
     label(look.fonts.small, look.theme->dim, what.c_str());
     auto kind = ButtonKind::kPrimary;  // of what is the most likely to help
-    for (const Remedy& remedy : remedies_of(app.session, v.height > 400.0F ? 3 : 1)) {
-      reset_with(app, remedy, kind);
+    for (const Remedy& remedy : remedies_of(lab.session, v.height > 400.0F ? 3 : 1)) {
+      reset_with(look, lab, remedy, kind);
       kind = ButtonKind::kPlain;
     }
     if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the start (R)")) {
-      app.reset();
+      lab.reset();
     }
     ImGui::SameLine();
     if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the last frame that held; it goes on from there")) {
-      app.session.go_to_last_good();
+      lab.session.go_to_last_good();
     }
     ImGui::SameLine();
     if (button(look, "second", Icon::kNone, "1 s before", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to one second before it failed; change something and go on from there")) {
-      app.session.go_to_last_good(1.0);
+      lab.session.go_to_last_good(1.0);
     }
-    if (card_closed(look)) app.desk.dismissed_failure = app.run_count;
+    if (card_closed(look)) desk.dismissed_failure = lab.run_count;
   }
   ImGui::End();
 }
 
-void trouble_card(App& app) {
-  if (app.trouble.title.empty()) return;
-  const Look& look = app.look;
+void trouble_card(const Look& look, Lab& lab, const Viewport& viewport) {
+  if (lab.trouble.title.empty()) return;
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   ImGui::SetNextWindowFocus();
-  if (begin_card(app, "##trouble", 520.0F, card_middle(app), 0.5F)) {
-    card_title(look, look.theme->orange, Icon::kCross, app.trouble.title);
-    const std::size_t count = app.trouble.problems.size();
+  if (begin_card(look, viewport, "##trouble", 520.0F, card_middle(viewport), 0.5F)) {
+    card_title(look, look.theme->orange, Icon::kCross, lab.trouble.title);
+    const std::size_t count = lab.trouble.problems.size();
     const std::string note =
         (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
-        app.trouble.aftermath;
+        lab.trouble.aftermath;
     label(look.fonts.small, look.theme->dim, note.c_str());
     ImGui::Dummy({1.0F, 0.0F});
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {1e4F, display.y - 260.0F});
     if (ImGui::BeginChild("list", {0, 0}, ImGuiChildFlags_AutoResizeY)) {
-      for (const Problem& problem : app.trouble.problems) {
+      for (const Problem& problem : lab.trouble.problems) {
         label(look.fonts.medium, look.theme->text,
               problem.pointer.empty() ? "whole file" : problem.pointer.c_str());
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6.0F);
@@ -126,7 +124,7 @@ void trouble_card(App& app) {
     close |= card_closed(look);
   }
   ImGui::End();
-  if (close) app.trouble = {};
+  if (close) lab.trouble = {};
 }
 
 }  // namespace substep::ui

@@ -26,29 +26,29 @@ struct SolverEntry {
   const char* full_name;
   const char* reference;
   const char* about;
-  bool sweeps;     // goes over the rows again and again; its curves are dashed
-  bool at_end;     // holds constraints at the end of the sub-step
-  double work;     // of a sub-step, or of an iteration where it has some, that of BPP being 1
-  Tint tint;       // of its curves, where it is at_end; of the others the mode decides
-  int iterations;  // as many as the window offers; 0: it has none
-  const char* about_iterations;
-  SettingNames reads;
+  bool sweeps = false;  // goes over the rows again and again; its curves are dashed
+  bool at_end = false;  // holds constraints at the end of the sub-step
+  double work = 1.0;    // of a sub-step, or of an iteration where it has some, that of BPP being 1
+  Tint tint = Tint::kBlue;  // of its curves, where it is at_end; of the others the mode decides
+  int iterations = 0;       // as many as the window offers; 0: it has none
+  const char* about_iterations = "";
+  SettingNames reads{};
 };
 
 struct ModeEntry {
   Mode value;
   std::string_view name;
-  const char* line;       // in a few words
-  const char* about;      // in a sentence or two
-  const char* reference;  // may be empty
-  const char* caption;    // of a picture; {n} stands for the setting n
-  const char* takes;      // what it does in place of the N of Eq. 11; null: it takes that
-  const char* then;       // what it does beyond its cap; null: nothing
-  const char* curve;      // name of its curves
+  const char* line;   // in a few words
+  const char* about;  // in a sentence or two
+  const char* reference = "";
+  const char* caption;          // of a picture; {n} stands for the setting n
+  const char* takes = nullptr;  // what it does in place of the N of Eq. 11; null: it takes that
+  const char* then = nullptr;   // what it does beyond its cap; null: nothing
+  const char* curve;            // name of its curves
   Tint tint;
-  int corners;        // of the points of its curves, 0: discs
-  bool beyond_paper;  // a mode that the paper does not have
-  SettingNames reads;
+  int corners;                // of the points of its curves, 0: discs
+  bool beyond_paper = false;  // a mode that the paper does not have
+  SettingNames reads{};
 };
 
 struct IntegratorEntry {
@@ -70,9 +70,7 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .reference = "Erleben 2013",
      .about = "a fixed number of sweeps over the rows of Eq. 3.",
      .sweeps = true,
-     .at_end = false,
      .work = 0.15,
-     .tint = Tint::kBlue,
      .iterations = 400,
      .about_iterations = "Iterations of PGS in every sub-step.",
      .reads = {"iterations", "share_iterations", "warm_start"}},
@@ -82,12 +80,6 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .full_name = "Block principal pivoting",
      .reference = "Judice and Pires 1994",
      .about = "solves the boxed problem of Eq. 3 exactly.",
-     .sweeps = false,
-     .at_end = false,
-     .work = 1.0,
-     .tint = Tint::kBlue,
-     .iterations = 0,
-     .about_iterations = "",
      .reads = {"refinements", "pivots"}},
     {.value = SolverKind::kXpbd,
      .name = "xpbd",
@@ -109,7 +101,6 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .full_name = "Non-smooth Newton",
      .reference = "Macklin et al. 2019, Non-smooth Newton methods",
      .about = "errors vanish at the end of the sub-step, and the forces belong to poses around it.",
-     .sweeps = false,
      .at_end = true,
      .work = 1.5,
      .tint = Tint::kTeal,
@@ -123,15 +114,11 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .name = "none",
      .line = "One step a frame, unprotected.",
      .about = "One step per frame and nothing against instability: N = 1.",
-     .reference = "",
      .caption = "no sub-steps",
      .takes = "Mode none takes 1 all the same.",
-     .then = nullptr,
      .curve = "constant N",
      .tint = Tint::kOrange,
-     .corners = 4,
-     .beyond_paper = false,
-     .reads = {}},
+     .corners = 4},
     {.value = Mode::kConst,
      .name = "const",
      .line = "The same N in every frame.",
@@ -140,11 +127,9 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reference = "Macklin et al. 2019, Small steps",
      .caption = "constant N {n}",
      .takes = "Mode const takes {n} all the same.",
-     .then = nullptr,
      .curve = "constant N",
      .tint = Tint::kOrange,
      .corners = 4,
-     .beyond_paper = false,
      .reads = {"n"}},
     {.value = Mode::kDamping,
      .name = "damping",
@@ -154,11 +139,9 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reference = "Andrews et al. 2017",
      .caption = "adaptive damping, α {alpha}",
      .takes = "Mode damping takes 1 and damps what is too stiff for it.",
-     .then = nullptr,
      .curve = "damping",
      .tint = Tint::kTeal,
      .corners = 5,
-     .beyond_paper = false,
      .reads = {"alpha", "probe"}},
     {.value = Mode::kAdaptive,
      .name = "adaptive",
@@ -167,12 +150,9 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
               "dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up (Eq. 11).",
      .reference = "The paper's: Giles and Andrews 2024",
      .caption = "adaptive sub-steps, α {alpha}",
-     .takes = nullptr,
-     .then = nullptr,
      .curve = "adaptive",
      .tint = Tint::kBlue,
      .corners = 0,
-     .beyond_paper = false,
      .reads = {"alpha", "n_max", "policy", "memory", "islands", "rotation_criterion", "probe"}},
     {.value = Mode::kCapped,
      .name = "capped",
@@ -181,12 +161,10 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
               "leaves for future work.",
      .reference = "Giles and Andrews 2024",
      .caption = "N up to {n_cap}, then damping",
-     .takes = nullptr,
      .then = "damping does the rest",
      .curve = "capped + damping",
      .tint = Tint::kAmber,
      .corners = 6,
-     .beyond_paper = false,
      .reads = {"alpha", "n_cap", "policy", "memory", "islands", "rotation_criterion", "probe"}},
     {.value = Mode::kStiffness,
      .name = "stiffness",
@@ -196,7 +174,6 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reference = "Tournier et al. 2015",
      .caption = "full geometric stiffness",
      .takes = "Mode stiffness takes 1: K itself resists what is too stiff for it.",
-     .then = nullptr,
      .curve = "full geometric stiffness",
      .tint = Tint::kDim,
      .corners = 4,
@@ -209,7 +186,6 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
               "that neither gains nor loses energy.",
      .reference = "This project's",
      .caption = "N up to {n_cap}, then geometric inertia",
-     .takes = nullptr,
      .then = "geometric inertia does the rest",
      .curve = "capped + geometric inertia",
      .tint = Tint::kText,
@@ -224,7 +200,6 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
               "where contacts come and go.",
      .reference = "This project's",
      .caption = "N up to {n_cap}, then inertia and damping",
-     .takes = nullptr,
      .then = "inertia and damping do the rest",
      .curve = "capped + blend",
      .tint = Tint::kPurple,

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "app/app.hpp"
-#include "app/arrangement.hpp"
-#include "app/png.hpp"
+#include "app/render/png.hpp"
+#include "app/shell/arrangement.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/keys.hpp"
 #include "app/ui/panels.hpp"
@@ -41,7 +41,7 @@ void update_look(App& app) {
 
 // Hands the picture that was asked for to the shell.
 void take_capture(App& app, int width, int height) {
-  const ViewRect& a = app.capture->area;
+  const ViewRect& a = app.desk.capture->area;
   const float ratio = ImGui::GetIO().DisplayFramebufferScale.x;
   const auto pixel = [ratio](float v, int most) {
     return std::clamp(static_cast<int>(std::lround(v * ratio)), 0, most);
@@ -51,8 +51,8 @@ void take_capture(App& app, int width, int height) {
   const int w = std::max(1, pixel(a.x + a.width, width) - x);
   const int h = std::max(1, pixel(a.y + a.height, height) - y);
   const std::string png = encode_png(w, h, app.renderer->pixels(x, y, w, h));
-  if (app.host.save_file) app.host.save_file(app.capture->name, png);
-  app.capture.reset();
+  if (app.host.save_file) app.host.save_file(app.desk.capture->name, png);
+  app.desk.capture.reset();
 }
 
 // The shell speaks in its own logical pixels, of which the interface's are `scale` times as large.
@@ -86,7 +86,7 @@ class Scaled {
 
 // This run, and what it is compared with: each in a pane of its own, or over it as ghosts.
 void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
-  app.panes = ui::view_panes(app);
+  app.panes = ui::view_panes(app.compare, app.desk, app);
   app.pictures.resize(app.panes.size());
   for (std::size_t i = 0; i < app.panes.size(); ++i) {
     Seen seen{&app.scene_in(i), &app.poses_in(i), nullptr, nullptr};
@@ -97,12 +97,12 @@ void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
   }
   if (app.panes.size() > 1) return;
   if (const Poses* exact = app.exam.at(app.session); exact && !app.compare.open()) {
-    const ImVec4 c = ui::to_vec4(app.compare_color(0));
+    const ImVec4 c = ui::to_vec4(ui::compare_color(app.look, 0));
     SceneView::add_ghost(app.session.scene(), *exact, {c.x, c.y, c.z, 0.5F}, app.pictures.front());
   }
   for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
     const Compare::Run& run = app.compare.runs()[i];
-    const ImVec4 c = ui::to_vec4(app.compare_color(i));
+    const ImVec4 c = ui::to_vec4(ui::compare_color(app.look, i));
     SceneView::add_ghost(*run.scene, run.poses, {c.x, c.y, c.z, 0.5F}, app.pictures.front());
   }
 }
@@ -132,7 +132,7 @@ void frame(App& app, double wall_dt) {
   app.desk.time.hover = app.desk.time.hover_next;
   app.desk.time.hover_next.reset();
   if (app.session.settings().watch_stiffness != app.desk.view.tint) {
-    app.change(app.session.settings());
+    app.watch_stiffness(app.desk.view.tint);
   }
   app.compare.follow(app.session);
   app.view.follow(app.session);
@@ -142,21 +142,15 @@ void frame(App& app, double wall_dt) {
   const ImGuiIO& io = ImGui::GetIO();
   ViewOptions shown = app.desk.view;
   if (app.compare.open()) shown.tint = false;  // colours say who is who then
-  const Eigen::Matrix4f before = app.pictures.front().view_projection;
   draw_pictures(app, shown, io.DisplaySize);
-  const bool moves = app.session.playing() || app.pictures.front().view_projection != before;
   ui::draw_over_picture(app);
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
-  const DrawOptions drawing{width, height, app.quality.quality(),
-                            app.capture || app.recording || std::exchange(app.read_back, false)};
-  std::vector<Layer> layers = layers_of(*ImGui::GetDrawData());
-  // A picture that rests leaves the time to draw all panels.
-  app.keeper.plan(layers, drawing.moving <= Quality::kCoarse && moves && !app.capture);
-  app.renderer->draw(app.pictures, layers, drawing);
-  if (app.capture) take_capture(app, width, height);
+  app.renderer->draw(app.pictures, *ImGui::GetDrawData(), {width, height, app.quality.quality()});
+  if (app.desk.capture) take_capture(app, width, height);
 
+  if (!app.desk.follow.empty()) app.open_link(std::exchange(app.desk.follow, ""));
   remember_arrangement(app);
   if (app.host.link_changed) {
     std::string link = app.link();

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/export.hpp"
-#include "app/format.hpp"
+#include "app/text/export.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/handles.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"
@@ -146,9 +146,7 @@ void substep_trouble(const char* title, const char* place, const char* message) 
 
 void substep_tell(const char* text) { app().tell(text); }
 
-void substep_recording(int on) { app().recording = on != 0; }
-
-void substep_read_back() { app().read_back = true; }
+void substep_recording(int on) { app().desk.recording = on != 0; }
 
 const char* substep_hash() { return keep_text(substep::hex(app().session.hash())); }
 

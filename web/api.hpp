@@ -60,8 +60,6 @@ SUBSTEP_EXPORTED void substep_trouble(const char* title, const char* place, cons
 SUBSTEP_EXPORTED void substep_tell(const char* text);
 
 SUBSTEP_EXPORTED void substep_recording(int on);
-/// The next frame is drawn so that its pixels can be read from the canvas.
-SUBSTEP_EXPORTED void substep_read_back();
 
 SUBSTEP_EXPORTED const char* substep_hash();
 

@@ -28,7 +28,6 @@ export function makeCapture(frame, wasm, host, save) {
     const whole = { x: 0, y: 0, width: box.width, height: box.height };
     return new Promise((done, fail) => {
       wanted.push({ take: () => done(toPng(canvas, part ?? whole)), fail });
-      wasm.readBack();
       host.changed?.();
     });
   }

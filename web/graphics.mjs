@@ -1,7 +1,7 @@
 // Who of a page's laboratories holds the graphics. Browsers give a page some 16 contexts and take
 // the oldest away when there are more, so those out of sight hand theirs on to those in sight.
 
-const most = 6; // laboratories that hold contexts: two each where a processor draws
+const most = 6; // laboratories that hold contexts
 
 const all = new Set(); // in the order in which they came into sight, longest ago first
 

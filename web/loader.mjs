@@ -1,5 +1,4 @@
 // Loads the WebAssembly and its data with the progress told, and wraps what it exports.
-import { drawsInSoftware, loseContext, makeBackdrop } from "./backdrop.mjs";
 import { sizes } from "./version.mjs";
 
 /** A download that did not come to its end: trying again may help. */
@@ -70,7 +69,7 @@ const exported = {
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", busy: "n", reset: "v",
   open_link: "ss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
-  trouble: "vsss", tell: "vs", recording: "vn", read_back: "v", hash: "s", report: "s", scenes: "s",
+  trouble: "vsss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
   widgets: "s", memory: "s",
 };
 
@@ -99,6 +98,11 @@ function wrap(module, name, signature) {
   };
 }
 
+/** Gives a canvas's context back at once: browsers grant only a few. */
+export function loseContext(canvas) {
+  canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
+}
+
 const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
 
 /**
@@ -121,36 +125,27 @@ export async function makeEngine(engine, canvas, host) {
     print: (text) => console.log(text),
     printErr: (text) => console.warn(text),
   });
-  const createContext = (on, options) => module.GL.createContext(on,
-    { majorVersion: 2, minorVersion: 0, antialias: false, depth: false, ...options });
   const wasm = {};
   for (const [name, signature] of Object.entries(exported)) {
     wasm[camel(name)] = wrap(module, name, signature);
   }
-  let backdrop = null;
   let losing = null; // WebGL's own way to lose a context and to have it back
   wasm.run = (keeps) => {
-    const software = drawsInSoftware();
-    const context = createContext(canvas, { alpha: software, preserveDrawingBuffer: software });
+    // With alpha, although every pixel is opaque: a software renderer masks it out at a cost.
+    const context = module.GL.createContext(canvas, {
+      majorVersion: 2, minorVersion: 0, alpha: true, antialias: false, depth: false,
+    });
     if (!context) throw new Error("The browser gave no WebGL 2 context");
     losing = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
-    if (software) {
-      backdrop = makeBackdrop(canvas, createContext, module.GL.deleteContext);
-      host.backdrop = backdrop.fit;
-    }
     const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);
   };
   wasm.canHandOn = () => losing !== null;
   wasm.handOnGraphics = () => {
     wasm.contextLost();
-    backdrop?.close();
     losing.loseContext();
   };
   wasm.takeGraphics = () => losing.restoreContext();
-  wasm.close = () => {
-    backdrop?.close();
-    loseContext(canvas);
-  };
+  wasm.close = () => loseContext(canvas);
   return wasm;
 }

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "app/render/gl_renderer.hpp"
-#include "web/backdrop.hpp"
 #include "web/host.hpp"
 #include "web/instance.hpp"
 
@@ -35,7 +34,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   substep::web::context = context;
   emscripten_webgl_make_context_current(context);
   instance = std::make_unique<substep::web::Instance>();
-  auto renderer = substep::make_gl_renderer(error, substep::web::page_backdrop(context));
+  auto renderer = substep::make_gl_renderer(error);
   if (!renderer) return error.c_str();
   substep::Library library("/scenes");
   if (library.scenes().empty()) return "no scenes came with the page";
@@ -59,8 +58,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
   static std::string error;
   error.clear();
   emscripten_webgl_make_context_current(substep::web::context);
-  auto renderer =
-      substep::make_gl_renderer(error, substep::web::page_backdrop(substep::web::context));
+  auto renderer = substep::make_gl_renderer(error);
   if (!renderer) return error.c_str();
   instance->app->renderer = std::move(renderer);
   return "";

@@ -1,13 +1,12 @@
 // A laboratory in an element of any page: the module to import. See README.md.
 import { makeAddress } from "./address.mjs";
 import { makeApi } from "./api.mjs";
-import { loseContext } from "./backdrop.mjs";
 import { makeCapture } from "./capture.mjs";
 import { makeFiles } from "./files.mjs";
 import { makeFrame } from "./frame.mjs";
 import { Graphics } from "./graphics.mjs";
 import { listen } from "./input.mjs";
-import { LoadError, loadEngine, makeEngine } from "./loader.mjs";
+import { LoadError, loadEngine, loseContext, makeEngine } from "./loader.mjs";
 import { makeTwin } from "./twin.mjs";
 
 // The smallest module with a vector in it: a function that gives two times 0.

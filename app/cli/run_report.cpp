@@ -79,18 +79,12 @@ std::string settings_line(const Settings& s) {
   std::string line = solver_text(s);
   line += ", ";
   line += name_of(s.mode);
-  if (s.mode == Mode::kConst) line += " " + std::to_string(s.n);
-  if (chooses_substeps(s.mode) && s.mode != Mode::kAdaptive) {
-    line += " at " + std::to_string(s.n_cap);
-  }
-  if (chooses_substeps(s.mode) || s.mode == Mode::kDamping) {
-    line += ", alpha " + number_text(s.alpha);
-  }
-  if (s.mode == Mode::kInertia || s.mode == Mode::kBlend) {
-    line += ", alpha_m " + number_text(s.alpha_m);
-  }
-  if (s.mode == Mode::kBlend) line += ", beta " + number_text(s.beta);
-  if (chooses_substeps(s.mode)) {
+  if (reads(s, "n")) line += " " + std::to_string(s.n);
+  if (reads(s, "n_cap")) line += " at " + std::to_string(s.n_cap);
+  if (reads(s, "alpha")) line += ", alpha " + number_text(s.alpha);
+  if (reads(s, "alpha_m")) line += ", alpha_m " + number_text(s.alpha_m);
+  if (reads(s, "beta")) line += ", beta " + number_text(s.beta);
+  if (reads(s, "policy")) {
     line += s.policy == Policy::kFrame ? ", decided per frame" : ", decided per sub-step";
     if (s.islands) line += " for each island";
     if (!s.rotation_criterion) line += ", without the rotation criterion";

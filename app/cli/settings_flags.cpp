@@ -2,7 +2,30 @@
 
 #include <algorithm>
 
+#include "core/model/methods.hpp"
+
 namespace substep::cli {
+namespace {
+
+// What the flag is for, and of methods what each is.
+std::string help_of(const SettingField& field) {
+  std::string help(field.help);
+  const auto append = [&help](std::string_view name, const std::string& what) {
+    help.append("\n").append(name).append(": ").append(what);
+  };
+  if (std::holds_alternative<ChoiceSetting<SolverKind>>(field.member)) {
+    for (const SolverEntry& e : kSolvers) {
+      append(e.name, std::string(e.full_name) + " (" + e.reference + ")");
+    }
+  } else if (std::holds_alternative<ChoiceSetting<Mode>>(field.member)) {
+    for (const ModeEntry& e : kModes) append(e.name, e.line);
+  } else if (std::holds_alternative<ChoiceSetting<Integrator>>(field.member)) {
+    for (const IntegratorEntry& e : kIntegrators) append(e.name, e.reference);
+  }
+  return help;
+}
+
+}  // namespace
 
 void SettingsFlags::add_to(CLI::App& command) {
   constexpr const char* kGroup = "Settings (left out: as the scene has them)";
@@ -22,7 +45,7 @@ void SettingsFlags::add_to(CLI::App& command) {
   for (const SettingField& field : setting_fields()) {
     std::string name(field.name);
     std::replace(name.begin(), name.end(), '_', '-');
-    const std::string help(field.help);
+    const std::string help = help_of(field);
     if (std::holds_alternative<FlagSetting>(field.member)) {
       command
           .add_flag_function(

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "app/png.hpp"
+#include "app/render/png.hpp"
 
 namespace substep {
 namespace {
@@ -125,10 +125,10 @@ void NativeHost::record(bool on) {
     pictures_ = free_path(app_.session.scene().name + "_video");
     count_ = 0;
     std::error_code error;
-    app_.recording = fs::create_directory(pictures_, error);
-    if (!app_.recording) app_.tell(pictures_.string() + " could not be made");
+    app_.desk.recording = fs::create_directory(pictures_, error);
+    if (!app_.desk.recording) app_.tell(pictures_.string() + " could not be made");
   } else {
-    app_.recording = false;
+    app_.desk.recording = false;
     app_.tell(std::to_string(count_) + " pictures, 60 a second, are in " + pictures_.string());
   }
 }
@@ -138,7 +138,7 @@ void NativeHost::after_frame(int width, int height) {
     folder_ = app_.browser.folder();
     if (app_.host.remember) app_.host.remember(kFolder, folder_.string());
   }
-  if (!app_.recording) return;
+  if (!app_.desk.recording) return;
   char name[32];
   std::snprintf(name, sizeof name, "%05d.png", count_ + 1);
   if (write_file(pictures_ / name, picture_of(app_, width, height))) {

@@ -192,7 +192,7 @@ int run(const Options& options) {
       io.DisplayFramebufferScale = {ratio, ratio};
       const double now = glfwGetTime();
       // Pictures for tests and pages are of a moment that does not depend on the machine.
-      const bool by_clock = options.screenshot.empty() && !app.recording;
+      const bool by_clock = options.screenshot.empty() && !app.desk.recording;
       const double dt = by_clock ? now - before : 1.0 / 60.0;
       before = now;
       frame(app, dt);

@@ -278,21 +278,4 @@ void Canvas::resolve() const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Copy::take(int x, int y, int width, int height) {
-  if (width != width_ || height != height_) {
-    glDeleteTextures(1, &texture_);
-    width_ = width;
-    height_ = height;
-    // The page's window has no alpha, and WebGL copies to no more channels than there are.
-    texture_ = color_texture(GL_RGB8, width, height, GL_NEAREST);
-  }
-  bind_texture();
-  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, x, y, width, height);
-}
-
-void Copy::bind_texture() const {
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture_);
-}
-
 }  // namespace substep::gl

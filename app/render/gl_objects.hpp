@@ -6,11 +6,8 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
-
-#include "app/render/layers.hpp"
 
 namespace substep::gl {
 
@@ -127,24 +124,6 @@ class Canvas {
   std::array<GLuint, 2> frame_buffers_{};  // drawn to; of single samples, where there are more
   std::array<GLuint, 2> buffers_{};        // of many samples: colours; depth
   GLuint texture_ = 0;                     // of single samples: colours
-};
-
-/// A part of the window's pixels, to be shown again.
-class Copy {
- public:
-  Copy() = default;
-  ~Copy() { glDeleteTextures(1, &texture_); }
-  Copy(const Copy&) = delete;
-  Copy& operator=(const Copy&) = delete;
-
-  /// From the window's frame buffer. @param x, y of the lower left corner [pixel]
-  void take(int x, int y, int width, int height);
-  void bind_texture() const;
-
- private:
-  int width_ = 0;
-  int height_ = 0;
-  GLuint texture_ = 0;
 };
 
 }  // namespace substep::gl

@@ -19,7 +19,7 @@ constexpr std::array<Grain, 4> kGrains{
 
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
-// What is hidden is marked as nearer than anything.
+// Clears the depth of what is hidden to the nearest, so that nothing is drawn there.
 void leave_out(std::span<const PixelRect> hidden, int height) {
   constexpr float kNearest = 0.0F;
   for (const PixelRect& r : hidden) {
@@ -197,19 +197,14 @@ void PicturePainter::draw_ribbons(const Picture& picture) {
   glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(picture.ribbons.size()));
 }
 
-void PicturePainter::paint(std::span<const Picture> pictures, std::span<const Part> parts,
-                           Quality quality, const Target& target,
+void PicturePainter::paint(std::span<const Picture> pictures, Quality quality, const Target& target,
                            std::span<const PixelRect> hidden) {
   const Grain grain = grain_of(quality);
   shadow_taps_ = grain.taps;
   shadow_map_.fit(grain.shadow_size);
   meshes_ = quality > Quality::kCoarse ? &fine_ : quality == Quality::kCoarse ? &coarse_ : &sketch_;
   shadow_meshes_ = quality > Quality::kCoarse ? &fine_ : &sketch_;
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    if (parts[i].width > 0.0F && parts[i].height > 0.0F) {
-      draw_picture(pictures[i], parts[i], target, hidden);
-    }
-  }
+  for (const Picture& picture : pictures) draw_picture(picture, target, hidden);
 }
 
 // Behind everything.
@@ -223,7 +218,7 @@ void PicturePainter::draw_background(const Picture& picture) {
   glDepthFunc(GL_LESS);
 }
 
-void PicturePainter::draw_picture(const Picture& picture, const Part& part, const Target& target,
+void PicturePainter::draw_picture(const Picture& picture, const Target& target,
                                   std::span<const PixelRect> hidden) {
   const Matrix4f light = light_matrix(picture);
   box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
@@ -239,10 +234,10 @@ void PicturePainter::draw_picture(const Picture& picture, const Part& part, cons
 
   glBindFramebuffer(GL_FRAMEBUFFER, target.frame_buffer);
   glViewport(0, 0, target.width, target.height);
-  limit_to(part, target.width, target.height);
+  limit_to(picture.part, target.width, target.height);
   glClear(GL_DEPTH_BUFFER_BIT);
   leave_out(hidden, target.height);
-  limit_to(part, target.width, target.height);
+  limit_to(picture.part, target.width, target.height);
   draw_bodies(picture, light);
   draw_background(picture);
 

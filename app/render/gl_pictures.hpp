@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/render/cover.hpp"
 #include "app/render/gl_objects.hpp"
-#include "app/render/layers.hpp"
 #include "app/render/picture.hpp"
 #include "app/render/renderer.hpp"
 
@@ -38,10 +38,10 @@ class PicturePainter {
   PicturePainter(const PicturePainter&) = delete;
   PicturePainter& operator=(const PicturePainter&) = delete;
 
-  /// @param parts what is drawn of each picture, as shares of the target; the rest stays as it is
-  /// @param hidden parts of the target that nobody will see, from its top left corner
-  void paint(std::span<const Picture> pictures, std::span<const Part> parts, Quality quality,
-             const Target& target, std::span<const PixelRect> hidden);
+  /// Each picture in its part of the target.
+  /// @param hidden parts of the target that are not shaded, from its top left corner
+  void paint(std::span<const Picture> pictures, Quality quality, const Target& target,
+             std::span<const PixelRect> hidden);
 
  private:
   // What bodies are made of.
@@ -58,7 +58,7 @@ class PicturePainter {
 
   // World to the light's clip space: a box around the focus, seen from far along the light.
   [[nodiscard]] Eigen::Matrix4f light_matrix(const Picture& picture) const;
-  void draw_picture(const Picture& picture, const Part& part, const Target& target,
+  void draw_picture(const Picture& picture, const Target& target,
                     std::span<const PixelRect> hidden);
   void draw_background(const Picture& picture);
   void draw_shadows(const Picture& picture, const Eigen::Matrix4f& light);

@@ -8,10 +8,9 @@ namespace substep {
 class NullRenderer final : public Renderer {
  public:
   void begin_frame() override { ++begun; }
-  void draw(std::span<const Picture> p, std::span<const Layer> l, const DrawOptions& o) override {
+  void draw(std::span<const Picture> p, ImDrawData&, const DrawOptions& o) override {
     ++drawn;
     options = o;
-    layers.assign(l.begin(), l.end());
     pictures.assign(p.begin(), p.end());
     picture = pictures.front();
   }
@@ -27,7 +26,6 @@ class NullRenderer final : public Renderer {
   DrawOptions options;
   Picture picture;  // the first
   std::vector<Picture> pictures;
-  std::vector<Layer> layers;
 };
 
 }  // namespace substep

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "app/session.hpp"
+#include "app/lab/session.hpp"
 
 namespace substep {
 

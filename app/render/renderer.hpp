@@ -1,10 +1,11 @@
 #pragma once
 
+#include <imgui.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "app/render/layers.hpp"
 #include "app/render/picture.hpp"
 
 namespace substep {
@@ -22,7 +23,6 @@ struct DrawOptions {
   int width = 0;  // of the window's frame buffer [pixel]
   int height = 0;
   Quality moving = Quality::kFine;  // while a picture changes; what rests is drawn at its best
-  bool read_back = false;           // all of it will be read from the window's frame buffer
 };
 
 /// Draws pictures side by side and the panels over them. The window system belongs to the shell.
@@ -32,10 +32,9 @@ class Renderer {
 
   /// Before the panels are built: makes ready what Dear ImGui needs.
   virtual void begin_frame() = 0;
-  virtual void draw(std::span<const Picture> pictures, std::span<const Layer> layers,
+  virtual void draw(std::span<const Picture> pictures, ImDrawData& panels,
                     const DrawOptions& options) = 0;
-  /// What was drawn last, as RGB rows from the top; right after draw() with
-  /// `read_back`.
+  /// What was drawn last, as RGB rows from the top; right after draw().
   /// @param x, y from the top left corner [pixel]
   [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;
   /// The font atlas was rebuilt, for another pixel ratio.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
 
 namespace substep {
 namespace {

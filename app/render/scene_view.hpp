@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "app/lab/session.hpp"
 #include "app/render/camera.hpp"
 #include "app/render/picture.hpp"
-#include "app/session.hpp"
 
 namespace substep {
 

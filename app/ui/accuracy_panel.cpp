@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/accuracy_picture.hpp"
+#include "app/ui/curve_style.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/stability_map.hpp"
 #include "app/ui/widgets.hpp"
@@ -23,16 +24,15 @@ constexpr std::array<Choice, static_cast<std::size_t>(CostAxis::kCount)> kCosts{
      {"Time", "Median of a frame on this machine, while everything else runs"}}};
 
 /// A button to start or to stop, and how far it is.
-void sweep_bar(App& app) {
-  const Look& look = app.look;
-  Accuracy& accuracy = app.accuracy;
+void sweep_bar(const Look& look, Lab& lab) {
+  Accuracy& accuracy = lab.accuracy;
   const float width = ImGui::GetContentRegionAvail().x;
   if (!accuracy.running()) {
     const bool again = !accuracy.results().empty();
     if (button(look, "sweep", Icon::kPlay, again ? "Run it again" : "Run all methods",
                again ? ButtonKind::kPlain : ButtonKind::kPrimary, width, look.m.row + 4.0F,
                "Every method over this scene from its start, in the background")) {
-      accuracy.start(app.plain_scene);
+      accuracy.start(lab.plain_scene);
     }
     return;
   }
@@ -54,9 +54,7 @@ std::string state_text(const Accuracy& accuracy) {
   return text;
 }
 
-void axes_row(App& app) {
-  const Look& look = app.look;
-  Accuracy& accuracy = app.accuracy;
+void axes_row(const Look& look, Accuracy& accuracy) {
   std::vector<Choice> names;
   std::vector<ErrorAxis> axes;
   int current = 0;
@@ -81,39 +79,38 @@ bool shows_map(const Accuracy& accuracy) {
 }
 
 /// Which picture; the map only of scenes that have one.
-void picture_row(App& app) {
+void picture_row(const Look& look, Accuracy& accuracy) {
   std::vector<Choice> names{{"Error", "Error against cost, a curve for every method"}};
   std::vector<AccuracyPicture> pictures{AccuracyPicture::kErrorAgainstCost};
-  if (app.accuracy.has_map()) {
+  if (accuracy.has_map()) {
     names.push_back({"Map", "How long runs survive as the mass of the heaviest body varies"});
     pictures.push_back(AccuracyPicture::kStabilityMap);
   }
   names.push_back({"Stages", "Where the time of a frame goes: stages, effects, the criterion"});
   pictures.push_back(AccuracyPicture::kEffectCosts);
-  const auto now = std::find(pictures.begin(), pictures.end(), app.accuracy.picture);
+  const auto now = std::find(pictures.begin(), pictures.end(), accuracy.picture);
   auto current = static_cast<int>(now - pictures.begin());
-  if (segmented_row(app.look, "Show", names, current, "Which picture of what accuracy costs")) {
-    app.accuracy.picture = pictures[static_cast<std::size_t>(current)];
+  if (segmented_row(look, "Show", names, current, "Which picture of what accuracy costs")) {
+    accuracy.picture = pictures[static_cast<std::size_t>(current)];
   }
 }
 
 /// The map, or the picture with the name of what goes up; a click on a run runs it.
-void picture(App& app, ImVec2 size) {
-  if (shows_map(app.accuracy)) {
-    if (const auto chosen = stability_map(app.look, app.accuracy, size.x)) {
-      app.run_result(app.accuracy.results()[*chosen]);
+void picture(const Look& look, Lab& lab, ImVec2 size) {
+  if (shows_map(lab.accuracy)) {
+    if (const auto chosen = stability_map(look, lab.accuracy, size.x)) {
+      lab.run_result(lab.accuracy.results()[*chosen]);
     }
     return;
   }
-  label(app.look.fonts.small, app.look.theme->dim, axis_name(app.accuracy.error));
-  if (const auto chosen = accuracy_picture(app.look, app.accuracy, app.session.settings(), size)) {
-    app.run_result(app.accuracy.results()[*chosen]);
+  label(look.fonts.small, look.theme->dim, axis_name(lab.accuracy.error));
+  if (const auto chosen = accuracy_picture(look, lab.accuracy, lab.session.settings(), size)) {
+    lab.run_result(lab.accuracy.results()[*chosen]);
   }
 }
 
 /// Who is who, and how many of each hold, by solver and integrator.
-void picture_legend(const App& app) {
-  const Look& look = app.look;
+void picture_legend(const Look& look, const Accuracy& accuracy) {
   struct Mark {
     CurveStyle style;
     int runs = 0;
@@ -122,7 +119,7 @@ void picture_legend(const App& app) {
   std::map<std::string, Mark> entries;
   std::vector<std::string> families;
   std::map<std::string, std::vector<const Mark*>> members;
-  for (const Result& result : app.accuracy.results()) {
+  for (const Result& result : accuracy.results()) {
     if (result.experiment.load != 1.0) continue;
     const Settings& s = result.experiment.settings;
     const auto [entry, is_new] =
@@ -166,22 +163,21 @@ void picture_legend(const App& app) {
 
 }  // namespace
 
-void accuracy(App& app) {
-  const Look& look = app.look;
-  Accuracy& accuracy = app.accuracy;
+void accuracy(const Look& look, Lab& lab, Desk& desk) {
+  Accuracy& accuracy = lab.accuracy;
   section(look, "What does accuracy cost?");
-  picture_row(app);
+  picture_row(look, lab.accuracy);
   // Beside the errors it is where the search was asked for.
-  if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(app);
+  if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(look, lab.accuracy);
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {
     if (accuracy.running()) {  // it goes on beside what this shows
       label(look.fonts.small, look.theme->dim, ("All methods. " + state_text(accuracy)).c_str());
-      sweep_bar(app);
+      sweep_bar(look, lab);
     }
-    effect_costs(app);
+    effect_costs(look, lab);
     return;
   }
-  const bool other = accuracy.scene() && accuracy.scene() != app.plain_scene;
+  const bool other = accuracy.scene() && accuracy.scene() != lab.plain_scene;
   if (accuracy.planned() == 0 || other) {
     label(look.fonts.small, look.theme->dim,
           other ? "The picture below is of another scene."
@@ -189,18 +185,18 @@ void accuracy(App& app) {
                   "picture grows while they run; a click on a point runs it.");
     space(8.0F);
   }
-  sweep_bar(app);
+  sweep_bar(look, lab);
   if (accuracy.planned() == 0) return;
   label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
   space(8.0F);
-  if (!shows_map(accuracy)) axes_row(app);
+  if (!shows_map(accuracy)) axes_row(look, lab.accuracy);
   const float width = ImGui::GetContentRegionAvail().x;
-  if (!app.desk.accuracy_large) picture(app, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
+  if (!desk.accuracy_large) picture(look, lab, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
   if (ImGui::GetIO().DisplaySize.x >= 900.0F &&
-      button(look, "larger", app.desk.accuracy_large ? Icon::kNone : Icon::kFrame,
-             app.desk.accuracy_large ? "Back into the panel" : "Larger", ButtonKind::kGhost, 0.0F,
+      button(look, "larger", desk.accuracy_large ? Icon::kNone : Icon::kFrame,
+             desk.accuracy_large ? "Back into the panel" : "Larger", ButtonKind::kGhost, 0.0F,
              look.m.row, "The picture over the view")) {
-    app.desk.accuracy_large = !app.desk.accuracy_large;
+    desk.accuracy_large = !desk.accuracy_large;
   }
   if (shows_map(accuracy)) {
     label(
@@ -211,7 +207,7 @@ void accuracy(App& app) {
             .c_str());
     return;
   }
-  advice(app);
+  advice(look, lab);
   if (const Reference* reference = accuracy.reference()) {
     label(look.fonts.small, look.theme->dim,
           ("Measured from: " + reference->source + ", uncertain by " +
@@ -220,18 +216,18 @@ void accuracy(App& app) {
               .c_str());
   }
   space(8.0F);
-  picture_legend(app);
+  picture_legend(look, lab.accuracy);
 }
 
-void accuracy_card(App& app) {
-  if (!app.desk.accuracy_large || app.desk.tab != Tab::kAccuracy || !app.desk.panels ||
-      app.accuracy.planned() == 0 || app.accuracy.picture == AccuracyPicture::kEffectCosts) {
+void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport& viewport) {
+  if (!desk.accuracy_large || desk.tab != Tab::kAccuracy || !desk.panels ||
+      lab.accuracy.planned() == 0 || lab.accuracy.picture == AccuracyPicture::kEffectCosts) {
     return;
   }
   constexpr float kAround = 16.0F;
   constexpr float kCaption = 76.0F;  // what runs is named at the top of the view
   constexpr float kFoot = 52.0F;     // the way into the tour, and the scale of the tint
-  const ViewRect& v = app.view_rect;
+  const ViewRect& v = viewport.view_rect;
   const ImVec2 size(v.width - 2.0F * kAround, std::min(v.height - kCaption - kFoot, 620.0F));
   ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption});
   ImGui::SetNextWindowSize(size);
@@ -240,7 +236,7 @@ void accuracy_card(App& app) {
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoScrollbar)) {
     const ImVec2 room = ImGui::GetContentRegionAvail();
-    picture(app, {room.x, room.y - 22.0F});
+    picture(look, lab, {room.x, room.y - 22.0F});
   }
   ImGui::End();
 }

@@ -7,20 +7,18 @@
 #include <map>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
+#include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/model/names.hpp"
-#include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
 namespace {
 
 constexpr float kErrorGutter = 38.0F;  // labels of the errors
-constexpr float kFoot = 38.0F;         // labels of the costs, and what they are
+constexpr float kFootHeight = 38.0F;   // labels of the costs, and what they are
 constexpr float kRail = 20.0F;         // the failed runs
 constexpr float kReach = 14.0F;        // a point is pointed at from so far
-constexpr float kPoint = 3.5F;         // radius
 
 using Point = Accuracy::Point;
 
@@ -106,34 +104,6 @@ void draw_grid(const Look& look, const Accuracy& accuracy, const Axes& axes, ImD
             t.dim, name.c_str());
 }
 
-void draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width, float& phase) {
-  constexpr float kOn = 5.0F;
-  constexpr float kOff = 4.0F;
-  const ImVec2 d(b.x - a.x, b.y - a.y);
-  const float length = std::hypot(d.x, d.y);
-  for (float s = -phase; s < length; s += kOn + kOff) {
-    const float from = std::clamp(s / length, 0.0F, 1.0F);
-    const float to = std::clamp((s + kOn) / length, 0.0F, 1.0F);
-    if (to > from) {
-      draw.AddLine({a.x + from * d.x, a.y + from * d.y}, {a.x + to * d.x, a.y + to * d.y}, color,
-                   width);
-    }
-  }
-  phase = std::fmod(phase + length, kOn + kOff);
-}
-
-void draw_point(const CurveStyle& style, ImU32 ground, float radius, ImDrawList& draw, ImVec2 at) {
-  const ImU32 inside = style.hollow ? ground : style.color;
-  if (style.corners == 0) {
-    draw.AddCircleFilled(at, radius, inside);
-    draw.AddCircle(at, radius, style.color, 0, 1.5F);
-    return;
-  }
-  const float r = radius * (style.corners == 3 ? 1.35F : 1.2F);
-  draw.AddNgonFilled(at, r, inside, style.corners);
-  draw.AddNgon(at, r, style.color, style.corners, 1.5F);
-}
-
 void draw_cross(ImDrawList& draw, ImVec2 at, ImU32 color) {
   constexpr float kArm = 3.2F;
   draw.AddLine({at.x - kArm, at.y - kArm}, {at.x + kArm, at.y + kArm}, color, 1.6F);
@@ -187,11 +157,9 @@ void draw_curves(const Look& look, const Accuracy& accuracy, const std::vector<P
         draw.AddLine(a, b, style.color, 1.5F);
       }
     }
-    for (const Point& p : curve) draw_point(style, look.theme->well, kPoint, draw, axes.at(p));
+    for (const Point& p : curve) draw_point(style, look.theme->well, draw, axes.at(p));
   }
 }
-
-bool is_pgs(const Result& result) { return result.experiment.settings.solver == SolverKind::kPgs; }
 
 void read_out(const Look& look, const Accuracy& accuracy, const Result& result) {
   const Theme& t = *look.theme;
@@ -212,152 +180,6 @@ void read_out(const Look& look, const Accuracy& accuracy, const Result& result) 
 
 }  // namespace
 
-namespace {
-
-/// Of the mode, and of what decides N in it.
-void style_of_mode(const Theme& theme, const Settings& s, CurveStyle& style) {
-  switch (s.mode) {
-    case Mode::kNone:
-    case Mode::kConst:
-      style.color = theme.orange;
-      style.corners = 4;
-      style.own_name = "constant N";
-      break;
-    case Mode::kDamping:
-      style.color = theme.teal;
-      style.corners = 5;
-      style.own_name = "damping";
-      break;
-    case Mode::kAdaptive:
-      style.color = s.policy == Policy::kFrame ? theme.blue : theme.purple;
-      style.corners = s.policy == Policy::kFrame ? 0 : 3;
-      style.own_name = s.policy == Policy::kFrame ? "adaptive per frame" : "adaptive per sub-step";
-      break;
-    case Mode::kCapped:
-      style.color = theme.amber;
-      style.corners = 6;
-      style.own_name = "capped + damping";
-      break;
-    case Mode::kStiffness:
-      style.color = theme.dim;
-      style.corners = 4;
-      style.own_name = "full geometric stiffness";
-      break;
-    case Mode::kInertia:
-      style.color = theme.text;
-      style.corners = 3;
-      style.own_name = "capped + geometric inertia";
-      break;
-    case Mode::kBlend:
-      style.color = theme.purple;
-      style.corners = 6;
-      style.own_name = "capped + blend";
-      break;
-  }
-  if (has_islands(s)) {
-    style.color = s.mode == Mode::kAdaptive ? theme.teal : style.color;
-    style.corners = s.mode == Mode::kAdaptive ? 6 : 5;
-    style.own_name += " by island";
-  }
-}
-
-std::string counted(int n, const char* what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
-/// By how few steps it takes; Numerov's has the colour of adaptive sub-steps, whose points are
-/// discs.
-int corners_of_newton(const Settings& s) {
-  if (s.iterations == 1) return 3;
-  if (s.iterations != Settings{}.iterations) return 4;
-  return s.forces == Forces::kNumerov ? 5 : 0;
-}
-
-/// Those that look at the end of a sub-step are called by their names, and by a mode if it is
-/// another than that of a given N.
-void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
-  const char* integrator = s.integrator == Integrator::kEuler      ? ", Euler"
-                           : s.integrator == Integrator::kLeapfrog ? ", leapfrog"
-                                                                   : ", Störmer";
-  const bool plain = s.mode == Mode::kNone || s.mode == Mode::kConst;
-  const std::string and_mode = plain ? "" : ", " + style.own_name;
-  switch (s.solver) {
-    case SolverKind::kBpp:
-      style.family = std::string("BPP") + integrator;
-      if (s.refinements == 0) break;
-      style.color = theme.teal;
-      style.corners = s.refinements <= 2 ? 3 : 4;
-      style.own_name += ", refined " + std::to_string(s.refinements);
-      break;
-    case SolverKind::kPgs:
-      style.family = std::string("PGS") + integrator;
-      if (s.share_iterations) style.corners = 3;
-      if (s.share_iterations) {
-        style.own_name += ", " + counted(s.iterations, "sweep") + " a frame";
-      } else if (s.iterations != Settings{}.iterations) {
-        style.own_name += ", " + counted(s.iterations, "sweep");
-      }
-      break;
-    case SolverKind::kXpbd:
-      style.family = "XPBD";
-      style.color = theme.purple;
-      style.corners = s.iterations == 1 ? 5 : s.share_iterations ? 3 : 4;
-      style.own_name = counted(s.iterations, "sweep");
-      if (s.share_iterations) style.own_name += " a frame";
-      style.own_name += and_mode;
-      break;
-    case SolverKind::kNewton:
-      style.family = "Newton";
-      style.color = s.forces == Forces::kNumerov ? theme.blue : theme.teal;
-      style.own_name = s.forces == Forces::kEnd    ? "forces at the end"
-                       : s.forces == Forces::kMean ? "mean forces"
-                                                   : "Numerov";
-      if (s.iterations != Settings{}.iterations) {
-        style.own_name += ", " + counted(s.iterations, "step");
-      }
-      style.corners = corners_of_newton(s);
-      style.own_name += and_mode;
-      break;
-  }
-}
-
-}  // namespace
-
-CurveStyle curve_style(const Theme& theme, const Settings& s) {
-  CurveStyle style;
-  style.hollow = s.integrator != Integrator::kEuler;
-  style.dashed = s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd;
-  style_of_mode(theme, s, style);
-  style_of_solver(theme, s, style);
-  // Blue triangles are Numerov's.
-  if (follows_accelerations(s)) style.corners = s.mode == Mode::kAdaptive ? 6 : 3;
-  if (s.drift_order == 2) {
-    style.corners = 5;
-    style.own_name += ", drift order 2";
-  }
-  if (s.contact_stiffness == ContactStiffness::kExact) {
-    style.corners = 5;
-    style.own_name += ", exact contact block";
-  }
-  if (s.gyroscopic == Gyroscopic::kExplicit) {
-    style.corners = 6;
-    style.own_name += ", explicit torque";
-  }
-  return style;
-}
-
-void draw_swatch(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 centre) {
-  constexpr float kHalf = 13.0F;
-  float phase = 0.0F;
-  if (style.dashed) {
-    draw_dashes(draw, {centre.x - kHalf, centre.y}, {centre.x + kHalf, centre.y}, style.color, 1.5F,
-                phase);
-  } else {
-    draw.AddLine({centre.x - kHalf, centre.y}, {centre.x + kHalf, centre.y}, style.color, 1.5F);
-  }
-  draw_point(style, ground, kPoint, draw, centre);
-}
-
 std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& accuracy,
                                             const Settings& current, ImVec2 size) {
   const Theme& t = *look.theme;
@@ -370,7 +192,7 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   const std::vector<Point> points = accuracy.points();
   const std::vector<Point> failed = accuracy.failed();
   const Axes axes{{origin.x + kErrorGutter, origin.y + kRail + 8.0F},
-                  {origin.x + size.x - 12.0F, origin.y + size.y - kFoot},
+                  {origin.x + size.x - 12.0F, origin.y + size.y - kFootHeight},
                   range_of(
                       points, failed, [](const Point& p) { return p.cost; }, 0.04),
                   range_of(
@@ -414,7 +236,7 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   };
   for (const Point& p : failed) {
     const Result& result = accuracy.results()[p.result];
-    const ImVec2 at = axes.on_rail(p, is_pgs(result));
+    const ImVec2 at = axes.on_rail(p, result.experiment.settings.solver == SolverKind::kPgs);
     draw_cross(draw, at, curve_style(t, result.experiment.settings).color);
     consider(p, at);
   }

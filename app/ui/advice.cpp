@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
-#include "app/ui/accuracy_picture.hpp"
+#include "app/text/format.hpp"
+#include "app/ui/curve_style.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -91,9 +91,8 @@ std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
 }
 
 /// The paper's own knob, chosen for what is wanted by whole runs. @param best beside it, or null
-void paper_alpha(App& app, const Accuracy::Point* best) {
-  const Look& look = app.look;
-  Accuracy& accuracy = app.accuracy;
+void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
+  Accuracy& accuracy = lab.accuracy;
   const AlphaSearch* search = accuracy.alpha_search();
   if (!search) {
     if (accuracy.reference() != nullptr &&
@@ -105,14 +104,14 @@ void paper_alpha(App& app, const Accuracy::Point* best) {
     return;
   }
   if (accuracy.searching()) {
-    search_bar(app);
+    search_bar(look, lab.accuracy);
     return;
   }
   label(look.fonts.small, look.theme->dim, found_text(accuracy, *search, best).c_str());
   if (search->choice() &&
       button(look, "found_alpha", Icon::kPlay, "Run with this alpha", ButtonKind::kPlain, 0.0F,
              look.m.row, "This scene from its start with the paper's method and this alpha")) {
-    app.run_result(Result(search->choice()->result));
+    lab.run_result(Result(search->choice()->result));
   }
 }
 
@@ -131,9 +130,7 @@ std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::P
 
 }  // namespace
 
-void search_bar(App& app) {
-  const Look& look = app.look;
-  Accuracy& accuracy = app.accuracy;
+void search_bar(const Look& look, Accuracy& accuracy) {
   if (!accuracy.searching()) return;
   const AlphaSearch& search = *accuracy.alpha_search();
   label(look.fonts.small, look.theme->dim,
@@ -145,9 +142,8 @@ void search_bar(App& app) {
   }
 }
 
-void advice(App& app) {
-  const Look& look = app.look;
-  Accuracy& accuracy = app.accuracy;
+void advice(const Look& look, Lab& lab) {
+  Accuracy& accuracy = lab.accuracy;
   const std::vector<Accuracy::Point> points = accuracy.points();
   if (points.size() < 2) return;
   section(look, "What to set");
@@ -156,7 +152,7 @@ void advice(App& app) {
   if (!best) {
     label(look.fonts.small, look.theme->dim,
           ("No method keeps within " + limit_text(accuracy) + ".").c_str());
-    paper_alpha(app, nullptr);
+    paper_alpha(look, lab, nullptr);
     space(8.0F);
     return;
   }
@@ -180,7 +176,7 @@ void advice(App& app) {
   label(look.fonts.small, look.theme->dim, reason.c_str());
   if (button(look, "cheapest", Icon::kPlay, "Run it", ButtonKind::kPlain, 0.0F, look.m.row,
              "This scene from its start with this method")) {
-    app.run_result(Result(result));
+    lab.run_result(Result(result));
   }
   // What a scene keeps is counted in operations: the same on every machine.
   if (accuracy.error_is_given && accuracy.cost == CostAxis::kOperations) {
@@ -189,11 +185,11 @@ void advice(App& app) {
                look.m.row,
                "A copy of the scene among your own that starts with it, and has it as the preset "
                "recommended")) {
-      app.keep(*recommended_of(accuracy.results(), accuracy.error,
+      lab.keep(*recommended_of(accuracy.results(), accuracy.error,
                                accuracy.wanted.at(static_cast<std::size_t>(accuracy.error))));
     }
   }
-  paper_alpha(app, &*best);
+  paper_alpha(look, lab, &*best);
   space(8.0F);
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -22,10 +22,11 @@ struct Segment {
   ImVec2 to;
 };
 
-std::optional<Segment> seen(const App& app, const Vec3& from, const Vec3& to,
+std::optional<Segment> seen(const Viewport& viewport, const Vec3& from, const Vec3& to,
                             std::size_t pane = 0) {
   Segment s;
-  if (!project(app, from, s.from, pane) || !project(app, to, s.to, pane)) return std::nullopt;
+  if (!project(viewport, from, s.from, pane) || !project(viewport, to, s.to, pane))
+    return std::nullopt;
   return s;
 }
 
@@ -54,26 +55,26 @@ void draw_arrow(const Look& look, ImDrawList& draw, const Segment& s, ImU32 colo
                          {neck.x + half * t.y, neck.y - half * t.x}, color);
 }
 
-Vec3 anchor_of(const App& app, const JointBase& joint) {
+Vec3 anchor_of(const Session& session, const JointBase& joint) {
   const auto a = static_cast<std::size_t>(joint.a);
-  const Poses& poses = app.session.poses();
+  const Poses& poses = session.poses();
   return poses.x[a] + poses.q[a] * joint.anchor_a;
 }
 
-Vec3 other_anchor_of(const App& app, const JointBase& joint) {
+Vec3 other_anchor_of(const Session& session, const JointBase& joint) {
   if (joint.b == kWorld) return joint.anchor_b;
   const auto b = static_cast<std::size_t>(joint.b);
-  const Poses& poses = app.session.poses();
+  const Poses& poses = session.poses();
   return poses.x[b] + poses.q[b] * joint.anchor_b;
 }
 
-Vec3 point_of(const App& app, const ContactForce& contact) {
-  return app.session.poses().x[static_cast<std::size_t>(contact.a)] + contact.arm_a;
+Vec3 point_of(const Session& session, const ContactForce& contact) {
+  return session.poses().x[static_cast<std::size_t>(contact.a)] + contact.arm_a;
 }
 
 // What an arrow of full length stands for: the weight of all that moves, where there is gravity.
-double force_scale(const App& app) {
-  const Scene& scene = app.session.scene();
+double force_scale(const Session& session) {
+  const Scene& scene = session.scene();
   double mass = 0.0;
   for (const Body& body : scene.bodies) mass += body.is_static ? 0.0 : body.mass;
   const double g = scene.effects.gravity ? scene.gravity.norm() : 9.81;
@@ -81,123 +82,130 @@ double force_scale(const App& app) {
 }
 
 // Arrows grow with the root of the force: a link's weight and the box's are both seen.
-void force_arrow(const App& app, ImDrawList& draw, const Vec3& at, const Vec3& force, double scale,
-                 ImU32 color) {
+void force_arrow(const Look& look, const Viewport& viewport, ImDrawList& draw, const Vec3& at,
+                 const Vec3& force, double scale, ImU32 color) {
   constexpr double kFull = 48.0;   // of a force like the scale [px]
   constexpr double kMost = 110.0;  // [px]
   const double f = force.norm();
   if (!(f > 1e-4 * scale)) return;
-  const double length = std::min(kMost, kFull * std::sqrt(f / scale)) * pixel_size(app, at);
-  if (const auto s = seen(app, at, at + length / f * force)) {
-    draw_arrow(app.look, draw, *s, color);
+  const double length = std::min(kMost, kFull * std::sqrt(f / scale)) * pixel_size(viewport, at);
+  if (const auto s = seen(viewport, at, at + length / f * force)) {
+    draw_arrow(look, draw, *s, color);
   }
 }
 
-void draw_forces(const App& app, ImDrawList& draw) {
-  const Theme& t = *app.look.theme;
-  const Scene& scene = app.session.scene();
-  const ConstraintForces& forces = app.session.forces();
-  const double scale = force_scale(app);
+void draw_forces(const Look& look, const Session& session, const Viewport& viewport,
+                 ImDrawList& draw) {
+  const Theme& t = *look.theme;
+  const Scene& scene = session.scene();
+  const ConstraintForces& forces = session.forces();
+  const double scale = force_scale(session);
   for (std::size_t i = 0; i < forces.joints.size(); ++i) {
-    force_arrow(app, draw, anchor_of(app, base(scene.joints[i])), forces.joints[i].force, scale,
-                t.amber);
+    force_arrow(look, viewport, draw, anchor_of(session, base(scene.joints[i])),
+                forces.joints[i].force, scale, t.amber);
   }
   for (const ContactForce& contact : forces.contacts) {
-    force_arrow(app, draw, point_of(app, contact), contact.force, scale, t.teal);
+    force_arrow(look, viewport, draw, point_of(session, contact), contact.force, scale, t.teal);
   }
 }
 
-void draw_contacts(const App& app, ImDrawList& draw) {
-  const Theme& t = *app.look.theme;
-  for (const ContactForce& contact : app.session.forces().contacts) {
-    const Vec3 at = point_of(app, contact);
-    const Vec3 tip = at + 14.0 * pixel_size(app, at) * contact.normal;
-    const auto s = seen(app, at, tip);
+void draw_contacts(const Look& look, const Session& session, const Viewport& viewport,
+                   ImDrawList& draw) {
+  const Theme& t = *look.theme;
+  for (const ContactForce& contact : session.forces().contacts) {
+    const Vec3 at = point_of(session, contact);
+    const Vec3 tip = at + 14.0 * pixel_size(viewport, at) * contact.normal;
+    const auto s = seen(viewport, at, tip);
     if (!s) continue;
-    draw_line(app.look, draw, *s, t.teal);
+    draw_line(look, draw, *s, t.teal);
     const bool closed = contact.force.squaredNorm() > 0.0;
-    draw.AddCircleFilled(s->from, 4.0F, closed ? t.teal : ground(app.look, 1.0F));
-    draw.AddCircle(s->from, 4.0F, closed ? ground(app.look, 1.0F) : t.teal, 0, 1.5F);
+    draw.AddCircleFilled(s->from, 4.0F, closed ? t.teal : ground(look, 1.0F));
+    draw.AddCircle(s->from, 4.0F, closed ? ground(look, 1.0F) : t.teal, 0, 1.5F);
   }
 }
 
 // x, y and z as in the plots: orange, teal, blue.
-void draw_axes(const App& app, ImDrawList& draw, const Vec3& at, const Quat& q, double length) {
-  const Theme& t = *app.look.theme;
+void draw_axes(const Look& look, const Viewport& viewport, ImDrawList& draw, const Vec3& at,
+               const Quat& q, double length) {
+  const Theme& t = *look.theme;
   const std::array<ImU32, 3> colors{t.orange, t.teal, t.blue};
   for (int i = 0; i < 3; ++i) {
-    if (const auto s = seen(app, at, at + length * (q * Vec3::Unit(i)))) {
-      draw_line(app.look, draw, *s, colors[static_cast<std::size_t>(i)]);
+    if (const auto s = seen(viewport, at, at + length * (q * Vec3::Unit(i)))) {
+      draw_line(look, draw, *s, colors[static_cast<std::size_t>(i)]);
     }
   }
 }
 
-void draw_body_axes(const App& app, ImDrawList& draw) {
-  const Scene& scene = app.session.scene();
-  const Poses& poses = app.session.poses();
+void draw_body_axes(const Look& look, const Session& session, const Viewport& viewport,
+                    ImDrawList& draw) {
+  const Scene& scene = session.scene();
+  const Poses& poses = session.poses();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].is_static) continue;
-    draw_axes(app, draw, poses.x[i], poses.q[i], 26.0 * pixel_size(app, poses.x[i]));
+    draw_axes(look, viewport, draw, poses.x[i], poses.q[i],
+              26.0 * pixel_size(viewport, poses.x[i]));
   }
 }
 
-void draw_joint_frames(const App& app, ImDrawList& draw) {
-  const Theme& t = *app.look.theme;
-  const Poses& poses = app.session.poses();
-  for (const Joint& joint : app.session.scene().joints) {
+void draw_joint_frames(const Look& look, const Session& session, const Viewport& viewport,
+                       ImDrawList& draw) {
+  const Theme& t = *look.theme;
+  const Poses& poses = session.poses();
+  for (const Joint& joint : session.scene().joints) {
     const JointBase& j = base(joint);
     const Quat& q = poses.q[static_cast<std::size_t>(j.a)];
-    const Vec3 at = anchor_of(app, j);
-    const double px = pixel_size(app, at);
+    const Vec3 at = anchor_of(session, j);
+    const double px = pixel_size(viewport, at);
     if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
       const Vec3 axis = 22.0 * px * (q * hinge->axis_a);
-      if (const auto s = seen(app, at - axis, at + axis)) {
-        draw_line(app.look, draw, *s, t.purple, 2.0F);
+      if (const auto s = seen(viewport, at - axis, at + axis)) {
+        draw_line(look, draw, *s, t.purple, 2.0F);
       }
     } else {
-      draw_axes(app, draw, at, q, 14.0 * px);
+      draw_axes(look, viewport, draw, at, q, 14.0 * px);
     }
     ImVec2 p;
-    if (project(app, at, p)) draw.AddCircleFilled(p, 3.0F, t.purple);
+    if (project(viewport, at, p)) draw.AddCircleFilled(p, 3.0F, t.purple);
   }
 }
 
 // Gaps of joints are too small to be seen: all are drawn longer by the same power of ten, such that
 // the largest is.
-void draw_errors(const App& app, ImDrawList& draw) {
-  const Scene& scene = app.session.scene();
-  const FrameReport& report = app.session.report();
+void draw_errors(const Look& look, const Session& session, const Desk& desk,
+                 const Viewport& viewport, ImDrawList& draw) {
+  const Scene& scene = session.scene();
+  const FrameReport& report = session.report();
   if (scene.joints.empty() || !(report.joint_gap > 0.0) || report.joint_gap_joint < 0) return;
   const auto largest = static_cast<std::size_t>(report.joint_gap_joint);
-  const double px = pixel_size(app, anchor_of(app, base(scene.joints[largest])));
+  const double px = pixel_size(viewport, anchor_of(session, base(scene.joints[largest])));
   const double power = std::floor(std::log10(36.0 * px / report.joint_gap));
   const double factor = std::pow(10.0, std::clamp(power, 0.0, 12.0));
   for (const Joint& joint : scene.joints) {
-    const Vec3 a = anchor_of(app, base(joint));
-    const Vec3 gap = a - other_anchor_of(app, base(joint));
-    const auto s = seen(app, a, a + factor * gap);
+    const Vec3 a = anchor_of(session, base(joint));
+    const Vec3 gap = a - other_anchor_of(session, base(joint));
+    const auto s = seen(viewport, a, a + factor * gap);
     if (!s) continue;
-    draw_line(app.look, draw, *s, app.look.theme->orange, 2.5F);
-    draw.AddCircleFilled(s->to, 3.0F, app.look.theme->orange);
+    draw_line(look, draw, *s, look.theme->orange, 2.5F);
+    draw.AddCircleFilled(s->to, 3.0F, look.theme->orange);
   }
   const std::string text =
       "joint gaps × " + (power > 0.0 ? power_of_ten(static_cast<int>(power)) : "1");
-  const ViewRect& v = app.view_rect;
-  const float up = app.desk.view.tint ? 48.0F : 28.0F;
-  draw_over(app.look, draw, app.look.fonts.small, {v.x + 16.0F, v.y + v.height - up - 5.0F},
-            app.look.theme->dim, text.c_str());
+  const ViewRect& v = viewport.view_rect;
+  const float up = desk.view.tint ? 48.0F : 28.0F;
+  draw_over(look, draw, look.fonts.small, {v.x + 16.0F, v.y + v.height - up - 5.0F},
+            look.theme->dim, text.c_str());
 }
 
 // Outline of a body on the display: the convex hull of its corners, or of a ball's rim.
-std::vector<ImVec2> outline(const App& app, std::size_t body) {
-  const Poses& poses = app.session.poses();
+std::vector<ImVec2> outline(const Session& session, const Viewport& viewport, std::size_t body) {
+  const Poses& poses = session.poses();
   const Vec3& x = poses.x[body];
   std::vector<ImVec2> points;
   const auto add = [&](const Vec3& corner) {
     ImVec2 p;
-    if (project(app, corner, p)) points.push_back(p);
+    if (project(viewport, corner, p)) points.push_back(p);
   };
-  const Shape& shape = app.session.scene().bodies[body].shape;
+  const Shape& shape = session.scene().bodies[body].shape;
   if (const auto* box = std::get_if<Box>(&shape)) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
@@ -206,7 +214,7 @@ std::vector<ImVec2> outline(const App& app, std::size_t body) {
     }
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     // The rim is the circle that rays from the eye touch.
-    const Vec3 to_eye = app.view.camera.eye(app.panes.front()) - x;
+    const Vec3 to_eye = viewport.view.camera.eye(viewport.panes.front()) - x;
     const double distance = to_eye.norm();
     if (distance <= sphere->radius) return points;
     const Vec3 back = to_eye / distance;
@@ -244,49 +252,52 @@ std::vector<ImVec2> convex_hull(std::vector<ImVec2> p) {
   return hull;
 }
 
-void draw_outline(const App& app, ImDrawList& draw, int body, ImU32 color) {
-  const std::vector<ImVec2> hull = convex_hull(outline(app, static_cast<std::size_t>(body)));
+void draw_outline(const Session& session, const Viewport& viewport, ImDrawList& draw, int body,
+                  ImU32 color) {
+  const std::vector<ImVec2> hull =
+      convex_hull(outline(session, viewport, static_cast<std::size_t>(body)));
   if (hull.size() < 3) return;
   const auto count = static_cast<int>(hull.size());
   draw.AddPolyline(hull.data(), count, fade(color, 0.25F), ImDrawFlags_Closed, 6.0F);
   draw.AddPolyline(hull.data(), count, color, ImDrawFlags_Closed, 2.0F);
 }
 
-void draw_hand(const App& app, ImDrawList& draw, std::size_t pane) {
-  const auto& held = app.session.held();
+void draw_hand(const Look& look, const Lab& lab, const Viewport& viewport, ImDrawList& draw,
+               std::size_t pane) {
+  const auto& held = lab.session.held();
   if (!held) return;
   const auto i = static_cast<std::size_t>(held->body);
-  const Poses& poses = app.poses_in(pane);
+  const Poses& poses = lab.poses_in(pane);
   if (i >= poses.x.size()) return;
-  const auto s = seen(app, poses.x[i] + poses.q[i] * held->anchor, held->target, pane);
+  const auto s = seen(viewport, poses.x[i] + poses.q[i] * held->anchor, held->target, pane);
   if (!s) return;
-  const ImU32 color = app.look.theme->accent_hover;
-  draw_line(app.look, draw, *s, color, 2.0F);
+  const ImU32 color = look.theme->accent_hover;
+  draw_line(look, draw, *s, color, 2.0F);
   draw.AddCircleFilled(s->from, 4.0F, color);
   draw.AddCircle(s->to, 8.0F, color, 0, 2.0F);
 }
 
 }  // namespace
 
-void annotations(App& app) {
+void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const ViewOptions& show = app.desk.view;
+  const ViewOptions& show = desk.view;
   const auto clip = [&](const ViewRect& r) {
     draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
   };
-  clip(app.panes.front());
-  if (app.desk.selected >= 0) {
-    draw_outline(app, draw, app.desk.selected, app.look.theme->accent_hover);
+  clip(viewport.panes.front());
+  if (desk.selected >= 0) {
+    draw_outline(lab.session, viewport, draw, desk.selected, look.theme->accent_hover);
   }
-  if (show.axes) draw_body_axes(app, draw);
-  if (show.frames) draw_joint_frames(app, draw);
-  if (show.contacts) draw_contacts(app, draw);
-  if (show.forces) draw_forces(app, draw);
-  if (show.errors) draw_errors(app, draw);
+  if (show.axes) draw_body_axes(look, lab.session, viewport, draw);
+  if (show.frames) draw_joint_frames(look, lab.session, viewport, draw);
+  if (show.contacts) draw_contacts(look, lab.session, viewport, draw);
+  if (show.forces) draw_forces(look, lab.session, viewport, draw);
+  if (show.errors) draw_errors(look, lab.session, desk, viewport, draw);
   draw.PopClipRect();
-  for (std::size_t pane = 0; pane < app.panes.size(); ++pane) {
-    clip(app.panes[pane]);
-    draw_hand(app, draw, pane);
+  for (std::size_t pane = 0; pane < viewport.panes.size(); ++pane) {
+    clip(viewport.panes[pane]);
+    draw_hand(look, lab, viewport, draw, pane);
     draw.PopClipRect();
   }
 }

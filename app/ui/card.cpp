@@ -4,15 +4,16 @@
 
 namespace substep::ui {
 
-bool begin_card(App& app, const char* id, float width, float centre_y, float pivot_y) {
-  const ViewRect& v = app.view_rect;
+bool begin_card(const Look& look, const Viewport& viewport, const char* id, float width,
+                float centre_y, float pivot_y) {
+  const ViewRect& v = viewport.view_rect;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   width = std::min(width, display.x - 24.0F);
   const float x =
       std::clamp(v.x + 0.5F * v.width, 12.0F + 0.5F * width, display.x - 12.0F - 0.5F * width);
   ImGui::SetNextWindowPos({x, centre_y}, ImGuiCond_Always, {0.5F, pivot_y});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, display.y - 96.0F});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, app.look.theme->raised);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, look.theme->raised);
   const bool open =
       ImGui::Begin(id, nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
@@ -21,10 +22,19 @@ bool begin_card(App& app, const char* id, float width, float centre_y, float piv
   return open;
 }
 
-float card_middle(const App& app) {
+float card_middle(const Viewport& viewport) {
   constexpr float kRoom = 560.0F;
-  const ViewRect& v = app.view_rect;
+  const ViewRect& v = viewport.view_rect;
   return v.height > kRoom ? v.y + 0.5F * v.height : 0.5F * ImGui::GetIO().DisplaySize.y;
+}
+
+CardPlace card_below(const ViewRect& picture) {
+  constexpr float kBar = 136.0F;
+  constexpr float kRoom = 200.0F;
+  const float bottom = picture.y + picture.height;
+  const float below = ImGui::GetIO().DisplaySize.y - bottom;
+  if (below > kBar + kRoom) return {bottom + kBar, 0.0F};
+  return {bottom - 60.0F, 1.0F};
 }
 
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title) {

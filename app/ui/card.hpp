@@ -5,16 +5,24 @@
 
 #include <string>
 
-#include "app/app.hpp"
+#include "app/ui/viewport.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
 
 /// A card of a width, centred in the view; ImGui::End() ends it. @param centre_y, pivot_y where on
 /// the display, and which height of the card lies there, 0 the top
-bool begin_card(App& app, const char* id, float width, float centre_y, float pivot_y);
+bool begin_card(const Look& look, const Viewport& viewport, const char* id, float width,
+                float centre_y, float pivot_y);
 /// Where a tall card's middle lies: in the view, or in the window where the view is low.
-float card_middle(const App& app);
+float card_middle(const Viewport& viewport);
+struct CardPlace {
+  float y = 0.0F;
+  float pivot = 0.0F;  // of the card, that lies at y: 0 its top, 1 its bottom
+};
+/// Where a card covers little of a picture: at its lower edge, or, where panels are below it, on
+/// those, under the bar that plays and the tabs.
+CardPlace card_below(const ViewRect& picture);
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title);
 /// The cross at its corner, the last thing in a card. @return whether it was clicked
 bool card_closed(const Look& look);

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/setting_fields.hpp"
@@ -87,35 +87,34 @@ std::string divergence_text(const Session& session, const Compare::Run& run) {
 }
 
 // One of the others: its line, its settings when opened. @return whether it is to go
-bool other(App& app, std::size_t i) {
-  const Look& look = app.look;
-  const Compare::Run& run = app.compare.runs()[i];
+bool other(const Look& look, const Session& session, Compare& compare, Desk& desk, std::size_t i) {
+  const Compare::Run& run = compare.runs()[i];
   const float width = ImGui::GetContentRegionAvail().x;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float row = look.m.row;
-  const bool opened = app.desk.compare_open == static_cast<int>(i);
-  draw_line(look, {overrides_title(run.overrides), app.compare_color(i), &*run.verdict, &run.cost},
+  const bool opened = desk.compare_open == static_cast<int>(i);
+  draw_line(look,
+            {overrides_title(run.overrides), compare_color(look, i), &*run.verdict, &run.cost},
             origin.x + width);
-  label(look.fonts.small, look.theme->dim, divergence_text(app.session, run).c_str());
+  label(look.fonts.small, look.theme->dim, divergence_text(session, run).c_str());
   if (button(look, "change", Icon::kNone, opened ? "Done" : "Change", ButtonKind::kPlain, 0.0F, row,
              "Any setting of this one alone")) {
-    app.desk.compare_open = opened ? -1 : static_cast<int>(i);
+    desk.compare_open = opened ? -1 : static_cast<int>(i);
   }
   ImGui::SameLine(0.0F, 8.0F);
   const bool gone =
       button(look, "remove", Icon::kNone, "Remove", ButtonKind::kGhost, 0.0F, row, "");
   if (!gone && opened) {
-    Settings s = Compare::settings_of(run.overrides, app.session.settings());
+    Settings s = Compare::settings_of(run.overrides, session.settings());
     const Settings before = s;
     space(look.m.section);
-    method_controls(look, app.session.scene(), s, app.desk.more);
-    if (s != before) app.compare.change(app.session, i, s);
+    method_controls(look, session.scene(), s, desk.more);
+    if (s != before) compare.change(session, i, s);
   }
   return gone;
 }
 
-void presets(App& app) {
-  const Look& look = app.look;
+void presets(const Look& look, Desk& desk) {
   label(look.fonts.small, look.theme->dim,
         "Other methods beside this run: the same scene, the same clock, the same start. They are "
         "seen as ghosts or side by side, and in the plots. A hand or a ball reaches all of them.");
@@ -123,8 +122,7 @@ void presets(App& app) {
   for (const Comparison& preset : kComparisons) {
     if (button(look, preset.title, Icon::kNone, preset.title, ButtonKind::kPlain,
                ImGui::GetContentRegionAvail().x, look.m.row + 4.0F, "")) {
-      app.open_link(preset.link);
-      app.session.play();
+      desk.follow = preset.link;
     }
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4.0F);
     label(look.fonts.small, look.theme->dim, preset.note);
@@ -132,91 +130,91 @@ void presets(App& app) {
   }
 }
 
-void add_menu(App& app, const char* name, float width) {
-  const Look& look = app.look;
+void add_menu(const Look& look, const Session& session, Compare& compare, const char* name,
+              float width) {
   menu_button(look, "add", name, width, look.m.row + 4.0F, "", [&] {
     for (const Addition& addition : additions()) {
       if (menu_item(look, addition.name, "", false)) {
-        app.compare.add(app.session, {addition.change});
+        compare.add(session, {addition.change});
       }
     }
   });
 }
 
 // From the start again, or all of them from the state that this run has now.
-void restart_buttons(App& app) {
-  const Look& look = app.look;
+void restart_buttons(const Look& look, Lab& lab) {
   const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
   if (button(look, "start", Icon::kReset, "From start", ButtonKind::kPlain, half, look.m.row,
              "All of them from the scene's start (R)")) {
-    app.reset();
-    app.session.play();
+    lab.reset();
+    lab.session.play();
   }
   ImGui::SameLine(0.0F, 8.0F);
   if (button(look, "now", Icon::kNone, "From now", ButtonKind::kPlain, half, look.m.row,
              "All of them from the state that this run is in")) {
-    app.compare.restart(app.session);
+    lab.compare.restart(lab.session);
   }
 }
 
 // Over each other, or each in a view of its own.
-void views_row(App& app) {
+void views_row(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kViews{
       {{"Ghosts", "All in one view: this run as it is, the others in their colours (V)"},
        {"Side by side", "Each in a view of its own, from the same place (V)"}}};
-  int split = app.desk.split ? 1 : 0;
-  segmented(app.look, "views", kViews, split, ImGui::GetContentRegionAvail().x);
-  app.desk.split = split == 1;
+  int split = desk.split ? 1 : 0;
+  segmented(look, "views", kViews, split, ImGui::GetContentRegionAvail().x);
+  desk.split = split == 1;
 }
 
 }  // namespace
 
-std::string run_title(const App& app) {
+std::string run_title(const Session& session, const Compare& compare) {
   // By what the others do differently.
   Overrides own;
-  for (const Compare::Run& run : app.compare.runs()) {
+  for (const Compare::Run& run : compare.runs()) {
     for (const Override& o : run.overrides) {
       const bool known = std::any_of(own.begin(), own.end(),
                                      [&](const auto& other) { return other.key == o.key; });
       const SettingField* field = find_setting(o.key);
       if (known || field == nullptr) continue;
-      own.push_back({o.key, setting_text(*field, app.session.settings())});
+      own.push_back({o.key, setting_text(*field, session.settings())});
     }
   }
   return own.empty() ? "this run" : overrides_title(own) + " (this run)";
 }
 
-void compare(App& app) {
-  const Look& look = app.look;
+void compare(const Look& look, Lab& lab, Desk& desk) {
   section(look, "Compare");
   const float width = ImGui::GetContentRegionAvail().x;
-  if (!app.compare.open()) {
-    presets(app);
-    add_menu(app, "One of your own …", width);
+  if (!lab.compare.open()) {
+    presets(look, desk);
+    add_menu(look, lab.session, lab.compare, "One of your own …", width);
     return;
   }
-  restart_buttons(app);
-  views_row(app);
+  restart_buttons(look, lab);
+  views_row(look, desk);
   space(look.m.section);
-  const Cost cost = app.compare.cost(app.session);
-  draw_line(look, {run_title(app), look.theme->blue, &app.session.verdict(), &cost},
+  const Cost cost = lab.compare.cost(lab.session);
+  draw_line(look,
+            {run_title(lab.session, lab.compare), look.theme->blue, &lab.session.verdict(), &cost},
             ImGui::GetCursorScreenPos().x + width);
   std::optional<std::size_t> gone;
-  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
+  for (std::size_t i = 0; i < lab.compare.runs().size(); ++i) {
     space(look.m.section);
     ImGui::PushID(static_cast<int>(i));
-    if (other(app, i)) gone = i;
+    if (other(look, lab.session, lab.compare, desk, i)) gone = i;
     ImGui::PopID();
   }
   space(look.m.section + 4.0F);
-  if (app.compare.runs().size() < Compare::kMost) add_menu(app, "Add another …", width);
+  if (lab.compare.runs().size() < Compare::kMost)
+    add_menu(look, lab.session, lab.compare, "Add another …", width);
   if (button(look, "close", Icon::kNone, "End the comparison", ButtonKind::kGhost, width,
              look.m.row, "")) {
-    app.compare.close();
+    lab.compare.close();
   }
   if (gone) {
-    app.desk.compare_open = -1;
-    app.compare.remove(app.session, *gone);
+    desk.compare_open = -1;
+    lab.compare.remove(lab.session, *gone);
   }
 }
 

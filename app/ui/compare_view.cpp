@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -12,7 +12,7 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kCaption = 64.0F;  // of the view's top, that title and method take
+constexpr float kCaptionHeight = 64.0F;  // of the view's top, that title and method take
 constexpr float kPad = 12.0F;
 
 // One of the runs, as it is named in the picture.
@@ -23,24 +23,24 @@ struct Entry {
   const FrameReport* report = nullptr;
 };
 
-std::vector<Entry> entries(const App& app) {
+std::vector<Entry> entries(const Look& look, const Session& session, const Compare& compare) {
   std::vector<Entry> list{
-      {run_title(app), app.look.theme->blue, &app.session.verdict(), &app.session.report()}};
-  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
-    const Compare::Run& run = app.compare.runs()[i];
+      {run_title(session, compare), look.theme->blue, &session.verdict(), &session.report()}};
+  for (std::size_t i = 0; i < compare.runs().size(); ++i) {
+    const Compare::Run& run = compare.runs()[i];
     list.push_back(
-        {overrides_title(run.overrides), app.compare_color(i), &*run.verdict, &run.report});
+        {overrides_title(run.overrides), compare_color(look, i), &*run.verdict, &run.report});
   }
   return list;
 }
 
-void legend(const App& app) {
-  const Look& look = app.look;
+void legend(const Look& look, const Session& session, const Compare& compare,
+            const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const float x = app.view_rect.x + 24.0F;
-  float y = app.view_rect.y + kCaption + 8.0F;
-  const float room = app.view_rect.width - 64.0F;
-  for (const Entry& entry : entries(app)) {
+  const float x = viewport.view_rect.x + 24.0F;
+  float y = viewport.view_rect.y + kCaptionHeight + 8.0F;
+  const float room = viewport.view_rect.width - 64.0F;
+  for (const Entry& entry : entries(look, session, compare)) {
     const std::string stands = entry.verdict->holds()
                                    ? "N " + std::to_string(entry.report->n_substeps)
                                    : verdict_note(*entry.verdict);
@@ -56,8 +56,7 @@ void legend(const App& app) {
 }
 
 // Name and verdict at the left of a pane's top, N at its right.
-void pane_label(const App& app, const Entry& entry, const ViewRect& r) {
-  const Look& look = app.look;
+void pane_label(const Look& look, const Entry& entry, const ViewRect& r) {
   const Theme& t = *look.theme;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
@@ -84,13 +83,13 @@ void pane_label(const App& app, const Entry& entry, const ViewRect& r) {
   draw.PopClipRect();
 }
 
-void pane_borders(const App& app) {
+void pane_borders(const Look& look, const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const ImU32 line = fade(app.look.theme->faint, 0.5F);
-  for (std::size_t i = 0; i < app.panes.size(); ++i) {
-    const ViewRect& r = app.panes[i];
+  const ImU32 line = fade(look.theme->faint, 0.5F);
+  for (std::size_t i = 0; i < viewport.panes.size(); ++i) {
+    const ViewRect& r = viewport.panes[i];
     draw.AddLine({r.x, r.y}, {r.x + r.width, r.y}, line);
-    if (r.x > app.view_rect.x + 1.0F) draw.AddLine({r.x, r.y}, {r.x, r.y + r.height}, line);
+    if (r.x > viewport.view_rect.x + 1.0F) draw.AddLine({r.x, r.y}, {r.x, r.y + r.height}, line);
   }
 }
 
@@ -100,12 +99,13 @@ std::string verdict_note(const Verdict& verdict) {
   return verdict.holds() ? "holds" : "fails at " + fixed(verdict.failed_at(), 2) + " s";
 }
 
-std::vector<ViewRect> view_panes(const App& app) {
-  const ViewRect& v = app.view_rect;
-  const ViewRect all{v.x, v.y + kCaption, v.width, std::max(1.0F, v.height - kCaption)};
+std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,
+                                 const Viewport& viewport) {
+  const ViewRect& v = viewport.view_rect;
+  const ViewRect all{v.x, v.y + kCaptionHeight, v.width, std::max(1.0F, v.height - kCaptionHeight)};
   const bool narrow = v.width < 480.0F;  // there the caption reaches to the middle
-  if (!app.desk.split || !app.compare.open()) return {narrow ? all : v};
-  const std::size_t count = 1 + app.compare.runs().size();
+  if (!desk.split || !compare.open()) return {narrow ? all : v};
+  const std::size_t count = 1 + compare.runs().size();
   const auto cell = [&](std::size_t columns) {
     const std::size_t rows = count / columns;
     return ViewRect{all.x, all.y, all.width / static_cast<float>(columns),
@@ -114,7 +114,8 @@ std::vector<ViewRect> view_panes(const App& app) {
   std::size_t columns = count;
   for (std::size_t c = count - 1; c > 0; --c) {
     if (count % c != 0) continue;
-    if (app.view.camera.magnification(cell(c)) > app.view.camera.magnification(cell(columns))) {
+    if (viewport.view.camera.magnification(cell(c)) >
+        viewport.view.camera.magnification(cell(columns))) {
       columns = c;
     }
   }
@@ -130,11 +131,11 @@ std::vector<ViewRect> view_panes(const App& app) {
 
 // The first fills the window, since the others are drawn over it; those at the view's edges go on
 // under the panels.
-Part part_of_window(const App& app, std::size_t pane) {
+Part part_of_window(const Viewport& viewport, std::size_t pane) {
   if (pane == 0) return {};
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const ViewRect& r = app.panes[pane];
-  const ViewRect& v = app.view_rect;
+  const ViewRect& r = viewport.panes[pane];
+  const ViewRect& v = viewport.view_rect;
   const bool first = r.x < v.x + 1.0F;
   const bool last = r.x + r.width > v.x + v.width - 1.0F;
   const bool lowest = r.y + r.height > v.y + v.height - 1.0F;
@@ -144,16 +145,17 @@ Part part_of_window(const App& app, std::size_t pane) {
   return {left, r.y / display.y, right - left, bottom - r.y / display.y};
 }
 
-void compare_legend(const App& app) {
-  if (!app.compare.open()) return;
-  if (app.panes.size() == 1) {
-    legend(app);
+void compare_legend(const Look& look, const Session& session, const Compare& compare,
+                    const Viewport& viewport) {
+  if (!compare.open()) return;
+  if (viewport.panes.size() == 1) {
+    legend(look, session, compare, viewport);
     return;
   }
-  pane_borders(app);
-  const std::vector<Entry> list = entries(app);
-  for (std::size_t i = 0; i < std::min(list.size(), app.panes.size()); ++i) {
-    pane_label(app, list[i], app.panes[i]);
+  pane_borders(look, viewport);
+  const std::vector<Entry> list = entries(look, session, compare);
+  for (std::size_t i = 0; i < std::min(list.size(), viewport.panes.size()); ++i) {
+    pane_label(look, list[i], viewport.panes[i]);
   }
 }
 

@@ -2,6 +2,10 @@
 
 #include <imgui.h>
 
+#include <vector>
+
+#include "app/ui/handles.hpp"
+
 namespace substep::ui {
 
 /// Dear ImGui for as long as this lives: made before the renderer, gone after it.
@@ -9,6 +13,7 @@ class Context {
  public:
   Context() : context_(ImGui::CreateContext()) {
     ImGuiIO& io = ImGui::GetIO();
+    io.UserData = &handles_;
     io.IniFilename = nullptr;  // nothing is written beside the program
     io.LogFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
@@ -19,6 +24,7 @@ class Context {
   Context& operator=(const Context&) = delete;
 
  private:
+  std::vector<Handle> handles_;  // see handles.hpp
   ImGuiContext* context_;
 };
 

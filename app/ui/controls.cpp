@@ -1,140 +1,21 @@
-// The left panel: which scene, and how it is solved.
+// The left panel: which scene, how it is solved, and what is shown of it.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <string>
-#include <vector>
+#include <memory>
 
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/lab/presets.hpp"
-#include "core/model/names.hpp"
-#include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
 namespace {
 
-constexpr std::array<Choice, 5> kModes{
-    {{"none", "One step per frame and nothing against instability: N = 1."},
-     {"const",
-      "The same number of sub-steps in every frame, chosen by you: dt = h/N "
-      "(Macklin et al. 2019, Small steps). Every frame pays for the worst one."},
-     {"damping",
-      "One step per frame; rotations that are too stiff for it are damped implicitly: "
-      "b = max(0, (h² k − 4 α M)/h), Eq. 6 (Andrews et al. 2017)."},
-     {"adaptive",
-      "As many sub-steps as the stiffest degree of freedom needs: "
-      "r = max k/M (Eq. 9), dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up "
-      "(Eq. 11). The paper's (Giles and Andrews 2024)."},
-     {"capped",
-      "Adaptive up to a cap, damping for what is left over: the combination that the "
-      "paper leaves for future work (Giles and Andrews 2024)."}}};
-// What stands beside and beyond the paper: the modes that follow those.
-constexpr std::array<Choice, 3> kFurtherModes{
-    {{"stiffness",
-      "One step per frame with the geometric stiffness itself in the mass: M - h² K, its "
-      "stabilising part (Tournier et al. 2015). Damps more than damping does."},
-     {"inertia",
-      "Adaptive up to a cap; what is left over turns with a larger inertia, dt² k/(4 αm), that "
-      "neither gains nor loses energy. This project's."},
-     {"blend",
-      "Adaptive up to a cap, then geometric inertia of which a share 1 - β damps: steadier where "
-      "contacts come and go. This project's."}}};
-
-constexpr std::array<const char*, 8> kModeLines{
-    "One step a frame, unprotected.",          "The same N in every frame.",
-    "One step a frame; less α, more damping.", "N ~ 1/√α: a quarter of α, twice the N.",
-    "Adaptive up to a cap, then damping.",     "One step a frame, K in the mass.",
-    "Adaptive up to a cap, then inertia.",     "Adaptive up to a cap, then both."};
-
-constexpr std::array<Choice, 4> kSolvers{
-    {{"PGS",
-      "Projected Gauss-Seidel (Erleben 2013): a fixed number of sweeps over the rows of Eq. 3."},
-     {"BPP",
-      "Block principal pivoting (Judice and Pires 1994): solves the boxed problem of Eq. 3 "
-      "exactly."},
-     {"XPBD",
-      "Extended position-based dynamics (Mueller et al. 2020): sweeps that move the bodies "
-      "themselves, each row along its error as it is at that moment."},
-     {"Newton",
-      "Non-smooth Newton (Macklin et al. 2019, Non-smooth Newton methods): errors vanish at the "
-      "end of the sub-step, and the "
-      "forces belong to poses around it."}}};
-constexpr std::array<Choice, 3> kForces{
-    {{"end", "The end of the sub-step: implicit Euler, which damps (Macklin et al. 2019)."},
-     {"mean",
-      "Before, at and after it by 1/4, 1/2, 1/4: average acceleration (Newmark 1959), stable for "
-      "any step, and loses nothing."},
-     {"Numerov",
-      "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): fourth order "
-      "with two steps, for scenes of joints, while dt² k < 6 M."}}};
-constexpr std::array<Choice, 3> kIntegrators{
-    {{"Euler",
-      "Semi-implicit Euler, the paper's (Giles and Andrews 2024): first order, loses energy when N "
-      "changes."},
-     {"leapfrog",
-      "External forces act over (dt before + dt)/2 (Verlet 1967): second order at the same "
-      "cost."},
-     {"Störmer",
-      "Leapfrog whose poses take in how accelerations change (Störmer 1907), with joints that hold "
-      "at the end of the sub-step: fourth order with one solve, for scenes of joints, while "
-      "dt² k < 2 M."}}};
-constexpr std::array<Choice, 2> kPolicies{
-    {{"frame",
-      "N is decided once a frame, from the forces of its last sub-step: the paper's (Giles and "
-      "Andrews 2024)."},
-     {"sub-step",
-      "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};
-constexpr std::array<Choice, 3> kDrifts{
-    {{"auto", "Soft with PGS, full with the others."},
-     {"full", "The whole error is taken back in one step: bias phi/dt (Baumgarte 1972)."},
-     {"soft",
-      "The error decays with a time constant of its own: bias phi dt/tau², so that a "
-      "change of dt brings no energy in. This project's."}}};
-
-constexpr std::array<Choice, 2> kContactStiffnesses{
-    {{"paper",
-      "The contact as a ball joint that carries its force: the paper's (Giles and Andrews 2024), "
-      "steers N."},
-     {"exact", "The true derivative of the contact force, friction included. This project's."}}};
-constexpr std::array<Choice, 2> kFrictionCones{
-    {{"box",
-      "The paper's: each tangent resists up to μ times the normal force, so up to 1.41 μ across "
-      "the tangents."},
-     {"cone",
-      "Isotropic Coulomb friction: the length of the friction force is at most μ times the normal "
-      "force."}}};
-constexpr std::array<Choice, 2> kDetections{
-    {{"sub-step", "Looked for before every sub-step."},
-     {"frame",
-      "Looked for once a frame, as far ahead as bodies can come, and carried along with them "
-      "(Macklin et al. 2019, Small steps). Nothing fast gets through, and features that change "
-      "within the frame "
-      "are seen late."}}};
-constexpr std::array<Choice, 2> kGyroscopics{
-    {{"explicit", "Explicit Euler, as engines mostly have it: gains energy."},
-     {"implicit",
-      "Half a step explicit, half implicit: keeps energy and angular momentum. This project's."}}};
-
-template <class Enum, std::size_t N>
-bool choose(const Look& look, const char* name, const std::array<Choice, N>& choices, Enum& value,
-            const char* tip) {
-  int index = static_cast<int>(value);
-  const bool changed = segmented_row(look, name, choices, index, tip);
-  value = static_cast<Enum>(index);
-  return changed;
-}
-
-void scene_picker(App& app) {
-  const Look& look = app.look;
-  const Scene& now = app.session.scene();
+void scene_picker(const Look& look, Lab& lab) {
+  const Scene& now = lab.session.scene();
   section(look, "Scene");
   const float width = ImGui::GetContentRegionAvail().x;
   std::shared_ptr<const Scene> chosen;
   menu_button(look, "scene", now.title.c_str(), width, look.m.row + 4.0F, "", [&] {
     const std::string* group = nullptr;
-    for (const auto& scene : app.library.scenes()) {
+    for (const auto& scene : lab.library.scenes()) {
       if (group == nullptr || *group != scene->group) {
         const ImVec2 at = ImGui::GetCursorScreenPos();
         const float top = group == nullptr ? 4.0F : 10.0F;
@@ -149,168 +30,15 @@ void scene_picker(App& app) {
   });
   label(look.fonts.small, look.theme->dim,
         now.look_for.empty() ? now.description.c_str() : now.look_for.c_str());
-  if (chosen) app.run(chosen);
-}
-
-// All settings at once, to begin with.
-void preset_row(const Look& look, const Scene& scene, Settings& s) {
-  const std::vector<Preset> presets = presets_for(scene);
-  std::vector<Choice> choices;
-  int current = -1;  // settings of a person's own
-  for (const Preset& preset : presets) {
-    Settings same = preset.settings;
-    same.watch_stiffness = s.watch_stiffness;
-    if (same == s) current = static_cast<int>(choices.size());
-    choices.push_back({preset.name.data(), preset.about.c_str()});
-  }
-  if (segmented_row(look, "Preset", choices, current, "All settings of the method at once.")) {
-    const bool watched = s.watch_stiffness;
-    s = presets[static_cast<std::size_t>(current)].settings;
-    s.watch_stiffness = watched;
-  }
-}
-
-void stabilisation(const Look& look, const Scene& scene, Settings& s) {
-  section(look, "Stabilisation");
-  preset_row(look, scene, s);
-  const Mode mode = s.mode;
-  int index = static_cast<int>(mode);
-  constexpr int kFirst = static_cast<int>(kModes.size());
-  const float width = ImGui::GetContentRegionAvail().x;
-  segmented(look, "mode", kModes, index, width);
-  int further = index - kFirst;
-  if (segmented(look, "further mode", kFurtherModes, further, width)) index = kFirst + further;
-  s.mode = static_cast<Mode>(index);
-  label(look.fonts.small, look.theme->dim, kModeLines[static_cast<std::size_t>(index)]);
-
-  if (s.mode == Mode::kDamping || chooses_substeps(s.mode)) {
-    slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
-           "Stability threshold of Eq. 5: 1 is the limit itself, less keeps a distance from it. "
-           "N goes with 1/√α (Eq. 10): a quarter of alpha doubles N.");
-  }
-  if (s.mode == Mode::kConst) {
-    slider(look, "N", s.n, 1, 128, true, "Sub-steps in every frame: dt = h/N.");
-  } else if (s.mode == Mode::kAdaptive) {
-    slider(look, "N at most", s.n_max, 1, 512, true,
-           "An impact or a start that does not fit asks for thousands: this many are given.");
-  } else if (chooses_substeps(s.mode)) {
-    slider(look, "N cap", s.n_cap, 1, 64, true,
-           "Sub-steps up to here; at dt = h/N cap the mode takes over what they do not reach.");
-  }
-  if (s.mode == Mode::kInertia || s.mode == Mode::kBlend) {
-    slider(look, "Alpha m", s.alpha_m, 0.1, 0.99, false, "%.2f",
-           "How near to the limit of stability the larger inertia goes: forces may grow by 1/αm "
-           "from one sub-step to the next. Less is safer and less exact.");
-  }
-  if (s.mode == Mode::kBlend) {
-    slider(look, "Beta  β", s.beta, 0.0, 1.0, false, "%.3f",
-           "Share of the velocity that is not damped: 1 is geometric inertia, 0 is damping.");
-  }
-}
-
-void solving(const Look& look, const Scene& scene, Settings& s) {
-  section(look, "Solver");
-  choose(look, "Method", kSolvers, s.solver, "What solves the velocities of a sub-step, Eq. 3.");
-  if (s.solver == SolverKind::kPgs) {
-    slider(look, "Sweeps", s.iterations, 1, 400, true, "Iterations of PGS in every sub-step.");
-  } else if (s.solver == SolverKind::kXpbd) {
-    slider(look, "Sweeps", s.iterations, 1, 400, true,
-           "Sweeps in every sub-step; the source recommends one, and many sub-steps.");
-  } else if (s.solver == SolverKind::kNewton) {
-    choose(look, "Forces", kForces, s.forces, "Poses that the constraint forces belong to.");
-    slider(look, "Steps", s.iterations, 1, 50, true,
-           "Newton steps at most in every sub-step; two are mostly enough.");
-  }
-  if (s.solver == SolverKind::kBpp && scene.regularisation > 0.0) {
-    slider(look, "Refine", s.refinements, 0, 32, false,
-           "Solves, after the first, that take the scene's regularisation back, from the last "
-           "forces on: the proximal point method (Rockafellar 1976). Each costs a solve with the "
-           "factor as it is.");
-  }
-  if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
-    checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
-             "The sweeps are those of a whole frame, shared out over its sub-steps: small steps "
-             "(Macklin et al. 2019, Small steps).");
-  }
-  choose(look, "Integrator", kIntegrators, s.integrator, "How a sub-step advances time.");
-  if (s.integrator == Integrator::kStormer && !follows_accelerations(s)) {
-    label(look.fonts.small, look.theme->dim, "Newton and XPBD take it as leapfrog.");
-  }
-}
-
-// What most people never touch; only what acts in this scene, mode and solver.
-void finer_points(const Look& look, const Effects& effects, Settings& s) {
-  const float width = ImGui::GetContentRegionAvail().x;
-  if (chooses_substeps(s.mode)) {
-    choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
-    if (s.policy == Policy::kSubstep) {
-      slider(look, "Memory", s.memory, 0.0, 0.99, false, "%.2f",
-             "How much of r (Eq. 9) stays from sub-step to sub-step: a force that dips for one "
-             "sub-step does not let the next one grow.");
-    }
-  }
-  if (chooses_substeps(s.mode)) {
-    checkbox(look, "Rotation criterion", s.rotation_criterion, width,
-             "N also follows how fast bodies spin: the turn and the gyroscopic rate in a sub-step. "
-             "Off: the paper's rule alone.");
-    checkbox(look, "each island its own N", s.islands, width,
-             "Bodies that neither joints nor contacts to come connect within a frame take "
-             "sub-steps of their own: what is calm does not pay for what is not. This project's.");
-  }
-  checkbox(look, "let what rests sleep", s.sleep, width,
-           "Bodies stand still and cost nothing once all that is connected with them has been "
-           "slower than 1 cm/s for half a second. They wake where something comes near.");
-  if (s.mode != Mode::kNone && s.mode != Mode::kConst) {
-    checkbox(look, "probe before the first frame", s.probe, width,
-             "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "
-             "without it the first N is 1. Acts from a reset on.");
-  }
-  if (effects.contact) {
-    choose(look, "Contacts", kDetections, s.detection, "When contacts are looked for.");
-    choose(look, "K contact", kContactStiffnesses, s.contact_stiffness,
-           "Which block of a contact enters K (Eq. 1).");
-  }
-  if (effects.friction) {
-    choose(look, "Friction", kFrictionCones, s.friction_cone, "What bounds the friction force.");
-  }
-  choose(look, "Drift", kDrifts, s.drift, "How errors of position are taken back.");
-  if (drift_law(s) == Drift::kSoft) {
-    double tau_ms = 1e3 * s.drift_tau;
-    if (slider(look, "Drift τ", tau_ms, 0.2, 50.0, true, "%.2f ms",
-               "Time constant of the soft law: bias phi dt/tau² for dt below tau.")) {
-      s.drift_tau = 1e-3 * tau_ms;
-    }
-  }
-  // Störmer's joints are aimed at the end of the sub-step, which leaves nothing to correct.
-  const bool aimed = follows_accelerations(s) && drift_law(s) == Drift::kFull;
-  if (effects.joints && !aimed) {
-    bool second = s.drift_order == 2;
-    checkbox(look, "correct for curvature", second, width,
-             "Second order: joints are also corrected for what turning will have bent by the end "
-             "of the sub-step, dt²/2 phi''. Half the error where joints are exact, noise "
-             "where they are soft. This project's.");
-    s.drift_order = second ? 2 : 1;
-  }
-  if (s.solver == SolverKind::kPgs) {
-    checkbox(look, "warm start", s.warm_start, width,
-             "Sweeps start from the forces of the last sub-step.");
-  } else if (effects.contact && s.solver != SolverKind::kXpbd) {
-    slider(look, "Pivots", s.pivots, 1, 100, true,
-           "Block pivots of BPP (Judice and Pires 1994) before it goes on one row at a time, which "
-           "always ends.");
-  }
-  if (effects.gyroscopic) {
-    choose(look, "Gyroscopic", kGyroscopics, s.gyroscopic, "How the torque I ω × ω is integrated.");
-  }
+  if (chosen) lab.run(chosen);
 }
 
 // Only what the scene has can be shown; the dots are the colours that it is drawn in.
-void showing(App& app) {
-  const Look& look = app.look;
+void showing(const Look& look, const Session& session, Desk& desk) {
   const Theme& t = *look.theme;
-  const Scene& scene = app.session.scene();
+  const Scene& scene = session.scene();
   const Effects& effects = scene.effects;
-  ViewOptions& v = app.desk.view;
+  ViewOptions& v = desk.view;
   section(look, "Show");
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {6.0F, 6.0F});
   toggle(look, "why this N", v.tint, t.orange, true,
@@ -345,27 +73,17 @@ void showing(App& app) {
 
 }  // namespace
 
-void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more) {
-  stabilisation(look, scene, settings);
-  space(look.m.section);
-  solving(look, scene, settings);
-  fold(look, more ? "Less" : "More", more,
-       "What most people never touch: drift, the probe, how often N is decided, contacts in K.");
-  if (more) finer_points(look, scene.effects, settings);
-}
-
-void controls(App& app) {
-  const Look& look = app.look;
-  Settings s = app.session.settings();
-  scene_picker(app);
+void controls(const Look& look, Lab& lab, Desk& desk) {
+  Settings s = lab.session.settings();
+  scene_picker(look, lab);
   // The picker may have brought a scene with settings of its own.
-  if (app.session.settings() != s) s = app.session.settings();
+  if (lab.session.settings() != s) s = lab.session.settings();
   space(look.m.section);
-  method_controls(look, app.session.scene(), s, app.desk.more);
-  if (app.desk.more) effect_switches(app);
+  method_controls(look, lab.session.scene(), s, desk.more);
+  if (desk.more) effect_switches(look, lab);
   space(look.m.section);
-  showing(app);
-  if (s != app.session.settings()) app.change(s);
+  showing(look, lab.session, desk);
+  if (s != lab.session.settings()) lab.change(s);
 }
 
 }  // namespace substep::ui

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "app/criterion.hpp"
-#include "app/format.hpp"
+#include "app/lab/criterion.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -32,9 +32,8 @@ void term(const Look& look, const std::string& what, const std::string& meaning,
 
 }  // namespace
 
-void criterion_terms(App& app, const Criterion& c) {
-  const Look& look = app.look;
-  const Scene& scene = app.session.scene();
+void criterion_terms(const Look& look, const Session& session, const Criterion& c) {
+  const Scene& scene = session.scene();
   section(look, "Which term sets N", "N");
   tooltip(
       look, "Which term sets N",

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
-#include "app/ui/accuracy_picture.hpp"
+#include "app/text/format.hpp"
+#include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/timing.hpp"
@@ -16,8 +16,8 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kRow = 22.0F;
-constexpr float kNames = 66.0F;
+constexpr float kPartRow = 22.0F;
+constexpr float kPartNames = 66.0F;
 constexpr float kTimes = 60.0F;
 constexpr float kOperations = 64.0F;
 
@@ -60,7 +60,7 @@ std::vector<Part> parts_of(const Theme& t, const CostBreakdown& costs) {
 void draw_parts(const Look& look, const std::vector<Part>& parts) {
   const Theme& t = *look.theme;
   const float width = ImGui::GetContentRegionAvail().x;
-  const float room = width - kNames - kTimes - kOperations - 8.0F;
+  const float room = width - kPartNames - kTimes - kOperations - 8.0F;
   double low = 0.0;
   double high = 0.0;
   for (const Part& part : parts) {
@@ -71,16 +71,16 @@ void draw_parts(const Look& look, const std::vector<Part>& parts) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (const Part& part : parts) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton(part.name.c_str(), {width, kRow});
-    mark(part.name.c_str(), at, {at.x + width, at.y + kRow}, "effect costs");
+    ImGui::InvisibleButton(part.name.c_str(), {width, kPartRow});
+    mark(part.name.c_str(), at, {at.x + width, at.y + kPartRow}, "effect costs");
     tooltip(look, part.name.c_str(), part.tip.c_str());
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
-    const float zero = at.x + kNames - static_cast<float>(low * scale);
+    const float zero = at.x + kPartNames - static_cast<float>(low * scale);
     const float end = zero + static_cast<float>(part.seconds * scale);
     draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, t.dim,
-              fitted(look.fonts.small, part.name, kNames - 6.0F).c_str());
+              fitted(look.fonts.small, part.name, kPartNames - 6.0F).c_str());
     draw.AddRectFilled({std::min(zero, end), at.y + 5.0F},
-                       {std::max({zero, end, std::min(zero, end) + 1.0F}), at.y + kRow - 5.0F},
+                       {std::max({zero, end, std::min(zero, end) + 1.0F}), at.y + kPartRow - 5.0F},
                        part.color, 2.0F);
     const auto at_right = [&](float right, ImU32 color, const std::string& text) {
       const float w = text_size(look.fonts.small, text.c_str()).x;
@@ -154,12 +154,11 @@ std::string method_name(const Theme& theme, const Settings& s) {
 
 }  // namespace
 
-void effect_costs(App& app) {
-  const Look& look = app.look;
+void effect_costs(const Look& look, Lab& lab) {
   const Theme& t = *look.theme;
-  EffectCosts& measured = app.accuracy.effects;
+  EffectCosts& measured = lab.accuracy.effects;
   const CostBreakdown* costs = measured.breakdown();
-  const bool of_this_run = app.costs() != nullptr;
+  const bool of_this_run = lab.costs() != nullptr;
   if (measured.running()) {
     if (progress(look, measured.progress(), "What was measured so far stays")) measured.cancel();
   } else {
@@ -177,7 +176,7 @@ void effect_costs(App& app) {
                ImGui::GetContentRegionAvail().x, look.m.row + 4.0F,
                "The run from its start, in the background: every frame once as it is and once "
                "without each effect")) {
-      app.measure_costs();
+      lab.measure_costs();
       costs = nullptr;
     }
   }

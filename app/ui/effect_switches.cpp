@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/io/effect_names.hpp"
@@ -52,9 +52,9 @@ const EffectCost* cost_of(const CostBreakdown* costs, std::string_view effect) {
 }
 
 /// What an effect takes: all of it where that was measured, else what its own stage does.
-std::string time_text(const App& app, const EffectFacts& facts, const EffectCost* cost) {
+std::string time_text(const Session& session, const EffectFacts& facts, const EffectCost* cost) {
   if (cost != nullptr) return duration(1e-3 * cost->ms);
-  return facts.seconds != nullptr ? duration(app.session.times().*facts.seconds) : "–";
+  return facts.seconds != nullptr ? duration(session.times().*facts.seconds) : "–";
 }
 
 std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
@@ -72,11 +72,10 @@ std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
 
 }  // namespace
 
-void effect_switches(App& app) {
-  const Look& look = app.look;
+void effect_switches(const Look& look, Lab& lab) {
   const Theme& t = *look.theme;
-  const Session& session = app.session;
-  const CostBreakdown* costs = app.costs();
+  const Session& session = lab.session;
+  const CostBreakdown* costs = lab.costs();
   const float width = ImGui::GetContentRegionAvail().x;
   columns(look, ImGui::GetCursorScreenPos(), width, t.dim, "rows", costs ? "adds" : "builds in");
   label(look.fonts.small, t.dim, "Effects, until a reset");
@@ -93,13 +92,13 @@ void effect_switches(App& app) {
     const float text = text_size(look.fonts.small, "0").y;
     columns(look, {at.x, at.y + 0.5F * (look.m.row - text)}, width, on ? t.text : t.dim,
             on && rows != nullptr ? grouped(session.report().*rows) : "–",
-            on ? time_text(app, kFacts[i], cost) : "–");
+            on ? time_text(lab.session, kFacts[i], cost) : "–");
   }
-  if (effects != session.scene().effects) app.session.set_effects(effects);
+  if (effects != session.scene().effects) lab.session.set_effects(effects);
 
-  if (app.accuracy.effects.running()) {
-    if (progress(look, app.accuracy.effects.progress(), "What was measured so far stays")) {
-      app.accuracy.effects.cancel();
+  if (lab.accuracy.effects.running()) {
+    if (progress(look, lab.accuracy.effects.progress(), "What was measured so far stays")) {
+      lab.accuracy.effects.cancel();
     }
   } else if (costs == nullptr &&
              button(look, "measure effects", Icon::kPlay, "Measure what each adds",
@@ -107,7 +106,7 @@ void effect_switches(App& app) {
                     "The run from its start in the background, every frame once as it is and once "
                     "without each effect: the difference is the effect's, solving its rows "
                     "included.")) {
-    app.measure_costs();
+    lab.measure_costs();
   }
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/plot_headings.hpp"
 #include "app/ui/plots.hpp"
 #include "app/ui/widgets.hpp"
@@ -24,11 +24,11 @@ constexpr double kRoomForFailed = 1.5;
 /// The largest of a quantity over this run and those compared with it; failed ones count only where
 /// all failed.
 template <class Largest>
-double largest_of_stable(const App& app, Largest largest) {
+double largest_of_stable(const Session& session, const Compare& compare, Largest largest) {
   double stable = 0.0;
-  double any = largest(app.session.history());
-  if (app.session.verdict().holds()) stable = any;
-  for (const Compare::Run& run : app.compare.runs()) {
+  double any = largest(session.history());
+  if (session.verdict().holds()) stable = any;
+  for (const Compare::Run& run : compare.runs()) {
     const double one = largest(run.history);
     any = std::max(any, one);
     if (run.verdict->holds()) stable = std::max(stable, one);
@@ -43,9 +43,10 @@ std::string in_unit(double value, const Unit& unit, double most, int digits) {
   return fixed(v, std::abs(v) < 9.95 ? digits : std::abs(v) < 99.5 ? digits - 1 : 0);
 }
 
-void compared_energies(App& app, ImVec2 heading, float left, Channel channel, const Unit& unit) {
+void compared_energies(const PlotContext& in, ImVec2 heading, float left, Channel channel,
+                       const Unit& unit) {
   compared_values(
-      app, heading, left, channel, [&](double joules) { return in_unit(joules, unit, 9999.0, 2); },
+      in, heading, left, channel, [&](double joules) { return in_unit(joules, unit, 9999.0, 2); },
       [&](double joules) { return in_unit(joules, unit, 99.0, 1); });
 }
 
@@ -59,26 +60,25 @@ struct EnergyLegend {
   ImU32 color;
   double offset;
 };
-void energy_legend(App& app, ImVec2 heading, float left, const Unit& unit,
+void energy_legend(const PlotContext& in, ImVec2 heading, float left, const Unit& unit,
                    const std::vector<EnergyLegend>& shown) {
   const float end = heading.x + ImGui::GetContentRegionAvail().x;
   const auto text = [&](const EnergyLegend& one, int detail) {
-    const double value =
-        shown_value(app.session.history(), one.channel, app.desk.time) + one.offset;
+    const double value = shown_value(in.session.history(), one.channel, in.desk.time) + one.offset;
     if (detail == 0 || !std::isfinite(value)) return std::string(one.alone);
     return (detail == 2 ? one.name : one.brief) + (" " + in_unit(value, unit, 9999.0, 2));
   };
   const auto width = [&](int detail) {
     float sum = 0.0F;
     for (const EnergyLegend& one : shown) {
-      sum += text_size(app.look.fonts.small, text(one, detail).c_str()).x + 22.0F;
+      sum += text_size(in.look.fonts.small, text(one, detail).c_str()).x + 22.0F;
     }
     return sum;
   };
   const int detail = end - width(2) >= left ? 2 : end - width(1) >= left ? 1 : 0;
   float right = end;
   for (const EnergyLegend& one : shown) {
-    right = legend(app.look, right, heading.y, one.color, text(one, detail));
+    right = legend(in.look, right, heading.y, one.color, text(one, detail));
   }
 }
 
@@ -93,14 +93,15 @@ std::vector<Series> energy_series(const Theme& theme, const History& history, bo
   return series;
 }
 
-void energy_plot(App& app, float height, bool last) {
-  const Look& look = app.look;
+void energy_plot(const PlotContext& in, float height, bool last) {
+  const Look& look = in.look;
   const Theme& t = *look.theme;
-  const History& h = app.session.history();
-  const bool gravity = has_potential(app.session.scene().effects);
-  const bool several = app.compare.open();
+  const History& h = in.session.history();
+  const bool gravity = has_potential(in.session.scene().effects);
+  const bool several = in.compare.open();
   const double zero = h.potential_offset();
-  double most = largest_of_stable(app, [](const History& one) { return one.largest_kinetic(); });
+  double most = largest_of_stable(in.session, in.compare,
+                                  [](const History& one) { return one.largest_kinetic(); });
   if (!several && gravity) most = std::max(most, zero);
   const Unit unit = unit_for(std::max(most, kLeastEnergy));
   const std::string heading = (several ? "Kinetic, " : "Energy, ") + unit.prefix + "J";
@@ -117,10 +118,10 @@ void energy_plot(App& app, float height, bool last) {
   spec.least_span = std::max(unit.factor, kLeastEnergy);
   if (several) {
     tooltip(look, "Kinetic energy", "Of each run. One that explodes leaves the plot.");
-    compared_energies(app, origin, left, Channel::kKinetic, unit);
+    compared_energies(in, origin, left, Channel::kKinetic, unit);
     spec.most = kRoomForFailed * most;
     spec.series.push_back({&h, Channel::kKinetic, t.blue});
-    add_compared(app, spec, Channel::kKinetic);
+    add_compared(in, spec, Channel::kKinetic);
   } else {
     tooltip(look, "Energy",
             gravity ? "Kinetic + potential = total, on one scale. The potential energy of gravity "
@@ -134,25 +135,25 @@ void energy_plot(App& app, float height, bool last) {
           {"pot. (lowest = 0)", "pot. ≥ 0:", "pot. ≥ 0", Channel::kPotential, t.purple, zero});
     }
     shown.push_back({"kin.", "kin.", "kin.", Channel::kKinetic, t.teal, 0.0});
-    energy_legend(app, origin, left, unit, shown);
+    energy_legend(in, origin, left, unit, shown);
     spec.series = energy_series(t, h, gravity);
   }
-  draw_plot(app, Plot::kEnergy, spec, height);
+  draw_plot(in, Plot::kEnergy, spec, height);
 }
 
-void drift_plot(App& app, float height, bool last) {
-  const Look& look = app.look;
+void drift_plot(const PlotContext& in, float height, bool last) {
+  const Look& look = in.look;
   const Theme& t = *look.theme;
-  const History& h = app.session.history();
-  const bool several = app.compare.open();
-  const double most =
-      largest_of_stable(app, [](const History& one) { return one.largest_drift(); });
+  const History& h = in.session.history();
+  const bool several = in.compare.open();
+  const double most = largest_of_stable(in.session, in.compare,
+                                        [](const History& one) { return one.largest_drift(); });
   const Unit unit = unit_for(std::max(most, kLeastDrift));
   const std::string heading = (several ? "Drift, " : "Energy drift, ") + unit.prefix + "J";
-  const auto scale = energy_scale(app.session.scene().criteria.energy_scale, h.largest_kinetic(),
+  const auto scale = energy_scale(in.session.scene().criteria.energy_scale, h.largest_kinetic(),
                                   h.largest_drift());
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const double now = shown_value(h, Channel::kDrift, app.desk.time);
+  const double now = shown_value(h, Channel::kDrift, in.desk.time);
   const bool named = !several && std::isfinite(now);
   section(look, heading.c_str(), named ? energy_change(now, scale).c_str() : "");
   tooltip(look, "Energy drift",
@@ -168,12 +169,12 @@ void drift_plot(App& app, float height, bool last) {
   spec.least_span = std::max(0.1 * unit.factor, kLeastDrift);
   spec.series.push_back({&h, Channel::kDrift, several ? t.blue : t.orange});
   if (several) {
-    compared_energies(app, origin, origin.x + heading_width(look, heading.c_str()), Channel::kDrift,
+    compared_energies(in, origin, origin.x + heading_width(look, heading.c_str()), Channel::kDrift,
                       unit);
     spec.most = kRoomForFailed * most;
-    add_compared(app, spec, Channel::kDrift);
+    add_compared(in, spec, Channel::kDrift);
   }
-  draw_plot(app, Plot::kDrift, spec, height);
+  draw_plot(in, Plot::kDrift, spec, height);
 }
 
 }  // namespace substep::ui

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -16,69 +15,61 @@
 namespace substep::ui {
 namespace {
 
-void open(App& app, const std::filesystem::path& file) {
-  if (app.open_result(read_scene_file(file.string()), file.filename().string())) {
-    app.browser.close();
+void open(Lab& lab, FileBrowser& browser, const std::filesystem::path& file) {
+  if (lab.open_result(read_scene_file(file.string()), file.filename().string())) {
+    browser.close();
   }
 }
 
 // The folder in words; Enter goes to another one, or opens a file.
-void path_field(App& app) {
-  static std::array<char, 1024> text{};
-  static std::filesystem::path shown;
-  if (shown != app.browser.folder()) {
-    shown = app.browser.folder();
-    const std::string now = shown.string().substr(0, text.size() - 1);
-    text.fill('\0');
-    std::copy(now.begin(), now.end(), text.begin());
-  }
-  ImGui::PushFont(app.look.fonts.regular);
+void path_field(const Look& look, Lab& lab, FileBrowser& browser) {
+  std::array<char, 1024>& text = browser.typed();
+  ImGui::PushFont(look.fonts.regular);
   ImGui::SetNextItemWidth(-1.0F);
   const bool entered =
       ImGui::InputText("##path", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   ImGui::PopFont();
-  tooltip(app.look, "", "Type or paste a folder or a file, then Enter");
+  tooltip(look, "", "Type or paste a folder or a file, then Enter");
   if (!entered) return;
-  const std::filesystem::path file = app.browser.follow(text.data());
-  if (!file.empty()) open(app, file);
+  const std::filesystem::path file = browser.follow(text.data());
+  if (!file.empty()) open(lab, browser, file);
 }
 
 }  // namespace
 
-void file_card(App& app) {
-  if (!app.browser.open()) return;
-  const Look& look = app.look;
-  bool close = app.trouble.title.empty() && ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(app, "##open_file", 480.0F, card_middle(app), 0.5F)) {
+void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser& browser) {
+  if (!browser.open()) return;
+  bool close = lab.trouble.title.empty() && ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+  if (begin_card(look, viewport, "##open_file", 480.0F, card_middle(viewport), 0.5F)) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
     card_title(look, 0, Icon::kNone, "Open a scene file");
-    path_field(app);
-    if (!app.browser.problem().empty()) {
-      label(look.fonts.small, look.theme->orange, app.browser.problem().c_str());
+    path_field(look, lab, browser);
+    if (!browser.problem().empty()) {
+      label(look.fonts.small, look.theme->orange, browser.problem().c_str());
     }
     const float height = std::clamp(ImGui::GetIO().DisplaySize.y - 260.0F, 120.0F, 320.0F);
     if (ImGui::BeginChild("entries", {0.0F, height}, ImGuiChildFlags_None)) {
       // What is clicked changes the list: it is acted on after it was drawn.
       std::filesystem::path folder;
       std::filesystem::path file;
-      if (app.browser.folder().has_relative_path() && menu_item(look, "..", "", false)) {
-        folder = app.browser.folder().parent_path();
+      if (browser.folder().has_relative_path() && menu_item(look, "..", "", false)) {
+        folder = browser.folder().parent_path();
       }
-      for (const FileBrowser::Entry& entry : app.browser.entries()) {
+      for (const FileBrowser::Entry& entry : browser.entries()) {
         if (!menu_item(look, entry.name.c_str(), entry.folder ? "folder" : "", false)) continue;
-        (entry.folder ? folder : file) = app.browser.folder() / entry.name;
+        (entry.folder ? folder : file) = browser.folder() / entry.name;
       }
-      if (app.browser.entries().empty()) {
+      if (browser.entries().empty()) {
         label(look.fonts.small, look.theme->dim, "No folders and no scene files (*.json) here.");
       }
-      if (!folder.empty()) app.browser.show(folder);
-      if (!file.empty()) open(app, file);
+      if (!folder.empty()) browser.show(folder);
+      if (!file.empty()) open(lab, browser, file);
     }
     ImGui::EndChild();
     close |= card_closed(look);
   }
   ImGui::End();
-  if (close) app.browser.close();
+  if (close) browser.close();
 }
 
 }  // namespace substep::ui

@@ -5,10 +5,8 @@
 namespace substep::ui {
 namespace {
 
-std::vector<Handle>& list() {
-  static std::vector<Handle> handles;
-  return handles;
-}
+// Those of the context that is current, see context.hpp.
+std::vector<Handle>& list() { return *static_cast<std::vector<Handle>*>(ImGui::GetIO().UserData); }
 
 }  // namespace
 

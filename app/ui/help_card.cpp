@@ -49,15 +49,14 @@ float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const G
 
 }  // namespace
 
-void help_card(App& app) {
-  if (!app.desk.help) return;
+void help_card(const Look& look, Desk& desk, const Viewport& viewport) {
+  if (!desk.help) return;
   std::array<Gesture, 32> keys{};
   std::size_t count = 0;
   for (const KeyAction& action : key_actions()) keys.at(count++) = {action.shown, action.what};
-  const Look& look = app.look;
   const bool two = ImGui::GetIO().DisplaySize.x > 760.0F;  // columns
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(app, "##help", two ? 656.0F : 400.0F, card_middle(app), 0.5F)) {
+  if (begin_card(look, viewport, "##help", two ? 656.0F : 400.0F, card_middle(viewport), 0.5F)) {
     card_title(look, 0, Icon::kNone, "Keys and gestures");
     const ImVec2 at = ImGui::GetCursorScreenPos();
     float height = draw_lines(look, at, 64.0F, std::span(keys).first(count));
@@ -68,7 +67,7 @@ void help_card(App& app) {
     close |= card_closed(look);
   }
   ImGui::End();
-  if (close) app.desk.help = false;
+  if (close) desk.help = false;
 }
 
 }  // namespace substep::ui

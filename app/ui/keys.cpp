@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/app.hpp"
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 
 namespace substep::ui {
@@ -51,7 +51,7 @@ constexpr std::array<KeyAction, 19> kActions{
       [](App& app, char typed) { change_speed(app.session, typed == ']' ? 1 : -1); }},
      {"1 … 8", "12345678", "the ways to keep it stable",
       [](App& app, char typed) { choose_mode(app, typed - '1'); }},
-     {"B", "bB", "throw a ball at the pointer", [](App& app, char) { throw_ball(app); }},
+     {"B", "bB", "throw a ball at the pointer", [](App& app, char) { throw_ball(app, app); }},
      {"F", "fF", "show everything", [](App& app, char) { app.view.frame_all(app.session); }},
      {"V", "vV", "compared: ghosts or side by side",
       [](App& app, char) { app.desk.split = !app.desk.split; }},
@@ -60,7 +60,7 @@ constexpr std::array<KeyAction, 19> kActions{
      {"+  −", "+=-", "larger or smaller interface",
       [](App& app, char typed) { change_scale(app, typed == '-' ? -0.1 : 0.1); }},
      {"G", "gG", "the guided tour, and its next step",
-      [](App& app, char) { go_on_with_tour(app); }},
+      [](App& app, char) { go_on_with_tour(app.desk); }},
      {"L", "lL", "copy the link", [](App& app, char) { copy_link(app); }},
      {"C", "cC", "copy the command", [](App& app, char) { copy_command(app); }},
      {"O", "oO", "open a scene file",
@@ -68,7 +68,8 @@ constexpr std::array<KeyAction, 19> kActions{
         if (app.host.open_file) app.host.open_file();
       }},
      {"S", "sS", "save the scene as it is now", [](App& app, char) { app.save_scene(); }},
-     {"P", "pP", "picture of the window", [](App& app, char) { capture_window(app); }},
+     {"P", "pP", "picture of the window",
+      [](App& app, char) { capture_window(app.session, app.desk); }},
      {"?", "?", "this list", [](App& app, char) { app.desk.help = !app.desk.help; }}}};
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "app/ui/look.hpp"
 
+#include <array>
+
 #include <algorithm>
 
 #include "app/fonts/fonts.hpp"
@@ -101,6 +103,11 @@ const Theme& dark_theme() {
 const Theme& light_theme() {
   static const Theme theme = make_light();
   return theme;
+}
+
+ImU32 compare_color(const Look& look, std::size_t run) {
+  const Theme& t = *look.theme;
+  return std::array{t.orange, t.teal, t.purple}.at(run);
 }
 
 ImU32 fade(ImU32 color, float opacity) {

@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include <cstddef>
+
 #include "app/render/scene_view.hpp"
 
 namespace substep::ui {
@@ -69,6 +71,8 @@ Fonts build_fonts(float pixel_ratio);
 void apply_style(const Look& look);
 
 inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
+/// The colour of a run that is compared, in plots and in the picture. @param run counts from 0
+ImU32 compare_color(const Look& look, std::size_t run);
 /// The same colour, less opaque.
 ImU32 fade(ImU32 color, float opacity);
 

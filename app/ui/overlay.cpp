@@ -5,8 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "app/format.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/caption.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -17,53 +18,23 @@ namespace substep::ui {
 namespace {
 
 std::string solver_words(const Settings& s) {
-  const std::string sweeps = std::to_string(s.iterations) + (s.share_iterations ? " a frame" : "");
-  switch (s.solver) {
-    case SolverKind::kPgs:
-      return "PGS " + sweeps;
-    case SolverKind::kBpp:
-      return s.refinements > 0 ? "BPP, refined " + std::to_string(s.refinements) : "BPP";
-    case SolverKind::kXpbd:
-      return "XPBD " + sweeps;
-    case SolverKind::kNewton:
-      return "Newton, forces " + std::string(name_of(s.forces));
+  std::string words = entry_of(s.solver).title;
+  if (entry_of(s.solver).sweeps) words += " " + std::to_string(s.iterations);
+  if (reads(s, "share_iterations") && s.share_iterations) words += " a frame";
+  if (reads(s, "refinements") && s.refinements > 0) {
+    words += ", refined " + std::to_string(s.refinements);
   }
-  return "";
+  if (reads(s, "forces")) words += ", forces " + std::string(name_of(s.forces));
+  return words;
 }
 
 std::string method_line(const Settings& s) {
-  std::string line(name_of(s.mode));
-  switch (s.mode) {
-    case Mode::kNone:
-      line = "no sub-steps";
-      break;
-    case Mode::kConst:
-      line = "constant N " + std::to_string(s.n);
-      break;
-    case Mode::kDamping:
-      line = "adaptive damping, α " + plain_number(s.alpha);
-      break;
-    case Mode::kAdaptive:
-      line = "adaptive sub-steps, α " + plain_number(s.alpha);
-      break;
-    case Mode::kCapped:
-      line = "N up to " + std::to_string(s.n_cap) + ", then damping";
-      break;
-    case Mode::kStiffness:
-      line = "full geometric stiffness";
-      break;
-    case Mode::kInertia:
-      line = "N up to " + std::to_string(s.n_cap) + ", then geometric inertia";
-      break;
-    case Mode::kBlend:
-      line = "N up to " + std::to_string(s.n_cap) + ", then inertia and damping";
-      break;
-  }
+  std::string line = with_values(entry_of(s.mode).caption, s);
   if (has_islands(s)) line += ", by island";
   line += "  ·  " + solver_words(s);
-  line += s.integrator == Integrator::kEuler ? "  ·  Euler"
-          : follows_accelerations(s)         ? "  ·  Störmer"
-                                             : "  ·  leapfrog";
+  const bool as_leapfrog = s.integrator == Integrator::kStormer && !follows_accelerations(s);
+  line += "  ·  ";
+  line += entry_of(as_leapfrog ? Integrator::kLeapfrog : s.integrator).title;
   return line;
 }
 
@@ -79,19 +50,19 @@ void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU3
   draw_text(draw, font, at, color, text);
 }
 
-bool project(const App& app, const Vec3& x, ImVec2& out, std::size_t pane) {
-  const Eigen::Vector4f p = app.pictures[pane].view_projection * x.cast<float>().homogeneous();
+bool project(const Viewport& viewport, const Vec3& x, ImVec2& out, std::size_t pane) {
+  const Eigen::Vector4f p = viewport.pictures[pane].view_projection * x.cast<float>().homogeneous();
   if (p.w() <= 0.0F) return false;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   out = {(0.5F + 0.5F * p.x() / p.w()) * size.x, (0.5F - 0.5F * p.y() / p.w()) * size.y};
   return true;
 }
 
-double pixel_size(const App& app, const Vec3& x) {
+double pixel_size(const Viewport& viewport, const Vec3& x) {
   const auto depth = static_cast<double>(
-      app.pictures.front().view_projection.row(3).dot(x.cast<float>().homogeneous()));
+      viewport.pictures.front().view_projection.row(3).dot(x.cast<float>().homogeneous()));
   return 2.0 * std::max(0.0, depth) * std::tan(0.5 * OrbitCamera::kFieldOfView) /
-         std::max(1.0, static_cast<double>(app.panes.front().height));
+         std::max(1.0, static_cast<double>(viewport.panes.front().height));
 }
 
 // What the large number counts. @param left sub-steps of the frame to come
@@ -104,17 +75,16 @@ std::string unit_of_n(const FrameReport& report, int left) {
   return report.n_substeps == 1 ? "step a frame" : "sub-steps";
 }
 
-void caption(App& app, bool phone) {
-  const Look& look = app.look;
+void caption(const Look& look, const Session& session, const Viewport& viewport, bool phone) {
   const Theme& t = *look.theme;
-  const ViewRect& v = app.view_rect;
+  const ViewRect& v = viewport.view_rect;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const float pad = phone ? 12.0F : 16.0F;
-  const FrameReport& report = app.session.report();
+  const FrameReport& report = session.report();
   const bool stepped = report.n_substeps > 0 || report.asleep > 0;
-  const bool has_n = stepped && app.panes.size() == 1;  // else each pane has its own
+  const bool has_n = stepped && viewport.panes.size() == 1;  // else each pane has its own
   const std::string n = has_n ? std::to_string(report.n_substeps) : "";
-  const std::string unit = has_n ? unit_of_n(report, app.session.substeps_left()) : "";
+  const std::string unit = has_n ? unit_of_n(report, session.substeps_left()) : "";
   const ImVec2 n_size = text_size(look.fonts.large, n.c_str());
   const float unit_width = text_size(look.fonts.regular, unit.c_str()).x;
   const auto room_beside = [&](float width) {
@@ -122,10 +92,10 @@ void caption(App& app, bool phone) {
   };
   const ImVec2 at(v.x + pad, v.y + pad);
   draw_over(look, draw, look.fonts.title, at, t.text,
-            fitted(look.fonts.title, app.session.scene().title, room_beside(n_size.x)).c_str());
-  draw_over(look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
-            fitted(look.fonts.regular, method_line(app.session.settings()), room_beside(unit_width))
-                .c_str());
+            fitted(look.fonts.title, session.scene().title, room_beside(n_size.x)).c_str());
+  draw_over(
+      look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
+      fitted(look.fonts.regular, method_line(session.settings()), room_beside(unit_width)).c_str());
   if (!has_n) return;
   const float right = v.x + v.width - pad;
   draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n.c_str());
@@ -133,23 +103,23 @@ void caption(App& app, bool phone) {
             unit.c_str());
 }
 
-void body_labels(App& app) {
-  if (!app.desk.view.labels) return;
-  const Look& look = app.look;
-  const Scene& scene = app.session.scene();
-  const Poses& poses = app.session.poses();
+void body_labels(const Look& look, const Session& session, const Desk& desk,
+                 const Viewport& viewport) {
+  if (!desk.view.labels) return;
+  const Scene& scene = session.scene();
+  const Poses& poses = session.poses();
   double lightest = 0.0;
   for (const Body& body : scene.bodies) {
     if (!body.is_static && (lightest == 0.0 || body.mass < lightest)) lightest = body.mass;
   }
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const ViewRect& v = app.panes.front();
-  const std::size_t own = app.session.loaded().bodies.size();  // a thrown ball has no label
+  const ViewRect& v = viewport.panes.front();
+  const std::size_t own = session.loaded().bodies.size();  // a thrown ball has no label
   for (std::size_t i = 0; i < own; ++i) {
     const Body& body = scene.bodies[i];
     if (body.is_static || body.mass < 20.0 * lightest) continue;
     ImVec2 p;
-    if (!project(app, poses.x[i], p)) continue;
+    if (!project(viewport, poses.x[i], p)) continue;
     const std::string text = grouped(body.mass) + " kg";
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
     // Below the body as it is seen where it hangs, above it where it stands on others.
@@ -161,15 +131,15 @@ void body_labels(App& app) {
         const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
                         (corner & 4) != 0 ? 1 : -1);
         ImVec2 c;
-        if (project(app, poses.x[i] + poses.q[i] * box->half_extents.cwiseProduct(sign), c)) {
+        if (project(viewport, poses.x[i] + poses.q[i] * box->half_extents.cwiseProduct(sign), c)) {
           low = std::max(low, c.y);
           high = std::min(high, c.y);
         }
       }
     } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
       ImVec2 c;
-      if (project(app, poses.x[i] - Vec3(0.0, sphere->radius, 0.0), c)) low = c.y;
-      if (project(app, poses.x[i] + Vec3(0.0, sphere->radius, 0.0), c)) high = c.y;
+      if (project(viewport, poses.x[i] - Vec3(0.0, sphere->radius, 0.0), c)) low = c.y;
+      if (project(viewport, poses.x[i] + Vec3(0.0, sphere->radius, 0.0), c)) high = c.y;
     }
     const ImVec2 at(p.x - 0.5F * size.x, below ? low + 6.0F : high - 8.0F - size.y);
     constexpr float kCaption = 68.0F;  // the lines above are the caption's
@@ -180,12 +150,12 @@ void body_labels(App& app) {
   }
 }
 
-void tint_scale(App& app) {
-  if (!app.desk.view.tint || app.compare.open()) return;
-  if (stiffness_shares(app.session.scene(), app.session.state()).empty()) return;
-  const Look& look = app.look;
+void tint_scale(const Look& look, const Session& session, const Compare& compare, const Desk& desk,
+                const Viewport& viewport) {
+  if (!desk.view.tint || compare.open()) return;
+  if (stiffness_shares(session.scene(), session.state()).empty()) return;
   const ViewPalette& palette = look.theme->view;
-  const ViewRect& v = app.view_rect;
+  const ViewRect& v = viewport.view_rect;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ImVec2 at(v.x + 16.0F, v.y + v.height - 28.0F);
   const auto ink = [](const Color& c) {

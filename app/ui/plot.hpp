@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/history.hpp"
+#include "app/lab/history.hpp"
 #include "app/ui/look.hpp"
 
 namespace substep::ui {

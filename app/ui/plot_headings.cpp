@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/plot.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -26,8 +26,8 @@ std::string order_of_magnitude(double value) {
   return power_of_ten(static_cast<int>(std::lround(std::log10(value))));
 }
 
-void compared_values(App& app, ImVec2 heading, float left, Channel channel, const ValueText& text,
-                     const ValueText& brief) {
+void compared_values(const PlotContext& in, ImVec2 heading, float left, Channel channel,
+                     const ValueText& text, const ValueText& brief) {
   struct Value {
     ImU32 color;
     std::string full;
@@ -36,50 +36,51 @@ void compared_values(App& app, ImVec2 heading, float left, Channel channel, cons
   std::vector<Value> values;
   float full_width = 0.0F;
   const auto add = [&](const History& history, ImU32 color) {
-    const double v = shown_value(history, channel, app.desk.time);
+    const double v = shown_value(history, channel, in.desk.time);
     const bool known = std::isfinite(v);
     values.push_back({color, known ? text(v) : "–", known ? brief(v) : "–"});
-    full_width += text_size(app.look.fonts.small, values.back().full.c_str()).x + kLegendGap;
+    full_width += text_size(in.look.fonts.small, values.back().full.c_str()).x + kLegendGap;
   };
-  add(app.session.history(), app.look.theme->blue);
-  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
-    add(app.compare.runs()[i].history, app.compare_color(i));
+  add(in.session.history(), in.look.theme->blue);
+  for (std::size_t i = 0; i < in.compare.runs().size(); ++i) {
+    add(in.compare.runs()[i].history, compare_color(in.look, i));
   }
   float right = heading.x + ImGui::GetContentRegionAvail().x;
   const bool fits = right - full_width >= left;
   for (std::size_t i = values.size(); i-- > 0;) {
     const std::string& shown = fits ? values[i].full : values[i].brief;
-    right = legend(app.look, right, heading.y, values[i].color, shown);
+    right = legend(in.look, right, heading.y, values[i].color, shown);
   }
 }
 
-void named_values(App& app, ImVec2 heading, float left, const std::vector<NamedChannel>& shown) {
+void named_values(const PlotContext& in, ImVec2 heading, float left,
+                  const std::vector<NamedChannel>& shown) {
   const float end = heading.x + ImGui::GetContentRegionAvail().x;
   const auto text = [&](const NamedChannel& one, bool brief) {
-    const double value = shown_value(app.session.history(), one.channel, app.desk.time);
+    const double value = shown_value(in.session.history(), one.channel, in.desk.time);
     if (!std::isfinite(value)) return std::string(one.name);
     return std::string(one.name) + " " + (brief ? order_of_magnitude(value) : coarse_number(value));
   };
   float full = 0.0F;
   for (const NamedChannel& one : shown) {
-    full += text_size(app.look.fonts.small, text(one, false).c_str()).x + kLegendGap;
+    full += text_size(in.look.fonts.small, text(one, false).c_str()).x + kLegendGap;
   }
   const bool brief = end - full < left;
   float right = end;
   for (const NamedChannel& one : shown) {
-    right = legend(app.look, right, heading.y, one.color, text(one, brief));
+    right = legend(in.look, right, heading.y, one.color, text(one, brief));
   }
 }
 
-void count_heading(App& app, const char* name, const char* name_of_several, Channel channel,
-                   const char* before, const char* after, const ValueText& text) {
-  const double now = shown_value(app.session.history(), channel, app.desk.time);
-  const bool several = app.compare.open();
+void count_heading(const PlotContext& in, const char* name, const char* name_of_several,
+                   Channel channel, const char* before, const char* after, const ValueText& text) {
+  const double now = shown_value(in.session.history(), channel, in.desk.time);
+  const bool several = in.compare.open();
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const std::string value = several || !std::isfinite(now) ? "" : before + text(now) + after;
-  section(app.look, several ? name_of_several : name, value.c_str());
+  section(in.look, several ? name_of_several : name, value.c_str());
   if (several) {
-    compared_values(app, origin, origin.x + heading_width(app.look, name_of_several), channel, text,
+    compared_values(in, origin, origin.x + heading_width(in.look, name_of_several), channel, text,
                     text);
   }
 }

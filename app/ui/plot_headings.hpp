@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/app.hpp"
+#include "app/ui/plots.hpp"
 
 namespace substep::ui {
 
@@ -22,8 +22,8 @@ std::string order_of_magnitude(double value);
 
 /// The value of each run that is compared, right-aligned. @param left where the heading ends
 /// @param text of a value  @param brief the same where there is little room
-void compared_values(App& app, ImVec2 heading, float left, Channel channel, const ValueText& text,
-                     const ValueText& brief);
+void compared_values(const PlotContext& in, ImVec2 heading, float left, Channel channel,
+                     const ValueText& text, const ValueText& brief);
 
 struct NamedChannel {
   Channel channel;
@@ -31,10 +31,11 @@ struct NamedChannel {
   ImU32 color;
 };
 /// Names with their values, the first at the right; orders of magnitude where there is little room.
-void named_values(App& app, ImVec2 heading, float left, const std::vector<NamedChannel>& shown);
+void named_values(const PlotContext& in, ImVec2 heading, float left,
+                  const std::vector<NamedChannel>& shown);
 
 /// A plot's heading: with its value, or with the values of all that is compared.
-void count_heading(App& app, const char* name, const char* name_of_several, Channel channel,
-                   const char* before, const char* after, const ValueText& text);
+void count_heading(const PlotContext& in, const char* name, const char* name_of_several,
+                   Channel channel, const char* before, const char* after, const ValueText& text);
 
 }  // namespace substep::ui

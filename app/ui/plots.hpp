@@ -1,24 +1,34 @@
 #pragma once
 // The plots of the panel, and what all of them are drawn with.
 
-#include "app/app.hpp"
+#include "app/lab/compare.hpp"
+#include "app/lab/session.hpp"
+#include "app/ui/desk.hpp"
 #include "app/ui/plot.hpp"
 
 namespace substep::ui {
 
+/// What plots show and may change: a click goes to its moment of the run.
+struct PlotContext {
+  const Look& look;
+  Session& session;
+  const Compare& compare;
+  Desk& desk;
+};
+
 /// Adds the others of a comparison, in the colours that they have in the picture, and marks where
 /// they diverge from this run.
-void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps = false);
+void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps = false);
 
 /// Draws a plot over the width of the window, with the time that is looked at; a click goes there.
 /// @param height of the curves, without the labels of the time
-void draw_plot(App& app, Plot which, PlotSpec spec, float height);
+void draw_plot(const PlotContext& in, Plot which, PlotSpec spec, float height);
 
 /// Kinetic, potential and total energy on one scale: at every sample the first two make the third.
 /// In a comparison the kinetic energy of each run.
-void energy_plot(App& app, float height, bool last);
+void energy_plot(const PlotContext& in, float height, bool last);
 /// The change of the total energy since the start, on a scale of its own.
-void drift_plot(App& app, float height, bool last);
+void drift_plot(const PlotContext& in, float height, bool last);
 
 /// The curves of the energy plot where nothing is compared, potential and total counted from the
 /// lowest potential so far.

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "app/export.hpp"
-#include "app/format.hpp"
+#include "app/text/export.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/plot_headings.hpp"
 #include "app/ui/plots.hpp"
@@ -17,26 +17,26 @@
 
 namespace substep::ui {
 
-void add_compared(App& app, PlotSpec& spec, Channel channel, bool steps) {
-  for (std::size_t i = 0; i < app.compare.runs().size(); ++i) {
-    const Compare::Run& run = app.compare.runs()[i];
-    const ImU32 color = app.compare_color(i);
+void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps) {
+  for (std::size_t i = 0; i < in.compare.runs().size(); ++i) {
+    const Compare::Run& run = in.compare.runs()[i];
+    const ImU32 color = compare_color(in.look, i);
     spec.series.push_back({&run.history, channel, color, steps, false, 1.25F});
     if (run.divergence) spec.marks.push_back({run.divergence->time, "", color});
   }
 }
 
-void draw_plot(App& app, Plot which, PlotSpec spec, float height) {
-  const Session& session = app.session;
+void draw_plot(const PlotContext& in, Plot which, PlotSpec spec, float height) {
+  const Session& session = in.session;
   if (!session.timeline().at_end()) {  // the past is looked at
-    spec.marks.push_back({session.state().time, "", app.look.theme->text});
+    spec.marks.push_back({session.state().time, "", in.look.theme->text});
   }
   const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
-  plot(app.look, spec, app.session.history().end_time(),
-       {ImGui::GetContentRegionAvail().x, height + below}, app.desk.time, app.desk.plot(which));
-  if (app.desk.time.clicked) {
-    app.session.go_to(session.timeline().at_time(*app.desk.time.clicked));
-    app.desk.time.clicked.reset();
+  plot(in.look, spec, in.session.history().end_time(),
+       {ImGui::GetContentRegionAvail().x, height + below}, in.desk.time, in.desk.plot(which));
+  if (in.desk.time.clicked) {
+    in.session.go_to(session.timeline().at_time(*in.desk.time.clicked));
+    in.desk.time.clicked.reset();
   }
 }
 
@@ -44,29 +44,10 @@ namespace {
 
 constexpr float kLeastPlot = 46.0F;  // four of them fit into a window of 720
 
-struct PlotInfo {
-  Plot plot;
-  const char* name;
-};
-constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
-    {{Plot::kSubsteps, "Sub-steps per frame"},
-     {Plot::kEnergy, "Energy"},
-     {Plot::kDrift, "Energy drift"},
-     {Plot::kError, "Error and overlap"},
-     {Plot::kTime, "Time by stage"}}};
-
 // A scene with nothing to violate has no plot of errors.
-bool exists(const App& app, Plot plot) {
-  const Effects& effects = app.session.scene().effects;
+bool exists(const Session& session, Plot plot) {
+  const Effects& effects = session.scene().effects;
   return plot != Plot::kError || effects.joints || effects.contact;
-}
-
-std::vector<Plot> shown_plots(App& app) {
-  std::vector<Plot> shown;
-  for (const PlotInfo& info : kPlots) {
-    if (exists(app, info.plot) && app.desk.plot(info.plot).shown) shown.push_back(info.plot);
-  }
-  return shown;
 }
 
 // The largest N at alpha = 1 so far: what a constant N would have to be to hold throughout.
@@ -75,13 +56,13 @@ int constant_to_beat(const History& history) {
   return least.empty() ? 0 : static_cast<int>(std::min(1e9F, std::ceil(least.high)));
 }
 
-void substeps_plot(App& app, float height, bool last) {
-  const Look& look = app.look;
+void substeps_plot(const PlotContext& in, float height, bool last) {
+  const Look& look = in.look;
   const Theme& t = *look.theme;
-  const History& h = app.session.history();
-  const Settings& s = app.session.settings();
-  const bool several = app.compare.open();
-  count_heading(app, "Sub-steps per frame", "Sub-steps", Channel::kSubsteps, "N = ", "",
+  const History& h = in.session.history();
+  const Settings& s = in.session.settings();
+  const bool several = in.compare.open();
+  count_heading(in, "Sub-steps per frame", "Sub-steps", Channel::kSubsteps, "N = ", "",
                 [](double v) { return fixed(v, 0); });
   tooltip(look, "Sub-steps per frame",
           "The N taken in each frame (Eq. 11). Dashed: the constant N that would have held so far, "
@@ -96,26 +77,26 @@ void substeps_plot(App& app, float height, bool last) {
   spec.least_span = 4.0;
   spec.series.push_back({&h, Channel::kSubsteps, t.blue, true, !several});
   if (!several && looks_for_islands(s)) spec.series.push_back({&h, Channel::kMean, t.teal, true});
-  add_compared(app, spec, Channel::kSubsteps, true);
+  add_compared(in, spec, Channel::kSubsteps, true);
   if (const int beat = constant_to_beat(h); beat > 1 && s.mode != Mode::kDamping) {
     spec.levels.push_back(
         {static_cast<double>(beat), "constant N to beat " + grouped(beat), t.amber});
   }
   // A cap is worth a line once N comes near it.
-  const int cap = s.mode == Mode::kAdaptive ? s.n_max : chooses_substeps(s.mode) ? s.n_cap : 0;
+  const int cap = reads(s, "n_max") ? s.n_max : reads(s, "n_cap") ? s.n_cap : 0;
   const std::size_t recent = h.size() - std::min<std::size_t>(h.size(), 600);
   const Extent taken = h.samples(Channel::kSubsteps).extent(recent, h.size());
   if (cap > 0 && taken.high >= 0.7F * static_cast<float>(cap)) {
     spec.levels.push_back({static_cast<double>(cap), "cap " + std::to_string(cap), t.orange});
   }
-  draw_plot(app, Plot::kSubsteps, spec, height);
+  draw_plot(in, Plot::kSubsteps, spec, height);
 }
 
-void error_plot(App& app, float height, bool last) {
-  const Look& look = app.look;
+void error_plot(const PlotContext& in, float height, bool last) {
+  const Look& look = in.look;
   const Theme& t = *look.theme;
-  const History& h = app.session.history();
-  const Effects& effects = app.session.scene().effects;
+  const History& h = in.session.history();
+  const Effects& effects = in.session.scene().effects;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   section(look, "Error, m");
   tooltip(look, "Constraint error",
@@ -125,27 +106,27 @@ void error_plot(App& app, float height, bool last) {
   spec.time_labels = last;
   spec.from_zero = true;
   spec.least_span = 1e-9;
-  if (app.compare.open()) {
+  if (in.compare.open()) {
     const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;
-    compared_values(app, origin, origin.x + heading_width(look, "Error, m"), channel, coarse_number,
+    compared_values(in, origin, origin.x + heading_width(look, "Error, m"), channel, coarse_number,
                     order_of_magnitude);
     spec.series.push_back({&h, channel, t.blue});
-    add_compared(app, spec, channel);
+    add_compared(in, spec, channel);
   } else {
     std::vector<NamedChannel> shown;
     if (effects.contact) shown.push_back({Channel::kPenetration, "overlap", t.amber});
     if (effects.joints) shown.push_back({Channel::kJointError, "joints", t.blue});
-    named_values(app, origin, origin.x + heading_width(look, "Error, m"), shown);
+    named_values(in, origin, origin.x + heading_width(look, "Error, m"), shown);
     for (const NamedChannel& one : shown) spec.series.push_back({&h, one.channel, one.color});
   }
-  draw_plot(app, Plot::kError, spec, height);
+  draw_plot(in, Plot::kError, spec, height);
 }
 
-void time_plot(App& app, float height, bool last) {
-  const Look& look = app.look;
-  const History& h = app.session.history();
-  const bool several = app.compare.open();
-  count_heading(app, "Time per frame, ms", "Time, ms", Channel::kTime, "", " ms",
+void time_plot(const PlotContext& in, float height, bool last) {
+  const Look& look = in.look;
+  const History& h = in.session.history();
+  const bool several = in.compare.open();
+  count_heading(in, "Time per frame, ms", "Time, ms", Channel::kTime, "", " ms",
                 [](double v) { return fixed(v, 2); });
   tooltip(look, "Time per frame",
           "Wall time of the simulation, frame by frame: the whole in grey, its stages in the "
@@ -157,60 +138,64 @@ void time_plot(App& app, float height, bool last) {
   spec.least_span = 0.01;
   if (several) {
     spec.series.push_back({&h, Channel::kTime, look.theme->blue});
-    add_compared(app, spec, Channel::kTime);
+    add_compared(in, spec, Channel::kTime);
   } else {
     spec.series.push_back({&h, Channel::kTime, look.theme->grey, false, true});
-    for (const Stage& stage : stages(app)) {
+    for (const Stage& stage : stages(in.look, in.session)) {
       if (stage.channel == Channel::kTime) continue;
       spec.series.push_back({&h, stage.channel, stage.color, false, false, 1.0F});
     }
   }
-  draw_plot(app, Plot::kTime, spec, height);
+  draw_plot(in, Plot::kTime, spec, height);
 }
 
-void draw_one(App& app, Plot which, float height, bool last) {
-  switch (which) {
-    case Plot::kSubsteps:
-      return substeps_plot(app, height, last);
-    case Plot::kEnergy:
-      return energy_plot(app, height, last);
-    case Plot::kDrift:
-      return drift_plot(app, height, last);
-    case Plot::kError:
-      return error_plot(app, height, last);
-    case Plot::kTime:
-      return time_plot(app, height, last);
-    case Plot::kCount:
-      return;
-  }
-}
+// A plot of the panel, and what a table of the run takes from it. A new one is a function and a
+// line here.
+struct PlotInfo {
+  Plot plot;
+  const char* name;
+  void (*draw)(const PlotContext& in, float height, bool last);
+  std::array<Channel, 6> channels;
+  std::size_t count;  // of the channels
+};
+constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
+    {{Plot::kSubsteps,
+      "Sub-steps per frame",
+      substeps_plot,
+      {Channel::kSubsteps, Channel::kMean, Channel::kLimit},
+      3},
+     {Plot::kEnergy,
+      "Energy",
+      energy_plot,
+      {Channel::kKinetic, Channel::kPotential, Channel::kTotal},
+      3},
+     {Plot::kDrift, "Energy drift", drift_plot, {Channel::kDrift}, 1},
+     {Plot::kError,
+      "Error and overlap",
+      error_plot,
+      {Channel::kJointError, Channel::kJointGap, Channel::kPenetration},
+      3},
+     {Plot::kTime,
+      "Time by stage",
+      time_plot,
+      {Channel::kTime, Channel::kTimeSolve, Channel::kTimeJoints, Channel::kTimeContact,
+       Channel::kTimeFriction, Channel::kTimeStiffness},
+      6}}};
 
-std::vector<Channel> channels_of(Plot plot) {
-  switch (plot) {
-    case Plot::kSubsteps:
-      return {Channel::kSubsteps, Channel::kMean, Channel::kLimit};
-    case Plot::kEnergy:
-      return {Channel::kKinetic, Channel::kPotential, Channel::kTotal};
-    case Plot::kDrift:
-      return {Channel::kDrift};
-    case Plot::kError:
-      return {Channel::kJointError, Channel::kJointGap, Channel::kPenetration};
-    case Plot::kTime:
-      return {Channel::kTime,        Channel::kTimeSolve,    Channel::kTimeJoints,
-              Channel::kTimeContact, Channel::kTimeFriction, Channel::kTimeStiffness};
-    case Plot::kCount:
-      break;
+std::vector<const PlotInfo*> shown_plots(const Session& session, Desk& desk) {
+  std::vector<const PlotInfo*> shown;
+  for (const PlotInfo& info : kPlots) {
+    if (exists(session, info.plot) && desk.plot(info.plot).shown) shown.push_back(&info);
   }
-  return {};
+  return shown;
 }
 
 std::string span_name(double seconds) {
   return seconds < 9.95 ? plain_number(seconds) + " s" : fixed(seconds, 0) + " s";
 }
 
-void span_menu(App& app, float width) {
-  const Look& look = app.look;
-  TimeAxis& time = app.desk.time;
+void span_menu(const Look& look, Desk& desk, float width) {
+  TimeAxis& time = desk.time;
   menu_button(look, "span", span_name(time.span).c_str(), width, look.m.row,
               "How much time the plots show (wheel on a plot)", [&] {
                 for (const double span : {2.0, 5.0, 10.0, 30.0, 60.0, 200.0, 600.0}) {
@@ -222,29 +207,27 @@ void span_menu(App& app, float width) {
               });
 }
 
-void save_menu(App& app) {
-  const Look& look = app.look;
+void save_menu(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewport) {
   icon_menu(look, "save", Icon::kSave, ButtonKind::kPlain, look.m.row, "Save the run or a picture",
             [&] {
-              const std::string name = file_stem(app);
+              const std::string name = file_stem(lab.session);
               const ImVec2 display = ImGui::GetIO().DisplaySize;
-              if (menu_item(look, "Run as a table", "CSV", false)) save_table(app);
+              if (menu_item(look, "Run as a table", "CSV", false)) save_table(lab, desk);
               if (menu_item(look, "Plots", "PNG", false)) {
-                app.capture = {name + "-plots.png", app.desk.plots_area};
+                desk.capture = {name + "-plots.png", desk.plots_area};
               }
               if (menu_item(look, "View", "PNG", false)) {
-                app.capture = {name + "-view.png", app.view_rect};
+                desk.capture = {name + "-view.png", viewport.view_rect};
               }
               if (menu_item(look, "Window", "PNG", false)) {
-                app.capture = {name + ".png", {0.0F, 0.0F, display.x, display.y}};
+                desk.capture = {name + ".png", {0.0F, 0.0F, display.x, display.y}};
               }
             });
 }
 
 // Above the plots: what they show, and how much of it.
-void toolbar(App& app) {
-  const Look& look = app.look;
-  TimeAxis& time = app.desk.time;
+void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewport) {
+  TimeAxis& time = desk.time;
   const float row = look.m.row;
   const float width = ImGui::GetContentRegionAvail().x;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
@@ -253,74 +236,74 @@ void toolbar(App& app) {
              time.follow ? "Hold the plots: the run goes on"
                          : "Follow the run again (double click on a plot)")) {
     if (time.follow) {
-      time.end = time.window(app.session.history().end_time()).second;
+      time.end = time.window(lab.session.history().end_time()).second;
       time.follow = false;
     } else {
       time.follow_again();
     }
   }
   ImGui::SameLine(0.0F, 8.0F);
-  span_menu(app, 84.0F);
+  span_menu(look, desk, 84.0F);
   ImGui::SetCursorScreenPos({origin.x + width - 3.0F * row - 16.0F, origin.y});
   icon_menu(look, "which", Icon::kList, ButtonKind::kPlain, row, "Which plots are shown", [&] {
     for (const PlotInfo& info : kPlots) {
-      PlotState& state = app.desk.plot(info.plot);
-      if (exists(app, info.plot) && menu_item(look, info.name, "", state.shown)) {
+      PlotState& state = desk.plot(info.plot);
+      if (exists(lab.session, info.plot) && menu_item(look, info.name, "", state.shown)) {
         state.shown = !state.shown;
       }
     }
   });
   ImGui::SameLine(0.0F, 8.0F);
-  save_menu(app);
+  save_menu(look, lab, desk, viewport);
   ImGui::SameLine(0.0F, 8.0F);
   if (button(look, "clear", Icon::kCross, "", ButtonKind::kPlain, row, row,
              "Clear the plots up to now; a reset brings them back")) {
-    time.from = app.session.history().end_time();
+    time.from = lab.session.history().end_time();
     time.follow = true;
   }
 }
 
 }  // namespace
 
-std::string file_stem(const App& app) {
-  return app.session.scene().name + "-" + std::string(name_of(app.session.settings().mode));
+std::string file_stem(const Session& session) {
+  return session.scene().name + "-" + std::string(name_of(session.settings().mode));
 }
 
-void save_table(App& app) {
-  if (!app.host.save_file) return;
+void save_table(const Lab& lab, Desk& desk) {
+  if (!lab.host.save_file) return;
   std::vector<Channel> channels;
-  for (const Plot plot : shown_plots(app)) {
-    for (const Channel channel : channels_of(plot)) channels.push_back(channel);
+  for (const PlotInfo* info : shown_plots(lab.session, desk)) {
+    channels.insert(channels.end(), info->channels.begin(), info->channels.begin() + info->count);
   }
-  std::vector<ExportedRun> runs{{file_stem(app), &app.session.history()}};
-  for (const Compare::Run& run : app.compare.runs()) {
+  std::vector<ExportedRun> runs{{file_stem(lab.session), &lab.session.history()}};
+  for (const Compare::Run& run : lab.compare.runs()) {
     runs.push_back({overrides_title(run.overrides), &run.history});
   }
-  app.host.save_file(file_stem(app) + ".csv",
-                     history_csv(app.session.scene(), runs, channels, app.desk.time.from));
+  lab.host.save_file(file_stem(lab.session) + ".csv",
+                     history_csv(lab.session.scene(), runs, channels, desk.time.from));
 }
 
-void plots(App& app, float height) {
+void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float height) {
   // All of one height, the last with the labels of the time axis below it.
-  toolbar(app);
+  toolbar(look, lab, desk, viewport);
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  const std::vector<Plot> shown = shown_plots(app);
+  const std::vector<const PlotInfo*> shown = shown_plots(lab.session, desk);
   const auto count = static_cast<float>(shown.size());
-  const float gap = 0.75F * app.look.m.section;
+  const float gap = 0.75F * look.m.section;
   const float rest =
-      height - app.look.m.row - 8.0F - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
+      height - look.m.row - 8.0F - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
   const float unit = std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot));
-  for (const Plot which : shown) {
-    if (which != shown.front()) space(gap);
-    draw_one(app, which, unit, which == shown.back());
+  const PlotContext in{look, lab.session, lab.compare, desk};
+  for (const PlotInfo* info : shown) {
+    if (info != shown.front()) space(gap);
+    info->draw(in, unit, info == shown.back());
   }
   if (shown.empty()) {
-    label(app.look.fonts.small, app.look.theme->dim,
-          "Every plot is hidden: the list above shows them.");
+    label(look.fonts.small, look.theme->dim, "Every plot is hidden: the list above shows them.");
   }
-  app.desk.plots_area = {from.x - 8.0F, from.y - 4.0F, width + 16.0F,
-                         ImGui::GetCursorScreenPos().y - from.y + 4.0F};
+  desk.plots_area = {from.x - 8.0F, from.y - 4.0F, width + 16.0F,
+                     ImGui::GetCursorScreenPos().y - from.y + 4.0F};
 }
 
 }  // namespace substep::ui

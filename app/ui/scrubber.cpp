@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -17,7 +17,7 @@ namespace {
 constexpr float kKnob = 7.0F;
 
 // Times along the track; the start of a run has no past yet, and its knob stands at the left.
-struct Track {
+struct TimeTrack {
   float left;
   float right;
   double begin;
@@ -34,9 +34,9 @@ struct Track {
   }
 };
 
-void draw_track(const App& app, ImDrawList& draw, const Track& track, float y, bool bright) {
-  const Theme& t = *app.look.theme;
-  const Session& session = app.session;
+void draw_track(const Look& look, const Session& session, ImDrawList& draw, const TimeTrack& track,
+                float y, bool bright) {
+  const Theme& t = *look.theme;
   const Verdict& last = session.stopped() || session.timeline().at_end()
                             ? session.verdict()
                             : session.timeline().last().verdict;
@@ -54,16 +54,15 @@ void draw_track(const App& app, ImDrawList& draw, const Track& track, float y, b
 
 }  // namespace
 
-void scrubber(App& app, ImVec2 at, float width, float height) {
-  Session& session = app.session;
+void scrubber(const Look& look, Session& session, ImVec2 at, float width, float height) {
   const Timeline& past = session.timeline();
   ImGui::SetCursorScreenPos(at);
   ImGui::InvisibleButton("past", {width, height});
   mark("past", {at.x + kKnob, at.y}, {at.x + width - kKnob, at.y + height});
   const bool hovered = ImGui::IsItemHovered();
   const bool active = ImGui::IsItemActive();
-  const Track track{at.x + kKnob, at.x + width - kKnob, past[0].state.time,
-                    std::max(past.last().state.time, session.state().time)};
+  const TimeTrack track{at.x + kKnob, at.x + width - kKnob, past[0].state.time,
+                        std::max(past.last().state.time, session.state().time)};
   const float pointer = ImGui::GetIO().MousePos.x;
   if (active && track.end > track.begin) {
     const std::size_t wanted = past.at_time(track.time(pointer));
@@ -77,12 +76,12 @@ void scrubber(App& app, ImVec2 at, float width, float height) {
     if (ImGui::IsKeyPressed(ImGuiKey_RightArrow) && !past.at_end()) session.go_to(past.index() + 1);
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_track(app, draw, track, std::round(at.y + 0.5F * height), hovered || active);
-  draw_focus(app.look, draw, at, {at.x + width, at.y + height});
+  draw_track(look, session, draw, track, std::round(at.y + 0.5F * height), hovered || active);
+  draw_focus(look, draw, at, {at.x + width, at.y + height});
   if (!active && hovered) {
     const std::string when = fixed(track.time(pointer), 2) + " s";
     tooltip(
-        app.look, when.c_str(),
+        look, when.c_str(),
         "Drag to look back (, and . go by frames). The run goes on from where you leave it, bit "
         "for bit; what came after is forgotten then.");
   }

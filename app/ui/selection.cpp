@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -38,31 +38,29 @@ std::string newtons(double force) {
   return short_number(force / unit.factor) + ' ' + unit.prefix + 'N';
 }
 
-void motion_rows(const App& app, std::size_t i, bool phone) {
-  const Look& look = app.look;
-  const State& state = app.session.state();
+void motion_rows(const Look& look, const Session& session, std::size_t i, bool phone) {
+  const State& state = session.state();
   const Vec6& u = state.u[i];
   row(look, "position", triple(state.x[i], phone ? 1 : 2, " m"), "Centre of mass: x, y, z.");
   row(look, "speed", short_number(u.head<3>().norm()) + " m/s");
   row(look, "turns", short_number(u.tail<3>().norm()) + " rad/s", "Angular speed.");
 }
 
-void stiffness_row(const App& app, std::size_t i) {
-  const State& state = app.session.state();
+void stiffness_row(const Look& look, const Session& session, std::size_t i) {
+  const State& state = session.state();
   if (state.k.size() <= i || !(state.r > 0.0)) return;
-  const double r = stiffest_of(app.session.scene(), state, i).r;
-  const int n =
-      wanted_substeps(app.session.scene().frame, stable_step(app.session.settings().alpha, r));
-  row(app.look, "k/M",
+  const double r = stiffest_of(session.scene(), state, i).r;
+  const int n = wanted_substeps(session.scene().frame, stable_step(session.settings().alpha, r));
+  row(look, "k/M",
       fixed(100.0 * r / state.r, r < state.r ? 1 : 0) + " % of r  ·  N " + std::to_string(n),
       "Its largest diagonal entry of K over that of M, as a share of r (Eq. 9), and the N that it "
       "would ask for alone (Eqs. 10, 11).");
 }
 
 // Joints by the force in them, and the sum over the contacts.
-void force_rows(const App& app, int body) {
-  const Scene& scene = app.session.scene();
-  const ConstraintForces& forces = app.session.forces();
+void force_rows(const Look& look, const Session& session, int body) {
+  const Scene& scene = session.scene();
+  const ConstraintForces& forces = session.forces();
   struct Pull {
     const std::string* joint;
     double force;
@@ -77,7 +75,7 @@ void force_rows(const App& app, int body) {
             [](const Pull& a, const Pull& b) { return a.force > b.force; });
   constexpr std::size_t kShown = 4;
   for (std::size_t j = 0; j < std::min(kShown, pulls.size()); ++j) {
-    row(app.look, pulls[j].joint->c_str(), newtons(pulls[j].force),
+    row(look, pulls[j].joint->c_str(), newtons(pulls[j].force),
         "Force in this joint at the end of the frame: in its last sub-step.");
   }
   int touching = 0;
@@ -89,24 +87,24 @@ void force_rows(const App& app, int body) {
   }
   if (touching == 0) return;
   const std::string name = std::to_string(touching) + (touching == 1 ? " contact" : " contacts");
-  row(app.look, name.c_str(), newtons(pressed),
+  row(look, name.c_str(), newtons(pressed),
       "Sum of the normal forces at the end of the frame: in its last sub-step.");
 }
 
 }  // namespace
 
-void selection_card(App& app, bool phone) {
-  const auto count = static_cast<int>(app.session.scene().bodies.size());
-  if (app.desk.selected >= count) app.desk.selected = -1;
-  if (app.desk.selected < 0) return;
-  const Look& look = app.look;
-  const ViewRect& v = app.view_rect;
-  const auto i = static_cast<std::size_t>(app.desk.selected);
-  const Body& body = app.session.scene().bodies[i];
+void selection_card(const Look& look, const Session& session, Desk& desk, const Viewport& viewport,
+                    bool phone) {
+  const auto count = static_cast<int>(session.scene().bodies.size());
+  if (desk.selected >= count) desk.selected = -1;
+  if (desk.selected < 0) return;
+  const ViewRect& v = viewport.view_rect;
+  const auto i = static_cast<std::size_t>(desk.selected);
+  const Body& body = session.scene().bodies[i];
   const float width = phone ? 188.0F : 232.0F;
-  const bool left = app.desk.card_left;
+  const bool left = desk.card_left;
   // Over the tour's button, and over the scale of the tint.
-  const float up = 24.0F + look.m.row + 2.0F - (app.desk.tour >= 0 && phone ? look.m.row : 0.0F);
+  const float up = 24.0F + look.m.row + 2.0F - (desk.tour >= 0 && phone ? look.m.row : 0.0F);
   ImGui::SetNextWindowPos({left ? v.x + 12.0F : v.x + v.width - 12.0F, v.y + v.height - up},
                           ImGuiCond_Always, {left ? 0.0F : 1.0F, 1.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F},
@@ -135,14 +133,14 @@ void selection_card(App& app, bool phone) {
                 coarse_number(body.inertia.z()) + " kg m²",
             "Principal moments of inertia.");
       }
-      motion_rows(app, i, phone);
-      stiffness_row(app, i);
+      motion_rows(look, session, i, phone);
+      stiffness_row(look, session, i);
     }
-    force_rows(app, app.desk.selected);
+    force_rows(look, session, desk.selected);
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
-  if (close || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) app.desk.selected = -1;
+  if (close || ImGui::IsKeyPressed(ImGuiKey_Escape, false)) desk.selected = -1;
 }
 
 }  // namespace substep::ui

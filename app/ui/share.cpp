@@ -9,8 +9,8 @@
 namespace substep::ui {
 namespace {
 
-bool item(App& app, const char* text, const char* note = "") {
-  return menu_item(app.look, text, note, false);
+bool item(const Look& look, const char* text, const char* note = "") {
+  return menu_item(look, text, note, false);
 }
 
 void line() {
@@ -19,56 +19,56 @@ void line() {
   ImGui::Dummy({1.0F, 2.0F});
 }
 
-void items(App& app) {
-  const Host& host = app.host;
-  if (host.copy_link && item(app, "Copy link", "L")) copy_link(app);
-  if (item(app, "Copy command", "C")) copy_command(app);
-  if (host.open_link && item(app, "Open the copied link")) host.open_link();
+void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
+  const Host& host = lab.host;
+  if (host.copy_link && item(look, "Copy link", "L")) copy_link(lab);
+  if (item(look, "Copy command", "C")) copy_command(lab);
+  if (host.open_link && item(look, "Open the copied link")) host.open_link();
   line();
-  if (host.open_file && item(app, "Open scene …", "O")) host.open_file();
-  if (host.save_file && item(app, "Save scene as it is now", "S")) app.save_scene();
+  if (host.open_file && item(look, "Open scene …", "O")) host.open_file();
+  if (host.save_file && item(look, "Save scene as it is now", "S")) lab.save_scene();
   line();
-  if (host.save_file && item(app, "Picture of the window", "P")) capture_window(app);
-  if (host.save_file && item(app, "Picture of the view")) {
-    app.capture = Capture{app.session.scene().name + "_view.png", app.view_rect};
+  if (host.save_file && item(look, "Picture of the window", "P")) capture_window(lab.session, desk);
+  if (host.save_file && item(look, "Picture of the view")) {
+    desk.capture = Capture{lab.session.scene().name + "_view.png", viewport.view_rect};
   }
-  if (host.record && item(app, app.recording ? "Stop the video" : "Record a video")) {
-    host.record(!app.recording);
+  if (host.record && item(look, desk.recording ? "Stop the video" : "Record a video")) {
+    host.record(!desk.recording);
   }
 }
 
 }  // namespace
 
-void copy_link(App& app) {
-  if (app.host.copy_link) app.host.copy_link();
+void copy_link(const Lab& lab) {
+  if (lab.host.copy_link) lab.host.copy_link();
 }
 
-void copy_command(App& app) {
-  ImGui::SetClipboardText(app.command().c_str());
+void copy_command(Lab& lab) {
+  ImGui::SetClipboardText(lab.command().c_str());
   std::string said = "Command copied";
-  if (app.session.edition() != nullptr && app.host.save_file) {
+  if (lab.session.edition() != nullptr && lab.host.save_file) {
     // The scene with the ball, or without the effect, is in no file yet.
-    const Scene& scene = app.link_scene();
-    app.host.save_file(scene.name + ".json", write_scene(scene));
+    const Scene& scene = lab.link_scene();
+    lab.host.save_file(scene.name + ".json", write_scene(scene));
     said += ", and the scene that it runs was saved";
   }
-  app.tell(said);
+  lab.tell(said);
 }
 
-void capture_window(App& app) {
+void capture_window(const Session& session, Desk& desk) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  app.capture = Capture{app.session.scene().name + ".png", {0.0F, 0.0F, display.x, display.y}};
+  desk.capture = Capture{session.scene().name + ".png", {0.0F, 0.0F, display.x, display.y}};
 }
 
-void share_menu(App& app, float size) {
-  if (app.desk.open_share_menu) {
-    app.desk.open_share_menu = false;
+void share_menu(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float size) {
+  if (desk.open_share_menu) {
+    desk.open_share_menu = false;
     ImGui::PushID("share");
     ImGui::OpenPopup("menu");
     ImGui::PopID();
   }
-  icon_menu(app.look, "share", Icon::kShare, ButtonKind::kGhost, size, "Share, open, save",
-            [&] { items(app); });
+  icon_menu(look, "share", Icon::kShare, ButtonKind::kGhost, size, "Share, open, save",
+            [&] { items(look, lab, desk, viewport); });
 }
 
 }  // namespace substep::ui

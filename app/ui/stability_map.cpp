@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/format.hpp"
-#include "app/ui/accuracy_picture.hpp"
+#include "app/text/format.hpp"
+#include "app/ui/curve_style.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -15,7 +15,7 @@ namespace {
 
 constexpr float kMapGutter = 44.0F;  // the values of the parameter
 constexpr float kCell = 22.0F;       // height
-constexpr float kGap = 2.0F;         // between cells
+constexpr float kCellGap = 2.0F;     // between cells
 constexpr float kWidest = 96.0F;     // of a cell
 
 /// The cells of one mode.
@@ -120,7 +120,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
               value.c_str());
     for (std::size_t column = 0; column < grid.loads.size(); ++column) {
       const ImVec2 min(origin.x + kMapGutter + cell * static_cast<float>(column), y);
-      const ImVec2 max(min.x + cell - kGap, min.y + kCell - kGap);
+      const ImVec2 max(min.x + cell - kCellGap, min.y + kCell - kCellGap);
       const auto known = grid.results.find({grid.values[row], grid.loads[column]});
       if (known == grid.results.end()) {  // still to come
         draw.AddRectFilled(min, max, t.well, 3.0F);
@@ -128,7 +128,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
       }
       const Result& result = accuracy.results()[known->second];
       draw.AddRectFilled(min, max, cell_color(t, result), 3.0F);
-      centred({min.x, min.y - 0.5F * kGap}, cell - kGap, t.text,
+      centred({min.x, min.y - 0.5F * kCellGap}, cell - kCellGap, t.text,
               result.metrics.holds ? "holds" : fixed(result.metrics.failed_at, 2));
       if (!hovered || mouse.x < min.x || mouse.x >= max.x || mouse.y < min.y || mouse.y >= max.y) {
         continue;
@@ -140,7 +140,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
   for (std::size_t column = 0; column < grid.loads.size(); ++column) {
     centred(
         {origin.x + kMapGutter + cell * static_cast<float>(column), origin.y + kCell * rows - 3.0F},
-        cell - kGap, t.dim, short_ratio(grid.loads[column] * ratio));
+        cell - kCellGap, t.dim, short_ratio(grid.loads[column] * ratio));
   }
   if (under) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

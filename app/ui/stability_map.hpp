@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "app/accuracy.hpp"
+#include "app/lab/accuracy.hpp"
 #include "app/ui/look.hpp"
 
 namespace substep::ui {

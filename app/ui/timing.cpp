@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -52,8 +52,8 @@ std::vector<Stage> stages(const Theme& t, const Effects& effects, const StageTim
   return list;
 }
 
-std::vector<Stage> stages(const App& app) {
-  return stages(*app.look.theme, app.session.scene().effects, app.session.times());
+std::vector<Stage> stages(const Look& look, const Session& session) {
+  return stages(*look.theme, session.scene().effects, session.times());
 }
 
 void stage_bar(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width) {
@@ -91,20 +91,19 @@ float stage_list_height(const std::vector<Stage>& list) {
   return kListRow * static_cast<float>((list.size() + 1) / 2);
 }
 
-float timing_height(const App& app, bool brief) {
-  const std::vector<Stage> list = stages(app);
+float timing_height(const Look& look, const Session& session, bool brief) {
+  const std::vector<Stage> list = stages(look, session);
   if (brief) {
     const int lines =
-        draw_names(app.look, list, {0.0F, 0.0F}, ImGui::GetContentRegionAvail().x, nullptr);
+        draw_names(look, list, {0.0F, 0.0F}, ImGui::GetContentRegionAvail().x, nullptr);
     return kHeading + 18.0F + kNameRow * static_cast<float>(lines);
   }
   return kHeading + 20.0F + stage_list_height(list);
 }
 
-void timing(App& app, bool brief) {
-  const Look& look = app.look;
-  const std::vector<Stage> list = stages(app);
-  const double total = app.session.times().total;
+void timing(const Look& look, const Session& session, bool brief) {
+  const std::vector<Stage> list = stages(look, session);
+  const double total = session.times().total;
   section(look, "Time per frame", total > 0.0 ? duration(total).c_str() : "");
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -114,7 +113,7 @@ void timing(App& app, bool brief) {
   } else if (total > 0.0) {
     stage_list(look, list, {origin.x, origin.y + 20.0F}, width);
   }
-  ImGui::Dummy({width, timing_height(app, brief) - kHeading});
+  ImGui::Dummy({width, timing_height(look, session, brief) - kHeading});
   std::string tip =
       "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
       "does not call for does not exist.";

@@ -4,7 +4,8 @@
 
 #include <vector>
 
-#include "app/app.hpp"
+#include "app/lab/session.hpp"
+#include "app/ui/look.hpp"
 
 namespace substep::ui {
 
@@ -20,7 +21,7 @@ struct Stage {
 /// Those that the scene calls for, and the rest.
 std::vector<Stage> stages(const Theme& theme, const Effects& effects, const StageTimes& times);
 /// Those of the run, smoothed.
-std::vector<Stage> stages(const App& app);
+std::vector<Stage> stages(const Look& look, const Session& session);
 
 /// The stages side by side, as long as their shares of all.
 void stage_bar(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/tour.hpp"
+#include "app/text/tour.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -15,9 +15,13 @@ constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
                                    ImGuiWindowFlags_AlwaysAutoResize |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
-void go_to(App& app, int step) { app.set("tour", std::to_string(step + 1)); }
+// Followed at the end of the frame, as the link that it is.
+void go_to(Desk& desk, int step) { desk.follow = "tour=" + std::to_string(step + 1); }
 
-void end(App& app) { app.set("tour", "off"); }
+void end(Desk& desk) {
+  desk.tour = -1;
+  desk.tour_hint = false;
+}
 
 // Where the tour stands, as dots.
 void draw_dots(const Look& look, int step, int count, ImVec2 at) {
@@ -29,8 +33,7 @@ void draw_dots(const Look& look, int step, int count, ImVec2 at) {
   }
 }
 
-void steps_row(App& app, int step, int count) {
-  const Look& look = app.look;
+void steps_row(const Look& look, Desk& desk, int step, int count) {
   const float row = look.m.row + 2.0F;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -39,7 +42,7 @@ void steps_row(App& app, int step, int count) {
   ImGui::SetCursorScreenPos({origin.x + width - 168.0F, origin.y});
   if (step > 0) {
     if (button(look, "back", Icon::kNone, "Back", ButtonKind::kPlain, 80.0F, row, "")) {
-      go_to(app, step - 1);
+      go_to(desk, step - 1);
     }
   } else {
     ImGui::Dummy({80.0F, row});
@@ -48,22 +51,21 @@ void steps_row(App& app, int step, int count) {
   if (button(look, "next", Icon::kNone, last ? "Done" : "Next", ButtonKind::kPrimary, 80.0F, row,
              "")) {
     if (last) {
-      end(app);
+      end(desk);
     } else {
-      go_to(app, step + 1);
+      go_to(desk, step + 1);
     }
   }
 }
 
-void card(App& app, int step) {
-  const Look& look = app.look;
+void card(const Look& look, Desk& desk, const Viewport& viewport, int step) {
   const Theme& t = *look.theme;
   const auto steps = tour_steps();
   const TourStep& now = steps[static_cast<std::size_t>(step)];
-  const ViewRect& v = app.view_rect;
+  const ViewRect& v = viewport.view_rect;
   const float width = std::min(440.0F, v.width - 24.0F);
   // Below the picture, which has made room for it.
-  const float bottom = v.y + v.height + app.desk.tour_height;
+  const float bottom = v.y + v.height + desk.tour_height;
   ImGui::SetNextWindowPos({v.x + 0.5F * v.width, bottom - 12.0F}, ImGuiCond_Always, {0.5F, 1.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, bottom - v.y - 24.0F});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, t.raised);
@@ -76,13 +78,13 @@ void card(App& app, int step) {
               fitted(look.fonts.medium, title, right - at.x - 32.0F).c_str());
     ImGui::SetCursorScreenPos({right - 24.0F, at.y});
     if (button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 24.0F, 24.0F, "End the tour")) {
-      end(app);
+      end(desk);
     }
     label(look.fonts.regular, t.text, now.text);
     label(look.fonts.small, t.dim, (std::string("Watch: ") + now.watch).c_str());
-    steps_row(app, step, static_cast<int>(steps.size()));
+    steps_row(look, desk, step, static_cast<int>(steps.size()));
   }
-  app.desk.tour_height = ImGui::GetWindowHeight() + 12.0F;
+  desk.tour_height = ImGui::GetWindowHeight() + 12.0F;
   ImGui::End();
   ImGui::PopStyleVar();
   ImGui::PopStyleColor();
@@ -96,20 +98,19 @@ void outline(const Look& look) {
 
 // What to do next, at the picture's corner. It says more to those who have not been here before,
 // until it is taken or put aside.
-void invitation(App& app) {
-  const Look& look = app.look;
-  const ViewRect& v = app.view_rect;
-  const bool fresh = app.desk.tour_hint;
+void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
+  const ViewRect& v = viewport.view_rect;
+  const bool fresh = desk.tour_hint;
   const float row = look.m.row + 2.0F;
   ImGui::SetNextWindowPos({v.x + v.width - 12.0F, v.y + v.height - 12.0F}, ImGuiCond_Always,
                           {1.0F, 1.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   if (ImGui::Begin("##tour_button", nullptr, kCard | ImGuiWindowFlags_NoBackground)) {
-    if (v.width >= 664.0F && app.desk.panels && app.desk.tab != Tab::kAccuracy) {
+    if (v.width >= 664.0F && desk.panels && desk.tab != Tab::kAccuracy) {
       if (button(look, "cost", Icon::kNone, "What does accuracy cost?", ButtonKind::kPlain, 0.0F,
                  row, "All methods over this scene: error against cost")) {
-        app.set("panel", "accuracy");
+        desk.tab = Tab::kAccuracy;
       }
       outline(look);
       ImGui::SameLine(0.0F, 8.0F);
@@ -117,14 +118,14 @@ void invitation(App& app) {
     if (button(look, "tour", Icon::kNone, fresh ? "Take the tour" : "Tour",
                fresh ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, row,
                "The paper's story in six steps")) {
-      go_to(app, 0);
+      go_to(desk, 0);
     }
     if (!fresh) outline(look);
     if (fresh) {
       ImGui::SameLine(0.0F, 4.0F);
       if (button(look, "not", Icon::kCross, "", ButtonKind::kPlain, row, row,
                  "Not now; the button stays")) {
-        end(app);
+        end(desk);
       }
       outline(look);
     }
@@ -135,20 +136,20 @@ void invitation(App& app) {
 
 }  // namespace
 
-void go_on_with_tour(App& app) {
-  if (app.desk.tour + 1 < static_cast<int>(tour_steps().size())) {
-    go_to(app, app.desk.tour + 1);
+void go_on_with_tour(Desk& desk) {
+  if (desk.tour + 1 < static_cast<int>(tour_steps().size())) {
+    go_to(desk, desk.tour + 1);
   } else {
-    end(app);
+    end(desk);
   }
 }
 
-void tour(App& app) {
-  if (app.desk.tour < 0) app.desk.tour_height = 0.0F;
-  if (app.desk.tour >= 0) {
-    card(app, app.desk.tour);
+void tour(const Look& look, Desk& desk, const Viewport& viewport) {
+  if (desk.tour < 0) desk.tour_height = 0.0F;
+  if (desk.tour >= 0) {
+    card(look, desk, viewport, desk.tour);
   } else {
-    invitation(app);
+    invitation(look, desk, viewport);
   }
 }
 

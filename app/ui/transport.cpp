@@ -5,7 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/app.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -136,13 +137,13 @@ float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) 
   if (right - height >= left) {
     right -= height;
     ImGui::SetCursorScreenPos({right, bar.y});
-    share_menu(app, height);
+    share_menu(app.look, app, app.desk, app, height);
   }
   if (add("theme", app.desk.dark ? Icon::kSun : Icon::kMoon, "Light or dark (T)")) {
     app.desk.dark = !app.desk.dark;
   }
   if (add("panels", Icon::kPanels, "Panels on or off (H)")) app.desk.panels = !app.desk.panels;
-  if (add("ball", Icon::kBall, "Throw a ball (B throws it at the pointer)")) throw_ball(app);
+  if (add("ball", Icon::kBall, "Throw a ball (B throws it at the pointer)")) throw_ball(app, app);
   if (add("frame", Icon::kFrame, "Show everything (F)")) app.view.frame_all(app.session);
   return right - 8.0F;
 }
@@ -165,7 +166,8 @@ void phone_transport(App& app, ImVec2 bar, float width, float height) {
   constexpr float kLeastTrack = 96.0F;
   const std::string verdict = verdict_text(app, width - time_width - kLeastTrack - 20.0F);
   const float chip = verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, verdict);
-  scrubber(app, {bar.x + chip + 8.0F, y - 2.0F}, width - chip - time_width - 20.0F, 28.0F);
+  scrubber(app.look, app.session, {bar.x + chip + 8.0F, y - 2.0F},
+           width - chip - time_width - 20.0F, 28.0F);
 }
 
 }  // namespace
@@ -211,7 +213,7 @@ void transport(App& app, bool phone) {
             {time_right - time_size.x, bar.y + 0.5F * (kHeight - time_size.y)}, look.theme->text,
             time.c_str());
   const float track = time_right - time_width - 8.0F - after_buttons;
-  if (track > 48.0F) scrubber(app, {after_buttons, bar.y}, track, kHeight);
+  if (track > 48.0F) scrubber(app.look, app.session, {after_buttons, bar.y}, track, kHeight);
 }
 
 }  // namespace substep::ui

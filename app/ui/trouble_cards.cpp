@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/card.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -11,22 +11,6 @@
 
 namespace substep::ui {
 namespace {
-
-struct CardPlace {
-  float y = 0.0F;
-  float pivot = 0.0F;  // of the card, that lies at y: 0 its top, 1 its bottom
-};
-
-// The picture shows what happened: the card lies at its lower edge, or, where panels are below it,
-// on those, under the bar that plays and the tabs.
-CardPlace below_what_failed(const ViewRect& v) {
-  constexpr float kBar = 136.0F;
-  constexpr float kRoom = 200.0F;
-  const float bottom = v.y + v.height;
-  const float below = ImGui::GetIO().DisplaySize.y - bottom;
-  if (below > kBar + kRoom) return {bottom + kBar, 0.0F};
-  return {bottom - 60.0F, 1.0F};
-}
 
 /// What would have helped the frame that failed, the most likely first.
 std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
@@ -38,31 +22,30 @@ std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
 }
 
 /// A button: the same scene from its start, with what would have helped.
-void reset_with(App& app, const Remedy& remedy, ButtonKind kind) {
+void reset_with(const Look& look, Lab& lab, const Remedy& remedy, ButtonKind kind) {
   const std::string tip =
       "The same scene with " + remedy.text + (remedy.why.empty() ? "" : "; " + remedy.why);
-  if (button(app.look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text).c_str(),
-             kind, 0.0F, 28.0F, tip.c_str())) {
-    app.change(remedy.settings);
-    app.reset();
+  if (button(look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text).c_str(), kind,
+             0.0F, 28.0F, tip.c_str())) {
+    lab.change(remedy.settings);
+    lab.reset();
   }
 }
 
 }  // namespace
 
-void failure_card(App& app) {
-  const Verdict& verdict = app.session.verdict();
-  if (verdict.holds() || app.desk.dismissed_failure == app.run_count) return;
-  const Look& look = app.look;
-  const bool stopped = app.session.stopped();
-  if (app.desk.tour >= 0 && !stopped) return;  // its card says what is seen
-  const ViewRect& v = app.view_rect;
-  const CardPlace place = below_what_failed(v);
-  if (begin_card(app, "##failure", 380.0F, place.y, place.pivot)) {
+void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
+  const Verdict& verdict = lab.session.verdict();
+  if (verdict.holds() || desk.dismissed_failure == lab.run_count) return;
+  const bool stopped = lab.session.stopped();
+  if (desk.tour >= 0 && !stopped) return;  // its card says what is seen
+  const ViewRect& v = viewport.view_rect;
+  const CardPlace place = card_below(v);
+  if (begin_card(look, viewport, "##failure", 380.0F, place.y, place.pivot)) {
     card_title(look, look.theme->orange, Icon::kCross,
-               stopped ? "The run stopped at " + fixed(app.session.state().time, 2) + " s"
+               stopped ? "The run stopped at " + fixed(lab.session.state().time, 2) + " s"
                        : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
-    const FrameReport& report = app.session.report();
+    const FrameReport& report = lab.session.report();
     std::string what = verdict.text();
     if (const std::size_t colon = what.find(": "); colon != std::string::npos)
       what.erase(0, colon + 2);
@@ -70,100 +53,51 @@ void failure_card(App& app) {
       what = "The motion";
       if (report.failed_body >= 0) {
         what +=
-            " of " + app.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
+            " of " + lab.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
       }
       what += " has left the range of numbers. What you see is the last state within it.";
     }
     label(look.fonts.small, look.theme->dim, what.c_str());
     auto kind = ButtonKind::kPrimary;  // of what is the most likely to help
-    for (const Remedy& remedy : remedies_of(app.session, v.height > 400.0F ? 3 : 1)) {
-      reset_with(app, remedy, kind);
+    for (const Remedy& remedy : remedies_of(lab.session, v.height > 400.0F ? 3 : 1)) {
+      reset_with(look, lab, remedy, kind);
       kind = ButtonKind::kPlain;
     }
     if (button(look, "again", Icon::kReset, "Reset", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the start (R)")) {
-      app.reset();
+      lab.reset();
     }
     ImGui::SameLine();
     if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to the last frame that held; it goes on from there")) {
-      app.session.go_to_last_good();
+      lab.session.go_to_last_good();
     }
     ImGui::SameLine();
     if (button(look, "second", Icon::kNone, "1 s before", ButtonKind::kPlain, 0.0F, 28.0F,
                "Back to one second before it failed; change something and go on from there")) {
-      app.session.go_to_last_good(1.0);
+      lab.session.go_to_last_good(1.0);
     }
-    if (card_closed(look)) app.desk.dismissed_failure = app.run_count;
+    if (card_closed(look)) desk.dismissed_failure = lab.run_count;
   }
   ImGui::End();
 }
 
-void heavy_card(App& app) {
-  HeavyStart& heavy = app.heavy;
-  if (heavy.why.empty() || app.session.stopped()) return;
-  const Look& look = app.look;
-  bool close = app.session.playing() || heavy.run != app.run_count;  // it is out of date
-  if (close) {
-    heavy = {};
-    return;
-  }
-  if (begin_card(app, "##heavy", 400.0F, card_middle(app), 0.5F)) {
-    card_title(look, look.theme->amber, Icon::kPause, "Paused: this run is heavy");
-    label(look.fonts.small, look.theme->dim, heavy.why.c_str());
-    if (button(look, "run", Icon::kPlay, "Run it", ButtonKind::kPrimary, 0.0F, 28.0F,
-               "Play (Space)")) {
-      app.session.play();
-    }
-    close = card_closed(look) || ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  }
-  ImGui::End();
-  if (close) heavy = {};
-}
-
-void long_frame_card(App& app) {
-  constexpr int kPatience = 20;  // pictures
-  const FrameSlices& slices = app.session.slices();
-  const bool behind = app.compare.behind(app.session);
-  const int change = slices.open() || behind ? 1 : -1;
-  app.pictures_in_frame = std::clamp(app.pictures_in_frame + change, 0, 2 * kPatience);
-  if (change < 0 || app.pictures_in_frame < kPatience) return;
-  const Look& look = app.look;
-  const CardPlace place = below_what_failed(app.view_rect);
-  bool cancel = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(app, "##long_frame", 300.0F, place.y, place.pivot)) {
-    const int taken = slices.taken();
-    card_title(look, look.theme->amber, Icon::kSubstep,
-               behind ? "A compared method is slow"
-                      : "Sub-step " + grouped(taken) + " of " + grouped(taken + slices.left()));
-    label(look.fonts.small, look.theme->dim,
-          behind ? "The run waits for it." : "This frame takes long to compute.");
-    cancel |= button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, 0.0F, 28.0F,
-                     behind ? "Ends the comparison (Esc)" : "Back to the last frame, paused (Esc)");
-  }
-  ImGui::End();
-  if (!cancel) return;
-  if (behind) app.compare.close();
-  app.session.pause();
-}
-
-void trouble_card(App& app) {
-  if (app.trouble.title.empty()) return;
-  const Look& look = app.look;
+void trouble_card(const Look& look, Lab& lab, const Viewport& viewport) {
+  if (lab.trouble.title.empty()) return;
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   ImGui::SetNextWindowFocus();
-  if (begin_card(app, "##trouble", 520.0F, card_middle(app), 0.5F)) {
-    card_title(look, look.theme->orange, Icon::kCross, app.trouble.title);
-    const std::size_t count = app.trouble.problems.size();
+  if (begin_card(look, viewport, "##trouble", 520.0F, card_middle(viewport), 0.5F)) {
+    card_title(look, look.theme->orange, Icon::kCross, lab.trouble.title);
+    const std::size_t count = lab.trouble.problems.size();
     const std::string note =
         (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
-        app.trouble.aftermath;
+        lab.trouble.aftermath;
     label(look.fonts.small, look.theme->dim, note.c_str());
     ImGui::Dummy({1.0F, 0.0F});
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {1e4F, display.y - 260.0F});
     if (ImGui::BeginChild("list", {0, 0}, ImGuiChildFlags_AutoResizeY)) {
-      for (const Problem& problem : app.trouble.problems) {
+      for (const Problem& problem : lab.trouble.problems) {
         label(look.fonts.medium, look.theme->text,
               problem.pointer.empty() ? "whole file" : problem.pointer.c_str());
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6.0F);
@@ -174,7 +108,7 @@ void trouble_card(App& app) {
     close |= card_closed(look);
   }
   ImGui::End();
-  if (close) app.trouble = {};
+  if (close) lab.trouble = {};
 }
 
 }  // namespace substep::ui

@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "app/criterion.hpp"
-#include "app/format.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/criterion.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/caption.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/model/methods.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep::ui {
@@ -30,8 +32,7 @@ std::string stiffness_and_mass(const StiffnessLeader& who) {
          short_number(who.mass) + (turns ? " kg m²" : " kg");
 }
 
-Criterion criterion_of(const App& app) {
-  const Session& session = app.session;
+Criterion criterion_of(const Session& session) {
   return substep::criterion_of(session.scene(), session.settings(), session.state(),
                                session.report());
 }
@@ -46,10 +47,9 @@ std::string cap_note(const FrameReport& report) {
 }
 
 // One column per body in the order of the scene, as high as its k/M is of the largest.
-void body_columns(App& app, float height) {
-  const Look& look = app.look;
-  const Scene& scene = app.session.scene();
-  const std::vector<double> shares = stiffness_shares(scene, app.session.state());
+void body_columns(const Look& look, const Session& session, float height) {
+  const Scene& scene = session.scene();
+  const std::vector<double> shares = stiffness_shares(scene, session.state());
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImGui::InvisibleButton("bodies", {width, height});
@@ -61,7 +61,7 @@ void body_columns(App& app, float height) {
     if (!scene.bodies[i].is_static) moving.push_back(i);
   }
   if (moving.empty()) return;
-  const int leader = criterion_of(app).body();
+  const int leader = criterion_of(session).body();
   const float inner = width - 8.0F;
   const float pitch = inner / static_cast<float>(moving.size());
   const float gap = pitch >= 4.0F ? std::min(2.0F, 0.25F * pitch) : 0.0F;
@@ -99,24 +99,23 @@ void law_line(const Look& look, const std::string& law, const std::string& numbe
   ImGui::Dummy({width, 34.0F});
 }
 
-void law(App& app, const Criterion& criterion) {
-  const Look& look = app.look;
-  const double h = app.session.scene().frame;
-  const double alpha = app.session.settings().alpha;
+void law(const Look& look, const Session& session, const Criterion& criterion) {
+  const double h = session.scene().frame;
+  const double alpha = session.settings().alpha;
   const bool rotates = criterion.set_by == CriterionTerm::kRotation;
   const StiffnessLeader& leader = criterion.stiffness;
   const double r = rotates ? criterion.r_rotation : leader.r;
   const double dt = stable_step(alpha, r);
   if (rotates) {
     law_line(look, "r = rotation term = " + short_number(r) + " s⁻²",
-             rotation_meaning(app.session.scene(), criterion), "");
+             rotation_meaning(session.scene(), criterion), "");
   } else {
     law_line(look, "r = max k/M = " + short_number(r) + " s⁻²",
              "= " + short_number(leader.k) + " / " + short_number(leader.mass), "Eq. 9");
   }
   law_line(look, "Δt max = 2 √(α/r) = " + duration(dt),
            "= 2 √(" + plain_number(alpha) + " / " + short_number(r) + ")", "Eq. 10");
-  law_line(look, "N = h/Δt max, rounded up = " + grouped(substeps_for(app.session, r)),
+  law_line(look, "N = h/Δt max, rounded up = " + grouped(substeps_for(session, r)),
            "= " + short_number(1e3 * h) + " ms / " + duration(dt) + " = " + short_number(h / dt),
            "Eq. 11");
 }
@@ -125,38 +124,21 @@ void law(App& app, const Criterion& criterion) {
 std::string taken_note(const Session& session) {
   const FrameReport& report = session.report();
   const Settings& s = session.settings();
-  switch (s.mode) {
-    case Mode::kNone:
-      return "Mode none takes 1 all the same.";
-    case Mode::kConst:
-      return "Mode const takes " + grouped(s.n) + " all the same.";
-    case Mode::kDamping:
-      return "Mode damping takes 1 and damps what is too stiff for it.";
-    case Mode::kAdaptive:
-      if (report.capped) return "N at most is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
-      return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
-    case Mode::kStiffness:
-      return "Mode stiffness takes 1: K itself resists what is too stiff for it.";
-    case Mode::kCapped:
-    case Mode::kInertia:
-    case Mode::kBlend:
-      if (report.capped) {
-        return "The cap bit: " + cap_note(report) + "; " +
-               (s.mode == Mode::kCapped    ? "damping does the rest."
-                : s.mode == Mode::kInertia ? "geometric inertia does the rest."
-                                           : "inertia and damping do the rest.");
-      }
-      return "The cap of " + grouped(s.n_cap) + " did not bite.";
+  const ModeEntry& mode = entry_of(s.mode);
+  if (mode.takes != nullptr) return with_values(mode.takes, s);
+  if (mode.then != nullptr) {
+    return report.capped ? "The cap bit: " + cap_note(report) + "; " + mode.then + "."
+                         : "The cap of " + grouped(s.n_cap) + " did not bite.";
   }
-  return "";
+  if (report.capped) return "N at most is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
+  return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
 }
 
 // What would set N if the one that does were not there.
-void without_leader(App& app, const Criterion& criterion,
+void without_leader(const Look& look, const Session& session, const Criterion& criterion,
                     const std::vector<StiffnessLeader>& list) {
-  const Look& look = app.look;
-  const Scene& scene = app.session.scene();
-  const int next = list.size() < 2 ? 1 : substeps_for(app.session, list[1].r);
+  const Scene& scene = session.scene();
+  const int next = list.size() < 2 ? 1 : substeps_for(session, list[1].r);
   std::string text;
   if (criterion.set_by == CriterionTerm::kRotation) {
     text = "Without the rotation term N would be " + grouped(criterion.n_stiffness) + ".";
@@ -181,11 +163,11 @@ void bar_tooltip(const Look& look, const Session& session, const StiffnessLeader
 }
 
 // One bar per body: the N that it alone would ask for.
-void bars(App& app, const Criterion& criterion, const std::vector<StiffnessLeader>& list) {
+void bars(const Look& look, const Session& session, Desk& desk, const Criterion& criterion,
+          const std::vector<StiffnessLeader>& list) {
   constexpr float kRow = 20.0F;
-  const Look& look = app.look;
   const Theme& t = *look.theme;
-  const Scene& scene = app.session.scene();
+  const Scene& scene = session.scene();
   const bool sets = criterion.set_by == CriterionTerm::kStiffness;
   section(look, "N by stiffness of each body");
   tooltip(look, "N by stiffness of each body",
@@ -202,11 +184,11 @@ void bars(App& app, const Criterion& criterion, const std::vector<StiffnessLeade
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(i));
     if (ImGui::InvisibleButton("bar", {width, kRow})) {
-      app.desk.selected = app.desk.selected == who.body ? -1 : who.body;
+      desk.selected = desk.selected == who.body ? -1 : who.body;
     }
-    const bool hovered = ImGui::IsItemHovered() || app.desk.selected == who.body;
+    const bool hovered = ImGui::IsItemHovered() || desk.selected == who.body;
     draw_focus(look, draw, at, {at.x + width, at.y + kRow});
-    bar_tooltip(look, app.session, who);
+    bar_tooltip(look, session, who);
     ImGui::PopID();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
     const bool leads = sets && i == 0;
@@ -218,22 +200,22 @@ void bars(App& app, const Criterion& criterion, const std::vector<StiffnessLeade
     draw.AddRectFilled({x, at.y + 5.0F}, {x + most, at.y + kRow - 5.0F}, t.well, 2.0F);
     draw.AddRectFilled({x, at.y + 5.0F}, {x + std::max(2.0F, share * most), at.y + kRow - 5.0F},
                        leads ? t.orange : t.blue, 2.0F);
-    const std::string n = grouped(substeps_for(app.session, who.r));
+    const std::string n = grouped(substeps_for(session, who.r));
     const float n_width = text_size(look.fonts.small, n.c_str()).x;
     draw_text(draw, look.fonts.small, {at.x + width - n_width, at.y + 3.0F}, ink, n.c_str());
   }
   space(8.0F);
   if (shown < list.size()) {
     const std::string others = "and " + std::to_string(list.size() - shown) + " others, N up to " +
-                               grouped(substeps_for(app.session, list[shown].r));
+                               grouped(substeps_for(session, list[shown].r));
     label(look.fonts.small, t.dim, others.c_str());
   }
 }
 
-void nothing_stiff(const App& app) {
-  const bool evaluated = app.session.report().stages.stiffness;
-  label(app.look.fonts.medium, app.look.theme->text, "nothing stiff yet");
-  label(app.look.fonts.small, app.look.theme->dim,
+void nothing_stiff(const Look& look, const Session& session) {
+  const bool evaluated = session.report().stages.stiffness;
+  label(look.fonts.medium, look.theme->text, "nothing stiff yet");
+  label(look.fonts.small, look.theme->dim,
         evaluated ? "No constraint force, no geometric stiffness: N = 1."
                   : "K has not been evaluated: it takes a frame, and \"why this N\" under Show in "
                     "the modes that do without it.");
@@ -243,11 +225,10 @@ void nothing_stiff(const App& app) {
 
 float why_summary_height() { return kHeading + 36.0F + 8.0F + kColumns; }
 
-void why_summary(App& app) {
-  const Look& look = app.look;
+void why_summary(const Look& look, const Session& session, Desk& desk) {
   const Theme& t = *look.theme;
-  const FrameReport& report = app.session.report();
-  const Criterion criterion = criterion_of(app);
+  const FrameReport& report = session.report();
+  const Criterion criterion = criterion_of(session);
   const std::string note = report.capped ? cap_note(report)
                            : std::isfinite(report.dt_stable)
                                ? "Δt max " + duration(report.dt_stable)
@@ -256,12 +237,12 @@ void why_summary(App& app) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::string first = setter_text(app.session.scene(), criterion);
+  const std::string first = setter_text(session.scene(), criterion);
   std::string second = "K is zero or not evaluated in this mode.";
   if (criterion.set_by == CriterionTerm::kStiffness)
     second = stiffness_and_mass(criterion.stiffness);
   if (criterion.set_by == CriterionTerm::kRotation) second = both_terms_text(criterion);
-  if (ImGui::InvisibleButton("why", {width, 36.0F})) app.desk.tab = Tab::kWhy;
+  if (ImGui::InvisibleButton("why", {width, 36.0F})) desk.tab = Tab::kWhy;
   const bool hovered = ImGui::IsItemHovered();
   draw_text(draw, look.fonts.medium, origin, hovered ? t.accent_hover : t.text,
             fitted(look.fonts.medium, first, width).c_str());
@@ -274,19 +255,18 @@ void why_summary(App& app) {
       "Now: " +
       both_terms_text(criterion) + ". Click for details.";
   tooltip(look, "Why this N", tip.c_str());
-  body_columns(app, kColumns);
+  body_columns(look, session, kColumns);
 }
 
-void why(App& app) {
-  const Look& look = app.look;
+void why(const Look& look, const Session& session, Desk& desk) {
   const Theme& t = *look.theme;
-  const Scene& scene = app.session.scene();
-  const std::vector<StiffnessLeader> list = stiffness_by_body(scene, app.session.state());
-  const Criterion criterion = criterion_of(app);
+  const Scene& scene = session.scene();
+  const std::vector<StiffnessLeader> list = stiffness_by_body(scene, session.state());
+  const Criterion criterion = criterion_of(session);
   section(look, "Why this N");
   const bool stiff = !list.empty() && list[0].r > 0.0;
   if (criterion.set_by == CriterionTerm::kNone) {
-    nothing_stiff(app);
+    nothing_stiff(look, session);
     return;
   }
   label(look.fonts.medium, t.text, setter_text(scene, criterion).c_str());
@@ -294,17 +274,17 @@ void why(App& app) {
   const bool rotates = criterion.set_by == CriterionTerm::kRotation;
   label(look.fonts.small, t.dim,
         (rotates ? both_terms_text(criterion) : stiffness_and_mass(criterion.stiffness)).c_str());
-  law(app, criterion);
-  const std::string note = taken_note(app.session);
+  law(look, session, criterion);
+  const std::string note = taken_note(session);
   if (!note.empty()) {
-    label(look.fonts.small, app.session.report().capped ? t.orange : t.dim, note.c_str());
+    label(look.fonts.small, session.report().capped ? t.orange : t.dim, note.c_str());
   }
-  without_leader(app, criterion, list);
+  without_leader(look, session, criterion, list);
   space(look.m.section);
-  criterion_terms(app, criterion);
+  criterion_terms(look, session, criterion);
   if (!stiff) return;
   space(look.m.section);
-  bars(app, criterion, list);
+  bars(look, session, desk, criterion, list);
 }
 
 }  // namespace substep::ui

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "app/app.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -16,7 +19,7 @@ namespace {
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoCollapse;
-constexpr float kBar = 56.0F;  // height of the transport bar
+constexpr float kBarHeight = 56.0F;  // height of the transport bar
 
 struct Rect {
   float x = 0.0F;
@@ -52,44 +55,58 @@ void scroll_by_drag() {
   ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
 }
 
-// Tabs as wide as the panel. @param first what the first of the choices stands for
-template <std::size_t N>
-void tabs(App& app, const std::array<Choice, N>& choices, Tab first) {
-  const int offset = static_cast<int>(first);
-  int tab = std::max(0, static_cast<int>(app.desk.tab) - offset);
-  if (segmented(app.look, "tabs", choices, tab, ImGui::GetContentRegionAvail().x)) {
-    app.desk.tab = static_cast<Tab>(tab + offset);
+// A panel that a tab opens. A new one is a file of its own and a line here.
+struct Panel {
+  Tab tab;
+  Choice name;
+  void (*draw)(App& app, float height);
+};
+
+void draw_plots(App& app, float height) {
+  const Look& look = app.look;
+  const bool brief = height < 640.0F;
+  const float below = why_summary_height() + timing_height(look, app.session, brief);
+  plots(look, app, app.desk, app, height - below - 2.0F * look.m.section);
+  space(look.m.section);
+  why_summary(look, app.session, app.desk);
+  space(look.m.section);
+  timing(look, app.session, brief);
+}
+
+// Beside the picture the controls are always open, and the others share a panel.
+constexpr std::array<Panel, 5> kPanels{
+    {{Tab::kControls,
+      {"Controls", "Which scene, and how it is solved"},
+      [](App& app, float) { controls(app.look, app, app.desk); }},
+     {Tab::kPlots, {"Plots", "What happens, frame by frame"}, draw_plots},
+     {Tab::kWhy,
+      {"Why N", "Who sets the number of sub-steps"},
+      [](App& app, float) { why(app.look, app.session, app.desk); }},
+     {Tab::kCompare,
+      {"Compare", "Other methods beside this run"},
+      [](App& app, float) { compare(app.look, app, app.desk); }},
+     {Tab::kAccuracy,
+      {"Accuracy", "What does accuracy cost? All methods over this scene"},
+      [](App& app, float) { accuracy(app.look, app, app.desk); }}}};
+
+// Tabs as wide as the panel. @return the panel that is open, the first where another is
+const Panel& choose_panel(const Look& look, std::span<const Panel> panels, Tab& tab) {
+  std::vector<Choice> names;
+  int current = 0;
+  for (const Panel& panel : panels) {
+    if (panel.tab == tab) current = static_cast<int>(names.size());
+    names.push_back(panel.name);
   }
+  const bool changed = segmented(look, "tabs", names, current, ImGui::GetContentRegionAvail().x);
+  const Panel& open = panels[static_cast<std::size_t>(current)];
+  if (changed) tab = open.tab;
+  return open;
 }
 
 // What is in the right panel.
 void instruments(App& app, float height) {
-  const Look& look = app.look;
-  static constexpr std::array<Choice, 4> kTabs{
-      {{"Plots", "What happens, frame by frame"},
-       {"Why N", "Who sets the number of sub-steps"},
-       {"Compare", "Other methods beside this run"},
-       {"Accuracy", "What does accuracy cost? All methods over this scene"}}};
-  tabs(app, kTabs, Tab::kPlots);
-  height -= look.m.row + 8.0F;
-  if (app.desk.tab == Tab::kWhy) {
-    why(app);
-    return;
-  }
-  if (app.desk.tab == Tab::kCompare) {
-    compare(app);
-    return;
-  }
-  if (app.desk.tab == Tab::kAccuracy) {
-    accuracy(app);
-    return;
-  }
-  const bool brief = height < 640.0F;
-  plots(app, height - why_summary_height() - timing_height(app, brief) - 2.0F * look.m.section);
-  space(look.m.section);
-  why_summary(app);
-  space(look.m.section);
-  timing(app, brief);
+  const auto panels = std::span(kPanels).subspan(1);
+  choose_panel(app.look, panels, app.desk.tab).draw(app, height - app.look.m.row - 8.0F);
 }
 
 constexpr float kEdge = 10.0F;         // width of the strip that a panel is dragged by
@@ -146,7 +163,7 @@ void desktop_panels(App& app, const Rect& space) {
     ImGui::SetNextWindowPos({space.x, space.y});
     ImGui::SetNextWindowSizeConstraints({left_width, 0.0F}, {left_width, space.height});
     if (ImGui::Begin("##controls", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
-      controls(app);
+      controls(app.look, app, app.desk);
       scroll_by_drag();
     }
     ImGui::End();
@@ -165,7 +182,7 @@ void desktop_panels(App& app, const Rect& space) {
 
 void desktop(App& app, ImVec2 display) {
   const float margin = app.look.m.margin;
-  const Rect bar{margin, display.y - margin - kBar, display.x - 2.0F * margin, kBar};
+  const Rect bar{margin, display.y - margin - kBarHeight, display.x - 2.0F * margin, kBarHeight};
   app.view_rect = {0.0F, 0.0F, display.x, bar.y};
   if (app.desk.panels) {
     desktop_panels(app, {margin, margin, display.x - 2.0F * margin, bar.y - 2.0F * margin});
@@ -201,29 +218,17 @@ void phone(App& app, ImVec2 display) {
     transport(app, true);
     if (app.desk.panels) {
       ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
-      static constexpr std::array<Choice, 5> kTabs{
-          {{"Controls", ""}, {"Plots", ""}, {"Why N", ""}, {"Compare", ""}, {"Accuracy", ""}}};
-      tabs(app, kTabs, Tab::kControls);
+      const Panel& open = choose_panel(app.look, kPanels, app.desk.tab);
       ImGui::Dummy({1.0F, 0.0F});
       if (ImGui::BeginChild("content", {0, 0})) {
-        switch (app.desk.tab) {
-          case Tab::kControls:
-            controls(app);
-            break;
-          case Tab::kPlots:
-            plots(app, ImGui::GetContentRegionAvail().y - 4.0F);
-            break;
-          case Tab::kWhy:
-            why(app);
-            space(app.look.m.section);
-            timing(app, false);
-            break;
-          case Tab::kCompare:
-            compare(app);
-            break;
-          case Tab::kAccuracy:
-            accuracy(app);
-            break;
+        if (open.tab == Tab::kPlots) {  // alone: there is little room
+          plots(app.look, app, app.desk, app, ImGui::GetContentRegionAvail().y - 4.0F);
+        } else {
+          open.draw(app, 0.0F);
+        }
+        if (open.tab == Tab::kWhy) {
+          space(app.look.m.section);
+          timing(app.look, app.session, false);
         }
         scroll_by_drag();
       }
@@ -255,31 +260,31 @@ bool is_small(ImVec2 display) { return display.x < 900.0F || display.y < 480.0F;
 void draw_window(App& app) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const bool small = is_small(display);
-  view_input(app);
+  view_input(app, app.desk, app);
   if (small) {
     phone(app, display);
   } else {
     desktop(app, display);
   }
   app.view_rect.height -= app.desk.tour_height;
-  selection_card(app, small);
-  tour(app);
-  if (!small) accuracy_card(app);
-  failure_card(app);
-  help_card(app);
-  file_card(app);
-  heavy_card(app);
-  long_frame_card(app);
-  trouble_card(app);
+  selection_card(app.look, app.session, app.desk, app, small);
+  tour(app.look, app.desk, app);
+  if (!small) accuracy_card(app.look, app, app.desk, app);
+  failure_card(app.look, app, app.desk, app);
+  help_card(app.look, app.desk, app);
+  file_card(app.look, app, app, app.browser);
+  heavy_card(app.look, app, app);
+  long_frame_card(app.look, app, app.desk, app);
+  trouble_card(app.look, app, app);
 }
 
 void draw_over_picture(App& app) {
   const bool small = is_small(ImGui::GetIO().DisplaySize);
-  annotations(app);
-  body_labels(app);
-  caption(app, small);
-  compare_legend(app);
-  if (!small) tint_scale(app);
+  annotations(app.look, app, app.desk, app);
+  body_labels(app.look, app.session, app.desk, app);
+  caption(app.look, app.session, app, small);
+  compare_legend(app.look, app.session, app.compare, app);
+  if (!small) tint_scale(app.look, app.session, app.compare, app.desk, app);
   notice(app);
 }
 

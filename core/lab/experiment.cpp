@@ -78,13 +78,13 @@ std::int64_t frames_of(const Scene& scene, double duration) {
 
 std::string solver_text(const Settings& s) {
   std::string text(name_of(s.solver));
-  if (s.solver == SolverKind::kPgs || s.solver == SolverKind::kXpbd) {
+  const bool sweeps = entry_of(s.solver).sweeps;
+  if (reads(s, "iterations") && (sweeps || s.iterations != Settings{}.iterations)) {
     text += " " + std::to_string(s.iterations);
-    if (s.share_iterations) text += " a frame";
-  } else if (s.solver == SolverKind::kNewton) {
-    if (s.iterations != Settings{}.iterations) text += " " + std::to_string(s.iterations);
-    if (s.forces != Forces::kEnd) text += " " + std::string(name_of(s.forces));
-  } else if (s.solver == SolverKind::kBpp && s.refinements > 0) {
+  }
+  if (reads(s, "share_iterations") && s.share_iterations) text += " a frame";
+  if (reads(s, "forces") && s.forces != Forces::kEnd) text += " " + std::string(name_of(s.forces));
+  if (reads(s, "refinements") && s.refinements > 0) {
     text += " refined " + std::to_string(s.refinements);
   }
   return text;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/lab/slice.hpp"
+#include "core/model/methods.hpp"
 #include "core/sim/islands.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/mode_rules.hpp"
@@ -231,10 +232,11 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
       append_curve(settings, mode, all);
     }
   };
-  curves(SolverKind::kBpp, Integrator::kEuler);
-  curves(SolverKind::kBpp, Integrator::kLeapfrog);
-  curves(SolverKind::kPgs, Integrator::kEuler);
-  curves(SolverKind::kPgs, Integrator::kLeapfrog);
+  for (const SolverKind solver : listed_solvers()) {
+    if (entry_of(solver).at_end) continue;  // append_implicit and append_small_steps
+    curves(solver, Integrator::kEuler);
+    curves(solver, Integrator::kLeapfrog);
+  }
   if (scene.effects.joints) append_drift_order_2(base, all);
   if (scene.effects.joints && !scene.effects.contact) append_stormer(base, all);
   if (scene.effects.contact) append_exact_contacts(base, all);
@@ -254,15 +256,18 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
 double expected_work(const Scene& scene, const Experiment& experiment) {
   const Settings& s = experiment.settings;
   double n = 1.0;
-  if (s.mode == Mode::kConst) n = s.n;
-  if (changes_mass(s.mode) && chooses_substeps(s.mode)) n = s.n_cap;
-  if (s.mode == Mode::kAdaptive) n = std::min<double>(s.n_max, 5.0 / std::sqrt(s.alpha));
-  double per_substep = 1.0;  // of a sub-step with the direct solver, about
-  const double sweeps = s.share_iterations ? std::max(1.0, s.iterations / n) : s.iterations;
-  if (s.solver == SolverKind::kPgs) per_substep = 0.15 * sweeps;
-  if (s.solver == SolverKind::kXpbd) per_substep = 0.3 * sweeps;
-  if (s.solver == SolverKind::kNewton) per_substep = 1.5 * std::min(3, s.iterations);
-  const double per_frame = 0.5;  // errors and energies, whatever N
+  if (reads(s, "n")) n = s.n;
+  if (reads(s, "n_cap")) n = s.n_cap;
+  if (reads(s, "n_max")) n = std::min<double>(s.n_max, 5.0 / std::sqrt(s.alpha));
+  const SolverEntry& solver = entry_of(s.solver);
+  double iterations = 1.0;
+  if (solver.sweeps) {
+    iterations = s.share_iterations ? std::max(1.0, s.iterations / n) : s.iterations;
+  } else if (reads(s, "iterations")) {
+    iterations = std::min(3, s.iterations);  // the others find that it has converged
+  }
+  const double per_substep = solver.work * iterations;  // in solves of the direct solver, about
+  const double per_frame = 0.5;                         // errors and energies, whatever N
   return static_cast<double>(frames_of(scene, experiment.duration)) * (per_frame + n * per_substep);
 }
 

@@ -13,12 +13,6 @@ bool selects(const Expectation& rule, const Settings& s) {
          (!rule.n || *rule.n == s.n) && (!rule.integrator || *rule.integrator == s.integrator);
 }
 
-/// Whether a solver looks at the end of a sub-step. Those are run as their sources have them: of
-/// the modes' masses they have no use, and of a law for N they do not speak.
-bool looks_ahead(SolverKind solver) {
-  return solver == SolverKind::kNewton || solver == SolverKind::kXpbd;
-}
-
 /// The scene's own settings, with one N for all of it, in every mode of the table that a solver is
 /// run in.
 std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
@@ -36,8 +30,8 @@ std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   };
   add(Mode::kNone);
   for (const int n : numbers) add(Mode::kConst).n = n;
-  if (looks_ahead(solver)) return all;
-  for (const auto& mode : NameTable<Mode>::entries) {
+  if (entry_of(solver).at_end) return all;  // their sources know no other modes
+  for (const ModeEntry& mode : kModes) {
     if (mode.value != Mode::kNone && mode.value != Mode::kConst) add(mode.value);
   }
   return all;
@@ -52,10 +46,9 @@ Expectation own_expectation(const Criteria& criteria) {
 std::vector<VerdictCell> verdict_table(const Scene& scene) {
   if (scene.verdicts.empty()) return {{scene.settings, own_expectation(scene.criteria)}};
   std::vector<VerdictCell> table;
-  for (const SolverKind solver :
-       {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton, SolverKind::kXpbd}) {
+  for (const SolverKind solver : listed_solvers()) {
     for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
-      if (looks_ahead(solver) && integrator != Integrator::kEuler) continue;
+      if (entry_of(solver).at_end && integrator != Integrator::kEuler) continue;
       for (Settings settings : modes_of(scene, solver)) {
         settings.integrator = integrator;
         const auto rule = std::find_if(scene.verdicts.rbegin(), scene.verdicts.rend(),

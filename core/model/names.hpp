@@ -2,10 +2,12 @@
 // The names of settings as scene files, the command line and links spell them: one table for all.
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
 #include "core/model/expectation.hpp"
+#include "core/model/methods.hpp"
 #include "core/model/recommended.hpp"
 #include "core/model/settings.hpp"
 #include "core/model/start_policy.hpp"
@@ -21,31 +23,30 @@ struct Named {
 template <class Enum>
 struct NameTable;  // specialised below for every enum that people see
 
+/// The names of a table of methods.
+template <class Enum, class Entry, std::size_t N>
+consteval std::array<Named<Enum>, N> names_in(const std::array<Entry, N>& table) {
+  std::array<Named<Enum>, N> names{};
+  for (std::size_t i = 0; i < N; ++i) names[i] = {table[i].name, table[i].value};
+  return names;
+}
+
 template <>
 struct NameTable<SolverKind> {
-  static constexpr std::array entries{Named<SolverKind>{"pgs", SolverKind::kPgs},
-                                      Named<SolverKind>{"bpp", SolverKind::kBpp},
-                                      Named<SolverKind>{"xpbd", SolverKind::kXpbd},
-                                      Named<SolverKind>{"newton", SolverKind::kNewton}};
+  static constexpr std::array entries = names_in<SolverKind>(kSolvers);
 };
 template <>
 struct NameTable<Mode> {
-  static constexpr std::array entries{
-      Named<Mode>{"none", Mode::kNone},       Named<Mode>{"const", Mode::kConst},
-      Named<Mode>{"damping", Mode::kDamping}, Named<Mode>{"adaptive", Mode::kAdaptive},
-      Named<Mode>{"capped", Mode::kCapped},   Named<Mode>{"stiffness", Mode::kStiffness},
-      Named<Mode>{"inertia", Mode::kInertia}, Named<Mode>{"blend", Mode::kBlend}};
+  static constexpr std::array entries = names_in<Mode>(kModes);
+};
+template <>
+struct NameTable<Integrator> {
+  static constexpr std::array entries = names_in<Integrator>(kIntegrators);
 };
 template <>
 struct NameTable<Policy> {
   static constexpr std::array entries{Named<Policy>{"frame", Policy::kFrame},
                                       Named<Policy>{"substep", Policy::kSubstep}};
-};
-template <>
-struct NameTable<Integrator> {
-  static constexpr std::array entries{Named<Integrator>{"euler", Integrator::kEuler},
-                                      Named<Integrator>{"leapfrog", Integrator::kLeapfrog},
-                                      Named<Integrator>{"stormer", Integrator::kStormer}};
 };
 template <>
 struct NameTable<Drift> {

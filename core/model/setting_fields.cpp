@@ -19,11 +19,8 @@ Match(Cases...) -> Match<Cases...>;
 using S = Settings;
 
 constexpr std::array kFields{
-    SettingField{
-        "solver",
-        "bpp solves each step exactly, pgs iterates (Eq. 3); newton is implicit, xpbd moves "
-        "positions",
-        ChoiceSetting<SolverKind>{&S::solver}},
+    SettingField{"solver", "what solves the constraints of a sub-step (Eq. 3)",
+                 ChoiceSetting<SolverKind>{&S::solver}},
     SettingField{"iterations", "sweeps of pgs and xpbd per sub-step, most steps of newton",
                  CountSetting{&S::iterations, 1, 100000}},
     SettingField{

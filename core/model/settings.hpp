@@ -4,7 +4,8 @@
 
 namespace substep {
 
-enum class SolverKind : std::uint8_t { kPgs, kBpp, kXpbd, kNewton };
+/// What they are is in methods.hpp.
+enum class SolverKind : std::uint8_t { kPgs, kBpp, kXpbd, kNewton, kCount };
 /// How a step is kept stable (the stabilisation mode).
 enum class Mode : std::uint8_t {
   kNone,       // one sub-step
@@ -15,6 +16,7 @@ enum class Mode : std::uint8_t {
   kStiffness,  // one, and full geometric stiffness
   kInertia,    // N by Eq. 11 up to n_cap, and geometric inertia for what they do not reach
   kBlend,      // the same, with some damping
+  kCount
 };
 /// The poses that Newton takes the directions of constraint forces from, over a sub-step from q to
 /// q+ that follows one from q- to q.
@@ -26,7 +28,7 @@ enum class Forces : std::uint8_t {
 /// How often the number of sub-steps is decided.
 enum class Policy : std::uint8_t { kFrame, kSubstep };
 /// Semi-implicit, the paper's; of second order (Verlet 1967); of fourth, for joints (stormer.hpp).
-enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer };
+enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer, kCount };
 /// Law of the drift correction. kAuto is soft with PGS and full with the other solvers.
 enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.

@@ -17,6 +17,8 @@ std::unique_ptr<Solver> make_solver(SolverKind kind) {
       return std::make_unique<Xpbd>();
     case SolverKind::kNewton:
       return std::make_unique<Newton>();
+    case SolverKind::kCount:
+      break;
   }
   return nullptr;  // not reached: the switch is exhaustive
 }

@@ -55,6 +55,8 @@ constexpr ModeRules rules_of(Mode mode) {
       return {SubstepCount::kStableCapped, StiffMass::kGeometric, KeptVelocity::kAll};
     case Mode::kBlend:
       return {SubstepCount::kStableCapped, StiffMass::kGeometric, KeptVelocity::kShare};
+    case Mode::kCount:
+      break;
   }
   return {};
 }

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "app/link.hpp"
+#include "app/text/link.hpp"
 #include "core/io/experiment.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/fuzz/target.hpp"

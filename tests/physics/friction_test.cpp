@@ -63,8 +63,8 @@ Vec3 way_of(const Scene& scene, const Settings& settings) {
          scene.bodies[block].position;
 }
 
-constexpr SolverKind kSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd,
-                                   SolverKind::kNewton};
+constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd,
+                                      SolverKind::kNewton};
 
 }  // namespace
 
@@ -74,7 +74,7 @@ TEST(Friction, IsTheSameForEveryOrderOfBodiesAndEveryYaw) {
   const double a = kGravity * (std::sin(kSlope) - kMu * std::cos(kSlope));
   const double way = 0.5 * a * kSeconds * kSeconds;  // 1.695 m
   EXPECT_NEAR(way, 1.695, 1e-3);
-  for (const SolverKind solver : kSolvers) {
+  for (const SolverKind solver : kAllSolvers) {
     for (const FrictionCone cone : {FrictionCone::kBox, FrictionCone::kCone}) {
       const Settings settings = settings_of(solver, cone);
       for (const double yaw : {0.0, std::numbers::pi / 8.0, std::numbers::pi / 4.0}) {
@@ -108,7 +108,7 @@ TEST(Friction, OfTheConeIsAgainstTheSliding) {
     v += dt * (downhill - kMu * kGravity * std::cos(kSlope) * v.normalized());
     x += dt * v;
   }
-  for (const SolverKind solver : kSolvers) {
+  for (const SolverKind solver : kAllSolvers) {
     const Scene scene = block_on_a_slope(0.3, true, start);
     Settings settings = settings_of(solver, FrictionCone::kCone);
     settings.integrator = Integrator::kLeapfrog;

@@ -48,12 +48,12 @@ class Balls {
   double e_;
 };
 
-constexpr SolverKind kSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton,
-                                   SolverKind::kXpbd};
+constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton,
+                                      SolverKind::kXpbd};
 
 // Huygens: of a row of equal balls that touch, the last one leaves with the speed of the first.
 TEST(Impacts, PassThroughARowOfBallsThatTouch) {
-  for (const SolverKind solver : kSolvers) {
+  for (const SolverKind solver : kAllSolvers) {
     Balls balls(1.0);
     balls.add({-0.5, 0.0, 0.0}).velocity.x() = kSpeed;
     for (int i = 0; i < 4; ++i) balls.add({2.0 * kRadius * i, 0.0, 0.0});
@@ -65,7 +65,7 @@ TEST(Impacts, PassThroughARowOfBallsThatTouch) {
 
 // The same with a heavy last ball: the row returns what it does not take, and nothing is lost.
 TEST(Impacts, KeepMomentumAndEnergyOfUnequalBalls) {
-  for (const SolverKind solver : kSolvers) {
+  for (const SolverKind solver : kAllSolvers) {
     Balls balls(1.0);
     const double masses[] = {2.0, 1.0, 0.5, 5.0};
     balls.add({-0.5, 0.0, 0.0}, masses[0]).velocity.x() = kSpeed;
@@ -98,7 +98,7 @@ TEST(Impacts, LoseWithEveryBlowWhatItsRestitutionSays) {
       any = true;
     }
   }
-  for (const SolverKind solver : kSolvers) {
+  for (const SolverKind solver : kAllSolvers) {
     Balls balls(e);
     balls.builder().scene().contact.restitution_speed = kSlow;
     balls.add({-0.5, 0.0, 0.0}).velocity.x() = kSpeed;

@@ -59,6 +59,8 @@ inline int most_substeps(const Settings& settings) {
     case Mode::kInertia:
     case Mode::kBlend:
       return settings.n_cap;
+    case Mode::kCount:
+      break;
   }
   return 0;
 }

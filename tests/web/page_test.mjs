@@ -1,7 +1,6 @@
 // The page in a browser: node tests/web/page_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { PNG } from "pngjs";
 import { call, click, drawn, find, open, openPage, picture, place, quiet as isQuiet, save } from "./browser.mjs";
 import { difference, part, variance } from "./pixels.mjs";
 import { openTab } from "./tabs.mjs";
@@ -267,43 +266,23 @@ test("comes back when the graphics context was lost", async () => {
   quiet();
 });
 
-test("draws in parts, behind and over, what it draws at once where a processor must", async () => {
+test("a slow machine gets a coarser picture while it moves, and the best when it rests", async () => {
   const slow = await openPage(session, { fragment: "scene=swinging_box" });
   const tools = await slow.context().newCDPSession(slow);
   await tools.send("Emulation.setCPUThrottlingRate", { rate: 12 });
-  await slow.waitForSelector(".substep-backdrop", { state: "attached" });
+  await slow.waitForTimeout(8000);
   await tools.send("Emulation.setCPUThrottlingRate", { rate: 1 });
-  await call(slow, "set", { speed: 0.0625 }); // between two pictures little moves
-  await slow.waitForTimeout(1000);
-  const width = await slow.evaluate(() => document.querySelector(".substep-backdrop").width);
-  assert.ok(width < 1280, "the picture has fewer pixels");
-  let together;
-  const sizes = [{ width: 1280, height: 720 }, { width: 1279, height: 719 }];
-  for (const [before, size] of [sizes, [...sizes].reverse()]) {
-    let differs = 1;
-    // The quality may change between the two pictures; what is left behind is so every time.
-    for (let attempt = 1; differs >= 0.02 && attempt <= 4; ++attempt) {
-      await slow.setViewportSize(before);
-      await slow.waitForTimeout(500 * attempt);
-      await slow.setViewportSize(size); // what was drawn is gone
-      await slow.waitForTimeout(500 * attempt);
-      together = await picture(slow);
-      const atOnce = PNG.sync.read(Buffer.from(await slow.evaluate(async () => [
-        ...new Uint8Array(await (await window.substep.screenshot()).arrayBuffer())])));
-      differs = difference(together, atOnce);
-    }
-    assert.ok(differs < 0.02, `${differs} differ at ${size.width}`);
-  }
-  await save(slow, "software");
-  quiet(slow);
-
-  // Without it the laboratory draws on its own canvas.
-  await slow.evaluate(() => document.querySelector(".substep-backdrop").getContext("webgl2")
-    .getExtension("WEBGL_lose_context").loseContext());
-  await slow.waitForSelector(".substep-backdrop", { state: "detached" });
+  await call(slow, "set", { speed: 0.01 }); // between two pictures little moves
   await drawn(slow);
-  assert.ok(difference(together, await picture(slow)) < 0.05);
-  assert.ok(variance(await picture(slow, view)) > somethingSeen);
+  const moving = await picture(slow, view);
+  await save(slow, "software");
+  await call(slow, "pause");
+  await slow.waitForTimeout(500);
+  const resting = await picture(slow, view);
+  const changed = difference(moving, resting);
+  assert.ok(changed > 0.001, "edges of the moving picture are coarser");
+  assert.ok(changed < 0.3, `the same all the same: ${changed} differ`);
+  quiet(slow);
   await slow.context().close();
 });
 

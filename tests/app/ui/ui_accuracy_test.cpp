@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "app/ui/accuracy_picture.hpp"
+#include "app/ui/curve_style.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/app/ui/ui_sweep.hpp"
 

@@ -1,4 +1,4 @@
-#include "app/compare.hpp"
+#include "app/lab/compare.hpp"
 
 #include <gtest/gtest.h>
 

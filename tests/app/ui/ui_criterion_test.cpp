@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/criterion.hpp"
+#include "app/lab/criterion.hpp"
 #include "core/stepping/substep_clock.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "app/ui/plot_curves.hpp"
 #include "app/ui/plots.hpp"
 #include "core/lab/energy_scale.hpp"

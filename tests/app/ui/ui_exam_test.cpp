@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/exam_ghost.hpp"
+#include "app/lab/exam_ghost.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {

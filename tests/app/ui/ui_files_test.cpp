@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-#include "app/file_browser.hpp"
+#include "app/shell/file_browser.hpp"
 #include "core/io/scene_writer.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 

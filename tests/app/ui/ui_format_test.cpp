@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 
 namespace substep {
 namespace {

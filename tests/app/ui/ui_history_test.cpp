@@ -1,4 +1,4 @@
-#include "app/history.hpp"
+#include "app/lab/history.hpp"
 
 #include <gtest/gtest.h>
 

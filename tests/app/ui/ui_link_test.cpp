@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/link.hpp"
+#include "app/text/link.hpp"
 #include "core/io/effect_names.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/lab/experiment_run.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/export.hpp"
-#include "app/stiffness.hpp"
+#include "app/lab/stiffness.hpp"
+#include "app/text/export.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/plot.hpp"
 #include "app/ui/plot_curves.hpp"
@@ -157,7 +157,7 @@ TEST(Export, TableHoldsTheChannelsOfTheShownPlots) {
     name = n;
     csv = bytes;
   };
-  ui::save_table(*h.app);
+  ui::save_table(*h.app, h.app->desk);
   EXPECT_EQ(name, "swinging_box-adaptive.csv");
   const auto lines = lines_of(csv);
   ASSERT_EQ(lines.size(), 31U);
@@ -175,7 +175,7 @@ TEST(Export, TableHoldsTheChannelsOfTheShownPlots) {
   EXPECT_NEAR(values[7], r.energy, 1e-4 * r.kinetic);
 
   h.app->desk.plot(Plot::kEnergy).shown = false;
-  ui::save_table(*h.app);
+  ui::save_table(*h.app, h.app->desk);
   EXPECT_EQ(lines_of(csv)[0].find("kinetic"), std::string::npos);
 }
 
@@ -183,14 +183,14 @@ TEST(Export, PictureHasThePixelsOfItsArea) {
   Headless h(1280, 720, 2.0F);
   std::string png;
   h.app->host.save_file = [&](const std::string&, const std::string& bytes) { png = bytes; };
-  h.app->capture = {"view.png", {100.0F, 50.0F, 300.0F, 200.0F}};
+  h.app->desk.capture = {"view.png", {100.0F, 50.0F, 300.0F, 200.0F}};
   h.frames(1);
   ASSERT_GT(png.size(), 24U);
   EXPECT_EQ(png.substr(1, 3), "PNG");
   const auto at = [&](std::size_t i) { return static_cast<unsigned char>(png[i]); };
   EXPECT_EQ(256 * at(18) + at(19), 600);
   EXPECT_EQ(256 * at(22) + at(23), 400);
-  EXPECT_FALSE(h.app->capture.has_value());
+  EXPECT_FALSE(h.app->desk.capture.has_value());
 }
 
 TEST(Why, TheFirstOfTheListIsWhoSetsN) {

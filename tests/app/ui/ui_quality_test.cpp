@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "app/quality.hpp"
+#include "app/render/quality.hpp"
 #include "core/model/names.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 

@@ -1,4 +1,4 @@
-#include "app/session.hpp"
+#include "app/lab/session.hpp"
 
 #include <gtest/gtest.h>
 

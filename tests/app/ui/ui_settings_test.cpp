@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/model/methods.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -39,6 +40,22 @@ TEST(Settings, StormerIsToldToBeLeapfrogWhereItIs) {
   EXPECT_GT(height("xpbd"), plain + 10.0F);
   ASSERT_EQ(h.app->set("integrator", "leapfrog"), "");
   EXPECT_EQ(height("newton"), plain);
+}
+
+TEST(Settings, EveryMethodOfTheTableCanBeChosen) {
+  Headless h(1280.0F, 1200.0F);
+  for (const SolverEntry& entry : kSolvers) {
+    h.press(entry.title);
+    EXPECT_EQ(h.app->session.settings().solver, entry.value) << entry.title;
+  }
+  for (const ModeEntry& entry : kModes) {
+    h.press(entry.name);
+    EXPECT_EQ(h.app->session.settings().mode, entry.value) << entry.name;
+  }
+  for (const IntegratorEntry& entry : kIntegrators) {
+    h.press(entry.title);
+    EXPECT_EQ(h.app->session.settings().integrator, entry.value) << entry.title;
+  }
 }
 
 TEST(Settings, TheConeIsOfferedWhereThereIsFriction) {

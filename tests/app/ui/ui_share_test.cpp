@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <map>
 
-#include "app/format.hpp"
+#include "app/text/format.hpp"
 #include "core/io/saved_scene.hpp"
 #include "core/io/scene_writer.hpp"
 #include "tests/app/ui/ui_fixture.hpp"

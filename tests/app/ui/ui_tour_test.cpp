@@ -1,4 +1,4 @@
-#include "app/tour.hpp"
+#include "app/text/tour.hpp"
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>

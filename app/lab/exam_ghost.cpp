@@ -1,0 +1,71 @@
+#include "app/lab/exam_ghost.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "scenes/generator/exam.hpp"
+
+namespace substep {
+namespace {
+
+constexpr std::string_view kGroup = "exam";
+
+bool same_bodies(const Scene& a, const Scene& b) {
+  return std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(),
+                    [](const Body& x, const Body& y) {
+                      return x.mass == y.mass && x.position == y.position &&
+                             x.velocity == y.velocity;
+                    });
+}
+
+/// The exact motion of a scene, or nothing. Another load or start moves otherwise.
+std::function<ExamMotion()> motion_of(const Scene& scene) {
+  if (scene.group != kGroup) return {};
+  for (const ExamEntry& entry : scenes::exam()) {
+    if ("exam_" + entry.name != scene.name || !entry.build || !entry.not_reached.empty()) continue;
+    ExamCase exam = entry.build();
+    if (same_bodies(exam.scene, scene) && exam.scene.effects == scene.effects) return exam.motion;
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_exam(Library& library) {
+  for (const ExamEntry& entry : scenes::exam()) {
+    if (!entry.build || !entry.not_reached.empty()) continue;
+    const ExamCase exam = entry.build();
+    Scene scene = exam.scene;
+    if (exam.motion) scene.look_for += "; the bodies that are seen through move as it says";
+    scene.look_for += ".";
+    // The exam's frames are as long as its tables' rows are apart: too long to look at.
+    scene.frame = std::min(scene.frame, 1.0 / 60.0);
+    scene.settings.mode = Mode::kConst;
+    scene.settings.integrator = Integrator::kLeapfrog;
+    library.add_shipped(std::move(scene));
+  }
+}
+
+const Poses* ExamGhost::at(const Session& session) {
+  if (session.shared_scene() != scene_) {
+    scene_ = session.shared_scene();
+    start_ = motion_of(*scene_);
+    motion_ = nullptr;
+  }
+  if (!start_) return nullptr;
+  const double frame = scene_->frame;
+  const double t = std::max(0.0, session.state().time - (1.0 - session.between()) * frame);
+  if (!motion_ || t < t_) {  // motions go forwards only
+    motion_ = start_();
+    poses_ = {{}, {}};
+    for (const Body& body : scene_->bodies) {
+      poses_.x.push_back(body.position);
+      poses_.q.push_back(body.orientation);
+    }
+  }
+  motion_(t, poses_.x, poses_.q);
+  t_ = t;
+  return &poses_;
+}
+
+}  // namespace substep

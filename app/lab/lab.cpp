@@ -1,0 +1,203 @@
+#include "app/lab/lab.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "app/text/command.hpp"
+#include "app/text/link.hpp"
+#include "core/io/experiment.hpp"
+#include "core/io/scene_writer.hpp"
+#include "core/model/number_text.hpp"
+
+namespace substep {
+namespace {
+
+constexpr const char* kOwnScenes = "own_scenes";  // what Host::remember calls them
+
+}  // namespace
+
+Lab::Lab(Library shipped) : library(std::move(shipped)), session(library.scenes().front()) {
+  session.frame_taken = [this] { return compare.take_frame(session); };
+  session.scene_edited = [this](const SceneEdit& edit) { compare.edit(session, edit); };
+  run(library.scenes().front());
+}
+
+void Lab::run(std::shared_ptr<const Scene> scene) {
+  compare.close();  // it was about the other scene
+  ++run_count;
+  plain_scene = scene;
+  load = 1.0;
+  seed = 0;
+  pause_at = 0.0;
+  const bool watched = session.settings().watch_stiffness;
+  session.load(std::move(scene));
+  watch_stiffness(watched);
+  if (restarted) restarted(true);
+}
+
+bool Lab::open(std::string_view name) {
+  auto scene = library.find(name);
+  if (scene) run(std::move(scene));
+  return scene != nullptr || session.scene().name == name;
+}
+
+bool Lab::open_text(std::string_view json, const std::string& from) {
+  return open_result(read_scene(json), from);
+}
+
+bool Lab::open_result(SceneResult result, const std::string& from) {
+  if (!result.scene) {
+    trouble = {from + " was not loaded", std::move(result.problems)};
+    return false;
+  }
+  trouble = {};
+  run(add_own(*result.scene));
+  session.play();
+  hold_if_heavy();
+  return true;
+}
+
+void Lab::hold_if_heavy() {
+  heavy = {heavy_start(session.shared_scene(), session.settings()), run_count};
+  if (!heavy.why.empty()) session.pause();
+}
+
+std::shared_ptr<const Scene> Lab::add_own(const Scene& scene) {
+  auto added = library.add(scene);
+  own.add(added);
+  if (host.remember) host.remember(kOwnScenes, own.text());
+  return added;
+}
+
+void Lab::recall_scenes() {
+  if (!host.recall) return;
+  own = OwnScenes::read(host.recall(kOwnScenes));
+  for (const auto& scene : own.scenes()) library.add(*scene);
+}
+
+void Lab::save_scene() {
+  const Scene scene = session.as_scene();
+  const std::string text = write_scene(scene);
+  // What has flown too far or spins too fast is beyond what a scene may hold.
+  SceneResult result = read_scene(text);
+  if (!result.scene) {
+    trouble = {"This state cannot be a scene file", std::move(result.problems),
+               "No file was written."};
+  } else if (host.save_file) {
+    host.save_file(scene.name + ".json", text);
+  }
+}
+
+void Lab::reset() {
+  ++run_count;
+  session.reset();
+  compare.restart(session);
+  if (restarted) restarted(false);
+}
+
+void Lab::vary(double new_load, int new_seed) {
+  const Settings kept = session.settings();
+  const auto plain = plain_scene;
+  const double end = pause_at;
+  run(std::make_shared<const Scene>(start_of(*plain, new_load, new_seed)));
+  plain_scene = plain;
+  load = new_load;
+  seed = new_seed;
+  pause_at = end;
+  change(kept);
+}
+
+void Lab::run_result(const Result& result) {
+  if (session.loaded_scene() != accuracy.scene()) run(accuracy.scene());
+  if (result.experiment.load != 1.0) vary(result.experiment.load, 0);
+  change(result.experiment.settings);
+  reset();
+  session.play();
+}
+
+void Lab::keep(const Recommended& recommended) {
+  Scene scene = *accuracy.scene();
+  scene.settings = recommended.settings;
+  scene.recommended = recommended;
+  const auto kept = add_own(scene);
+  accuracy.is_of(kept);
+  run(kept);
+  session.play();
+  tell("Kept as " + kept->name + ": it starts with this");
+}
+
+void Lab::measure_costs() {
+  Experiment experiment = experiment_of(*plain_scene, session.settings(), seed);
+  experiment.load = load;
+  accuracy.effects.start(plain_scene, std::move(experiment));
+}
+
+const CostBreakdown* Lab::costs() const {
+  const EffectCosts& measured = accuracy.effects;
+  if (measured.experiment() == nullptr || measured.scene() != plain_scene) return nullptr;
+  const Experiment& of = *measured.experiment();
+  Settings now = session.settings();
+  now.watch_stiffness = of.settings.watch_stiffness;
+  const bool same = of.settings == now && of.load == load && of.seed == seed;
+  return same ? measured.breakdown() : nullptr;
+}
+
+void Lab::change(const Settings& settings) {
+  Settings s = settings;
+  s.watch_stiffness = session.settings().watch_stiffness;
+  // All others act from the next sub-step on.
+  if (s.probe != session.settings().probe && session.state().frame > 0) {
+    tell("The probe acts at a start: reset to see what it does");
+  }
+  session.set_settings(s);
+}
+
+void Lab::watch_stiffness(bool on) {
+  Settings s = session.settings();
+  s.watch_stiffness = on;
+  session.set_settings(s);
+}
+
+void Lab::tell(std::string text) { notice = {std::move(text), 5.0}; }
+
+const Scene& Lab::scene_in(std::size_t pane) const {
+  return pane == 0 ? session.scene() : *compare.runs()[pane - 1].scene;
+}
+
+const Poses& Lab::poses_in(std::size_t pane) const {
+  return pane == 0 ? session.poses() : compare.runs()[pane - 1].poses;
+}
+
+std::string Lab::command() const {
+  const std::int64_t since = session.edition() != nullptr ? session.edition()->frame : 0;
+  std::string command = make_command(link_scene(), session.settings(),
+                                     session.state().frame - since, is_own(link_scene()));
+  if (session.edition() != nullptr) return command;  // its bodies have load and seed already
+  if (load != 1.0) command += " --load " + number_text(load);
+  if (seed != 0) command += " --seed " + std::to_string(seed);
+  return command;
+}
+
+const Scene& Lab::link_scene() const {
+  // Without load and seed, which stand beside it: they would act twice.
+  return session.edition() != nullptr ? *session.edition()->start : *plain_scene;
+}
+
+std::string Lab::link() const {
+  Experiment experiment;
+  experiment.settings = session.settings();
+  experiment.duration = session.scene().criteria.duration;
+  if (session.edition() == nullptr) {  // else its bodies have them already
+    experiment.load = load;
+    experiment.seed = seed;
+  }
+  std::string link = make_link(link_scene(), experiment);
+  if (compare.open()) {
+    std::vector<Overrides> runs;
+    for (const Compare::Run& run : compare.runs()) runs.push_back(run.overrides);
+    link += "&compare=" + overrides_text(runs);
+  }
+  return link;
+}
+
+}  // namespace substep

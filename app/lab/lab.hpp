@@ -1,0 +1,98 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "app/lab/accuracy.hpp"
+#include "app/lab/compare.hpp"
+#include "app/lab/exam_ghost.hpp"
+#include "app/lab/heavy_start.hpp"
+#include "app/lab/host.hpp"
+#include "app/lab/library.hpp"
+#include "app/lab/own_scenes.hpp"
+#include "app/lab/session.hpp"
+#include "core/io/scene_reader.hpp"
+
+namespace substep {
+
+/// What runs and what is remembered of it, without a window: the scenes that there are, the run,
+/// what runs beside it, and what was measured.
+struct Lab {
+  /// @param library not empty; its first scene runs
+  explicit Lab(Library library);
+  Lab(const Lab&) = delete;  // the session calls back
+  Lab& operator=(const Lab&) = delete;
+
+  /// Runs a shipped scene. @return false where there is none of that name
+  bool open(std::string_view name);
+  /// Runs a scene given as text. Where it has problems they are shown and the old one goes on.
+  /// @param from what people call it: a file's name
+  bool open_text(std::string_view json, const std::string& from);
+  /// The same for the text of a file, or for what was wrong with reading it.
+  bool open_result(SceneResult result, const std::string& from);
+  /// Adds a scene to the person's own, here and at the next visit. @return as it is in the library
+  std::shared_ptr<const Scene> add_own(const Scene& scene);
+  /// Brings back the person's own scenes of earlier visits. Called once, when the host is there.
+  void recall_scenes();
+  /// Hands the run as it is now to the person, as a scene file.
+  void save_scene();
+  void run(std::shared_ptr<const Scene> scene);
+  void reset();
+  /// New settings for the run, live. Whether K is watched stays as it is.
+  void change(const Settings& settings);
+  /// Whether K is evaluated in every mode, to be seen.
+  void watch_stiffness(bool on);
+  /// Runs the scene from another of its starts, with the settings as they are.
+  void vary(double load, int seed);
+  /// Runs a point of the accuracy picture from its start.
+  void run_result(const Result& result);
+  /// Makes the scene of the accuracy picture one of the person's own, which starts with what its
+  /// sweep recommends, and runs it.
+  void keep(const Recommended& recommended);
+  /// Measures what the parts of this run's frames cost, from its start.
+  void measure_costs();
+  /// What was measured of this run with its present settings, or null.
+  [[nodiscard]] const CostBreakdown* costs() const;
+  /// Pauses a run whose frames take long, and says so: after what came from outside.
+  void hold_if_heavy();
+  /// Whether something goes on by itself: a run that plays, a sweep, a search.
+  [[nodiscard]] bool busy() const {
+    return session.playing() || accuracy.busy() || compare.behind(session);
+  }
+
+  /// The experiment as the fragment of an address.
+  [[nodiscard]] std::string link() const;
+  /// The scene that a link starts from: the loaded one, or, where it was edited since (a ball
+  /// thrown, an effect switched off), the scene as it stood at the last edit.
+  [[nodiscard]] const Scene& link_scene() const;
+  /// What to type for the same run on the command line.
+  [[nodiscard]] std::string command() const;
+  /// This run, 0, or one of those that are compared with it.
+  [[nodiscard]] const Scene& scene_in(std::size_t pane) const;
+  [[nodiscard]] const Poses& poses_in(std::size_t pane) const;
+  /// Says something in passing.
+  void tell(std::string text);
+
+  Library library;
+  OwnScenes own;
+  Session session;
+  Compare compare;
+  ExamGhost exam;  // of scenes with a known answer
+  Accuracy accuracy;
+  Host host;
+  Trouble trouble;  // none where the title is empty
+  Notice notice;
+  HeavyStart heavy;
+  // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
+  std::shared_ptr<const Scene> plain_scene;
+  double load = 1.0;  // [-]
+  int seed = 0;
+  double pause_at = 0.0;  // an experiment's end, 0 where there is none [s]
+  int run_count = 0;      // resets and loads
+  /// Called after the run began anew. @param loaded with another scene
+  std::function<void(bool loaded)> restarted;
+};
+
+}  // namespace substep

@@ -1,0 +1,357 @@
+#include "app/lab/session.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "app/lab/library.hpp"
+#include "core/io/saved_scene.hpp"
+
+namespace substep {
+namespace {
+
+constexpr std::size_t kTrailFrames = 150;
+
+// The run as a scene that a file can hold: what only acts through an effect that is off is left
+// out.
+Scene edition_of(const Scene& scene, const State& state, const Settings& settings) {
+  Scene out = saved_scene(scene, state, settings);
+  out.group = kOwnGroup;
+  Effects& effects = out.effects;
+  effects.friction = effects.friction && effects.contact;
+  effects.restitution = effects.restitution && effects.contact;
+  if (!effects.joints) out.joints.clear();
+  for (Body& body : out.bodies) {
+    if (!effects.friction) body.friction = 0.0;
+    if (!effects.restitution) body.restitution = 0.0;
+  }
+  return out;
+}
+
+}  // namespace
+
+Session::Session(std::shared_ptr<const Scene> scene, std::size_t past_bytes)
+    : timeline_(past_bytes) {
+  load(std::move(scene));
+}
+
+void Session::load(std::shared_ptr<const Scene> scene) {
+  loaded_ = std::move(scene);
+  scene_ = loaded_;
+  make_simulator();
+  ++generation_;
+  restart();
+}
+
+void Session::make_simulator() {
+  simulator_ = std::make_unique<Simulator>(scene_);
+  simulator_->set_budget(kWindowBudget);
+  slices_.forget();
+}
+
+void Session::reset() {
+  slices_.drop(*simulator_);
+  use_scene(loaded_);
+  simulator_->reset();
+  restart();
+}
+
+void Session::restart() {
+  hand_.reset();
+  one_frame_ = false;
+  report_ = simulator_->observe();
+  forces_ = {};
+  verdict_ = std::make_unique<Verdict>(*scene_, state(), report_);
+  history_.start(report_, scene_->frame);
+  timeline_.start(moment());
+  thrown_ = 0;
+  editions_.clear();
+  trail_.clear();
+  extend_trail();
+  times_ = {};
+  pace_ = 1.0;
+  show_present();
+}
+
+void Session::use_scene(std::shared_ptr<const Scene> scene) {
+  if (scene == scene_) return;
+  const Settings settings = simulator_->settings();
+  scene_ = std::move(scene);
+  make_simulator();
+  simulator_->set_settings(settings);
+}
+
+Moment Session::moment() const {
+  return {scene_, settings(), state(), report_, *verdict_, forces_};
+}
+
+// No motion between two frames is left to be shown.
+void Session::show_present() {
+  accumulator_ = 0.0;
+  previous_ = {state().x, state().q};
+  poses_ = previous_;
+}
+
+void Session::pause() {
+  playing_ = one_frame_ = false;
+  slices_.drop(*simulator_);
+}
+
+void Session::set_settings(const Settings& settings) {
+  slices_.drop(*simulator_);
+  if (settings != this->settings()) slices_.forget();
+  simulator_->set_settings(settings);
+}
+
+void Session::go_to(std::size_t index) {
+  pause();
+  hand_.reset();
+  timeline_.go_to(index);
+  const Moment& m = timeline_.now();
+  use_scene(m.scene);
+  simulator_->set_state(m.state);
+  report_ = m.report;
+  forces_ = m.forces;
+  *verdict_ = m.verdict;
+  trail_.clear();
+  if (scene_->criteria.track) {
+    const auto tracked = static_cast<std::size_t>(*scene_->criteria.track);
+    const std::size_t first = timeline_.index() - std::min(timeline_.index(), kTrailFrames - 1);
+    for (std::size_t i = first; i <= timeline_.index(); ++i) {
+      trail_.push_back(timeline_[i].state.x[tracked]);
+    }
+  }
+  show_present();
+}
+
+void Session::step_back() {
+  const bool within = substeps_left() > 0 || stopped();
+  const std::size_t i = timeline_.index();
+  go_to(within || i == 0 ? i : i - 1);
+}
+
+void Session::go_to_last_good(double seconds) {
+  std::size_t i =
+      timeline_.at_time((verdict_->holds() ? state().time : verdict_->failed_at()) - seconds);
+  while (i > 0 && !timeline_[i].verdict.holds()) --i;
+  go_to(i);
+}
+
+// The run goes on from a moment in the past: what came after it did not happen.
+void Session::forget_future() {
+  if (timeline_.at_end()) return;
+  timeline_.cut();
+  history_.cut(timeline_.now().state.time);
+}
+
+void Session::grab(int body, const Vec3& anchor, const Vec3& target) {
+  forget_future();
+  hand_ = Grab{body, anchor, target, joined_mass(*scene_, body)};
+  verdict_->disturb(state().time);
+}
+
+void Session::pull_to(const Vec3& target) {
+  if (hand_) hand_->target = target;
+}
+
+// Another scene from the present frame on: the run is no longer that of the one loaded.
+void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
+  forget_future();
+  const std::shared_ptr<const Scene> from = scene_;
+  State carried = carry(state());
+  use_scene(std::make_shared<const Scene>(std::move(scene)));
+  simulator_->set_state(std::move(carried));
+  verdict_->disturb(state().time);
+  // A link has little room: from it the run goes on like any start.
+  Scene edition = as_scene();
+  edition.carried.reset();
+  editions_.push_back({scene_, std::make_shared<const Scene>(std::move(edition)), state().frame});
+  show_present();
+  if (scene_edited) scene_edited({from, scene_, state().frame, std::move(carry)});
+}
+
+Scene Session::as_scene() const { return edition_of(*scene_, state(), settings()); }
+
+const Session::Edition* Session::edition() const {
+  for (const Edition& edition : editions_) {
+    if (edition.of == scene_) return &edition;
+  }
+  return nullptr;
+}
+
+void Session::throw_ball(const Ball& ball) {
+  come_between_frames();
+  if (stopped()) return;
+  const std::size_t slot =
+      loaded_->bodies.size() + static_cast<std::size_t>(thrown_++ % Ball::kMost);
+  go_on_in(with_ball(*scene_, ball, slot),
+           [ball, slot](State state) { return with_ball(std::move(state), ball, slot); });
+}
+
+void Session::set_effects(const Effects& effects) {
+  come_between_frames();
+  if (stopped() || effects == scene_->effects) return;
+  Scene scene = *scene_;
+  scene.effects = effects;
+  go_on_in(std::move(scene), [](State state) {
+    state.rest.clear();  // what rests may fall without them
+    return state;
+  });
+}
+
+void Session::extend_trail() {
+  if (!scene_->criteria.track) return;
+  trail_.push_back(state().x[static_cast<std::size_t>(*scene_->criteria.track)]);
+  if (trail_.size() > kTrailFrames) trail_.pop_front();
+}
+
+void Session::smooth_times() {
+  const auto settle = [first = times_.total == 0.0](double& mean, double now) {
+    mean += (first ? 1.0 : 0.03) * (now - mean);
+  };
+  settle(times_.joints, report_.times.joints);
+  settle(times_.contact, report_.times.contact);
+  settle(times_.friction, report_.times.friction);
+  settle(times_.mass, report_.times.mass);
+  settle(times_.solve, report_.times.solve);
+  settle(times_.stiffness, report_.times.stiffness);
+  settle(times_.integrate, report_.times.integrate);
+  settle(times_.total, report_.times.total);
+}
+
+// Before something that happens between two frames: one of single sub-steps is ended where that is
+// quick.
+void Session::come_between_frames() {
+  slices_.drop(*simulator_);
+  if (substeps_left() == 0) return;
+  if (slices_.quick()) {
+    take_frame();
+  } else {
+    simulator_->set_state(substeps_from_);
+  }
+}
+
+void Session::begin_frame() {
+  forget_future();
+  simulator_->set_grab(hand_);
+}
+
+void Session::take_frame() {
+  begin_frame();
+  previous_ = {state().x, state().q};
+  report_ = *slices_.advance(*simulator_, FrameSlices::Clock::time_point::max());
+  end_frame();
+}
+
+// @return whether what runs beside has kept step
+bool Session::end_frame() {
+  forces_ = simulator_->constraint_forces();
+  verdict_->add(*scene_, state(), report_);
+  if (stopped()) {
+    pause();
+  } else {
+    history_.add(report_);
+    extend_trail();
+    smooth_times();
+    timeline_.add(moment());
+  }
+  return !frame_taken || frame_taken();
+}
+
+// @return whether there may be more of them: a frame has ended, and nothing lags behind
+bool Session::run_slice(FrameSlices::Clock::time_point until) {
+  if (!slices_.open()) {
+    begin_frame();
+    previous_ = {state().x, state().q};
+  }
+  const std::optional<FrameReport> ended = slices_.advance(*simulator_, until);
+  if (!ended) return false;
+  report_ = *ended;
+  const bool together = end_frame();
+  accumulator_ -= scene_->frame;
+  if (one_frame_) {
+    pause();
+    show_present();
+  }
+  return together;
+}
+
+// Where the run is looked at in the past: the frame that followed then.
+bool Session::step_in_past() {
+  const std::size_t next = timeline_.index() + 1;
+  if (timeline_.at_end() || held() || substeps_left() > 0) return false;
+  if (timeline_[next].settings != settings()) return false;
+  go_to(next);
+  return true;
+}
+
+void Session::step() {
+  if (stopped() || step_in_past()) return;
+  take_frame();
+  show_present();
+}
+
+void Session::request_step() {
+  pause();
+  if (stopped() || step_in_past()) return;
+  if (slices_.quick()) return step();
+  if (substeps_left() > 0) simulator_->set_state(substeps_from_);
+  playing_ = one_frame_ = true;
+  run_slice(end_of_slice(kSlice));
+}
+
+void Session::substep() {
+  if (stopped()) return;
+  pause();
+  if (substeps_left() == 0) substeps_from_ = state();
+  begin_frame();
+  report_ = simulator_->substep();
+  if (substeps_left() == 0) {
+    end_frame();
+  } else {
+    forces_ = simulator_->constraint_forces();
+  }
+  show_present();
+}
+
+int Session::advance(double wall_dt, double budget) {
+  if (!playing_) {
+    accumulator_ = 0.0;
+    update_poses();
+    return 0;
+  }
+  constexpr double kLongestGap = 0.1;  // [s] of wall time
+  const double gap = std::clamp(wall_dt, 0.0, kLongestGap);
+  accumulator_ += gap * speed_;
+
+  const auto until = end_of_slice(budget);
+  const std::int64_t before = report_.frame;
+  while (playing_ && (slices_.open() || one_frame_ || accumulator_ >= scene_->frame)) {
+    if (!run_slice(until) || FrameSlices::Clock::now() >= until) break;
+  }
+  const double asked = std::max(gap * speed_, 1e-9);
+  const double dropped = std::max(0.0, accumulator_ - scene_->frame);
+  accumulator_ -= dropped;
+  pace_ += 0.05 * (std::max(0.0, 1.0 - dropped / asked) - pace_);
+  update_poses();
+  return static_cast<int>(report_.frame - before);
+}
+
+double Session::between() const {
+  return playing_ ? std::clamp(accumulator_ / scene_->frame, 0.0, 1.0) : 1.0;
+}
+
+void Session::update_poses() {
+  const State& now = state();
+  if (!playing_) {
+    poses_.x = now.x;
+    poses_.q = now.q;
+    return;
+  }
+  const double t = between();
+  for (std::size_t i = 0; i < now.x.size(); ++i) {
+    poses_.x[i] = previous_.x[i] + t * (now.x[i] - previous_.x[i]);
+    poses_.q[i] = previous_.q[i].slerp(t, now.q[i]);
+  }
+}
+
+}  // namespace substep

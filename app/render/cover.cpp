@@ -1,0 +1,67 @@
+#include "app/render/cover.hpp"
+
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace substep {
+namespace {
+
+PixelRect between(int left, int top, int right, int bottom) {
+  return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
+}
+
+// Appends what is left of a rectangle beside another: above, below, and at its sides.
+void cut(const PixelRect& from, const PixelRect& c, std::vector<PixelRect>& left) {
+  const int top = std::clamp(c.y, from.y, from.y + from.height);
+  const int bottom = std::clamp(c.y + c.height, top, from.y + from.height);
+  const int begin = std::clamp(c.x, from.x, from.x + from.width);
+  const int end = std::clamp(c.x + c.width, begin, from.x + from.width);
+  for (const PixelRect& r :
+       {between(from.x, from.y, from.x + from.width, top),
+        between(from.x, bottom, from.x + from.width, from.y + from.height),
+        between(from.x, top, begin, bottom), between(end, top, from.x + from.width, bottom)}) {
+    if (r.width > 0 && r.height > 0) left.push_back(r);
+  }
+}
+
+}  // namespace
+
+std::vector<PixelRect> covered_by_panels() {
+  constexpr ImGuiWindowFlags kSeenThrough =
+      ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Popup;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  const ImVec2 ratio = ImGui::GetIO().DisplayFramebufferScale;
+  const auto pixel = [](float at, float length, float scale, auto round) {
+    return static_cast<int>(round(std::clamp(at, 0.0F, length) * scale));
+  };
+  const auto ceil = [](float x) { return std::ceil(x); };
+  const auto floor = [](float x) { return std::floor(x); };
+  std::vector<PixelRect> covers;
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (!window->Active || window->Hidden || (window->Flags & kSeenThrough) != 0) continue;
+    const float corner = window->WindowRounding + 1.0F;
+    const ImVec2 min(window->Pos.x + corner, window->Pos.y + corner);
+    const ImVec2 max(window->Pos.x + window->Size.x - corner,
+                     window->Pos.y + window->Size.y - corner);
+    const PixelRect inside =
+        between(pixel(min.x, size.x, ratio.x, ceil), pixel(min.y, size.y, ratio.y, ceil),
+                pixel(max.x, size.x, ratio.x, floor), pixel(max.y, size.y, ratio.y, floor));
+    if (inside.width > 0 && inside.height > 0) covers.push_back(inside);
+  }
+  return covers;
+}
+
+std::vector<PixelRect> uncovered(const PixelRect& window, std::span<const PixelRect> covers) {
+  std::vector<PixelRect> parts{window};
+  for (const PixelRect& c : covers) {
+    std::vector<PixelRect> left;
+    for (const PixelRect& part : parts) cut(part, c, left);
+    parts = std::move(left);
+  }
+  return parts;
+}
+
+}  // namespace substep

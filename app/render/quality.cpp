@@ -1,0 +1,44 @@
+#include "app/render/quality.hpp"
+
+#include <algorithm>
+
+namespace substep {
+namespace {
+
+constexpr int kWindow = 12;              // frames that are judged together
+constexpr double kSlowFrame = 1.0 / 30;  // a frame that took longer to draw is slow [s]
+constexpr int kFewest = 4;               // frames that are enough where all are slow and
+constexpr double kEnough = 0.6;          // have taken this long together [s]
+constexpr double kAsleep = 1.0;          // a tab in the background: says nothing about drawing [s]
+constexpr double kMostWait = 256.0;      // between attempts at a finer picture [s]
+
+}  // namespace
+
+void QualityGovernor::observe(double wall_dt, double own) {
+  if (wall_dt > kAsleep) return;
+  steady_ += wall_dt;
+  ++seen_;
+  if (wall_dt - own > kSlowFrame) {
+    ++slow_;
+    lost_ += wall_dt - own;
+  }
+  const bool evident = slow_ == seen_ && seen_ >= kFewest && lost_ > kEnough;
+  if (seen_ < kWindow && !evident) return;
+  const bool slow = 2 * slow_ > seen_;
+  const bool quick = slow_ == 0;
+  seen_ = slow_ = 0;
+  lost_ = 0.0;
+  if (slow && quality_ != Quality::kSketch) {
+    // A finer picture that failed at once is not tried again soon.
+    if (tried_ && steady_ < 4.0) patience_ = std::min(2.0 * patience_, kMostWait);
+    tried_ = false;
+    quality_ = static_cast<Quality>(static_cast<int>(quality_) - 1);
+    steady_ = 0.0;
+  } else if (quick && quality_ != Quality::kFine && steady_ > patience_) {
+    quality_ = static_cast<Quality>(static_cast<int>(quality_) + 1);
+    tried_ = true;
+    steady_ = 0.0;
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,205 @@
+// What can be said to the application in words: the keys of links, scripts and command lines.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "app/app.hpp"
+#include "app/text/link.hpp"
+#include "app/text/tour.hpp"
+#include "core/lab/presets.hpp"
+#include "core/model/number_text.hpp"
+#include "core/model/scene_limits.hpp"
+#include "core/model/setting_fields.hpp"
+
+namespace substep {
+namespace {
+
+// One of two words. @return what is wrong, or ""
+std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
+  if (value != words[0] && value != words[1]) {
+    return "'" + std::string(value) + "' is not " + std::string(words[0]) + " or " +
+           std::string(words[1]);
+  }
+  on = value == words[1];
+  return "";
+}
+
+std::string choose_panel(std::string_view value, Tab& tab) {
+  static constexpr std::array<std::string_view, 5> kNames{"controls", "plots", "why", "compare",
+                                                          "accuracy"};
+  const auto* const found = std::find(kNames.begin(), kNames.end(), value);
+  if (found == kNames.end()) {
+    return "'" + std::string(value) + "' is not controls, plots, why, compare or accuracy";
+  }
+  tab = static_cast<Tab>(found - kNames.begin());
+  return "";
+}
+
+// A body by its name, or "none".
+std::string select_body(App& app, std::string_view name) {
+  const auto& bodies = app.session.scene().bodies;
+  const auto found =
+      std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == name; });
+  if (name != "none" && found == bodies.end()) {
+    return "there is no body of the name '" + std::string(name) + "'";
+  }
+  app.desk.selected = name == "none" ? -1 : static_cast<int>(found - bodies.begin());
+  return "";
+}
+
+// "off", or the number of a step: its experiment from the start.
+std::string go_on_tour(App& app, std::string_view value) {
+  const auto steps = tour_steps();
+  const auto step = parse_number(value);
+  const auto count = static_cast<double>(steps.size());
+  if (value != "off" && (!step || *step != std::round(*step) || *step < 1.0 || *step > count)) {
+    return "is not off or a whole number from 1 to " + std::to_string(steps.size());
+  }
+  app.desk.tour_hint = false;
+  if (value == "off") {
+    app.desk.tour = -1;
+    return "";
+  }
+  app.desk.tour = static_cast<int>(*step) - 1;
+  app.open_link(steps[static_cast<std::size_t>(app.desk.tour)].link);
+  app.reset();
+  app.session.play();
+  return "";
+}
+
+// What belongs to the window: taken from links and scripts, never written into links.
+// @return what is wrong with it, or ""; nothing where the key is another
+std::optional<std::string> set_window(App& app, std::string_view key, std::string_view value) {
+  Desk& desk = app.desk;
+  if (key == "speed" || key == "scale") {
+    const auto number = parse_number(value);
+    const Range range = key == "speed" ? Range{0.01, 16.0} : Range{0.8, 1.5};
+    if (!number || !range.contains(*number)) {
+      return "must be " + range.text() + ", not " + std::string(value);
+    }
+    if (key == "speed") app.session.set_speed(*number);
+    if (key == "scale") desk.scale = *number;
+    return "";
+  }
+  if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
+  if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
+  for (const ViewSwitch& option : kViewSwitches) {
+    // `forces` is a setting too, with other words.
+    const bool is_setting = find_setting(key) != nullptr && value != "off" && value != "on";
+    if (key == option.key && !is_setting)
+      return choose(value, {"off", "on"}, desk.view.*option.member);
+  }
+  if (key == "help") return choose(value, {"off", "on"}, desk.help);
+  if (key == "more") return choose(value, {"off", "on"}, desk.more);
+  if (key == "menu") return choose(value, {"none", "share"}, desk.open_share_menu);
+  if (key == "select") return select_body(app, value);
+  if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
+  if (key == "panel") return choose_panel(value, desk.tab);
+  if (key == "tour") return go_on_tour(app, value);
+  return std::nullopt;
+}
+
+// Another start of the scene, or how long it runs.
+std::string set_experiment(Lab& lab, std::string_view key, std::string_view value) {
+  const auto number = parse_number(value);
+  const Range range = key == "load"   ? kLoadRange
+                      : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
+                                      : kDurationRange;
+  if (!number || !range.contains(*number))
+    return "must be " + range.text() + ", not " + std::string(value);
+  if (key == "seed" && *number != std::round(*number)) return "is not a whole number";
+  if (key == "load") lab.vary(*number, lab.seed);
+  if (key == "seed") lab.vary(lab.load, static_cast<int>(*number));
+  if (key == "seconds") lab.pause_at = *number;
+  return "";
+}
+
+std::string set_accuracy(Lab& lab, std::string_view value) {
+  Accuracy& accuracy = lab.accuracy;
+  if (value == "run") {
+    accuracy.start(lab.plain_scene);
+  } else if (value == "cancel") {
+    accuracy.cancel();
+    accuracy.cancel_search();
+    accuracy.effects.cancel();
+  } else if (value == "alpha") {
+    if (accuracy.reference() == nullptr) {
+      return "'alpha' searches beside a sweep that has found its reference: set accuracy=run "
+             "first";
+    }
+    accuracy.search_alpha();
+  } else if (value == "map") {
+    accuracy.picture = AccuracyPicture::kStabilityMap;
+  } else if (value == "error") {
+    accuracy.picture = AccuracyPicture::kErrorAgainstCost;
+  } else if (value == "stages") {
+    accuracy.picture = AccuracyPicture::kEffectCosts;
+  } else if (value == "measure") {
+    lab.measure_costs();
+  } else {
+    return "'" + std::string(value) + "' is not run, cancel, alpha, measure, error, map or stages";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string App::set(std::string_view key, std::string_view value) {
+  if (key == "scene") {
+    return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
+  }
+  if (auto problem = set_window(*this, key, value)) return *std::move(problem);
+  if (key == "load" || key == "seed" || key == "seconds") return set_experiment(*this, key, value);
+  if (key == "accuracy") return set_accuracy(*this, value);
+  if (key == "compare") {
+    std::string problem;
+    const std::vector<Overrides> runs =
+        value == "off" ? std::vector<Overrides>{} : parse_overrides(value, problem);
+    reset();
+    compare.start(session, runs);
+    return problem;
+  }
+  if (key == "preset") {
+    const Preset* preset = find_preset(value);
+    if (preset == nullptr) return "'" + std::string(value) + "' is not " + preset_names();
+    change(settings_for(*preset, session.scene()));
+    return "";
+  }
+  const SettingField* field = find_setting(key);
+  if (field == nullptr) return "is not a setting";
+  Settings s = session.settings();
+  if (const auto problem = set_setting(*field, value, s)) return *problem;
+  change(s);
+  return "";
+}
+
+void App::open_link(std::string_view fragment) {
+  const auto scene_before = plain_scene;
+  std::vector<Problem> problems;
+  bool scene_refused = false;
+  // The scene first: it brings settings of its own, which the others then change.
+  auto parts = parse_link(fragment);
+  std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
+  if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
+    compare.close();
+  }
+  for (const LinkPart& part : parts) {
+    const std::string problem = set(part.key, part.value);
+    if (problem.empty()) continue;
+    problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
+    scene_refused = scene_refused || part.key == "scene";
+  }
+  hold_if_heavy();
+  if (problems.empty()) return;
+  const bool kept = scene_refused && plain_scene == scene_before;
+  std::string aftermath = kept ? kSceneKept : "";
+  if (problems.size() < parts.size()) {
+    aftermath += std::string(kept ? " " : "") + "The rest of the link was followed.";
+  }
+  trouble = {"The link could not be followed in full", std::move(problems), std::move(aftermath)};
+}
+
+}  // namespace substep

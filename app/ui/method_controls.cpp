@@ -1,0 +1,291 @@
+// Mode and solver with their parameters, as the table of methods has them.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/lab/presets.hpp"
+#include "core/model/methods.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr std::array<Choice, 3> kForces{
+    {{"end", "The end of the sub-step: implicit Euler, which damps (Macklin et al. 2019)."},
+     {"mean",
+      "Before, at and after it by 1/4, 1/2, 1/4: average acceleration (Newmark 1959), stable for "
+      "any step, and loses nothing."},
+     {"Numerov",
+      "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): fourth order "
+      "with two steps, for scenes of joints, while dt² k < 6 M."}}};
+constexpr std::array<Choice, 2> kPolicies{
+    {{"frame",
+      "N is decided once a frame, from the forces of its last sub-step: the paper's (Giles and "
+      "Andrews 2024)."},
+     {"sub-step",
+      "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};
+constexpr std::array<Choice, 3> kDrifts{
+    {{"auto", "Soft with PGS, full with the others."},
+     {"full", "The whole error is taken back in one step: bias phi/dt (Baumgarte 1972)."},
+     {"soft",
+      "The error decays with a time constant of its own: bias phi dt/tau², so that a "
+      "change of dt brings no energy in. This project's."}}};
+
+constexpr std::array<Choice, 2> kContactStiffnesses{
+    {{"paper",
+      "The contact as a ball joint that carries its force: the paper's (Giles and Andrews 2024), "
+      "steers N."},
+     {"exact", "The true derivative of the contact force, friction included. This project's."}}};
+constexpr std::array<Choice, 2> kFrictionCones{
+    {{"box",
+      "The paper's: each tangent resists up to μ times the normal force, so up to 1.41 μ across "
+      "the tangents."},
+     {"cone",
+      "Isotropic Coulomb friction: the length of the friction force is at most μ times the normal "
+      "force."}}};
+constexpr std::array<Choice, 2> kDetections{
+    {{"sub-step", "Looked for before every sub-step."},
+     {"frame",
+      "Looked for once a frame, as far ahead as bodies can come, and carried along with them "
+      "(Macklin et al. 2019, Small steps). Nothing fast gets through, and features that change "
+      "within the frame "
+      "are seen late."}}};
+constexpr std::array<Choice, 2> kGyroscopics{
+    {{"explicit", "Explicit Euler, as engines mostly have it: gains energy."},
+     {"implicit",
+      "Half a step explicit, half implicit: keeps energy and angular momentum. This project's."}}};
+
+template <class Enum>
+bool choose(const Look& look, const char* name, std::span<const Choice> choices, Enum& value,
+            const char* tip) {
+  int index = static_cast<int>(value);
+  const bool changed = segmented_row(look, name, choices, index, tip);
+  value = static_cast<Enum>(index);
+  return changed;
+}
+
+std::string about(const SolverEntry& e) {
+  return std::string(e.full_name) + " (" + e.reference + "): " + e.about;
+}
+
+template <class Entry>
+std::string about(const Entry& e) {
+  return *e.reference == '\0' ? e.about : std::string(e.about) + " " + e.reference + ".";
+}
+
+const char* title(const ModeEntry& e) { return e.name.data(); }
+template <class Entry>
+const char* title(const Entry& e) {
+  return e.title;
+}
+
+// The entries of a table of methods as the choices of a row.
+class MethodChoices {
+ public:
+  template <class Entries>
+  explicit MethodChoices(const Entries& entries) {
+    tips_.reserve(std::size(entries));
+    for (const auto& entry : entries) {
+      tips_.push_back(about(entry));
+      choices_.push_back({title(entry), tips_.back().c_str()});
+    }
+  }
+  operator std::span<const Choice>() const { return choices_; }
+
+ private:
+  std::vector<std::string> tips_;
+  std::vector<Choice> choices_;
+};
+
+// All settings at once, to begin with.
+void preset_row(const Look& look, const Scene& scene, Settings& s) {
+  const std::vector<Preset> presets = presets_for(scene);
+  std::vector<Choice> choices;
+  int current = -1;  // settings of a person's own
+  for (const Preset& preset : presets) {
+    Settings same = preset.settings;
+    same.watch_stiffness = s.watch_stiffness;
+    if (same == s) current = static_cast<int>(choices.size());
+    choices.push_back({preset.name.data(), preset.about.c_str()});
+  }
+  if (segmented_row(look, "Preset", choices, current, "All settings of the method at once.")) {
+    const bool watched = s.watch_stiffness;
+    s = presets[static_cast<std::size_t>(current)].settings;
+    s.watch_stiffness = watched;
+  }
+}
+
+// The paper's modes, and below them what stands beside and beyond it.
+void mode_rows(const Look& look, Mode& mode) {
+  const std::span<const ModeEntry> all = kModes;
+  const auto beyond = std::find_if(all.begin(), all.end(),
+                                   [](const ModeEntry& entry) { return entry.beyond_paper; });
+  const std::span<const ModeEntry> paper(all.begin(), beyond);
+  const std::span<const ModeEntry> further(beyond, all.end());
+  const auto first = static_cast<int>(paper.size());
+  const float width = ImGui::GetContentRegionAvail().x;
+  int index = static_cast<int>(mode);
+  segmented(look, "mode", MethodChoices(paper), index, width);
+  int in_further = index - first;
+  if (segmented(look, "further mode", MethodChoices(further), in_further, width)) {
+    index = first + in_further;
+  }
+  mode = static_cast<Mode>(index);
+}
+
+void stabilisation(const Look& look, const Scene& scene, Settings& s) {
+  section(look, "Stabilisation");
+  preset_row(look, scene, s);
+  mode_rows(look, s.mode);
+  label(look.fonts.small, look.theme->dim, entry_of(s.mode).line);
+
+  if (reads(s, "alpha")) {
+    slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
+           "Stability threshold of Eq. 5: 1 is the limit itself, less keeps a distance from it. "
+           "N goes with 1/√α (Eq. 10): a quarter of alpha doubles N.");
+  }
+  if (reads(s, "n")) {
+    slider(look, "N", s.n, 1, 128, true, "Sub-steps in every frame: dt = h/N.");
+  }
+  if (reads(s, "n_max")) {
+    slider(look, "N at most", s.n_max, 1, 512, true,
+           "An impact or a start that does not fit asks for thousands: this many are given.");
+  }
+  if (reads(s, "n_cap")) {
+    slider(look, "N cap", s.n_cap, 1, 64, true,
+           "Sub-steps up to here; at dt = h/N cap the mode takes over what they do not reach.");
+  }
+  if (reads(s, "alpha_m")) {
+    slider(look, "Alpha m", s.alpha_m, 0.1, 0.99, false, "%.2f",
+           "How near to the limit of stability the larger inertia goes: forces may grow by 1/αm "
+           "from one sub-step to the next. Less is safer and less exact.");
+  }
+  if (reads(s, "beta")) {
+    slider(look, "Beta  β", s.beta, 0.0, 1.0, false, "%.3f",
+           "Share of the velocity that is not damped: 1 is geometric inertia, 0 is damping.");
+  }
+}
+
+void solving(const Look& look, const Scene& scene, Settings& s) {
+  section(look, "Solver");
+  choose(look, "Method", MethodChoices(kSolvers), s.solver,
+         "What solves the velocities of a sub-step, Eq. 3.");
+  const SolverEntry& solver = entry_of(s.solver);
+  if (reads(s, "forces")) {
+    choose(look, "Forces", kForces, s.forces, "Poses that the constraint forces belong to.");
+  }
+  if (reads(s, "iterations")) {
+    slider(look, solver.sweeps ? "Sweeps" : "Steps", s.iterations, 1, solver.iterations, true,
+           solver.about_iterations);
+  }
+  if (reads(s, "refinements") && scene.regularisation > 0.0) {
+    slider(look, "Refine", s.refinements, 0, 32, false,
+           "Solves, after the first, that take the scene's regularisation back, from the last "
+           "forces on: the proximal point method (Rockafellar 1976). Each costs a solve with the "
+           "factor as it is.");
+  }
+  if (reads(s, "share_iterations")) {
+    checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
+             "The sweeps are those of a whole frame, shared out over its sub-steps: small steps "
+             "(Macklin et al. 2019, Small steps).");
+  }
+  choose(look, "Integrator", MethodChoices(kIntegrators), s.integrator,
+         "How a sub-step advances time.");
+  if (s.integrator == Integrator::kStormer && !follows_accelerations(s)) {
+    label(look.fonts.small, look.theme->dim, "Newton and XPBD take it as leapfrog.");
+  }
+}
+
+// How the mode finds N.
+void finer_points_of_mode(const Look& look, Settings& s) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (reads(s, "policy")) {
+    choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
+    if (s.policy == Policy::kSubstep) {
+      slider(look, "Memory", s.memory, 0.0, 0.99, false, "%.2f",
+             "How much of r (Eq. 9) stays from sub-step to sub-step: a force that dips for one "
+             "sub-step does not let the next one grow.");
+    }
+  }
+  if (reads(s, "rotation_criterion")) {
+    checkbox(look, "Rotation criterion", s.rotation_criterion, width,
+             "N also follows how fast bodies spin: the turn and the gyroscopic rate in a sub-step. "
+             "Off: the paper's rule alone.");
+  }
+  if (reads(s, "islands")) {
+    checkbox(look, "each island its own N", s.islands, width,
+             "Bodies that neither joints nor contacts to come connect within a frame take "
+             "sub-steps of their own: what is calm does not pay for what is not. This project's.");
+  }
+  checkbox(look, "let what rests sleep", s.sleep, width,
+           "Bodies stand still and cost nothing once all that is connected with them has been "
+           "slower than 1 cm/s for half a second. They wake where something comes near.");
+  if (reads(s, "probe")) {
+    checkbox(look, "probe before the first frame", s.probe, width,
+             "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "
+             "without it the first N is 1. Acts from a reset on.");
+  }
+}
+
+// What most people never touch; only what acts in this scene, mode and solver.
+void finer_points(const Look& look, const Effects& effects, Settings& s) {
+  const float width = ImGui::GetContentRegionAvail().x;
+  finer_points_of_mode(look, s);
+  if (effects.contact) {
+    choose(look, "Contacts", kDetections, s.detection, "When contacts are looked for.");
+    choose(look, "K contact", kContactStiffnesses, s.contact_stiffness,
+           "Which block of a contact enters K (Eq. 1).");
+  }
+  if (effects.friction) {
+    choose(look, "Friction", kFrictionCones, s.friction_cone, "What bounds the friction force.");
+  }
+  choose(look, "Drift", kDrifts, s.drift, "How errors of position are taken back.");
+  if (drift_law(s) == Drift::kSoft) {
+    double tau_ms = 1e3 * s.drift_tau;
+    if (slider(look, "Drift τ", tau_ms, 0.2, 50.0, true, "%.2f ms",
+               "Time constant of the soft law: bias phi dt/tau² for dt below tau.")) {
+      s.drift_tau = 1e-3 * tau_ms;
+    }
+  }
+  // Störmer's joints are aimed at the end of the sub-step, which leaves nothing to correct.
+  const bool aimed = follows_accelerations(s) && drift_law(s) == Drift::kFull;
+  if (effects.joints && !aimed) {
+    bool second = s.drift_order == 2;
+    checkbox(look, "correct for curvature", second, width,
+             "Second order: joints are also corrected for what turning will have bent by the end "
+             "of the sub-step, dt²/2 phi''. Half the error where joints are exact, noise "
+             "where they are soft. This project's.");
+    s.drift_order = second ? 2 : 1;
+  }
+  if (reads(s, "warm_start")) {
+    checkbox(look, "warm start", s.warm_start, width,
+             "Sweeps start from the forces of the last sub-step.");
+  }
+  if (reads(s, "pivots") && effects.contact) {
+    slider(look, "Pivots", s.pivots, 1, 100, true,
+           "Block pivots of BPP (Judice and Pires 1994) before it goes on one row at a time, which "
+           "always ends.");
+  }
+  if (effects.gyroscopic) {
+    choose(look, "Gyroscopic", kGyroscopics, s.gyroscopic, "How the torque I ω × ω is integrated.");
+  }
+}
+
+}  // namespace
+
+void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more) {
+  stabilisation(look, scene, settings);
+  space(look.m.section);
+  solving(look, scene, settings);
+  fold(look, more ? "Less" : "More", more,
+       "What most people never touch: drift, the probe, how often N is decided, contacts in K.");
+  if (more) finer_points(look, scene.effects, settings);
+}
+
+}  // namespace substep::ui

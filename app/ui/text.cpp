@@ -1,0 +1,153 @@
+// Text of the panels: where it lies, how it is fitted and wrapped, and the headings of sections.
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+ImVec2 snapped(ImVec2 p) {
+  const float ratio = std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
+  return {std::round(p.x * ratio) / ratio, std::round(p.y * ratio) / ratio};
+}
+
+}  // namespace
+
+void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const char* text,
+               const char* end) {
+  const float size = font->FontSize * ImGui::GetIO().FontGlobalScale;
+  draw.AddText(font, size, snapped(at), color, text, end);
+}
+
+ImVec2 text_size(ImFont* font, const char* text, float wrap) {
+  const float size = font->FontSize * ImGui::GetIO().FontGlobalScale;
+  return font->CalcTextSizeA(size, 1e6F, wrap, text);
+}
+
+std::string fitted(ImFont* font, const std::string& text, float width) {
+  if (text_size(font, text.c_str()).x <= width) return text;
+  std::string cut = text;
+  while (!cut.empty()) {
+    // A whole character at a time: continuation bytes go with their first one.
+    while (cut.size() > 1 && (static_cast<unsigned char>(cut.back()) & 0xc0U) == 0x80U) {
+      cut.pop_back();
+    }
+    cut.pop_back();
+    while (!cut.empty() && cut.back() == ' ') cut.pop_back();
+    if (text_size(font, (cut + "…").c_str()).x <= width) return cut + "…";
+  }
+  return "…";
+}
+
+namespace {
+
+const char* end_of_word(const char* p) {
+  while (*p != '\0' && *p != ' ' && *p != '\n') ++p;
+  return p;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Whether what follows a word is the unit of the number that it is: a percent sign, or a letter or
+// two, by which "0.8 %" and "10 s." are told from most words that are none.
+bool is_unit_after(const char* word, const char* end) {
+  if (end == word || *end != ' ' || !is_digit(end[-1]) || is_digit(end[1])) return false;
+  const auto letters = std::count_if(end + 1, end_of_word(end + 1), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U && c != '.' && c != ',' && c != ';';
+  });
+  return letters == 1 || letters == 2;
+}
+
+}  // namespace
+
+std::string wrapped(ImFont* font, const char* text, float width) {
+  std::string lines;
+  std::string line;
+  for (const char* p = text; *p != '\0';) {
+    const char* end = end_of_word(p);
+    while (is_unit_after(p, end)) end = end_of_word(end + 1);
+    const std::string word(p, end);
+    const std::string longer = line.empty() ? word : line + ' ' + word;
+    if (!line.empty() && text_size(font, longer.c_str()).x > width) {
+      lines += line + '\n';
+      line = word;
+    } else {
+      line = longer;
+    }
+    if (*end == '\n') {
+      lines += line + '\n';
+      line.clear();
+    }
+    p = *end == '\0' ? end : end + 1;
+  }
+  return lines + line;
+}
+
+void label(ImFont* font, ImU32 color, const char* text) {
+  ImGui::PushFont(font);
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  ImGui::PushTextWrapPos(0.0F);  // for a word that is longer than a line
+  ImGui::TextUnformatted(wrapped(font, text, ImGui::GetContentRegionAvail().x).c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  ImGui::PopFont();
+}
+
+void space(float height) {
+  // The item above and the Dummy bring the item spacing with them. It must be there: at the end of
+  // a window, no other item would count the space in.
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + height - 2.0F * ImGui::GetStyle().ItemSpacing.y);
+  ImGui::Dummy({0.0F, 0.0F});
+}
+
+namespace {
+
+// Not the unit after the comma: a kilojoule is no kelvin joule, a millijoule no megajoule.
+std::string capitals(const char* title) {
+  std::string caps(title);
+  for (char& c : caps) {
+    if (c == ',') break;
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return caps;
+}
+
+// Capitals read better a little apart. @param draw null only measures @return right end
+float draw_capitals(const Look& look, ImVec2 at, const std::string& caps, ImDrawList* draw) {
+  for (const char* p = caps.c_str(); *p != '\0';) {
+    const char* end = p + 1;
+    while ((static_cast<unsigned char>(*end) & 0xc0U) == 0x80U) ++end;
+    if (draw != nullptr) draw_text(*draw, look.fonts.caps, at, look.theme->dim, p, end);
+    at.x += text_size(look.fonts.caps, std::string(p, end).c_str()).x + 0.6F;
+    p = end;
+  }
+  return at.x;
+}
+
+}  // namespace
+
+float heading_width(const Look& look, const char* title) {
+  return draw_capitals(look, {0.0F, 0.0F}, capitals(title), nullptr);
+}
+
+void section(const Look& look, const char* title, const char* value, ImU32 value_color) {
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  constexpr float kHeight = 16.0F;
+  const float x = draw_capitals(look, {origin.x, origin.y + 1.0F}, capitals(title), &draw);
+  if (value != nullptr && *value != '\0') {
+    const std::string text = fitted(look.fonts.small, value, origin.x + width - x - 8.0F);
+    const ImVec2 size = text_size(look.fonts.small, text.c_str());
+    draw_text(draw, look.fonts.small, {origin.x + width - size.x, origin.y},
+              value_color != 0 ? value_color : look.theme->text, text.c_str());
+  }
+  ImGui::Dummy({width, kHeight});
+}
+
+}  // namespace substep::ui

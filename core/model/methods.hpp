@@ -1,0 +1,262 @@
+#pragma once
+// Every solver, mode and integrator with what people read about it: the one table for files,
+// window, command line, sweep and report. It has the size and the order of the enum, so that an
+// entry that is missing does not compile.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/model/settings.hpp"
+
+namespace substep {
+
+/// Colour of a curve, by its name in themes.
+enum class Tint : std::uint8_t { kBlue, kOrange, kTeal, kAmber, kPurple, kText, kDim };
+
+/// Names of the settings that a method reads, of those that not all of them read.
+using SettingNames = std::array<std::string_view, 9>;
+
+struct SolverEntry {
+  SolverKind value;
+  std::string_view name;  // in files, links and commands
+  const char* title;      // in the window
+  const char* full_name;
+  const char* reference;
+  const char* about;
+  bool sweeps = false;  // goes over the rows again and again; its curves are dashed
+  bool at_end = false;  // holds constraints at the end of the sub-step
+  double work = 1.0;    // of a sub-step, or of an iteration where it has some, that of BPP being 1
+  Tint tint = Tint::kBlue;  // of its curves, where it is at_end; of the others the mode decides
+  int iterations = 0;       // as many as the window offers; 0: it has none
+  const char* about_iterations = "";
+  SettingNames reads{};
+};
+
+struct ModeEntry {
+  Mode value;
+  std::string_view name;
+  const char* line;   // in a few words
+  const char* about;  // in a sentence or two
+  const char* reference = "";
+  const char* caption;          // of a picture; {n} stands for the setting n
+  const char* takes = nullptr;  // what it does in place of the N of Eq. 11; null: it takes that
+  const char* then = nullptr;   // what it does beyond its cap; null: nothing
+  const char* curve;            // name of its curves
+  Tint tint;
+  int corners;                // of the points of its curves, 0: discs
+  bool beyond_paper = false;  // a mode that the paper does not have
+  SettingNames reads{};
+};
+
+struct IntegratorEntry {
+  Integrator value;
+  std::string_view name;
+  const char* title;
+  const char* about;
+  const char* reference;
+};
+
+template <class Enum>
+inline constexpr std::size_t kCountOf = static_cast<std::size_t>(Enum::kCount);
+
+inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
+    {.value = SolverKind::kPgs,
+     .name = "pgs",
+     .title = "PGS",
+     .full_name = "Projected Gauss-Seidel",
+     .reference = "Erleben 2013",
+     .about = "a fixed number of sweeps over the rows of Eq. 3.",
+     .sweeps = true,
+     .work = 0.15,
+     .iterations = 400,
+     .about_iterations = "Iterations of PGS in every sub-step.",
+     .reads = {"iterations", "share_iterations", "warm_start"}},
+    {.value = SolverKind::kBpp,
+     .name = "bpp",
+     .title = "BPP",
+     .full_name = "Block principal pivoting",
+     .reference = "Judice and Pires 1994",
+     .about = "solves the boxed problem of Eq. 3 exactly.",
+     .reads = {"refinements", "pivots"}},
+    {.value = SolverKind::kXpbd,
+     .name = "xpbd",
+     .title = "XPBD",
+     .full_name = "Extended position-based dynamics",
+     .reference = "Mueller et al. 2020",
+     .about = "sweeps that move the bodies themselves, each row along its error as it is at that "
+              "moment.",
+     .sweeps = true,
+     .at_end = true,
+     .work = 0.3,
+     .tint = Tint::kPurple,
+     .iterations = 400,
+     .about_iterations = "Sweeps in every sub-step; the source recommends one, and many sub-steps.",
+     .reads = {"iterations", "share_iterations"}},
+    {.value = SolverKind::kNewton,
+     .name = "newton",
+     .title = "Newton",
+     .full_name = "Non-smooth Newton",
+     .reference = "Macklin et al. 2019, Non-smooth Newton methods",
+     .about = "errors vanish at the end of the sub-step, and the forces belong to poses around it.",
+     .at_end = true,
+     .work = 1.5,
+     .tint = Tint::kTeal,
+     .iterations = 50,
+     .about_iterations = "Newton steps at most in every sub-step; two are mostly enough.",
+     .reads = {"iterations", "forces", "pivots"}},
+}};
+
+inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
+    {.value = Mode::kNone,
+     .name = "none",
+     .line = "One step a frame, unprotected.",
+     .about = "One step per frame and nothing against instability: N = 1.",
+     .caption = "no sub-steps",
+     .takes = "Mode none takes 1 all the same.",
+     .curve = "constant N",
+     .tint = Tint::kOrange,
+     .corners = 4},
+    {.value = Mode::kConst,
+     .name = "const",
+     .line = "The same N in every frame.",
+     .about = "The same number of sub-steps in every frame, chosen by you: dt = h/N. Every frame "
+              "pays for the worst one.",
+     .reference = "Macklin et al. 2019, Small steps",
+     .caption = "constant N {n}",
+     .takes = "Mode const takes {n} all the same.",
+     .curve = "constant N",
+     .tint = Tint::kOrange,
+     .corners = 4,
+     .reads = {"n"}},
+    {.value = Mode::kDamping,
+     .name = "damping",
+     .line = "One step a frame; less α, more damping.",
+     .about = "One step per frame; rotations that are too stiff for it are damped implicitly: "
+              "b = max(0, (h² k − 4 α M)/h), Eq. 6.",
+     .reference = "Andrews et al. 2017",
+     .caption = "adaptive damping, α {alpha}",
+     .takes = "Mode damping takes 1 and damps what is too stiff for it.",
+     .curve = "damping",
+     .tint = Tint::kTeal,
+     .corners = 5,
+     .reads = {"alpha", "probe"}},
+    {.value = Mode::kAdaptive,
+     .name = "adaptive",
+     .line = "N ~ 1/√α: a quarter of α, twice the N.",
+     .about = "As many sub-steps as the stiffest degree of freedom needs: r = max k/M (Eq. 9), "
+              "dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up (Eq. 11).",
+     .reference = "The paper's: Giles and Andrews 2024",
+     .caption = "adaptive sub-steps, α {alpha}",
+     .curve = "adaptive",
+     .tint = Tint::kBlue,
+     .corners = 0,
+     .reads = {"alpha", "n_max", "policy", "memory", "islands", "rotation_criterion", "probe"}},
+    {.value = Mode::kCapped,
+     .name = "capped",
+     .line = "Adaptive up to a cap, then damping.",
+     .about = "Adaptive up to a cap, damping for what is left over: the combination that the paper "
+              "leaves for future work.",
+     .reference = "Giles and Andrews 2024",
+     .caption = "N up to {n_cap}, then damping",
+     .then = "damping does the rest",
+     .curve = "capped + damping",
+     .tint = Tint::kAmber,
+     .corners = 6,
+     .reads = {"alpha", "n_cap", "policy", "memory", "islands", "rotation_criterion", "probe"}},
+    {.value = Mode::kStiffness,
+     .name = "stiffness",
+     .line = "One step a frame, K in the mass.",
+     .about = "One step per frame with the geometric stiffness itself in the mass: M - h² K, its "
+              "stabilising part. Damps more than damping does.",
+     .reference = "Tournier et al. 2015",
+     .caption = "full geometric stiffness",
+     .takes = "Mode stiffness takes 1: K itself resists what is too stiff for it.",
+     .curve = "full geometric stiffness",
+     .tint = Tint::kDim,
+     .corners = 4,
+     .beyond_paper = true,
+     .reads = {"probe"}},
+    {.value = Mode::kInertia,
+     .name = "inertia",
+     .line = "Adaptive up to a cap, then inertia.",
+     .about = "Adaptive up to a cap; what is left over turns with a larger inertia, dt² k/(4 αm), "
+              "that neither gains nor loses energy.",
+     .reference = "This project's",
+     .caption = "N up to {n_cap}, then geometric inertia",
+     .then = "geometric inertia does the rest",
+     .curve = "capped + geometric inertia",
+     .tint = Tint::kText,
+     .corners = 3,
+     .beyond_paper = true,
+     .reads = {"alpha", "n_cap", "alpha_m", "policy", "memory", "islands", "rotation_criterion",
+               "probe"}},
+    {.value = Mode::kBlend,
+     .name = "blend",
+     .line = "Adaptive up to a cap, then both.",
+     .about = "Adaptive up to a cap, then geometric inertia of which a share 1 - β damps: steadier "
+              "where contacts come and go.",
+     .reference = "This project's",
+     .caption = "N up to {n_cap}, then inertia and damping",
+     .then = "inertia and damping do the rest",
+     .curve = "capped + blend",
+     .tint = Tint::kPurple,
+     .corners = 6,
+     .beyond_paper = true,
+     .reads = {"alpha", "n_cap", "alpha_m", "beta", "policy", "memory", "islands",
+               "rotation_criterion", "probe"}},
+}};
+
+inline constexpr std::array<IntegratorEntry, kCountOf<Integrator>> kIntegrators{{
+    {Integrator::kEuler, "euler", "Euler",
+     "Semi-implicit Euler: first order, loses energy when N changes.",
+     "The paper's: Giles and Andrews 2024"},
+    {Integrator::kLeapfrog, "leapfrog", "leapfrog",
+     "External forces act over (dt before + dt)/2: second order at the same cost.", "Verlet 1967"},
+    {Integrator::kStormer, "stormer", "Störmer",
+     "Leapfrog whose poses take in how accelerations change, with joints that hold at the end of "
+     "the sub-step: fourth order with one solve, for scenes of joints, while dt² k < 2 M.",
+     "Störmer 1907"},
+}};
+
+template <class Entry, std::size_t N>
+consteval bool is_complete(const std::array<Entry, N>& table) {
+  for (std::size_t i = 0; i < N; ++i) {
+    if (static_cast<std::size_t>(table[i].value) != i || table[i].name.empty()) return false;
+  }
+  return true;
+}
+static_assert(is_complete(kSolvers) && is_complete(kModes) && is_complete(kIntegrators),
+              "one entry for each, in the order of the enum");
+
+constexpr const SolverEntry& entry_of(SolverKind solver) {
+  return kSolvers[static_cast<std::size_t>(solver)];
+}
+constexpr const ModeEntry& entry_of(Mode mode) { return kModes[static_cast<std::size_t>(mode)]; }
+constexpr const IntegratorEntry& entry_of(Integrator integrator) {
+  return kIntegrators[static_cast<std::size_t>(integrator)];
+}
+
+/// All solvers as tables list them: first those of Eq. 3, each group from exact to approximate.
+consteval std::array<SolverKind, kSolvers.size()> listed_solvers() {
+  std::array<SolverKind, kSolvers.size()> list{};
+  std::size_t count = 0;
+  for (const bool at_end : {false, true}) {
+    for (std::size_t i = kSolvers.size(); i-- > 0;) {
+      if (kSolvers[i].at_end == at_end) list[count++] = kSolvers[i].value;
+    }
+  }
+  return list;
+}
+
+/// Whether the solver or the mode of these settings reads this one.
+constexpr bool reads(const Settings& s, std::string_view setting) {
+  const auto lists = [setting](const SettingNames& names) {
+    return std::find(names.begin(), names.end(), setting) != names.end();
+  };
+  return lists(entry_of(s.solver).reads) || lists(entry_of(s.mode).reads);
+}
+
+}  // namespace substep

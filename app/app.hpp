@@ -24,7 +24,8 @@ struct App : Lab, Viewport {
   /// @return what is wrong with it, or ""
   std::string set(std::string_view key, std::string_view value);
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
-  void open_link(std::string_view fragment);
+  /// @param scene the text of a scene of its own, or ""
+  void open_link(std::string_view fragment, std::string_view scene = "");
 
   Desk desk;
   ui::Look look;

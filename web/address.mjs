@@ -14,6 +14,7 @@ const isScene = (part) => part.startsWith("scene=");
 export function makeAddress(wasm, host, keep, signal) {
   const packed = { text: "", letters: "" }; // the last own scene
   let written = ""; // the fragment that this wrote, or read, last
+  let before = ""; // the last one of the scene before
   let timer = 0;
 
   /** The experiment as a fragment, without '#'. */
@@ -36,20 +37,24 @@ export function makeAddress(wasm, host, keep, signal) {
   async function open(fragment) {
     const parts = partsOf(fragment);
     const scene = parts.find((part) => part.startsWith("scene64="));
-    let found = null;
+    let text = "";
     if (scene) {
       try {
-        found = JSON.parse(wasm.openText(await unpack(scene.slice("scene64=".length)), "The link's scene"));
-      } catch {
-        const problem = { pointer: "scene64", message: "is no scene: was the link cut short?" };
-        found = { ok: false, problems: [problem] };
+        text = await unpack(scene.slice("scene64=".length));
+        if (text === "") throw new TypeError("nothing is in it");
+      } catch (error) {
+        const message = error instanceof RangeError ? error.message
+          : "is no scene: was the link cut short?";
+        const problem = { pointer: "scene64", message };
         wasm.trouble("The link's scene could not be read", problem.pointer, problem.message);
+        host.changed?.();
+        return { ok: false, problems: [problem] };
       }
-      if (!found.ok) return found;
     }
-    const rest = JSON.parse(wasm.openLink(parts.filter((part) => part !== scene).join("&")));
+    const rest = parts.filter((part) => part !== scene).join("&");
+    const answer = JSON.parse(wasm.openLink(rest, text));
     host.changed?.();
-    return rest;
+    return answer;
   }
 
   async function write() {
@@ -59,11 +64,13 @@ export function makeAddress(wasm, host, keep, signal) {
     // Going back leads to the scene before, not to every setting on the way.
     const sceneOf = (text) => partsOf(text).find((part) => /^scene(64)?=/.test(part));
     const anew = written !== "" && sceneOf(fragment) !== sceneOf(written);
+    if (anew) before = written;
     written = fragment;
     history[anew ? "pushState" : "replaceState"](null, "", fragment);
   }
 
   async function read() {
+    if (written !== "") before = written;
     written = location.hash; // what it becomes is written in its place
     if (written.length > 1) await open(written);
   }
@@ -95,6 +102,11 @@ export function makeAddress(wasm, host, keep, signal) {
         clearTimeout(timer);
         await read();
       }, { signal });
+    },
+    /** Loads the page with what ran before the present scene, or as it begins. */
+    goBefore() {
+      history.replaceState(null, "", `${location.pathname}${location.search}${before}`);
+      location.reload();
     },
     stop() {
       keep = false;

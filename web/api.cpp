@@ -100,9 +100,9 @@ int substep_busy() { return app().busy() ? 1 : 0; }
 
 void substep_reset() { app().reset(); }
 
-const char* substep_open_link(const char* fragment) {
+const char* substep_open_link(const char* fragment, const char* scene) {
   app().trouble = {};
-  app().open_link(fragment);
+  app().open_link(fragment, scene);
   return keep(outcome(app().trouble.problems));
 }
 
@@ -186,6 +186,7 @@ const char* substep_report() {
       {"holds", s.verdict().holds()},
       {"verdict", s.verdict().text()},
       {"trouble", app().trouble.title},
+      {"held", app().held() ? app().heavy.why : ""},
       {"selected", app().desk.selected < 0
                        ? ""
                        : s.scene().bodies[static_cast<std::size_t>(app().desk.selected)].name},

@@ -34,8 +34,9 @@ SUBSTEP_EXPORTED int substep_busy();
 
 SUBSTEP_EXPORTED void substep_reset();
 
+/// @param scene the text of a scene of its own, or ""
 /// @return what of it could not be read
-SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment);
+SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment, const char* scene);
 
 SUBSTEP_EXPORTED const char* substep_link();
 

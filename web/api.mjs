@@ -152,7 +152,7 @@ function makeListeners(report, trouble) {
 export function makeApi({ wasm, wake, address, capture, clock, frame }) {
   const report = () => parse(wasm.report());
   let removed = false;
-  const trouble = () => (removed ? gone : "");
+  const trouble = () => (removed ? gone : wasm.stopped);
   const { answering, promising, telling } = makeGuards(trouble);
   const listeners = makeListeners(report, trouble);
   const waking = (call) => (...args) => {
@@ -174,7 +174,7 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
       clock.stop();
       address.stop();
       capture.close(gone);
-      wasm.close();
+      if (!wasm.stopped) wasm.close();
       frame.end();
       return right();
     },

@@ -1,7 +1,7 @@
 // Scene files come in by the menu or dropped on the laboratory; scenes, tables and pictures go out
 // as downloads; a few words are kept in the browser from visit to visit.
 
-const largest = 32 << 20; // of a scene file, as core/io reads them [bytes]
+const largest = 8 << 20; // of a scene file: the page does not answer while one is read [bytes]
 const prefix = "substep."; // of what is kept
 
 const types = { json: "application/json", csv: "text/csv", png: "image/png", webm: "video/webm",
@@ -9,8 +9,8 @@ const types = { json: "application/json", csv: "text/csv", png: "image/png", web
 
 async function textOf(file) {
   if (file.size > largest) {
-    throw new Error(`${(file.size / 1e6).toFixed(0)} MB are too much: a scene file has at most ` +
-      `${(largest / 1e6).toFixed(0)} MB`);
+    throw new Error(`${(file.size / 1e6).toFixed(0)} MB are too much: here a scene file has ` +
+      `at most ${(largest / 1e6).toFixed(0)} MB, on the command line 32 MB`);
   }
   const bytes = await file.arrayBuffer().catch(() => {
     throw new Error("the browser could not read it: is it a folder?");
@@ -51,7 +51,7 @@ export function makeFiles(frame, wasm, host) {
   };
 
   async function open(file) {
-    if (!file) return;
+    if (!file || wasm.stopped) return;
     try {
       wasm.openText(await textOf(file), file.name);
     } catch (error) {

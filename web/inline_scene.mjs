@@ -1,7 +1,24 @@
 // A scene inside an address: its text without what is only for the eye, deflated, in base64url.
 
-const through = async (bytes, stream) =>
-  new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+/** Of what a link unpacks to [bytes]: 1 kB of letters can stand for 1 MB. */
+export const largestUnpacked = 4 << 20;
+
+/** What comes out of a stream, as long as it is no more than so many bytes. */
+async function through(bytes, stream, most = Infinity) {
+  const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader();
+  const pieces = [];
+  let size = 0;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return new Uint8Array(await new Blob(pieces).arrayBuffer());
+    size += value.length;
+    if (size > most) {
+      await reader.cancel();
+      throw new RangeError(`unpacks to more than ${most >> 20} MiB`);
+    }
+    pieces.push(value);
+  }
+}
 
 /** @param text a scene file @returns letters that an address can hold */
 export async function pack(text) {
@@ -12,10 +29,10 @@ export async function pack(text) {
   return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
-/** @returns the text; fails where the letters are no packed text */
+/** @returns the text; fails where the letters are no packed text, a RangeError where it is too long */
 export async function unpack(letters) {
   const binary = atob(letters.replaceAll("-", "+").replaceAll("_", "/"));
   const bytes = Uint8Array.from(binary, (letter) => letter.charCodeAt(0));
-  const plain = await through(bytes, new DecompressionStream("deflate-raw"));
+  const plain = await through(bytes, new DecompressionStream("deflate-raw"), largestUnpacked);
   return new TextDecoder("utf-8", { fatal: true }).decode(plain);
 }

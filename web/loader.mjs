@@ -68,16 +68,21 @@ const exported = {
   pointer: "vnnn", pointer_gone: "v", button: "vnnn", wheel: "vnn", pinching: "vn", pinch: "vnnn",
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", busy: "n", reset: "v",
-  open_link: "ss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
+  open_link: "sss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
   trouble: "vsss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
   widgets: "s", memory: "s",
 };
 
-/** A function of the module. Texts go through the heap: a file does not fit on the stack. */
-function wrap(module, name, signature) {
+/**
+ * A function of the module. Texts go through the heap: a file does not fit on the stack.
+ * @param life {stopped}: why no call is made any more, or ""; set where one ends in a trap, which
+ *   leaves the module in the middle of what it did
+ */
+function wrap(module, name, signature, life) {
   const [result, ...types] = signature;
   const call = module[`_substep_${name}`];
   return (...args) => {
+    if (life.stopped) throw new Error(life.stopped);
     const texts = [];
     const raw = (type, i) => {
       if (type === "n") return Number(args[i]);
@@ -92,8 +97,12 @@ function wrap(module, name, signature) {
     try {
       const value = call(...types.map(raw));
       return result === "s" ? module.UTF8ToString(value) : value;
+    } catch (error) {
+      // Out of memory or out of bounds, or of the stack.
+      if (error instanceof WebAssembly.RuntimeError || error instanceof RangeError) life.stop(error);
+      throw error;
     } finally {
-      texts.forEach((at) => module._free(at));
+      if (!life.stopped) texts.forEach((at) => module._free(at));
     }
   };
 }
@@ -125,9 +134,13 @@ export async function makeEngine(engine, canvas, host) {
     print: (text) => console.log(text),
     printErr: (text) => console.warn(text),
   });
-  const wasm = {};
+  const wasm = { stopped: "" };
+  wasm.stop = (error) => {
+    wasm.stopped = `the laboratory stopped: ${error.message}`;
+    host.stopped?.();
+  };
   for (const [name, signature] of Object.entries(exported)) {
-    wasm[camel(name)] = wrap(module, name, signature);
+    wasm[camel(name)] = wrap(module, name, signature, wasm);
   }
   let losing = null; // WebGL's own way to lose a context and to have it back
   wasm.run = (keeps) => {

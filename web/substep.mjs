@@ -60,7 +60,7 @@ class Clock {
       this.request = requestAnimationFrame(this.tick);
       const dt = Math.max(0, (now - this.before) / 1000);
       this.before = now;
-      if (!this.graphics.canDraw() || !this.seen) return;
+      if (wasm.stopped || !this.graphics.canDraw() || !this.seen) return;
       if (frame.fit(wasm)) this.wake();
       if (wasm.busy() || now < this.awakeUntil) this.draw(dt);
     };
@@ -118,6 +118,15 @@ export async function createSubstep(element, options = {}) {
   }
 }
 
+/** Where the program has ended in a trap: the page starts again with the scene before. */
+async function startAgain(frame, wasm, address) {
+  console.error(wasm.stopped);
+  const why = "The program ran out of memory, or has a defect. Other pages are not affected.";
+  if (!frame.wholePage) return frame.say("The laboratory stopped", `${why} Reload the page.`);
+  await frame.ask("The laboratory stopped", why, "Start again with the scene before");
+  address.goBefore();
+}
+
 async function open(frame, options) {
   const engine = await load(frame);
   const host = {}; // what the application may ask of the page: web/host.cpp calls it
@@ -136,6 +145,7 @@ async function open(frame, options) {
   });
   const wake = () => clock.wake();
   host.changed = wake;
+  host.stopped = () => startAgain(frame, wasm, address);
 
   wasm.reducedMotion(matchMedia("(prefers-reduced-motion: reduce)").matches ? 1 : 0);
   frame.fit(wasm);

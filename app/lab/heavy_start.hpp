@@ -7,10 +7,20 @@
 
 namespace substep {
 
+/// What is needed to start a run again.
+struct RunStart {
+  std::shared_ptr<const Scene> scene;
+  Settings settings;
+  double load = 1.0;  // of Experiment [-]
+  int seed = 0;
+  bool playing = false;
+};
+
 /// A run that waits for a person to start it, since its frames take long.
 struct HeavyStart {
   std::string why;  // empty where there is none
   int run = 0;      // Lab::run_count then
+  RunStart before;  // the run that it replaced
 };
 
 /// Whether a run should wait for a person to start it: one sub-step is taken beside it to see what

@@ -51,15 +51,35 @@ bool Lab::open_result(SceneResult result, const std::string& from) {
     return false;
   }
   trouble = {};
+  RunStart before = run_start();
   run(add_own(*result.scene));
   session.play();
-  hold_if_heavy();
+  hold_if_heavy(std::move(before));
   return true;
 }
 
-void Lab::hold_if_heavy() {
-  heavy = {heavy_start(session.shared_scene(), session.settings()), run_count};
-  if (!heavy.why.empty()) session.pause();
+RunStart Lab::run_start() const {
+  if (held()) return heavy.before;  // what waits never ran
+  RunStart start{plain_scene, session.settings(), load, seed, session.playing()};
+  if (session.edition() != nullptr) {  // its bodies have load and seed already
+    start.scene = session.edition()->start;
+    start.load = 1.0;
+    start.seed = 0;
+  }
+  return start;
+}
+
+void Lab::run(const RunStart& start) {
+  const RunStart copy = start;  // it may be a part of what run() replaces
+  run(copy.scene);
+  if (copy.load != 1.0 || copy.seed != 0) vary(copy.load, copy.seed);
+  change(copy.settings);
+  if (copy.playing) session.play();
+}
+
+void Lab::hold_if_heavy(RunStart before) {
+  heavy = {heavy_start(session.shared_scene(), session.settings()), run_count, std::move(before)};
+  if (held()) session.pause();
 }
 
 std::shared_ptr<const Scene> Lab::add_own(const Scene& scene) {

@@ -55,8 +55,14 @@ struct Lab {
   void measure_costs();
   /// What was measured of this run with its present settings, or null.
   [[nodiscard]] const CostBreakdown* costs() const;
-  /// Pauses a run whose frames take long, and says so: after what came from outside.
-  void hold_if_heavy();
+  /// How the run began, to go back to it.
+  [[nodiscard]] RunStart run_start() const;
+  void run(const RunStart& start);
+  /// Pauses a run that came from outside where its frames take long, and says so.
+  /// @param before the run that it replaced
+  void hold_if_heavy(RunStart before);
+  /// Whether the run waits for a person to start it.
+  [[nodiscard]] bool held() const { return !heavy.why.empty() && heavy.run == run_count; }
   /// Whether something goes on by itself: a run that plays, a sweep, a search.
   [[nodiscard]] bool busy() const {
     return session.playing() || accuracy.busy() || compare.behind(session);

@@ -117,7 +117,7 @@ void NativeHost::open_link() {
     return;
   }
   app_.open_link(fragment);
-  app_.session.play();
+  if (!app_.held()) app_.session.play();
 }
 
 void NativeHost::record(bool on) {

@@ -116,7 +116,7 @@ std::string apply(const Options& options, App& app) {
   if (!options.link.empty()) app.open_link(options.link);
   app.desk.dark = !options.light;
   app.desk.panels = !options.bare;
-  app.session.play();
+  if (!app.held()) app.session.play();
   return "";
 }
 

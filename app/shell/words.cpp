@@ -176,8 +176,17 @@ std::string App::set(std::string_view key, std::string_view value) {
   return "";
 }
 
-void App::open_link(std::string_view fragment) {
+void App::open_link(std::string_view fragment, std::string_view scene) {
   const auto scene_before = plain_scene;
+  RunStart before = run_start();
+  if (!scene.empty()) {
+    SceneResult result = read_scene(scene);
+    if (!result.scene) {
+      trouble = {"The link's scene was not loaded", std::move(result.problems)};
+      return;
+    }
+    run(add_own(*result.scene));
+  }
   std::vector<Problem> problems;
   bool scene_refused = false;
   // The scene first: it brings settings of its own, which the others then change.
@@ -192,7 +201,7 @@ void App::open_link(std::string_view fragment) {
     problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
     scene_refused = scene_refused || part.key == "scene";
   }
-  hold_if_heavy();
+  hold_if_heavy(std::move(before));
   if (problems.empty()) return;
   const bool kept = scene_refused && plain_scene == scene_before;
   std::string aftermath = kept ? kSceneKept : "";

@@ -13,11 +13,12 @@ namespace substep::ui {
 void heavy_card(const Look& look, Lab& lab, const Viewport& viewport) {
   HeavyStart& heavy = lab.heavy;
   if (heavy.why.empty() || lab.session.stopped()) return;
-  bool close = lab.session.playing() || heavy.run != lab.run_count;  // it is out of date
-  if (close) {
+  if (lab.session.playing() || !lab.held()) {
     heavy = {};
     return;
   }
+  bool close = false;
+  bool back = false;
   if (begin_card(look, viewport, "##heavy", 400.0F, card_middle(viewport), 0.5F)) {
     card_title(look, look.theme->amber, Icon::kPause, "Paused: this run is heavy");
     label(look.fonts.small, look.theme->dim, heavy.why.c_str());
@@ -25,10 +26,14 @@ void heavy_card(const Look& look, Lab& lab, const Viewport& viewport) {
                "Play (Space)")) {
       lab.session.play();
     }
+    ImGui::SameLine(0.0F, 8.0F);
+    back = button(look, "back", Icon::kNone, "Go back", ButtonKind::kPlain, 0.0F, 28.0F,
+                  ("Back to \"" + heavy.before.scene->title + "\"").c_str());
     close = card_closed(look) || ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   }
   ImGui::End();
-  if (close) heavy = {};
+  if (back) lab.run(heavy.before);
+  if (close || back) heavy = {};
 }
 
 void long_frame_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {

@@ -82,7 +82,7 @@ void call(const std::string& line) {
   } else if (name == "set") {
     require(is_json(substep_set(text.c_str())), "set answers in JSON");
   } else if (name == "link") {
-    require(is_json(substep_open_link(text.c_str())), "openLink answers in JSON");
+    require(is_json(substep_open_link(text.c_str(), "")), "openLink answers in JSON");
   } else if (name == "step" && small()) {
     limit_work();
     substep_step(std::min(std::atoi(text.c_str()), kFrames));
@@ -126,7 +126,7 @@ void look() {
   const std::string own = substep_own_scene();
   // The page packs a person's own scene into the link; then the engine is given both apart.
   if (own.empty()) {
-    substep_open_link(link.c_str());
+    substep_open_link(link.c_str(), "");
     require(app().trouble.problems.empty(), "a link that was made can be read");
     const std::string again = substep_link();
     require(again == link, "a link that was made is the same experiment: " + link + " " + again);

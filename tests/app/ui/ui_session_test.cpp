@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <ranges>
 
+#include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"
 #include "core/model/validate.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
@@ -347,6 +348,36 @@ TEST(HeavyStart, ALinkToOneWaitsForAPerson) {
   EXPECT_EQ(h.app->session.state().frame, 0);
   h.app->open_link("scene=pendulum");
   EXPECT_EQ(h.app->heavy.why, "");
+}
+
+TEST(HeavyStart, GoesBackToTheRunBefore) {
+  Headless h;
+  h.app->open_link("scene=bridge&alpha=0.15&load=2&seed=3");
+  h.app->session.play();
+  const std::string before = h.app->link();
+  h.app->open_link("scene=swinging_box&solver=pgs&iterations=400&mode=const&n=10000");
+  h.app->open_link("scene=swinging_box&solver=pgs&iterations=500&mode=const&n=10000");
+  ASSERT_TRUE(h.app->held());
+  h.frames(2);
+  ASSERT_NE(find_handle("Go back"), nullptr);
+  h.press("Go back");
+  EXPECT_EQ(h.app->link(), before) << "the last run that a person saw";
+  EXPECT_TRUE(h.app->session.playing());
+  EXPECT_FALSE(h.app->held());
+}
+
+TEST(HeavyStart, ASceneInsideALinkIsOneWithItsSettings) {
+  Headless h;
+  Scene own = *shipped("pendulum");
+  own.name = "own_pendulum";
+  const std::string text = write_scene(own);
+  h.app->open_link("mode=const&n=10000&solver=pgs&iterations=2000", text);
+  EXPECT_EQ(h.app->session.scene().name, "own_pendulum");
+  ASSERT_TRUE(h.app->held()) << "only its settings make it heavy";
+  EXPECT_NE(h.app->heavy.before.scene->name, "own_pendulum");
+  h.app->open_link("alpha=0.3", "{}");
+  EXPECT_NE(h.app->trouble.title.find("link's scene"), std::string::npos);
+  EXPECT_NE(h.app->session.settings().alpha, 0.3);
 }
 
 TEST(HeavyStart, WhatWouldStopAtOnceIsSaid) {

@@ -1,6 +1,6 @@
 // A page as Doxygen reads it: node core/docs/doxygen_page.mjs PAGE.md. Doxygen's anchors are not those
 // of GitHub, for which the pages are written. Every heading gets a label of its own, links between
-// pages go to these labels, and links to files that are not pages become plain text.
+// pages go to these labels, and links to files that are not pages become words and a path.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 
@@ -28,7 +28,7 @@ process.stdout.write(outsideCode(text, line => {
     const [file, anchor] = target.split("#");
     const linked = file ? path.normalize(path.join(path.dirname(page), file)) : page;
     if (image) return `![${words}](${linked})`;
-    if (!linked.endsWith(".md")) return words;
+    if (!linked.endsWith(".md")) return words.includes(path.basename(linked)) ? words : `${words} (${linked})`;
     return `[${words.replace(/`/g, "")}](@ref ${reference(linked, anchor === slugs(readFileSync(linked, "utf8"))[0] ? "" : anchor)})`;
   });
 }));

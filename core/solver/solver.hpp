@@ -24,7 +24,7 @@ class Solver {
   }
   /// Velocities. Impulses of joints may be left as they are where no velocity follows from them.
   virtual SolveReport find_velocities(const System& system, const Settings& settings) = 0;
-  /// Those impulses, of the system that was last solved. @param blocks its own
+  /// Those impulses, of the system that was last solved, whose blocks are given.
   virtual void find_impulses(std::span<Block> /*blocks*/) {}
 };
 

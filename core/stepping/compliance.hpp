@@ -56,8 +56,8 @@ double spring_kappa(const SubstepTimes& times, std::span<const InverseMass> inve
                     const Block& joint, int first, int end);
 inline constexpr double kResolved = 0.25;  ///< kappa up to which Störmer's springs are given forces
 
-/// Bias and softness of the compliant rows of a joint.
-/// @param elastic per row: what of phi is the spring's own, the rest is drift [m, rad]
+/// Bias and softness of the compliant rows of a joint. Of phi, Block::elastic is the spring's own;
+/// the rest is drift.
 /// @param drift_rate at which drift is taken back [1/s]  @param inverse_mass, u_before per body of
 /// the scene  @param regularisation that joins C in the softness [1/kg]
 void set_springs(const Settings& settings, const SubstepTimes& times, double drift_rate,

@@ -205,7 +205,7 @@ TEST(Output, WhatIsNoNumberIsWrittenAsTheReadmeSays) {
   const std::string json = substep("run free_fall --frames 1 --json -").out;
   EXPECT_NE(csv.find(",inf,"), std::string::npos) << csv;
   EXPECT_NE(json.find("\"dt_stable\": null"), std::string::npos) << json;
-  const std::string readme = text_of(SUBSTEP_SOURCE_DIR "/core/README.md");
+  const std::string readme = text_of(SUBSTEP_SOURCE_DIR "/core/lab/README.md");
   EXPECT_NE(readme.find("`inf` stands for a `dt_stable` that nothing bounds"), std::string::npos);
 }
 

@@ -186,13 +186,13 @@ TEST(Repository, EverySceneHasGoldenLines) {
 }
 
 TEST(Repository, TheReadmesExampleIsTheOneThatIsBuilt) {
-  std::ifstream readme_file(kRoot / "README.md");
+  std::ifstream readme_file(kRoot / "core/README.md");
   const std::string readme{std::istreambuf_iterator<char>(readme_file), {}};
   std::ifstream example_file(kRoot / "tests/install/consumer/pendulum.cpp");
   const std::string example{std::istreambuf_iterator<char>(example_file), {}};
   ASSERT_FALSE(example.empty());
   EXPECT_NE(readme.find("```cpp\n" + example + "```\n"), std::string::npos)
-      << "README.md does not show tests/install/consumer/pendulum.cpp as it is";
+      << "core/README.md does not show tests/install/consumer/pendulum.cpp as it is";
 }
 
 TEST(Tests, AreNamedSubjectAndLaw) {

@@ -1,4 +1,4 @@
-// The README's pictures: node tests/report/picture.mjs SWEEP/report.html REPRODUCTION/report.html
+// The pictures of tests/paper/README.md: node tests/report/picture.mjs SWEEP/report.html REPRODUCTION/report.html
 import { fileURLToPath } from "node:url";
 import { launch, openFile } from "./browser.mjs";
 
@@ -12,7 +12,7 @@ async function shoot(page, title, name) {
 }
 
 const accuracy = await openFile(browser, sweep, { width: 1000, height: 1000, ratio: 1.5 });
-await shoot(accuracy, "Error against cost", "picture");
+await shoot(accuracy, "Error against cost", "error-against-cost");
 const figures = await openFile(browser, reproduction, { width: 680, height: 1000, ratio: 1.5 });
 await shoot(figures, "Swinging box, direct solver", "figure-2");
 await shoot(figures, "Largest kinetic energy of every swing", "figure-3");

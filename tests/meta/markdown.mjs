@@ -1,0 +1,42 @@
+// What tests and the site read of a page in Markdown.
+
+/** The page with every line outside fenced and indented code replaced by change(line). */
+export function outsideCode(text, change) {
+  let fence = false;
+  return text.split("\n").map(line => {
+    if (/^\s*```/.test(line)) {
+      fence = !fence;
+      return line;
+    }
+    return fence || /^ {4}/.test(line) ? line : change(line);
+  }).join("\n");
+}
+
+/** The anchors that GitHub gives to the headings of a page, in their order. */
+export function slugs(text) {
+  const seen = new Map();
+  const found = [];
+  outsideCode(text, line => {
+    const heading = /^#{1,6} +(.*?) *#*$/.exec(line);
+    if (!heading) return line;
+    const words = heading[1].replace(/\[([^\]]*)\]\([^)]*\)/g, "$1").replace(/[`*]/g, "");
+    const slug = words.toLowerCase().replace(/[^\p{L}\p{N}\s_-]/gu, "").replace(/ /g, "-");
+    const count = seen.get(slug) ?? 0;
+    seen.set(slug, count + 1);
+    found.push(count === 0 ? slug : `${slug}-${count}`);
+    return line;
+  });
+  return found;
+}
+
+/** What a page says in code: fenced and indented lines, and spans of others, a line each. */
+export function code(text) {
+  const found = [];
+  let fence = false;
+  for (const line of text.split("\n")) {
+    if (/^\s*```/.test(line)) fence = !fence;
+    else if (fence || /^ {4}/.test(line)) found.push(line.trim());
+    else for (const [, span] of line.matchAll(/`([^`]+)`/g)) found.push(span);
+  }
+  return found.join("\n");
+}

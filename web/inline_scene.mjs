@@ -3,9 +3,24 @@
 /** Of what a link unpacks to [bytes]: 1 kB of letters can stand for 1 MB. */
 export const largestUnpacked = 4 << 20;
 
+// A stream inflates all that it is given before it hands anything on: 1 kB becomes 1 MB at most.
+const sliceSize = 1024; // [bytes]
+
+/** The bytes in slices, each when the last one is used up. */
+function slices(bytes) {
+  let at = 0;
+  return new ReadableStream({
+    pull(controller) {
+      if (at >= bytes.length) return controller.close();
+      controller.enqueue(bytes.subarray(at, at + sliceSize));
+      at += sliceSize;
+    },
+  }, { highWaterMark: 0 });
+}
+
 /** What comes out of a stream, as long as it is no more than so many bytes. */
 async function through(bytes, stream, most = Infinity) {
-  const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader();
+  const reader = slices(bytes).pipeThrough(stream).getReader();
   const pieces = [];
   let size = 0;
   for (;;) {

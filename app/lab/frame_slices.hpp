@@ -9,7 +9,8 @@ namespace substep {
 
 /// What a window lets a simulation take: it answers between two sub-steps, and one of so much work
 /// takes about 0.1 s.
-inline constexpr Budget kWindowBudget{.memory = 64.0 * kMebibyte, .substep = 1e8};
+inline constexpr Budget kWindowBudget{
+    .memory = 64.0 * kMebibyte, .substep = 1e8, .contacts = 10'000.0};
 
 /// Computing between two pictures [s].
 inline constexpr double kSlice = 0.025;

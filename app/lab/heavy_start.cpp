@@ -25,7 +25,7 @@ std::string heavy_start(const std::shared_ptr<const Scene>& scene, const Setting
   beside.set_budget(kWindowBudget);
   beside.set_settings(settings);
   const FrameReport report = beside.substep();
-  if (report.status == StepStatus::kOverBudget) {
+  if (report.status == StepStatus::kOverBudget || report.status == StepStatus::kTooManyContacts) {
     return "It would stop at once: " + stop_text(*scene, report) + ".";
   }
   const int substeps = 1 + beside.substeps_left();

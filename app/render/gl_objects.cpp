@@ -1,12 +1,10 @@
 #include "app/render/gl_objects.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 
-#include "app/render/picture.hpp"
+#include "app/render/rounded_box.hpp"
 
 namespace substep::gl {
 namespace {
@@ -80,71 +78,24 @@ void StreamBuffer::upload(const void* data, std::size_t bytes) const {
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
 }
 
-RoundedBox::RoundedBox(int segments, bool flats, const StreamBuffer& instances) {
-  // Every face is a grid. Each of its halves turns from the face's normal (slope 0) to the edge,
-  // where the neighbouring face takes over (slope 1); between the two middle lines lies the flat.
-  struct Vertex {
-    std::array<float, 3> corner;
-    std::array<float, 3> normal;
+BodyMesh::BodyMesh(int segments, bool flats) : rounded_(segments > 0) {
+  const RoundedBoxMesh mesh = rounded_box(segments, flats || segments == 0);
+  using Vertex = RoundedBoxMesh::Vertex;
+  index_count_ = static_cast<int>(mesh.indices.size());
+  const auto bytes = [](const auto& list) {
+    return static_cast<GLsizeiptr>(list.size() * sizeof(list[0]));
   };
-  std::vector<Vertex> vertices;
-  std::vector<std::uint16_t> indices;
-  const int lines = 2 * (segments + 1);
-  const auto slope = [&](int line) {
-    if (segments == 0) return 0.0F;
-    const int step = line <= segments ? line - segments : line - segments - 1;
-    return std::tan(static_cast<float>(step) / static_cast<float>(segments) * 0.785398163F);
-  };
-  const auto side = [&](int line) { return line <= segments ? -1.0F : 1.0F; };
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (const float sign : {-1.0F, 1.0F}) {
-      const auto base = static_cast<int>(vertices.size());
-      const std::size_t u = (axis + 1) % 3;
-      const std::size_t v = (axis + 2) % 3;
-      for (int i = 0; i < lines; ++i) {
-        for (int j = 0; j < lines; ++j) {
-          Vertex vertex{};
-          vertex.corner[axis] = sign;
-          vertex.corner[u] = side(i);
-          vertex.corner[v] = side(j);
-          const float a = slope(i);
-          const float b = slope(j);
-          const float length = std::sqrt(1.0F + a * a + b * b);
-          vertex.normal[axis] = sign / length;
-          vertex.normal[u] = a / length;
-          vertex.normal[v] = b / length;
-          vertices.push_back(vertex);
-        }
-      }
-      for (int i = 0; i + 1 < lines; ++i) {
-        for (int j = 0; j + 1 < lines; ++j) {
-          if (!flats && (i == segments || j == segments)) continue;
-          const int p = base + i * lines + j;
-          const std::array<int, 6> quad =
-              sign > 0.0F
-                  ? std::array<int, 6>{p, p + lines, p + 1, p + 1, p + lines, p + lines + 1}
-                  : std::array<int, 6>{p, p + 1, p + lines, p + 1, p + lines + 1, p + lines};
-          for (const int index : quad) indices.push_back(static_cast<std::uint16_t>(index));
-        }
-      }
-    }
-  }
-  index_count_ = static_cast<int>(indices.size());
-
   glGenVertexArrays(1, &array_);
   glBindVertexArray(array_);
   glGenBuffers(1, &vertices_);
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
-  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)),
-               vertices.data(), GL_STATIC_DRAW);
+  glBufferData(GL_ARRAY_BUFFER, bytes(mesh.vertices), mesh.vertices.data(), GL_STATIC_DRAW);
   glGenBuffers(1, &indices_);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
-  glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-               static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint16_t)), indices.data(),
-               GL_STATIC_DRAW);
+  glBufferData(GL_ELEMENT_ARRAY_BUFFER, bytes(mesh.indices), mesh.indices.data(), GL_STATIC_DRAW);
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, corner)));
   glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), at(offsetof(Vertex, normal)));
-  instances.bind();
+  instances_.bind();
   constexpr GLsizei kStride = sizeof(Instance);
   glVertexAttribPointer(2, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, position)));
   glVertexAttribPointer(3, 4, GL_FLOAT, GL_FALSE, kStride, at(offsetof(Instance, orientation)));
@@ -157,15 +108,22 @@ RoundedBox::RoundedBox(int segments, bool flats, const StreamBuffer& instances) 
   glBindVertexArray(0);
 }
 
-RoundedBox::~RoundedBox() {
+BodyMesh::~BodyMesh() {
   glDeleteVertexArrays(1, &array_);
   glDeleteBuffers(1, &vertices_);
   glDeleteBuffers(1, &indices_);
 }
 
-void RoundedBox::draw(int instances) const {
+void BodyMesh::upload(const std::vector<Instance>& bodies) {
+  count_ = static_cast<int>(bodies.size());
+  if (count_ > 0) instances_.upload(bodies.data(), bodies.size() * sizeof(Instance));
+}
+
+void BodyMesh::draw(const Program& program) const {
+  if (count_ == 0) return;
+  program.set("rounded", rounded_ ? 1.0F : 0.0F);
   glBindVertexArray(array_);
-  glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_SHORT, nullptr, instances);
+  glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_SHORT, nullptr, count_);
 }
 
 ShadowMap::ShadowMap() {

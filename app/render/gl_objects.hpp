@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "app/render/picture.hpp"
+
 namespace substep::gl {
 
 /// Where a field lies, as glVertexAttribPointer wants it.
@@ -54,24 +56,29 @@ class StreamBuffer {
   GLuint id_ = 0;
 };
 
-/// The unit box with rounded edges: at full rounding it is a ball.
-class RoundedBox {
+/// A mesh that is drawn once for each of its bodies.
+class BodyMesh {
  public:
-  /// @param segments per quarter of a turn and half edge; 0: for boxes with sharp edges
-  /// @param flats false: of full rounding only, where the flats between the edges have no size
-  /// @param instances where the per-instance attributes come from (struct Instance)
-  RoundedBox(int segments, bool flats, const StreamBuffer& instances);
-  ~RoundedBox();
-  RoundedBox(const RoundedBox&) = delete;
-  RoundedBox& operator=(const RoundedBox&) = delete;
+  /// @param segments as rounded_box() takes them
+  /// @param flats false: for balls alone
+  BodyMesh(int segments, bool flats);
+  ~BodyMesh();
+  BodyMesh(const BodyMesh&) = delete;
+  BodyMesh& operator=(const BodyMesh&) = delete;
 
-  void draw(int instances) const;
+  /// The bodies that draw() draws from now on.
+  void upload(const std::vector<Instance>& bodies);
+  /// @param program of them; its `rounded` is set
+  void draw(const Program& program) const;
 
  private:
+  StreamBuffer instances_;
   GLuint array_ = 0;
   GLuint vertices_ = 0;
   GLuint indices_ = 0;
   int index_count_ = 0;
+  int count_ = 0;  // of bodies
+  bool rounded_;
 };
 
 /// A depth texture to draw the light's view into.

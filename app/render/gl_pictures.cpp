@@ -14,8 +14,10 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr std::array<Grain, 4> kGrains{
-    {{0.5, 1, 384, 1.0F}, {2.0 / 3.0, 1, 640, 1.0F}, {1.0, 1, 1536, 1.0F}, {1.0, 4, 1536, 4.0F}}};
+constexpr std::array<Grain, 4> kGrains{{{0.5, 1, 384, 1.0F, 1.0, 6000},
+                                        {2.0 / 3.0, 1, 640, 1.0F, 1.0, 15000},
+                                        {1.0, 1, 1536, 1.0F, 0.5, 60000},
+                                        {1.0, 4, 1536, 4.0F, 0.25, 100000}}};
 
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
@@ -94,17 +96,19 @@ Matrix4f PicturePainter::light_matrix(const Picture& picture) const {
   return m;
 }
 
-// Of the instances that were uploaded.
-void PicturePainter::draw_meshes(const Meshes& meshes, const gl::Program& program,
-                                 const std::vector<Instance>& boxes,
-                                 const std::vector<Instance>& balls) {
-  program.set("rounded", meshes.rounded);
-  meshes.box.draw(static_cast<int>(boxes.size()));
-  program.set("rounded", 1.0F);
-  meshes.ball.draw(static_cast<int>(balls.size()));
+void PicturePainter::upload(std::span<const Instance> boxes, std::span<const Instance> balls,
+                            const Picture& picture, const Target& target) {
+  bodies_.choose(boxes, balls, {&picture, target.height, grain_.tolerance, grain_.vertices});
+  for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i].upload(bodies_.boxes[i]);
+  for (std::size_t i = 0; i < balls_.size(); ++i) balls_[i].upload(bodies_.balls[i]);
 }
 
-void PicturePainter::draw_shadows(const Picture& picture, const Matrix4f& light) {
+void PicturePainter::draw_meshes(const gl::Program& program) const {
+  for (const gl::BodyMesh& mesh : boxes_) mesh.draw(program);
+  for (const gl::BodyMesh& mesh : balls_) mesh.draw(program);
+}
+
+void PicturePainter::draw_shadows(const Matrix4f& light) {
   shadow_map_.bind_target();
   glViewport(0, 0, shadow_map_.size(), shadow_map_.size());
   glClear(GL_DEPTH_BUFFER_BIT);
@@ -113,7 +117,7 @@ void PicturePainter::draw_shadows(const Picture& picture, const Matrix4f& light)
   shadow_.use();
   shadow_.set_matrix("view_projection", light.data());
   shadow_.set_matrix("world_to_shadow", light.data());
-  draw_meshes(*shadow_meshes_, shadow_, picture.boxes, picture.balls);
+  draw_meshes(shadow_);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -132,28 +136,27 @@ void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) 
   body_.set_matrix("view_projection", picture.view_projection.data());
   body_.set_matrix("world_to_shadow", light.data());
   body_.set("shadow_map", 0);
-  body_.set("shadow_taps", shadow_taps_);
+  body_.set("shadow_taps", grain_.taps);
   body_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
   body_.set3("eye", picture.eye.data());
   body_.set3("to_light", picture.to_light.data());
   body_.set("ambient", picture.ambient);
   body_.set3("sky", sky.data());
   body_.set3("floor_light", below.data());
-  draw_meshes(*meshes_, body_, picture.boxes, picture.balls);
+  draw_meshes(body_);
 }
 
 // After draw_bodies, with its light. A little behind where they are, so that a ghost in the same
 // place as its body does not show through it.
-void PicturePainter::draw_ghosts(const Picture& picture) {
+void PicturePainter::draw_ghosts(const Picture& picture, const Target& target) {
   if (picture.ghost_boxes.empty() && picture.ghost_balls.empty()) return;
-  box_instances_.upload(picture.ghost_boxes.data(), picture.ghost_boxes.size() * sizeof(Instance));
-  ball_instances_.upload(picture.ghost_balls.data(), picture.ghost_balls.size() * sizeof(Instance));
+  upload(picture.ghost_boxes, picture.ghost_balls, picture, target);
   glEnable(GL_CULL_FACE);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.0F, 8.0F);
   glDepthMask(GL_TRUE);  // only the nearest face of a ghost is seen
   body_.use();
-  draw_meshes(*meshes_, body_, picture.ghost_boxes, picture.ghost_balls);
+  draw_meshes(body_);
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
 }
@@ -173,7 +176,7 @@ void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) 
   ground_.set_matrix("view_projection", picture.view_projection.data());
   ground_.set_matrix("world_to_shadow", light.data());
   ground_.set("shadow_map", 0);
-  ground_.set("shadow_taps", shadow_taps_);
+  ground_.set("shadow_taps", grain_.taps);
   ground_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
   ground_.set3("origin", centre.data());
   ground_.set3("axis_u", u.data());
@@ -199,11 +202,8 @@ void PicturePainter::draw_ribbons(const Picture& picture) {
 
 void PicturePainter::paint(std::span<const Picture> pictures, Quality quality, const Target& target,
                            std::span<const PixelRect> hidden) {
-  const Grain grain = grain_of(quality);
-  shadow_taps_ = grain.taps;
-  shadow_map_.fit(grain.shadow_size);
-  meshes_ = quality > Quality::kCoarse ? &fine_ : quality == Quality::kCoarse ? &coarse_ : &sketch_;
-  shadow_meshes_ = quality > Quality::kCoarse ? &fine_ : &sketch_;
+  grain_ = grain_of(quality);
+  shadow_map_.fit(grain_.shadow_size);
   for (const Picture& picture : pictures) draw_picture(picture, target, hidden);
 }
 
@@ -221,15 +221,14 @@ void PicturePainter::draw_background(const Picture& picture) {
 void PicturePainter::draw_picture(const Picture& picture, const Target& target,
                                   std::span<const PixelRect> hidden) {
   const Matrix4f light = light_matrix(picture);
-  box_instances_.upload(picture.boxes.data(), picture.boxes.size() * sizeof(Instance));
-  ball_instances_.upload(picture.balls.data(), picture.balls.size() * sizeof(Instance));
+  upload(picture.boxes, picture.balls, picture, target);
 
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
   glEnable(GL_DEPTH_TEST);
   glDepthMask(GL_TRUE);
   glEnable(GL_CULL_FACE);
-  draw_shadows(picture, light);
+  draw_shadows(light);
   shadow_map_.bind_texture();
 
   glBindFramebuffer(GL_FRAMEBUFFER, target.frame_buffer);
@@ -247,7 +246,7 @@ void PicturePainter::draw_picture(const Picture& picture, const Target& target,
   glDepthMask(GL_FALSE);
   draw_ground(picture, light);
   draw_ribbons(picture);
-  draw_ghosts(picture);
+  draw_ghosts(picture, target);
   glDepthMask(GL_TRUE);
   glDisable(GL_DEPTH_TEST);
   glBindVertexArray(0);

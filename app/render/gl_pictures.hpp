@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "app/render/cover.hpp"
+#include "app/render/detail.hpp"
 #include "app/render/gl_objects.hpp"
 #include "app/render/picture.hpp"
 #include "app/render/renderer.hpp"
@@ -14,10 +16,12 @@ namespace substep {
 
 /// What a quality is made of.
 struct Grain {
-  double scale;     // of the window's width and height [-]
-  int samples;      // per pixel
-  int shadow_size;  // [texel]
-  float taps;       // of the shadow map per pixel
+  double scale = 1.0;      // of the window's width and height [-]
+  int samples = 1;         // per pixel
+  int shadow_size = 0;     // [texel]
+  float taps = 1.0F;       // of the shadow map per pixel
+  double tolerance = 0.5;  // of outlines [pixel]
+  int vertices = 0;        // of bodies, before their outlines get coarser
 };
 Grain grain_of(Quality quality);
 
@@ -44,39 +48,30 @@ class PicturePainter {
              std::span<const PixelRect> hidden);
 
  private:
-  // What bodies are made of.
-  struct Meshes {
-    Meshes(int box_segments, const gl::StreamBuffer& boxes, int ball_segments,
-           const gl::StreamBuffer& balls)
-        : rounded(box_segments > 0 ? 1.0F : 0.0F),
-          box(box_segments, true, boxes),
-          ball(ball_segments, false, balls) {}
-    float rounded;  // the edges of boxes, 0: not
-    gl::RoundedBox box;
-    gl::RoundedBox ball;
-  };
-
   // World to the light's clip space: a box around the focus, seen from far along the light.
   [[nodiscard]] Eigen::Matrix4f light_matrix(const Picture& picture) const;
   void draw_picture(const Picture& picture, const Target& target,
                     std::span<const PixelRect> hidden);
   void draw_background(const Picture& picture);
-  void draw_shadows(const Picture& picture, const Eigen::Matrix4f& light);
+  void draw_shadows(const Eigen::Matrix4f& light);
   void draw_bodies(const Picture& picture, const Eigen::Matrix4f& light);
-  void draw_ghosts(const Picture& picture);
-  static void draw_meshes(const Meshes& meshes, const gl::Program& program,
-                          const std::vector<Instance>& boxes, const std::vector<Instance>& balls);
+  void draw_ghosts(const Picture& picture, const Target& target);
+  // Makes ready what draw_meshes() draws.
+  void upload(std::span<const Instance> boxes, std::span<const Instance> balls,
+              const Picture& picture, const Target& target);
+  void draw_meshes(const gl::Program& program) const;
   void draw_ground(const Picture& picture, const Eigen::Matrix4f& light);
   void draw_ribbons(const Picture& picture);
 
-  gl::StreamBuffer box_instances_;
-  gl::StreamBuffer ball_instances_;
   gl::StreamBuffer ribbon_vertices_;
-  Meshes fine_{3, box_instances_, 8, ball_instances_};
-  Meshes coarse_{1, box_instances_, 3, ball_instances_};
-  Meshes sketch_{0, box_instances_, 2, ball_instances_};
-  const Meshes* meshes_ = &fine_;
-  const Meshes* shadow_meshes_ = &fine_;
+  DetailedBodies bodies_;
+  std::array<gl::BodyMesh, kBoxSegments.size()> boxes_{
+      {{kBoxSegments[0], true}, {kBoxSegments[1], true}, {kBoxSegments[2], true}}};
+  std::array<gl::BodyMesh, kBallSegments.size()> balls_{{{kBallSegments[0], false},
+                                                         {kBallSegments[1], false},
+                                                         {kBallSegments[2], false},
+                                                         {kBallSegments[3], false},
+                                                         {kBallSegments[4], false}}};
   gl::ShadowMap shadow_map_;
   gl::Program background_;
   gl::Program body_;
@@ -85,7 +80,7 @@ class PicturePainter {
   gl::Program ribbon_;
   GLuint empty_array_ = 0;
   GLuint ribbon_array_ = 0;
-  float shadow_taps_ = 4.0F;
+  Grain grain_;  // of what is painted
 };
 
 }  // namespace substep

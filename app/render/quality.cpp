@@ -9,7 +9,7 @@ constexpr int kWindow = 12;              // frames that are judged together
 constexpr double kSlowFrame = 1.0 / 30;  // a frame that took longer to draw is slow [s]
 constexpr int kFewest = 4;               // frames that are enough where all are slow and
 constexpr double kEnough = 0.6;          // have taken this long together [s]
-constexpr double kAsleep = 1.0;          // a tab in the background: says nothing about drawing [s]
+constexpr double kAsleep = 10.0;         // a tab in the background: says nothing about drawing [s]
 constexpr double kMostWait = 256.0;      // between attempts at a finer picture [s]
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "app/app.hpp"
+#include "app/text/format.hpp"
 #include "app/text/link.hpp"
 #include "app/text/tour.hpp"
 #include "core/lab/presets.hpp"
@@ -16,6 +18,8 @@
 
 namespace substep {
 namespace {
+
+constexpr double kLongestLink = 16384.0;  // [characters]; a scene inside it apart
 
 // One of two words. @return what is wrong, or ""
 std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
@@ -177,6 +181,13 @@ std::string App::set(std::string_view key, std::string_view value) {
 }
 
 void App::open_link(std::string_view fragment, std::string_view scene) {
+  if (static_cast<double>(fragment.size()) > kLongestLink) {
+    trouble = {"The link was not followed",
+               {{"", "it has " + grouped(static_cast<double>(fragment.size())) +
+                         " characters; at most " + grouped(kLongestLink) + " are allowed"}},
+               kSceneKept};
+    return;
+  }
   const auto scene_before = plain_scene;
   RunStart before = run_start();
   if (!scene.empty()) {
@@ -195,8 +206,11 @@ void App::open_link(std::string_view fragment, std::string_view scene) {
   if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
     compare.close();
   }
+  std::set<std::string_view> seen;
   for (const LinkPart& part : parts) {
-    const std::string problem = set(part.key, part.value);
+    const bool again = !seen.insert(part.key).second;
+    const std::string problem =
+        again ? "stands there twice; the first one counts" : set(part.key, part.value);
     if (problem.empty()) continue;
     problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
     scene_refused = scene_refused || part.key == "scene";

@@ -103,7 +103,7 @@ void Detector::find(const Scene& scene, const Part& part, const State& state,
     const Placed plane{ground.body, state.x[at(ground.body)], R_WB[at(ground.body)]};
     const Vec3 n = plane.R.col(1);
     for (const int body : ground.solids) {
-      if (points_.size() > kMaxContacts) return;
+      if (points_.size() > limit_) return;
       if (!part.holds(body)) continue;
       const double near = margin(scene, body, ground.body);
       const double reach = broad_phase_.reach(body).dot(n.cwiseAbs());

@@ -5,15 +5,12 @@
 
 #include "core/collision/broad_phase.hpp"
 #include "core/collision/shape_pairs.hpp"
+#include "core/model/budget.hpp"
 #include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
 
 namespace substep {
-
-// Contact points that a scene may have at once. Where bodies all overlap there would be billions:
-// that is nothing to give to a solver, and must not use up memory.
-inline constexpr std::size_t kMaxContacts = 200'000;
 
 /// As far as a body's points may go in a time, falling freely [m].
 double way_in(double time, const Scene& scene, const Body& body, const Vec6& u);
@@ -23,6 +20,8 @@ double way_in(double time, const Scene& scene, const Body& body, const Vec6& u);
 class Detector {
  public:
   explicit Detector(const Scene& scene);
+  /// @param points that it finds at most, about (Budget::contacts)
+  void set_limit(double points) { limit_ = static_cast<std::size_t>(points); }
 
   /// @param part only between bodies of it  @param R_WB rotation per body
   /// @return valid until the next call; not all of them where there are too_many()
@@ -47,9 +46,7 @@ class Detector {
                                                  const State& state, std::span<const Mat3> R_WB,
                                                  std::span<const double> way);
   /// Whether the last call stopped at a limit.
-  [[nodiscard]] bool too_many() const {
-    return broad_phase_.too_many() || points_.size() > kMaxContacts;
-  }
+  [[nodiscard]] bool too_many() const { return broad_phase_.too_many() || points_.size() > limit_; }
 
  private:
   /// A plane, and the solids that may touch it.
@@ -68,6 +65,7 @@ class Detector {
              const BroadPhase::Pair& pair);
 
   BroadPhase broad_phase_;
+  std::size_t limit_ = static_cast<std::size_t>(Budget{}.contacts);
   std::vector<Ground> grounds_;
   std::vector<double> way_;  // per body: that its points may go meanwhile [m]; empty: none
   ContactPoints points_;

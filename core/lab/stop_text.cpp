@@ -1,6 +1,7 @@
 #include "core/lab/stop_text.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "core/collision/detector.hpp"
@@ -56,7 +57,7 @@ std::string stop_text(const Scene& scene, const FrameReport& report) {
       if (report.failed_body < 0) return "not finite";
       return "not finite (" + scene.bodies[index(report.failed_body)].name + ")";
     case StepStatus::kTooManyContacts:
-      return "more than " + std::to_string(kMaxContacts) + " contacts or " +
+      return "more than " + std::to_string(std::llround(report.overrun.budget)) + " contacts or " +
              std::to_string(kMaxPairs) + " pairs of bodies near each other";
     case StepStatus::kOverBudget:
       return overrun_text(report.overrun);

@@ -12,11 +12,13 @@ struct Budget {
   double memory = 512.0 * kMebibyte;  // for the factor of the direct solver [bytes]
   double work = 2e10;                 // of a frame [floating-point operations]
   double substep = 1e15;              // of the solve of one sub-step [floating-point operations]
+  double contacts = 200'000.0;        // points at once: where bodies all overlap there are billions
 
   friend bool operator==(const Budget&, const Budget&) = default;
 };
 
 inline constexpr Range kMemoryBudgetRange{kMebibyte, 65536.0 * kMebibyte, false, false, "bytes"};
 inline constexpr Range kWorkBudgetRange{1e6, 1e15, false, false, "operations"};
+inline constexpr Range kContactBudgetRange{1.0, 1e6};
 
 }  // namespace substep

@@ -151,6 +151,7 @@ Problems validate(const Budget& budget) {
   check_number(budget.memory, kMemoryBudgetRange, "/budget/memory", problems);
   check_number(budget.work, kWorkBudgetRange, "/budget/work", problems);
   check_number(budget.substep, kWorkBudgetRange, "/budget/substep", problems);
+  check_number(budget.contacts, kContactBudgetRange, "/budget/contacts", problems);
   return problems;
 }
 

@@ -21,7 +21,7 @@ struct Overrun {
   double memory = 0.0;        // [bytes]; 0 where it was the work
   double work = 0.0;          // of the whole frame, or of the sub-step [floating-point operations];
                               // 0: it was the memory
-  double budget = 0.0;        // which was passed [bytes or operations]
+  double budget = 0.0;        // which was passed [bytes, operations or contacts]
   bool of_substep = false;    // it was the work of one sub-step
   std::int64_t contacts = 0;  // of the sub-step that was not taken
   std::int64_t rows = 0;      // of joints, contacts, friction and a hand

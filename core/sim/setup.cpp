@@ -131,7 +131,9 @@ const Budget& Simulator::budget() const { return impl_->budget; }
 
 void Simulator::set_budget(const Budget& budget) {
   impl_->refused.budget = validate(budget);
-  if (impl_->refused.budget.empty()) impl_->budget = budget;
+  if (!impl_->refused.budget.empty()) return;
+  impl_->budget = budget;
+  if (impl_->contact) impl_->contact->detector().set_limit(budget.contacts);
 }
 
 void Simulator::set_measures(const Measures& measures) { impl_->measures = measures; }

@@ -52,6 +52,7 @@ bool Simulator::Impl::append_rows(FrameReport& report) {
   if (contact) {
     if (!append_contacts()) {
       report.status = StepStatus::kTooManyContacts;
+      report.overrun.budget = budget.contacts;
       blocks.keep(first_block);  // nothing solves them
       return false;
     }

@@ -7,16 +7,28 @@
 namespace substep {
 
 void OwnScenes::add(const std::shared_ptr<const Scene>& scene) {
-  std::erase_if(scenes_, [&](const auto& old) { return old->name == scene->name; });
+  for (std::size_t i = 0; i < scenes_.size(); ++i) {
+    if (scenes_[i]->name != scene->name) continue;
+    scenes_.erase(scenes_.begin() + static_cast<std::ptrdiff_t>(i));
+    texts_.erase(texts_.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+  keep(scene, write_scene(*scene));
+  if (scenes_.size() <= kMost) return;
+  scenes_.pop_back();
+  texts_.pop_back();
+}
+
+void OwnScenes::keep(const std::shared_ptr<const Scene>& scene, std::string text) {
+  if (text.size() > kMaxText) text.clear();
   scenes_.insert(scenes_.begin(), scene);
-  if (scenes_.size() > kMost) scenes_.resize(kMost);
+  texts_.insert(texts_.begin(), std::move(text));
 }
 
 std::string OwnScenes::text() const {
   Json list = Json::array();
-  for (const auto& scene : scenes_) {
-    std::string text = write_scene(*scene);
-    if (text.size() <= kMaxText) list.push_back(std::move(text));
+  for (const std::string& text : texts_) {
+    if (!text.empty()) list.push_back(text);
   }
   return list.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
@@ -26,10 +38,10 @@ OwnScenes OwnScenes::read(std::string_view text) {
   Problems problems;
   const auto list = parse_json(text, problems);
   if (!list || !list->is_array()) return own;
-  for (const Json& item : *list) {
-    const auto* scene_text = item.get_ptr<const std::string*>();
-    if (scene_text == nullptr || own.scenes_.size() == kMost) continue;
-    if (auto scene = read_scene(*scene_text).scene) own.scenes_.push_back(std::move(scene));
+  for (auto item = list->rbegin(); item != list->rend(); ++item) {
+    const auto* scene_text = item->get_ptr<const std::string*>();
+    if (scene_text == nullptr) continue;
+    if (const auto scene = read_scene(*scene_text).scene) own.add(scene);
   }
   return own;
 }

@@ -27,7 +27,10 @@ class OwnScenes {
   [[nodiscard]] const std::vector<std::shared_ptr<const Scene>>& scenes() const { return scenes_; }
 
  private:
+  void keep(const std::shared_ptr<const Scene>& scene, std::string text);
+
   std::vector<std::shared_ptr<const Scene>> scenes_;
+  std::vector<std::string> texts_;  // of scenes_; empty where it is too long to keep
 };
 
 }  // namespace substep

@@ -9,6 +9,8 @@ namespace substep {
 namespace {
 
 constexpr double kMostTolerance = 1e4;  // every body is as coarse as it can be [pixel]
+constexpr double kCube = 2.0;           // that a ball's cube may lie off it [pixel]
+constexpr double kSpeck = 0.5;          // radius of what one pixel holds [pixel]
 
 // Along the view, where the projection divides by it [m].
 double depth(const Instance& body, const Picture& picture) {
@@ -28,8 +30,27 @@ double reach(const Instance& body) {
 template <std::size_t kCount>
 std::size_t level_of(double radius, double tolerance, const std::array<int, kCount>& segments) {
   std::size_t level = 0;
-  while (level + 1 < kCount && outline_error(segments[level]) * radius > tolerance) ++level;
+  const auto allowed = [&] { return segments[level] > 0 ? tolerance : std::min(tolerance, kCube); };
+  while (level + 1 < kCount && outline_error(segments[level]) * radius > allowed()) ++level;
   return level;
+}
+
+// Pixels of a length at a depth of 1 m.
+double focal_length(const DetailNeeds& needs) {
+  const auto row = needs.picture->view_projection.row(1).head<3>();
+  return 0.5 * needs.height * static_cast<double>(row.norm());
+}
+
+// The pixel of a body's centre, from the lower left corner; -1 outside.
+std::ptrdiff_t pixel_of(const Instance& body, const DetailNeeds& needs) {
+  const auto& m = needs.picture->view_projection;
+  const Eigen::Vector4f at =
+      m * Eigen::Vector4f(body.position[0], body.position[1], body.position[2], 1.0F);
+  const auto pixel = [&](float clip, int size) {
+    return static_cast<std::ptrdiff_t>(0.5F * (clip / at.w() + 1.0F) * static_cast<float>(size));
+  };
+  if (!(at.w() > 0.0F) || std::abs(at.x()) >= at.w() || std::abs(at.y()) >= at.w()) return -1;
+  return pixel(at.y(), needs.height) * needs.width + pixel(at.x(), needs.width);
 }
 
 template <std::size_t kCount>
@@ -37,8 +58,7 @@ void sort_into(std::array<std::vector<Instance>, kCount>& levels, std::span<cons
                const std::array<int, kCount>& segments, const DetailNeeds& needs,
                double tolerance) {
   for (auto& level : levels) level.clear();
-  const double focal = 0.5 * needs.height *
-                       static_cast<double>(needs.picture->view_projection.row(1).head<3>().norm());
+  const double focal = focal_length(needs);
   for (const Instance& body : bodies) {
     // The nearest point of it is seen largest.
     const double w = std::max(1e-3, depth(body, *needs.picture) - reach(body));
@@ -55,10 +75,10 @@ void sort_by_depth(std::vector<Instance>& bodies, const Picture& picture) {
 
 template <std::size_t kCount>
 std::size_t count_vertices(const std::array<std::vector<Instance>, kCount>& levels,
-                           const std::array<int, kCount>& segments) {
+                           const std::array<int, kCount>& segments, bool flats) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < kCount; ++i) {
-    count += levels[i].size() * static_cast<std::size_t>(vertices_of(segments[i]));
+    count += levels[i].size() * static_cast<std::size_t>(vertices_of(segments[i], flats));
   }
   return count;
 }
@@ -67,16 +87,17 @@ std::size_t count_vertices(const std::array<std::vector<Instance>, kCount>& leve
 
 double outline_error(int segments) {
   if (segments == 0) return std::numbers::sqrt3 - 1.0;  // a corner that is not rounded
-  return 1.0 - std::cos(std::numbers::pi / (8.0 * segments));
+  // Of the lines of its grid; diagonals of cells lie up to 2.51 times as deep.
+  return 2.51 * (1.0 - std::cos(std::numbers::pi / (8.0 * segments)));
 }
 
-int vertices_of(int segments) {
-  const int lines = 2 * (segments + 1);
+int vertices_of(int segments, bool flats) {
+  const int lines = flats || segments == 0 ? 2 * (segments + 1) : 2 * segments + 1;
   return 6 * lines * lines;
 }
 
 std::size_t DetailedBodies::vertices() const {
-  return count_vertices(boxes, kBoxSegments) + count_vertices(balls, kBallSegments);
+  return count_vertices(boxes, kBoxSegments, true) + count_vertices(balls, kBallSegments, false);
 }
 
 void DetailedBodies::choose(std::span<const Instance> all_boxes,
@@ -88,6 +109,24 @@ void DetailedBodies::choose(std::span<const Instance> all_boxes,
   }
   for (auto& level : boxes) sort_by_depth(level, *needs.picture);
   for (auto& level : balls) sort_by_depth(level, *needs.picture);
+  thin_out_specks(needs);
+}
+
+void DetailedBodies::thin_out_specks(const DetailNeeds& needs) {
+  taken_.assign(static_cast<std::size_t>(needs.width) * static_cast<std::size_t>(needs.height),
+                false);
+  const double focal = focal_length(needs);
+  for (auto* specks : {&boxes.front(), &balls.front()}) {
+    std::erase_if(*specks, [&](const Instance& body) {
+      if (reach(body) * focal > kSpeck * depth(body, *needs.picture)) return false;
+      const std::ptrdiff_t pixel = pixel_of(body, needs);
+      if (pixel < 0) return false;
+      const auto at = static_cast<std::size_t>(pixel);
+      const bool again = taken_[at];
+      taken_[at] = true;
+      return again;
+    });
+  }
 }
 
 }  // namespace substep

@@ -19,6 +19,9 @@ inline const void* at(std::size_t offset) {
   return reinterpret_cast<const void*>(offset);
 }
 
+/// Whether a processor draws instead of a graphics card, as far as the driver says.
+bool draws_in_software();
+
 /// A vertex and a fragment shader linked together.
 class Program {
  public:

@@ -14,10 +14,10 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr std::array<Grain, 4> kGrains{{{0.5, 1, 384, 1.0F, 1.0, 6000},
-                                        {2.0 / 3.0, 1, 640, 1.0F, 1.0, 15000},
-                                        {1.0, 1, 1536, 1.0F, 0.5, 60000},
-                                        {1.0, 4, 1536, 4.0F, 0.25, 100000}}};
+constexpr std::array<Grain, 4> kGrains{{{0.5, 1, 384, 1.0F, 2.0, 6000},
+                                        {2.0 / 3.0, 1, 640, 1.0F, 2.0, 15000},
+                                        {1.0, 1, 1536, 1.0F, 1.0, 60000},
+                                        {1.0, 4, 1536, 4.0F, 0.5, 100000}}};
 
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
@@ -98,7 +98,8 @@ Matrix4f PicturePainter::light_matrix(const Picture& picture) const {
 
 void PicturePainter::upload(std::span<const Instance> boxes, std::span<const Instance> balls,
                             const Picture& picture, const Target& target) {
-  bodies_.choose(boxes, balls, {&picture, target.height, grain_.tolerance, grain_.vertices});
+  bodies_.choose(boxes, balls,
+                 {&picture, target.width, target.height, grain_.tolerance, grain_.vertices});
   for (std::size_t i = 0; i < boxes_.size(); ++i) boxes_[i].upload(bodies_.boxes[i]);
   for (std::size_t i = 0; i < balls_.size(); ++i) balls_[i].upload(bodies_.balls[i]);
 }

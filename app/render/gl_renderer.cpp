@@ -10,6 +10,7 @@
 #include "app/render/cover.hpp"
 #include "app/render/gl_objects.hpp"
 #include "app/render/gl_pictures.hpp"
+#include "app/render/quality.hpp"
 #include "app/render/shaders.hpp"
 
 namespace substep {
@@ -47,6 +48,7 @@ class GlRenderer final : public Renderer {
   // What panels hide, on a canvas of the present quality.
   [[nodiscard]] std::vector<PixelRect> hidden() const;
   void show_canvas() const;
+  [[nodiscard]] Quality finest(std::span<const Picture> pictures) const;
 
   PicturePainter painter_;
   gl::Canvas canvas_;
@@ -55,6 +57,7 @@ class GlRenderer final : public Renderer {
   std::vector<Picture> drawn_;        // on the canvas
   std::vector<PixelRect> covered_;    // by panels: not drawn
   Quality quality_ = Quality::kFine;  // of the canvas
+  bool software_ = false;             // a processor draws
   int unchanged_ = 0;                 // frames since the pictures changed
   int width_ = 0;                     // of the window's frame buffer [pixel]
   int height_ = 0;
@@ -67,6 +70,7 @@ bool GlRenderer::build(std::string& error) {
   }
   const std::string header = glsl::kHeader;
   glGenVertexArrays(1, &empty_array_);
+  software_ = gl::draws_in_software();
   const bool ok =
       texture_.build(header + glsl::kTextureVertex, header + glsl::kTextureFragment, error);
   return painter_.build(error) && ok;
@@ -76,6 +80,15 @@ std::vector<PixelRect> GlRenderer::hidden() const {
   std::vector<PixelRect> parts;
   for (const PixelRect& r : covered_) parts.push_back(scaled(r, grain_of(quality_).scale));
   return parts;
+}
+
+Quality GlRenderer::finest(std::span<const Picture> pictures) const {
+  if (!software_) return Quality::kFine;
+  std::size_t bodies = 0;
+  for (const Picture& p : pictures) {
+    bodies += p.boxes.size() + p.balls.size() + p.ghost_boxes.size() + p.ghost_balls.size();
+  }
+  return finest_in_software(bodies);
 }
 
 void GlRenderer::paint(std::span<const Picture> pictures) {
@@ -114,7 +127,8 @@ void GlRenderer::draw(std::span<const Picture> pictures, ImDrawData& panels,
       fits && std::equal(pictures.begin(), pictures.end(), drawn_.begin(), drawn_.end());
   unchanged_ = same ? unchanged_ + 1 : 0;
   // A mouse that turns the view leaves single frames without a change.
-  const Quality quality = unchanged_ < 2 ? options.moving : Quality::kFine;
+  const Quality quality =
+      std::min(unchanged_ < 2 ? options.moving : Quality::kFine, finest(pictures));
   std::vector<PixelRect> covered = covered_by_panels();
   if (!same || quality > quality_ || covered != covered_) {
     covered_ = std::move(covered);

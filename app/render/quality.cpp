@@ -14,6 +14,13 @@ constexpr double kMostWait = 256.0;      // between attempts at a finer picture 
 
 }  // namespace
 
+Quality finest_in_software(std::size_t bodies) {
+  if (bodies > 1000) return Quality::kSketch;
+  if (bodies > 400) return Quality::kCoarse;
+  if (bodies > 150) return Quality::kPlain;
+  return Quality::kFine;
+}
+
 void QualityGovernor::observe(double wall_dt, double own) {
   if (wall_dt > kAsleep) return;
   steady_ += wall_dt;

@@ -1,8 +1,14 @@
 #pragma once
 
+#include <cstddef>
+
 #include "app/render/renderer.hpp"
 
 namespace substep {
+
+/// The finest quality with which a processor that must draw so many bodies does not keep the window
+/// waiting.
+Quality finest_in_software(std::size_t bodies);
 
 /// Chooses how finely a picture that moves is drawn, so that it moves at 30 frames a second where a
 /// processor must draw it. It looks at the time that drawing takes and never touches the run.

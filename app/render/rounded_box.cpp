@@ -8,20 +8,22 @@ namespace substep {
 namespace {
 
 // A line of a face's grid. Each half of a face turns from its normal (slope 0) to the edge, where
-// the neighbouring face takes over (slope 1); between the two middle lines lies the flat.
+// the neighbouring face takes over (slope 1); between the two middle lines lies the flat. Without a
+// flat they are one.
 struct Line {
   float side;   // -1 or 1: of which edge
   float slope;  // of the normal
 };
 
-std::vector<Line> lines_of(int segments) {
+std::vector<Line> lines_of(int segments, bool flats) {
   const auto slope = [&](int step) {
     if (segments == 0) return 0.0;
     return std::tan(0.25 * std::numbers::pi * step / segments);
   };
   std::vector<Line> lines;
   for (int i = -segments; i <= 0; ++i) lines.push_back({-1.0F, static_cast<float>(slope(i))});
-  for (int i = 0; i <= segments; ++i) lines.push_back({1.0F, static_cast<float>(slope(i))});
+  for (int i = flats ? 0 : 1; i <= segments; ++i)
+    lines.push_back({1.0F, static_cast<float>(slope(i))});
   return lines;
 }
 
@@ -29,7 +31,7 @@ void add_face(std::size_t axis, float sign, int segments, bool flats, RoundedBox
   const auto base = static_cast<int>(mesh.vertices.size());
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
-  const std::vector<Line> lines = lines_of(segments);
+  const std::vector<Line> lines = lines_of(segments, flats);
   for (const Line& a : lines) {
     for (const Line& b : lines) {
       RoundedBoxMesh::Vertex vertex{};
@@ -46,7 +48,6 @@ void add_face(std::size_t axis, float sign, int segments, bool flats, RoundedBox
   const auto n = static_cast<int>(lines.size());
   for (int i = 0; i + 1 < n; ++i) {
     for (int j = 0; j + 1 < n; ++j) {
-      if (!flats && (i == segments || j == segments)) continue;
       const int p = base + i * n + j;
       const std::array<int, 6> quad =
           sign > 0.0F ? std::array<int, 6>{p, p + n, p + 1, p + 1, p + n, p + n + 1}

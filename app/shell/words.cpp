@@ -206,12 +206,15 @@ void App::open_link(std::string_view fragment, std::string_view scene) {
   if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
     compare.close();
   }
-  std::set<std::string_view> seen;
+  std::set<std::string_view> followed;
   for (const LinkPart& part : parts) {
-    const bool again = !seen.insert(part.key).second;
+    const bool again = followed.contains(part.key);
     const std::string problem =
         again ? "stands there twice; the first one counts" : set(part.key, part.value);
-    if (problem.empty()) continue;
+    if (problem.empty()) {
+      followed.insert(part.key);
+      continue;
+    }
     problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
     scene_refused = scene_refused || part.key == "scene";
   }

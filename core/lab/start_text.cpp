@@ -71,7 +71,11 @@ std::string start_text(const Scene& scene, const StartReport& report) {
     return text + "; projected. Energy " + energy + " before, " + energy_text(report.energy_begun) +
            " after.";
   }
-  text += report.failed ? "; no near start closes the joints, so it is kept." : "; kept.";
+  if (report.too_large) {
+    text += "; kept, as the scene is too large to project.";
+  } else {
+    text += report.failed ? "; no near start closes the joints, so it is kept." : "; kept.";
+  }
   return text + " Energy " + energy + ".";
 }
 

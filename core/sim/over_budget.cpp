@@ -38,7 +38,7 @@ void Simulator::Impl::refuse_solve(const SolveReport& solved, double dt, FrameRe
   } else {
     const FrameProgress at = progress(report);
     const double times = is_shared(settings) ? at.left : 1.0;
-    over.work = static_cast<double>(at.flops) + times * solved.work_needed;
+    over.work = forecast_work(at, settings) + times * solved.work_needed;
     over.budget = budget.work;
     if (over.work <= budget.work) {
       over.work = solved.work_needed + work_beside_solver(at);

@@ -10,9 +10,10 @@ namespace substep {
 namespace {
 
 /// @param poses whether they are to be moved as well
-/// @return false where it fails; the state is spoilt then
-bool project(const Scene& scene, bool poses, State& state) {
-  return (!poses || close_joints(scene, state)) && match_velocities(scene, state);
+/// The state is spoilt where it fails.
+Projection project(const Scene& scene, bool poses, State& state) {
+  const Projection closed = poses ? close_joints(scene, state) : Projection::kDone;
+  return closed == Projection::kDone ? match_velocities(scene, state) : closed;
 }
 
 double energy_at(const Scene& scene, const State& state) {
@@ -32,8 +33,10 @@ Start start_of_run(const Scene& scene) {
     return start;
   }
   State state = start.state;
-  if (!project(scene, report.found.beyond.poses(), state)) {
+  const Projection projection = project(scene, report.found.beyond.poses(), state);
+  if (projection != Projection::kDone) {
     report.failed = true;
+    report.too_large = projection == Projection::kTooLarge;
     return start;
   }
   start.state = std::move(state);

@@ -16,6 +16,7 @@ struct StartReport {
   bool continued = false;     // the scene continues a saved run: its errors are not corrected
   bool projected = false;     // poses or velocities were changed
   bool failed = false;        // no near start agrees with the joints: kept as it stands
+  bool too_large = false;     // and that is since finding one would take too much memory or work
   double energy_found = 0.0;  // kinetic and potential, of the scene as it stands [J]
   double energy_begun = 0.0;  // of the state that the run begins with [J]
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/constraints/joint_stage.hpp"
+#include "core/model/budget.hpp"
 #include "core/sim/joint_starts.hpp"
 #include "core/solver/bpp.hpp"
 #include "core/stepping/effective_mass.hpp"
@@ -18,7 +19,9 @@ constexpr double kClosed = 1e-13;  // error, of the joint's size or in rad, that
 // Softness of a hinge's anchors where only its axes hold, of 1/m: next to no impulse, and no digits
 // lost [-].
 constexpr double kFree = 1e8;
-constexpr int kMostClosing = 50;   // Newton steps
+constexpr double kMostMemory = 64.0 * kMebibyte;  // of a factor [bytes]
+constexpr double kMostWork = 5e8;                 // of a start [floating-point operations]
+constexpr int kMostClosing = 50;                  // Newton steps
 constexpr int kMostNearing = 100;  // steps towards the least change, which converge linearly
 constexpr int kMostMatching = 8;   // solves for velocities: more than one where rows are redundant
 
@@ -72,7 +75,8 @@ class JointRows {
   }
 
   /// u := the nearest to u, in the norm of the masses, with J u = -share * phi.
-  void solve(double share, std::vector<Vec6>& u) {
+  /// @return false where that would take more than a start may; then u is of no use
+  bool solve(double share, std::vector<Vec6>& u) {
     held_.clear();
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       if (!holds_[i].anchors && !holds_[i].axes) continue;
@@ -92,8 +96,16 @@ class JointRows {
         block.impulse[row] = 0.0;
       }
     }
-    solver_.solve(System{held_, inverse_mass_, u}, Settings{});
+    System system{held_, inverse_mass_, u};
+    system.limits = {kMostMemory, kMostWork - work_};
+    const SolveReport solved = solver_.solve(system, Settings{});
+    work_ += static_cast<double>(solved.flops);
+    over_limits_ = over_limits_ || solved.status == SolveStatus::kOverLimits;
+    return !over_limits_;
   }
+
+  /// Whether a solve was refused.
+  [[nodiscard]] bool over_limits() const { return over_limits_; }
 
   /// Moves the bodies: along, then about the world's axes by the Cayley map, as sub-steps do.
   void move(std::span<const Vec6> by) {
@@ -128,6 +140,8 @@ class JointRows {
   std::vector<HoldingRows> holds_;
   Blocks blocks_;
   std::vector<Block> held_;  // without the rows of springs
+  double work_ = 0.0;        // of all solves so far [floating-point operations]
+  bool over_limits_ = false;
   Bpp solver_;
 };
 
@@ -155,7 +169,7 @@ bool onto_joints(JointRows& rows, State& state) {
       state = before;
       rows.update();
       std::fill(step.begin(), step.end(), Vec6::Zero());
-      rows.solve(share, step);
+      if (!rows.solve(share, step)) return false;
       rows.move(step);
       rows.update();
       next = rows.error();
@@ -190,7 +204,7 @@ void to_least_change(JointRows& rows, const State& start, State& state) {
   for (int i = 0; i < kMostNearing; ++i) {
     moves_from(start, state, moved);
     for (std::size_t k = 0; k < step.size(); ++k) step[k] = -moved[k];
-    rows.solve(1.0, step);
+    if (!rows.solve(1.0, step)) return;
     const double size = largest(step);
     // Where the joints curve too much for it the steps do not shrink: what is there will do.
     if (!(size < 0.9 * last)) return;
@@ -208,29 +222,32 @@ void to_least_change(JointRows& rows, const State& start, State& state) {
 
 }  // namespace
 
-bool close_joints(const Scene& scene, State& state) {
+Projection close_joints(const Scene& scene, State& state) {
   for (const int body : whole(scene).moving) state.q[index(body)].normalize();
   const State start = state;
   JointRows rows(scene, state);
-  if (!onto_joints(rows, state)) return false;
-  if (!start_errors(scene, state).beyond.poses()) to_least_change(rows, start, state);
-  return !start_errors(scene, state).beyond.poses();
+  const bool closed = onto_joints(rows, state);
+  if (closed && !start_errors(scene, state).beyond.poses()) to_least_change(rows, start, state);
+  if (rows.over_limits()) return Projection::kTooLarge;
+  return closed && !start_errors(scene, state).beyond.poses() ? Projection::kDone
+                                                              : Projection::kFailed;
 }
 
-bool match_velocities(const Scene& scene, State& state) {
+Projection match_velocities(const Scene& scene, State& state) {
   JointRows rows(scene, state);
   rows.update();
   double error = rows.error_of(state.u);
   for (int i = 0; i < kMostMatching; ++i) {
     std::vector<Vec6> u = state.u;
-    rows.solve(0.0, u);
+    if (!rows.solve(0.0, u)) break;
     const double next = rows.error_of(u);
     if (!(next < error)) break;
     state.u = u;
     error = next;
   }
   state.u_synchronised = state.u;
-  return !start_errors(scene, state).beyond.velocities();
+  if (rows.over_limits()) return Projection::kTooLarge;
+  return start_errors(scene, state).beyond.velocities() ? Projection::kFailed : Projection::kDone;
 }
 
 }  // namespace substep

@@ -1,5 +1,6 @@
 // The application in a page: what web/loader.mjs calls to start it and to let it draw.
 
+#include <GLES3/gl3.h>
 #include <emscripten.h>
 #include <emscripten/heap.h>
 #include <emscripten/html5.h>
@@ -18,6 +19,16 @@ std::unique_ptr<Instance> instance;
 
 namespace {
 EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
+
+// Browsers hide the name behind an extension; "" where they do not tell.
+std::string renderer_name() {
+  constexpr GLenum kUnmaskedRenderer = 0x9246;
+  if (!emscripten_webgl_enable_extension(context, "WEBGL_debug_renderer_info")) return "";
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): characters
+  const auto* name = reinterpret_cast<const char*>(glGetString(kUnmaskedRenderer));
+  return name != nullptr ? name : "";
+}
+
 }  // namespace
 
 }  // namespace substep::web
@@ -34,7 +45,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   substep::web::context = context;
   emscripten_webgl_make_context_current(context);
   instance = std::make_unique<substep::web::Instance>();
-  auto renderer = substep::make_gl_renderer(error);
+  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name());
   if (!renderer) return error.c_str();
   substep::Library library("/scenes");
   if (library.scenes().empty()) return "no scenes came with the page";
@@ -58,7 +69,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
   static std::string error;
   error.clear();
   emscripten_webgl_make_context_current(substep::web::context);
-  auto renderer = substep::make_gl_renderer(error);
+  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name());
   if (!renderer) return error.c_str();
   instance->app->renderer = std::move(renderer);
   return "";

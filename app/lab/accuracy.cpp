@@ -144,10 +144,10 @@ void Accuracy::search_alpha() {
   searched_for_ = limit();
   Experiment paper = experiment_of(*scene_, paper_);
   paper.duration = experiments().front().duration;
-  search_.emplace(
-      error_is_given
-          ? AlphaSearch::largest_within(scene_, paper, *reference(), error, searched_for_.most)
-          : AlphaSearch::smallest_within(scene_, paper, *reference(), cost, searched_for_.most));
+  search_.emplace(error_is_given ? AlphaSearch::largest_within(scene_, paper, *reference(), error,
+                                                               searched_for_.most, kWindowBudget)
+                                 : AlphaSearch::smallest_within(scene_, paper, *reference(), cost,
+                                                                searched_for_.most, kWindowBudget));
 }
 
 const AlphaSearch* Accuracy::alpha_search() const {

@@ -1,9 +1,5 @@
 #include "app/render/gl_objects.hpp"
 
-#ifdef __EMSCRIPTEN__
-#include <emscripten/html5.h>
-#endif
-
 #include <array>
 #include <cstddef>
 #include <utility>
@@ -28,25 +24,12 @@ GLuint compile(GLenum kind, const std::string& source, std::string& error) {
   return shader;
 }
 
-std::string renderer_name() {
-#ifdef __EMSCRIPTEN__
-  constexpr GLenum kUnmaskedRenderer = 0x9246;
-  const auto context = emscripten_webgl_get_current_context();
-  const bool told = emscripten_webgl_enable_extension(context, "WEBGL_debug_renderer_info");
-  const GLubyte* name = glGetString(told ? kUnmaskedRenderer : GL_RENDERER);
-#else
-  const GLubyte* name = glGetString(GL_RENDERER);
-#endif
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): characters
-  return name != nullptr ? reinterpret_cast<const char*>(name) : "";
-}
-
 }  // namespace
 
-bool draws_in_software() {
-  const std::string name = renderer_name();
-  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-  return has("llvmpipe") || has("softpipe") || has("SwiftShader") || has("Basic Render");
+std::string renderer_name() {
+  const GLubyte* name = glGetString(GL_RENDERER);
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): characters
+  return name != nullptr ? reinterpret_cast<const char*>(name) : "";
 }
 
 Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}

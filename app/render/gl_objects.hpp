@@ -19,8 +19,8 @@ inline const void* at(std::size_t offset) {
   return reinterpret_cast<const void*>(offset);
 }
 
-/// Whether a processor draws instead of a graphics card, as far as the driver says.
-bool draws_in_software();
+/// What draws, as the driver of the current context calls it.
+std::string renderer_name();
 
 /// A vertex and a fragment shader linked together.
 class Program {

@@ -33,7 +33,7 @@ class GlRenderer final : public Renderer {
     ImGui_ImplOpenGL3_Shutdown();
   }
 
-  bool build(std::string& error);
+  bool build(std::string_view draws, std::string& error);
   void begin_frame() override {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::GetIO().Fonts->ClearTexData();  // the graphics have it; made again where it is wanted
@@ -63,14 +63,14 @@ class GlRenderer final : public Renderer {
   int height_ = 0;
 };
 
-bool GlRenderer::build(std::string& error) {
+bool GlRenderer::build(std::string_view draws, std::string& error) {
   if (!ImGui_ImplOpenGL3_Init(nullptr)) {
     error = "Dear ImGui's OpenGL back end did not start";
     return false;
   }
   const std::string header = glsl::kHeader;
   glGenVertexArrays(1, &empty_array_);
-  software_ = gl::draws_in_software();
+  software_ = is_software(draws.empty() ? gl::renderer_name() : std::string(draws));
   const bool ok =
       texture_.build(header + glsl::kTextureVertex, header + glsl::kTextureFragment, error);
   return painter_.build(error) && ok;
@@ -161,9 +161,9 @@ std::vector<std::uint8_t> GlRenderer::pixels(int x, int y, int width, int height
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_gl_renderer(std::string& error) {
+std::unique_ptr<Renderer> make_gl_renderer(std::string& error, std::string_view draws) {
   auto renderer = std::make_unique<GlRenderer>();
-  if (!renderer->build(error)) return nullptr;
+  if (!renderer->build(draws, error)) return nullptr;
   return renderer;
 }
 

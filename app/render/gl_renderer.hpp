@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "app/render/renderer.hpp"
 
@@ -9,6 +10,7 @@ namespace substep {
 
 /// A renderer for the OpenGL 3.3 or WebGL 2 context that is current now.
 /// @param error says why there is none, where null comes back
-std::unique_ptr<Renderer> make_gl_renderer(std::string& error);
+/// @param draws what draws, by name; "": as OpenGL says
+std::unique_ptr<Renderer> make_gl_renderer(std::string& error, std::string_view draws = "");
 
 }  // namespace substep

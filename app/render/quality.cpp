@@ -1,6 +1,7 @@
 #include "app/render/quality.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace substep {
 namespace {
@@ -13,6 +14,14 @@ constexpr double kAsleep = 10.0;         // a tab in the background: says nothin
 constexpr double kMostWait = 256.0;      // between attempts at a finer picture [s]
 
 }  // namespace
+
+bool is_software(std::string_view renderer) {
+  constexpr std::array<std::string_view, 4> kNames{"llvmpipe", "softpipe", "SwiftShader",
+                                                   "Basic Render"};
+  return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) {
+    return renderer.find(name) != std::string_view::npos;
+  });
+}
 
 Quality finest_in_software(std::size_t bodies) {
   if (bodies > 1000) return Quality::kSketch;

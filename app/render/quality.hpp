@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "app/render/renderer.hpp"
 
 namespace substep {
+
+/// Whether what draws is a processor. @param renderer as OpenGL names it
+bool is_software(std::string_view renderer);
 
 /// The finest quality with which a processor that must draw so many bodies does not keep the window
 /// waiting.

@@ -19,36 +19,45 @@ constexpr int kMostHalvings = 7;  // of a quarter until it is narrow
 
 AlphaSearch AlphaSearch::largest_within(std::shared_ptr<const Scene> scene,
                                         const Experiment& experiment, const Reference& reference,
-                                        ErrorAxis axis, double error) {
-  return {std::move(scene), experiment, reference,
+                                        ErrorAxis axis, double error, const Budget& budget) {
+  return {std::move(scene),
+          experiment,
+          reference,
           [axis, error](const Result& result) {
             const auto value = error_of(result, axis);
             return value && *value <= error;
           },
-          true};
+          true,
+          budget};
 }
 
 AlphaSearch AlphaSearch::smallest_within(std::shared_ptr<const Scene> scene,
                                          const Experiment& experiment, const Reference& reference,
-                                         CostAxis axis, double cost) {
-  return {std::move(scene), experiment, reference,
-          [axis, cost](const Result& result) { return cost_of(result, axis) <= cost; }, false};
+                                         CostAxis axis, double cost, const Budget& budget) {
+  return {std::move(scene),
+          experiment,
+          reference,
+          [axis, cost](const Result& result) { return cost_of(result, axis) <= cost; },
+          false,
+          budget};
 }
 
 AlphaSearch::AlphaSearch(std::shared_ptr<const Scene> scene, const Experiment& experiment,
-                         const Reference& reference, Serves serves, bool until_it_serves)
+                         const Reference& reference, Serves serves, bool until_it_serves,
+                         const Budget& budget)
     : scene_(std::move(scene)),
       experiment_(experiment),
       reference_(&reference),
       serves_(std::move(serves)),
       until_it_serves_(until_it_serves),
+      budget_(budget),
       quarters_(kMostQuarters) {
   start();
 }
 
 void AlphaSearch::start() {
   experiment_.settings.alpha = alpha_;
-  run_ = std::make_unique<ExperimentRun>(*scene_, experiment_, *reference_);
+  run_ = std::make_unique<ExperimentRun>(*scene_, experiment_, *reference_, budget_);
   ++runs_;
 }
 

@@ -26,14 +26,15 @@ class AlphaSearch {
   /// For the largest alpha whose run holds with an error of no more than this.
   /// @param experiment whose other settings stand; its mode reads alpha
   /// @param reference of the scene; outlives the search
+  /// @param budget of each frame
   static AlphaSearch largest_within(std::shared_ptr<const Scene> scene,
                                     const Experiment& experiment, const Reference& reference,
-                                    ErrorAxis axis, double error);
+                                    ErrorAxis axis, double error, const Budget& budget = {});
 
   /// For the smallest alpha whose frames cost no more than this; nothing where that one fails.
   static AlphaSearch smallest_within(std::shared_ptr<const Scene> scene,
                                      const Experiment& experiment, const Reference& reference,
-                                     CostAxis axis, double cost);
+                                     CostAxis axis, double cost, const Budget& budget = {});
 
   /// Goes on for about that long, by a frame of a run at least. @return false when done
   bool advance(double seconds);
@@ -50,7 +51,8 @@ class AlphaSearch {
   using Serves = std::function<bool(const Result&)>;
 
   AlphaSearch(std::shared_ptr<const Scene> scene, const Experiment& experiment,
-              const Reference& reference, Serves serves, bool until_it_serves);
+              const Reference& reference, Serves serves, bool until_it_serves,
+              const Budget& budget);
   void start();
   void advance_by_a_frame();
   void take(const Result& result);
@@ -60,6 +62,7 @@ class AlphaSearch {
   const Reference* reference_;
   Serves serves_;
   bool until_it_serves_;  // what ends the way down: the first that serves, or that does not
+  Budget budget_;
 
   Phase phase_ = Phase::kDown;
   int quarters_;  // runs of the way down, at most while it lasts

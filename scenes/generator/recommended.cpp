@@ -41,6 +41,7 @@ constexpr Wanted kWanted[] = {
     {"wall", ErrorAxis::kPenetration, 5e-3, 0.8},
     {"spherical_pendulum", ErrorAxis::kTrajectory, 1e-3, 10.0},
     {"heavy_top", ErrorAxis::kTrajectory, 1e-3, 5.0},
+    {"whirling_chain", ErrorAxis::kTrajectory, 1e-3, 3.0},
 };
 
 }  // namespace

@@ -224,7 +224,7 @@ TEST(Recommended, IsThereForEveryShippedSceneInWhichSomethingIsSolved) {
     EXPECT_NEAR(scene.recommended->seconds, wanted->seconds, 1e-12) << scene.name;
   }
   EXPECT_EQ(kept.size(), with) << "recommended.json has a scene that is not shipped";
-  EXPECT_EQ(without, (std::set<std::string>{"free_fall", "spinning_top", "whirling_chain"}));
+  EXPECT_EQ(without, (std::set<std::string>{"free_fall", "spinning_top"}));
 }
 
 // The scenes of the paper are there to show it; the small and the playful ones start with what is

@@ -89,6 +89,15 @@ TEST(Quality, SettlesWhereOnlyACoarserPictureIsQuick) {
   EXPECT_LE(live_with(governor, kQuick, kQuick, kSlow, 600.0), 10);
 }
 
+TEST(Quality, ManyBodiesAreDrawnCoarselyByAProcessor) {
+  EXPECT_TRUE(is_software("ANGLE (Google, Vulkan 1.3.0 (SwiftShader Device (LLVM 10.0.0)))"));
+  EXPECT_TRUE(is_software("llvmpipe (LLVM 15.0.6, 256 bits)"));
+  EXPECT_FALSE(is_software("Mesa Intel(R) Iris(R) Xe Graphics (TGL GT2)"));
+  EXPECT_FALSE(is_software(""));
+  EXPECT_EQ(finest_in_software(100), Quality::kFine);
+  EXPECT_EQ(finest_in_software(10000), Quality::kSketch);
+}
+
 TEST(Quality, TabThatSleptSaysNothing) {
   QualityGovernor governor;
   for (int i = 0; i < 100; ++i) governor.observe(60.0, 0.0);

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/lab/stiffness.hpp"
+#include "core/model/joint_fields.hpp"
 
 namespace substep {
 namespace {
@@ -243,8 +244,8 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
     }
     if (!options.joints) continue;
     const double r = 1.25 * std::min(thin, 0.25 * home_.radius);
-    if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
-      const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * hinge->axis_a);
+    if (const auto axes = axes_of(joint)) {
+      const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * axes->a);
       add_box(out.boxes, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
     } else {
       // A box round all over: there are many of them, and they are small.

@@ -11,6 +11,7 @@
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/model/joint_fields.hpp"
 
 namespace substep::ui {
 namespace {
@@ -156,8 +157,8 @@ void draw_joint_frames(const Look& look, const Session& session, const Viewport&
     const Quat& q = poses.q[static_cast<std::size_t>(j.a)];
     const Vec3 at = anchor_of(session, j);
     const double px = pixel_size(viewport, at);
-    if (const auto* hinge = std::get_if<HingeJoint>(&joint)) {
-      const Vec3 axis = 22.0 * px * (q * hinge->axis_a);
+    if (const auto axes = axes_of(joint)) {
+      const Vec3 axis = 22.0 * px * (q * axes->a);
       if (const auto s = seen(viewport, at - axis, at + axis)) {
         draw_line(look, draw, *s, t.purple, 2.0F);
       }

@@ -1,8 +1,10 @@
 #include "core/constraints/ball_joint.hpp"
 
+#include "core/constraints/stiffness_flops.hpp"
+
 namespace substep {
 
-void ball_constants(const JointBase& joint, Block& block) {
+void BallRows::constants(const JointBase& joint, Block& block) {
   block.kind = BlockKind::kBall;
   block.rows = 3;
   block.pinned = true;
@@ -11,18 +13,48 @@ void ball_constants(const JointBase& joint, Block& block) {
 }
 
 // An arm r that turns with omega: r'' = omega x (omega x r).
-void ball_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
-                    double* curvature) {
+void BallRows::curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
+                         double* curvature) {
   const Vec3 c = omega_a.cross(omega_a.cross(block.r_a)) - omega_b.cross(omega_b.cross(block.r_b));
   for (int i = 0; i < 3; ++i) curvature[i] = c[i];
 }
 
 // The force l acts on a at r_a. Turning a by theta moves the arm by theta x r_a, so the torque
 // r_a x l changes by (theta x r_a) x l = l x (r_a x theta) = [l][r_a] theta.
-void ball_stiffness(const Block& block, StiffnessMatrix& K) {
+void BallRows::stiffness(const Block& block, StiffnessMatrix& K) {
   const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
   if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(l, block.r_a));
   if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
+}
+
+void BallRows::turning_stiffness(const Block& block, std::span<Mat3> K) {
+  const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
+  if (block.a >= 0) K[index(block.a)] += skew_product(l, block.r_a);
+  if (block.b >= 0) K[index(block.b)] -= skew_product(l, block.r_b);
+}
+
+void BallRows::move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
+                    Block& moved) {
+  if (!rows.reaches(0, 3)) return;
+  moved.r_a = a.R * start.r_a;
+  moved.r_b = b.R * start.r_b;
+  const Vec3 phi = (a.dx - b.dx) + ((moved.r_a - start.r_a) - (moved.r_b - start.r_b));
+  for (int i = 0; i < 3; ++i) moved.phi[i] = phi[i];
+}
+
+void BallRows::moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {
+  const Vec3 r_a = a.R * start.r_a;
+  const Vec3 r_b = b.R * start.r_b;
+  const Vec3 gap = (a.dx - b.dx) + ((r_a - start.r_a) - (r_b - start.r_b));
+  for (int i = 0; i < 3; ++i) phi[i] = gap[i];
+}
+
+std::int64_t BallRows::stiffness_flops(std::int64_t bodies) {
+  return bodies * (kSkewProductFlops + kSumFlops);
+}
+
+std::int64_t BallRows::turning_stiffness_flops(std::int64_t bodies) {
+  return stiffness_flops(bodies);
 }
 
 }  // namespace substep

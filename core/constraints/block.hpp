@@ -15,6 +15,7 @@ inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// Block::tight of a row that no earlier sub-step knows.
 inline constexpr std::int8_t kUnknownSet = 2;
 
+/// Joints in the order of Joint's alternatives, then contacts.
 enum class BlockKind : std::uint8_t { kBall, kHinge, kContact };
 
 /// The rows of one joint or of one contact point, on at most two moving bodies; what its arrays

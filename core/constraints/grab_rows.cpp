@@ -8,8 +8,8 @@ void grab_rows(const Grab& grab, const Side& body, Block& block) {
   block.id = kGrabId;
   block.a = block.body_a = grab.body;
   block.b = block.body_b = -1;
-  ball_constants(JointBase{}, block);
-  ball_rows(grab.anchor, grab.target, body, Side{}, block);
+  BallRows::constants(JointBase{}, block);
+  BallRows::rows({grab.anchor, grab.target}, body, Side{}, block);
   double* phi = block.phi;
   const double distance = std::sqrt(phi[0] * phi[0] + phi[1] * phi[1] + phi[2] * phi[2]);
   if (distance <= Grab::kReach) return;

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/constraints/stiffness_flops.hpp"
+
 namespace substep {
 
 void across(const Vec3& axis, Vec3& v1, Vec3& v2) {
@@ -10,14 +12,8 @@ void across(const Vec3& axis, Vec3& v1, Vec3& v2) {
   v2 = axis.cross(v1);
 }
 
-HingeAxes axes_of(const HingeJoint& joint) {
-  HingeAxes axes;
-  axes.u = joint.axis_a;
-  across(joint.axis_b, axes.v1, axes.v2);
-  return axes;
-}
-
-void hinge_constants(const HingeJoint& joint, Block& block) {
+void HingeRows::constants(const HingeJoint& joint, Block& block) {
+  BallRows::constants(joint, block);
   block.kind = BlockKind::kHinge;
   block.rows = 5;
   for (int row = 3; row < 5; ++row) {
@@ -26,10 +22,16 @@ void hinge_constants(const HingeJoint& joint, Block& block) {
   }
 }
 
+JointGeometry HingeRows::geometry(const HingeJoint& joint) {
+  JointGeometry geometry{joint.anchor_a, joint.anchor_b, joint.axis_a};
+  across(joint.axis_b, geometry.v1, geometry.v2);
+  return geometry;
+}
+
 // (u . v)'' = u'' . v + 2 u' . v' + u . v''
-void hinge_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
-                     double* curvature) {
-  ball_curvature(block, omega_a, omega_b, curvature);
+void HingeRows::curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
+                          double* curvature) {
+  BallRows::curvature(block, omega_a, omega_b, curvature);
   const Vec3& u = block.axis;
   const Vec3 u_dot = omega_a.cross(u);
   const Vec3 u_ddot = omega_a.cross(u_dot);
@@ -43,8 +45,8 @@ void hinge_curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_
 // Torque on a: l u x v. Turning a: l (theta x u) x v = l [v][u] theta. Turning b:
 // l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All of it is linear in v,
 // so both rows go together: w = l_1 v_1 + l_2 v_2.
-void hinge_stiffness(const Block& block, StiffnessMatrix& K) {
-  ball_stiffness(block, K);
+void HingeRows::stiffness(const Block& block, StiffnessMatrix& K) {
+  BallRows::stiffness(block, K);
   const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
   const Mat3 WU = skew_product(w, block.axis);
   const Mat3 UW = WU.transpose();
@@ -54,6 +56,56 @@ void hinge_stiffness(const Block& block, StiffnessMatrix& K) {
     K.add_angular(block.a, block.b, -UW);
     K.add_angular(block.b, block.a, -WU);
   }
+}
+
+void HingeRows::turning_stiffness(const Block& block, std::span<Mat3> K) {
+  BallRows::turning_stiffness(block, K);
+  const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
+  const Mat3 WU = skew_product(w, block.axis);
+  if (block.a >= 0) K[index(block.a)] += WU;
+  if (block.b >= 0) K[index(block.b)] += WU.transpose();
+}
+
+void HingeRows::move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
+                     Block& moved) {
+  BallRows::move(start, a, b, rows, moved);
+  if (!rows.reaches(3, 5)) return;
+  moved.axis = a.R * start.axis;
+  moved.v1 = b.R * start.v1;
+  moved.v2 = b.R * start.v2;
+  for (int k = 0; k < 2; ++k) {
+    const Vec3& v = k == 0 ? moved.v1 : moved.v2;
+    const Vec3& v_start = k == 0 ? start.v1 : start.v2;
+    const Vec3 J = moved.axis.cross(v);
+    moved.phi[3 + k] = moved.axis.dot(v) - start.axis.dot(v_start);
+    for (int j = 0; j < 3; ++j) moved.J_a[3 + k][3 + j] = J[j];
+  }
+}
+
+void HingeRows::moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {
+  BallRows::moved_errors(start, a, b, phi);
+  const Vec3 axis = a.R * start.axis;
+  phi[3] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
+  phi[4] = axis.dot(b.R * start.v2) - start.axis.dot(start.v2);
+}
+
+Vec3 HingeRows::torque(const Block& block, const double* force) {
+  return force[3] * block.axis.cross(block.v1) + force[4] * block.axis.cross(block.v2);
+}
+
+Vec3 HingeRows::torque_change(const Block& block, const Mat3& a, const Mat3& b,
+                              const double* force) {
+  const Vec3 w = force[3] * block.v1 + force[4] * block.v2;
+  return (a * block.axis).cross(b * w) - block.axis.cross(w);
+}
+
+// w, W U, on each body and between both.
+std::int64_t HingeRows::stiffness_flops(std::int64_t bodies) {
+  return BallRows::stiffness_flops(bodies) + 9 + kSkewProductFlops + bodies * bodies * kSumFlops;
+}
+
+std::int64_t HingeRows::turning_stiffness_flops(std::int64_t bodies) {
+  return BallRows::turning_stiffness_flops(bodies) + 9 + kSkewProductFlops + bodies * kSumFlops;
 }
 
 }  // namespace substep

@@ -6,15 +6,12 @@ namespace substep {
 
 JointStage::JointStage(const Scene& scene) : scene_(scene) {
   for (const Joint& joint : scene.joints) {
-    const JointBase& j = base(joint);
-    Geometry& geometry = joints_.emplace_back();
-    geometry.body_a = j.a;
-    geometry.body_b = j.b;
-    geometry.anchor_a = j.anchor_a;
-    geometry.anchor_b = j.anchor_b;
-    const auto* hinge = std::get_if<HingeJoint>(&joint);
-    geometry.hinge = hinge != nullptr;
-    if (hinge != nullptr) geometry.axes = axes_of(*hinge);
+    Placed& placed = joints_.emplace_back();
+    placed.body_a = base(joint).a;
+    placed.body_b = base(joint).b;
+    placed.kind = kind_of(joint);
+    with_joint_rows(joint,
+                    [&](auto rows, const auto& own) { placed.geometry = rows.geometry(own); });
   }
 }
 
@@ -28,10 +25,8 @@ void JointStage::begin(std::size_t joint, Block& block) const {
   block.body_b = j.b;
   block.a = moving(j.a);
   block.b = moving(j.b);
-  ball_constants(j, block);
-  if (const auto* hinge = std::get_if<HingeJoint>(&scene_.joints[joint])) {
-    hinge_constants(*hinge, block);
-  }
+  with_joint_rows(scene_.joints[joint],
+                  [&](auto rows, const auto& own) { rows.constants(own, block); });
 }
 
 void JointStage::fill(const State& state, std::span<const Mat3> R_WB, std::size_t joint,
@@ -41,11 +36,10 @@ void JointStage::fill(const State& state, std::span<const Mat3> R_WB, std::size_
   };
   // A block that was this joint's before keeps what does not change.
   if (!block.pinned || block.id != joint) begin(joint, block);
-  const Geometry& geometry = joints_[joint];
-  const Side a = side(geometry.body_a);
-  const Side b = side(geometry.body_b);
-  ball_rows(geometry.anchor_a, geometry.anchor_b, a, b, block);
-  if (geometry.hinge) hinge_rows(geometry.axes, a, b, block);
+  const Placed& placed = joints_[joint];
+  const Side a = side(placed.body_a);
+  const Side b = side(placed.body_b);
+  with_joint_rows(placed.kind, [&](auto rows) { rows.rows(placed.geometry, a, b, block); });
 }
 
 void JointStage::append(const Part& part, const State& state, std::span<const Mat3> R_WB,

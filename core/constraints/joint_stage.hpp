@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/constraints/block.hpp"
-#include "core/constraints/hinge_joint.hpp"
+#include "core/constraints/joint_rows.hpp"
 #include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
@@ -27,12 +27,12 @@ class JointStage {
   [[nodiscard]] JointErrors errors(const State& state, std::span<const Mat3> R_WB) const;
 
  private:
-  /// What a sub-step reads of a joint, one after the other.
-  struct Geometry {
-    int body_a, body_b;
-    bool hinge;
-    Vec3 anchor_a, anchor_b;  // in the frames of the bodies [m]
-    HingeAxes axes;
+  /// What a sub-step reads of the joints, one after the other.
+  struct Placed {
+    int body_a = 0;
+    int body_b = kWorld;
+    BlockKind kind = BlockKind::kBall;
+    JointGeometry geometry;
   };
   /// What of a joint's block is the same in every sub-step.
   void begin(std::size_t joint, Block& block) const;
@@ -40,7 +40,7 @@ class JointStage {
                                           std::size_t joint, Block& block) const;
 
   const Scene& scene_;
-  std::vector<Geometry> joints_;
+  std::vector<Placed> joints_;
 };
 
 }  // namespace substep

@@ -2,28 +2,10 @@
 
 #include <algorithm>
 
+#include "core/constraints/joint_rows.hpp"
+
 namespace substep {
 namespace {
-
-void move_pin(const Block& start, const Motion& a, const Motion& b, Block& moved) {
-  moved.r_a = a.R * start.r_a;
-  moved.r_b = b.R * start.r_b;
-  const Vec3 phi = (a.dx - b.dx) + ((moved.r_a - start.r_a) - (moved.r_b - start.r_b));
-  for (int i = 0; i < 3; ++i) moved.phi[i] = phi[i];
-}
-
-void move_hinge_axis(const Block& start, const Motion& a, const Motion& b, Block& moved) {
-  moved.axis = a.R * start.axis;
-  moved.v1 = b.R * start.v1;
-  moved.v2 = b.R * start.v2;
-  for (int k = 0; k < 2; ++k) {
-    const Vec3& v = k == 0 ? moved.v1 : moved.v2;
-    const Vec3& v_start = k == 0 ? start.v1 : start.v2;
-    const Vec3 J = moved.axis.cross(v);
-    moved.phi[3 + k] = moved.axis.dot(v) - start.axis.dot(v_start);
-    for (int j = 0; j < 3; ++j) moved.J_a[3 + k][3 + j] = J[j];
-  }
-}
 
 // Where the point p of a that touches is then, from the centre of b.
 Vec3 moved_rho(const Block& start, const Motion& a, const Motion& b) {
@@ -76,21 +58,11 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
 
 void move_rows(const Block& start, const Motion& a, const Motion& b, Block& moved, RowRange rows) {
   if (start.is_contact()) return move_contact(start, a, b, moved, rows);
-  if (rows.first < 3) move_pin(start, a, b, moved);
-  if (rows.first + rows.count > 3 && start.kind == BlockKind::kHinge) {
-    move_hinge_axis(start, a, b, moved);
-  }
+  with_joint_rows(start.kind, [&](auto joint) { joint.move(start, a, b, rows, moved); });
 }
 
 void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {
-  const Vec3 r_a = a.R * start.r_a;
-  const Vec3 r_b = b.R * start.r_b;
-  const Vec3 gap = (a.dx - b.dx) + ((r_a - start.r_a) - (r_b - start.r_b));
-  for (int i = 0; i < 3; ++i) phi[i] = gap[i];
-  if (start.kind != BlockKind::kHinge) return;
-  const Vec3 axis = a.R * start.axis;
-  phi[3] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
-  phi[4] = axis.dot(b.R * start.v2) - start.axis.dot(start.v2);
+  with_joint_rows(start.kind, [&](auto joint) { joint.moved_errors(start, a, b, phi); });
 }
 
 double moved_gap(const Block& start, const Motion& a, const Motion& b) {

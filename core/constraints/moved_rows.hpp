@@ -3,26 +3,15 @@
 #include <cstdint>
 
 #include "core/constraints/block.hpp"
+#include "core/constraints/joint_geometry.hpp"
 #include "core/math/turn.hpp"
 
 namespace substep {
-
-/// How a body's pose has changed since its rows were made. The world and static bodies stay.
-struct Motion {
-  Vec3 dx = Vec3::Zero();     // way of the centre of mass, world [m]
-  Mat3 R = Mat3::Identity();  // its turn, world axes
-};
 
 /// The motion of a sub-step, as integrate() will make it. @param u [m/s, rad/s]  @param dt [s]
 inline Motion motion(const Vec6& u, double dt) {
   return {dt * u.head<3>(), turn_matrix(0.5 * dt * u.tail<3>())};
 }
-
-/// Some rows of a block.
-struct RowRange {
-  int first = 0;
-  int count = kMaxRows;  // at most
-};
 
 /// phi and J of a block after its bodies have moved: for solvers that look at the end of a sub-step
 /// instead of its start. Exact for joints and for points on faces; spheres on spheres to the second

@@ -1,5 +1,7 @@
 #include "core/constraints/turning_stiffness.hpp"
 
+#include "core/constraints/joint_rows.hpp"
+
 namespace substep {
 namespace {
 
@@ -23,17 +25,9 @@ void add_of_contact(const Block& block, std::span<Mat3> K) {
 
 }  // namespace
 
-// ball_stiffness() and hinge_stiffness() have the derivations.
 void add_turning_stiffness(const Block& block, std::span<Mat3> K) {
   if (block.is_contact()) return add_of_contact(block, K);
-  const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
-  if (block.a >= 0) K[index(block.a)] += skew_product(l, block.r_a);
-  if (block.b >= 0) K[index(block.b)] -= skew_product(l, block.r_b);
-  if (block.kind != BlockKind::kHinge) return;
-  const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
-  const Mat3 WU = skew_product(w, block.axis);
-  if (block.a >= 0) K[index(block.a)] += WU;
-  if (block.b >= 0) K[index(block.b)] += WU.transpose();
+  with_joint_rows(block.kind, [&](auto joint) { joint.turning_stiffness(block, K); });
 }
 
 }  // namespace substep

@@ -2,6 +2,7 @@
 
 #include "core/io/body_reader.hpp"
 #include "core/model/body_checks.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
@@ -35,6 +36,15 @@ void read_base(ObjectReader& in, const BodyNames& bodies, JointBase& joint) {
   in.number("compliance", kComplianceRange, joint.compliance, kOptional);
 }
 
+struct OwnFieldReader {
+  ObjectReader& in;
+
+  void operator()(std::string_view key, Vec3& axis) const { read_axis(in, key, axis); }
+  void operator()(std::string_view key, double& number, const Range& range) const {
+    in.number(key, range, number, kOptional);
+  }
+};
+
 }  // namespace
 
 Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& bodies,
@@ -45,25 +55,20 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   if (!in.is_object()) return {};
   in.text("name", kMaxNameSize, name, kRequired);
   if (!in.text("type", kMaxNameSize, type, kRequired)) return {};
-  if (type == "ball") {
-    BallJoint ball;
-    ball.name = name;
-    read_base(in, bodies, ball);
-    in.finish();
-    return ball;
+  std::optional<Joint> joint = make_joint(type);
+  if (!joint) {
+    std::string known;
+    for (const std::string_view one : kJointTypes) {
+      known += (known.empty() ? "" : " or ") + std::string(one);
+    }
+    in.problem("type", value_text(type) + " is not " + known);
+    return {};
   }
-  if (type == "hinge") {
-    HingeJoint hinge;
-    hinge.name = name;
-    read_base(in, bodies, hinge);
-    read_axis(in, "axis_a", hinge.axis_a);
-    read_axis(in, "axis_b", hinge.axis_b);
-    in.number("angular_compliance", kAngularComplianceRange, hinge.angular_compliance, kOptional);
-    in.finish();
-    return hinge;
-  }
-  in.problem("type", value_text(type) + " is not ball or hinge");
-  return {};
+  base(*joint).name = name;
+  read_base(in, bodies, base(*joint));
+  std::visit([&](auto& own) { own_fields(own, OwnFieldReader{in}); }, *joint);
+  in.finish();
+  return *std::move(joint);
 }
 
 }  // namespace substep

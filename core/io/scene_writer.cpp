@@ -10,6 +10,7 @@
 #include "core/io/recommended_json.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/names.hpp"
 
 namespace substep {
@@ -68,26 +69,37 @@ Json body_json(const Body& body) {
   return json;
 }
 
+struct AxisWriter {
+  Json& json;
+  void operator()(const char* key, const Vec3& axis) const { json[key] = vector_json(axis); }
+  void operator()(const char*, double, const Range&) const {}
+};
+
+struct NumberWriter {
+  Json& json;
+  void operator()(const char*, const Vec3&) const {}
+  void operator()(const char* key, double number, const Range&) const { json[key] = number; }
+};
+
 Json joint_json(const Scene& scene, const Joint& joint) {
   const auto name_of_body = [&](int index) {
     return index == kWorld ? std::string("world")
                            : scene.bodies[static_cast<std::size_t>(index)].name;
   };
   const JointBase& j = base(joint);
-  const auto* hinge = std::get_if<HingeJoint>(&joint);
   Json json;
   json["name"] = j.name;
-  json["type"] = hinge ? "hinge" : "ball";
+  json["type"] = kJointTypes[joint.index()];
   json["a"] = name_of_body(j.a);
   json["b"] = name_of_body(j.b);
   json["anchor_a"] = vector_json(j.anchor_a);
   json["anchor_b"] = vector_json(j.anchor_b);
-  if (hinge) {
-    json["axis_a"] = vector_json(hinge->axis_a);
-    json["axis_b"] = vector_json(hinge->axis_b);
-  }
+  const auto write = [&](const auto& field) {
+    std::visit([&](const auto& own) { own_fields(own, field); }, joint);
+  };
+  write(AxisWriter{json});
   json["compliance"] = j.compliance;
-  if (hinge) json["angular_compliance"] = hinge->angular_compliance;
+  write(NumberWriter{json});
   return json;
 }
 

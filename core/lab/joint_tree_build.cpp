@@ -150,13 +150,25 @@ class JointTree::Builder {
       tree_.reach_ += node.l.norm();
     }
     tree_.reach_ += node.r.norm();
-    const auto* hinge = std::get_if<HingeJoint>(&joint);
-    node.kind = hinge ? Kind::kHinge : Kind::kBall;
-    tree_.degrees_ += hinge ? 1 : 3;
-    return !hinge || set_hinge(*hinge, a_is_child, parent, node);
+    return std::visit([&](const auto& own) { return set_kind(own, a_is_child, parent, node); },
+                      joint);
   }
 
-  bool set_hinge(const HingeJoint& hinge, bool a_is_child, int parent, Node& node) const {
+  // A kind that the tree does not know: the scene has no reference of this sort.
+  template <class J>
+  bool set_kind(const J&, bool, int, Node&) {
+    return false;
+  }
+
+  bool set_kind(const BallJoint&, bool, int, Node& node) {
+    node.kind = Kind::kBall;
+    tree_.degrees_ += 3;
+    return true;
+  }
+
+  bool set_kind(const HingeJoint& hinge, bool a_is_child, int parent, Node& node) {
+    node.kind = Kind::kHinge;
+    tree_.degrees_ += 1;
     node.axis = (a_is_child ? hinge.axis_a : hinge.axis_b).normalized();
     const Vec3 on_parent = (a_is_child ? hinge.axis_b : hinge.axis_a).normalized();
     const Vec3 apart =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/model/joint_fields.hpp"
 #include "core/model/number_checks.hpp"
 #include "core/model/scene_limits.hpp"
 
@@ -122,6 +123,22 @@ void check_body(const Body& body, const DataPlace& place, Problems& problems) {
   }
 }
 
+namespace {
+
+struct OwnFieldCheck {
+  const DataPlace& place;
+  Problems& problems;
+
+  void operator()(const char* key, const Vec3& axis) const {
+    if (const auto fault = axis_fault(axis)) problems.push_back({place.at(key).pointer(), *fault});
+  }
+  void operator()(const char* key, double number, const Range& range) const {
+    check_number(number, range, place.at(key), problems);
+  }
+};
+
+}  // namespace
+
 void check_joint(const Joint& joint, const std::vector<Body>& bodies, const DataPlace& place,
                  Problems& problems) {
   const JointBase& j = base(joint);
@@ -131,15 +148,7 @@ void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Data
   check_numbers(j.anchor_a, kPositionRange, place.at("anchor_a"), problems);
   check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);
   check_number(j.compliance, kComplianceRange, place.at("compliance"), problems);
-  const auto* hinge = std::get_if<HingeJoint>(&joint);
-  if (hinge == nullptr) return;
-  const auto check_axis = [&](const char* key, const Vec3& axis) {
-    if (const auto fault = axis_fault(axis)) problems.push_back({place.at(key).pointer(), *fault});
-  };
-  check_axis("axis_a", hinge->axis_a);
-  check_axis("axis_b", hinge->axis_b);
-  check_number(hinge->angular_compliance, kAngularComplianceRange, place.at("angular_compliance"),
-               problems);
+  std::visit([&](const auto& own) { own_fields(own, OwnFieldCheck{place, problems}); }, joint);
 }
 
 }  // namespace substep

@@ -20,10 +20,13 @@ struct JointBase {
 };
 
 /// The two anchors coincide: 3 rows.
-struct BallJoint : JointBase {};
+struct BallJoint : JointBase {
+  static constexpr const char* kType = "ball";  // in files
+};
 
 /// The two anchors coincide and the two axes stay parallel: 5 rows.
 struct HingeJoint : JointBase {
+  static constexpr const char* kType = "hinge";
   Vec3 axis_a = Vec3::UnitZ();      // unit, in the frame of a [-]
   Vec3 axis_b = Vec3::UnitZ();      // unit, in the frame of b, or in the world for kWorld [-]
   double angular_compliance = 0.0;  // C of the two angular rows [rad/(N m)], >= 0

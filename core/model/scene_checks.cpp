@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "core/model/joint_fields.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep {
@@ -51,9 +52,9 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
                           "the anchors start " + number_text(gap) + " apart, which is more than " +
                               number_text(scene.criteria.joint_gap) + " (m)"});
     }
-    if (const auto* hinge = std::get_if<HingeJoint>(&scene.joints[i])) {
-      const Vec3 u = a.q * hinge->axis_a;
-      const Vec3 v = b.q * hinge->axis_b;
+    if (const auto axes = axes_of(scene.joints[i])) {
+      const Vec3 u = a.q * axes->a;
+      const Vec3 v = b.q * axes->b;
       const double sine = u.cross(v).norm();
       if (u.dot(v) < 0.0) {
         problems.push_back({pointer_to("/joints", i), "the axes start in opposite directions"});
@@ -84,8 +85,7 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     if (!is_sound(scene, sound, i)) continue;
     if (base(scene.joints[i]).compliance == 0.0) note(stiff, i, "compliance", "m/N");
-    const auto* hinge = std::get_if<HingeJoint>(&scene.joints[i]);
-    if (hinge && hinge->angular_compliance == 0.0) {
+    if (angular_compliance_of(scene.joints[i]) == 0.0) {
       note(stiff_turning, i, "angular_compliance", "rad/(N m)");
     }
   }

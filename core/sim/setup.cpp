@@ -11,8 +11,9 @@ namespace substep {
 namespace {
 
 bool is_spring(const Joint& joint) {
-  const auto* hinge = std::get_if<HingeJoint>(&joint);
-  return base(joint).compliance > 0.0 || (hinge != nullptr && hinge->angular_compliance > 0.0);
+  Block block;
+  with_joint_rows(joint, [&](auto rows, const auto& own) { rows.constants(own, block); });
+  return std::any_of(block.C, block.C + block.rows, [](double C) { return C > 0.0; });
 }
 
 }  // namespace
@@ -116,10 +117,8 @@ ConstraintForces Simulator::constraint_forces() const {
       JointForce& force = out.joints[static_cast<std::size_t>(block.id)];
       force.force = {block.lambda[0], block.lambda[1], block.lambda[2]};
       force.known = true;
-      if (block.kind == BlockKind::kHinge) {
-        force.torque = block.lambda[3] * block.axis.cross(block.v1) +
-                       block.lambda[4] * block.axis.cross(block.v2);
-      }
+      with_joint_rows(block.kind,
+                      [&](auto rows) { force.torque = rows.torque(block, block.lambda); });
     }
   }
   return out;

@@ -26,9 +26,9 @@ constexpr int kMostNearing = 100;  // steps towards the least change, which conv
 constexpr int kMostMatching = 8;   // solves for velocities: more than one where rows are redundant
 
 /// The rows of all joints at a state, and the solver for them.
-class JointRows {
+class StartRows {
  public:
-  JointRows(const Scene& scene, State& state)
+  StartRows(const Scene& scene, State& state)
       : scene_(scene),
         state_(state),
         all_(whole(scene)),
@@ -81,10 +81,7 @@ class JointRows {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       if (!holds_[i].anchors && !holds_[i].axes) continue;
       Block& block = held_.emplace_back(blocks_.all()[i]);
-      if (!holds_[i].axes && block.kind == BlockKind::kHinge) {
-        block.kind = BlockKind::kBall;
-        block.rows = 3;
-      }
+      if (!holds_[i].axes) block.rows = 3;
       double free = 0.0;  // [1/kg]
       for (const int body : {block.a, block.b}) {
         if (body >= 0) free += kFree * inverse_mass_[index(body)].linear;
@@ -157,7 +154,7 @@ double largest(std::span<const Vec6> moves) {
 
 /// Newton's method onto the joints, each step the least one. A step that makes matters worse is
 /// taken in part. @return whether they are closed as far as rounding lets them
-bool onto_joints(JointRows& rows, State& state) {
+bool onto_joints(StartRows& rows, State& state) {
   std::vector<Vec6> step(state.x.size());
   rows.update();
   double error = rows.error();
@@ -197,7 +194,7 @@ void moves_from(const State& start, const State& state, std::span<Vec6> moved) {
 
 /// Slides along the joints to where what is left of the move is all along J^T: the least change.
 /// Each step goes to the nearest point, to the start, of the joints as they are linear here.
-void to_least_change(JointRows& rows, const State& start, State& state) {
+void to_least_change(StartRows& rows, const State& start, State& state) {
   std::vector<Vec6> moved(state.x.size());
   std::vector<Vec6> step(state.x.size());
   double last = std::numeric_limits<double>::infinity();
@@ -225,7 +222,7 @@ void to_least_change(JointRows& rows, const State& start, State& state) {
 Projection close_joints(const Scene& scene, State& state) {
   for (const int body : whole(scene).moving) state.q[index(body)].normalize();
   const State start = state;
-  JointRows rows(scene, state);
+  StartRows rows(scene, state);
   const bool closed = onto_joints(rows, state);
   if (closed && !start_errors(scene, state).beyond.poses()) to_least_change(rows, start, state);
   if (rows.over_limits()) return Projection::kTooLarge;
@@ -234,7 +231,7 @@ Projection close_joints(const Scene& scene, State& state) {
 }
 
 Projection match_velocities(const Scene& scene, State& state) {
-  JointRows rows(scene, state);
+  StartRows rows(scene, state);
   rows.update();
   double error = rows.error_of(state.u);
   for (int i = 0; i < kMostMatching; ++i) {

@@ -70,11 +70,9 @@ void Simulator::Impl::turn_joint_forces(double dt) {
     const Mat3 a = turn_of(block.a);
     const Mat3 b = turn_of(block.b);
     const Vec3 force{block.impulse[0], block.impulse[1], block.impulse[2]};
-    Vec3 torque = Vec3::Zero();  // of a hinge, on a
-    if (block.kind == BlockKind::kHinge) {
-      const Vec3 across = block.impulse[3] * block.v1 + block.impulse[4] * block.v2;
-      torque = (a * block.axis).cross(b * across) - block.axis.cross(across);
-    }
+    Vec3 torque;
+    with_joint_rows(block.kind,
+                    [&](auto joint) { torque = joint.torque_change(block, a, b, block.impulse); });
     if (block.a >= 0) {
       bent_torque[index(block.a)] += (a * block.r_a - block.r_a).cross(force) + torque;
     }

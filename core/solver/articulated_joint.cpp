@@ -122,7 +122,7 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, const Vec6* u_s
     to_parent_[i] = (reference != nullptr ? reference[i] : 0.0) - r_parent[i];
     d_[i] = speed[i] + sign * joint.bias[i];
   }
-  if (joint.kind == BlockKind::kBall) {
+  if (joint.rows == 3) {
     for (int k = 0; k < 3; ++k) {
       d_[3 + k] = 0.0;
       for (int i = 0; i < 3; ++i) free_[k].f[i] = i == k ? 1.0 : 0.0;

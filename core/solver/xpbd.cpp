@@ -183,7 +183,7 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
         continue;
       }
       visit(i, {0, 3});
-      if (block.kind == BlockKind::kHinge) visit(i, {3, 2});
+      if (block.rows > 3) visit(i, {3, block.rows - 3});
     }
   }
   return report;

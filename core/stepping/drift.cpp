@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/constraints/hinge_joint.hpp"
+#include "core/constraints/joint_rows.hpp"
 #include "core/stepping/compliance.hpp"
 
 namespace substep {
@@ -32,11 +32,9 @@ void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature
   const auto turning = [&](int body) -> Vec3 {
     return body < 0 ? Vec3::Zero() : Vec3(u[static_cast<std::size_t>(body)].tail<3>());
   };
-  if (block.kind == BlockKind::kHinge) {
-    hinge_curvature(block, turning(block.a), turning(block.b), curvature);
-  } else {
-    ball_curvature(block, turning(block.a), turning(block.b), curvature);
-  }
+  with_joint_rows(block.kind, [&](auto joint) {
+    joint.curvature(block, turning(block.a), turning(block.b), curvature);
+  });
 }
 
 }  // namespace

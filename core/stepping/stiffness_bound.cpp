@@ -1,7 +1,6 @@
 #include "core/stepping/stiffness_bound.hpp"
 
-#include "core/constraints/ball_joint.hpp"
-#include "core/constraints/hinge_joint.hpp"
+#include "core/constraints/joint_rows.hpp"
 #include "core/constraints/stiffness_flops.hpp"
 
 namespace substep {
@@ -16,16 +15,10 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactTerms terms,
                               std::span<const Mat3> R_WB, std::vector<Vec6>& k) {
   K_.clear(R_WB.size());
   for (const Block& block : blocks) {
-    switch (block.kind) {
-      case BlockKind::kBall:
-        ball_stiffness(block, K_);
-        break;
-      case BlockKind::kHinge:
-        hinge_stiffness(block, K_);
-        break;
-      case BlockKind::kContact:
-        contact_stiffness(block, terms, K_);
-        break;
+    if (block.is_contact()) {
+      contact_stiffness(block, terms, K_);
+    } else {
+      with_joint_rows(block.kind, [&](auto joint) { joint.stiffness(block, K_); });
     }
   }
   k.resize(R_WB.size(), Vec6::Zero());

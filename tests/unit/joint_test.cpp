@@ -1,3 +1,4 @@
+#include "core/model/joint_fields.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -39,6 +40,30 @@ void gradient_and_stiffness() {
   }
 }
 
+// A kind of joint that leaves out an operation is no entry of JointTable: the table asserts the
+// concept for each, so that such an entry does not compile.
+struct WithoutCurvature : BallRows {
+  static void curvature() = delete;
+};
+struct WithoutCouple : HingeRows {
+  static void torque(const Block&, const double*) {}
+};
+
+TEST(JointTable, AnEntryThatLeavesAnOperationOutDoesNotCompile) {
+  static_assert(JointRows<BallRows, BallJoint>);
+  static_assert(JointRows<HingeRows, HingeJoint>);
+  static_assert(!JointRows<WithoutCurvature, BallJoint>);
+  static_assert(!JointRows<WithoutCouple, HingeJoint>);
+  EXPECT_EQ(kind_of(BallJoint{}), BlockKind::kBall);
+  EXPECT_EQ(kind_of(HingeJoint{}), BlockKind::kHinge);
+  for (const std::string_view type : kJointTypes) {
+    const auto joint = make_joint(type);
+    ASSERT_TRUE(joint.has_value()) << type;
+    EXPECT_EQ(kJointTypes[joint->index()], type);
+  }
+  EXPECT_FALSE(make_joint("slider").has_value());
+}
+
 TEST(BallJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<BallJoint>(); }
 TEST(HingeJoint, GradientAndStiffnessMatchFiniteDifferences) {
   gradient_and_stiffness<HingeJoint>();
@@ -71,11 +96,7 @@ void curvature() {
     const Vec3 omega_a = state.u[0].tail<3>();
     const Vec3 omega_b = n > 1 ? Vec3(state.u[1].tail<3>()) : Vec3(Vec3::Zero());
     double found[kMaxRows];
-    if constexpr (std::is_same_v<JointType, HingeJoint>) {
-      hinge_curvature(now, omega_a, omega_b, found);
-    } else {
-      ball_curvature(now, omega_a, omega_b, found);
-    }
+    with_joint_rows(now.kind, [&](auto joint) { joint.curvature(now, omega_a, omega_b, found); });
     for (int row = 0; row < now.rows; ++row) {
       const double expected = (before.phi[row] - 2.0 * now.phi[row] + after.phi[row]) / (t * t);
       EXPECT_NEAR(found[row], expected, 1e-6) << row;

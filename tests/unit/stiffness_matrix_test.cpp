@@ -64,8 +64,8 @@ TEST(TurningStiffness, IsTheDiagonalOfTheWhole) {
     for (double& force : block.lambda) force = random_vector(random).x();
     StiffnessMatrix whole;
     whole.clear(2);
-    if (kind == 0) ball_stiffness(block, whole);
-    if (kind == 1) hinge_stiffness(block, whole);
+    if (kind == 0) BallRows::stiffness(block, whole);
+    if (kind == 1) HingeRows::stiffness(block, whole);
     if (kind == 2) contact_stiffness_normal(block, whole);
     std::vector<Mat3> turning(2, Mat3::Zero());
     add_turning_stiffness(block, turning);

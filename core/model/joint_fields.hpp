@@ -1,0 +1,72 @@
+#pragma once
+// What joints have beside JointBase, by name: for what reads, writes and checks them.
+
+#include <array>
+#include <concepts>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+#include "core/model/joint.hpp"
+#include "core/model/scene_limits.hpp"
+
+namespace substep {
+
+/// Calls `field(key, axis)` for each unit vector and `field(key, number, range)` for each number.
+template <class J, class Field>
+requires std::same_as<std::remove_const_t<J>, BallJoint>
+void own_fields(J&, Field&&) {}
+
+template <class J, class Field>
+requires std::same_as<std::remove_const_t<J>, HingeJoint>
+void own_fields(J& joint, Field&& field) {
+  field("axis_a", joint.axis_a);
+  field("axis_b", joint.axis_b);
+  field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+}
+
+/// What files call the kinds of joints, in the order of Joint's alternatives.
+inline constexpr auto kJointTypes = []<std::size_t... I>(std::index_sequence<I...>) {
+  return std::array{std::string_view(std::variant_alternative_t<I, Joint>::kType)...};
+}
+(std::make_index_sequence<std::variant_size_v<Joint>>{});
+
+/// A joint of the kind that files call so; nothing where there is none.
+inline std::optional<Joint> make_joint(std::string_view type) {
+  std::optional<Joint> joint;
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    ((kJointTypes[I] == type ? (void)joint.emplace(std::in_place_index<I>) : (void)0), ...);
+  }
+  (std::make_index_sequence<std::variant_size_v<Joint>>{});
+  return joint;
+}
+
+/// The two axes that a joint keeps parallel, in the frames of its bodies.
+struct JointAxes {
+  Vec3 a = Vec3::UnitZ();
+  Vec3 b = Vec3::UnitZ();
+};
+
+/// Nothing for a joint without axes.
+inline std::optional<JointAxes> axes_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> std::optional<JointAxes> {
+        if constexpr (requires { j.axis_a; }) return JointAxes{j.axis_a, j.axis_b};
+        return std::nullopt;
+      },
+      joint);
+}
+
+/// C of a joint's angular rows [rad/(N m)]; nothing where it has none.
+inline std::optional<double> angular_compliance_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> std::optional<double> {
+        if constexpr (requires { j.angular_compliance; }) return j.angular_compliance;
+        return std::nullopt;
+      },
+      joint);
+}
+
+}  // namespace substep

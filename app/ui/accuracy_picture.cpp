@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"
@@ -173,7 +174,8 @@ void read_out(const Look& look, const Accuracy& accuracy, const Result& result) 
     line(short_number(*error) + "  " + axis_name(accuracy.error));
   }
   line(short_number(cost_of(result, accuracy.cost)) + "  " + axis_name(accuracy.cost));
-  if (!result.metrics.holds) label(look.fonts.small, t.orange, result.metrics.verdict.c_str());
+  if (!result.metrics.holds)
+    label(look.fonts.small, t.orange, verdict_words(result.metrics.verdict).c_str());
   label(look.fonts.small, t.accent, "Click to run it");
   ImGui::EndTooltip();
 }

@@ -70,8 +70,6 @@ Part part_of_window(const Viewport& viewport, std::size_t pane);
 /// Who is who in the picture; nothing where nothing is compared.
 void compare_legend(const Look& look, const Session& session, const Compare& compare,
                     const Viewport& viewport);
-/// "holds", or when it failed.
-std::string verdict_note(const Verdict& verdict);
 /// The guided tour's card, or the button that opens it.
 void tour(const Look& look, Desk& desk, const Viewport& viewport);
 /// What this run is called beside others.

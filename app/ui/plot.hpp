@@ -90,7 +90,7 @@ struct PlotSpec {
 };
 
 inline constexpr float kTimeLabelHeight = 18.0F;
-inline constexpr float kNameGutter = 50.0F;  // right of the curves, for their names
+inline constexpr float kNameGutter = 56.0F;  // right of the curves, for their names
 
 /// Draws series over time with one vertical line per pixel column at most, from the least to the
 /// greatest value in it: nothing is missed and 200 s cost as much as 2. Wheel zooms, a drag shows

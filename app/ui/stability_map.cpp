@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -85,7 +86,7 @@ void read_out(const Look& look, const Result& result, double ratio) {
             .c_str());
   label(look.fonts.small, look.theme->dim, ("mass ratio " + plain_number(ratio)).c_str());
   label(look.fonts.small, result.metrics.holds ? look.theme->dim : look.theme->orange,
-        result.metrics.verdict.c_str());
+        verdict_words(result.metrics.verdict).c_str());
   label(look.fonts.small, look.theme->accent, "Click to run it");
   ImGui::EndTooltip();
 }
@@ -129,7 +130,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
       const Result& result = accuracy.results()[known->second];
       draw.AddRectFilled(min, max, cell_color(t, result), 3.0F);
       centred({min.x, min.y - 0.5F * kCellGap}, cell - kCellGap, t.text,
-              result.metrics.holds ? "holds" : fixed(result.metrics.failed_at, 2));
+              result.metrics.holds ? "stable" : fixed(result.metrics.failed_at, 2));
       if (!hovered || mouse.x < min.x || mouse.x >= max.x || mouse.y < min.y || mouse.y >= max.y) {
         continue;
       }

@@ -76,7 +76,7 @@ void draw_line(const Look& look, const Line& line, float right) {
   draw_text(draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
             fitted(look.fonts.medium, line.name, x - at.x - 44.0F).c_str());
   const std::string cost =
-      count_text(line.cost->substeps) + " sub-steps  ·  " + mean_time(*line.cost) + " a frame";
+      count_text(line.cost->substeps) + " sub-steps  ·  " + mean_time(*line.cost) + " per frame";
   draw_text(draw, look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost.c_str());
   ImGui::Dummy({1.0F, 36.0F});
 }
@@ -86,7 +86,7 @@ std::string divergence_text(const Session& session, const Compare::Run& run) {
   if (!run.divergence) return "No body is farther than " + threshold + " from this run's yet.";
   const std::string& body =
       session.scene().bodies[static_cast<std::size_t>(run.divergence->body)].name;
-  return "Parts from this run at " + fixed(run.divergence->time, 2) + " s: " + body +
+  return "Diverges from this run at " + fixed(run.divergence->time, 2) + " s: " + body +
          " is more than " + threshold + " away.";
 }
 

@@ -24,7 +24,9 @@ ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width)
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float y = origin.y + 0.5F * (look.m.row - text_size(look.fonts.regular, name).y);
   draw_text(draw, look.fonts.regular, {origin.x, y}, look.theme->dim, name);
-  return {origin.x + kNameWidth, origin.y, origin.x + width, origin.y + look.m.row};
+  const float name_width =
+      std::max(kNameWidth, text_size(look.fonts.regular, name).x + 12.0F);  // of a long one
+  return {origin.x + name_width, origin.y, origin.x + width, origin.y + look.m.row};
 }
 
 /// What a slider goes along: its value, that logarithmically, or its power of ten. Dear ImGui's
@@ -234,7 +236,7 @@ bool segmented_row(const Look& look, const char* name, std::span<const Choice> c
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = available_width();
   const ImRect frame = row_frame(look, name, origin, width);
-  ImGui::Dummy({kNameWidth - 8.0F, look.m.row});
+  ImGui::Dummy({frame.Min.x - origin.x - 8.0F, look.m.row});
   tooltip(look, name, tip);
   ImGui::SetCursorScreenPos(frame.Min);
   return segmented(look, name, choices, current, frame.GetWidth());

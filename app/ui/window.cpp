@@ -80,7 +80,7 @@ constexpr std::array<Panel, 5> kPanels{
       [](App& app, float) { controls(app.look, app, app.desk); }},
      {Tab::kPlots, {"Plots", "What happens, frame by frame"}, draw_plots},
      {Tab::kWhy,
-      {"Why N", "Who sets the number of sub-steps"},
+      {"Why N", "Which body sets the sub-step count"},
       [](App& app, float) { why(app.look, app.session, app.desk); }},
      {Tab::kCompare,
       {"Compare", "Other methods beside this run"},

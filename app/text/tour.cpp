@@ -11,7 +11,7 @@ std::span<const TourStep> tour_steps() {
         "chain "
         "tears at 0.35 s. Its pull, turned by any small rotation of a link, pushes back like a "
         "spring that is too stiff for so long a step.",
-        "The links, and the error as it climbs. The run pauses where it failed; play goes on.",
+        "The links, and the error as it climbs. The run pauses where it fails.",
         "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots"},
        {"Enough sub-steps hold it",
         "Seven sub-steps hold; with six (orange ghost) the chain tears after a few seconds. You "

@@ -107,7 +107,7 @@ void trouble_card(const Look& look, Lab& lab, const Viewport& viewport);
 void heavy_card(const Look& look, Lab& lab, const Viewport& viewport);
 /// How far a long frame is, with a button that leaves it.
 void long_frame_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
-void help_card(const Look& look, Desk& desk, const Viewport& viewport);
+void help_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 
 /// Heights that the right panel's fixed parts need.
 float why_summary_height();

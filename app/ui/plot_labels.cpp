@@ -98,7 +98,7 @@ void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImD
     if (!above) draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color);
     const char* arrow = above ? " ↑" : "";
     std::string name = level.name + arrow;
-    const float room = f.max.x - f.min.x - 8.0F;
+    const float room = f.max.x - f.min.x + 0.5F * kNameGutter;
     if (text_size(look.fonts.small, name.c_str()).x > room && !level.brief.empty()) {
       name = level.brief + arrow;
     }

@@ -138,7 +138,7 @@ float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) 
     ImGui::SetCursorScreenPos({right, bar.y});
     return button(look, id, icon, "", ButtonKind::kGhost, height, height, tip);
   };
-  if (add("help", Icon::kHelp, "Keys and gestures (?)")) app.desk.help = !app.desk.help;
+  if (add("help", Icon::kHelp, "About, keys and gestures (?)")) app.desk.help = !app.desk.help;
   if (right - height >= left) {
     right -= height;
     ImGui::SetCursorScreenPos({right, bar.y});

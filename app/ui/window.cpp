@@ -271,7 +271,7 @@ void draw_window(App& app) {
   tour(app.look, app.desk, app);
   if (!small) accuracy_card(app.look, app, app.desk, app);
   failure_card(app.look, app, app.desk, app);
-  help_card(app.look, app.desk, app);
+  help_card(app.look, app, app.desk, app);
   file_card(app.look, app, app, app.browser);
   heavy_card(app.look, app, app);
   long_frame_card(app.look, app, app.desk, app);

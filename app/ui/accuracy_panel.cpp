@@ -198,12 +198,12 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
     desk.accuracy_large = !desk.accuracy_large;
   }
   if (shows_map(accuracy)) {
-    label(
-        look.fonts.small, look.theme->dim,
-        ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
-         "cell tells when the run fails, in seconds, the paler the later; blue ones hold for all " +
-         plain_number(accuracy.experiments().front().duration) + " s.")
-            .c_str());
+    label(look.fonts.small, look.theme->dim,
+          ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
+           "cell tells when the run fails, in seconds, the paler the later; blue ones with a tick "
+           "are stable for all " +
+           plain_number(accuracy.experiments().front().duration) + " s.")
+              .c_str());
     return;
   }
   advice(look, lab);

@@ -51,7 +51,7 @@ void compared_energies(const PlotContext& in, ImVec2 heading, float left, Channe
 }
 
 /// Names with their values at the right of a heading, short ones where there is little room, and
-/// where there is less still the names alone.
+/// where there is less still the values alone: names stand at the curves, in the same colours.
 struct EnergyLegend {
   const char* name;
   const char* brief;
@@ -65,7 +65,8 @@ void energy_legend(const PlotContext& in, ImVec2 heading, float left, const Unit
   const float end = heading.x + ImGui::GetContentRegionAvail().x;
   const auto text = [&](const EnergyLegend& one, int detail) {
     const double value = shown_value(in.session.history(), one.channel, in.desk.time) + one.offset;
-    if (detail == 0 || !std::isfinite(value)) return std::string(one.alone);
+    if (!std::isfinite(value)) return std::string(one.alone);
+    if (detail == 0) return in_unit(value, unit, 9999.0, 2);
     return (detail == 2 ? one.name : one.brief) + (" " + in_unit(value, unit, 9999.0, 2));
   };
   const auto width = [&](int detail) {

@@ -169,7 +169,7 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
   draw.AddRectFilledMultiColor({at.x + kHalf, at.y}, {at.x + 2 * kHalf, at.y + 6.0F}, mid, high,
                                high, mid);
   draw.AddRect(at, {at.x + 2 * kHalf, at.y + 6.0F}, fade(look.theme->faint, 0.6F));
-  draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->dim,
+  draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->text,
             "k/M: orange needs smaller steps");
 }
 

@@ -76,7 +76,7 @@ std::string setter_text(const Scene& scene, const Criterion& criterion) {
       return name_of_body(scene, criterion.rotation_body) + ", spinning at " +
              speed_text(criterion);
   }
-  return "nothing stiff yet";
+  return "No geometric stiffness yet";
 }
 
 std::string stiffness_text(const Scene& scene, const Criterion& criterion) {

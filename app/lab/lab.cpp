@@ -17,7 +17,12 @@ constexpr const char* kOwnScenes = "own_scenes";  // what Host::remember calls t
 }  // namespace
 
 Lab::Lab(Library shipped) : library(std::move(shipped)), session(library.scenes().front()) {
-  session.frame_taken = [this] { return compare.take_frame(session); };
+  session.frame_taken = [this] {
+    const bool together = compare.take_frame(session);
+    // What comes after a failure is not physics. Beside others that hold it is what one compares.
+    if (session.just_failed() && !compare.open()) session.hold();
+    return together;
+  };
   session.scene_edited = [this](const SceneEdit& edit) { compare.edit(session, edit); };
   run(library.scenes().front());
 }

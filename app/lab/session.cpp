@@ -9,8 +9,6 @@
 namespace substep {
 namespace {
 
-constexpr std::size_t kTrailFrames = 150;
-
 // The run as a scene that a file can hold: what only acts through an effect that is off is left
 // out.
 Scene edition_of(const Scene& scene, const State& state, const Settings& settings) {
@@ -40,6 +38,7 @@ void Session::load(std::shared_ptr<const Scene> scene) {
   make_simulator();
   ++generation_;
   restart();
+  if (held_) play();
 }
 
 void Session::make_simulator() {
@@ -50,14 +49,16 @@ void Session::make_simulator() {
 
 void Session::reset() {
   slices_.drop(*simulator_);
+  const bool failed = !verdict_->holds();
   use_scene(loaded_);
   simulator_->reset();
   restart();
+  if (failed && held_) play();
 }
 
 void Session::restart() {
   hand_.reset();
-  one_frame_ = false;
+  one_frame_ = just_failed_ = false;
   report_ = simulator_->observe();
   forces_ = {};
   verdict_ = std::make_unique<Verdict>(*scene_, state(), report_);
@@ -91,7 +92,18 @@ void Session::show_present() {
   poses_ = previous_;
 }
 
+void Session::play() {
+  playing_ = !stopped();
+  held_ = false;
+}
+
 void Session::pause() {
+  hold();
+  held_ = false;
+}
+
+void Session::hold() {
+  held_ = held_ || (playing_ && !one_frame_);
   playing_ = one_frame_ = false;
   slices_.drop(*simulator_);
 }
@@ -100,47 +112,6 @@ void Session::set_settings(const Settings& settings) {
   slices_.drop(*simulator_);
   if (settings != this->settings()) slices_.forget();
   simulator_->set_settings(settings);
-}
-
-void Session::go_to(std::size_t index) {
-  pause();
-  hand_.reset();
-  timeline_.go_to(index);
-  const Moment& m = timeline_.now();
-  use_scene(m.scene);
-  simulator_->set_state(m.state);
-  report_ = m.report;
-  forces_ = m.forces;
-  *verdict_ = m.verdict;
-  trail_.clear();
-  if (scene_->criteria.track) {
-    const auto tracked = static_cast<std::size_t>(*scene_->criteria.track);
-    const std::size_t first = timeline_.index() - std::min(timeline_.index(), kTrailFrames - 1);
-    for (std::size_t i = first; i <= timeline_.index(); ++i) {
-      trail_.push_back(timeline_[i].state.x[tracked]);
-    }
-  }
-  show_present();
-}
-
-void Session::step_back() {
-  const bool within = substeps_left() > 0 || stopped();
-  const std::size_t i = timeline_.index();
-  go_to(within || i == 0 ? i : i - 1);
-}
-
-void Session::go_to_last_good(double seconds) {
-  std::size_t i =
-      timeline_.at_time((verdict_->holds() ? state().time : verdict_->failed_at()) - seconds);
-  while (i > 0 && !timeline_[i].verdict.holds()) --i;
-  go_to(i);
-}
-
-// The run goes on from a moment in the past: what came after it did not happen.
-void Session::forget_future() {
-  if (timeline_.at_end()) return;
-  timeline_.cut();
-  history_.cut(timeline_.now().state.time);
 }
 
 void Session::grab(int body, const Vec3& anchor, const Vec3& target) {
@@ -201,7 +172,7 @@ void Session::set_effects(const Effects& effects) {
 void Session::extend_trail() {
   if (!scene_->criteria.track) return;
   trail_.push_back(state().x[static_cast<std::size_t>(*scene_->criteria.track)]);
-  if (trail_.size() > kTrailFrames) trail_.pop_front();
+  if (trail_.size() > kTrail) trail_.pop_front();
 }
 
 void Session::smooth_times() {
@@ -245,9 +216,11 @@ void Session::take_frame() {
 // @return whether what runs beside has kept step
 bool Session::end_frame() {
   forces_ = simulator_->constraint_forces();
+  const bool held_so_far = verdict_->holds();
   verdict_->add(*scene_, state(), report_);
+  just_failed_ = held_so_far && !verdict_->holds();
   if (stopped()) {
-    pause();
+    hold();
   } else {
     history_.add(report_);
     extend_trail();
@@ -273,15 +246,6 @@ bool Session::run_slice(FrameSlices::Clock::time_point until) {
     show_present();
   }
   return together;
-}
-
-// Where the run is looked at in the past: the frame that followed then.
-bool Session::step_in_past() {
-  const std::size_t next = timeline_.index() + 1;
-  if (timeline_.at_end() || held() || substeps_left() > 0) return false;
-  if (timeline_[next].settings != settings()) return false;
-  go_to(next);
-  return true;
 }
 
 void Session::step() {

@@ -37,9 +37,9 @@ class Session {
   /// @param past_bytes how much memory the saved states may take
   explicit Session(std::shared_ptr<const Scene> scene, std::size_t past_bytes = Timeline::kBytes);
 
-  /// Starts another scene with the settings that it asks for. Keeps playing if it was.
+  /// Starts another scene with the settings that it asks for. Plays if this one was to.
   void load(std::shared_ptr<const Scene> scene);
-  /// Back to the start of the scene as it was loaded.
+  /// Back to the start of the scene as it was loaded. A run that failed while it played plays.
   void reset();
 
   /// Lets wall time pass: frames are taken while there is time for them. The time that one call can
@@ -92,9 +92,12 @@ class Session {
   /// Balls that were thrown and are still there.
   [[nodiscard]] std::size_t balls() const { return scene_->bodies.size() - loaded_->bodies.size(); }
 
-  void play() { playing_ = !stopped(); }
+  void play();
   /// Leaves a frame that has not ended: the run is where it began.
   void pause();
+  /// Pauses though nobody asked for it: because the past is looked at, or because the run failed.
+  /// What is loaded next plays if this run did.
+  void hold();
   void toggle() { playing_ ? pause() : play(); }
   [[nodiscard]] bool playing() const { return playing_; }
   /// The state stopped being finite: only a reset or the past goes on.
@@ -116,6 +119,12 @@ class Session {
   void set_settings(const Settings& settings);
   [[nodiscard]] const FrameReport& report() const { return report_; }
   [[nodiscard]] const Verdict& verdict() const { return *verdict_; }
+  /// Whether the last frame that was taken is the one that the run failed in.
+  [[nodiscard]] bool just_failed() const { return just_failed_; }
+  /// Whether the verdict says something: not at the start of a run, before its first frame.
+  [[nodiscard]] bool judged() const {
+    return timeline_.index() > 0 || !verdict_->holds() || verdict_->disturbed();
+  }
   [[nodiscard]] const History& history() const { return history_; }
   /// What joints and contacts did in the last sub-step.
   [[nodiscard]] const ConstraintForces& forces() const { return forces_; }
@@ -139,6 +148,8 @@ class Session {
   [[nodiscard]] const StageTimes& times() const { return times_; }
 
  private:
+  static constexpr std::size_t kTrail = 150;  // frames
+
   void restart();
   void make_simulator();
   void use_scene(std::shared_ptr<const Scene> scene);
@@ -177,6 +188,8 @@ class Session {
   double speed_ = 1.0;
   double pace_ = 1.0;
   bool playing_ = false;
+  bool held_ = false;  // it would play, see hold()
+  bool just_failed_ = false;
   int thrown_ = 0;  // balls since the scene was loaded
   int generation_ = 0;
 };

@@ -225,7 +225,7 @@ void App::open_link(std::string_view fragment, std::string_view scene) {
   if (problems.size() < parts.size()) {
     aftermath += std::string(kept ? " " : "") + "The rest of the link was followed.";
   }
-  trouble = {"The link could not be followed in full", std::move(problems), std::move(aftermath)};
+  trouble = {"Some settings of the link were ignored", std::move(problems), std::move(aftermath)};
 }
 
 }  // namespace substep

@@ -181,8 +181,7 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   if (accuracy.planned() == 0 || other) {
     label(look.fonts.small, look.theme->dim,
           other ? "The picture below is of another scene."
-                : "Every method along its own parameter: how wrong it is, and what it costs. The "
-                  "picture grows while they run; a click on a point runs it.");
+                : "Error against cost for every method. Updates live; click a point to run it.");
     space(8.0F);
   }
   sweep_bar(look, lab);
@@ -194,17 +193,17 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   if (!desk.accuracy_large) picture(look, lab, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
   if (ImGui::GetIO().DisplaySize.x >= 900.0F &&
       button(look, "larger", desk.accuracy_large ? Icon::kNone : Icon::kFrame,
-             desk.accuracy_large ? "Back into the panel" : "Larger", ButtonKind::kGhost, 0.0F,
-             look.m.row, "The picture over the view")) {
+             desk.accuracy_large ? "Dock" : "Larger", ButtonKind::kGhost, 0.0F, look.m.row,
+             "The picture over the view")) {
     desk.accuracy_large = !desk.accuracy_large;
   }
   if (shows_map(accuracy)) {
-    label(
-        look.fonts.small, look.theme->dim,
-        ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
-         "cell tells when the run fails, in seconds, the paler the later; blue ones hold for all " +
-         plain_number(accuracy.experiments().front().duration) + " s.")
-            .c_str());
+    label(look.fonts.small, look.theme->dim,
+          ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
+           "cell tells when the run fails, in seconds, the paler the later; blue ones with a tick "
+           "are stable for all " +
+           plain_number(accuracy.experiments().front().duration) + " s.")
+              .c_str());
     return;
   }
   advice(look, lab);

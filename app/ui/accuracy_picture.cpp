@@ -5,9 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"
@@ -161,21 +164,22 @@ void draw_curves(const Look& look, const Accuracy& accuracy, const std::vector<P
   }
 }
 
-void read_out(const Look& look, const Accuracy& accuracy, const Result& result) {
+void read_point(const Look& look, const Accuracy& accuracy, const Result& result) {
   const Theme& t = *look.theme;
   const Settings& s = result.experiment.settings;
   const SeriesParameter parameter = series_parameter(s);
-  ImGui::BeginTooltip();
-  label(look.fonts.medium, t.text, curve_style(t, s).name().c_str());
-  const auto line = [&](const std::string& text) { label(look.fonts.small, t.dim, text.c_str()); };
+  std::vector<ReadOutLine> lines{{curve_style(t, s).name(), t.text, true}};
+  const auto line = [&](std::string text) { lines.push_back({std::move(text), t.dim}); };
   line(std::string(parameter.name) + " = " + plain_number(parameter.value));
   if (const auto error = error_of(result, accuracy.error)) {
     line(short_number(*error) + "  " + axis_name(accuracy.error));
   }
   line(short_number(cost_of(result, accuracy.cost)) + "  " + axis_name(accuracy.cost));
-  if (!result.metrics.holds) label(look.fonts.small, t.orange, result.metrics.verdict.c_str());
-  label(look.fonts.small, t.accent, "Click to run it");
-  ImGui::EndTooltip();
+  if (!result.metrics.holds) {
+    lines.push_back({verdict_words(result.metrics.verdict), t.orange});
+  }
+  lines.push_back({"Click to run it", t.accent});
+  read_out(look, lines);
 }
 
 }  // namespace
@@ -243,7 +247,7 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   for (const Point& p : points) consider(p, axes.at(p));
   if (nearest) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-    read_out(look, accuracy, accuracy.results()[*nearest]);
+    read_point(look, accuracy, accuracy.results()[*nearest]);
   }
   return clicked ? nearest : std::nullopt;
 }

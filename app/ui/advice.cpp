@@ -24,11 +24,11 @@ std::string error_text(double error, ErrorAxis axis) {
 std::string cost_text(double cost, CostAxis axis) {
   switch (axis) {
     case CostAxis::kSubsteps:
-      return short_number(cost) + " sub-steps a frame";
+      return short_number(cost) + " sub-steps per frame";
     case CostAxis::kOperations:
-      return short_number(cost) + " operations a frame";
+      return short_number(cost) + " operations per frame";
     default:
-      return duration(1e-3 * cost) + " a frame";
+      return duration(1e-3 * cost) + " per frame";
   }
 }
 
@@ -62,7 +62,7 @@ void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Po
   }
 }
 
-/// "1 mm", "0.05 ms a frame": what is wanted at most.
+/// "1 mm", "0.05 ms per frame": what is wanted at most.
 std::string limit_text(const Accuracy& accuracy) {
   if (accuracy.error_is_given) {
     return error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), accuracy.error);
@@ -76,7 +76,7 @@ std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
   if (!search.choice()) {
     return "No alpha from " + plain_number(AlphaSearch::kLeast) +
            " to 1 makes the paper's method hold and keep within " + limit_text(accuracy) +
-           ", with at most " + std::to_string(accuracy.search_cap()) + " sub-steps a frame.";
+           ", with at most " + std::to_string(accuracy.search_cap()) + " sub-steps per frame.";
   }
   const auto& [alpha, result] = *search.choice();
   const double cost = cost_of(result, accuracy.cost);
@@ -119,7 +119,7 @@ void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
 std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points,
                          const Accuracy::Point& best) {
   const auto paper = accuracy.best(of_paper(points, accuracy.results()));
-  if (!paper) return "No alpha of the paper's that ran gets there.";
+  if (!paper) return "No tested alpha of the paper's method reaches this.";
   const double alpha = accuracy.results()[paper->result].experiment.settings.alpha;
   if (paper->result == best.result) return "It is the paper's.";
   const std::string with = "The paper's method, with alpha = " + plain_number(alpha) + ", ";

@@ -1,16 +1,46 @@
 #include "app/ui/card.hpp"
 
 #include <algorithm>
+#include <vector>
+
+#include "app/ui/over_picture.hpp"
 
 namespace substep::ui {
+namespace {
+
+// Half the size of a body whichever way it is turned [m].
+double radius_of(const Shape& shape) {
+  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.norm();
+  const auto* sphere = std::get_if<Sphere>(&shape);
+  return sphere != nullptr ? sphere->radius : 0.0;
+}
+
+/// How much of the moving bodies lies in a part of the display [pixel^2].
+float covered(const Session& session, const Viewport& viewport, ImVec2 min, ImVec2 max) {
+  float area = 0.0F;
+  for (std::size_t i = 0; i < session.scene().bodies.size(); ++i) {
+    const Body& body = session.scene().bodies[i];
+    const Vec3& x = session.poses().x[i];
+    ImVec2 p;
+    if (body.is_static || !project(viewport, x, p)) continue;
+    const auto r =
+        static_cast<float>(radius_of(body.shape) / std::max(pixel_size(viewport, x), 1e-9));
+    const float width = std::min(max.x, p.x + r) - std::max(min.x, p.x - r);
+    const float height = std::min(max.y, p.y + r) - std::max(min.y, p.y - r);
+    area += std::max(0.0F, width) * std::max(0.0F, height);
+  }
+  return area;
+}
+
+}  // namespace
 
 bool begin_card(const Look& look, const Viewport& viewport, const char* id, float width,
-                float centre_y, float pivot_y) {
+                float centre_y, float pivot_y, std::optional<float> centre_x) {
   const ViewRect& v = viewport.view_rect;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   width = std::min(width, display.x - 24.0F);
-  const float x =
-      std::clamp(v.x + 0.5F * v.width, 12.0F + 0.5F * width, display.x - 12.0F - 0.5F * width);
+  const float x = std::clamp(centre_x.value_or(v.x + 0.5F * v.width), 12.0F + 0.5F * width,
+                             display.x - 12.0F - 0.5F * width);
   ImGui::SetNextWindowPos({x, centre_y}, ImGuiCond_Always, {0.5F, pivot_y});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, display.y - 96.0F});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, look.theme->raised);
@@ -33,8 +63,38 @@ CardPlace card_below(const ViewRect& picture) {
   constexpr float kRoom = 200.0F;
   const float bottom = picture.y + picture.height;
   const float below = ImGui::GetIO().DisplaySize.y - bottom;
-  if (below > kBar + kRoom) return {bottom + kBar, 0.0F};
-  return {bottom - 60.0F, 1.0F};
+  const float middle = picture.x + 0.5F * picture.width;
+  if (below > kBar + kRoom) return {bottom + kBar, 0.0F, middle};
+  return {bottom - 60.0F, 1.0F, middle};
+}
+
+CardPlace card_beside(const Session& session, const Viewport& viewport, ImVec2 size, int& which) {
+  constexpr float kCaption = 76.0F;
+  const ViewRect& v = viewport.view_rect;
+  const CardPlace below = card_below(v);
+  if (below.pivot == 0.0F) return below;  // not over the picture
+  const float left = v.x + 12.0F + 0.5F * size.x;
+  const float right = v.x + v.width - 12.0F - 0.5F * size.x;
+  const float top = v.y + kCaption;
+  const float over_panel = ImGui::GetIO().DisplaySize.x - 12.0F - 0.5F * size.x;
+  const std::vector<CardPlace> places{below,
+                                      {below.y, 1.0F, left},
+                                      {below.y, 1.0F, right},
+                                      {top, 0.0F, left},
+                                      {top, 0.0F, right},
+                                      {below.y, 1.0F, over_panel}};
+  if (which < 0) {
+    float least = 0.0F;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const CardPlace& place = places[i];
+      const ImVec2 min(place.x - 0.5F * size.x, place.y - place.pivot * size.y);
+      const float area = covered(session, viewport, min, {min.x + size.x, min.y + size.y});
+      if (i > 0 && area >= least) continue;
+      least = area;
+      which = static_cast<int>(i);
+    }
+  }
+  return places[static_cast<std::size_t>(which)];
 }
 
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title) {

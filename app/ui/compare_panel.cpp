@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/setting_fields.hpp"
@@ -53,6 +54,7 @@ struct Line {
   std::string name;
   ImU32 color;
   const Verdict* verdict;
+  bool judged;  // a frame was
   const Cost* cost;
 };
 
@@ -62,17 +64,19 @@ void draw_line(const Look& look, const Line& line, float right) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + 3.0F}, {at.x + 10.0F, at.y + 13.0F}, line.color, 3.0F);
-  const std::string stands = verdict_note(*line.verdict);
+  const std::string stands = verdict_note(*line.verdict, line.judged);
   const float width = text_size(look.fonts.small, stands.c_str()).x;
-  const ImU32 ink = line.verdict->holds() ? t.teal : t.orange;
+  const ImU32 ink = !line.judged ? t.dim : line.verdict->holds() ? t.teal : t.orange;
   const float x = right - width;
   draw_text(draw, look.fonts.small, {x, at.y + 1.0F}, ink, stands.c_str());
-  draw_icon(draw, line.verdict->holds() ? Icon::kCheck : Icon::kCross, {x - 10.0F, at.y + 8.0F},
-            12.0F, ink);
+  if (line.judged) {
+    draw_icon(draw, line.verdict->holds() ? Icon::kCheck : Icon::kCross, {x - 10.0F, at.y + 8.0F},
+              12.0F, ink);
+  }
   draw_text(draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
             fitted(look.fonts.medium, line.name, x - at.x - 44.0F).c_str());
   const std::string cost =
-      count_text(line.cost->substeps) + " sub-steps  ·  " + mean_time(*line.cost) + " a frame";
+      count_text(line.cost->substeps) + " sub-steps  ·  " + mean_time(*line.cost) + " per frame";
   draw_text(draw, look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost.c_str());
   ImGui::Dummy({1.0F, 36.0F});
 }
@@ -82,7 +86,7 @@ std::string divergence_text(const Session& session, const Compare::Run& run) {
   if (!run.divergence) return "No body is farther than " + threshold + " from this run's yet.";
   const std::string& body =
       session.scene().bodies[static_cast<std::size_t>(run.divergence->body)].name;
-  return "Parts from this run at " + fixed(run.divergence->time, 2) + " s: " + body +
+  return "Diverges from this run at " + fixed(run.divergence->time, 2) + " s: " + body +
          " is more than " + threshold + " away.";
 }
 
@@ -94,7 +98,8 @@ bool other(const Look& look, const Session& session, Compare& compare, Desk& des
   const float row = look.m.row;
   const bool opened = desk.compare_open == static_cast<int>(i);
   draw_line(look,
-            {overrides_title(run.overrides), compare_color(look, i), &*run.verdict, &run.cost},
+            {overrides_title(run.overrides), compare_color(look, i), &*run.verdict,
+             session.judged(), &run.cost},
             origin.x + width);
   label(look.fonts.small, look.theme->dim, divergence_text(session, run).c_str());
   if (button(look, "change", Icon::kNone, opened ? "Done" : "Change", ButtonKind::kPlain, 0.0F, row,
@@ -196,7 +201,8 @@ void compare(const Look& look, Lab& lab, Desk& desk) {
   space(look.m.section);
   const Cost cost = lab.compare.cost(lab.session);
   draw_line(look,
-            {run_title(lab.session, lab.compare), look.theme->blue, &lab.session.verdict(), &cost},
+            {run_title(lab.session, lab.compare), look.theme->blue, &lab.session.verdict(),
+             lab.session.judged(), &cost},
             ImGui::GetCursorScreenPos().x + width);
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < lab.compare.runs().size(); ++i) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -21,15 +22,16 @@ struct Entry {
   ImU32 color = 0;
   const Verdict* verdict = nullptr;
   const FrameReport* report = nullptr;
+  bool judged = false;  // a frame was
 };
 
 std::vector<Entry> entries(const Look& look, const Session& session, const Compare& compare) {
-  std::vector<Entry> list{
-      {run_title(session, compare), look.theme->blue, &session.verdict(), &session.report()}};
+  std::vector<Entry> list{{run_title(session, compare), look.theme->blue, &session.verdict(),
+                           &session.report(), session.judged()}};
   for (std::size_t i = 0; i < compare.runs().size(); ++i) {
     const Compare::Run& run = compare.runs()[i];
-    list.push_back(
-        {overrides_title(run.overrides), compare_color(look, i), &*run.verdict, &run.report});
+    list.push_back({overrides_title(run.overrides), compare_color(look, i), &*run.verdict,
+                    &run.report, session.judged()});
   }
   return list;
 }
@@ -41,9 +43,10 @@ void legend(const Look& look, const Session& session, const Compare& compare,
   float y = viewport.view_rect.y + kCaptionHeight + 8.0F;
   const float room = viewport.view_rect.width - 64.0F;
   for (const Entry& entry : entries(look, session, compare)) {
-    const std::string stands = entry.verdict->holds()
+    const std::string stands = !entry.judged ? "Ready"
+                               : entry.verdict->holds()
                                    ? "N " + std::to_string(entry.report->n_substeps)
-                                   : verdict_note(*entry.verdict);
+                                   : verdict_note(*entry.verdict, true);
     const std::string text =
         fitted(look.fonts.regular, entry.name + "  ·  " + stands, std::max(40.0F, room));
     const ImVec2 size = text_size(look.fonts.regular, text.c_str());
@@ -74,10 +77,12 @@ void pane_label(const Look& look, const Entry& entry, const ViewRect& r) {
   const float room = std::max(24.0F, right - at.x - 18.0F);
   draw_over(look, draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
             fitted(look.fonts.medium, entry.name, room).c_str());
-  const ImU32 ink = entry.verdict->holds() ? t.teal : t.orange;
-  draw_icon(draw, entry.verdict->holds() ? Icon::kCheck : Icon::kCross, {at.x + 6.0F, at.y + 26.0F},
-            12.0F, ink);
-  std::string note = verdict_note(*entry.verdict);
+  const ImU32 ink = !entry.judged ? t.dim : entry.verdict->holds() ? t.teal : t.orange;
+  const Icon icon = !entry.judged            ? Icon::kNone
+                    : entry.verdict->holds() ? Icon::kCheck
+                                             : Icon::kCross;
+  draw_icon(draw, icon, {at.x + 6.0F, at.y + 26.0F}, 12.0F, ink);
+  std::string note = verdict_note(*entry.verdict, entry.judged);
   if (narrow) note = entry.verdict->holds() ? n : fixed(entry.verdict->failed_at(), 2) + " s";
   draw_over(look, draw, look.fonts.small, {at.x + 18.0F, at.y + 19.0F}, ink, note.c_str());
   draw.PopClipRect();
@@ -94,10 +99,6 @@ void pane_borders(const Look& look, const Viewport& viewport) {
 }
 
 }  // namespace
-
-std::string verdict_note(const Verdict& verdict) {
-  return verdict.holds() ? "holds" : "fails at " + fixed(verdict.failed_at(), 2) + " s";
-}
 
 std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,
                                  const Viewport& viewport) {

@@ -52,13 +52,13 @@ std::string counted(int n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-/// "25 sweeps a frame", "2 steps"; "" where there are as many as usual.
+/// "25 sweeps per frame", "2 steps"; "" where there are as many as usual.
 std::string iterations_text(const Settings& s, bool always) {
   if (!reads(s, "iterations")) return "";
   const bool shared = reads(s, "share_iterations") && s.share_iterations;
   if (!always && !shared && s.iterations == Settings{}.iterations) return "";
   return counted(s.iterations, entry_of(s.solver).sweeps ? "sweep" : "step") +
-         (shared ? " a frame" : "");
+         (shared ? " per frame" : "");
 }
 
 /// By how many iterations there are; Numerov's is told apart by its colour from discs of others.

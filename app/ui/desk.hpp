@@ -59,6 +59,8 @@ struct Desk {
   bool split = false;           // what is compared is seen side by side, not as ghosts
   int compare_open = -1;        // of which of the compared the settings are shown
   int dismissed_failure = 0;    // of which run the failure was put aside
+  int failure_run = 0;          // of which run the failure is shown,
+  int failure_place = -1;       // and at which of the places for its card
   int pictures_in_frame = 0;    // that were drawn while one frame was computed
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
@@ -184,7 +185,8 @@ void effect_costs(const Look& look, Lab& lab) {
   space(8.0F);
   label(look.fonts.medium, t.text, measured.scene()->title.c_str());
   label(look.fonts.small, t.dim, method_name(t, measured.experiment()->settings).c_str());
-  if (!costs->run.holds) label(look.fonts.small, t.orange, costs->run.verdict.c_str());
+  if (!costs->run.holds)
+    label(look.fonts.small, t.orange, verdict_words(costs->run.verdict).c_str());
   space(look.m.section);
   stages_of_run(look, measured.scene()->effects, *costs);
   space(look.m.section);

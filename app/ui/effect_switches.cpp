@@ -101,7 +101,7 @@ void effect_switches(const Look& look, Lab& lab) {
       lab.accuracy.effects.cancel();
     }
   } else if (costs == nullptr &&
-             button(look, "measure effects", Icon::kPlay, "Measure what each adds",
+             button(look, "measure effects", Icon::kPlay, "Measure cost per effect",
                     ButtonKind::kPlain, width, look.m.row,
                     "The run from its start in the background, every frame once as it is and once "
                     "without each effect: the difference is the effect's, solving its rows "

@@ -51,7 +51,7 @@ void compared_energies(const PlotContext& in, ImVec2 heading, float left, Channe
 }
 
 /// Names with their values at the right of a heading, short ones where there is little room, and
-/// where there is less still the names alone.
+/// where there is less still the values alone: names stand at the curves, in the same colours.
 struct EnergyLegend {
   const char* name;
   const char* brief;
@@ -65,7 +65,8 @@ void energy_legend(const PlotContext& in, ImVec2 heading, float left, const Unit
   const float end = heading.x + ImGui::GetContentRegionAvail().x;
   const auto text = [&](const EnergyLegend& one, int detail) {
     const double value = shown_value(in.session.history(), one.channel, in.desk.time) + one.offset;
-    if (detail == 0 || !std::isfinite(value)) return std::string(one.alone);
+    if (!std::isfinite(value)) return std::string(one.alone);
+    if (detail == 0) return in_unit(value, unit, 9999.0, 2);
     return (detail == 2 ? one.name : one.brief) + (" " + in_unit(value, unit, 9999.0, 2));
   };
   const auto width = [&](int detail) {
@@ -86,10 +87,11 @@ void energy_legend(const PlotContext& in, ImVec2 heading, float left, const Unit
 
 std::vector<Series> energy_series(const Theme& theme, const History& history, bool gravity) {
   const double zero = history.potential_offset();
-  std::vector<Series> series{{&history, Channel::kKinetic, theme.teal, false, true}};
+  std::vector<Series> series{{&history, Channel::kKinetic, theme.teal, "kinetic", false, true}};
   if (!gravity) return series;  // the total is the same curve
-  series.push_back({&history, Channel::kPotential, theme.purple, false, false, 1.0F, zero});
-  series.push_back({&history, Channel::kTotal, theme.orange, false, false, 1.5F, zero});
+  series.push_back(
+      {&history, Channel::kPotential, theme.purple, "potential", false, false, 1.0F, zero});
+  series.push_back({&history, Channel::kTotal, theme.orange, "total", false, false, 1.5F, zero});
   return series;
 }
 
@@ -120,7 +122,7 @@ void energy_plot(const PlotContext& in, float height, bool last) {
     tooltip(look, "Kinetic energy", "Of each run. One that explodes leaves the plot.");
     compared_energies(in, origin, left, Channel::kKinetic, unit);
     spec.most = kRoomForFailed * most;
-    spec.series.push_back({&h, Channel::kKinetic, t.blue});
+    spec.series.push_back({&h, Channel::kKinetic, t.blue, kThisRun});
     add_compared(in, spec, Channel::kKinetic);
   } else {
     tooltip(look, "Energy",
@@ -167,7 +169,8 @@ void drift_plot(const PlotContext& in, float height, bool last) {
   spec.linear = true;  // a loss is below zero
   spec.factor = unit.factor;
   spec.least_span = std::max(0.1 * unit.factor, kLeastDrift);
-  spec.series.push_back({&h, Channel::kDrift, several ? t.blue : t.orange});
+  spec.series.push_back(
+      {&h, Channel::kDrift, several ? t.blue : t.orange, several ? kThisRun : "drift"});
   if (several) {
     compared_energies(in, origin, origin.x + heading_width(look, heading.c_str()), Channel::kDrift,
                       unit);

@@ -1,11 +1,14 @@
-// The list under "?": every key, and what fingers and mouse do.
+// What is under "?": what this is, every key, and what fingers and mouse do.
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "app/text/citation.hpp"
 #include "app/ui/card.hpp"
 #include "app/ui/keys.hpp"
 #include "app/ui/panels.hpp"
@@ -19,11 +22,7 @@ struct Gesture {
   std::string_view what;
 };
 // What Dear ImGui and the pointer do; the table of keys is keys.cpp's.
-constexpr std::array<Gesture, 13> kGestures{{{"Home, End", "first and last saved frame"},
-                                             {"F6, Shift F6", "next panel, the one before"},
-                                             {"Tab, arrows", "controls of a panel"},
-                                             {"Esc", "close a card"},
-                                             {"click a body", "what it is and does"},
+constexpr std::array<Gesture, 13> kGestures{{{"click a body", "what it is and does"},
                                              {"drag a body", "pull it, while it plays"},
                                              {"drag beside", "turn the view"},
                                              {"right drag, Shift drag", "move the view"},
@@ -31,7 +30,11 @@ constexpr std::array<Gesture, 13> kGestures{{{"Home, End", "first and last saved
                                              {"wheel on a plot", "more or less time"},
                                              {"drag, click on a plot", "that range, that moment"},
                                              {"Ctrl click on a slider", "type the value"},
-                                             {"drop a file", "run your own scene"}}};
+                                             {"drop a file", "run your own scene"},
+                                             {"Home, End", "first and last saved frame"},
+                                             {"F6, Shift F6", "next panel, the one before"},
+                                             {"Tab, arrows", "controls of a panel"},
+                                             {"Esc", "close a card"}}};
 
 // Lines of one column. @return its height
 float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const Gesture> lines) {
@@ -47,9 +50,26 @@ float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const G
   return at.y - top;
 }
 
+// What this is, whose method it is, and under which licence it may be used.
+void about(const Look& look, Lab& lab) {
+  const Theme& t = *look.theme;
+  card_title(look, 0, Icon::kNone, "substep");
+  label(look.fonts.regular, t.text, kPurpose);
+  label(look.fonts.small, t.dim,
+        (std::string("After the paper “") + kPaperTitle + "”, " + kPaperAuthors + ", doi " +
+         kPaperDoi + ". " + kLicence + ".")
+            .c_str());
+  if (button(look, "bibtex", Icon::kNone, "Copy BibTeX of the paper", ButtonKind::kPlain, 0.0F,
+             look.m.row, "The paper's entry for a bibliography")) {
+    ImGui::SetClipboardText(kPaperBibtex);
+    lab.tell("BibTeX copied");
+  }
+  space(8.0F);
+}
+
 }  // namespace
 
-void help_card(const Look& look, Desk& desk, const Viewport& viewport) {
+void help_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   if (!desk.help) return;
   std::array<Gesture, 32> keys{};
   std::size_t count = 0;
@@ -57,12 +77,20 @@ void help_card(const Look& look, Desk& desk, const Viewport& viewport) {
   const bool two = ImGui::GetIO().DisplaySize.x > 760.0F;  // columns
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   if (begin_card(look, viewport, "##help", two ? 656.0F : 400.0F, card_middle(viewport), 0.5F)) {
-    card_title(look, 0, Icon::kNone, "Keys and gestures");
+    about(look, lab);
+    section(look, two ? "Keys and gestures" : "Gestures and keys");
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    float height = draw_lines(look, at, 64.0F, std::span(keys).first(count));
-    const ImVec2 second = two ? ImVec2(at.x + 286.0F, at.y) : ImVec2(at.x, at.y + height + 12.0F);
-    const float other = draw_lines(look, second, 166.0F, kGestures);
-    height = two ? std::max(height, other) : height + 12.0F + other;
+    constexpr float kKeys = 64.0F;
+    constexpr float kGestured = 166.0F;
+    const auto shown = std::span(keys).first(count);
+    float height = 0.0F;
+    if (two) {
+      height = std::max(draw_lines(look, at, kKeys, shown),
+                        draw_lines(look, {at.x + 286.0F, at.y}, kGestured, kGestures));
+    } else {  // a phone has fingers and no keyboard
+      height = draw_lines(look, at, kGestured, kGestures) + 12.0F;
+      height += draw_lines(look, {at.x, at.y + height}, kKeys, shown);
+    }
     ImGui::Dummy({1.0F, height});
     close |= card_closed(look);
   }

@@ -148,13 +148,13 @@ void stabilisation(const Look& look, const Scene& scene, Settings& s) {
   if (reads(s, "alpha")) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
            "Stability threshold of Eq. 5: 1 is the limit itself, less keeps a distance from it. "
-           "N goes with 1/√α (Eq. 10): a quarter of alpha doubles N.");
+           "N is proportional to 1/√α (Eq. 10): quartering alpha doubles N.");
   }
   if (reads(s, "n")) {
     slider(look, "N", s.n, 1, 128, true, "Sub-steps in every frame: dt = h/N.");
   }
   if (reads(s, "n_max")) {
-    slider(look, "N at most", s.n_max, 1, 512, true,
+    slider(look, "Max sub-steps", s.n_max, 1, 512, true,
            "An impact or a start that does not fit asks for thousands: this many are given.");
   }
   if (reads(s, "n_cap")) {
@@ -191,7 +191,7 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
            "factor as it is.");
   }
   if (reads(s, "share_iterations")) {
-    checkbox(look, "sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
+    checkbox(look, "Sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
              "The sweeps are those of a whole frame, shared out over its sub-steps: small steps "
              "(Macklin et al. 2019, Small steps).");
   }
@@ -219,15 +219,15 @@ void finer_points_of_mode(const Look& look, Settings& s) {
              "Off: the paper's rule alone.");
   }
   if (reads(s, "islands")) {
-    checkbox(look, "each island its own N", s.islands, width,
+    checkbox(look, "Per-island sub-steps", s.islands, width,
              "Bodies that neither joints nor contacts to come connect within a frame take "
              "sub-steps of their own: what is calm does not pay for what is not. This project's.");
   }
-  checkbox(look, "let what rests sleep", s.sleep, width,
+  checkbox(look, "Sleep resting bodies", s.sleep, width,
            "Bodies stand still and cost nothing once all that is connected with them has been "
            "slower than 1 cm/s for half a second. They wake where something comes near.");
   if (reads(s, "probe")) {
-    checkbox(look, "probe before the first frame", s.probe, width,
+    checkbox(look, "Probe before the first frame", s.probe, width,
              "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "
              "without it the first N is 1. Acts from a reset on.");
   }
@@ -257,14 +257,14 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   const bool aimed = follows_accelerations(s) && drift_law(s) == Drift::kFull;
   if (effects.joints && !aimed) {
     bool second = s.drift_order == 2;
-    checkbox(look, "correct for curvature", second, width,
+    checkbox(look, "Correct for curvature", second, width,
              "Second order: joints are also corrected for what turning will have bent by the end "
              "of the sub-step, dt²/2 phi''. Half the error where joints are exact, noise "
              "where they are soft. This project's.");
     s.drift_order = second ? 2 : 1;
   }
   if (reads(s, "warm_start")) {
-    checkbox(look, "warm start", s.warm_start, width,
+    checkbox(look, "Warm start", s.warm_start, width,
              "Sweeps start from the forces of the last sub-step.");
   }
   if (reads(s, "pivots") && effects.contact) {

@@ -20,7 +20,7 @@ namespace {
 std::string solver_words(const Settings& s) {
   std::string words = entry_of(s.solver).title;
   if (entry_of(s.solver).sweeps) words += " " + std::to_string(s.iterations);
-  if (reads(s, "share_iterations") && s.share_iterations) words += " a frame";
+  if (reads(s, "share_iterations") && s.share_iterations) words += " per frame";
   if (reads(s, "refinements") && s.refinements > 0) {
     words += ", refined " + std::to_string(s.refinements);
   }
@@ -72,7 +72,7 @@ std::string unit_of_n(const FrameReport& report, int left) {
   if (left > 0) return "of " + std::to_string(report.n_substeps + left) + " sub-steps";
   if (report.asleep > 0) return "sub-steps, " + std::to_string(report.asleep) + " asleep";
   if (islands) return "sub-steps, mean " + fixed(report.n_mean, 1);
-  return report.n_substeps == 1 ? "step a frame" : "sub-steps";
+  return report.n_substeps == 1 ? "step per frame" : "sub-steps";
 }
 
 void caption(const Look& look, const Session& session, const Viewport& viewport, bool phone) {
@@ -169,8 +169,8 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
   draw.AddRectFilledMultiColor({at.x + kHalf, at.y}, {at.x + 2 * kHalf, at.y + 6.0F}, mid, high,
                                high, mid);
   draw.AddRect(at, {at.x + 2 * kHalf, at.y + 6.0F}, fade(look.theme->faint, 0.6F));
-  draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->dim,
-            "k/M: orange asks for small steps");
+  draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->text,
+            "k/M: orange needs smaller steps");
 }
 
 }  // namespace substep::ui

@@ -70,8 +70,6 @@ Part part_of_window(const Viewport& viewport, std::size_t pane);
 /// Who is who in the picture; nothing where nothing is compared.
 void compare_legend(const Look& look, const Session& session, const Compare& compare,
                     const Viewport& viewport);
-/// "holds", or when it failed.
-std::string verdict_note(const Verdict& verdict);
 /// The guided tour's card, or the button that opens it.
 void tour(const Look& look, Desk& desk, const Viewport& viewport);
 /// What this run is called beside others.
@@ -109,7 +107,7 @@ void trouble_card(const Look& look, Lab& lab, const Viewport& viewport);
 void heavy_card(const Look& look, Lab& lab, const Viewport& viewport);
 /// How far a long frame is, with a button that leaves it.
 void long_frame_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
-void help_card(const Look& look, Desk& desk, const Viewport& viewport);
+void help_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 
 /// Heights that the right panel's fixed parts need.
 float why_summary_height();

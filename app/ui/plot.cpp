@@ -9,6 +9,7 @@
 
 #include "app/text/format.hpp"
 #include "app/ui/plot_curves.hpp"
+#include "app/ui/plot_labels.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -149,54 +150,11 @@ void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDra
   }
 }
 
-void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width) {
-  constexpr float kOn = 5.0F;
-  constexpr float kPeriod = 9.0F;
-  const float length = std::hypot(b.x - a.x, b.y - a.y);
-  for (float at = 0.0F; at < length; at += kPeriod) {
-    const float p = at / length;
-    const float q = std::min(at + kOn, length) / length;
-    draw.AddLine({a.x + p * (b.x - a.x), a.y + p * (b.y - a.y)},
-                 {a.x + q * (b.x - a.x), a.y + q * (b.y - a.y)}, color, width);
-  }
-}
-
-void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
-  for (const Level& level : spec.levels) {
-    const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
-    const bool above = v > f.high;  // off the picture: named at its edge
-    const float y = above ? f.min.y + 0.5F : std::round(f.y(level.value)) + 0.5F;
-    if (!above) draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color, 1.0F);
-    const std::string name = level.name + (above ? " ↑" : "");
-    const ImVec2 text = text_size(look.fonts.small, name.c_str());
-    // Below it, where there is room: what levels are compared with is mostly above them.
-    const float text_y = y + 1.0F + text.y > f.max.y ? y - text.y - 1.0F : y + 1.0F;
-    const ImVec2 at{f.max.x - text.x - 6.0F, text_y};
-    // Curves may run behind the words, not through them.
-    draw.AddRectFilled({at.x - 3.0F, at.y}, {at.x + text.x + 3.0F, at.y + text.y},
-                       fade(look.theme->well, 0.6F), 3.0F);
-    draw_text(draw, look.fonts.small, at, level.color, name.c_str());
-  }
-}
-
-void draw_marks(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
-  float below = f.min.y + 2.0F;
-  for (const Mark& mark : spec.marks) {
-    if (mark.time < f.t0 || mark.time > f.t1) continue;
-    const float x = std::round(f.x(mark.time)) + 0.5F;
-    draw_dashed(draw, {x, f.min.y}, {x, f.max.y}, mark.color, 1.0F);
-    if (mark.name.empty()) continue;
-    const ImVec2 size = text_size(look.fonts.small, mark.name.c_str());
-    const float left = x + 4.0F + size.x > f.max.x ? x - 4.0F - size.x : x + 4.0F;
-    draw_text(draw, look.fonts.small, {left, below}, mark.color, mark.name.c_str());
-    below += size.y;
-  }
-}
-
-void draw_hover(const Look& look, const PlotSpec& spec, const PlotFrame& f, const TimeAxis& axis,
-                ImDrawList& draw) {
-  if (!axis.hover || *axis.hover < f.t0 || *axis.hover > f.t1) return;
-  const float x = std::round(f.x(*axis.hover)) + 0.5F;
+void draw_cursor(const Look& look, const PlotSpec& spec, const PlotFrame& f, const TimeAxis& axis,
+                 ImDrawList& draw) {
+  const std::optional<double> cursor = axis.cursor();
+  if (!cursor || *cursor < f.t0 || *cursor > f.t1) return;
+  const float x = std::round(f.x(*cursor)) + 0.5F;
   if (axis.drag_from) {
     draw.AddRectFilled({f.x(*axis.drag_from), f.min.y}, {x, f.max.y},
                        fade(look.theme->accent, 0.25F));
@@ -272,7 +230,7 @@ bool scale_toggle(const Look& look, ImVec2 at, bool pointed, PlotState& state) {
 }  // namespace
 
 double shown_value(const History& history, Channel channel, const TimeAxis& axis) {
-  if (axis.hover) return history.at(channel, *axis.hover);
+  if (const auto cursor = axis.cursor()) return history.at(channel, *cursor);
   const auto values = history[channel];
   return values.empty() ? kNothing : static_cast<double>(values.back());
 }
@@ -285,7 +243,7 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
 
   PlotFrame f;
   f.min = {origin.x + kGutter, origin.y};
-  f.max = {origin.x + size.x, origin.y + size.y - below};
+  f.max = {origin.x + size.x - kNameGutter, origin.y + size.y - below};
   std::tie(f.t0, f.t1) = axis.window(now);
   f.logarithmic = state.logarithmic && !spec.linear;
   find_range(spec, f, axis.from, state);
@@ -300,10 +258,12 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   draw_values(look, spec, f, toggle ? kToggle : 0.0F, draw);
   draw.PushClipRect(f.min, f.max, true);
   for (const Series& series : spec.series) draw_series(series, axis.from, f, draw);
-  draw_levels(look, spec, f, draw);
-  draw_marks(look, spec, f, draw);
-  draw_hover(look, spec, f, axis, draw);
+  draw_cursor(look, spec, f, axis, draw);
+  draw_marks(look, spec, axis.from, f, draw);
   draw.PopClipRect();
+  draw_levels(look, spec, f, draw);
+  draw_names(look, spec, axis.from, f, draw);
+  if (spec.time_labels) draw_cursor_time(look, f, axis, draw);
 
   ImGui::SetCursorScreenPos(f.min);
   ImGui::InvisibleButton("curves", {f.max.x - f.min.x, f.max.y - f.min.y},

@@ -25,6 +25,8 @@ struct TimeAxis {
   std::optional<double> hover_next;  // what the plots report for the next one [s]
   std::optional<double> drag_from;   // a range is being dragged from here [s]
   std::optional<double> clicked;     // to be looked at; whoever goes there resets it [s]
+  std::optional<double> past;        // the moment that the window shows, where it is no longer
+                                     // the newest [s]
 
   /// First and last time shown, for a run that has come to `now` [s].
   [[nodiscard]] std::pair<double, double> window(double now) const;
@@ -34,12 +36,15 @@ struct TimeAxis {
   void pan(double seconds, double now);
   void show(double t0, double t1);
   void follow_again();
+  /// The moment whose values are read: under the pointer, or else the one that the window shows.
+  [[nodiscard]] std::optional<double> cursor() const { return hover ? hover : past; }
 };
 
 struct Series {
   const History* history = nullptr;
   Channel channel = Channel::kSubsteps;
   ImU32 color = 0;
+  std::string name;     // written where the curve ends
   bool steps = false;   // holds its value for a frame
   bool filled = false;  // down to zero
   float width = 1.5F;
@@ -50,6 +55,7 @@ struct Series {
 struct Level {
   double value = 0.0;
   std::string name;
+  std::string brief;  // where there is little room
   ImU32 color = 0;
 };
 
@@ -84,16 +90,17 @@ struct PlotSpec {
 };
 
 inline constexpr float kTimeLabelHeight = 18.0F;
+inline constexpr float kNameGutter = 56.0F;  // right of the curves, for their names
 
 /// Draws series over time with one vertical line per pixel column at most, from the least to the
 /// greatest value in it: nothing is missed and 200 s cost as much as 2. Wheel zooms, a drag shows
 /// its range, a drag with the right button or Shift moves, a click goes to its time, a double click
 /// follows the newest again.
-/// @param size with the gutter of the labels, and with the time labels where there are any
+/// @param size with the gutters of values and names, and with the time labels where there are any
 void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeAxis& axis,
           PlotState& state);
 
-/// The value under the pointer, or the last one. NaN where there is none.
+/// The value at the cursor, or the last one. NaN where there is none.
 double shown_value(const History& history, Channel channel, const TimeAxis& axis);
 
 }  // namespace substep::ui

@@ -18,19 +18,20 @@
 namespace substep::ui {
 
 void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps) {
+  // Named once: the plots lie above each other with the same time axis.
+  const bool named = channel == Channel::kSubsteps || !in.desk.plot(Plot::kSubsteps).shown;
   for (std::size_t i = 0; i < in.compare.runs().size(); ++i) {
     const Compare::Run& run = in.compare.runs()[i];
     const ImU32 color = compare_color(in.look, i);
-    spec.series.push_back({&run.history, channel, color, steps, false, 1.25F});
-    if (run.divergence) spec.marks.push_back({run.divergence->time, "", color});
+    spec.series.push_back(
+        {&run.history, channel, color, overrides_title(run.overrides), steps, false, 1.25F});
+    if (run.divergence)
+      spec.marks.push_back({run.divergence->time, named ? "diverges" : "", color});
   }
 }
 
-void draw_plot(const PlotContext& in, Plot which, PlotSpec spec, float height) {
+void draw_plot(const PlotContext& in, Plot which, const PlotSpec& spec, float height) {
   const Session& session = in.session;
-  if (!session.timeline().at_end()) {  // the past is looked at
-    spec.marks.push_back({session.state().time, "", in.look.theme->text});
-  }
   const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
   plot(in.look, spec, in.session.history().end_time(),
        {ImGui::GetContentRegionAvail().x, height + below}, in.desk.time, in.desk.plot(which));
@@ -38,6 +39,14 @@ void draw_plot(const PlotContext& in, Plot which, PlotSpec spec, float height) {
     in.session.go_to(session.timeline().at_time(*in.desk.time.clicked));
     in.desk.time.clicked.reset();
   }
+}
+
+std::optional<int> smallest_stable_n(const History& history, const Settings& settings) {
+  const bool varies = settings.mode == Mode::kAdaptive;
+  if (!varies || entry_of(settings.solver).sweeps) return std::nullopt;
+  const Extent least = history.samples(Channel::kLimit).extent(0, history.size());
+  if (least.empty() || !(least.high > 1.0F)) return std::nullopt;
+  return static_cast<int>(std::min(1e9F, std::ceil(least.high)));
 }
 
 namespace {
@@ -50,12 +59,6 @@ bool exists(const Session& session, Plot plot) {
   return plot != Plot::kError || effects.joints || effects.contact;
 }
 
-// The largest N at alpha = 1 so far: what a constant N would have to be to hold throughout.
-int constant_to_beat(const History& history) {
-  const Extent least = history.samples(Channel::kLimit).extent(0, history.size());
-  return least.empty() ? 0 : static_cast<int>(std::min(1e9F, std::ceil(least.high)));
-}
-
 void substeps_plot(const PlotContext& in, float height, bool last) {
   const Look& look = in.look;
   const Theme& t = *look.theme;
@@ -64,10 +67,12 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   const bool several = in.compare.open();
   count_heading(in, "Sub-steps per frame", "Sub-steps", Channel::kSubsteps, "N = ", "",
                 [](double v) { return fixed(v, 0); });
-  tooltip(look, "Sub-steps per frame",
-          "The N taken in each frame (Eq. 11). Dashed: the constant N that would have held so far, "
-          "the largest h √r / 2, which is N at alpha = 1. Adaptive pays it only where it must. "
-          "Teal, where each island has its own N: the mean of the bodies.");
+  tooltip(
+      look, "Sub-steps per frame",
+      "The N taken in each frame (Eq. 11). Dashed: the smallest constant N that would have been "
+      "stable so far, which is N at alpha = 1 of the stiffest frame. It is known only after "
+      "the run. Where each island has its own N: the most that one took, and the mean of the "
+      "bodies.");
 
   PlotSpec spec;
   spec.id = "substeps";
@@ -75,19 +80,21 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   spec.from_zero = true;
   spec.counts = true;
   spec.least_span = 4.0;
-  spec.series.push_back({&h, Channel::kSubsteps, t.blue, true, !several});
-  if (!several && looks_for_islands(s)) spec.series.push_back({&h, Channel::kMean, t.teal, true});
+  const bool islands = !several && looks_for_islands(s);
+  const char* name = several ? kThisRun : islands ? "most" : "N";
+  spec.series.push_back({&h, Channel::kSubsteps, t.blue, name, true, !several});
+  if (islands) spec.series.push_back({&h, Channel::kMean, t.teal, "mean", true});
   add_compared(in, spec, Channel::kSubsteps, true);
-  if (const int beat = constant_to_beat(h); beat > 1 && s.mode != Mode::kDamping) {
-    spec.levels.push_back(
-        {static_cast<double>(beat), "constant N to beat " + grouped(beat), t.amber});
+  if (const auto n = smallest_stable_n(h, s); n && !several) {
+    spec.levels.push_back({static_cast<double>(*n), "Smallest stable constant N: " + grouped(*n),
+                           "Stable constant N: " + grouped(*n), t.amber});
   }
   // A cap is worth a line once N comes near it.
   const int cap = reads(s, "n_max") ? s.n_max : reads(s, "n_cap") ? s.n_cap : 0;
   const std::size_t recent = h.size() - std::min<std::size_t>(h.size(), 600);
   const Extent taken = h.samples(Channel::kSubsteps).extent(recent, h.size());
   if (cap > 0 && taken.high >= 0.7F * static_cast<float>(cap)) {
-    spec.levels.push_back({static_cast<double>(cap), "cap " + std::to_string(cap), t.orange});
+    spec.levels.push_back({static_cast<double>(cap), "cap " + std::to_string(cap), "", t.orange});
   }
   draw_plot(in, Plot::kSubsteps, spec, height);
 }
@@ -110,14 +117,16 @@ void error_plot(const PlotContext& in, float height, bool last) {
     const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;
     compared_values(in, origin, origin.x + heading_width(look, "Error, m"), channel, coarse_number,
                     order_of_magnitude);
-    spec.series.push_back({&h, channel, t.blue});
+    spec.series.push_back({&h, channel, t.blue, kThisRun});
     add_compared(in, spec, channel);
   } else {
     std::vector<NamedChannel> shown;
     if (effects.contact) shown.push_back({Channel::kPenetration, "overlap", t.amber});
     if (effects.joints) shown.push_back({Channel::kJointError, "joints", t.blue});
     named_values(in, origin, origin.x + heading_width(look, "Error, m"), shown);
-    for (const NamedChannel& one : shown) spec.series.push_back({&h, one.channel, one.color});
+    for (const NamedChannel& one : shown) {
+      spec.series.push_back({&h, one.channel, one.color, one.name});
+    }
   }
   draw_plot(in, Plot::kError, spec, height);
 }
@@ -137,13 +146,13 @@ void time_plot(const PlotContext& in, float height, bool last) {
   spec.from_zero = true;
   spec.least_span = 0.01;
   if (several) {
-    spec.series.push_back({&h, Channel::kTime, look.theme->blue});
+    spec.series.push_back({&h, Channel::kTime, look.theme->blue, kThisRun});
     add_compared(in, spec, Channel::kTime);
   } else {
-    spec.series.push_back({&h, Channel::kTime, look.theme->grey, false, true});
+    spec.series.push_back({&h, Channel::kTime, look.theme->grey, "all", false, true});
     for (const Stage& stage : stages(in.look, in.session)) {
       if (stage.channel == Channel::kTime) continue;
-      spec.series.push_back({&h, stage.channel, stage.color, false, false, 1.0F});
+      spec.series.push_back({&h, stage.channel, stage.color, stage.name, false, false, 1.0F});
     }
   }
   draw_plot(in, Plot::kTime, spec, height);
@@ -295,6 +304,9 @@ void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, flo
       height - look.m.row - 8.0F - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
   const float unit = std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot));
   const PlotContext in{look, lab.session, lab.compare, desk};
+  // What is read off the plots is what the picture shows, also in the past.
+  desk.time.past.reset();
+  if (!lab.session.timeline().at_end()) desk.time.past = lab.session.state().time;
   for (const PlotInfo* info : shown) {
     if (info != shown.front()) space(gap);
     info->draw(in, unit, info == shown.back());

@@ -83,7 +83,7 @@ void scrubber(const Look& look, Session& session, ImVec2 at, float width, float 
     tooltip(
         look, when.c_str(),
         "Drag to look back (, and . go by frames). The run goes on from where you leave it, bit "
-        "for bit; what came after is forgotten then.");
+        "for bit; later frames are discarded.");
   }
 }
 

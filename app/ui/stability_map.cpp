@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -76,18 +77,16 @@ ImU32 cell_color(const Theme& t, const Result& result) {
   return fade(t.orange, (t.dark ? 0.65F : 0.5F) - 0.35F * std::min(1.0F, survived));
 }
 
-void read_out(const Look& look, const Result& result, double ratio) {
+void read_cell(const Look& look, const Result& result, double ratio) {
   const SeriesParameter parameter = series_parameter(result.experiment.settings);
-  ImGui::BeginTooltip();
-  label(look.fonts.medium, look.theme->text,
-        (curve_style(*look.theme, result.experiment.settings).name() + ", " + parameter.name +
-         " = " + plain_number(parameter.value))
-            .c_str());
-  label(look.fonts.small, look.theme->dim, ("mass ratio " + plain_number(ratio)).c_str());
-  label(look.fonts.small, result.metrics.holds ? look.theme->dim : look.theme->orange,
-        result.metrics.verdict.c_str());
-  label(look.fonts.small, look.theme->accent, "Click to run it");
-  ImGui::EndTooltip();
+  const Theme& t = *look.theme;
+  const std::string name = curve_style(t, result.experiment.settings).name() + ", " +
+                           parameter.name + " = " + plain_number(parameter.value);
+  read_out(look, std::vector<ReadOutLine>{{name, t.text, true},
+                                          {"mass ratio " + plain_number(ratio), t.dim},
+                                          {verdict_words(result.metrics.verdict),
+                                           result.metrics.holds ? t.dim : t.orange},
+                                          {"Click to run it", t.accent}});
 }
 
 std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy, const Grid& grid,
@@ -128,8 +127,13 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
       }
       const Result& result = accuracy.results()[known->second];
       draw.AddRectFilled(min, max, cell_color(t, result), 3.0F);
-      centred({min.x, min.y - 0.5F * kCellGap}, cell - kCellGap, t.text,
-              result.metrics.holds ? "holds" : fixed(result.metrics.failed_at, 2));
+      if (result.metrics.holds) {  // a word would be wider than some cells
+        draw_icon(draw, Icon::kCheck, {0.5F * (min.x + max.x), 0.5F * (min.y + max.y)}, 14.0F,
+                  t.text);
+      } else {
+        centred({min.x, min.y - 0.5F * kCellGap}, cell - kCellGap, t.text,
+                fixed(result.metrics.failed_at, 2));
+      }
       if (!hovered || mouse.x < min.x || mouse.x >= max.x || mouse.y < min.y || mouse.y >= max.y) {
         continue;
       }
@@ -142,10 +146,16 @@ std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy,
         {origin.x + kMapGutter + cell * static_cast<float>(column), origin.y + kCell * rows - 3.0F},
         cell - kCellGap, t.dim, short_ratio(grid.loads[column] * ratio));
   }
+  // The axes: the parameter is named above the map.
+  const ImVec2 axis = text_size(look.fonts.small, "ratio");
+  draw_text(draw, look.fonts.small,
+            {origin.x + kMapGutter - 8.0F - axis.x,
+             origin.y + kCell * rows - 3.0F + 0.5F * (kCell - axis.y)},
+            t.dim, "ratio");
   if (under) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     const Result& result = accuracy.results()[*under];
-    read_out(look, result, result.experiment.load * ratio);
+    read_cell(look, result, result.experiment.load * ratio);
   }
   return clicked ? under : std::nullopt;
 }

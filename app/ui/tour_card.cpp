@@ -19,6 +19,7 @@ constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 void go_to(Desk& desk, int step) { desk.follow = "tour=" + std::to_string(step + 1); }
 
 void end(Desk& desk) {
+  if (desk.tour >= 0) desk.follow = "tour=off";  // its ghosts go with it
   desk.tour = -1;
   desk.tour_hint = false;
 }

@@ -7,6 +7,7 @@
 
 #include "app/app.hpp"
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -70,7 +71,8 @@ constexpr float kChipFrame = 40.0F;  // of a verdict: its sign and the round end
 // Without what it failed by where there is no room for it: that is in its tooltip.
 std::string verdict_text(const App& app, float room) {
   const Look& look = app.look;
-  const std::string& text = app.session.verdict().text();
+  if (!app.session.judged()) return "Ready";
+  const std::string text = verdict_words(app.session.verdict().text());
   room -= kChipFrame;
   if (text_size(look.fonts.medium, text.c_str()).x <= room) return text;
   return fitted(look.fonts.medium, text.substr(0, text.find(": ")), room);
@@ -82,8 +84,9 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   const Look& look = app.look;
   const Theme& t = *look.theme;
   const Verdict& verdict = app.session.verdict();
+  const bool ready = !app.session.judged();
   const bool disturbed = verdict.holds() && verdict.disturbed();
-  const ImU32 color = disturbed ? t.amber : verdict.holds() ? t.teal : t.orange;
+  const ImU32 color = ready ? t.dim : disturbed ? t.amber : verdict.holds() ? t.teal : t.orange;
   const ImVec2 size = text_size(look.fonts.medium, text.c_str());
   const float width = size.x + kChipFrame;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -91,7 +94,7 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   draw.AddRectFilled({at.x, top}, {at.x + width, top + 28.0F}, fade(color, t.dark ? 0.14F : 0.1F),
                      14.0F);
   const ImVec2 sign(at.x + 17.0F, top + 14.0F);
-  if (disturbed) {
+  if (disturbed || ready) {
     draw.AddCircle(sign, 5.0F, color, 0, 2.0F);
   } else {
     draw_icon(draw, verdict.holds() ? Icon::kCheck : Icon::kCross, sign, 16.0F, color);
@@ -100,12 +103,14 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
             text.c_str());
   ImGui::SetCursorScreenPos({at.x, top});
   ImGui::InvisibleButton("verdict", {width, 28.0F});
-  tooltip(look, verdict.text().c_str(),
-          disturbed ? "A body was pulled or a ball thrown: this is no longer the scene's own run. "
-                      "Joints that tear and numbers that are not finite are judged still. A reset "
-                      "brings the scene back."
-                    : "Judged by the criteria in the scene's file: the largest joint gap, energy "
-                      "gained, a body displaced, numbers that are not finite.");
+  tooltip(look, ready ? text.c_str() : verdict_words(verdict.text()).c_str(),
+          ready ? "Nothing ran yet: the first frame is judged when it was taken."
+          : disturbed
+              ? "A body was pulled or a ball thrown: this is no longer the scene's own run. "
+                "Joints that tear and numbers that are not finite are judged still. A reset "
+                "brings the scene back."
+              : "Judged by the criteria in the scene's file: the largest joint gap, energy "
+                "gained, a body displaced, numbers that are not finite.");
   return width;
 }
 
@@ -133,7 +138,7 @@ float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) 
     ImGui::SetCursorScreenPos({right, bar.y});
     return button(look, id, icon, "", ButtonKind::kGhost, height, height, tip);
   };
-  if (add("help", Icon::kHelp, "Keys and gestures (?)")) app.desk.help = !app.desk.help;
+  if (add("help", Icon::kHelp, "About, keys and gestures (?)")) app.desk.help = !app.desk.help;
   if (right - height >= left) {
     right -= height;
     ImGui::SetCursorScreenPos({right, bar.y});

@@ -23,8 +23,8 @@ std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
 
 /// A button: the same scene from its start, with what would have helped.
 void reset_with(const Look& look, Lab& lab, const Remedy& remedy, ButtonKind kind) {
-  const std::string tip =
-      "The same scene with " + remedy.text + (remedy.why.empty() ? "" : "; " + remedy.why);
+  const std::string tip = "The same scene from its start with " + remedy.text +
+                          (remedy.why.empty() ? "" : "; " + remedy.why);
   if (button(look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text).c_str(), kind,
              0.0F, 28.0F, tip.c_str())) {
     lab.change(remedy.settings);
@@ -40,11 +40,14 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   const bool stopped = lab.session.stopped();
   if (desk.tour >= 0 && !stopped) return;  // its card says what is seen
   const ViewRect& v = viewport.view_rect;
-  const CardPlace place = card_below(v);
-  if (begin_card(look, viewport, "##failure", 380.0F, place.y, place.pivot)) {
+  if (desk.failure_run != lab.run_count) desk.failure_place = -1;
+  desk.failure_run = lab.run_count;
+  constexpr ImVec2 kSize(380.0F, 180.0F);  // with the most that it offers
+  const CardPlace place = card_beside(lab.session, viewport, kSize, desk.failure_place);
+  if (begin_card(look, viewport, "##failure", kSize.x, place.y, place.pivot, place.x)) {
     card_title(look, look.theme->orange, Icon::kCross,
                stopped ? "The run stopped at " + fixed(lab.session.state().time, 2) + " s"
-                       : "Did not hold: failed at " + fixed(verdict.failed_at(), 2) + " s");
+                       : "Failed at " + fixed(verdict.failed_at(), 2) + " s");
     const FrameReport& report = lab.session.report();
     std::string what = verdict.text();
     if (const std::size_t colon = what.find(": "); colon != std::string::npos)

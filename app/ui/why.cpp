@@ -130,7 +130,7 @@ std::string taken_note(const Session& session) {
     return report.capped ? "The cap bit: " + cap_note(report) + "; " + mode.then + "."
                          : "The cap of " + grouped(s.n_cap) + " did not bite.";
   }
-  if (report.capped) return "N at most is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
+  if (report.capped) return "Max sub-steps is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
   return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
 }
 
@@ -214,7 +214,7 @@ void bars(const Look& look, const Session& session, Desk& desk, const Criterion&
 
 void nothing_stiff(const Look& look, const Session& session) {
   const bool evaluated = session.report().stages.stiffness;
-  label(look.fonts.medium, look.theme->text, "nothing stiff yet");
+  label(look.fonts.medium, look.theme->text, "No geometric stiffness yet");
   label(look.fonts.small, look.theme->dim,
         evaluated ? "No constraint force, no geometric stiffness: N = 1."
                   : "K has not been evaluated: it takes a frame, and \"why this N\" under Show in "

@@ -24,7 +24,9 @@ ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width)
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float y = origin.y + 0.5F * (look.m.row - text_size(look.fonts.regular, name).y);
   draw_text(draw, look.fonts.regular, {origin.x, y}, look.theme->dim, name);
-  return {origin.x + kNameWidth, origin.y, origin.x + width, origin.y + look.m.row};
+  const float name_width =
+      std::max(kNameWidth, text_size(look.fonts.regular, name).x + 12.0F);  // of a long one
+  return {origin.x + name_width, origin.y, origin.x + width, origin.y + look.m.row};
 }
 
 /// What a slider goes along: its value, that logarithmically, or its power of ten. Dear ImGui's
@@ -136,23 +138,57 @@ void draw_focus(const Look& look, ImDrawList& draw, ImVec2 min, ImVec2 max) {
   }
 }
 
+namespace {
+
+// At the pointer, whole on the display: Dear ImGui places a tooltip by the size that the one before
+// had, and where that was narrow its lines would be wrapped ever narrower.
+void place_tooltip(ImVec2 size) {
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const bool above = mouse.y + 20.0F + size.y > display.y - 8.0F;
+  ImGui::SetNextWindowPos({std::max(8.0F, std::min(mouse.x + 16.0F, display.x - 8.0F - size.x)),
+                           above ? std::max(8.0F, mouse.y - 8.0F - size.y) : mouse.y + 20.0F});
+}
+
+}  // namespace
+
+void read_out(const Look& look, std::span<const ReadOutLine> lines) {
+  std::vector<std::string> texts;
+  ImVec2 size(0.0F, 20.0F - 4.0F);
+  for (const ReadOutLine& line : lines) {
+    ImFont* font = line.title ? look.fonts.medium : look.fonts.small;
+    texts.push_back(wrapped(font, line.text.c_str(), kTooltip));
+    const ImVec2 extent = text_size(font, texts.back().c_str());
+    size = {std::max(size.x, extent.x + 24.0F), size.y + extent.y + 4.0F};
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
+  place_tooltip(size);
+  if (ImGui::BeginTooltip()) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      ImGui::PushFont(lines[i].title ? look.fonts.medium : look.fonts.small);
+      ImGui::PushStyleColor(ImGuiCol_Text, lines[i].color);
+      ImGui::TextUnformatted(texts[i].c_str());
+      ImGui::PopStyleColor();
+      ImGui::PopFont();
+    }
+    ImGui::EndTooltip();
+  }
+  ImGui::PopStyleVar(2);
+}
+
 void tooltip(const Look& look, const char* title, const char* text) {
   if (text == nullptr || *text == '\0') return;
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_NoSharedDelay))
     return;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
-  // Dear ImGui places a tooltip by the size that the one before had.
   const std::string lines = wrapped(look.fonts.regular, text, kTooltip);
   const ImVec2 body = text_size(look.fonts.regular, lines.c_str());
   const bool titled = title != nullptr && *title != '\0';
   const ImVec2 head = titled ? text_size(look.fonts.medium, title) : ImVec2(0.0F, -4.0F);
   const ImVec2 size(std::max(body.x, head.x) + 24.0F, head.y + 4.0F + body.y + 20.0F);
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const bool above = mouse.y + 20.0F + size.y > display.y - 8.0F;
-  ImGui::SetNextWindowPos({std::max(8.0F, std::min(mouse.x + 16.0F, display.x - 8.0F - size.x)),
-                           above ? std::max(8.0F, mouse.y - 8.0F - size.y) : mouse.y + 20.0F});
+  place_tooltip(size);
   if (ImGui::BeginTooltip()) {
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + kTooltip);  // from the padding on, as measured
     if (titled) {
@@ -233,8 +269,15 @@ bool segmented_row(const Look& look, const char* name, std::span<const Choice> c
                    int& current, const char* tip) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = available_width();
-  const ImRect frame = row_frame(look, name, origin, width);
-  ImGui::Dummy({kNameWidth - 8.0F, look.m.row});
+  ImRect frame = row_frame(look, name, origin, width);
+  // Choices that would run together take what the name leaves.
+  float words = 0.0F;
+  for (const Choice& choice : choices) {
+    words += text_size(look.fonts.small_medium, choice.name).x + 14.0F;
+  }
+  const float name_end = origin.x + text_size(look.fonts.regular, name).x + 12.0F;
+  frame.Min.x = std::clamp(frame.Max.x - words, std::min(name_end, frame.Min.x), frame.Min.x);
+  ImGui::Dummy({frame.Min.x - origin.x - 8.0F, look.m.row});
   tooltip(look, name, tip);
   ImGui::SetCursorScreenPos(frame.Min);
   return segmented(look, name, choices, current, frame.GetWidth());

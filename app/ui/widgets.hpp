@@ -34,6 +34,15 @@ void space(float height);
 /// A ring around the last item where the keyboard is on it.
 void draw_focus(const Look& look, ImDrawList& draw, ImVec2 min, ImVec2 max);
 
+/// A line of what is read off a picture.
+struct ReadOutLine {
+  std::string text;
+  ImU32 color = 0;
+  bool title = false;
+};
+/// The lines at the pointer, at once, whole on the display.
+void read_out(const Look& look, std::span<const ReadOutLine> lines);
+
 /// A tooltip for the last item: what it is in a line, more below. Shown after a moment.
 void tooltip(const Look& look, const char* title, const char* text);
 

@@ -80,7 +80,7 @@ constexpr std::array<Panel, 5> kPanels{
       [](App& app, float) { controls(app.look, app, app.desk); }},
      {Tab::kPlots, {"Plots", "What happens, frame by frame"}, draw_plots},
      {Tab::kWhy,
-      {"Why N", "Who sets the number of sub-steps"},
+      {"Why N", "Which body sets the sub-step count"},
       [](App& app, float) { why(app.look, app.session, app.desk); }},
      {Tab::kCompare,
       {"Compare", "Other methods beside this run"},
@@ -271,7 +271,7 @@ void draw_window(App& app) {
   tour(app.look, app.desk, app);
   if (!small) accuracy_card(app.look, app, app.desk, app);
   failure_card(app.look, app, app.desk, app);
-  help_card(app.look, app.desk, app);
+  help_card(app.look, app, app.desk, app);
   file_card(app.look, app, app, app.browser);
   heavy_card(app.look, app, app);
   long_frame_card(app.look, app, app.desk, app);

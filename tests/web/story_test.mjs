@@ -55,8 +55,8 @@ test("the tour leads through six steps, and each shows what it says", async () =
     for (const [name, value] of Object.entries(wanted)) {
       assert.equal(settings[name], value, `step ${i + 1}, ${name}`);
     }
-    assert.ok((await call(page, "report")).playing, `step ${i + 1} does not play`);
-    if (i === 0) await fails(page);
+    if (i === 0) await fails(page); // and pauses there
+    else assert.ok((await call(page, "report")).playing, `step ${i + 1} does not play`);
     if (i > 0) assert.ok((await labels(page)).includes("Back"), `step ${i + 1}`);
     await save(page, `tour-${i + 1}`);
     await click(page, i < 5 ? "Next" : "Done");

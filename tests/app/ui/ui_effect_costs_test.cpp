@@ -88,11 +88,11 @@ TEST(EffectCosts, SwitchesMeasureTheirOwn) {
   h.app->session.step();
   h.app->desk.more = true;
   h.frames(3);
-  h.press("Measure what each adds");
+  h.press("Measure cost per effect");
   finish_costs(h);
   ASSERT_NE(h.app->costs(), nullptr);
   h.frames(2);
-  EXPECT_EQ(find_handle("Measure what each adds"), nullptr) << "it is known";
+  EXPECT_EQ(find_handle("Measure cost per effect"), nullptr) << "it is known";
   h.press("friction");
   EXPECT_FALSE(h.app->session.scene().effects.friction);
   h.press("friction");

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
+#include <sstream>
 #include <string>
 
+#include "app/text/citation.hpp"
 #include "app/ui/keys.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
@@ -80,6 +84,38 @@ TEST(Keys, TheListStaysOnTheDisplay) {
     EXPECT_LE(card->Pos.x + card->Size.x, display.x);
     EXPECT_LE(card->Pos.y + card->Size.y, display.y);
   }
+}
+
+std::string file_text(const std::string& path) {
+  std::ifstream in(std::string(SUBSTEP_SOURCE_DIR) + "/" + path);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(About, CopiesThePapersEntryAsTheReferencesHaveIt) {
+  Headless h;
+  h.app->desk.help = true;
+  h.frames(4);
+  h.press("Copy BibTeX of the paper");
+  const std::string copied = ImGui::GetClipboardText();
+  const std::string references = file_text("core/docs/references.bib");
+  std::istringstream lines(copied);
+  int fields = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find(" = {") == std::string::npos) continue;
+    ++fields;
+    const std::string field = line.substr(0, line.rfind('}') + 1);
+    EXPECT_NE(references.find(field), std::string::npos) << field;
+  }
+  EXPECT_EQ(fields, 5);
+  EXPECT_NE(copied.find(kPaperTitle), std::string::npos);
+  EXPECT_NE(copied.find(kPaperDoi), std::string::npos);
+}
+
+TEST(About, TellsTheLicenceThatTheRepositoryHas) {
+  const std::string licence = file_text("LICENSE");
+  EXPECT_TRUE(licence.starts_with("MIT License"));
+  EXPECT_NE(licence.find("2026 The substep authors"), std::string::npos);
+  EXPECT_STREQ(kLicence, "MIT licence, © 2026 The substep authors");
 }
 
 void press(Headless& h, ImGuiKey key, bool shift = false) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "app/ui/panels.hpp"
 #include "app/ui/plot.hpp"
 #include "app/ui/plot_curves.hpp"
+#include "app/ui/plot_labels.hpp"
+#include "app/ui/plots.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -55,6 +58,80 @@ TEST(Thinned, GapsAndStepsStay) {
   ASSERT_EQ(steps.size(), 4U);  // the start, after the gap, up, down
   EXPECT_EQ(steps[2].x, 60.0F);
   EXPECT_EQ(steps[3].x, 80.0F);
+}
+
+TEST(Names, StandApartAsLittleAsItTakes) {
+  const auto places = ui::apart({50.0F, 10.0F, 52.0F, 99.0F}, 12.0F, 0.0F, 100.0F);
+  ASSERT_EQ(places.size(), 4U);
+  for (const auto& place : places) EXPECT_TRUE(place.shown);
+  EXPECT_EQ(places[1].y, 10.0F) << "far from the others it stays at its curve";
+  EXPECT_EQ(places[0].y, 50.0F);
+  EXPECT_EQ(places[2].y, 62.0F) << "a line below the one that it would cover";
+  EXPECT_EQ(places[3].y, 94.0F) << "all of it is in the plot";
+}
+
+TEST(Names, ThoseWithoutRoomAreNotShownTheLastFirst) {
+  const auto places = ui::apart({5.0F, 5.0F, 5.0F}, 12.0F, 0.0F, 30.0F);
+  EXPECT_TRUE(places[0].shown);
+  EXPECT_TRUE(places[1].shown);
+  EXPECT_FALSE(places[2].shown);
+  EXPECT_GE(std::abs(places[0].y - places[1].y), 12.0F);
+}
+
+TEST(SmallestStableN, IsGivenOnlyWhereNVaries) {
+  Headless h;
+  h.app->run(shipped("swinging_box"));
+  for (int i = 0; i < 120; ++i) h.app->session.step();  // past the lowest point
+  const History& history = h.app->session.history();
+  Settings settings = h.app->session.settings();
+  EXPECT_EQ(ui::smallest_stable_n(history, settings), 7) << "what const needs, see the README";
+  for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kDamping, Mode::kCapped,
+                          Mode::kStiffness, Mode::kInertia, Mode::kBlend}) {
+    settings.mode = mode;
+    EXPECT_FALSE(ui::smallest_stable_n(history, settings)) << static_cast<int>(mode);
+  }
+  settings.mode = Mode::kAdaptive;
+  settings.solver = SolverKind::kPgs;
+  EXPECT_FALSE(ui::smallest_stable_n(history, settings)) << "sweeps need more than that";
+}
+
+TEST(SmallestStableN, IsNotGivenWhereOneStepWouldDo) {
+  Headless h;
+  h.app->run(shipped("free_fall"));
+  for (int i = 0; i < 30; ++i) h.app->session.step();
+  Settings settings = h.app->session.settings();
+  settings.mode = Mode::kAdaptive;
+  EXPECT_FALSE(ui::smallest_stable_n(h.app->session.history(), settings));
+}
+
+TEST(TimeAxis, TheCursorIsThePointerOrElseThePastThatIsShown) {
+  TimeAxis axis;
+  EXPECT_FALSE(axis.cursor());
+  axis.past = 2.0;
+  EXPECT_EQ(axis.cursor(), 2.0);
+  axis.hover = 5.0;
+  EXPECT_EQ(axis.cursor(), 5.0);
+}
+
+TEST(Plots, ValuesAreThoseOfTheMomentThatTheWindowShows) {
+  Headless h;
+  for (int i = 0; i < 60; ++i) h.app->session.step();
+  h.frames(1);
+  const auto plotted = [&] {
+    return ui::shown_value(h.app->session.history(), Channel::kSubsteps, h.app->desk.time);
+  };
+  const int newest = h.app->session.report().n_substeps;
+  EXPECT_EQ(plotted(), newest);
+  h.app->session.go_to(5);
+  h.frames(1);
+  EXPECT_EQ(plotted(), h.app->session.report().n_substeps);
+  EXPECT_NE(plotted(), newest);
+  h.app->session.go_to(0);  // nothing has been taken yet
+  h.frames(1);
+  EXPECT_TRUE(std::isnan(plotted()));
+  h.app->session.go_to(h.app->session.timeline().size() - 1);
+  h.frames(1);
+  EXPECT_EQ(plotted(), newest);
 }
 
 TEST(TimeAxis, FollowsTheRunAndFillsFromTheLeft) {

@@ -85,6 +85,18 @@ TEST(Tour, LeapfrogKeepsTheEnergyToAMillionthAtTheSameCost) {
   EXPECT_NEAR(static_cast<double>(step.ghost().cost.substeps) / 9475.0, 1.0, 0.01);
 }
 
+TEST(Tour, ItsGhostsGoWithIt) {
+  Headless h;
+  ASSERT_EQ(h.app->set("tour", std::to_string(tour_steps().size())), "");
+  h.frames(4);
+  ASSERT_TRUE(h.app->compare.open());
+  h.press("Done");
+  h.frames(2);
+  EXPECT_LT(h.app->desk.tour, 0);
+  EXPECT_FALSE(h.app->compare.open());
+  EXPECT_TRUE(h.app->session.playing()) << "the run goes on";
+}
+
 TEST(Tour, EveryStepFitsIntoThePictureAndEnds) {
   for (const auto& [width, height] : {std::pair{1280.0F, 720.0F}, {390.0F, 844.0F}}) {
     Headless h(width, height);

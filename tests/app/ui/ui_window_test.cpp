@@ -45,9 +45,9 @@ TEST(Window, EverySceneInEveryModeDrawsItsPicture) {
   ASSERT_GE(h.app->library.scenes().size(), 10U);
   for (const auto& scene : h.app->library.scenes()) {
     h.app->run(scene);
-    h.app->session.play();
     for (const char* mode : {"none", "const", "damping", "adaptive", "capped"}) {
       ASSERT_EQ(h.app->set("mode", mode), "");
+      h.app->session.play();  // a run that failed has paused
       h.frames(8);
       const Picture& p = h.renderer->picture;
       EXPECT_GT(p.boxes.size() + p.balls.size(), 0U) << scene->name;
@@ -246,6 +246,30 @@ TEST(Trouble, ManyAndLongProblemsStayOnTheDisplay) {
   for (const ImGuiWindow* w : open_windows()) {
     EXPECT_LE(w->Rect().Max.y, 844.0F) << w->Name;
     EXPECT_LE(w->Rect().Max.x, 390.0F) << w->Name;
+  }
+}
+
+TEST(ReadOut, IsWholeOnTheDisplayAndAsWideAsItsLines) {
+  Headless h;
+  const std::vector<ui::ReadOutLine> lines{{"BPP, adaptive per frame", 0, true},
+                                           {"alpha = 0.1 and a sentence that is longer", 0},
+                                           {"Click to run it", 0}};
+  for (const ImVec2 mouse : {ImVec2(2, 2), ImVec2(1278, 2), ImVec2(1278, 718), ImVec2(2, 718)}) {
+    ImGui::GetIO().AddMousePosEvent(mouse.x, mouse.y);
+    for (int i = 0; i < 4; ++i) {
+      ImGui::GetIO().DeltaTime = static_cast<float>(kFrame);
+      ImGui::NewFrame();
+      ui::read_out(h.app->look, lines);
+      ImGui::Render();
+    }
+    const ImGuiWindow* tip = ImGui::FindWindowByName("##Tooltip_00");
+    ASSERT_NE(tip, nullptr);
+    EXPECT_GT(tip->Size.x, 200.0F);
+    EXPECT_LT(tip->Size.y, 90.0F);
+    EXPECT_GE(tip->Rect().Min.x, 0.0F);
+    EXPECT_GE(tip->Rect().Min.y, 0.0F);
+    EXPECT_LE(tip->Rect().Max.x, 1280.0F);
+    EXPECT_LE(tip->Rect().Max.y, 720.0F);
   }
 }
 

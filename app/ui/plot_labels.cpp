@@ -1,0 +1,146 @@
+#include "app/ui/plot_labels.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "app/text/format.hpp"
+#include "app/ui/curve_style.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kNameLine = 12.0F;  // height of a name, close to the one below
+constexpr float kNameGap = 5.0F;    // from a curve to its name
+
+void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color) {
+  float phase = 0.0F;
+  draw_dashes(draw, a, b, color, 1.0F, phase);
+}
+
+// Text on a ground of its own: curves may run behind the words, not through them.
+void draw_on_ground(const Look& look, ImDrawList& draw, ImVec2 at, ImU32 color,
+                    const std::string& text) {
+  const ImVec2 size = text_size(look.fonts.small, text.c_str());
+  draw.AddRectFilled({at.x - 3.0F, at.y}, {at.x + size.x + 3.0F, at.y + size.y},
+                     fade(look.theme->well, 0.75F), 3.0F);
+  draw_text(draw, look.fonts.small, at, color, text.c_str());
+}
+
+/// A curve's end as it is seen, and what is written there.
+struct CurveEnd {
+  ImVec2 at;
+  ImU32 color = 0;
+  std::string name;
+};
+
+std::vector<CurveEnd> ends_of(const PlotSpec& spec, double from, const PlotFrame& f) {
+  std::vector<CurveEnd> ends;
+  for (const Series& series : spec.series) {
+    const History::Slice slice = visible(*series.history, f, from);
+    if (series.name.empty() || slice.first >= slice.last) continue;
+    const float value = (*series.history)[series.channel][slice.last - 1];
+    if (!drawable(value, f)) continue;
+    const float x = std::min(f.x(series.history->time(slice.last - 1)), f.max.x);
+    const float y = f.y(static_cast<double>(value) + series.offset);
+    ends.push_back({{x, std::clamp(y, f.min.y, f.max.y)}, series.color, series.name});
+  }
+  return ends;
+}
+
+}  // namespace
+
+std::vector<NamePlace> apart(const std::vector<float>& wanted, float line, float top,
+                             float bottom) {
+  std::vector<NamePlace> places(wanted.size(), {0.0F, false});
+  const auto room = static_cast<std::size_t>(std::max(0.0F, std::floor((bottom - top) / line)));
+  std::vector<std::size_t> order(std::min(room, wanted.size()));
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
+  // Down as far as the name above pushes, then up as far as the ones below and the edge do.
+  float least = top + 0.5F * line;
+  for (const std::size_t i : order) {
+    places[i] = {std::max(wanted[i], least), true};
+    least = places[i].y + line;
+  }
+  float most = bottom - 0.5F * line;
+  for (std::size_t k = order.size(); k-- > 0;) {
+    NamePlace& place = places[order[k]];
+    place.y = std::min(place.y, most);
+    most = place.y - line;
+  }
+  return places;
+}
+
+void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
+                ImDrawList& draw) {
+  const std::vector<CurveEnd> ends = ends_of(spec, from, f);
+  std::vector<float> wanted;
+  for (const CurveEnd& end : ends) wanted.push_back(end.at.y);
+  const auto places = apart(wanted, kNameLine, f.min.y - 2.0F, f.max.y + 2.0F);
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    if (!places[i].shown) continue;
+    const float x = ends[i].at.x + kNameGap;
+    const std::string name = fitted(look.fonts.small, ends[i].name, f.max.x + kNameGutter - x);
+    const float height = text_size(look.fonts.small, name.c_str()).y;
+    draw_on_ground(look, draw, {x, places[i].y - 0.5F * height}, ends[i].color, name);
+  }
+}
+
+void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
+  for (const Level& level : spec.levels) {
+    const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
+    const bool above = v > f.high;  // off the picture: named at its edge
+    const float y = above ? f.min.y + 0.5F : std::round(f.y(level.value)) + 0.5F;
+    if (!above) draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color);
+    const char* arrow = above ? " ↑" : "";
+    std::string name = level.name + arrow;
+    const float room = f.max.x - f.min.x + 0.5F * kNameGutter;
+    if (text_size(look.fonts.small, name.c_str()).x > room && !level.brief.empty()) {
+      name = level.brief + arrow;
+    }
+    // Below it, where there is room: what levels are compared with is mostly above them.
+    const float height = text_size(look.fonts.small, name.c_str()).y;
+    const float text_y = y + 1.0F + height > f.max.y ? y - height - 1.0F : y + 1.0F;
+    draw_on_ground(look, draw, {f.min.x + 6.0F, text_y}, level.color, name);
+  }
+}
+
+void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
+                ImDrawList& draw) {
+  const std::vector<CurveEnd> ends = ends_of(spec, from, f);
+  float names = f.max.x;  // where those of the curves begin
+  for (const CurveEnd& end : ends) names = std::min(names, end.at.x);
+  float below = f.min.y + 2.0F;
+  for (const Mark& mark : spec.marks) {
+    if (mark.time < f.t0 || mark.time > f.t1) continue;
+    const float x = std::round(f.x(mark.time)) + 0.5F;
+    draw_dashed(draw, {x, f.min.y}, {x, f.max.y}, mark.color);
+    if (mark.name.empty()) continue;
+    // Not over the names of the curves: beside the line, or far from both at the right.
+    const ImVec2 size = text_size(look.fonts.small, mark.name.c_str());
+    float left = x - 4.0F - size.x;
+    if (left < f.min.x) left = x + 4.0F;
+    if (left + size.x > names && left > x) left = f.max.x - size.x - 4.0F;
+    draw_on_ground(look, draw, {left, below}, mark.color, mark.name);
+    below += size.y;
+  }
+}
+
+void draw_cursor_time(const Look& look, const PlotFrame& f, const TimeAxis& axis,
+                      ImDrawList& draw) {
+  const auto cursor = axis.cursor();
+  if (!cursor || *cursor < f.t0 || *cursor > f.t1) return;
+  const std::string text = fixed(*cursor, 2) + " s";
+  const ImVec2 size = text_size(look.fonts.small, text.c_str());
+  const float left = std::clamp(f.x(*cursor) - 0.5F * size.x, f.min.x, f.max.x - size.x);
+  const ImVec2 at(left, f.max.y + 3.0F);
+  draw.AddRectFilled({at.x - 4.0F, at.y - 1.0F}, {at.x + size.x + 4.0F, at.y + size.y + 1.0F},
+                     look.theme->control, 3.0F);
+  draw_text(draw, look.fonts.small, at, look.theme->text, text.c_str());
+}
+
+}  // namespace substep::ui

@@ -29,18 +29,6 @@ Color from_rgb(std::uint32_t rgb) {
 
 bool is_plane(const Body& body) { return std::holds_alternative<Plane>(body.shape); }
 
-double radius(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.norm();
-  return 0.0;
-}
-
-double thickness(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.minCoeff();
-  return std::numeric_limits<double>::infinity();
-}
-
 Instance instance(const Vec3& x, const Quat& q, const Color& color) {
   Instance i;
   i.position = floats(x);
@@ -73,6 +61,19 @@ void add_ball(std::vector<Instance>& out, const Vec3& x, const Quat& q, double r
   out.push_back(i);
 }
 
+// A plane is the ground of the picture.
+struct ShapeDrawing {
+  std::vector<Instance>& boxes;
+  std::vector<Instance>& balls;
+  const Vec3& x;
+  const Quat& q;
+  const Color& color;
+
+  void operator()(const Sphere& sphere) const { add_ball(balls, x, q, sphere.radius, true, color); }
+  void operator()(const Box& box) const { add_box(boxes, x, q, box.half_extents, color); }
+  void operator()(const Plane&) const {}
+};
+
 // What holds a body by a point off its surface. @param half its half thickness [m]
 void add_rod(std::vector<Instance>& out, const Vec3& from, const Vec3& to, double half,
              const Color& color) {
@@ -90,7 +91,7 @@ Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) 
     if (is_plane(body)) continue;
     // What flew away from a scene that exploded is not worth looking at.
     if (limit != nullptr && (poses.x[i] - limit->centre).norm() > 3.0 * limit->radius) continue;
-    const Vec3 r = Vec3::Constant(radius(body.shape));
+    const Vec3 r = Vec3::Constant(radius_around(body.shape));
     low = low.cwiseMin(poses.x[i] - r);
     high = high.cwiseMax(poses.x[i] + r);
   }
@@ -114,7 +115,7 @@ double half_width(const Scene& scene, const Poses& poses) {
     if (is_plane(scene.bodies[i])) continue;
     const Vec3 offset = poses.x[i] - scene.camera.target;
     const double nearer = std::min(0.8, std::abs(back.dot(offset)) / (distance * distance));
-    const double aside = std::abs(right.dot(offset)) + radius(scene.bodies[i].shape);
+    const double aside = std::abs(right.dot(offset)) + radius_around(scene.bodies[i].shape);
     reach = std::max(reach, aside / (1.0 - nearer));
   }
   return 1.02 * reach;
@@ -200,11 +201,7 @@ void SceneView::add_bodies(const Seen& seen, const ViewOptions& options, const V
       color = t < 0.5 ? mix(low, palette.stiff_mid, 2.0 * t)
                       : mix(palette.stiff_mid, palette.stiff_high, 2.0 * t - 1.0);
     }
-    if (const auto* box = std::get_if<Box>(&body.shape)) {
-      add_box(out.boxes, poses.x[i], poses.q[i], box->half_extents, color);
-    } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-      add_ball(out.balls, poses.x[i], poses.q[i], sphere->radius, true, color);
-    }
+    std::visit(ShapeDrawing{out.boxes, out.balls, poses.x[i], poses.q[i], color}, body.shape);
   }
 }
 
@@ -214,11 +211,8 @@ void SceneView::add_ghost(const Scene& scene, const Poses& poses, const Color& c
     const Body& body = scene.bodies[i];
     if (body.is_static) continue;  // it stands where the session's own does
     if (!(poses.x[i].norm() < kAway)) continue;
-    if (const auto* box = std::get_if<Box>(&body.shape)) {
-      add_box(out.ghost_boxes, poses.x[i], poses.q[i], box->half_extents, color);
-    } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-      add_ball(out.ghost_balls, poses.x[i], poses.q[i], sphere->radius, true, color);
-    }
+    std::visit(ShapeDrawing{out.ghost_boxes, out.ghost_balls, poses.x[i], poses.q[i], color},
+               body.shape);
   }
 }
 
@@ -230,15 +224,15 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
   for (const Joint& joint : scene.joints) {
     const JointBase& j = base(joint);
     const auto a = static_cast<std::size_t>(j.a);
-    double thin = thickness(scene.bodies[a].shape);
+    double thin = half_width(scene.bodies[a].shape);
     if (j.b == kWorld) {
       add_box(out.boxes, j.anchor_b + Vec3(0.0, 0.6 * bracket, 0.0), Quat::Identity(),
               bracket * Vec3(2.2, 0.6, 2.2), 0.2 * bracket, palette.fixture);
     } else {
-      thin = std::min(thin, thickness(scene.bodies[static_cast<std::size_t>(j.b)].shape));
+      thin = std::min(thin, half_width(scene.bodies[static_cast<std::size_t>(j.b)].shape));
     }
     const Vec3 x = poses.x[a] + poses.q[a] * j.anchor_a;
-    if (j.anchor_a.norm() > 1.05 * radius(scene.bodies[a].shape)) {
+    if (j.anchor_a.norm() > 1.05 * radius_around(scene.bodies[a].shape)) {
       thin = 0.15 * bracket;
       add_rod(out.boxes, poses.x[a], x, thin, palette.joint);
     }

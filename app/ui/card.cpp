@@ -8,13 +8,6 @@
 namespace substep::ui {
 namespace {
 
-// Half the size of a body whichever way it is turned [m].
-double radius_of(const Shape& shape) {
-  if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents.norm();
-  const auto* sphere = std::get_if<Sphere>(&shape);
-  return sphere != nullptr ? sphere->radius : 0.0;
-}
-
 /// How much of the moving bodies lies in a part of the display [pixel^2].
 float covered(const Session& session, const Viewport& viewport, ImVec2 min, ImVec2 max) {
   float area = 0.0F;
@@ -24,7 +17,7 @@ float covered(const Session& session, const Viewport& viewport, ImVec2 min, ImVe
     ImVec2 p;
     if (body.is_static || !project(viewport, x, p)) continue;
     const auto r =
-        static_cast<float>(radius_of(body.shape) / std::max(pixel_size(viewport, x), 1e-9));
+        static_cast<float>(radius_around(body.shape) / std::max(pixel_size(viewport, x), 1e-9));
     const float width = std::min(max.x, p.x + r) - std::max(min.x, p.x - r);
     const float height = std::min(max.y, p.y + r) - std::max(min.y, p.y - r);
     area += std::max(0.0F, width) * std::max(0.0F, height);

@@ -12,9 +12,7 @@ namespace {
 constexpr double kRoom = 0.25;
 
 Vec3 half_extents(const Shape& shape, const Mat3& R) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) return Vec3::Constant(sphere->radius);
-  if (const auto* box = std::get_if<Box>(&shape)) return R.cwiseAbs() * box->half_extents;
-  return Vec3::Zero();
+  return std::visit([&](const auto& s) -> Vec3 { return s.bounds(R); }, shape);
 }
 
 /// Whether |d| <= reach along every axis.

@@ -13,30 +13,6 @@ bool is_box(const Scene& scene, int body) {
   return std::holds_alternative<Box>(scene.bodies[at(body)].shape);
 }
 
-void touch_plane(const Placed& a, const Shape& shape, const Placed& plane, double margin,
-                 ContactPoints& out) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    sphere_plane(a, *sphere, plane, margin, out);
-  if (const auto* box = std::get_if<Box>(&shape)) box_plane(a, *box, plane, margin, out);
-}
-
-void touch_solids(const Placed& i, const Shape& shape_i, const Placed& j, const Shape& shape_j,
-                  double margin, ContactPoints& out) {
-  const auto* sphere_i = std::get_if<Sphere>(&shape_i);
-  const auto* sphere_j = std::get_if<Sphere>(&shape_j);
-  const auto* box_i = std::get_if<Box>(&shape_i);
-  const auto* box_j = std::get_if<Box>(&shape_j);
-  if (sphere_i != nullptr && sphere_j != nullptr) {
-    sphere_sphere(i, *sphere_i, j, *sphere_j, margin, out);
-  } else if (sphere_i != nullptr && box_j != nullptr) {
-    sphere_box(i, *sphere_i, j, *box_j, margin, out);
-  } else if (box_i != nullptr && sphere_j != nullptr) {
-    sphere_box(j, *sphere_j, i, *box_i, margin, out);
-  } else if (box_i != nullptr && box_j != nullptr) {
-    box_box(i, *box_i, j, *box_j, margin, out);
-  }
-}
-
 }  // namespace
 
 double way_in(double time, const Scene& scene, const Body& body, const Vec6& u) {
@@ -90,7 +66,7 @@ std::span<const BroadPhase::Pair> Detector::within_reach(const Scene& scene, con
 void Detector::touch(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
                      const BroadPhase::Pair& pair) {
   const auto [i, j] = pair;
-  touch_solids({i, state.x[at(i)], R_WB[at(i)]}, scene.bodies[at(i)].shape,
+  touch_shapes({i, state.x[at(i)], R_WB[at(i)]}, scene.bodies[at(i)].shape,
                {j, state.x[at(j)], R_WB[at(j)]}, scene.bodies[at(j)].shape, margin(scene, i, j),
                points_);
 }
@@ -108,8 +84,8 @@ void Detector::find(const Scene& scene, const Part& part, const State& state,
       const double near = margin(scene, body, ground.body);
       const double reach = broad_phase_.reach(body).dot(n.cwiseAbs());
       if (n.dot(state.x[at(body)] - plane.x) > reach + near) continue;
-      touch_plane({body, state.x[at(body)], R_WB[at(body)]}, scene.bodies[at(body)].shape, plane,
-                  near, points_);
+      touch_shapes({body, state.x[at(body)], R_WB[at(body)]}, scene.bodies[at(body)].shape, plane,
+                   Plane{}, near, points_);
     }
   }
   for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {

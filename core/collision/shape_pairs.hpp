@@ -1,6 +1,8 @@
 #pragma once
 // One file per pair of shapes. Each appends the points of the pair with a gap of at most `margin`.
 
+#include <type_traits>
+#include <variant>
 #include <vector>
 
 #include "core/collision/contact_id.hpp"
@@ -30,5 +32,45 @@ void box_plane(const Placed& a, const Box& box, const Placed& b, double margin, 
 /// Edge against edge: one point (box_edges.hpp).
 void box_box(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
              ContactPoints& out);
+
+// The pairs of Detector, of which only the second may be a plane: one function for every two
+// alternatives of Shape. A pair without one does not compile.
+
+inline void touch(const Placed& a, const Sphere& x, const Placed& b, const Plane&, double margin,
+                  ContactPoints& out) {
+  sphere_plane(a, x, b, margin, out);
+}
+inline void touch(const Placed& a, const Sphere& x, const Placed& b, const Sphere& y, double margin,
+                  ContactPoints& out) {
+  sphere_sphere(a, x, b, y, margin, out);
+}
+inline void touch(const Placed& a, const Sphere& x, const Placed& b, const Box& y, double margin,
+                  ContactPoints& out) {
+  sphere_box(a, x, b, y, margin, out);
+}
+inline void touch(const Placed& a, const Box& x, const Placed& b, const Plane&, double margin,
+                  ContactPoints& out) {
+  box_plane(a, x, b, margin, out);
+}
+inline void touch(const Placed& a, const Box& x, const Placed& b, const Sphere& y, double margin,
+                  ContactPoints& out) {
+  sphere_box(b, y, a, x, margin, out);
+}
+inline void touch(const Placed& a, const Box& x, const Placed& b, const Box& y, double margin,
+                  ContactPoints& out) {
+  box_box(a, x, b, y, margin, out);
+}
+
+/// @param a not a plane: planes are static, and bodies that do not move do not collide
+inline void touch_shapes(const Placed& a, const Shape& shape_a, const Placed& b,
+                         const Shape& shape_b, double margin, ContactPoints& out) {
+  std::visit(
+      [&](const auto& x, const auto& y) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(x)>, Plane>) {
+          touch(a, x, b, y, margin, out);
+        }
+      },
+      shape_a, shape_b);
+}
 
 }  // namespace substep

@@ -18,19 +18,19 @@ namespace {
 
 Json vector_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-Json shape_json(const Shape& shape) {
-  Json json;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+struct ShapeWriter {
+  Json& json;
+
+  void operator()(const Sphere& sphere) const {
     json["type"] = "sphere";
-    json["radius"] = sphere->radius;
-  } else if (const auto* box = std::get_if<Box>(&shape)) {
-    json["type"] = "box";
-    json["size"] = vector_json(2.0 * box->half_extents);
-  } else {
-    json["type"] = "plane";
+    json["radius"] = sphere.radius;
   }
-  return json;
-}
+  void operator()(const Box& box) const {
+    json["type"] = "box";
+    json["size"] = vector_json(2.0 * box.half_extents);
+  }
+  void operator()(const Plane&) const { json["type"] = "plane"; }
+};
 
 std::string color_text(std::uint32_t color) {
   constexpr char kDigits[] = "0123456789abcdef";
@@ -43,7 +43,8 @@ Json body_json(const Body& body) {
   Json json;
   json["name"] = body.name;
   if (body.is_static) json["static"] = true;
-  json["shape"] = shape_json(body.shape);
+  json["shape"] = Json();
+  std::visit(ShapeWriter{json["shape"]}, body.shape);
   if (!body.is_static) {
     json["mass"] = body.mass;
     if (body.inertia != solid_inertia(body.shape, body.mass)) {

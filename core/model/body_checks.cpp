@@ -14,16 +14,22 @@ std::string not_unit_text(double length) {
   return "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance);
 }
 
-void check_shape(const Body& body, const DataPlace& place, Problems& problems) {
-  if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
-    check_number(sphere->radius, kSizeRange, place.at("radius"), problems);
-  } else if (const auto* box = std::get_if<Box>(&body.shape)) {
-    const Vec3 size = 2.0 * box->half_extents;  // as files have it
-    check_numbers(size, kSizeRange, place.at("size"), problems);
-  } else if (!body.is_static) {
-    problems.push_back({place.at("type").pointer(), std::string(kMovingPlane)});
+struct ShapeCheck {
+  bool is_static;
+  const DataPlace& place;
+  Problems& problems;
+
+  void operator()(const Sphere& sphere) const {
+    check_number(sphere.radius, kSizeRange, place.at("radius"), problems);
   }
-}
+  void operator()(const Box& box) const {
+    const Vec3 size = 2.0 * box.half_extents;  // as files have it
+    check_numbers(size, kSizeRange, place.at("size"), problems);
+  }
+  void operator()(const Plane&) const {
+    if (!is_static) problems.push_back({place.at("type").pointer(), std::string(kMovingPlane)});
+  }
+};
 
 void check_motion(const Body& body, const DataPlace& place, Problems& problems) {
   struct Quantity {
@@ -107,7 +113,7 @@ std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int 
 }
 
 void check_body(const Body& body, const DataPlace& place, Problems& problems) {
-  check_shape(body, place.at("shape"), problems);
+  std::visit(ShapeCheck{body.is_static, place.at("shape"), problems}, body.shape);
   if (!body.is_static) check_mass(body, place, problems);
   check_numbers(body.position, kPositionRange, place.at("position"), problems);
   if (const auto fault = orientation_fault(body.orientation)) {

@@ -79,6 +79,7 @@ void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotF
                 ImDrawList& draw) {
   const std::vector<CurveEnd> ends = ends_of(spec, from, f);
   std::vector<float> wanted;
+  wanted.reserve(ends.size());
   for (const CurveEnd& end : ends) wanted.push_back(end.at.y);
   const auto places = apart(wanted, kNameLine, f.min.y - 2.0F, f.max.y + 2.0F);
   for (std::size_t i = 0; i < ends.size(); ++i) {

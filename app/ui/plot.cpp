@@ -261,7 +261,7 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   draw_cursor(look, spec, f, axis, draw);
   draw_marks(look, spec, axis.from, f, draw);
   draw.PopClipRect();
-  draw_levels(look, spec, f, draw);
+  draw_levels(look, spec, axis.from, f, draw);
   draw_names(look, spec, axis.from, f, draw);
   if (spec.time_labels) draw_cursor_time(look, f, axis, draw);
 

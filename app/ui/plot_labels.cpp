@@ -79,6 +79,7 @@ void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotF
                 ImDrawList& draw) {
   const std::vector<CurveEnd> ends = ends_of(spec, from, f);
   std::vector<float> wanted;
+  wanted.reserve(ends.size());
   for (const CurveEnd& end : ends) wanted.push_back(end.at.y);
   const auto places = apart(wanted, kNameLine, f.min.y - 2.0F, f.max.y + 2.0F);
   for (std::size_t i = 0; i < ends.size(); ++i) {
@@ -90,7 +91,12 @@ void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotF
   }
 }
 
-void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
+void draw_levels(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
+                 ImDrawList& draw) {
+  float taken = f.min.x;  // by curves and their names
+  for (const CurveEnd& end : ends_of(spec, from, f)) {
+    taken = std::max(taken, end.at.x + kNameGap + kNameGutter);
+  }
   for (const Level& level : spec.levels) {
     const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
     const bool above = v > f.high;  // off the picture: named at its edge
@@ -105,7 +111,9 @@ void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImD
     // Below it, where there is room: what levels are compared with is mostly above them.
     const float height = text_size(look.fonts.small, name.c_str()).y;
     const float text_y = y + 1.0F + height > f.max.y ? y - height - 1.0F : y + 1.0F;
-    draw_on_ground(look, draw, {f.min.x + 6.0F, text_y}, level.color, name);
+    const float right = f.max.x - text_size(look.fonts.small, name.c_str()).x - 6.0F;
+    const float text_x = right > taken ? right : f.min.x + 6.0F;
+    draw_on_ground(look, draw, {text_x, text_y}, level.color, name);
   }
 }
 
@@ -114,7 +122,7 @@ void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotF
   const std::vector<CurveEnd> ends = ends_of(spec, from, f);
   float names = f.max.x;  // where those of the curves begin
   for (const CurveEnd& end : ends) names = std::min(names, end.at.x);
-  float below = f.min.y + 2.0F;
+  float above = f.max.y - 2.0F;  // levels have their names at the top
   for (const Mark& mark : spec.marks) {
     if (mark.time < f.t0 || mark.time > f.t1) continue;
     const float x = std::round(f.x(mark.time)) + 0.5F;
@@ -125,8 +133,8 @@ void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotF
     float left = x - 4.0F - size.x;
     if (left < f.min.x) left = x + 4.0F;
     if (left + size.x > names && left > x) left = f.max.x - size.x - 4.0F;
-    draw_on_ground(look, draw, {left, below}, mark.color, mark.name);
-    below += size.y;
+    above -= size.y;
+    draw_on_ground(look, draw, {left, above}, mark.color, mark.name);
   }
 }
 

@@ -15,10 +15,11 @@ struct NamePlace {
 /// no room are not shown, the last first. @param line height of a name
 std::vector<NamePlace> apart(const std::vector<float>& wanted, float line, float top, float bottom);
 
-/// Dashed lines across the plot, and what they stand for.
-void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw);
+/// Dashed lines across the plot, and what they stand for. @param from what is earlier is left out
+/// [s]
+void draw_levels(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
+                 ImDrawList& draw);
 /// Dashed lines at moments, with their names.
-/// @param from what is earlier is left out [s]
 void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
                 ImDrawList& draw);
 /// The name of each curve where it ends. @param from what is earlier is left out [s]

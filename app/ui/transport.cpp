@@ -72,7 +72,7 @@ constexpr float kChipFrame = 40.0F;  // of a verdict: its sign and the round end
 std::string verdict_text(const App& app, float room) {
   const Look& look = app.look;
   if (!app.session.judged()) return "Ready";
-  const std::string text = verdict_words(app.session.verdict().text());
+  std::string text = verdict_words(app.session.verdict().text());
   room -= kChipFrame;
   if (text_size(look.fonts.medium, text.c_str()).x <= room) return text;
   return fitted(look.fonts.medium, text.substr(0, text.find(": ")), room);

@@ -273,7 +273,7 @@ bool segmented_row(const Look& look, const char* name, std::span<const Choice> c
   // Choices that would run together take what the name leaves.
   float words = 0.0F;
   for (const Choice& choice : choices) {
-    words += text_size(look.fonts.small_medium, choice.name).x + 14.0F;
+    words += text_size(look.fonts.small_medium, choice.name).x + 10.0F;
   }
   const float name_end = origin.x + text_size(look.fonts.regular, name).x + 12.0F;
   frame.Min.x = std::clamp(frame.Max.x - words, std::min(name_end, frame.Min.x), frame.Min.x);

@@ -112,7 +112,7 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
 inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
     {.value = Mode::kNone,
      .name = "none",
-     .line = "One step a frame, unprotected.",
+     .line = "One step per frame, no stabilisation.",
      .about = "One step per frame and nothing against instability: N = 1.",
      .caption = "no sub-steps",
      .takes = "Mode none takes 1 all the same.",
@@ -133,7 +133,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reads = {"n"}},
     {.value = Mode::kDamping,
      .name = "damping",
-     .line = "One step a frame; less α, more damping.",
+     .line = "One step per frame; less α, more damping.",
      .about = "One step per frame; rotations that are too stiff for it are damped implicitly: "
               "b = max(0, (h² k − 4 α M)/h), Eq. 6.",
      .reference = "Andrews et al. 2017",
@@ -145,7 +145,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reads = {"alpha", "probe"}},
     {.value = Mode::kAdaptive,
      .name = "adaptive",
-     .line = "N ~ 1/√α: a quarter of α, twice the N.",
+     .line = "N ~ 1/√α: quartering α doubles N.",
      .about = "As many sub-steps as the stiffest degree of freedom needs: r = max k/M (Eq. 9), "
               "dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up (Eq. 11).",
      .reference = "The paper's: Giles and Andrews 2024",
@@ -168,7 +168,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reads = {"alpha", "n_cap", "policy", "memory", "islands", "rotation_criterion", "probe"}},
     {.value = Mode::kStiffness,
      .name = "stiffness",
-     .line = "One step a frame, K in the mass.",
+     .line = "One step per frame, K in the mass.",
      .about = "One step per frame with the geometric stiffness itself in the mass: M - h² K, its "
               "stabilising part. Damps more than damping does.",
      .reference = "Tournier et al. 2015",

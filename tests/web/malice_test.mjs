@@ -1,5 +1,6 @@
 // Links and scene files that are made to harm: the page answers while it has them, and leads back
-// to the run before: node tests/web/malice_test.mjs [FOLDER OF THE BUILT PAGE]
+// to the run before: node tests/web/malice_test.mjs [FOLDER OF THE BUILT PAGE] [all]
+// Every third of them is taken, or all where that is asked for.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
@@ -110,6 +111,9 @@ async function files() {
   ];
 }
 
+const all = process.argv[3] === "all";
+const some = (list) => list.filter((_, i) => all || i % 3 === 0);
+
 /** In the page: notes the longest time in which it did not answer [ms]. */
 function beat() {
   let last = performance.now();
@@ -149,11 +153,11 @@ async function suffer(page, what, take) {
   return { what, silent, end };
 }
 
-function tell(all) {
-  const slow = all.toSorted((a, b) => b.silent - a.silent);
+function tell(suffered) {
+  const slow = suffered.toSorted((a, b) => b.silent - a.silent);
   for (const { what, silent, end } of slow.slice(0, 8)) console.log(`${silent} ms: ${what} (${end})`);
   const ends = { held: 0, refused: 0, runs: 0 };
-  for (const { end } of all) ends[end in ends ? end : "runs"] += 1;
+  for (const { end } of suffered) ends[end in ends ? end : "runs"] += 1;
   console.log(Object.entries(ends).map(([end, count]) => `${count} ${end}`).join(", "));
 }
 
@@ -163,29 +167,31 @@ async function openCalm() {
   return page;
 }
 
-test("50 links made to harm are refused, wait for a person, or run in slices", async () => {
+test("links made to harm are refused, wait for a person, or run in slices", async () => {
   const page = await openCalm();
-  const all = [];
-  for (const [what, fragment] of await links()) {
-    all.push(await suffer(page, what, () => call(page, "openLink", fragment)));
-    if (what === "300 spheres at a point") await save(page, "malice-after");
+  const list = await links();
+  assert.ok(list.length >= 50, `${list.length} links`);
+  const suffered = [];
+  for (const [what, fragment] of some(list)) {
+    suffered.push(await suffer(page, what, () => call(page, "openLink", fragment)));
   }
-  tell(all);
-  assert.ok(all.length >= 50, `${all.length} links`);
-  assert.ok(all.filter(({ end }) => end === "held").length >= 20, "those that are heavy wait");
-  assert.ok(all.filter(({ end }) => end === "refused").length >= 5);
+  tell(suffered);
+  const count = (as) => suffered.filter(({ end }) => end === as).length;
+  assert.ok(count("held") >= 0.4 * suffered.length, "those that are heavy wait");
+  assert.ok(count("refused") >= 0.1 * suffered.length);
   quiet(page);
   await page.context().close();
 });
 
-test("20 files made to harm, dropped on the page", async () => {
+test("files made to harm, dropped on the page", async () => {
   const page = await openCalm();
-  const all = [];
-  for (const [what, text] of await files()) {
-    all.push(await suffer(page, what, () => drop(page, `${what}.json`, text)));
+  const list = await files();
+  assert.equal(list.length, 20);
+  const suffered = [];
+  for (const [what, text] of some(list)) {
+    suffered.push(await suffer(page, what, () => drop(page, `${what}.json`, text)));
   }
-  tell(all);
-  assert.equal(all.length, 20);
+  tell(suffered);
   quiet(page);
   await page.context().close();
 });

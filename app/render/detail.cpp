@@ -23,7 +23,8 @@ double depth(const Instance& body, const Picture& picture) {
 }
 
 double reach(const Instance& body) {
-  return std::hypot(body.half_extents[0], body.half_extents[1], body.half_extents[2]);
+  const auto& half = body.half_extents;
+  return static_cast<double>(std::hypot(half[0], half[1], half[2]));
 }
 
 // The coarsest mesh whose outline is true. @param radius of the rounding on the screen [pixel]

@@ -14,7 +14,7 @@ const isScene = (part) => part.startsWith("scene=");
 export function makeAddress(wasm, host, keep, signal) {
   const packed = { text: "", letters: "" }; // the last own scene
   let written = ""; // the fragment that this wrote, or read, last
-  let before = ""; // the last one of the scene before
+  let before = ""; // the last fragment of the previous scene
   let timer = 0;
 
   /** The experiment as a fragment, without '#'. */

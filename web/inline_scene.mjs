@@ -6,7 +6,7 @@ export const largestUnpacked = 4 << 20;
 // A stream inflates all that it is given before it hands anything on: 1 kB becomes 1 MB at most.
 const sliceSize = 1024; // [bytes]
 
-/** The bytes in slices, each when the last one is used up. */
+/** A stream of the bytes in slices, read on demand. */
 function slices(bytes) {
   let at = 0;
   return new ReadableStream({
@@ -18,7 +18,7 @@ function slices(bytes) {
   }, { highWaterMark: 0 });
 }
 
-/** What comes out of a stream, as long as it is no more than so many bytes. */
+/** The output of a transform stream; throws a RangeError past `most` bytes. */
 async function through(bytes, stream, most = Infinity) {
   const reader = slices(bytes).pipeThrough(stream).getReader();
   const pieces = [];

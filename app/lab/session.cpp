@@ -38,7 +38,7 @@ void Session::load(std::shared_ptr<const Scene> scene) {
   make_simulator();
   ++generation_;
   restart();
-  if (held_) play();
+  if (resumes_) play();
 }
 
 void Session::make_simulator() {
@@ -53,7 +53,7 @@ void Session::reset() {
   use_scene(loaded_);
   simulator_->reset();
   restart();
-  if (failed && held_) play();
+  if (failed && resumes_) play();
 }
 
 void Session::restart() {
@@ -94,16 +94,16 @@ void Session::show_present() {
 
 void Session::play() {
   playing_ = !stopped();
-  held_ = false;
+  resumes_ = false;
 }
 
 void Session::pause() {
   hold();
-  held_ = false;
+  resumes_ = false;
 }
 
 void Session::hold() {
-  held_ = held_ || (playing_ && !one_frame_);
+  resumes_ = resumes_ || (playing_ && !one_frame_);
   playing_ = one_frame_ = false;
   slices_.drop(*simulator_);
 }

@@ -95,7 +95,7 @@ class Session {
   void play();
   /// Leaves a frame that has not ended: the run is where it began.
   void pause();
-  /// Pauses though nobody asked for it: because the past is looked at, or because the run failed.
+  /// Pauses without the user: at a failure, or while the past is shown. What runs next plays again.
   /// What is loaded next plays if this run did.
   void hold();
   void toggle() { playing_ ? pause() : play(); }
@@ -188,7 +188,7 @@ class Session {
   double speed_ = 1.0;
   double pace_ = 1.0;
   bool playing_ = false;
-  bool held_ = false;  // it would play, see hold()
+  bool resumes_ = false;  // it played until hold()
   bool just_failed_ = false;
   int thrown_ = 0;  // balls since the scene was loaded
   int generation_ = 0;

@@ -40,7 +40,7 @@ void Session::go_to_last_good(double seconds) {
   go_to(i);
 }
 
-// The run goes on from a moment in the past: what came after it did not happen.
+// Continuing from a past moment discards the later frames.
 void Session::forget_future() {
   if (timeline_.at_end()) return;
   timeline_.cut();

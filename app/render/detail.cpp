@@ -114,6 +114,7 @@ void DetailedBodies::choose(std::span<const Instance> all_boxes,
 }
 
 void DetailedBodies::thin_out_specks(const DetailNeeds& needs) {
+  if (boxes.front().empty() && balls.front().empty()) return;
   taken_.assign(static_cast<std::size_t>(needs.width) * static_cast<std::size_t>(needs.height),
                 false);
   const double focal = focal_length(needs);

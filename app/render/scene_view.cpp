@@ -106,7 +106,7 @@ Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) 
 
 // How far the bodies reach to either side of where the camera looks at the start, as they are seen
 // at the distance of its target: what swings comes to the other side as well, nearer or farther.
-double half_width(const Scene& scene, const Poses& poses) {
+double width_to_show(const Scene& scene, const Poses& poses) {
   const Vec3 right = OrbitCamera::right_of(scene.camera);
   const Vec3 back = scene.camera.eye - scene.camera.target;
   const double distance = std::max(1e-3, back.norm());
@@ -126,7 +126,7 @@ double half_width(const Scene& scene, const Poses& poses) {
 void SceneView::follow(const Session& session) {
   if (session.generation() != generation_) {
     generation_ = session.generation();
-    camera.place(session.scene().camera, half_width(session.scene(), session.poses()));
+    camera.place(session.scene().camera, width_to_show(session.scene(), session.poses()));
     home_ = ball_around(session.scene(), session.poses(), nullptr);
     lowest_ = home_.centre.y() - home_.radius;
   }

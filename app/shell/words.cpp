@@ -210,7 +210,7 @@ void App::open_link(std::string_view fragment, std::string_view scene) {
   for (const LinkPart& part : parts) {
     const bool again = followed.contains(part.key);
     const std::string problem =
-        again ? "stands there twice; the first one counts" : set(part.key, part.value);
+        again ? "is given more than once; the first value is used" : set(part.key, part.value);
     if (problem.empty()) {
       followed.insert(part.key);
       continue;

@@ -8,8 +8,8 @@ std::span<const TourStep> tour_steps() {
   static constexpr std::array<TourStep, 6> kSteps{
       {{"A heavy box on a thin chain",
         "25 links of 1 kg carry 1,000 kg, at one step per frame and with an exact solver: the "
-        "chain "
-        "tears at 0.35 s. Its pull, turned by any small rotation of a link, pushes back like a "
+        "chain tears at 0.35 s. Its pull, turned by any small rotation of a link, pushes back like "
+        "a "
         "spring that is too stiff for so long a step.",
         "The links, and the error as it climbs. The run pauses where it fails.",
         "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots"},
@@ -32,8 +32,7 @@ std::span<const TourStep> tour_steps() {
         "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler&panel=why"},
        {"Alpha trades cost for distance",
         "Alpha says how far from the limit of stability a step keeps. N is proportional to 1/√α: "
-        "the "
-        "orange ghost has a quarter of the alpha, twice the sub-steps and half the loss.",
+        "the orange ghost has a quarter of the alpha, twice the sub-steps and half the loss.",
         "The two curves of N, one twice the other.",
         "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler"
         "&compare=alpha:0.025&panel=plots"},

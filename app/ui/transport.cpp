@@ -104,7 +104,7 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   ImGui::SetCursorScreenPos({at.x, top});
   ImGui::InvisibleButton("verdict", {width, 28.0F});
   tooltip(look, ready ? text.c_str() : verdict_words(verdict.text()).c_str(),
-          ready ? "Nothing ran yet: the first frame is judged when it was taken."
+          ready ? "The run has not started. Each frame is judged after it is computed."
           : disturbed
               ? "A body was pulled or a ball thrown: this is no longer the scene's own run. "
                 "Joints that tear and numbers that are not finite are judged still. A reset "

@@ -120,8 +120,8 @@ void face_points(const Placed& i, const Vec3& half_i, const Placed& r, const Vec
 
 }  // namespace
 
-void box_box(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
-             ContactPoints& out) {
+void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
+           ContactPoints& out) {
   const Mat3 R_BA = b.R.transpose() * a.R;
   const Vec3 d = a.x - b.x;
   const Face on_b = best_face(b.R.transpose() * d, R_BA, box_b.half_extents, box_a.half_extents);

@@ -2,8 +2,8 @@
 
 namespace substep {
 
-void box_plane(const Placed& a, const Box& box, const Placed& b, double margin,
-               ContactPoints& out) {
+void touch(const Placed& a, const Box& box, const Placed& b, const Plane&, double margin,
+           ContactPoints& out) {
   const Vec3 n = b.R.col(1);
   const Vec3 centre = a.x - b.x;
   for (unsigned corner = 0; corner < 8; ++corner) {

@@ -20,46 +20,26 @@ struct Placed {
 
 using ContactPoints = std::vector<ContactPoint>;
 
-void sphere_plane(const Placed& a, const Sphere& sphere, const Placed& b, double margin,
-                  ContactPoints& out);
-void sphere_sphere(const Placed& a, const Sphere& sphere_a, const Placed& b, const Sphere& sphere_b,
-                   double margin, ContactPoints& out);
-void sphere_box(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box,
-                double margin, ContactPoints& out);
+// One overload of touch() for every two alternatives of Shape, of which only the second may be a
+// plane. A pair without one does not compile.
+
+void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Plane& plane,
+           double margin, ContactPoints& out);
+void touch(const Placed& a, const Sphere& sphere_a, const Placed& b, const Sphere& sphere_b,
+           double margin, ContactPoints& out);
+void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box, double margin,
+           ContactPoints& out);
+inline void touch(const Placed& a, const Box& box, const Placed& b, const Sphere& sphere,
+                  double margin, ContactPoints& out) {
+  touch(b, sphere, a, box, margin, out);
+}
 /// One point per corner; the feature is the corner.
-void box_plane(const Placed& a, const Box& box, const Placed& b, double margin, ContactPoints& out);
+void touch(const Placed& a, const Box& box, const Placed& b, const Plane& plane, double margin,
+           ContactPoints& out);
 /// Face against face: the corners of the incident face clipped by the sides of the reference face.
 /// Edge against edge: one point (box_edges.hpp).
-void box_box(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
-             ContactPoints& out);
-
-// The pairs of Detector, of which only the second may be a plane: one function for every two
-// alternatives of Shape. A pair without one does not compile.
-
-inline void touch(const Placed& a, const Sphere& x, const Placed& b, const Plane&, double margin,
-                  ContactPoints& out) {
-  sphere_plane(a, x, b, margin, out);
-}
-inline void touch(const Placed& a, const Sphere& x, const Placed& b, const Sphere& y, double margin,
-                  ContactPoints& out) {
-  sphere_sphere(a, x, b, y, margin, out);
-}
-inline void touch(const Placed& a, const Sphere& x, const Placed& b, const Box& y, double margin,
-                  ContactPoints& out) {
-  sphere_box(a, x, b, y, margin, out);
-}
-inline void touch(const Placed& a, const Box& x, const Placed& b, const Plane&, double margin,
-                  ContactPoints& out) {
-  box_plane(a, x, b, margin, out);
-}
-inline void touch(const Placed& a, const Box& x, const Placed& b, const Sphere& y, double margin,
-                  ContactPoints& out) {
-  sphere_box(b, y, a, x, margin, out);
-}
-inline void touch(const Placed& a, const Box& x, const Placed& b, const Box& y, double margin,
-                  ContactPoints& out) {
-  box_box(a, x, b, y, margin, out);
-}
+void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
+           ContactPoints& out);
 
 /// @param a not a plane: planes are static, and bodies that do not move do not collide
 inline void touch_shapes(const Placed& a, const Shape& shape_a, const Placed& b,

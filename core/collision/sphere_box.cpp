@@ -9,8 +9,8 @@ namespace substep {
 // A sphere is convex and so is the box: one point. The distance field of the box at the centre is
 // that of the nearest face, edge or corner; along the directions in which the centre lies outside
 // the box the field is round, along the others it is flat.
-void sphere_box(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box,
-                double margin, ContactPoints& out) {
+void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box, double margin,
+           ContactPoints& out) {
   const Vec3 c = b.R.transpose() * (a.x - b.x);  // centre in the box's frame
   const Vec3 nearest = c.cwiseMax(-box.half_extents).cwiseMin(box.half_extents);
   const Vec3 d = c - nearest;

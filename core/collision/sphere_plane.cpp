@@ -2,8 +2,8 @@
 
 namespace substep {
 
-void sphere_plane(const Placed& a, const Sphere& sphere, const Placed& b, double margin,
-                  ContactPoints& out) {
+void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Plane&, double margin,
+           ContactPoints& out) {
   const Vec3 n = b.R.col(1);
   const Vec3 centre = a.x - b.x;
   const double distance = n.dot(centre);

@@ -4,8 +4,8 @@
 
 namespace substep {
 
-void sphere_sphere(const Placed& a, const Sphere& sphere_a, const Placed& b, const Sphere& sphere_b,
-                   double margin, ContactPoints& out) {
+void touch(const Placed& a, const Sphere& sphere_a, const Placed& b, const Sphere& sphere_b,
+           double margin, ContactPoints& out) {
   const Vec3 d = a.x - b.x;
   const double reach = sphere_a.radius + sphere_b.radius + margin;
   const double squared = d.squaredNorm();

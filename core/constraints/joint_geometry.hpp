@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/math/types.hpp"
-#include "core/model/state.hpp"
+#include "core/constraints/block.hpp"
 
 namespace substep {
 
@@ -33,7 +32,7 @@ struct Motion {
 /// Some rows of a block.
 struct RowRange {
   int first = 0;
-  int count = 5;  // at most: kMaxRows
+  int count = kMaxRows;  // at most
 
   [[nodiscard]] bool reaches(int begin, int end) const {
     return first < end && first + count > begin;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/model/joint_fields.hpp"
 #include "core/model/validate.hpp"
 #include "core/sim/simulator_impl.hpp"
 
@@ -11,9 +12,7 @@ namespace substep {
 namespace {
 
 bool is_spring(const Joint& joint) {
-  Block block;
-  with_joint_rows(joint, [&](auto rows, const auto& own) { rows.constants(own, block); });
-  return std::any_of(block.C, block.C + block.rows, [](double C) { return C > 0.0; });
+  return base(joint).compliance > 0.0 || angular_compliance_of(joint).value_or(0.0) > 0.0;
 }
 
 }  // namespace

@@ -89,6 +89,22 @@ Settings long_sweeps(SolverKind solver) {
   return settings;
 }
 
+// The work of moving bodies alone uses up the budget: what is said to be needed is more than it.
+TEST(Budget, TheWorkOfBodiesCountsInWhatIsNeeded) {
+  SceneBuilder builder("chain");
+  for (int i = 0; i < 10000; ++i) {
+    builder.add_body(Sphere{0.1}, 1.0, {0.3 * i, 0, 0});
+    builder.add_ball_joint(i, i - 1, {0.3 * i - 0.15, 0, 0});
+  }
+  Settings settings;
+  settings.mode = Mode::kConst;
+  settings.n = 10000;
+  const FrameReport report = first_frame(*builder.build(), settings);
+  ASSERT_EQ(report.status, StepStatus::kOverBudget);
+  EXPECT_GT(report.overrun.work, report.overrun.budget);
+  EXPECT_FALSE(report.overrun.of_substep);
+}
+
 TEST(Budget, TheProductOfSubstepsIterationsAndRowsIsBounded) {
   SceneBuilder builder("pendulum");
   builder.add_body(Sphere{0.1}, 1.0, {1, 0, 0});

@@ -139,7 +139,7 @@ async function suffer(page, what, take) {
   let report = await call(page, "report");
   const held = report.held !== "";
   if (held) {
-    await click(page, "Run it"); // a person who does not believe it
+    await click(page, "Run it"); // in spite of the forecast
     await page.waitForTimeout(400);
     report = await call(page, "report");
   }

@@ -12,7 +12,7 @@
 namespace substep {
 namespace {
 
-// Looks from a height of 10 m straight at the origin.
+// Looks along -z at the origin. @param distance [m]
 Picture seen_from(double distance) {
   OrbitCamera camera;
   Camera at;

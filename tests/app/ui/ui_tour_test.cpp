@@ -94,7 +94,7 @@ TEST(Tour, ItsGhostsGoWithIt) {
   h.frames(2);
   EXPECT_LT(h.app->desk.tour, 0);
   EXPECT_FALSE(h.app->compare.open());
-  EXPECT_TRUE(h.app->session.playing()) << "the run goes on";
+  EXPECT_TRUE(h.app->session.playing()) << "the run continues";
 }
 
 TEST(Tour, EveryStepFitsIntoThePictureAndEnds) {

@@ -27,7 +27,7 @@ TEST(Verdict, NothingIsSaidBeforeAFrameWasJudged) {
   session.go_to(0);
   EXPECT_FALSE(session.judged());
   session.grab(1, Vec3::Zero(), Vec3::Zero());
-  EXPECT_TRUE(session.judged()) << "a hand in it is told at once";
+  EXPECT_TRUE(session.judged()) << "a disturbance shows before the first frame";
 }
 
 Settings without_substeps(const Session& session) {

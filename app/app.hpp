@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,8 +25,8 @@ struct App : Lab, Viewport {
   /// @return what is wrong with it, or ""
   std::string set(std::string_view key, std::string_view value);
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
-  /// @param scene the text of a scene of its own, or ""
-  void open_link(std::string_view fragment, std::string_view scene = "");
+  /// @param own the scene that came with it, or what was wrong with that
+  void open_link(std::string_view fragment, std::optional<SceneResult> own = {});
 
   Desk desk;
   ui::Look look;

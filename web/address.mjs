@@ -11,7 +11,7 @@ const partsOf = (fragment) => fragment.replace(/^#/, "").split("&").filter((part
 
 const isScene = (part) => part.startsWith("scene=");
 
-export function makeAddress(wasm, host, keep, signal) {
+export function makeAddress(wasm, host, readScene, keep, signal) {
   const packed = { text: "", letters: "" }; // the last own scene
   let written = ""; // the fragment that this wrote, or read, last
   let before = ""; // the last fragment of the previous scene
@@ -52,7 +52,8 @@ export function makeAddress(wasm, host, keep, signal) {
       }
     }
     const rest = parts.filter((part) => part !== scene).join("&");
-    const answer = JSON.parse(wasm.openLink(rest, text));
+    const answer = JSON.parse(text === "" ? wasm.openLink(rest)
+      : await readScene(text, () => wasm.openReadLink(rest)));
     host.changed?.();
     return answer;
   }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/lab/frame_slices.hpp"
 #include "app/text/export.hpp"
 #include "app/text/format.hpp"
 #include "app/ui/handles.hpp"
@@ -43,6 +44,25 @@ json outcome(const std::vector<Problem>& problems) {
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
+/// Of the scene that was read.
+substep::SceneResult read_result() {
+  if (!instance->reading) return {nullptr, {{"", "no scene was read"}}};
+  return std::exchange(instance->reading, nullptr)->result();
+}
+
+const char* open_result(substep::SceneResult result, const char* from) {
+  const bool playing = app().session.playing();
+  app().open_result(std::move(result), from);
+  if (!playing) app().session.pause();
+  return keep(outcome(app().trouble.problems));
+}
+
+const char* open_link(const char* fragment, std::optional<substep::SceneResult> scene) {
+  app().trouble = {};
+  app().open_link(fragment, std::move(scene));
+  return keep(outcome(app().trouble.problems));
+}
+
 std::string text_of(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
@@ -58,10 +78,7 @@ const char* substep_open(const char* name) {
 }
 
 const char* substep_open_text(const char* text, const char* from) {
-  const bool playing = app().session.playing();
-  app().open_text(text, from);
-  if (!playing) app().session.pause();
-  return keep(outcome(app().trouble.problems));
+  return open_result(substep::read_scene(text), from);
 }
 
 const char* substep_set(const char* text) {
@@ -100,10 +117,24 @@ int substep_busy() { return app().busy() ? 1 : 0; }
 
 void substep_reset() { app().reset(); }
 
-const char* substep_open_link(const char* fragment, const char* scene) {
-  app().trouble = {};
-  app().open_link(fragment, scene);
-  return keep(outcome(app().trouble.problems));
+const char* substep_open_link(const char* fragment) { return open_link(fragment, {}); }
+
+void substep_read(const char* text) {
+  instance->reading = std::make_unique<substep::SceneReading>(text);
+}
+
+int substep_read_some() {
+  const auto until = substep::end_of_slice(substep::kSlice);
+  while (instance->reading && instance->reading->advance()) {
+    if (substep::FrameSlices::Clock::now() >= until) return 1;
+  }
+  return 0;
+}
+
+const char* substep_open_read(const char* from) { return open_result(read_result(), from); }
+
+const char* substep_open_read_link(const char* fragment) {
+  return open_link(fragment, read_result());
 }
 
 const char* substep_link() { return keep_text(app().link()); }
@@ -112,7 +143,8 @@ const char* substep_command() { return keep_text(app().command()); }
 
 const char* substep_own_scene() {
   const substep::Scene& scene = app().link_scene();
-  return keep_text(substep::is_own(scene) ? substep::write_scene(scene) : "");
+  const bool fits = substep::is_own(scene) && substep::OwnScenes::may_keep(scene);
+  return keep_text(fits ? substep::write_scene(scene) : "");
 }
 
 const char* substep_saved_scene() {

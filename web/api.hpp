@@ -34,16 +34,27 @@ SUBSTEP_EXPORTED int substep_busy();
 
 SUBSTEP_EXPORTED void substep_reset();
 
-/// @param scene the text of a scene of its own, or ""
 /// @return what of it could not be read
-SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment, const char* scene);
+SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment);
+
+/// Begins to read a scene's text; what was read before is forgotten.
+SUBSTEP_EXPORTED void substep_read(const char* text);
+
+/// Goes on reading for a short time. @return 0 when it is done
+SUBSTEP_EXPORTED int substep_read_some();
+
+/// Opens the scene that was read: substep_open_text in parts.
+SUBSTEP_EXPORTED const char* substep_open_read(const char* from);
+
+/// substep_open_link with the scene that was read for its scene.
+SUBSTEP_EXPORTED const char* substep_open_read_link(const char* fragment);
 
 SUBSTEP_EXPORTED const char* substep_link();
 
 SUBSTEP_EXPORTED const char* substep_command();
 
 /// The scene that the link starts from, as a file; "" where it is a shipped one, which a link
-/// names.
+/// names, or too large for a link.
 SUBSTEP_EXPORTED const char* substep_own_scene();
 
 /// The run as it is now, as a scene file.

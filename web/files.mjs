@@ -44,7 +44,7 @@ async function copy(text) {
   }
 }
 
-export function makeFiles(frame, wasm, host) {
+export function makeFiles(frame, wasm, host, readScene) {
   const tell = (text) => {
     wasm.tell(text);
     host.changed?.();
@@ -53,7 +53,7 @@ export function makeFiles(frame, wasm, host) {
   async function open(file) {
     if (!file || wasm.stopped) return;
     try {
-      wasm.openText(await textOf(file), file.name);
+      await readScene(await textOf(file), () => wasm.openRead(file.name));
     } catch (error) {
       wasm.trouble(`${file.name} was not loaded`, "", error.message);
     }

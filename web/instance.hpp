@@ -5,13 +5,15 @@
 
 #include "app/app.hpp"
 #include "app/ui/context.hpp"
+#include "core/io/scene_reader.hpp"
 
 namespace substep::web {
 
 struct Instance {
   ui::Context context;
   std::unique_ptr<App> app;
-  bool pinching = false;  // two fingers are or were on the picture
+  std::unique_ptr<SceneReading> reading;  // that goes on, or waits to be opened
+  bool pinching = false;                  // two fingers are or were on the picture
 };
 
 /// Null before substep_start.

@@ -7,6 +7,7 @@ import { makeFrame } from "./frame.mjs";
 import { Graphics } from "./graphics.mjs";
 import { listen } from "./input.mjs";
 import { LoadError, loadEngine, loseContext, makeEngine } from "./loader.mjs";
+import { makeSceneReader } from "./scene_reader.mjs";
 import { makeTwin } from "./twin.mjs";
 
 // The smallest module with a vector in it: a function that gives two times 0.
@@ -131,8 +132,9 @@ async function open(frame, options) {
   const engine = await load(frame);
   const host = {}; // what the application may ask of the page: web/host.cpp calls it
   const wasm = await makeEngine(engine, frame.canvas, host);
-  const files = makeFiles(frame, wasm, host);
-  const address = makeAddress(wasm, host, options.address === true, frame.signal);
+  const readScene = makeSceneReader(wasm);
+  const files = makeFiles(frame, wasm, host, readScene);
+  const address = makeAddress(wasm, host, readScene, options.address === true, frame.signal);
   const capture = makeCapture(frame, wasm, host, files.save);
   wasm.run(frame.wholePage);
 

@@ -13,16 +13,18 @@ void OwnScenes::add(const std::shared_ptr<const Scene>& scene) {
     texts_.erase(texts_.begin() + static_cast<std::ptrdiff_t>(i));
     break;
   }
-  keep(scene, write_scene(*scene));
+  std::string text = may_keep(*scene) ? write_scene(*scene) : "";
+  if (text.size() > kMaxText) text.clear();
+  scenes_.insert(scenes_.begin(), scene);
+  texts_.insert(texts_.begin(), std::move(text));
   if (scenes_.size() <= kMost) return;
   scenes_.pop_back();
   texts_.pop_back();
 }
 
-void OwnScenes::keep(const std::shared_ptr<const Scene>& scene, std::string text) {
-  if (text.size() > kMaxText) text.clear();
-  scenes_.insert(scenes_.begin(), scene);
-  texts_.insert(texts_.begin(), std::move(text));
+bool OwnScenes::may_keep(const Scene& scene) {
+  constexpr std::size_t kShortest = 70;  // text of a body or a joint [bytes]
+  return kShortest * (scene.bodies.size() + scene.joints.size()) <= kMaxText;
 }
 
 std::string OwnScenes::text() const {

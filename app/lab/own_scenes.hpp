@@ -20,6 +20,10 @@ class OwnScenes {
   /// Puts a scene to the front, in place of an older one of its name.
   void add(const std::shared_ptr<const Scene>& scene);
 
+  /// Whether a scene can be kept, as far as its numbers of bodies and joints tell: to write a large
+  /// one takes long.
+  static bool may_keep(const Scene& scene);
+
   /// As one text, and back. What cannot be read is left out: it was kept by an older version.
   [[nodiscard]] std::string text() const;
   static OwnScenes read(std::string_view text);
@@ -27,8 +31,6 @@ class OwnScenes {
   [[nodiscard]] const std::vector<std::shared_ptr<const Scene>>& scenes() const { return scenes_; }
 
  private:
-  void keep(const std::shared_ptr<const Scene>& scene, std::string text);
-
   std::vector<std::shared_ptr<const Scene>> scenes_;
   std::vector<std::string> texts_;  // of scenes_; empty where it is too long to keep
 };

@@ -180,7 +180,7 @@ std::string App::set(std::string_view key, std::string_view value) {
   return "";
 }
 
-void App::open_link(std::string_view fragment, std::string_view scene) {
+void App::open_link(std::string_view fragment, std::optional<SceneResult> own) {
   if (static_cast<double>(fragment.size()) > kLongestLink) {
     trouble = {"The link was not followed",
                {{"", "it has " + grouped(static_cast<double>(fragment.size())) +
@@ -190,14 +190,11 @@ void App::open_link(std::string_view fragment, std::string_view scene) {
   }
   const auto scene_before = plain_scene;
   RunStart before = run_start();
-  if (!scene.empty()) {
-    SceneResult result = read_scene(scene);
-    if (!result.scene) {
-      trouble = {"The link's scene was not loaded", std::move(result.problems)};
-      return;
-    }
-    run(add_own(*result.scene));
+  if (own && !own->scene) {
+    trouble = {"The link's scene was not loaded", std::move(own->problems)};
+    return;
   }
+  if (own) run(add_own(*own->scene));
   std::vector<Problem> problems;
   bool scene_refused = false;
   // The scene first: it brings settings of its own, which the others then change.

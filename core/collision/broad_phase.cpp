@@ -113,9 +113,10 @@ void BroadPhase::sweep(const Scene& scene, const State& state) {
       if (may_touch(scene, i, j)) pairs_.push_back({i, j});
     }
   }
+  valid_ = !too_many();
+  if (!valid_) return;
   std::sort(pairs_.begin(), pairs_.end(),
             [](const Pair& p, const Pair& q) { return p.i != q.i ? p.i < q.i : p.j < q.j; });
-  valid_ = !too_many();
 }
 
 }  // namespace substep

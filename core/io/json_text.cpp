@@ -1,7 +1,9 @@
 #include "core/io/json_text.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "core/model/number_text.hpp"
 
@@ -28,31 +30,35 @@ std::string plain_message(std::string message) {
   return message;
 }
 
-/// Walks through the text once before a document is made: syntax, nesting, keys that stand twice.
-class Check {
+/// Builds the document while the library walks through the text; checks nesting, the number of
+/// values, and keys that stand twice.
+class Builder {
  public:
-  Check(std::string_view text, Problems& problems) : text_(text), problems_(problems) {}
+  Builder(std::string_view text, Problems& problems) : text_(text), problems_(problems) {}
 
   // A number that left the range of doubles, where the walk stopped: offset and length in the text.
   std::size_t overflow_begin = 0;
   std::size_t overflow_size = 0;
+  Json document;
 
   // What nlohmann::json::sax_parse calls; false stops it.
-  bool null() { return value(); }
-  bool boolean(bool) { return value(); }
-  bool number_integer(Json::number_integer_t) { return value(); }
-  bool number_unsigned(Json::number_unsigned_t) { return value(); }
-  bool number_float(Json::number_float_t, const std::string&) { return value(); }
-  bool string(std::string&) { return value(); }
-  bool binary(Json::binary_t&) { return value(); }
-  bool start_object(std::size_t) { return value() && open(false); }
-  bool start_array(std::size_t) { return value() && open(true); }
+  bool null() { return value(nullptr); }
+  bool boolean(bool x) { return value(x); }
+  bool number_integer(Json::number_integer_t x) { return value(x); }
+  bool number_unsigned(Json::number_unsigned_t x) { return value(x); }
+  bool number_float(Json::number_float_t x, const std::string&) { return value(x); }
+  bool string(std::string& x) { return value(std::move(x)); }
+  bool binary(Json::binary_t&) { return false; }  // text has none
+  bool start_object(std::size_t) { return open(Json::object()); }
+  bool start_array(std::size_t) { return open(Json::array()); }
   bool end_object() { return close(); }
   bool end_array() { return close(); }
   bool key(std::string& key) {
     Level& level = levels_.back();
-    level.key = key;
-    if (!level.keys.insert(key).second && problems_.size() <= kMaxProblems) {
+    level.member = level.find(key);
+    if (level.member == nullptr) {
+      level.member = level.append(std::move(key));
+    } else if (problems_.size() <= kMaxProblems) {
       problems_.push_back({pointer(), "the key stands twice in this object"});
     }
     return true;
@@ -60,7 +66,7 @@ class Check {
   bool parse_error(std::size_t position, const std::string& token, const Json::exception& error) {
     constexpr int kOutOfRange = 406;
     if (error.id == kOutOfRange && token.size() <= position) {
-      value();  // so that the pointer is that of the number
+      value(nullptr);  // so that the pointer is that of the number
       problems_.push_back({pointer(), token + " is beyond the range of numbers (1.8e308)"});
       overflow_begin = position - token.size();
       overflow_size = token.size();
@@ -72,26 +78,67 @@ class Check {
   }
 
  private:
+  using Member = Json::object_t::value_type;
+
+  /// An object or a list that is open. The library's own look-up takes time proportional to the
+  /// number of keys; a large object has an index beside it.
   struct Level {
-    bool is_array = false;
-    std::size_t items = 0;       // of an array, so far
-    std::string key;             // of an object, the last one
-    std::set<std::string> keys;  // of an object
+    static constexpr std::size_t kSmall = 16;
+
+    Json* json;
+    Member* member = nullptr;                  // of an object, the last one
+    std::map<std::string, std::size_t> index;  // of an object with more than kSmall keys
+
+    // Its operator[] takes keys.
+    static Member& at(Json::object_t& object, std::size_t i) {
+      return *(object.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    Member* find(const std::string& key) {
+      auto& object = json->get_ref<Json::object_t&>();
+      if (object.size() <= kSmall) {
+        const auto same = [&](const Member& known) { return known.first == key; };
+        const auto found = std::find_if(object.begin(), object.end(), same);
+        return found == object.end() ? nullptr : &*found;
+      }
+      const auto found = index.find(key);
+      return found == index.end() ? nullptr : &at(object, found->second);
+    }
+    Member* append(std::string key) {
+      auto& object = json->get_ref<Json::object_t&>();
+      object.push_back(Member(std::move(key), nullptr));
+      for (std::size_t i = index.size(); object.size() > kSmall && i < object.size(); ++i) {
+        index.emplace(at(object, i).first, i);
+      }
+      return &object.back();
+    }
   };
 
-  bool value() {
-    if (!levels_.empty()) ++levels_.back().items;
-    if (++values_ <= kMaxJsonValues) return true;
-    problems_.push_back({"", "more than " + std::to_string(kMaxJsonValues) + " values"});
-    return false;
+  /// Puts a value where the walk stands. @return where it is now, or null where there are too many
+  template <class T>
+  Json* put(T&& x) {
+    if (++values_ > kMaxJsonValues) {
+      problems_.push_back({"", "more than " + std::to_string(kMaxJsonValues) + " values"});
+      return nullptr;
+    }
+    if (levels_.empty()) return &(document = std::forward<T>(x));
+    Level& level = levels_.back();
+    if (level.json->is_object()) return &(level.member->second = std::forward<T>(x));
+    auto& list = level.json->get_ref<Json::array_t&>();
+    return &list.emplace_back(std::forward<T>(x));
   }
-  bool open(bool is_array) {
+  template <class T>
+  bool value(T&& x) {
+    return put(std::forward<T>(x)) != nullptr;
+  }
+  bool open(Json container) {
+    Json* opened = put(std::move(container));
+    if (opened == nullptr) return false;
     if (levels_.size() == kMaxJsonDepth) {
       problems_.push_back(
           {pointer(), "nested deeper than " + std::to_string(kMaxJsonDepth) + " levels"});
       return false;
     }
-    levels_.push_back({is_array, 0, {}, {}});
+    levels_.push_back({opened, nullptr, {}});
     return true;
   }
   bool close() {
@@ -101,8 +148,12 @@ class Check {
   [[nodiscard]] std::string pointer() const {
     std::string result;
     for (const Level& level : levels_) {
-      if (level.is_array && level.items == 0) break;
-      result = level.is_array ? pointer_to(result, level.items - 1) : pointer_to(result, level.key);
+      if (level.json->is_array()) {
+        if (level.json->empty()) break;
+        result = pointer_to(result, level.json->size() - 1);
+      } else if (level.member != nullptr) {
+        result = pointer_to(result, level.member->first);
+      }
     }
     return result;
   }
@@ -135,17 +186,17 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
   std::string copy(text);
   for (int overflows = 0;; ++overflows) {
     Problems found;
-    Check check(copy, found);
-    const bool ok = Json::sax_parse(copy, &check);
-    if (ok || check.overflow_size == 0 || overflows == kMostOverflows) {
+    Builder builder(copy, found);
+    const bool ok = Json::sax_parse(copy, &builder);
+    if (ok || builder.overflow_size == 0 || overflows == kMostOverflows) {
       problems.insert(problems.end(), found.begin(), found.end());
       if (!ok) return std::nullopt;
-      return Json::parse(copy, nullptr, false);
+      return std::move(builder.document);
     }
     // Keys that stand twice are found again by the next walk.
     problems.push_back(found.back());
-    const std::string null = "null" + std::string(check.overflow_size - 4, ' ');
-    copy.replace(check.overflow_begin, check.overflow_size, null);
+    const std::string null = "null" + std::string(builder.overflow_size - 4, ' ');
+    copy.replace(builder.overflow_begin, builder.overflow_size, null);
   }
 }
 

@@ -81,26 +81,22 @@ const Json* ObjectReader::member(std::string_view key, Presence presence) {
   return nullptr;
 }
 
-bool ObjectReader::one_number(const Json& value, const std::string& pointer, const Range& range,
-                              double& target) {
-  if (!value.is_number()) {
-    problems_.push_back({pointer, value_text(value) + " is not a number" + range.unit_text()});
-    return false;
-  }
+std::optional<std::string> ObjectReader::number_fault(const Json& value, const Range& range,
+                                                      double& target) {
+  if (!value.is_number()) return value_text(value) + " is not a number" + range.unit_text();
   const auto x = value.get<double>();
-  if (!range.contains(x)) {
-    problems_.push_back(
-        {pointer, "must be " + range.violated_by(x) + ", not " + value_text(value)});
-    return false;
-  }
+  if (!range.contains(x)) return "must be " + range.violated_by(x) + ", not " + value_text(value);
   target = x;
-  return true;
+  return std::nullopt;
 }
 
 bool ObjectReader::number(std::string_view key, const Range& range, double& target,
                           Presence presence) {
   const Json* value = member(key, presence);
-  return value && one_number(*value, pointer(key), range, target);
+  if (!value) return false;
+  const auto fault = number_fault(*value, range, target);
+  if (fault) problem(key, *fault);
+  return !fault;
 }
 
 bool ObjectReader::integer(std::string_view key, int least, int most, int& target,
@@ -151,17 +147,20 @@ bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& 
   return false;
 }
 
-bool ObjectReader::row(const Json& value, const std::string& pointer, const Range& range,
+template <class Pointer>
+bool ObjectReader::row(const Json& value, const Pointer& pointer, const Range& range,
                        double* target, std::size_t size) {
   if (!value.is_array() || value.size() != size) {
-    problems_.push_back({pointer, value_text(value) + " is not a list of " + std::to_string(size) +
-                                      " numbers" + range.unit_text()});
+    problems_.push_back({pointer(), value_text(value) + " is not a list of " +
+                                        std::to_string(size) + " numbers" + range.unit_text()});
     return false;
   }
   std::vector<double> read(size);
   bool ok = true;
   for (std::size_t i = 0; i < size; ++i) {
-    ok = one_number(value[i], pointer_to(pointer, i), range, read[i]) && ok;
+    const auto fault = number_fault(value[i], range, read[i]);
+    if (fault) problems_.push_back({pointer_to(pointer(), i), *fault});
+    ok = ok && !fault;
   }
   if (ok) std::copy(read.begin(), read.end(), target);
   return ok;
@@ -170,7 +169,8 @@ bool ObjectReader::row(const Json& value, const std::string& pointer, const Rang
 bool ObjectReader::numbers(std::string_view key, const Range& range, double* target,
                            std::size_t size, Presence presence) {
   const Json* value = member(key, presence);
-  return value && row(*value, pointer(key), range, target, size);
+  return value && row(
+                      *value, [&] { return pointer(key); }, range, target, size);
 }
 
 bool ObjectReader::table(std::string_view key, const Range& range, double* target, std::size_t rows,
@@ -183,7 +183,8 @@ bool ObjectReader::table(std::string_view key, const Range& range, double* targe
   }
   bool ok = true;
   for (std::size_t i = 0; i < rows && problems_.size() <= kMaxProblems; ++i) {
-    ok = row((*value)[i], pointer_to(pointer(key), i), range, target + i * columns, columns) && ok;
+    const auto place = [&] { return pointer_to(pointer(key), i); };
+    ok = row((*value)[i], place, range, target + i * columns, columns) && ok;
   }
   return ok;
 }

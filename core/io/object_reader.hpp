@@ -1,6 +1,7 @@
 #pragma once
 // Reads the members of one JSON object, and notes all that is wrong with them.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,9 +55,12 @@ class ObjectReader {
   [[nodiscard]] std::string pointer(std::string_view key) const;
 
  private:
-  bool one_number(const Json& value, const std::string& pointer, const Range& range,
-                  double& target);
-  bool row(const Json& value, const std::string& pointer, const Range& range, double* target,
+  /// What is wrong with a number; where nothing is, the target is set.
+  static std::optional<std::string> number_fault(const Json& value, const Range& range,
+                                                 double& target);
+  /// @param pointer gives the row's place, which only a problem needs
+  template <class Pointer>
+  bool row(const Json& value, const Pointer& pointer, const Range& range, double* target,
            std::size_t size);
 
   const Json* json_ = nullptr;

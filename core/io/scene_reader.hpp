@@ -15,7 +15,26 @@ struct SceneResult {
   Problems problems;
 };
 
-/// Reads a scene of format version 1 (scenes/scene.schema.json). Never throws.
+/// Reads a scene of format version 1 (scenes/scene.schema.json) in parts, between which a window
+/// can answer. Never throws.
+class SceneReading {
+ public:
+  explicit SceneReading(std::string json);
+  ~SceneReading();
+
+  /// Does the next part: parses the text, reads a thousand bodies or joints, or checks the scene.
+  /// @return whether there is more to do
+  bool advance();
+  /// Does what is left. To be called once.
+  SceneResult result();
+
+ private:
+  enum class Part : unsigned char;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The same at once.
 SceneResult read_scene(std::string_view json);
 
 /// The same from a file; a file that cannot be read is a problem with pointer "".

@@ -79,10 +79,15 @@ void call(const std::string& line) {
     require(is_json(substep_open(text.c_str())), "open answers in JSON");
   } else if (name == "load") {
     require(is_json(substep_open_text(text.c_str(), "input")), "load answers in JSON");
+  } else if (name == "read") {
+    substep_read(text.c_str());
+    while (substep_read_some() != 0) {
+    }
+    require(is_json(substep_open_read("input")), "what was read is opened");
   } else if (name == "set") {
     require(is_json(substep_set(text.c_str())), "set answers in JSON");
   } else if (name == "link") {
-    require(is_json(substep_open_link(text.c_str(), "")), "openLink answers in JSON");
+    require(is_json(substep_open_link(text.c_str())), "openLink answers in JSON");
   } else if (name == "step" && small()) {
     limit_work();
     substep_step(std::min(std::atoi(text.c_str()), kFrames));
@@ -126,7 +131,7 @@ void look() {
   const std::string own = substep_own_scene();
   // The page packs a person's own scene into the link; then the engine is given both apart.
   if (own.empty()) {
-    substep_open_link(link.c_str(), "");
+    substep_open_link(link.c_str());
     require(app().trouble.problems.empty(), "a link that was made can be read");
     const std::string again = substep_link();
     require(again == link, "a link that was made is the same experiment: " + link + " " + again);

@@ -6,6 +6,7 @@
 
 #include "core/io/json_text.hpp"
 #include "core/io/scene_reader.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene_limits.hpp"
 #include "tests/unit/scene_text.hpp"
@@ -99,6 +100,42 @@ TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
   const List problems = problems_of(with(R"("mass": 2)", keys + R"("mass": 2)"));
   ASSERT_EQ(problems.size(), kMaxProblems + 1);
   EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
+}
+
+// With a search through all keys for each of them this takes minutes.
+TEST(SceneReader, RefusesAnObjectOfVeryManyKeys) {
+  constexpr int kKeys = 300'000;
+  std::string text = R"({"format": "substep-scene")";
+  for (int i = 0; i < kKeys; ++i) text += ", \"k" + std::to_string(i) + "\": 0";
+  const List problems = problems_of(text + ", \"k77\": 1}");
+  ASSERT_FALSE(problems.empty());
+  EXPECT_EQ(problems.front(), "/k77: the key stands twice in this object");
+}
+
+TEST(SceneReader, ReadsInPartsWhatItReadsAtOnce) {
+  const auto text_of = [](int balls, double last_mass) {
+    std::string bodies;
+    for (int i = 0; i < balls; ++i) {
+      bodies += std::string(i == 0 ? "" : ", ") + R"({"name": "b)" + std::to_string(i) +
+                R"(", "shape": {"type": "sphere", "radius": 0.1}, "position": [0, 0, )" +
+                std::to_string(i) + R"(], "mass": )" +
+                std::to_string(i + 1 == balls ? last_mass : 1.0) + "}";
+    }
+    return R"({"format": "substep-scene", "version": 1, "name": "row", "title": "Row", )"
+           R"("bodies": [)" +
+           bodies + "]}";
+  };
+  const std::string good = text_of(4500, 2.0);
+  SceneReading reading(good);
+  int parts = 1;
+  while (reading.advance()) ++parts;
+  EXPECT_GE(parts, 5);
+  const SceneResult result = reading.result();
+  ASSERT_TRUE(result.scene);
+  EXPECT_EQ(write_scene(*result.scene), write_scene(*read_scene(good).scene));
+  EXPECT_EQ(result.scene->bodies.size(), 4500U);
+  EXPECT_EQ(problems_of(text_of(2500, -1.0)),
+            List{"/bodies/2499/mass: must be above 0 (kg), not -1"});
 }
 
 TEST(SceneReader, NeedsABodyThatMoves) {

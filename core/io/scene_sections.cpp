@@ -1,0 +1,164 @@
+#include "core/io/scene_sections.hpp"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/io/effect_names.hpp"
+#include "core/model/names.hpp"
+#include "core/model/scene_checks.hpp"
+#include "core/model/scene_limits.hpp"
+
+namespace substep {
+
+/// Whether this is a scene of a version that can be read at all. If not, nothing else is worth
+/// telling.
+bool read_version(ObjectReader& in, Problems& problems) {
+  const std::size_t before = problems.size();
+  std::string format;
+  if (in.text("format", kMaxProse, format, kRequired) && format != "substep-scene") {
+    in.problem("format", value_text(format) + " is not \"substep-scene\"");
+  }
+  if (const Json* version = in.member("version", kRequired); version && *version != 1) {
+    in.problem("version", value_text(*version) + " is not 1, the only version that is known");
+  }
+  return problems.size() == before;
+}
+
+void read_about(ObjectReader& in, Scene& scene) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_-";
+  if (in.text("name", kMaxNameSize, scene.name, kRequired) &&
+      scene.name.find_first_not_of(kLetters) != std::string::npos) {
+    in.problem("name", value_text(scene.name) + " is not made of a-z, 0-9, _ and - only");
+  }
+  in.text("title", kMaxTitle, scene.title, kRequired);
+  in.text("group", kMaxTitle, scene.group, kOptional);
+  in.text("description", kMaxProse, scene.description, kOptional);
+  in.text("look_for", kMaxProse, scene.look_for, kOptional);
+}
+
+void read_camera(ObjectReader& parent, Scene& scene, Problems& problems) {
+  const Json* json = parent.member("camera", kOptional);
+  if (!json) return;
+  ObjectReader in(*json, parent.pointer("camera"), problems);
+  const bool eye = in.vector("eye", kPositionRange, scene.camera.eye, kRequired);
+  const bool target = in.vector("target", kPositionRange, scene.camera.target, kRequired);
+  if (eye && target && scene.camera.eye == scene.camera.target) {
+    in.problem("target", "the same point as eye");
+  }
+  in.finish();
+}
+
+void read_contact(ObjectReader& parent, Scene& scene, Problems& problems) {
+  const Json* json = parent.member("contact", kOptional);
+  if (!json) return;
+  ObjectReader in(*json, parent.pointer("contact"), problems);
+  in.number("compliance", kComplianceRange, scene.contact.compliance, kOptional);
+  in.number("friction_compliance", kComplianceRange, scene.contact.friction_compliance, kOptional);
+  in.number("margin", kMarginRange, scene.contact.margin, kOptional);
+  in.number("restitution_speed", kRestitutionSpeedRange, scene.contact.restitution_speed,
+            kOptional);
+  in.finish();
+}
+
+void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, Problems& problems) {
+  const Json* json = parent.member("criteria", kOptional);
+  if (!json) return;
+  ObjectReader in(*json, parent.pointer("criteria"), problems);
+  Criteria& criteria = scene.criteria;
+  double value = 0.0;
+  in.number("duration", kDurationRange, criteria.duration, kOptional);
+  in.number("joint_gap", kDistanceRange, criteria.joint_gap, kOptional);
+  if (in.number("energy_gain", kEnergyRange, value, kOptional)) criteria.energy_gain = value;
+  if (in.number("energy_scale", kEnergyRange, value, kOptional)) criteria.energy_scale = value;
+  const auto read_body_name = [&](ObjectReader& reader, std::string_view key, Presence presence) {
+    auto body = names.read(reader, key, presence);
+    if (body == kWorld) {
+      reader.problem(key, "\"world\" is not a body");
+      body.reset();
+    }
+    return body;
+  };
+  if (const Json* moved = in.member("displacement", kOptional)) {
+    ObjectReader part(*moved, in.pointer("displacement"), problems);
+    Criteria::Displacement displacement;
+    const auto body = read_body_name(part, "body", kRequired);
+    part.number("distance", kDistanceRange, displacement.distance, kRequired);
+    part.finish();
+    displacement.body = body.value_or(0);
+    criteria.displacement = displacement;
+  }
+  criteria.track = read_body_name(in, "track", kOptional);
+  std::string expected = "holds";
+  if (in.text("expected", kMaxNameSize, expected, kOptional)) {
+    if (expected != "holds" && expected != "fails") {
+      in.problem("expected", value_text(expected) + " is not holds or fails");
+    }
+    criteria.holds = expected == "holds";
+  }
+  in.finish();
+}
+
+/// The items of a list, or nothing where it is missing, no list or too long.
+const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, Presence presence) {
+  const Json* list = in.member(key, presence);
+  if (!list) return nullptr;
+  if (!list->is_array()) {
+    in.problem(key, value_text(*list) + " is not a list");
+    return nullptr;
+  }
+  if (list->size() > most) {
+    in.problem(key, std::to_string(list->size()) + " are more than " + std::to_string(most));
+    return nullptr;
+  }
+  return list;
+}
+
+/// The list as it is written. @return whether there is one
+bool read_effects(ObjectReader& in, Scene& scene) {
+  const Json* list = read_list(in, "effects", 100, kOptional);
+  if (!list) return in.member("effects", kOptional) != nullptr;
+  std::vector<std::string_view> names;
+  for (const NamedEffect& effect : kEffectNames) names.push_back(effect.name);
+  for (std::size_t i = 0; i < list->size(); ++i) {
+    const Json& name = (*list)[i];
+    const auto found = std::find_if(kEffectNames.begin(), kEffectNames.end(),
+                                    [&](const NamedEffect& effect) { return name == effect.name; });
+    if (found == kEffectNames.end()) {
+      in.item_problem("effects", i, value_text(name) + " is not " + one_of(names));
+    } else if (scene.effects.*found->member) {
+      in.item_problem("effects", i, value_text(name) + " stands twice");
+    } else {
+      scene.effects.*found->member = true;
+    }
+  }
+  return true;
+}
+
+/// A listed scene must list all that its content needs.
+void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& problems) {
+  const Effects& listed = scene.effects;
+  const auto missing = [&](std::string_view effect, const std::string& why) {
+    std::string message = value_text(effect);
+    message += " is missing, and ";
+    message += why;
+    in.problem("effects", message);
+  };
+  if (!listed.gravity && in.member("gravity", kOptional)) missing("gravity", "/gravity is given");
+  if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");
+  check_effects(scene, problems);
+}
+
+void read_start(ObjectReader& in, Scene& scene) {
+  std::string name;
+  if (!in.text("start", kMaxNameSize, name, kOptional)) return;
+  if (const auto policy = value_of<StartPolicy>(name)) {
+    scene.start = *policy;
+    return;
+  }
+  std::vector<std::string_view> names;
+  for (const auto& entry : NameTable<StartPolicy>::entries) names.push_back(entry.name);
+  in.problem("start", value_text(name) + " is not " + one_of(names));
+}
+
+}  // namespace substep

@@ -5,16 +5,16 @@
 namespace substep {
 
 void BallRows::constants(const JointBase& joint, Block& block) {
-  block.kind = BlockKind::kBall;
-  block.rows = 3;
+  block.rows = block.position_rows = 3;
   block.pinned = true;
   for (std::int8_t& tight : block.tight) tight = 0;  // no row is ever let go of
   for (int i = 0; i < 3; ++i) block.C[i] = joint.compliance;
 }
 
 // An arm r that turns with omega: r'' = omega x (omega x r).
-void BallRows::curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
-                         double* curvature) {
+void BallRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature) {
+  const Vec3 omega_a = u_a.tail<3>();
+  const Vec3 omega_b = u_b.tail<3>();
   const Vec3 c = omega_a.cross(omega_a.cross(block.r_a)) - omega_b.cross(omega_b.cross(block.r_b));
   for (int i = 0; i < 3; ++i) curvature[i] = c[i];
 }
@@ -47,6 +47,14 @@ void BallRows::moved_errors(const Block& start, const Motion& a, const Motion& b
   const Vec3 r_b = b.R * start.r_b;
   const Vec3 gap = (a.dx - b.dx) + ((r_a - start.r_a) - (r_b - start.r_b));
   for (int i = 0; i < 3; ++i) phi[i] = gap[i];
+}
+
+// The force stays, and each arm turns with its body.
+void BallRows::push_change(const Block& block, const Motion& a, const Motion& b,
+                           const double* force, Vec6& on_a, Vec6& on_b) {
+  const Vec3 f{force[0], force[1], force[2]};
+  on_a.tail<3>() += (a.R * block.r_a - block.r_a).cross(f);
+  on_b.tail<3>() -= (b.R * block.r_b - block.r_b).cross(f);
 }
 
 std::int64_t BallRows::stiffness_flops(std::int64_t bodies) {

@@ -32,17 +32,16 @@ struct BallRows {
     for (int i = 0; i < 3; ++i) block.phi[i] = phi[i];
   }
 
-  static void curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
-                        double* curvature);
+  static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature);
   static void stiffness(const Block& block, StiffnessMatrix& K);
   static void turning_stiffness(const Block& block, std::span<Mat3> K);
   static void move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
                    Block& moved);
   static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);
+  static Vec3 force(const Block&, const double* force) { return {force[0], force[1], force[2]}; }
   static Vec3 torque(const Block&, const double*) { return Vec3::Zero(); }
-  static Vec3 torque_change(const Block&, const Mat3&, const Mat3&, const double*) {
-    return Vec3::Zero();
-  }
+  static void push_change(const Block& block, const Motion& a, const Motion& b, const double* force,
+                          Vec6& on_a, Vec6& on_b);
   static std::int64_t stiffness_flops(std::int64_t bodies);
   static std::int64_t turning_stiffness_flops(std::int64_t bodies);
 };

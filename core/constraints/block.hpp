@@ -15,28 +15,30 @@ inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 /// Block::tight of a row that no earlier sub-step knows.
 inline constexpr std::int8_t kUnknownSet = 2;
 
-/// Joints in the order of Joint's alternatives, then contacts.
-enum class BlockKind : std::uint8_t { kBall, kHinge, kContact };
+/// Of a joint the place of its kind among Joint's alternatives.
+enum class BlockKind : std::uint8_t { kFirstJoint, kContact = 255 };
 
 /// The rows of one joint or of one contact point, on at most two moving bodies; what its arrays
 /// hold beyond its number of rows does not matter. Eq. 3 row by row:
 ///   J u+ + softness * impulse = -bias,   lo <= impulse <= hi.
 /// A static body or the world is -1 and has no columns.
 struct Block {
-  BlockKind kind = BlockKind::kBall;
+  BlockKind kind = BlockKind::kFirstJoint;
   int a = -1;            // moving body, or -1
   int b = -1;            // moving body, or -1
-  int rows = 0;          // used of kMaxRows: 1 or 3 of a contact, 3 of a ball joint, 5 of a hinge
+  int rows = 0;          // used of kMaxRows
   int body_a = -1;       // index into Scene::bodies, moving or not
   int body_b = -1;       // the same, -1 for the world
   std::uint64_t id = 0;  // the same from sub-step to sub-step
-  // Joints: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]], further rows have no linear part
-  // and J_b = -J_a, whichever side moves. Solvers go by that, and nothing else of J is filled than
-  // J_a of the further rows: gradient() knows.
+  // Two points are tied to each other: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]], further
+  // rows have no linear part and J_b = -J_a, whichever side moves. Solvers go by that, and nothing
+  // else of J is filled than J_a of the further rows: gradient() knows. Of any other block J_a and
+  // J_b are filled.
   bool pinned = false;
-  bool seeded = false;          // the last sub-step had this block: impulse is of it
-  bool was_closed = false;      // contact: carried a force in the last sub-step
-  std::int8_t tight[kMaxRows];  // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
+  std::int8_t position_rows = 0;  // joint: the first rows are of positions, the others of angles
+  bool seeded = false;            // the last sub-step had this block: impulse is of it
+  bool was_closed = false;        // contact: carried a force in the last sub-step
+  std::int8_t tight[kMaxRows];    // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
   // A pin in a direct solve reads no further than these: of a long chain that is less memory.
   Vec3 r_a = Vec3::Zero();  // arms from the centres of mass to the point of action, world [m]
@@ -62,10 +64,12 @@ struct Block {
   Vec3 rho = Vec3::Zero();    // from the centre of b to the touching point of a, gap included [m]
   Vec3 arm_a = Vec3::Zero();  // of a's point that follows a's rotation (0 for a sphere)
   Mat3 H = Mat3::Zero();      // curvature of b's distance field at a's point [1/m]: dn = H dx
-  // Hinge: axis u fixed in a, and v1, v2 across it fixed in b, world.
+  // Joints with an axis, world: axis u fixed in a, and v1, v2 across it fixed in b. Prismatic: w
+  // across the axis fixed in a.
   Vec3 axis = Vec3::Zero();
   Vec3 v1 = Vec3::Zero();
   Vec3 v2 = Vec3::Zero();
+  Vec3 w = Vec3::Zero();
 
   // Of compliant rows, compliance.hpp.
   double elastic[kMaxRows] = {};       // of phi, what is the spring's own [m or rad]

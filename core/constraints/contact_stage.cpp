@@ -96,10 +96,10 @@ bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const 
   return true;
 }
 
-double ContactStage::penetration(const Scene& scene, const Part& part, const State& state,
-                                 std::span<const Mat3> R_WB) {
+double penetration(Detector& detector, const Scene& scene, const Part& part, const State& state,
+                   std::span<const Mat3> R_WB) {
   double deepest = 0.0;
-  for (const ContactPoint& point : detector_.detect(scene, part, state, R_WB)) {
+  for (const ContactPoint& point : detector.detect(scene, part, state, R_WB)) {
     deepest = std::max(deepest, -point.gap);
   }
   return deepest;

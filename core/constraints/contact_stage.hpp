@@ -31,9 +31,6 @@ class ContactStage {
                         std::span<const Mat3> R_WB, double dt, Blocks& blocks);
   /// What looks for contacts, for other questions of the same kind.
   [[nodiscard]] Detector& detector() { return detector_; }
-  /// Largest overlap at a state, >= 0 [m].
-  double penetration(const Scene& scene, const Part& part, const State& state,
-                     std::span<const Mat3> R_WB);
 
  private:
   void append(std::span<const ContactPoint> points, const Scene& scene, const State& state,
@@ -45,6 +42,10 @@ class ContactStage {
   std::vector<Quat> q_;
   std::vector<double> way_;  // per body: that its points may go from there [m]
 };
+
+/// Largest overlap at a state, >= 0 [m].
+double penetration(Detector& detector, const Scene& scene, const Part& part, const State& state,
+                   std::span<const Mat3> R_WB);
 
 /// Adds two friction rows to every contact of two bodies that both have friction.
 class FrictionStage {

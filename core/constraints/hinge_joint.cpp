@@ -14,7 +14,6 @@ void across(const Vec3& axis, Vec3& v1, Vec3& v2) {
 
 void HingeRows::constants(const HingeJoint& joint, Block& block) {
   BallRows::constants(joint, block);
-  block.kind = BlockKind::kHinge;
   block.rows = 5;
   for (int row = 3; row < 5; ++row) {
     block.C[row] = joint.angular_compliance;
@@ -29,9 +28,10 @@ JointGeometry HingeRows::geometry(const HingeJoint& joint) {
 }
 
 // (u . v)'' = u'' . v + 2 u' . v' + u . v''
-void HingeRows::curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
-                          double* curvature) {
-  BallRows::curvature(block, omega_a, omega_b, curvature);
+void HingeRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature) {
+  BallRows::curvature(block, u_a, u_b, curvature);
+  const Vec3 omega_a = u_a.tail<3>();
+  const Vec3 omega_b = u_b.tail<3>();
   const Vec3& u = block.axis;
   const Vec3 u_dot = omega_a.cross(u);
   const Vec3 u_ddot = omega_a.cross(u_dot);
@@ -93,10 +93,13 @@ Vec3 HingeRows::torque(const Block& block, const double* force) {
   return force[3] * block.axis.cross(block.v1) + force[4] * block.axis.cross(block.v2);
 }
 
-Vec3 HingeRows::torque_change(const Block& block, const Mat3& a, const Mat3& b,
-                              const double* force) {
+void HingeRows::push_change(const Block& block, const Motion& a, const Motion& b,
+                            const double* force, Vec6& on_a, Vec6& on_b) {
+  const Vec3 f{force[0], force[1], force[2]};
   const Vec3 w = force[3] * block.v1 + force[4] * block.v2;
-  return (a * block.axis).cross(b * w) - block.axis.cross(w);
+  const Vec3 couple = (a.R * block.axis).cross(b.R * w) - block.axis.cross(w);
+  on_a.tail<3>() += (a.R * block.r_a - block.r_a).cross(f) + couple;
+  on_b.tail<3>() -= (b.R * block.r_b - block.r_b).cross(f) + couple;
 }
 
 // w, W U, on each body and between both.

@@ -30,15 +30,18 @@ struct HingeRows {
     }
   }
 
-  static void curvature(const Block& block, const Vec3& omega_a, const Vec3& omega_b,
-                        double* curvature);
+  static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature);
   static void stiffness(const Block& block, StiffnessMatrix& K);
   static void turning_stiffness(const Block& block, std::span<Mat3> K);
   static void move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
                    Block& moved);
   static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);
+  static Vec3 force(const Block& block, const double* force) {
+    return BallRows::force(block, force);
+  }
   static Vec3 torque(const Block& block, const double* force);
-  static Vec3 torque_change(const Block& block, const Mat3& a, const Mat3& b, const double* force);
+  static void push_change(const Block& block, const Motion& a, const Motion& b, const double* force,
+                          Vec6& on_a, Vec6& on_b);
   static std::int64_t stiffness_flops(std::int64_t bodies);
   static std::int64_t turning_stiffness_flops(std::int64_t bodies);
 };

@@ -17,10 +17,12 @@ struct Side {
 struct JointGeometry {
   Vec3 anchor_a = Vec3::Zero();  // [m]
   Vec3 anchor_b = Vec3::Zero();
-  // Of joints with an axis: u in the frame of a; v1, v2 across it, in the frame of b.
+  // Of joints with an axis: u in the frame of a; v1, v2 across it, in the frame of b. Prismatic: w
+  // across it in the frame of a.
   Vec3 u = Vec3::Zero();
   Vec3 v1 = Vec3::Zero();
   Vec3 v2 = Vec3::Zero();
+  Vec3 w = Vec3::Zero();
 };
 
 /// How a body's pose has changed since its rows were made. The world and static bodies stay.

@@ -20,6 +20,7 @@ void JointStage::begin(std::size_t joint, Block& block) const {
     return body == kWorld || scene_.bodies[index(body)].is_static ? -1 : body;
   };
   const JointBase& j = base(scene_.joints[joint]);
+  block.kind = joints_[joint].kind;
   block.id = joint;
   block.body_a = j.a;
   block.body_b = j.b;
@@ -35,8 +36,8 @@ void JointStage::fill(const State& state, std::span<const Mat3> R_WB, std::size_
     return body == kWorld ? Side{} : Side{state.x[index(body)], R_WB[index(body)]};
   };
   // A block that was this joint's before keeps what does not change.
-  if (!block.pinned || block.id != joint) begin(joint, block);
   const Placed& placed = joints_[joint];
+  if (block.kind != placed.kind || block.id != joint || block.rows == 0) begin(joint, block);
   const Side a = side(placed.body_a);
   const Side b = side(placed.body_b);
   with_joint_rows(placed.kind, [&](auto rows) { rows.rows(placed.geometry, a, b, block); });
@@ -53,8 +54,9 @@ JointErrors JointStage::errors(const State& state, std::span<const Mat3> R_WB) c
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     fill(state, R_WB, i, block);
     for (int row = 0; row < block.rows; ++row) errors.sum += std::abs(block.phi[row]);
-    const double gap = std::sqrt(block.phi[0] * block.phi[0] + block.phi[1] * block.phi[1] +
-                                 block.phi[2] * block.phi[2]);
+    double square = 0.0;
+    for (int row = 0; row < block.position_rows; ++row) square += block.phi[row] * block.phi[row];
+    const double gap = std::sqrt(square);
     if (gap > errors.gap) {
       errors.gap = gap;
       errors.joint = static_cast<int>(i);

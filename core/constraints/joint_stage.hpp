@@ -31,7 +31,7 @@ class JointStage {
   struct Placed {
     int body_a = 0;
     int body_b = kWorld;
-    BlockKind kind = BlockKind::kBall;
+    BlockKind kind = BlockKind::kFirstJoint;
     JointGeometry geometry;
   };
   /// What of a joint's block is the same in every sub-step.

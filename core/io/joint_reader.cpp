@@ -49,6 +49,7 @@ struct OwnFieldReader {
 
 Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& bodies,
                  Problems& problems) {
+  const std::size_t before = problems.size();
   ObjectReader in(json, pointer, problems);
   std::string name;
   std::string type;
@@ -67,6 +68,9 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   base(*joint).name = name;
   read_base(in, bodies, base(*joint));
   std::visit([&](auto& own) { own_fields(own, OwnFieldReader{in}); }, *joint);
+  if (problems.size() == before) {
+    if (const auto fault = across_fault(*joint)) in.problem(fault->key, fault->message);
+  }
   in.finish();
   return *std::move(joint);
 }

@@ -91,6 +91,24 @@ std::optional<std::string> axis_fault(const Vec3& axis) {
   return not_unit_text(length);
 }
 
+std::optional<DirectionFault> across_fault(const Joint& joint) {
+  const auto axes = axes_of(joint);
+  const auto across = across_of(joint);
+  if (!axes || !across) return std::nullopt;
+  const auto fault = [](std::string_view key, const Vec3& axis, const Vec3& v) {
+    const double cosine = std::abs(axis.dot(v));
+    return cosine <= kUnitTolerance
+               ? std::nullopt
+               : std::optional<DirectionFault>({key,
+                                                "is not across the axis: the cosine of their "
+                                                "angle is " +
+                                                    number_text(cosine) + ", which is more than " +
+                                                    number_text(kUnitTolerance)});
+  };
+  if (auto of_a = fault("across_a", axes->a, across->a)) return of_a;
+  return fault("across_b", axes->b, across->b);
+}
+
 std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b) {
   const auto unknown = [&](int side) {
     return side != kWorld && (side < 0 || index(side) >= bodies.size());
@@ -155,6 +173,9 @@ void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Data
   check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);
   check_number(j.compliance, kComplianceRange, place.at("compliance"), problems);
   std::visit([&](const auto& own) { own_fields(own, OwnFieldCheck{place, problems}); }, joint);
+  if (const auto fault = across_fault(joint)) {
+    problems.push_back({place.at(fault->key).pointer(), fault->message});
+  }
 }
 
 }  // namespace substep

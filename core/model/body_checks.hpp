@@ -31,6 +31,13 @@ struct SideFault {
 /// @param a, b indices into bodies, or kWorld; any other number is a fault
 std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b);
 
+/// A direction of a joint that should be across its axis and is not.
+struct DirectionFault {
+  std::string_view key;  // "across_a" or "across_b"
+  std::string message;
+};
+std::optional<DirectionFault> across_fault(const Joint& joint);
+
 /// All problems of one body. @param place of the body, such as "/bodies/3"
 void check_body(const Body& body, const DataPlace& place, Problems& problems);
 

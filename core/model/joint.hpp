@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/math/types.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 
@@ -16,12 +17,19 @@ struct JointBase {
   int b = kWorld;                // index into Scene::bodies, or kWorld
   Vec3 anchor_a = Vec3::Zero();  // in the frame of a [m]
   Vec3 anchor_b = Vec3::Zero();  // in the frame of b, or in the world for kWorld [m]
-  double compliance = 0.0;       // C of the three positional rows [m/N], >= 0
+  double compliance = 0.0;       // C of the positional rows [m/N], >= 0
 };
+
+// Each kind has kType, its name in files, and own_fields(), which names what it has beside
+// JointBase for what reads, writes and checks it: field(key, direction) for each unit vector and
+// field(key, number, range) for each number.
 
 /// The two anchors coincide: 3 rows.
 struct BallJoint : JointBase {
-  static constexpr const char* kType = "ball";  // in files
+  static constexpr const char* kType = "ball";
+
+  template <class J, class Field>
+  static void own_fields(J&, Field&&) {}
 };
 
 /// The two anchors coincide and the two axes stay parallel: 5 rows.
@@ -30,9 +38,37 @@ struct HingeJoint : JointBase {
   Vec3 axis_a = Vec3::UnitZ();      // unit, in the frame of a [-]
   Vec3 axis_b = Vec3::UnitZ();      // unit, in the frame of b, or in the world for kWorld [-]
   double angular_compliance = 0.0;  // C of the two angular rows [rad/(N m)], >= 0
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    field("axis_a", joint.axis_a);
+    field("axis_b", joint.axis_b);
+    field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+  }
 };
 
-using Joint = std::variant<BallJoint, HingeJoint>;
+/// The anchor on a slides along the axis through the anchor on b, and the bodies keep their
+/// attitude to each other, axis beside axis and across beside across: 5 rows.
+struct PrismaticJoint : JointBase {
+  static constexpr const char* kType = "prismatic";
+  static constexpr bool kSlides = true;  // its anchors may be apart along its axis
+  Vec3 axis_a = Vec3::UnitX();           // unit, in the frame of a [-]
+  Vec3 axis_b = Vec3::UnitX();           // unit, in the frame of b, or in the world for kWorld [-]
+  Vec3 across_a = Vec3::UnitY();         // unit, across axis_a [-]
+  Vec3 across_b = Vec3::UnitY();         // unit, across axis_b [-]
+  double angular_compliance = 0.0;       // C of the three angular rows [rad/(N m)], >= 0
+
+  template <class J, class Field>
+  static void own_fields(J& joint, Field&& field) {
+    field("axis_a", joint.axis_a);
+    field("axis_b", joint.axis_b);
+    field("across_a", joint.across_a);
+    field("across_b", joint.across_b);
+    field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+  }
+};
+
+using Joint = std::variant<BallJoint, HingeJoint, PrismaticJoint>;
 
 inline const JointBase& base(const Joint& joint) {
   return std::visit([](const auto& j) -> const JointBase& { return j; }, joint);

@@ -2,7 +2,6 @@
 // What joints have beside JointBase, by name: for what reads, writes and checks them.
 
 #include <array>
-#include <concepts>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,21 +9,13 @@
 #include <utility>
 
 #include "core/model/joint.hpp"
-#include "core/model/scene_limits.hpp"
 
 namespace substep {
 
 /// Calls `field(key, axis)` for each unit vector and `field(key, number, range)` for each number.
 template <class J, class Field>
-requires std::same_as<std::remove_const_t<J>, BallJoint>
-void own_fields(J&, Field&&) {}
-
-template <class J, class Field>
-requires std::same_as<std::remove_const_t<J>, HingeJoint>
 void own_fields(J& joint, Field&& field) {
-  field("axis_a", joint.axis_a);
-  field("axis_b", joint.axis_b);
-  field("angular_compliance", joint.angular_compliance, kAngularComplianceRange);
+  std::remove_const_t<J>::own_fields(joint, field);
 }
 
 /// What files call the kinds of joints, in the order of Joint's alternatives.
@@ -47,15 +38,29 @@ inline std::optional<Joint> make_joint(std::string_view type) {
 struct JointAxes {
   Vec3 a = Vec3::UnitZ();
   Vec3 b = Vec3::UnitZ();
+  bool slides = false;  // the anchors may be apart along them
 };
+
+/// The directions across its axes that a joint keeps parallel; nothing for others.
+inline std::optional<JointAxes> across_of(const Joint& joint) {
+  return std::visit(
+      [](const auto& j) -> std::optional<JointAxes> {
+        if constexpr (requires { j.across_a; }) return JointAxes{j.across_a, j.across_b};
+        return std::nullopt;
+      },
+      joint);
+}
 
 /// Nothing for a joint without axes.
 inline std::optional<JointAxes> axes_of(const Joint& joint) {
   return std::visit(
       [](const auto& j) -> std::optional<JointAxes> {
-        if constexpr (requires { j.axis_a; }) return JointAxes{j.axis_a, j.axis_b};
-        return std::nullopt;
-      },
+    if constexpr (requires { j.axis_a; }) {
+      return JointAxes{j.axis_a, j.axis_b, requires {j.kSlides;
+    }};
+}
+return std::nullopt;
+},
       joint);
 }
 

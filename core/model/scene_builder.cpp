@@ -1,5 +1,6 @@
 #include "core/model/scene_builder.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "core/model/effects_of.hpp"
@@ -75,6 +76,19 @@ int SceneBuilder::add_hinge(int a, int b, const Vec3& point, const Vec3& axis) {
   place(scene_, a, b, point, joint);
   joint.axis_a = axis_in(scene_, a, axis);
   joint.axis_b = axis_in(scene_, b, axis);
+  return add(Joint(std::move(joint)));
+}
+
+int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axis) {
+  PrismaticJoint joint;
+  place(scene_, a, b, point, joint);
+  const Vec3 along = axis.normalized();
+  const Vec3 helper = std::abs(along.x()) < 0.8 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 across = along.cross(helper).normalized();
+  joint.axis_a = axis_in(scene_, a, along);
+  joint.axis_b = axis_in(scene_, b, along);
+  joint.across_a = axis_in(scene_, a, across);
+  joint.across_b = axis_in(scene_, b, across);
   return add(Joint(std::move(joint)));
 }
 

@@ -27,6 +27,8 @@ class SceneBuilder {
   int add_ball_joint(int a, int b, const Vec3& point);
   /// The same, and a turns against b about an axis only. @param axis world, of any length [-]
   int add_hinge(int a, int b, const Vec3& point, const Vec3& axis);
+  /// A point of a slides along an axis of b, and neither turns against the other.
+  int add_prismatic(int a, int b, const Vec3& point, const Vec3& axis);
 
   /// Of an index that was returned; orientation and position are to be set before joints are added.
   Body& body(int index) { return scene_.bodies[static_cast<std::size_t>(index)]; }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "core/model/joint_fields.hpp"
@@ -10,7 +12,7 @@
 namespace substep {
 namespace {
 
-constexpr double kMaxAxisAngleSine = 0.1;  // between the axes of a hinge at the start [-]
+constexpr double kMaxAxisAngleSine = 0.1;  // between directions kept parallel, at the start [-]
 
 /// The pose of one side of a joint.
 struct Pose {
@@ -38,6 +40,15 @@ std::pair<int, int> sides(const Scene& scene, const JointBase& joint) {
   return std::minmax(joint.a, b);
 }
 
+/// What is wrong with two directions that a joint keeps parallel; nothing where they nearly are.
+std::optional<std::string> parallel_fault(const Vec3& u, const Vec3& v) {
+  const double sine = u.cross(v).norm();
+  if (u.dot(v) < 0.0) return "start in opposite directions";
+  if (sine <= kMaxAxisAngleSine) return std::nullopt;
+  return "start at an angle with sine " + number_text(sine) + ", which is more than " +
+         number_text(kMaxAxisAngleSine);
+}
+
 }  // namespace
 
 void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems) {
@@ -46,24 +57,25 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
     const JointBase& j = base(scene.joints[i]);
     const Pose a = pose(scene, j.a);
     const Pose b = pose(scene, j.b);
-    const double gap = (a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b).norm();
+    const auto axes = axes_of(scene.joints[i]);
+    Vec3 apart = a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b;
+    if (axes && axes->slides) {
+      const Vec3 axis = b.q * axes->b;
+      apart -= axis * axis.dot(apart);
+    }
+    const double gap = apart.norm();
     if (gap > scene.criteria.joint_gap) {
       problems.push_back({pointer_to("/joints", i),
                           "the anchors start " + number_text(gap) + " apart, which is more than " +
                               number_text(scene.criteria.joint_gap) + " (m)"});
     }
-    if (const auto axes = axes_of(scene.joints[i])) {
-      const Vec3 u = a.q * axes->a;
-      const Vec3 v = b.q * axes->b;
-      const double sine = u.cross(v).norm();
-      if (u.dot(v) < 0.0) {
-        problems.push_back({pointer_to("/joints", i), "the axes start in opposite directions"});
-      } else if (sine > kMaxAxisAngleSine) {
-        problems.push_back({pointer_to("/joints", i),
-                            "the axes start at an angle with sine " + number_text(sine) +
-                                ", which is more than " + number_text(kMaxAxisAngleSine)});
-      }
-    }
+    const auto check_parallel = [&](const std::optional<JointAxes>& pair, const char* what) {
+      if (!pair) return;
+      const auto fault = parallel_fault(a.q * pair->a, b.q * pair->b);
+      if (fault) problems.push_back({pointer_to("/joints", i), what + *fault});
+    };
+    check_parallel(axes, "the axes ");
+    check_parallel(across_of(scene.joints[i]), "the directions across the axes ");
   }
 }
 

@@ -250,7 +250,7 @@ void Simulator::Impl::store_forces() {
   const bool springs = springs_are_stored();
   for (Block& block : rows()) {
     if (!block.is_contact() && !all_are_stored && !springs) continue;
-    set_lambda(block);
+    find_lambda(block, block.lambda);
     StoredForce& force = forces.emplace_back();
     force.id = block.id;
     for (int row = 0; row < block.rows; ++row) {

@@ -162,7 +162,7 @@ double Simulator::Impl::r_rotation_again() const {
 
 FrameReport Simulator::Impl::refusal() {
   FrameReport report;
-  observe(measures, report);
+  look(report);
   report.status = StepStatus::kInvalid;
   return report;
 }
@@ -173,7 +173,7 @@ FrameReport Simulator::Impl::end(StageClock& wall, bool looked_at) {
   if (done) {
     close(report);
   } else if (looked_at) {
-    observe(measures, report);
+    look(report);
   }
   wall.lap(report.times.total);
   const FrameReport result = report;
@@ -216,11 +216,17 @@ void Simulator::Impl::close(FrameReport& report) {
   report.joint_rows = static_cast<int>(rows.joint);
   report.contact_rows = static_cast<int>(rows.contact);
   report.friction_rows = static_cast<int>(rows.friction);
-  observe(measures, report);
+  look(report);
   if (report.status != StepStatus::kOk) stopped = report;
 }
 
-void Simulator::Impl::observe(const Measures& asked, FrameReport& report) {
+void Simulator::Impl::look(FrameReport& report) {
+  if (measures.errors) turn_axes(all.bodies);
+  observe(measures, R_WB, contact ? &contact->detector() : nullptr, report);
+}
+
+void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes, Detector* detector,
+                              FrameReport& report) const {
   report.frame = state.frame;
   report.time = state.time;
   const RotationBound spin = rotation_bound(all.moving);
@@ -241,14 +247,13 @@ void Simulator::Impl::observe(const Measures& asked, FrameReport& report) {
     report.constraint_error = report.joint_gap = report.penetration = kNotMeasured;
     return;
   }
-  turn_axes(all.bodies);
   if (joints) {
-    const JointErrors errors = joints->errors(state, R_WB);
+    const JointErrors errors = joints->errors(state, axes);
     report.constraint_error = errors.sum;
     report.joint_gap = errors.gap;
     report.joint_gap_joint = errors.joint;
   }
-  if (contact) report.penetration = contact->penetration(*scene, all, state, R_WB);
+  if (detector != nullptr) report.penetration = penetration(*detector, *scene, all, state, axes);
 }
 
 }  // namespace substep

@@ -30,6 +30,13 @@ double mean_inverse_mass(const Block& block, int first, int last,
   return sum / (last - first);
 }
 
+/// 2-norm of some rows.
+double norm(const double* rows, int first, int last) {
+  double square = 0.0;
+  for (int row = first; row < last; ++row) square += rows[row] * rows[row];
+  return std::sqrt(square);
+}
+
 /// What the bodies at a joint's two sides have.
 struct SideSizes {
   double distance = 0.0;  // of the centres from the origin [m]
@@ -63,14 +70,15 @@ JointStart measured(const Scene& scene, const State& state, const Block& block,
   row_speeds(block, state.u, speeds);
   JointStart start;
   double sine = 0.0;  // of the tilt
+  const int positions = block.position_rows;
   if (holds.anchors) {
-    start.gap = Vec3(block.phi[0], block.phi[1], block.phi[2]).norm();
-    start.speed = Vec3(speeds[0], speeds[1], speeds[2]).norm();
+    start.gap = norm(block.phi, 0, positions);
+    start.speed = norm(speeds, 0, positions);
   }
-  if (holds.axes && block.rows == 5) {
-    sine = Eigen::Vector2d(block.phi[3], block.phi[4]).norm();
+  if (holds.axes && block.rows > positions) {
+    sine = norm(block.phi, positions, block.rows);
     start.tilt = std::asin(std::min(1.0, sine));
-    start.turning = Eigen::Vector2d(speeds[3], speeds[4]).norm();
+    start.turning = norm(speeds, positions, block.rows);
   }
   const double length = kRelative * size_of_joint(scene, joint) + kRounding * size.distance;
   start.beyond.gap = !(start.gap <= length);
@@ -99,7 +107,8 @@ HoldingRows holding_rows(const Block& block, std::span<const InverseMass> invers
     return block.C[first] > 0.0 &&
            block.C[first] >= h * h * mean_inverse_mass(block, first, last, inverse_mass);
   };
-  return {!yields(0, 3), block.rows == 5 && !yields(3, 5)};
+  const int positions = block.position_rows;
+  return {!yields(0, positions), block.rows > positions && !yields(positions, block.rows)};
 }
 
 std::vector<JointStart> joint_starts(const Scene& scene, const State& state) {

@@ -141,7 +141,7 @@ void Simulator::Impl::bend_rows(double dt) {
     moved_errors(block, motion(u_a, dt), motion(u_b, dt), bent);
     row_speeds(block, block.a >= 0 ? &u_a : nullptr, block.b >= 0 ? &u_b : nullptr, speed);
     for (int row = 0; row < block.rows; ++row) block.bias[row] += bent[row] / dt - speed[row];
-    meet(block);
+    if (block.pinned) meet(block);
   }
 }
 

@@ -53,7 +53,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
   u_start.resize(n);
   u_before.resize(n);
   impulse_time.resize(n);
-  if (joints) bent_torque.resize(n, Vec3::Zero());
+  if (joints) bent_push.resize(n, Vec6::Zero());
   if (effects.gyroscopic) resize_torques();
 }
 
@@ -73,7 +73,15 @@ FrameReport Simulator::observe() const {
   report.failed_body = impl_->stopped.failed_body;
   report.overrun = impl_->stopped.overrun;
   if (impl_->refused.any()) report.status = StepStatus::kInvalid;
-  impl_->observe(Measures{}, report);
+  // With memory of its own: others may ask at the same time.
+  std::vector<Mat3> axes;
+  for (const Quat& q : impl_->state.q) axes.push_back(q.toRotationMatrix());
+  std::optional<Detector> detector;
+  if (impl_->contact) {
+    detector.emplace(*impl_->scene);
+    detector->set_limit(impl_->budget.contacts);
+  }
+  impl_->observe(Measures{}, axes, detector ? &*detector : nullptr, report);
   return report;
 }
 
@@ -105,19 +113,21 @@ const std::optional<Grab>& Simulator::grab() const { return impl_->grab; }
 
 ConstraintForces Simulator::constraint_forces() const {
   ConstraintForces out;
-  for (Block& block : impl_->blocks.all()) {
-    impl_->set_lambda(block);
+  for (const Block& block : impl_->blocks.all()) {
+    double lambda[kMaxRows];
+    impl_->find_lambda(block, lambda);
     if (block.is_contact()) {
-      Vec3 force = block.lambda[0] * block.n;
-      if (block.rows == 3) force += block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
+      Vec3 force = lambda[0] * block.n;
+      if (block.rows == 3) force += lambda[1] * block.t1 + lambda[2] * block.t2;
       out.contacts.push_back({block.body_a, block.body_b, block.r_a, block.n, force, block.phi[0]});
     } else if (block.id < impl_->scene->joints.size()) {  // and not the hand
       out.joints.resize(impl_->scene->joints.size());
       JointForce& force = out.joints[static_cast<std::size_t>(block.id)];
-      force.force = {block.lambda[0], block.lambda[1], block.lambda[2]};
       force.known = true;
-      with_joint_rows(block.kind,
-                      [&](auto rows) { force.torque = rows.torque(block, block.lambda); });
+      with_joint_rows(block.kind, [&](auto rows) {
+        force.force = rows.force(block, lambda);
+        force.torque = rows.torque(block, lambda);
+      });
     }
   }
   return out;

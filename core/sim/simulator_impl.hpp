@@ -74,7 +74,7 @@ struct Simulator::Impl {
   bool holds_grab() const { return grab && part().holds(grab->body); }
   double impulse_time_of(const Block& block) const;  // lambda = impulse / it [s]
   double dt_previous_of(const Block& block) const;
-  void set_lambda(Block& block) const;  // where somebody is going to read it
+  void find_lambda(const Block& block, double* lambda) const;  // of its rows, from the impulses
 
   // Of bodies whose moments of inertia differ: rotation.cpp.
   bool turns_otherwise(std::size_t body) const;  // than what torques alone make of its velocity
@@ -151,7 +151,11 @@ struct Simulator::Impl {
   FrameReport refusal();  // of a frame that is not begun, since something given was refused
   FrameReport end(StageClock& wall, bool looked_at);  // of a call: closes a frame that is done
   void close(FrameReport& report);
-  void observe(const Measures& asked, FrameReport& report);
+  void look(FrameReport& report);  // what `measures` ask for
+  /// @param axes R_WB of all bodies, where errors are asked for  @param detector null without
+  /// contact
+  void observe(const Measures& asked, std::span<const Mat3> axes, Detector* detector,
+               FrameReport& report) const;
 
   std::shared_ptr<const Scene> scene;
   Settings settings;
@@ -195,14 +199,14 @@ struct Simulator::Impl {
   std::vector<InverseMass> inverse_mass;
   std::vector<InverseMass> rigid_mass;  // of impacts, in modes that put another mass in its place
   std::vector<Vec6> u_start;            // at the start of the sub-step
-  std::vector<Vec6> u_before;     // after the gyroscopic torque, before forces and constraints
-  std::vector<Vec6> u_guess;      // where accelerations stay as they are, or change as they did
-  std::vector<Motion> motions;    // and how bodies would move by that
-  std::vector<Vec6> w;            // what they move by
-  std::vector<Spin> spins;        // of what tumbles
-  bool loops_bend = false;        // rows of all of their joints, in this sub-step
-  std::vector<Vec3> bent_torque;  // what turns add to the torques of joints [N m s]
-  struct Changes {                // per body; of what tumbles of its torque, in dt
+  std::vector<Vec6> u_before;   // after the gyroscopic torque, before forces and constraints
+  std::vector<Vec6> u_guess;    // where accelerations stay as they are, or change as they did
+  std::vector<Motion> motions;  // and how bodies would move by that
+  std::vector<Vec6> w;          // what they move by
+  std::vector<Spin> spins;      // of what tumbles
+  bool loops_bend = false;      // rows of all of their joints, in this sub-step
+  std::vector<Vec6> bent_push;  // change of the impulses of joints as bodies move [N s, N m s]
+  struct Changes {              // per body; of what tumbles of its torque, in dt
     Vec6 a = Vec6::Zero();
     Vec6 now = Vec6::Zero();
     Vec6 before = Vec6::Zero();

@@ -16,7 +16,7 @@ namespace substep {
 namespace {
 
 constexpr double kClosed = 1e-13;  // error, of the joint's size or in rad, that ends an iteration
-// Softness of a hinge's anchors where only its axes hold, of 1/m: next to no impulse, and no digits
+// Softness of a joint's anchors where only its axes hold, of 1/m: next to no impulse, and no digits
 // lost [-].
 constexpr double kFree = 1e8;
 constexpr double kMostMemory = 64.0 * kMebibyte;  // of a factor [bytes]
@@ -56,7 +56,7 @@ class StartRows {
   [[nodiscard]] double error() const {
     double most = 0.0;
     for_holding([&](const Block& block, int row, double size) {
-      const double error = std::abs(block.phi[row]) / (row < 3 ? size : 1.0);
+      const double error = std::abs(block.phi[row]) / (row < block.position_rows ? size : 1.0);
       most = error > most || std::isnan(error) ? error : most;
     });
     return most;
@@ -67,7 +67,7 @@ class StartRows {
     double most = 0.0;
     double speeds[kMaxRows];
     for_holding([&](const Block& block, int row, double) {
-      if (row == 0 || row == 3) row_speeds(block, u, speeds);
+      if (row == 0 || row == block.position_rows) row_speeds(block, u, speeds);
       const double error = std::abs(speeds[row]);
       most = error > most || std::isnan(error) ? error : most;
     });
@@ -81,13 +81,13 @@ class StartRows {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       if (!holds_[i].anchors && !holds_[i].axes) continue;
       Block& block = held_.emplace_back(blocks_.all()[i]);
-      if (!holds_[i].axes) block.rows = 3;
+      if (!holds_[i].axes) block.rows = block.position_rows;
       double free = 0.0;  // [1/kg]
       for (const int body : {block.a, block.b}) {
         if (body >= 0) free += kFree * inverse_mass_[index(body)].linear;
       }
       for (int row = 0; row < block.rows; ++row) {
-        const bool held = row >= 3 || holds_[i].anchors;
+        const bool held = row >= block.position_rows || holds_[i].anchors;
         block.bias[row] = held ? share * block.phi[row] : 0.0;
         block.softness[row] = held ? 0.0 : free;
         block.impulse[row] = 0.0;
@@ -120,7 +120,7 @@ class StartRows {
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
       const Block& block = blocks_.all()[i];
       for (int row = 0; row < block.rows; ++row) {
-        const bool held = row < 3 ? holds_[i].anchors : holds_[i].axes;
+        const bool held = row < block.position_rows ? holds_[i].anchors : holds_[i].axes;
         if (held) visit(block, row, sizes_[i]);
       }
     }

@@ -149,7 +149,7 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
   const bool gives = has_springs && follows_accelerations(settings) && !probing;
   if (gives) {
     for (const Block& block : own) {
-      if (block.pinned) apply_impulse(block, block.given, inverse_mass, state.u);
+      if (!block.is_contact()) apply_impulse(block, block.given, inverse_mass, state.u);
     }
   }
   if (extrapolates(settings)) prepare_courses();
@@ -178,9 +178,8 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
   }
   if (gives) {
     for (Block& block : own) {
-      for (int row = 0; block.pinned && row < block.rows; ++row) {
-        block.impulse[row] += block.given[row];
-      }
+      if (block.is_contact()) continue;
+      for (int row = 0; row < block.rows; ++row) block.impulse[row] += block.given[row];
     }
   }
   smooth = !contact || std::none_of(own.begin(), own.end(), [&](const Block& block) {
@@ -237,7 +236,7 @@ void Simulator::Impl::stop(std::size_t body, FrameReport& report) {
 
 bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
-  for (Block& block : rows()) set_lambda(block);
+  for (Block& block : rows()) find_lambda(block, block.lambda);
   const bool full = rules_of(settings.mode).mass == StiffMass::kFull;
   const ContactTerms terms = full ? ContactTerms::kNormal
                              : settings.contact_stiffness == ContactStiffness::kExact
@@ -298,9 +297,9 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   clock.lap(report.times.integrate);
 }
 
-void Simulator::Impl::set_lambda(Block& block) const {
+void Simulator::Impl::find_lambda(const Block& block, double* lambda) const {
   const double time = impulse_time_of(block);
-  for (int row = 0; row < block.rows; ++row) block.lambda[row] = block.impulse[row] / time;
+  for (int row = 0; row < block.rows; ++row) lambda[row] = block.impulse[row] / time;
 }
 
 // Bodies that have just met may differ in it; the force between them then is one in name only.

@@ -48,8 +48,10 @@ void Simulator::Impl::synchronise(double dt) {
     const double ahead = hit[i] != 0         ? 0.0
                          : state.own.empty() ? ahead_of_all
                                              : ahead_after(state.own[i].dt_previous);
-    const Vec3 bent = turns_forces ? Vec3(ahead * bent_torque[i]) : Vec3(Vec3::Zero());
+    const Vec6 pushed = turns_forces ? Vec6(ahead * bent_push[i]) : Vec6(Vec6::Zero());
+    const Vec3 bent = pushed.tail<3>();
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - u_before[i]);
+    state.u_synchronised[i].head<3>() += inverse_mass[i].linear * pushed.head<3>();
     if (turns_otherwise(i)) {
       synchronise_spin(i, ahead, bent, dt);
     } else {
@@ -58,27 +60,20 @@ void Simulator::Impl::synchronise(double dt) {
   }
 }
 
-// The change of the joints' angular impulse as their bodies turn: (J+ - J)^T impulse [N m s].
+// The change of the joints' impulses as their bodies move: (J+ - J)^T impulse [N s, N m s].
 void Simulator::Impl::turn_joint_forces(double dt) {
-  bent_torque.assign(state.u.size(), Vec3::Zero());
-  const auto turn_of = [&](int body) {
-    return body < 0 ? Mat3(Mat3::Identity())
-                    : turn_matrix(0.5 * dt * state.u[index(body)].tail<3>());
+  bent_push.assign(state.u.size(), Vec6::Zero());
+  const auto motion_of = [&](int body) {
+    return body < 0 ? Motion{} : motion(state.u[index(body)], dt);
   };
+  Vec6 unmoved = Vec6::Zero();  // of the world and static bodies
   for (const Block& block : rows()) {
     if (block.is_contact()) continue;
-    const Mat3 a = turn_of(block.a);
-    const Mat3 b = turn_of(block.b);
-    const Vec3 force{block.impulse[0], block.impulse[1], block.impulse[2]};
-    Vec3 torque;
-    with_joint_rows(block.kind,
-                    [&](auto joint) { torque = joint.torque_change(block, a, b, block.impulse); });
-    if (block.a >= 0) {
-      bent_torque[index(block.a)] += (a * block.r_a - block.r_a).cross(force) + torque;
-    }
-    if (block.b >= 0) {
-      bent_torque[index(block.b)] -= (b * block.r_b - block.r_b).cross(force) + torque;
-    }
+    Vec6& on_a = block.a < 0 ? unmoved : bent_push[index(block.a)];
+    Vec6& on_b = block.b < 0 ? unmoved : bent_push[index(block.b)];
+    with_joint_rows(block.kind, [&](auto joint) {
+      joint.push_change(block, motion_of(block.a), motion_of(block.b), block.impulse, on_a, on_b);
+    });
   }
 }
 

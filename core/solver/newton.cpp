@@ -45,7 +45,7 @@ Mat3 resisting_diagonal(const Mat3& K, const Mat3& R_WB) {
   return R_WB * k.cwiseMax(0.0).asDiagonal() * R_WB.transpose();
 }
 
-/// A block as a step finds it. Of a joint that it knows only what a sub-step changes: move_rows()
+/// A block as a step finds it. Of a pin that it knows only what a sub-step changes: move_rows()
 /// and the steps write the rest.
 void copy_start(const Block& start, Block& row) {
   if (!start.pinned || !row.pinned || row.id != start.id || row.a != start.a || row.b != start.b) {
@@ -111,7 +111,7 @@ void Newton::relinearise(const System& system, Forces forces) {
     Block& block = rows_[i];
     if (forces == Forces::kNumerov) {
       const PoseWeights w = numerov_.weights_of(system, start);
-      if (start.pinned) add_gained(system, i, w);
+      if (!start.is_contact()) add_gained(system, i, w);
       average(start, back_[i], w, block);
     } else {
       move_rows(start, motion_of(start.a), motion_of(start.b), block);

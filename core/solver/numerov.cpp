@@ -94,12 +94,13 @@ void NumerovCourses::add_forces(const System& system, const Block& here, const B
   if (time == 0.0) return;
   const PoseWeights w = weights_of(system, here);
   const double dt = system.dt;
+  const bool knows_rates = !here.is_contact() && here.seeded;
   double at_start[kMaxRows];
   double at_end[kMaxRows];
   double before[kMaxRows];
   for (int row = 0; row < here.rows; ++row) {
-    const double rate = here.pinned && here.seeded ? here.rate[row] : 0.0;
-    const double change = here.pinned && here.seeded ? here.rate_change[row] : 0.0;
+    const double rate = knows_rates ? here.rate[row] : 0.0;
+    const double change = knows_rates ? here.rate_change[row] : 0.0;
     at_start[row] = here.impulse[row] / time - w.bent(dt) * change;
     at_end[row] = at_start[row] + dt * (rate + 0.5 * dt * change);
     before[row] = at_start[row] - w.reach * (rate - 0.5 * w.reach * change);

@@ -140,7 +140,9 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
   for (const Block& block : system.blocks) {
     std::int64_t sweep = block.rows * correction_flops(block, 1);
     if (!block.is_contact()) {
-      sweep = correction_flops(block, 3) + (block.rows == 5 ? correction_flops(block, 2) : 0);
+      const int angles = block.rows - block.position_rows;
+      sweep = correction_flops(block, block.position_rows) +
+              (angles > 0 ? correction_flops(block, angles) : 0);
     }
     most += static_cast<double>(settings.iterations) * static_cast<double>(sweep);
   }
@@ -182,8 +184,9 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
         }
         continue;
       }
-      visit(i, {0, 3});
-      if (block.rows > 3) visit(i, {3, block.rows - 3});
+      const int positions = block.position_rows;
+      visit(i, {0, positions});
+      if (block.rows > positions) visit(i, {positions, block.rows - positions});
     }
   }
   return report;

@@ -98,8 +98,8 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
       joint.spring_rest[row] = (1.0 - w.ahead) * elastic - behind;
     }
   };
-  set_rows(0, std::min(3, joint.rows));
-  set_rows(3, joint.rows);
+  set_rows(0, joint.position_rows);
+  set_rows(joint.position_rows, joint.rows);
 }
 
 // The solver has to find whether the contact pushes, so none is given its force. Where it was open

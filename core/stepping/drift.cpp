@@ -29,11 +29,12 @@ namespace {
 
 /// phi'' of a joint's rows at constant velocities [m/s^2, 1/s^2].
 void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature) {
-  const auto turning = [&](int body) -> Vec3 {
-    return body < 0 ? Vec3::Zero() : Vec3(u[static_cast<std::size_t>(body)].tail<3>());
+  static const Vec6 kRest = Vec6::Zero();
+  const auto velocity = [&](int body) -> const Vec6& {
+    return body < 0 ? kRest : u[static_cast<std::size_t>(body)];
   };
   with_joint_rows(block.kind, [&](auto joint) {
-    joint.curvature(block, turning(block.a), turning(block.b), curvature);
+    joint.curvature(block, velocity(block.a), velocity(block.b), curvature);
   });
 }
 
@@ -58,12 +59,14 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
       return first < end && block.C[first] > 0.0 &&
              spring_kappa({dt, dt, dt}, inverse_mass, block, first, end) < kResolved;
     };
-    const bool springs[2] = {is_spring(0, std::min(3, block.rows)), is_spring(3, block.rows)};
+    const bool springs[2] = {is_spring(0, block.position_rows),
+                             is_spring(block.position_rows, block.rows)};
     for (int row = 0; row < block.rows; ++row) {
       block.bias[row] = curvature[row];
       block.softness[row] = regularisation;
       block.impulse[row] = block.given[row] = 0.0;
-      if (springs[row < 3 ? 0 : 1]) give_force(block, row, -block.phi[row] / block.C[row]);
+      if (springs[row < block.position_rows ? 0 : 1])
+        give_force(block, row, -block.phi[row] / block.C[row]);
     }
   }
 }

@@ -6,12 +6,12 @@
 
 #include <vector>
 
-#include "core/constraints/block.hpp"
+#include "core/constraints/joint_rows.hpp"
 
 namespace substep::test {
 namespace {
 
-Block between(int a, int b, BlockKind kind = BlockKind::kBall) {
+Block between(int a, int b, BlockKind kind = kind_of<BallJoint>()) {
   Block block;
   block.kind = kind;
   block.a = a;

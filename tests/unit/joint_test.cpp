@@ -1,4 +1,7 @@
+#include "core/constraints/moved_rows.hpp"
 #include "core/model/joint_fields.hpp"
+#include "core/solver/system.hpp"
+#include "core/stepping/integrate.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -23,6 +26,11 @@ Scene joined(Random& random, bool to_world) {
   if constexpr (std::is_same_v<JointType, HingeJoint>) {
     joint.axis_a = random_vector(random).normalized();
     joint.axis_b = random_vector(random).normalized();
+  }
+  if constexpr (std::is_same_v<JointType, PrismaticJoint>) {
+    across(joint.axis_a = random_vector(random).normalized(), joint.across_a, joint.axis_b);
+    Vec3 third;
+    across(joint.axis_b = random_vector(random).normalized(), joint.across_b, third);
   }
   scene.joints.push_back(joint);
   return scene;
@@ -52,10 +60,12 @@ struct WithoutCouple : HingeRows {
 TEST(JointTable, AnEntryThatLeavesAnOperationOutDoesNotCompile) {
   static_assert(JointRows<BallRows, BallJoint>);
   static_assert(JointRows<HingeRows, HingeJoint>);
+  static_assert(JointRows<PrismaticRows, PrismaticJoint>);
   static_assert(!JointRows<WithoutCurvature, BallJoint>);
   static_assert(!JointRows<WithoutCouple, HingeJoint>);
-  EXPECT_EQ(kind_of(BallJoint{}), BlockKind::kBall);
-  EXPECT_EQ(kind_of(HingeJoint{}), BlockKind::kHinge);
+  EXPECT_EQ(kind_of(BallJoint{}), kind_of<BallJoint>());
+  EXPECT_EQ(kind_of(HingeJoint{}), kind_of<HingeJoint>());
+  EXPECT_EQ(kind_of(PrismaticJoint{}), kind_of<PrismaticJoint>());
   for (const std::string_view type : kJointTypes) {
     const auto joint = make_joint(type);
     ASSERT_TRUE(joint.has_value()) << type;
@@ -67,6 +77,9 @@ TEST(JointTable, AnEntryThatLeavesAnOperationOutDoesNotCompile) {
 TEST(BallJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<BallJoint>(); }
 TEST(HingeJoint, GradientAndStiffnessMatchFiniteDifferences) {
   gradient_and_stiffness<HingeJoint>();
+}
+TEST(PrismaticJoint, GradientAndStiffnessMatchFiniteDifferences) {
+  gradient_and_stiffness<PrismaticJoint>();
 }
 
 /// d2phi/dt2 of a joint against its errors a little earlier and later, at constant velocities.
@@ -93,10 +106,9 @@ void curvature() {
     const Block now = phi_at(0.0);
     const Block before = phi_at(-t);
     const Block after = phi_at(t);
-    const Vec3 omega_a = state.u[0].tail<3>();
-    const Vec3 omega_b = n > 1 ? Vec3(state.u[1].tail<3>()) : Vec3(Vec3::Zero());
+    const Vec6 u_b = n > 1 ? state.u[1] : Vec6(Vec6::Zero());
     double found[kMaxRows];
-    with_joint_rows(now.kind, [&](auto joint) { joint.curvature(now, omega_a, omega_b, found); });
+    with_joint_rows(now.kind, [&](auto joint) { joint.curvature(now, state.u[0], u_b, found); });
     for (int row = 0; row < now.rows; ++row) {
       const double expected = (before.phi[row] - 2.0 * now.phi[row] + after.phi[row]) / (t * t);
       EXPECT_NEAR(found[row], expected, 1e-6) << row;
@@ -106,6 +118,54 @@ void curvature() {
 
 TEST(BallJoint, CurvatureMatchesFiniteDifferences) { curvature<BallJoint>(); }
 TEST(HingeJoint, CurvatureMatchesFiniteDifferences) { curvature<HingeJoint>(); }
+TEST(PrismaticJoint, CurvatureMatchesFiniteDifferences) { curvature<PrismaticJoint>(); }
+
+/// What a kind says the push of its rows gains as bodies move, and the couple and force it has,
+/// against the gradients before and after.
+template <class JointType>
+void pushes() {
+  Random random(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const Scene scene = joined<JointType>(random, trial % 4 == 0);
+    State state = initial_state(scene);
+    const Rows rows = joint_rows(scene);
+    Blocks before;
+    rows(state, before);
+    const Block& block = before.all()[0];
+    double force[kMaxRows];
+    for (double& f : force) f = random_vector(random).x();
+    Vec6 on[2] = {Vec6::Zero(), Vec6::Zero()};
+    push(block, force, &on[0], &on[1]);
+    Vec3 at_anchor;
+    Vec3 couple;
+    with_joint_rows(block.kind, [&](auto joint) {
+      at_anchor = joint.force(block, force);
+      couple = joint.torque(block, force);
+    });
+    EXPECT_LT((on[0].head<3>() - at_anchor).norm(), 1e-13);
+    EXPECT_LT((on[0].tail<3>() - (block.r_a.cross(at_anchor) + couple)).norm(), 1e-13);
+
+    std::vector<Vec6> u(scene.bodies.size());
+    for (Vec6& v : u) v << random_vector(random), random_vector(random);
+    const double dt = 0.4;
+    const auto of = [&](int body) { return body < 0 ? Motion{} : motion(u[index(body)], dt); };
+    Vec6 change[2] = {Vec6::Zero(), Vec6::Zero()};
+    with_joint_rows(block.kind, [&](auto joint) {
+      joint.push_change(block, of(block.a), of(block.b), force, change[0], change[1]);
+    });
+    integrate(whole(scene), dt, u, state);
+    Blocks after;
+    rows(state, after);
+    Vec6 later[2] = {Vec6::Zero(), Vec6::Zero()};
+    push(after.all()[0], force, &later[0], &later[1]);
+    EXPECT_LT((later[0] - on[0] - change[0]).norm(), 1e-12);
+    EXPECT_TRUE(block.b < 0 || (later[1] - on[1] - change[1]).norm() < 1e-12);
+  }
+}
+
+TEST(BallJoint, PushesAndTheirChangesAreThoseOfTheGradients) { pushes<BallJoint>(); }
+TEST(HingeJoint, PushesAndTheirChangesAreThoseOfTheGradients) { pushes<HingeJoint>(); }
+TEST(PrismaticJoint, PushesAndTheirChangesAreThoseOfTheGradients) { pushes<PrismaticJoint>(); }
 
 TEST(HingeJoint, VectorsAcrossTheAxisAreOrthonormal) {
   Random random(2);

@@ -95,7 +95,12 @@ TEST(MovedRows, OfJointsAreThoseOfTheEnd) {
     hinge.axis_b = random_vector(random).normalized();
     BallJoint ball;
     static_cast<JointBase&>(ball) = hinge;
-    scene.joints = {hinge, ball};
+    PrismaticJoint slider;
+    static_cast<JointBase&>(slider) = hinge;
+    Vec3 third;
+    across(slider.axis_a = hinge.axis_a, slider.across_a, third);
+    across(slider.axis_b = hinge.axis_b, slider.across_b, third);
+    scene.joints = {hinge, ball, slider};
     State state = initial_state(scene);
     move_at_random(random, scene, state);
     const Difference difference = after(scene, state, joint_rows(scene), 0.5);
@@ -106,14 +111,15 @@ TEST(MovedRows, OfJointsAreThoseOfTheEnd) {
 
 TEST(MovedRows, SomeRowsAreThoseOfAll) {
   Random random(36);
+  static_assert(kJointKinds == 3);
   for (int trial = 0; trial < 40; ++trial) {
     Block start;
-    const int kind = trial % 3;
-    start.kind = kind == 0 ? BlockKind::kBall : kind == 1 ? BlockKind::kHinge : BlockKind::kContact;
+    const int kind = trial % 4;
+    start.kind = kind == 3 ? BlockKind::kContact : static_cast<BlockKind>(kind);
     start.pinned = kind < 2;
-    start.rows = kind == 1 ? 5 : 3;
+    start.rows = kind == 1 || kind == 2 ? 5 : 3;
     for (Vec3* v : {&start.n, &start.t1, &start.t2, &start.rho, &start.r_a, &start.r_b,
-                    &start.arm_a, &start.axis, &start.v1, &start.v2}) {
+                    &start.arm_a, &start.axis, &start.v1, &start.v2, &start.w}) {
       *v = random_vector(random).normalized();
     }
     start.H = random_vector(random) * random_vector(random).transpose();
@@ -126,6 +132,7 @@ TEST(MovedRows, SomeRowsAreThoseOfAll) {
     }
     const std::vector<RowRange> parts = kind == 0   ? std::vector<RowRange>{{0, 3}}
                                         : kind == 1 ? std::vector<RowRange>{{0, 3}, {3, 2}}
+                                        : kind == 2 ? std::vector<RowRange>{{0, 2}, {2, 3}}
                                                     : std::vector<RowRange>{{0, 1}, {1, 1}, {2, 1}};
     Block some = start;
     move_rows(start, b, a, some);  // somewhere else, before

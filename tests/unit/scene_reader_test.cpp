@@ -138,6 +138,39 @@ TEST(SceneReader, ReadsInPartsWhatItReadsAtOnce) {
             List{"/bodies/2499/mass: must be above 0 (kg), not -1"});
 }
 
+/// The good scene with a slider for its hinge.
+std::string with_slider(const std::string& across, const std::string& anchor_b) {
+  const std::size_t begin = kGood.find(R"({"name": "hinge")");
+  const std::size_t end = kGood.find("},", begin);
+  std::string text = kGood;
+  return text.replace(begin, end - begin,
+                      R"({"name": "slider", "type": "prismatic", "a": "arm", "b": "world", )"
+                      R"("anchor_a": [-0.5, 0, 0], "anchor_b": )" +
+                          anchor_b + R"(, "axis_a": [0, 1, 0], "axis_b": [0, 1, 0], "across_a": )" +
+                          across + R"(, "across_b": [0, 0, 1], "angular_compliance": 1e-6)");
+}
+
+TEST(SceneReader, TakesAPrismaticJointAndWritesItBack) {
+  const SceneResult result = read_scene(with_slider("[0, 0, 1]", "[-0.5, 1, 0]"));
+  ASSERT_TRUE(result.scene) << to_string(result.problems.front());
+  const auto& slider = std::get<PrismaticJoint>(result.scene->joints[0]);
+  EXPECT_EQ(slider.across_b, Vec3::UnitZ());
+  EXPECT_EQ(slider.angular_compliance, 1e-6);
+  const std::string text = write_scene(*result.scene);
+  EXPECT_EQ(write_scene(*read_scene(text).scene), text);
+}
+
+TEST(SceneReader, RefusesAPrismaticJointThatIsOffItsAxisOrHasNone) {
+  EXPECT_EQ(problems_of(with_slider("[0, 0.6, 0.8]", "[-0.5, 3, 0]")),
+            List{"/joints/0/across_a: is not across the axis: the cosine of their angle is 0.6, "
+                 "which is more than 1e-6"});
+  EXPECT_EQ(problems_of(with_slider("[0, 0, 1]", "[-0.5, 3, 0.5]")),
+            List{"/joints/0: the anchors start 0.5 apart, which is more than 0.1 (m)"});
+  EXPECT_EQ(problems_of(with_slider("[1, 0, 0]", "[-0.5, 3, 0]")),
+            List{"/joints/0: the directions across the axes start at an angle with sine 1, which "
+                 "is more than 0.1"});
+}
+
 TEST(SceneReader, NeedsABodyThatMoves) {
   EXPECT_EQ(problems_of(R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A",
                             "bodies": []})"),

@@ -68,10 +68,11 @@ Problem random_problem(Random& random, const ProblemSize& size) {
     Block block;
     const bool contact = i >= size.joints;
     block.kind =
-        contact ? BlockKind::kContact : (i % 2 == 0 ? BlockKind::kBall : BlockKind::kHinge);
+        contact ? BlockKind::kContact : (i % 2 == 0 ? kind_of<BallJoint>() : kind_of<HingeJoint>());
     block.rows = contact ? (size.mu > 0.0 ? 3 : 1) : (i % 2 == 0 ? 3 : 5);
     block.mu = contact ? size.mu : 0.0;
     block.pinned = !contact && i % 4 < 2;  // solvers may use it: half of the joints
+    if (!contact) block.position_rows = block.pinned ? 3 : 2;
     block.a = static_cast<int>(random() % static_cast<unsigned>(size.bodies));
     block.b = static_cast<int>(random() % static_cast<unsigned>(size.bodies + 1)) - 1;
     if (block.a == block.b) block.b = -1;
@@ -267,7 +268,7 @@ Problem random_tree(Random& random, int bodies, int loops, double softness) {
   }
   for (Block& block : problem.blocks) {
     if (!block.is_contact()) continue;
-    block.kind = BlockKind::kBall;
+    block.kind = kind_of<BallJoint>();
     block.tight[0] = 0;
   }
   return problem;

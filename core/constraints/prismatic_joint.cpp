@@ -1,0 +1,205 @@
+#include "core/constraints/prismatic_joint.hpp"
+
+#include <algorithm>
+
+#include "core/constraints/stiffness_flops.hpp"
+
+namespace substep {
+namespace {
+
+/// The arm from the centre of b to the anchor on a after both have moved.
+Vec3 slid_rho(const Block& start, const Motion& a, const Motion& b) {
+  return start.r_b + (a.dx - b.dx) + (a.R * start.r_a - start.r_a);
+}
+
+/// J of some rows, from the arms and directions of a block.
+void set_gradients(Block& block, RowRange rows) {
+  const auto set = [&](int row, const Vec3& direction, const Vec3& on_a, const Vec3& on_b) {
+    for (int j = 0; j < 3; ++j) {
+      block.J_a[row][j] = direction[j];
+      block.J_b[row][j] = -direction[j];
+      block.J_a[row][3 + j] = on_a[j];
+      block.J_b[row][3 + j] = -on_b[j];
+    }
+  };
+  if (rows.reaches(0, 2)) {
+    set(0, block.v1, block.r_a.cross(block.v1), block.r_b.cross(block.v1));
+    set(1, block.v2, block.r_a.cross(block.v2), block.r_b.cross(block.v2));
+  }
+  if (!rows.reaches(2, 5)) return;
+  const Vec3 turn[3] = {block.axis.cross(block.v1), block.axis.cross(block.v2),
+                        block.w.cross(block.v2)};
+  for (int k = 0; k < 3; ++k) set(2 + k, Vec3::Zero(), turn[k], turn[k]);
+}
+
+/// The directions of a block as its bodies turn.
+void turn_directions(const Block& start, const Motion& a, const Motion& b, Block& moved) {
+  moved.axis = a.R * start.axis;
+  moved.w = a.R * start.w;
+  moved.v1 = b.R * start.v1;
+  moved.v2 = b.R * start.v2;
+}
+
+/// (s . t)'' of s that turns with a and t that turns with b: s'' . t + 2 s' . t' + s . t''.
+double bent(const Vec3& s, const Vec3& t, const Vec3& omega_a, const Vec3& omega_b) {
+  const Vec3 s_dot = omega_a.cross(s);
+  const Vec3 t_dot = omega_b.cross(t);
+  return omega_a.cross(s_dot).dot(t) + 2.0 * s_dot.dot(t_dot) + s.dot(omega_b.cross(t_dot));
+}
+
+/// What the angles' rows do to the torque on a as a turns, sum of l [t][s]: HingeRows has it.
+Mat3 angular_stiffness(const Block& block) {
+  const Vec3 across = block.lambda[2] * block.v1 + block.lambda[3] * block.v2;
+  return skew_product(across, block.axis) + block.lambda[4] * skew_product(block.v2, block.w);
+}
+
+}  // namespace
+
+void PrismaticRows::constants(const PrismaticJoint& joint, Block& block) {
+  block.rows = 5;
+  block.position_rows = 2;
+  block.pinned = false;
+  std::fill_n(block.tight, kMaxRows, std::int8_t{0});  // no row is ever let go of
+  std::fill_n(block.C, 2, joint.compliance);
+  std::fill_n(block.C + 2, 3, joint.angular_compliance);
+}
+
+JointGeometry PrismaticRows::geometry(const PrismaticJoint& joint) {
+  JointGeometry geometry{joint.anchor_a, joint.anchor_b, joint.axis_a};
+  const auto across_axis = [](const Vec3& axis, const Vec3& v) -> Vec3 {
+    return (v - axis * axis.dot(v)).normalized();
+  };
+  geometry.w = across_axis(joint.axis_a, joint.across_a);
+  geometry.v1 = across_axis(joint.axis_b, joint.across_b);
+  geometry.v2 = joint.axis_b.cross(geometry.v1);
+  return geometry;
+}
+
+void PrismaticRows::rows(const JointGeometry& joint, const Side& a, const Side& b, Block& block) {
+  const Vec3 r_a = a.R * joint.anchor_a;
+  const Vec3 d = (a.x - b.x) + (r_a - b.R * joint.anchor_b);
+  block.r_a = r_a;
+  block.r_b = (a.x - b.x) + r_a;
+  block.axis = a.R * joint.u;
+  block.w = a.R * joint.w;
+  block.v1 = b.R * joint.v1;
+  block.v2 = b.R * joint.v2;
+  block.phi[0] = block.v1.dot(d);
+  block.phi[1] = block.v2.dot(d);
+  block.phi[2] = block.axis.dot(block.v1);
+  block.phi[3] = block.axis.dot(block.v2);
+  block.phi[4] = block.w.dot(block.v2);
+  set_gradients(block, {});
+}
+
+// v turns with b as the anchor on b does: v . r_b stays, and phi = v . rho less a constant.
+//   (v . rho)'' = v'' . rho + 2 v' . rho' + v . rho'',   rho'' = omega_a x (omega_a x r_a)
+void PrismaticRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b,
+                              double* curvature) {
+  const Vec3 omega_a = u_a.tail<3>();
+  const Vec3 omega_b = u_b.tail<3>();
+  const Vec3 turning = omega_a.cross(block.r_a);
+  const Vec3 rho_dot = (u_a - u_b).head<3>() + turning;
+  const Vec3 rho_ddot = omega_a.cross(turning);
+  for (int k = 0; k < 2; ++k) {
+    const Vec3& v = k == 0 ? block.v1 : block.v2;
+    const Vec3 v_dot = omega_b.cross(v);
+    curvature[k] = omega_b.cross(v_dot).dot(block.r_b) + 2.0 * v_dot.dot(rho_dot) + v.dot(rho_ddot);
+  }
+  curvature[2] = bent(block.axis, block.v1, omega_a, omega_b);
+  curvature[3] = bent(block.axis, block.v2, omega_a, omega_b);
+  curvature[4] = bent(block.w, block.v2, omega_a, omega_b);
+}
+
+// The force f = l_1 v_1 + l_2 v_2 on a at r_a, -f on b at rho. It turns with b:
+//   df = theta_b x f,   dr_a = theta_a x r_a,   drho = dx_a - dx_b + theta_a x r_a
+//   d(r_a x f)  = [f][r_a] theta_a - [r_a][f] theta_b
+//   d(-rho x f) = [f] (dx_a - dx_b - [r_a] theta_a) + [rho][f] theta_b
+void PrismaticRows::stiffness(const Block& block, StiffnessMatrix& K) {
+  const Vec3 f = force(block, block.lambda);
+  const Mat3 F = skew(f);
+  const Mat3 by_a = angular_stiffness(block);
+  const Mat3 by_b = by_a.transpose();
+  if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(f, block.r_a) + by_a);
+  if (block.b < 0) return;
+  Mat6 part = Mat6::Zero();
+  part.topRightCorner<3, 3>() = F;
+  part.bottomLeftCorner<3, 3>() = -F;
+  part.bottomRightCorner<3, 3>() = skew_product(block.r_b, f) + by_b;
+  K.add(block.b, block.b, part);
+  if (block.a < 0) return;
+  part.bottomLeftCorner<3, 3>().setZero();
+  part.topRightCorner<3, 3>() = -F;
+  part.bottomRightCorner<3, 3>() = -skew_product(block.r_a, f) - by_b;
+  K.add(block.a, block.b, part);
+  part.topRightCorner<3, 3>().setZero();
+  part.bottomLeftCorner<3, 3>() = F;
+  part.bottomRightCorner<3, 3>() = -skew_product(f, block.r_a) - by_a;
+  K.add(block.b, block.a, part);
+}
+
+void PrismaticRows::turning_stiffness(const Block& block, std::span<Mat3> K) {
+  const Vec3 f = force(block, block.lambda);
+  const Mat3 by_a = angular_stiffness(block);
+  if (block.a >= 0) K[index(block.a)] += skew_product(f, block.r_a) + by_a;
+  if (block.b >= 0) K[index(block.b)] += skew_product(block.r_b, f) + by_a.transpose();
+}
+
+void PrismaticRows::move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
+                         Block& moved) {
+  moved_errors(start, a, b, moved.phi);
+  moved.r_b = slid_rho(start, a, b);
+  moved.r_a = a.R * start.r_a;
+  turn_directions(start, a, b, moved);
+  set_gradients(moved, rows);
+}
+
+void PrismaticRows::moved_errors(const Block& start, const Motion& a, const Motion& b,
+                                 double* phi) {
+  // Seen from b, whose axes v are.
+  const Vec3 slid = b.R.transpose() * slid_rho(start, a, b) - start.r_b;
+  phi[0] = start.v1.dot(slid);
+  phi[1] = start.v2.dot(slid);
+  const Vec3 axis = a.R * start.axis;
+  const Vec3 v2 = b.R * start.v2;
+  phi[2] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
+  phi[3] = axis.dot(v2) - start.axis.dot(start.v2);
+  phi[4] = (a.R * start.w).dot(v2) - start.w.dot(start.v2);
+}
+
+Vec3 PrismaticRows::force(const Block& block, const double* force) {
+  return force[0] * block.v1 + force[1] * block.v2;
+}
+
+Vec3 PrismaticRows::torque(const Block& block, const double* force) {
+  return block.axis.cross(force[2] * block.v1 + force[3] * block.v2) +
+         force[4] * block.w.cross(block.v2);
+}
+
+void PrismaticRows::push_change(const Block& block, const Motion& a, const Motion& b,
+                                const double* force, Vec6& on_a, Vec6& on_b) {
+  Block moved;
+  turn_directions(block, a, b, moved);
+  const Vec3 f = PrismaticRows::force(block, force);
+  const Vec3 f_moved = PrismaticRows::force(moved, force);
+  const Vec3 couple = torque(moved, force) - torque(block, force);
+  const Vec3 turned = (a.R * block.r_a).cross(f_moved) - block.r_a.cross(f) + couple;
+  const Vec3 slid = slid_rho(block, a, b).cross(f_moved) - block.r_b.cross(f) + couple;
+  on_a.head<3>() += f_moved - f;
+  on_a.tail<3>() += turned;
+  on_b.head<3>() -= f_moved - f;
+  on_b.tail<3>() -= slid;
+}
+
+// f, both products of the angles, [f][r_a] and [rho][f] or [r_a][f] of each pair.
+std::int64_t PrismaticRows::stiffness_flops(std::int64_t bodies) {
+  return turning_stiffness_flops(bodies) +
+         (bodies > 1 ? 2 * (kSkewProductFlops + kSumFlops) + 3 * 36 : 0);
+}
+
+std::int64_t PrismaticRows::turning_stiffness_flops(std::int64_t bodies) {
+  constexpr std::int64_t kAngles = 9 + 2 * kSkewProductFlops + 2 * kSumFlops;
+  return 9 + kAngles + bodies * (kSkewProductFlops + 2 * kSumFlops);
+}
+
+}  // namespace substep

@@ -1,0 +1,239 @@
+// Prismatic joints, by every solver and integrator: what slides obeys the closed forms.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/model/scene_builder.hpp"
+#include "core/sim/momentum.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep {
+namespace {
+
+constexpr double kFrame = 1.0 / 60.0;
+
+struct Method {
+  const char* name;
+  Settings settings;
+  int order;  // of the integration
+};
+
+void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+
+Settings settings_of(SolverKind solver, Integrator integrator, int n,
+                     Forces forces = Forces::kEnd) {
+  Settings settings;
+  settings.mode = Mode::kConst;
+  settings.solver = solver;
+  settings.integrator = integrator;
+  settings.forces = forces;
+  settings.n = n;
+  settings.iterations = 400;      // of those that iterate
+  settings.drift = Drift::kFull;  // PGS by itself takes errors back at a rate of its own
+  return settings;
+}
+
+std::vector<Method> methods() {
+  return {
+      {"Bpp", settings_of(SolverKind::kBpp, Integrator::kEuler, 8), 1},
+      {"BppLeapfrog", settings_of(SolverKind::kBpp, Integrator::kLeapfrog, 8), 2},
+      {"BppStormer", settings_of(SolverKind::kBpp, Integrator::kStormer, 8), 4},
+      {"Pgs", settings_of(SolverKind::kPgs, Integrator::kEuler, 8), 1},
+      {"Xpbd", settings_of(SolverKind::kXpbd, Integrator::kEuler, 8), 1},
+      {"Newton", settings_of(SolverKind::kNewton, Integrator::kEuler, 8), 1},
+      {"NewtonMean", settings_of(SolverKind::kNewton, Integrator::kLeapfrog, 8, Forces::kMean), 2},
+      {"NewtonNumerov",
+       settings_of(SolverKind::kNewton, Integrator::kLeapfrog, 8, Forces::kNumerov), 4}};
+}
+
+class Prismatic : public testing::TestWithParam<Method> {};
+
+double error_after(const Scene& scene, const Settings& settings, double seconds,
+                   const std::function<double(const State&, double)>& error) {
+  Simulator simulator = test::simulator_of(scene, settings);
+  double most = 0.0;
+  const auto frames = std::lround(seconds / scene.frame);
+  for (long i = 0; i < frames; ++i) {
+    const FrameReport report = simulator.step();
+    EXPECT_EQ(report.status, StepStatus::kOk);
+    most = std::max(most, error(simulator.state(), simulator.state().time));
+  }
+  return most;
+}
+
+/// What doubling the sub-steps leaves of an error: at least as much less as the order says, or
+/// nothing but what an iteration or rounding leaves.
+void expect_order(const Scene& scene, const Method& method, double seconds, double floor,
+                  const std::function<double(const State&, double)>& error) {
+  Settings finer = method.settings;
+  finer.n *= 2;
+  const double coarse = error_after(scene, method.settings, seconds, error);
+  const double fine = error_after(scene, finer, seconds, error);
+  const double shrinks = std::pow(2.0, method.order);
+  EXPECT_LT(fine, std::max(floor, 1.15 * coarse / shrinks)) << coarse;
+}
+
+// s = g sin(theta) t^2/2 down a rail, of a body that hangs off it with its centre aside.
+TEST_P(Prismatic, SlidesDownAnInclinedRail) {
+  const Vec3 rail = Vec3(4.0, -3.0, 0.0) / 5.0;
+  SceneBuilder builder;
+  const int box = builder.add_body(Box{{0.2, 0.1, 0.3}}, 3.0, {0.3, 0.2, 0.4});
+  builder.add_prismatic(box, kWorld, {0.0, 0.0, 0.0}, rail);
+  builder.scene().frame = kFrame;
+  const Scene scene = *builder.build();
+  const Vec3 start = scene.bodies[0].position;
+  const Quat attitude = scene.bodies[0].orientation;
+  const auto error = [&](const State& state, double t) {
+    const Vec3 exact = start + 0.5 * 9.81 * 0.6 * t * t * rail;
+    return (state.x[0] - exact).norm() + state.q[0].angularDistance(attitude);
+  };
+  // Nothing bends: what is not first order is exact.
+  const Method& method = GetParam();
+  if (method.order > 1) {
+    EXPECT_LT(error_after(scene, method.settings, 1.0, error), 1e-11);
+  } else {
+    expect_order(scene, method, 1.0, 1e-8, error);
+  }
+}
+
+// A bead on a rod that turns at a constant rate, since it is very heavy: r = r_0 cosh(w t).
+TEST_P(Prismatic, SlidesOutwardOnATurningRod) {
+  constexpr double kRate = 2.0;   // [rad/s]
+  constexpr double kStart = 0.2;  // [m]
+  SceneBuilder builder;
+  const int rod = builder.add_body(Box{{0.5, 0.02, 0.02}}, 1e9, Vec3::Zero());
+  const int bead = builder.add_body(Sphere{0.05}, 0.5, {kStart, 0.0, 0.0});
+  builder.body(rod).inertia = 1e9 * Vec3::Ones();
+  builder.body(rod).collides = builder.body(bead).collides = false;
+  builder.body(rod).angular_velocity = builder.body(bead).angular_velocity = {0.0, 0.0, kRate};
+  builder.body(bead).velocity = {0.0, kRate * kStart, 0.0};
+  builder.add_prismatic(bead, rod, {kStart, 0.0, 0.0}, Vec3::UnitX());
+  builder.scene().frame = kFrame;
+  builder.scene().gravity.setZero();
+  const Scene scene = *builder.build();
+  const auto error = [&](const State& state, double t) {
+    const double r = kStart * std::cosh(kRate * t);
+    return (state.x[1] - r * Vec3(std::cos(kRate * t), std::sin(kRate * t), 0.0)).norm();
+  };
+  expect_order(scene, GetParam(), 0.5, 2e-8, error);
+}
+
+// Two free bodies of unequal inertia that slide on each other off their centres: nothing acts from
+// outside, so both momenta stay, and the energy does to the order of the method.
+TEST_P(Prismatic, KeepsTheMomentaOfTwoFreeBodies) {
+  SceneBuilder builder;
+  const int a = builder.add_body(Box{{0.4, 0.1, 0.2}}, 2.0, {0.5, 0.4, -0.2});
+  const int b = builder.add_body(Box{{0.1, 0.3, 0.2}}, 5.0, {-0.3, 0.1, 0.3});
+  builder.body(a).collides = builder.body(b).collides = false;
+  const Vec3 spin{0.7, -0.4, 0.9};
+  const Vec3 axis = Vec3(1.0, 2.0, 2.0) / 3.0;
+  const Vec3 apart = builder.body(a).position - builder.body(b).position;
+  builder.body(a).angular_velocity = builder.body(b).angular_velocity = spin;
+  builder.body(a).velocity = spin.cross(apart) + 0.8 * axis;
+  builder.add_prismatic(a, b, {0.1, 0.2, 0.1}, axis);
+  builder.scene().frame = kFrame;
+  builder.scene().gravity.setZero();
+  const Scene scene = *builder.build();
+  Settings settings = GetParam().settings;
+  double largest_drift = 0.0;
+  double last_drift = 0.0;
+  for (const int n : {8, 16}) {
+    settings.n = n;
+    Simulator simulator = test::simulator_of(scene, settings);
+    const Momenta start = momenta_of(scene, simulator.state());
+    const FrameReport before = simulator.observe();
+    FrameReport report;
+    for (int i = 0; i < 60; ++i) report = simulator.step();
+    const Momenta end = momenta_of(scene, simulator.state());
+    EXPECT_LT((end.linear - start.linear).norm(), 1e-12);
+    last_drift = std::abs(report.energy - before.energy) / before.energy;
+    if (n == 8) largest_drift = last_drift;
+    EXPECT_LT(report.joint_gap, 2e-3);
+  }
+  const double shrinks = std::pow(2.0, GetParam().order);
+  EXPECT_LT(last_drift, std::max(1e-9, 1.3 * largest_drift / shrinks)) << largest_drift;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMethod, Prismatic, testing::ValuesIn(methods()),
+                         [](const auto& method) { return method.param.name; });
+
+// A slider-crank: x = r cos(a) + sqrt(l^2 - r^2 sin(a)^2), a loop of three hinges and a prismatic
+// joint whose rows are redundant in its plane.
+TEST(PrismaticLoop, ASliderFollowsItsCrank) {
+  constexpr double kCrank = 0.5;
+  constexpr double kRod = 1.2;
+  const double angle = 0.9;
+  const Vec3 pin{kCrank * std::cos(angle), kCrank * std::sin(angle), 0.0};
+  const Vec3 wrist{pin.x() + std::sqrt(kRod * kRod - pin.y() * pin.y()), 0.0, 0.0};
+  SceneBuilder builder;
+  const auto bar = [&](const Vec3& from, const Vec3& to, double mass) {
+    const int body =
+        builder.add_body(Box{{0.5 * (to - from).norm(), 0.03, 0.05}}, mass, 0.5 * (from + to));
+    builder.body(body).orientation = Quat::FromTwoVectors(Vec3::UnitX(), to - from);
+    return body;
+  };
+  const int crank = bar(Vec3::Zero(), pin, 2.0);
+  const int rod = bar(pin, wrist, 1.0);
+  const int slider = builder.add_body(Box{{0.1, 0.08, 0.08}}, 4.0, wrist);
+  for (const int body : {crank, rod, slider}) builder.body(body).collides = false;
+  builder.add_hinge(crank, kWorld, Vec3::Zero(), Vec3::UnitZ());
+  builder.add_hinge(rod, crank, pin, Vec3::UnitZ());
+  builder.add_hinge(slider, rod, wrist, Vec3::UnitZ());
+  builder.add_prismatic(slider, kWorld, wrist, Vec3::UnitX());
+  builder.scene().frame = kFrame;
+  const Scene scene = *builder.build();
+  for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
+    Simulator simulator = test::simulator_of(scene, settings_of(SolverKind::kBpp, integrator, 16));
+    const double energy = simulator.observe().energy;
+    double off = 0.0;
+    double drift = 0.0;
+    double lowest = wrist.x();
+    for (int i = 0; i < 240; ++i) {
+      const FrameReport report = simulator.step();
+      ASSERT_EQ(report.status, StepStatus::kOk);
+      const State& state = simulator.state();
+      const Vec3 crank_end = 2.0 * state.x[0];
+      const double sine = crank_end.y() / kCrank;
+      const double x = crank_end.x() + std::sqrt(kRod * kRod - kCrank * kCrank * sine * sine);
+      off = std::max(off, std::abs(state.x[2].x() - x) + std::abs(state.x[2].y()));
+      drift = std::max(drift, std::abs(report.energy - energy));
+      lowest = std::min(lowest, state.x[2].x());
+    }
+    const bool fourth = integrator == Integrator::kStormer;
+    EXPECT_LT(off, fourth ? 1e-8 : 1e-5) << off;
+    EXPECT_LT(drift, fourth ? 1e-4 : 0.02) << drift;
+    EXPECT_LT(lowest, 0.8);  // it has swung through
+  }
+}
+
+// A static force across the axis moves a compliant joint by C F, a torque turns it by C_angular T.
+TEST(PrismaticCompliance, YieldsByItsCompliance) {
+  SceneBuilder builder;
+  const int box = builder.add_body(Box{{0.2, 0.2, 0.2}}, 1.0, Vec3::Zero());
+  builder.add_prismatic(box, kWorld, Vec3::Zero(), Vec3::UnitX());
+  Scene& scene = builder.scene();
+  scene.gravity.setZero();
+  scene.frame = kFrame;
+  auto& joint = std::get<PrismaticJoint>(scene.joints[0]);
+  joint.compliance = 1e-3;
+  joint.angular_compliance = 2e-3;
+  scene.bodies[0].force = {0.0, 5.0, -3.0};
+  scene.bodies[0].torque = {1.0, -2.0, 4.0};
+  Settings settings = settings_of(SolverKind::kBpp, Integrator::kEuler, 4);
+  Simulator simulator = test::simulator_of(*builder.build(), settings);
+  for (int i = 0; i < 600; ++i) ASSERT_EQ(simulator.step().status, StepStatus::kOk);
+  const State& state = simulator.state();
+  EXPECT_LT((state.x[0] - Vec3(0.0, 5e-3, -3e-3)).norm(), 1e-7);
+  // The rows have sines of the angles.
+  EXPECT_LT((2.0 * state.q[0].vec() - 2e-3 * Vec3(1.0, -2.0, 4.0)).norm(), 1e-4);
+  const JointForce force = simulator.constraint_forces().joints[0];
+  EXPECT_LT((force.force + Vec3(0.0, 5.0, -3.0)).norm(), 1e-6);
+  EXPECT_LT((force.torque + Vec3(1.0, -2.0, 4.0)).norm(), 0.05);
+}
+
+}  // namespace
+}  // namespace substep

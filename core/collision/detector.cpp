@@ -107,7 +107,7 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const Part& p
   return points_;
 }
 
-std::span<const ContactPoint> Detector::foresee(const Scene& scene, const Part& part,
+std::span<const ContactPoint> Detector::predict(const Scene& scene, const Part& part,
                                                 const State& state, std::span<const Mat3> R_WB,
                                                 double ahead) {
   look_ahead(scene, state, ahead);

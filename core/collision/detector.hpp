@@ -30,9 +30,9 @@ class Detector {
   /// What may come to touch within a time: the margin of a pair grows by the way that its bodies
   /// may go in it, falling freely. Boxes against boxes are only listed: where they touch changes
   /// while they come. @param ahead [s]
-  std::span<const ContactPoint> foresee(const Scene& scene, const Part& part, const State& state,
+  std::span<const ContactPoint> predict(const Scene& scene, const Part& part, const State& state,
                                         std::span<const Mat3> R_WB, double ahead);
-  /// Those boxes again, and as far ahead. @param ahead no more than what was foreseen [s]
+  /// Those boxes again, and as far ahead. @param ahead no more than what was predicted [s]
   std::span<const ContactPoint> detect_listed(const Scene& scene, const Part& part,
                                               const State& state, std::span<const Mat3> R_WB,
                                               double ahead);

@@ -6,8 +6,8 @@ namespace substep {
 
 void BallRows::constants(const JointBase& joint, Block& block) {
   block.rows = block.position_rows = 3;
-  block.pinned = true;
-  for (std::int8_t& tight : block.tight) tight = 0;  // no row is ever let go of
+  block.has_point_rows = true;
+  for (std::int8_t& tight : block.active_set) tight = 0;  // no row is ever let go of
   for (int i = 0; i < 3; ++i) block.C[i] = joint.compliance;
 }
 

@@ -12,7 +12,7 @@ namespace substep {
 inline constexpr int kMaxRows = 5;
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Block::tight of a row that no earlier sub-step knows.
+/// Block::active_set of a row that no earlier sub-step knows.
 inline constexpr std::int8_t kUnknownSet = 2;
 
 /// Of a joint the place of its kind among Joint's alternatives.
@@ -34,11 +34,12 @@ struct Block {
   // rows have no linear part and J_b = -J_a, whichever side moves. Solvers go by that, and nothing
   // else of J is filled than J_a of the further rows: gradient() knows. Of any other block J_a and
   // J_b are filled.
-  bool pinned = false;
+  bool has_point_rows = false;
   std::int8_t position_rows = 0;  // joint: the first rows are of positions, the others of angles
   bool seeded = false;            // the last sub-step had this block: impulse is of it
   bool was_closed = false;        // contact: carried a force in the last sub-step
-  std::int8_t tight[kMaxRows];    // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
+  std::int8_t
+      active_set[kMaxRows];  // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
   // A pin in a direct solve reads no further than these: of a long chain that is less memory.
   Vec3 r_a = Vec3::Zero();  // arms from the centres of mass to the point of action, world [m]
@@ -87,10 +88,10 @@ struct Block {
   [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
 };
 
-/// J of one row on one side, pinned or not.
+/// J of one row on one side, with point rows or without.
 inline Vec6 gradient(const Block& block, int row, bool of_a) {
   Vec6 J;
-  if (!block.pinned) {
+  if (!block.has_point_rows) {
     for (int j = 0; j < 6; ++j) J[j] = (of_a ? block.J_a : block.J_b)[row][j];
     return J;
   }

@@ -32,7 +32,7 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
   block.body_a = point.a;
   block.body_b = point.b;
   block.rows = 1;
-  block.pinned = false;
+  block.has_point_rows = false;
   const Vec3 b_from_a = x_b - x_a;
   const Vec3 r_a = 0.5 * (point.point_a + (b_from_a + point.point_b));
   const Vec3 r_b = 0.5 * (point.point_b + (point.point_a - b_from_a));
@@ -56,7 +56,7 @@ void friction_rows(const ContactModel& model, double mu, const Vec3& along, Bloc
   block.share[0] = block.share[1] = 1.0;
   block.rows = 3;
   for (int row = 1; row < 3; ++row) {
-    block.phi[row] = 0.0;  // where it slid, it stays
+    block.phi[row] = 0.0;  // no position correction for tangential slip
     block.C[row] = model.friction_compliance;
     set_row(block, row, row == 1 ? block.t1 : block.t2);
   }

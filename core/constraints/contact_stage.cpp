@@ -44,21 +44,21 @@ bool ContactStage::detect_and_append(const Scene& scene, const Part& part, const
   return true;
 }
 
-bool ContactStage::foresee(const Scene& scene, const Part& part, const State& state,
+bool ContactStage::predict(const Scene& scene, const Part& part, const State& state,
                            std::span<const Mat3> R_WB, double ahead) {
-  const std::span<const ContactPoint> points = detector_.foresee(scene, part, state, R_WB, ahead);
-  foreseen_.clear();
-  foreseen_.reserve(8 * scene.bodies.size() + 32);  // once: a landing must not allocate
+  const std::span<const ContactPoint> points = detector_.predict(scene, part, state, R_WB, ahead);
+  predicted_.clear();
+  predicted_.reserve(8 * scene.bodies.size() + 32);  // once: a landing must not allocate
   if (detector_.too_many()) return false;
-  append(points, scene, state, foreseen_);
+  append(points, scene, state, predicted_);
   x_.assign(state.x.begin(), state.x.end());
   q_.assign(state.q.begin(), state.q.end());
   way_.assign(detector_.ways().begin(), detector_.ways().end());
   return true;
 }
 
-bool ContactStage::stays_foreseen(const Scene& scene, const Part& part, const State& state,
-                                  double dt) const {
+bool ContactStage::prediction_valid(const Scene& scene, const Part& part, const State& state,
+                                    double dt) const {
   const double room = 0.5 * scene.contact.margin;  // of each of two bodies
   return std::all_of(part.bodies.begin(), part.bodies.end(), [&](int body) {
     const auto i = static_cast<std::size_t>(body);
@@ -70,7 +70,7 @@ bool ContactStage::stays_foreseen(const Scene& scene, const Part& part, const St
   });
 }
 
-bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const State& state,
+bool ContactStage::append_predicted(const Scene& scene, const Part& part, const State& state,
                                     std::span<const Mat3> R_WB, double dt, Blocks& blocks) {
   const std::span<const ContactPoint> of_boxes =
       detector_.detect_listed(scene, part, state, R_WB, dt);
@@ -80,7 +80,7 @@ bool ContactStage::carry_and_append(const Scene& scene, const Part& part, const 
     const auto i = static_cast<std::size_t>(body);
     return Motion{state.x[i] - x_[i], turn_matrix(half_turn(q_[i], state.q[i]))};
   };
-  for (const Block& row : foreseen_.all()) {
+  for (const Block& row : predicted_.all()) {
     if (!part.holds(row.body_a) || !part.holds(row.body_b)) continue;
     Block& block = blocks.append();
     block = row;

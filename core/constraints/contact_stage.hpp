@@ -15,19 +15,19 @@ class ContactStage {
   /// @return false where there are too many: then nothing is appended
   bool detect_and_append(const Scene& scene, const Part& part, const State& state,
                          std::span<const Mat3> R_WB, Blocks& blocks);
-  /// The same for what may come to touch within a time, kept for carry_and_append().
+  /// The same for what may come to touch within a time, kept for append_predicted().
   /// @param ahead [s]
-  bool foresee(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
+  bool predict(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
                double ahead);
-  /// Whether no two bodies touch unforeseen in a sub-step, as fast as they are: an impact may have
+  /// Whether no two bodies touch unpredicted in a sub-step, as fast as they are: an impact may have
   /// made them faster. @param dt the sub-step to come [s]
-  [[nodiscard]] bool stays_foreseen(const Scene& scene, const Part& part, const State& state,
-                                    double dt) const;
-  /// The rows that were foreseen, where their bodies have gone since, as far as they may close
+  [[nodiscard]] bool prediction_valid(const Scene& scene, const Part& part, const State& state,
+                                      double dt) const;
+  /// The rows that were predicted, where their bodies have gone since, as far as they may close
   /// within dt. Boxes against boxes are looked at again: a row of the edge that came first says
   /// nothing of the next one, and the box would turn about it into the other.
   /// @param dt the sub-step to come [s]  @return false where there are too many
-  bool carry_and_append(const Scene& scene, const Part& part, const State& state,
+  bool append_predicted(const Scene& scene, const Part& part, const State& state,
                         std::span<const Mat3> R_WB, double dt, Blocks& blocks);
   /// What looks for contacts, for other questions of the same kind.
   [[nodiscard]] Detector& detector() { return detector_; }
@@ -37,8 +37,8 @@ class ContactStage {
               Blocks& blocks) const;
 
   Detector detector_;
-  Blocks foreseen_;
-  std::vector<Vec3> x_;  // per body: where rows were foreseen, world [m]
+  Blocks predicted_;
+  std::vector<Vec3> x_;  // per body: where rows were predicted, world [m]
   std::vector<Quat> q_;
   std::vector<double> way_;  // per body: that its points may go from there [m]
 };

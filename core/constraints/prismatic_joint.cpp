@@ -58,8 +58,8 @@ Mat3 angular_stiffness(const Block& block) {
 void PrismaticRows::constants(const PrismaticJoint& joint, Block& block) {
   block.rows = 5;
   block.position_rows = 2;
-  block.pinned = false;
-  std::fill_n(block.tight, kMaxRows, std::int8_t{0});  // no row is ever let go of
+  block.has_point_rows = false;
+  std::fill_n(block.active_set, kMaxRows, std::int8_t{0});  // no row is ever let go of
   std::fill_n(block.C, 2, joint.compliance);
   std::fill_n(block.C + 2, 3, joint.angular_compliance);
 }

@@ -92,7 +92,7 @@ bool RestitutionStage::set_impacts(const Scene& scene, std::span<const Vec6> u, 
       struck_[i] = 1;
     }
     block.bias[0] = speed > 0.0 ? -restitution_of(block) * speed : kOpen;
-    std::fill(std::begin(block.tight), std::end(block.tight), kUnknownSet);
+    std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
   }
   return any;
 }

@@ -8,7 +8,7 @@ BodyNames::BodyNames(const std::vector<Body>& bodies, Problems& problems) : bodi
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const std::string& name = bodies[i].name;
     const std::string pointer = pointer_to(pointer_to("/bodies", i), "name");
-    if (name.empty()) continue;  // told when it was read
+    if (name.empty()) continue;  // reported when it was read
     if (name == kWorldName) {
       problems.push_back({pointer, "\"world\" is not a name for a body: it is the fixed world"});
       continue;

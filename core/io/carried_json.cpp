@@ -12,7 +12,7 @@
 namespace substep {
 namespace {
 
-constexpr std::string_view kSides = "-0+?";  // of StoredForce::tight from -1 on; ?: not known
+constexpr std::string_view kSides = "-0+?";  // of StoredForce::active_set from -1 on; ?: not known
 constexpr std::size_t kRows = std::size(StoredForce{}.lambda);
 
 Vec6 velocity_of(const Body& body) {
@@ -112,7 +112,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
         in.problem("tight", value_text(tight) + " is not made of -, 0, + and ?");
         break;
       }
-      force.tight[row] = static_cast<std::int8_t>(static_cast<int>(side) - 1);
+      force.active_set[row] = static_cast<std::int8_t>(static_cast<int>(side) - 1);
     }
   }
   in.finish();
@@ -126,7 +126,8 @@ Json force_json(const StoredForce& force) {
     return std::vector(numbers, numbers + count);
   };
   std::string tight;
-  for (const std::int8_t side : force.tight) tight += kSides[static_cast<std::size_t>(side + 1)];
+  for (const std::int8_t side : force.active_set)
+    tight += kSides[static_cast<std::size_t>(side + 1)];
   tight.erase(tight.find_last_not_of('0') + 1);
   Json json;
   json["id"] = id_text(force.id);

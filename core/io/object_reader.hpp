@@ -19,7 +19,7 @@ inline constexpr Presence kRequired = Presence::kRequired;
 inline constexpr Presence kOptional = Presence::kOptional;
 
 /// Every member that is read is known to the object; finish() reports the others. A member that is
-/// missing or wrong leaves its target as it was. Each function tells whether it set its target.
+/// missing or wrong leaves its target as it was. Each function returns whether it set its target.
 class ObjectReader {
  public:
   /// Notes a problem where json is no object; the reader then has no members.

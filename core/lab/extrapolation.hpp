@@ -1,6 +1,6 @@
 #pragma once
 // Gragg, Bulirsch and Stoer: the modified midpoint rule with 2, 4, ..., 16 sub-steps, extrapolated
-// to none, has order 16 and tells its own error. For exact references, not for simulations.
+// to none, has order 16 and estimates its own error. For exact references, not for simulations.
 
 #include <Eigen/Core>
 #include <algorithm>

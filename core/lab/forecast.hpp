@@ -4,12 +4,12 @@
 
 namespace substep {
 
-/// Sub-steps a frame that a scene will ask for, told before anything moves.
+/// Predicts how many sub-steps per frame a scene will need.
 struct Forecast {
   double mass_ratio = 1.0;  // heaviest over lightest moving body [-]
   int at_start = 1;         // by Eq. 11 from the forces at the start, contacts included
   int hanging = 1;          // by Eq. 11 where every joint carries the weight that hangs on it
-  int body = -1;            // who asks for most of `hanging`; -1: nobody
+  int body = -1;            // that needs most of `hanging`; -1: none
   [[nodiscard]] int n() const { return at_start > hanging ? at_start : hanging; }
 };
 

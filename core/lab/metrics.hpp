@@ -20,7 +20,8 @@ struct PeakAndMedian {
   friend bool operator==(const PeakAndMedian&, const PeakAndMedian&) = default;
 };
 
-/// How wrong a run is. What a scene cannot have, or what a failed run no longer tells, is empty.
+/// Errors of a run. Those that the scene does not define, or a failed run has not reached, are
+/// empty.
 struct Errors {
   std::optional<double> trajectory_peak;         // largest distance from the reference [m]
   std::optional<double> trajectory_final;        // at the end of the reference's window [m]

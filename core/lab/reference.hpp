@@ -25,7 +25,7 @@ struct Reference : ReferenceSummary {
   std::vector<Vec3> track;
 };
 
-/// Of runs whose errors nobody asks for.
+/// For runs whose errors are not needed.
 const Reference& no_reference();
 
 /// How long the motion of a scene can be foretold: contact makes it chaotic. [s]

@@ -8,7 +8,7 @@ namespace substep {
 /// operations]: some hundredths of a second.
 inline constexpr double kPartWork = 2e7;
 
-/// Takes steps for about that long, at least one: what goes on in slices where there are no
+/// Takes steps for about that long, at least one: for work in slices where there are no
 /// threads. @param step one more; returns whether there is another  @return the same of the last
 template <class Step>
 bool advance_for(double seconds, const Step& step) {

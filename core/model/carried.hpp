@@ -16,7 +16,7 @@ struct StoredForce {
   double rate_change[5] = {};  // of the rate [N/s^2 or N m/s^2]
   double rate_age = 0.0;       // how long before lambda the rate was so [s]
   double elastic[5] = {};      // per row, of phi under the soft drift law: Block::elastic [m, rad]
-  std::int8_t tight[5] = {};   // per row, of contacts: active set of BPP, as Block::tight
+  std::int8_t active_set[5] = {};  // per row, of contacts: active set of BPP, as Block::active_set
 };
 
 /// The last sub-step of a body whose island has sub-steps of its own.

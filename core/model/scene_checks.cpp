@@ -128,7 +128,7 @@ void check_effects(const Scene& scene, Problems& problems) {
     missing("external", pointer_to(pointer_to("/bodies", i), key) + " is given");
     break;
   }
-  // What contacts can have besides their normal rows, and who asks for it.
+  // Optional rows of contacts, and the body data that needs them.
   const auto needs_contact = [&](bool Effects::*effect, const char* name, double Body::*coefficient,
                                  bool of_static) {
     if (!listed.contact && listed.*effect) {

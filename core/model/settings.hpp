@@ -61,7 +61,7 @@ struct Settings {
   double memory = 0.9;   // decay of r from sub-step to sub-step in policy kSubstep, in [0, 1) [-]
   bool islands = false;  // each island has its own N, in modes that choose it
   bool sleep = false;    // islands at rest are not stepped, and stand still
-  bool probe = true;     // one solve before the first frame tells the forces that N needs
+  bool probe = true;     // one solve before the first frame for the forces that N needs
 
   Integrator integrator = Integrator::kEuler;
   Gyroscopic gyroscopic = Gyroscopic::kImplicit;

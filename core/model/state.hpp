@@ -10,8 +10,8 @@ namespace substep {
 
 struct Scene;
 
-/// Everything that changes while a scene runs. A copy is a snapshot: the motion goes on from it bit
-/// for bit.
+/// Everything that changes while a scene runs. A copy is a snapshot: the motion continues from it
+/// bit for bit.
 struct State : Carried {
   std::vector<Vec3> x;  // centre of mass, world [m]
   std::vector<Quat> q;  // q_WB, unit [-]

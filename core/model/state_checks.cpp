@@ -14,7 +14,7 @@
 namespace substep {
 namespace {
 
-constexpr int kLeastSide = -1;  // of StoredForce::tight
+constexpr int kLeastSide = -1;  // of StoredForce::active_set
 constexpr int kMostSide = 2;    // not known yet
 
 /// Checks lists that have an item for every body.
@@ -39,7 +39,7 @@ class Lists {
                                                         ", one for each body of the scene"});
     return false;
   }
-  /// Notes the first item that is not finite: the others tell no more.
+  /// Reports only the first item that is not finite.
   template <class Item>
   void finite(const char* key, const std::vector<Item>& items) {
     const auto bad =
@@ -75,7 +75,7 @@ bool has_sound_numbers(const StoredForce& force) {
          std::isfinite(force.rate_age) && force.rate_age >= 0.0 &&
          std::all_of(std::begin(force.rate_change), std::end(force.rate_change), finite) &&
          std::all_of(std::begin(force.elastic), std::end(force.elastic), finite) &&
-         std::all_of(std::begin(force.tight), std::end(force.tight), side);
+         std::all_of(std::begin(force.active_set), std::end(force.active_set), side);
 }
 
 }  // namespace

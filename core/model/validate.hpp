@@ -1,7 +1,7 @@
 #pragma once
 // What is wrong with data that a program hands over, before anything reads it. Each problem names
 // its place and the allowed range, in the words of the scene reader; ranges are those of
-// scene_limits.hpp and setting_fields.hpp. At most kMaxProblems are told.
+// scene_limits.hpp and setting_fields.hpp. Reports at most kMaxProblems.
 
 #include "core/model/budget.hpp"
 #include "core/model/grab.hpp"

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kBodyWork = 200.0;    // to move a body: external forces, masses, pose
 constexpr double kBlockWork = 1000.0;  // to find, make, store and report a joint or contact point
-constexpr int kTypical = 16;           // sub-steps whose mean tells what the others take
+constexpr int kTypical = 16;           // sub-steps whose mean predicts the others
 
 double work_of_bodies(const FrameProgress& at) {
   return kBodyWork * static_cast<double>(at.bodies) * at.left;

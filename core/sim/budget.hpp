@@ -1,5 +1,5 @@
 #pragma once
-// What a frame is going to take, told before the next sub-step of it is taken.
+// Predicts what a frame will take, before each of its sub-steps.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,7 +23,7 @@ struct FrameProgress {
 /// [operations].
 double work_beside_solver(const FrameProgress& at);
 
-/// The work of the whole frame, as far as it can be told before the next sub-step: of bodies that
+/// The work of the whole frame, as far as it is known before the next sub-step: of bodies that
 /// move, and of the direct solver as much in each sub-step as in the mean of those taken. Sweeps
 /// are left to the solver, which knows their work exactly [operations].
 double forecast_work(const FrameProgress& at, const Settings& settings);

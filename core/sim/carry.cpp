@@ -69,7 +69,7 @@ void Simulator::Impl::seed_forces() {
     for (double& impulse : block.impulse) impulse = 0.0;
     block.seeded = false;
     if (block.is_contact()) {
-      for (std::int8_t& tight : block.tight) tight = kUnknownSet;
+      for (std::int8_t& tight : block.active_set) tight = kUnknownSet;
       block.was_closed = false;
       block.elastic[0] = 0.0;
     } else if (!all_are_stored && !springs) {
@@ -84,7 +84,7 @@ void Simulator::Impl::seed_forces() {
       for (int row = 0; row < block.rows; ++row) {
         block.elastic[row] = force.elastic[row];
         if (seeds) block.impulse[row] = force.lambda[row] * time;
-        if (block.is_contact()) block.tight[row] = force.tight[row];
+        if (block.is_contact()) block.active_set[row] = force.active_set[row];
       }
       block.was_closed = force.lambda[0] > 0.0;
       block.seeded = true;
@@ -111,12 +111,12 @@ void Simulator::Impl::prepare_courses() {
   }
 }
 
-void Simulator::Impl::hand_over(double dt) {
+void Simulator::Impl::correct_velocity_for_step_change(double dt) {
   if (state.acceleration_change.empty()) return;
   for (const int body : part().moving) {
     const auto i = static_cast<std::size_t>(body);
     if (impulse_time[i] == dt || state.acceleration_change[i].isZero(0.0)) continue;
-    Vec6 correction = stormer_hand_over(dt, impulse_time[i]) * state.acceleration_change[i];
+    Vec6 correction = stormer_step_change(dt, impulse_time[i]) * state.acceleration_change[i];
     if (tumbles(i)) correction.tail<3>().setZero();  // carry_momentum()
     state.u[i] += correction;
   }
@@ -140,13 +140,13 @@ void Simulator::Impl::store_accelerations(double dt) {
   }
 }
 
-// hand_over() has the change of the sub-step before last; now that this one is known, what it was
-// short by follows. Poses go without it: they are where the constraints hold.
+// correct_velocity_for_step_change() has the change of the sub-step before last; now that this one
+// is known, what it was short by follows. Poses go without it: they are where the constraints hold.
 void Simulator::Impl::store_changes(std::size_t body, const Vec6& a, double dt) {
   const bool known = smooth && !state.acceleration[body].isZero(0.0);
   const double growth = known ? stormer_growth(dt, impulse_time[body]) : 0.0;
   const double late =
-      known && impulse_time[body] != dt ? 1.5 * stormer_hand_over(dt, impulse_time[body]) : 0.0;
+      known && impulse_time[body] != dt ? 1.5 * stormer_step_change(dt, impulse_time[body]) : 0.0;
   const Vec6 change = a - state.acceleration[body];
   changes[body] = {a, growth * change, growth * state.acceleration_change[body]};
   Vec6 correction = late * (change - state.acceleration_change[body]);
@@ -255,7 +255,7 @@ void Simulator::Impl::store_forces() {
     force.id = block.id;
     for (int row = 0; row < block.rows; ++row) {
       force.lambda[row] = block.lambda[row];
-      force.tight[row] = block.tight[row];
+      force.active_set[row] = block.active_set[row];
     }
     if (extrapolated && block.seeded) find_rates(block, force);
     if (!soft || is_grab(block)) continue;

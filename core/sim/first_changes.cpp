@@ -41,7 +41,7 @@ void Simulator::Impl::find_first_changes(double dt) {
     for (std::size_t i = 0; i < n; ++i) rate[i] = 0.5 / dt * (after.a[i] - before.a[i]);
   }
   if (extrapolates(settings)) return store_first_rates(dt, before, at_start, after);
-  // A parabola through the three tells the change before the first of them.
+  // A parabola through the three gives the change before the first of them.
   const auto change = [&](const auto& quantity, std::size_t i) {
     return (3.0 * quantity(at_start)[i] - 2.0 * quantity(before)[i] - quantity(after)[i]).eval();
   };

@@ -68,7 +68,7 @@ void Simulator::Impl::probe(FrameReport& report) {
   }
   copy(u_start, state.u);
   state.stiffness_known = true;
-  report.status = StepStatus::kOk;  // what the probe cannot tell, the frame will
+  report.status = StepStatus::kOk;  // a failed probe is not fatal
   report.failed_body = -1;
   report.stages.probe = true;
 }
@@ -84,7 +84,7 @@ void Simulator::Impl::turn_axes(std::span<const int> bodies) {
 void Simulator::Impl::begin_frame() {
   FrameReport report;
   if (!measures.stages) report.times = no_times();
-  contacts_foreseen = false;
+  contacts_predicted = false;
   substeps_of_bodies = 0;
   first_block = first_force = 0;
   turn_axes(all.bodies);
@@ -95,13 +95,13 @@ void Simulator::Impl::begin_frame() {
     state.rotation.clear();
     state.rotation_age = 0.0;
   }
-  deal_out(report);
+  schedule_substeps(report);
   blocks.clear();
   forces.clear();
   open = report;
 }
 
-void Simulator::Impl::deal_out(FrameReport& report) {
+void Simulator::Impl::schedule_substeps(FrameReport& report) {
   schedule.clear();
   if (!looks_for_islands(settings) || all.moving.empty()) {
     for (const OwnSubstep& own : state.own) state.r = std::max(state.r, own.r);
@@ -119,10 +119,10 @@ void Simulator::Impl::deal_out(FrameReport& report) {
   if (!islands) islands = std::make_unique<Islands>(*scene);
   islands->find(*scene, all, state, R_WB, scene->frame, contact ? &contact->detector() : nullptr);
   report.islands = islands->count();
-  deal_out_islands(report);
+  schedule_islands(report);
 }
 
-void Simulator::Impl::deal_out_islands(FrameReport& report) {
+void Simulator::Impl::schedule_islands(FrameReport& report) {
   const auto r_of = [&](std::span<const int> bodies) {
     double most = 0.0;
     for (const int body : bodies) {

@@ -11,7 +11,7 @@
 namespace substep {
 
 /// Moving bodies that joints connect, or contacts that may come within a frame. Static bodies
-/// connect nothing. What is in two islands cannot tell within the frame, so each may take
+/// connect nothing. Islands cannot interact within a frame, so each may take
 /// sub-steps of its own.
 ///
 /// A body may go as far in the frame as the fastest of its island, which is where an impact can

@@ -114,7 +114,7 @@ struct StagesRun {
   bool probe = false;
 };
 
-/// What a frame's report measures beside the motion. What is not asked for takes no time, and is no
+/// What a frame's report measures beside the motion. Disabled measurements take no time, and are no
 /// number in the report.
 struct Measures {
   bool energies = true;
@@ -122,7 +122,7 @@ struct Measures {
   bool stages = true;  // wall time by stage; the total is always there
 };
 
-/// All that a frame tells. Plots, CSV, verdicts and scripts read only this.
+/// The outputs of a frame. Plots, CSV, verdicts and scripts read nothing else.
 struct FrameReport {
   std::int64_t frame = 0;  // frames done
   double time = 0.0;       // [s], at the end of the frame; of a failed one, of its last finite
@@ -141,7 +141,7 @@ struct FrameReport {
   double dt_max = 0.0;  // longest sub-step [s]
   double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10, at the
                                                                // end of the frame [s]
-  StiffnessLeader leader;                                      // who set the stiffness term of r
+  StiffnessLeader leader;                                      // that set the stiffness term of r
   double r_stiffness = 0.0;  // geometric stiffness, Eq. 9: the leader's [1/s^2]
   double r_rotation = 0.0;   // turn and gyroscopic rate of the body that spins fastest [1/s^2]
   int rotation_body = -1;    // that body; -1 where none spins or the setting is off

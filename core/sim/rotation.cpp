@@ -141,7 +141,7 @@ void Simulator::Impl::bend_rows(double dt) {
     moved_errors(block, motion(u_a, dt), motion(u_b, dt), bent);
     row_speeds(block, block.a >= 0 ? &u_a : nullptr, block.b >= 0 ? &u_b : nullptr, speed);
     for (int row = 0; row < block.rows; ++row) block.bias[row] += bent[row] / dt - speed[row];
-    if (block.pinned) meet(block);
+    if (block.has_point_rows) meet(block);
   }
 }
 
@@ -190,7 +190,7 @@ void Simulator::Impl::carry_momentum(double dt) {
     Vec3 l = momentum_after(I, R.transpose() * state.u[i].tail<3>(), state.dt_previous_of(i));
     if (follows_accelerations(settings) && impulse_time[i] != dt &&
         !is_zero(state.torque_change[i])) {
-      l += R.transpose() * Vec3(stormer_hand_over(dt, impulse_time[i]) * state.torque_change[i]);
+      l += R.transpose() * Vec3(stormer_step_change(dt, impulse_time[i]) * state.torque_change[i]);
     }
     state.u[i].tail<3>() = R * l.cwiseQuotient(I);
   }

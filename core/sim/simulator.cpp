@@ -15,7 +15,7 @@ FrameReport Simulator::Impl::advance(Share share) {
   for (double spent = 0.0; schedule.running() && share.most-- > 0 && spent < share.work;) {
     const double dt = schedule.dt();
     const std::int64_t before = report.work.flops;
-    watched = share.most == 0 || schedule.last_of_part();
+    outputs_needed = share.most == 0 || schedule.last_of_part();
     begin_substep(report);
     if (!append_rows(report)) break;  // phi, J
     external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6

@@ -17,7 +17,7 @@ namespace substep {
 /// Steps one scene. Scene is const, State is a value, Settings may change between any two frames.
 ///
 /// What it is given is checked (model/validate.hpp). What is invalid is not taken: the simulator
-/// stays as it was, step() and substep() do nothing and return kInvalid, and problems() tells why,
+/// stays as it was, step() and substep() do nothing and return kInvalid, and problems() says why,
 /// until something valid is given in its place.
 class Simulator {
  public:
@@ -34,8 +34,8 @@ class Simulator {
   /// One sub-step. The state between two sub-steps of a frame is to look at, not to keep: only from
   /// frame to frame is it a snapshot. @return of the frame so far; complete where none is left
   FrameReport substep();
-  /// A part of a frame, for who must answer meanwhile: sub-steps until they have taken so much, at
-  /// least one. The bits are those of step(). A report of a frame that is not complete tells of its
+  /// A part of a frame, for callers that must stay responsive: sub-steps until they have taken so
+  /// much, at least one. The bits are those of step(). The report of an incomplete frame has its
   /// work and status alone, and its state is not one to look at. @param work [operations]
   FrameReport step_some(double work);
   /// Sub-steps that the frame begun by either still has, as decided so far; 0 between frames.
@@ -45,11 +45,11 @@ class Simulator {
   [[nodiscard]] Problems problems() const;
 
   /// What a frame may take. Past it a frame stops with kOverBudget, before the sub-step that would
-  /// take more: FrameReport::overrun tells what asked for it.
+  /// take more: FrameReport::overrun names the cause.
   void set_budget(const Budget& budget);
   [[nodiscard]] const Budget& budget() const;
 
-  /// What the reports of frames measure: everything, unless told otherwise. Nothing of it changes
+  /// What the reports of frames measure: everything by default. Nothing of it changes
   /// the motion.
   void set_measures(const Measures& measures);
 

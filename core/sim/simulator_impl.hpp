@@ -36,11 +36,11 @@ struct Simulator::Impl {
     double work = std::numeric_limits<double>::infinity();         // none follows once it is done
     [[nodiscard]] bool whole() const { return std::isinf(work); }  // or looked at where it ends
   };
-  /// The frame that is open goes on, else one begins.
+  /// Continues the open frame, or begins one.
   FrameReport advance(Share share);
 
-  // The parts of a sub-step, in the order in which advance() calls them. Those that can fail tell,
-  // and leave the state and a status that says why.
+  // The parts of a sub-step, in the order in which advance() calls them. Those that return
+  // bool return false on failure; the report's status holds the reason.
   void begin_substep(FrameReport& report);
   bool append_rows(FrameReport& report);
   bool append_contacts();                                // false where there are too many
@@ -114,7 +114,7 @@ struct Simulator::Impl {
   SubstepTimes times_of(const Block& block, double dt) const;
   void seed_forces();
   void store_forces();
-  // Where extrapolates(): what goes on changing as it did.
+  // Where extrapolates(): quantities that keep changing at their last rates.
   void extrapolate(const StoredForce& force, Block& block) const;
   void find_rates(const Block& block, StoredForce& force) const;
   std::span<const Vec6> extrapolated_velocities();
@@ -134,13 +134,13 @@ struct Simulator::Impl {
   void store_first_rates(double dt, const Accelerations& before, const Accelerations& at_start,
                          const Accelerations& after);
   // carry.cpp
-  void hand_over(double dt);                         // to sub-steps of another length
+  void correct_velocity_for_step_change(double dt);  // to sub-steps of another length
   void aim_at_poses(double dt);                      // bias and softness of joints
   std::span<const Vec6> pose_velocities(double dt);  // what poses move by; elsewhere u
   void begin_frame();
   void turn_axes(std::span<const int> bodies);  // R_WB
-  void deal_out(FrameReport& report);           // the sub-steps of the frame to come
-  void deal_out_islands(FrameReport& report);
+  void schedule_substeps(FrameReport& report);  // the sub-steps of the frame to come
+  void schedule_islands(FrameReport& report);
   bool heeds_rotation() const;                                      // whether N follows it
   RotationBound rotation_bound(std::span<const int> bodies) const;  // none where it is off
   double r_rotation_again() const;  // of the part, where N is decided after every sub-step
@@ -167,7 +167,7 @@ struct Simulator::Impl {
   std::optional<Grab> grab;
   std::optional<FrameReport> open;  // of a frame of which some sub-steps are taken
   Schedule schedule;                // of the open frame
-  bool contacts_foreseen = false;   // those of the open frame
+  bool contacts_predicted = false;  // those of the open frame
   FrameReport stopped;              // the report of the frame that failed
 
   Part all;                  // of the scene
@@ -217,7 +217,7 @@ struct Simulator::Impl {
   std::vector<double> impulse_time;    // per body: external forces act for it [s]
   std::vector<std::uint8_t> hit;       // per body: an impact of this sub-step reached it
   bool smooth = true;                  // no contact closed in this sub-step
-  bool watched = true;                 // whether anybody may look at what it leaves
+  bool outputs_needed = true;          // of this sub-step
   StiffnessBound bound;
   StageClock clock;
 };

@@ -7,7 +7,7 @@ namespace substep {
 /// Adds the time since the last call to the stage that has just ended.
 class StageClock {
  public:
-  /// A clock that does not run adds nothing, and asks nobody for the time.
+  /// A disabled clock adds nothing and never reads the system clock.
   explicit StageClock(bool runs = true) : runs_(runs) {
     if (runs_) last_ = Clock::now();
   }

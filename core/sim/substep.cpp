@@ -75,11 +75,11 @@ bool Simulator::Impl::append_contacts() {
     return contact->detect_and_append(*scene, part(), state, R_WB, blocks);
   }
   const double dt = schedule.dt();
-  if (!contacts_foreseen || !contact->stays_foreseen(*scene, part(), state, dt)) {
-    contacts_foreseen = contact->foresee(*scene, all, state, R_WB, scene->frame);
-    if (!contacts_foreseen) return false;
+  if (!contacts_predicted || !contact->prediction_valid(*scene, part(), state, dt)) {
+    contacts_predicted = contact->predict(*scene, all, state, R_WB, scene->frame);
+    if (!contacts_predicted) return false;
   }
-  return contact->carry_and_append(*scene, part(), state, R_WB, dt, blocks);
+  return contact->append_predicted(*scene, part(), state, R_WB, dt, blocks);
 }
 
 void Simulator::Impl::external_forces(double dt, FrameReport& report) {
@@ -88,7 +88,7 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
     const auto i = static_cast<std::size_t>(body);
     impulse_time[i] = force_time(settings.integrator, state.dt_previous_of(i), dt);
   }
-  if (follows_accelerations(settings)) hand_over(dt);
+  if (follows_accelerations(settings)) correct_velocity_for_step_change(dt);
   if (scene->effects.gyroscopic) {
     gyroscopic_torques(dt);
     report.stages.gyroscopic = true;
@@ -114,7 +114,7 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   clock.lap(report.times.mass);
 }
 
-// A blow is no acceleration that goes on. A spring that is resolved gives none; but how
+// An impact is not an acceleration that continues. A spring that is resolved gives none; but how
 // accelerations change is not known across the time when it begins or ends to push.
 bool Simulator::Impl::breaks_motion(const Block& touching) const {
   const bool closed = touching.impulse[0] > 0.0;
@@ -172,8 +172,8 @@ bool Simulator::Impl::solve(double dt, FrameReport& report, bool probing) {
     refuse_solve(solved, dt, report);
     return false;
   }
-  if (watched || probing || schedule.needs_stiffness() || starts_from_last_forces(settings) ||
-      springs_are_stored()) {
+  if (outputs_needed || probing || schedule.needs_stiffness() ||
+      starts_from_last_forces(settings) || springs_are_stored()) {
     solver->find_impulses(own);
   }
   if (gives) {
@@ -212,7 +212,7 @@ void Simulator::Impl::count_work(const SolveReport& solved, FrameReport& report)
 bool Simulator::Impl::finite(FrameReport& report) {
   const Part& moved = part();
   double squares = 0.0;
-  for (const int body : moved.bodies)  // nor may what must not move
+  for (const int body : moved.bodies)  // static bodies are checked too
     squares += state.u[static_cast<std::size_t>(body)].squaredNorm();
   if (!std::isfinite(heaviest * squares)) {  // then it may be one that is too fast
     double sum = 0.0;
@@ -284,7 +284,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   store_accelerations(dt);
   integrate(part(), dt, move_by, state);
   if (scene->effects.gyroscopic && carries_momentum(settings)) settle_momentum(dt);
-  if (watched) synchronise(dt);
+  if (outputs_needed) synchronise(dt);
   state.time += dt;
   state.dt_previous = dt;
   if (!state.own.empty()) {

@@ -11,7 +11,7 @@
 namespace substep {
 
 // In a sub-step with an impact, marks the bodies that constraints act on: the impact may be in what
-// they carry. What flies freely goes on.
+// they carry. Bodies in free flight are extrapolated.
 void Simulator::Impl::find_struck() {
   hit.assign(state.u.size(), 0);
   if (smooth) return;

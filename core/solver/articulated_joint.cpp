@@ -262,8 +262,8 @@ inline void ArticulatedJoint::at_pivot(const double* v_parent, double (&v)[6]) c
 }
 
 // R of the derivation. @param v at_pivot()
-inline void ArticulatedJoint::hand_over(const double* v_parent, const double (&v)[6],
-                                        double (&R)[6]) const {
+inline void ArticulatedJoint::pass_velocity(const double* v_parent, const double (&v)[6],
+                                            double (&R)[6]) const {
   if (v_parent == nullptr) {
     for (int i = 0; i < 6; ++i) R[i] = -g_[i];
     return;
@@ -280,7 +280,7 @@ void ArticulatedJoint::backward_rows(const double* v_parent, double* v_centre) {
     for (int i = 0; i < (rows == 3 ? 3 : 6); ++i) v[i] -= d_[i];
   } else {
     double R[6];
-    hand_over(v_parent, v, R);
+    pass_velocity(v_parent, v, R);
     for (int i = 0; i < 3; ++i) v[i] -= w_[i] + softness_[i] * R[i];
     for (int row = 3; row < rows; ++row) {
       const double* e = e_[row - 3];
@@ -319,7 +319,7 @@ void ArticulatedJoint::find_impulse(const double* v_parent, Block& joint) const 
   double v[6];
   double R[6];
   at_pivot(v_parent, v);
-  hand_over(v_parent, v, R);
+  pass_velocity(v_parent, v, R);
   for (double& component : R) component *= sign_;
   for (int row = 0; row < 3; ++row) joint.impulse[row] = R[row];
   if (joint.rows == 3) return;

@@ -8,10 +8,11 @@
 
 namespace substep {
 
-/// Elimination of a body together with the one pinned joint that ties it to what is left: its
-/// parent, or the world. In closed form, without inverting the body's inertia; see the derivation
-/// in articulated_joint.cpp. The body's quantities are about the pivot, the parent's about the
-/// reference point that the parent has: its own pivot if it is articulated, else its centre.
+/// Elimination of a body together with the one joint with point rows that ties it to what is left:
+/// its parent, or the world. In closed form, without inverting the body's inertia; see the
+/// derivation in articulated_joint.cpp. The body's quantities are about the pivot, the parent's
+/// about the reference point that the parent has: its own pivot if it is articulated, else its
+/// centre.
 class ArticulatedJoint {
  public:
   /// What a sub-step knows of the joint. @param child_is_a which side of the block is eliminated
@@ -70,7 +71,7 @@ class ArticulatedJoint {
   template <int rows, bool exact>
   void backward_rows(const double* v_parent, double* v_centre);
   void at_pivot(const double* v_parent, double (&v)[6]) const;
-  void hand_over(const double* v_parent, const double (&v)[6], double (&R)[6]) const;
+  void pass_velocity(const double* v_parent, const double (&v)[6], double (&R)[6]) const;
 
   /// A direction of rotation that the joint leaves free.
   struct Free {

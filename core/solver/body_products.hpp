@@ -7,7 +7,7 @@ namespace substep {
 
 /// J of one row on one side, where it is. @param of_pin holds it where it is nowhere else
 inline const double* gradient(const Block& block, int row, bool of_a, Vec6& of_pin) {
-  if (!block.pinned) return of_a ? block.J_a[row] : block.J_b[row];
+  if (!block.has_point_rows) return of_a ? block.J_a[row] : block.J_b[row];
   of_pin = gradient(block, row, of_a);
   return of_pin.data();
 }

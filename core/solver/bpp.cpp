@@ -14,13 +14,15 @@ constexpr int kSinglePivots = 50;        // per solve: Murty's rule is finite; t
 constexpr int kSweeps = 100;  // in place of a direct solve: 25 do not carry a house of cards
 
 bool any_tight(const Block& block) {
-  return std::any_of(block.tight, block.tight + block.rows, [](std::int8_t t) { return t != 0; });
+  return std::any_of(block.active_set, block.active_set + block.rows,
+                     [](std::int8_t t) { return t != 0; });
 }
 
 /// Whether an earlier sub-step knows of the contact: what it says may come from a file.
 bool has_known_set(const Block& block) {
-  if (block.tight[0] != 0 && block.tight[0] != -1) return false;  // a normal has no upper bound
-  return std::all_of(block.tight + 1, block.tight + block.rows,
+  if (block.active_set[0] != 0 && block.active_set[0] != -1)
+    return false;  // a normal has no upper bound
+  return std::all_of(block.active_set + 1, block.active_set + block.rows,
                      [](std::int8_t t) { return -1 <= t && t <= 1; });
 }
 
@@ -170,17 +172,17 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
   }
   for (Block& block : system.blocks) {
     if (!block.is_contact()) continue;
-    block.tight[0] = block.impulse[0] > 0.0 ? std::int8_t{0} : std::int8_t{-1};
+    block.active_set[0] = block.impulse[0] > 0.0 ? std::int8_t{0} : std::int8_t{-1};
     for (int row = 1; row < block.rows; ++row) {
       const double bound = friction_bound(block, row, block.impulse[0]);
-      block.tight[row] = block.impulse[row] >= bound    ? std::int8_t{1}
-                         : block.impulse[row] <= -bound ? std::int8_t{-1}
-                                                        : std::int8_t{0};
+      block.active_set[row] = block.impulse[row] >= bound    ? std::int8_t{1}
+                              : block.impulse[row] <= -bound ? std::int8_t{-1}
+                                                             : std::int8_t{0};
     }
   }
 }
 
-// A row that was tight in the last sub-step starts tight. A new contact starts free if the bodies
+// A row that was active in the last sub-step starts active. A new contact starts free if the bodies
 // would reach each other within the step.
 void Bpp::start_active_set(const System& system) {
   friction_bound_.assign(system.blocks.size(), 0.0);
@@ -190,7 +192,8 @@ void Bpp::start_active_set(const System& system) {
       double speed[kMaxRows];
       row_speeds(block, system.u, speed);
       const bool reaches = speed[0] + block.bias[0] < 0.0;
-      std::fill(block.tight, block.tight + block.rows, static_cast<std::int8_t>(reaches ? 0 : -1));
+      std::fill(block.active_set, block.active_set + block.rows,
+                static_cast<std::int8_t>(reaches ? 0 : -1));
     }
   }
 }
@@ -204,7 +207,7 @@ void Bpp::turn_cone(const System& system, bool first, Block& block) const {
   double along[2] = {};
   double length = 0.0;
   for (int k = 0; k < 2; ++k) {
-    along[k] = first || block.tight[1 + k] != 0 ? -speed[1 + k] : 0.0;
+    along[k] = first || block.active_set[1 + k] != 0 ? -speed[1 + k] : 0.0;
     length += along[k] * along[k];
   }
   length = std::sqrt(length);
@@ -224,8 +227,8 @@ void Bpp::set_friction_bounds(const System& system, bool cone, bool first) {
     if (cone) turn_cone(system, first, block);
     friction_bound_[i] = block.mu * std::max(0.0, block.impulse[0]);
     for (int row = 1; row < 3; ++row) {  // no room to be free in
-      if (friction_bound_[i] * block.share[row - 1] > 0.0 || block.tight[row] != 0) continue;
-      block.tight[row] = -1;
+      if (friction_bound_[i] * block.share[row - 1] > 0.0 || block.active_set[row] != 0) continue;
+      block.active_set[row] = -1;
       change_factor(i);
     }
   }
@@ -246,8 +249,9 @@ bool Bpp::bounds_settled(const System& system, bool cone) const {
     }
     for (int row = 1; row < 3; ++row) {
       const double free_bound = bound * block.share[row - 1];
-      if (block.tight[row] == 0 && std::abs(block.impulse[row]) > free_bound + room) return false;
-      if (block.tight[row] != 0 && std::abs(bound - friction_bound_[i]) > room) return false;
+      if (block.active_set[row] == 0 && std::abs(block.impulse[row]) > free_bound + room)
+        return false;
+      if (block.active_set[row] != 0 && std::abs(bound - friction_bound_[i]) > room) return false;
     }
   }
   return true;
@@ -258,9 +262,9 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
     Block& block = system.blocks[i];
     if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
-      if (block.tight[row] != 0)
+      if (block.active_set[row] != 0)
         block.impulse[row] =
-            row == 0 ? 0.0 : block.tight[row] * (friction_bound_[i] * block.share[row - 1]);
+            row == 0 ? 0.0 : block.active_set[row] * (friction_bound_[i] * block.share[row - 1]);
     }
   }
   solve_free(system, report);
@@ -278,7 +282,7 @@ void Bpp::change_factor(std::size_t block) {
 }
 
 void Bpp::move(std::span<Block> blocks, const Move& move) {
-  std::int8_t& set = blocks[move.block].tight[move.row];
+  std::int8_t& set = blocks[move.block].active_set[move.row];
   // From one bound to the other the same rows stay free.
   if (set == 0 || move.set == 0) change_factor(move.block);
   set = move.set;
@@ -297,7 +301,7 @@ int Bpp::pivot(const System& system, bool one_only) {
       const double lo = row == 0 ? 0.0 : -hi;
       if (hi == lo) continue;
       const double x = block.impulse[row];
-      std::int8_t set = block.tight[row];
+      std::int8_t set = block.active_set[row];
       if (set == 0 && lo <= x && x <= hi) continue;
       if (set == 0) {
         if (x < lo - tolerance(x)) set = -1;
@@ -306,7 +310,7 @@ int Bpp::pivot(const System& system, bool one_only) {
         const double w = speed[row] + block.softness[row] * x + block.bias[row];
         if (set < 0 ? w < -tolerance(x) : w > tolerance(x)) set = 0;
       }
-      if (set == block.tight[row]) continue;
+      if (set == block.active_set[row]) continue;
       ++wrong;
       if (one_only) {
         last = {i, row, set};

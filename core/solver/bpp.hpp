@@ -9,7 +9,7 @@
 namespace substep {
 
 /// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. The impulses of
-/// tight rows sit at their bounds, the others solve the linear system; every row on the wrong side
+/// active rows sit at their bounds, the others solve the linear system; every row on the wrong side
 /// changes its set at once, for Settings::pivots steps; after that one row at a time (the last one,
 /// Murty's rule), which cannot cycle but can take long: past a bound Gauss-Seidel takes over.
 /// Friction bounds are fixed while it pivots, seeded with the impulses given, and refreshed
@@ -51,7 +51,7 @@ class Bpp final : public Solver {
   void move(std::span<Block> blocks, const Move& move);
   void change_factor(std::size_t block);
   /// Whether the impulses are a better start than none are.
-  /// @param system with u at u*, which is spent
+  /// @param system u* on entry; overwritten
   [[nodiscard]] bool better_than_none(const System& system) const;
   /// Whether more work is done than allowed; the report says so.
   bool over_limits(const System& system, SolveReport& report) const;

@@ -13,7 +13,7 @@ constexpr int kNone = -1;
 constexpr int kUnordered = -2;  // a position to come
 
 constexpr std::size_t kMostBare = 8;  // neighbours of a body that may leave no matrix on them
-constexpr double kCountedOn = 64.0;   // times the limit, to tell by how much it is passed
+constexpr double kCountedOn = 64.0;   // times the limit, to report by how much it is exceeded
 
 /// Of the symmetric matrix that a body leaves on its neighbours [bytes].
 double update_memory(std::size_t neighbours) {
@@ -57,7 +57,7 @@ bool EliminationOrder::update(std::span<const Block> blocks, std::size_t bodies,
   world_ = world;
   build_graph(world);
   eliminate(world, most_memory);
-  if (needed_memory_ > most_memory) world_ = -1;  // to be found anew
+  if (needed_memory_ > most_memory) world_ = -1;  // so that the order is found again
   return true;
 }
 

@@ -18,7 +18,7 @@ namespace substep {
 /// no neighbour has left anything on.
 ///
 /// The order depends on the pairs of bodies and the joints between them, not on how many points
-/// they touch in, and is found anew only when a pair or a joint comes or goes.
+/// they touch in, and is found again only when a pair or a joint comes or goes.
 class EliminationOrder {
  public:
   void reserve(std::size_t bodies, std::size_t blocks);

@@ -30,7 +30,7 @@ std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies
     flops += move_flops(block, block.rows) + product_flops(block.rows, 6, sides) + 4 * block.rows +
              turning_stiffness_flops(block);
     if (forces == Forces::kEnd) continue;
-    const std::int64_t averaged = block.rows * (block.pinned ? 3 : 6) + 3;
+    const std::int64_t averaged = block.rows * (block.has_point_rows ? 3 : 6) + 3;
     flops += 4 * averaged * sides;
     if (forces != Forces::kNumerov) continue;
     flops += move_flops(block, block.rows) + (20 + 3 * 12) * block.rows * sides;
@@ -48,7 +48,8 @@ Mat3 resisting_diagonal(const Mat3& K, const Mat3& R_WB) {
 /// A block as a step finds it. Of a pin that it knows only what a sub-step changes: move_rows()
 /// and the steps write the rest.
 void copy_start(const Block& start, Block& row) {
-  if (!start.pinned || !row.pinned || row.id != start.id || row.a != start.a || row.b != start.b) {
+  if (!start.has_point_rows || !row.has_point_rows || row.id != start.id || row.a != start.a ||
+      row.b != start.b) {
     row = start;
     return;
   }
@@ -142,11 +143,11 @@ void Newton::average(const Block& start, const Block& back, const PoseWeights& w
     (end.*J)[row][j] =
         (w.behind * (back.*J)[row][j] + w.ahead * (end.*J)[row][j]) + w.here * (start.*J)[row][j];
   };
-  const int first = start.pinned ? 3 : 0;  // rows 0 to 2 of a pin are linear in its arms
+  const int first = start.has_point_rows ? 3 : 0;  // rows 0 to 2 of a pin are linear in its arms
   for (int row = first; row < start.rows; ++row) {
     for (int j = first; j < 6; ++j) {
       averaged(row, j, &Block::J_a);
-      if (!start.pinned) averaged(row, j, &Block::J_b);
+      if (!start.has_point_rows) averaged(row, j, &Block::J_b);
     }
   }
   end.r_a = (w.behind * back.r_a + w.ahead * end.r_a) + w.here * start.r_a;
@@ -210,7 +211,7 @@ double Newton::take(const System& system) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     Block& block = system.blocks[i];
     std::copy(rows_[i].impulse, rows_[i].impulse + block.rows, block.impulse);
-    std::copy(rows_[i].tight, rows_[i].tight + block.rows, block.tight);
+    std::copy(rows_[i].active_set, rows_[i].active_set + block.rows, block.active_set);
   }
   return change;
 }
@@ -220,7 +221,7 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());
   read_rows(system, settings.forces);
-  // The guess: nothing changes, or what changes goes on as it did.
+  // The guess: nothing changes, or rates stay as they were.
   copy(system.u_guess.empty() ? system.u_before : system.u_guess, system.u);
   if (settings.forces == Forces::kNumerov) move_along_courses(system);  // by no torques
 

@@ -22,7 +22,7 @@ namespace substep {
 ///            On the model of Eq. 5 the error is of fourth order, and stable while dt^2 k < 6 M.
 ///            The forces of the neighbours differ from this one by how they change, Block::rate;
 ///            velocities are means over a sub-step, and turns follow from the torques at its ends
-///            (numerov.hpp). Rates and first guess go on as the sub-steps before had them: two
+///            (numerov.hpp). Rates and first guess are extrapolated from the sub-steps before: two
 ///            steps do; one is of third order where bodies tumble, and lets what is near the limit
 ///            swing a little wider.
 /// How far they are stable: where q grows by the factor z in a sub-step, the model of Eq. 5 with

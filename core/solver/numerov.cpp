@@ -18,7 +18,7 @@ Vec3 times_inertia(const Mat3& R, const Vec3& I, const Vec3& w) {
 }
 
 /// Turn of a body in dt, world axes [rad].
-/// @param I principal moments, 0 where `w` itself is what goes on changing  @param w mean of I^-1
+/// @param I principal moments, 0 where `w` itself is extrapolated  @param w mean of I^-1
 /// times the momentum [rad/s]  @param start, end torque at both ends, or angular acceleration
 /// @param bend dt^2 times its second derivative
 Vec3 turn_in(const Vec3& I, const Mat3& R, const Vec3& w, const Vec3& start, const Vec3& end,
@@ -83,7 +83,7 @@ PoseWeights NumerovCourses::weights_of(const System& system, const Block& block)
   return numerov_weights(system.dt, before);
 }
 
-// A contact that has just closed is a blow, and no force that goes on.
+// A contact that has just closed is an impact, not a force that continues.
 void NumerovCourses::add_forces(const System& system, const Block& here, const Block& behind,
                                 const Block& ahead) {
   if (here.is_contact() && !here.was_closed) return;

@@ -44,7 +44,7 @@ class NumerovCourses {
   /// How bodies move by the forces found so far: a turn follows from the torques at both ends of
   /// the sub-step (free_turn.hpp). Velocities are those that integrate() moves by.
   void find_turns(const System& system);
-  /// Clears the forces, to be found anew by add_forces() of every block.
+  /// Clears the forces; add_forces() of every block adds them up again.
   void clear_forces();
   /// @param here its rows at the start, with the impulse of the iterate  @param behind, ahead the
   /// same rows moved by motion_behind() and motion_ahead()

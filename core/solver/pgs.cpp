@@ -25,19 +25,19 @@ struct Head {
   double mu;
   std::int8_t rows;
   bool contact;
-  bool pinned;
+  bool has_point_rows;
   bool cone;
 };
 
 /// What an iteration reads of a block. J is kept by component, so that the speeds of all rows are
 /// found side by side: two rows at a time, a last one has zeros beside it. The linear part of a
-/// pinned block is +-E: only the angular components are there.
-template <int R, bool IsPinned>
+/// block with point rows is +-E: only the angular components are there.
+template <int R, bool HasPointRows>
 struct Visit {
   static constexpr int Rows = R;
-  static constexpr bool Pinned = IsPinned;
+  static constexpr bool PointRows = HasPointRows;
   static constexpr int kPadded = Rows == 1 ? 1 : Rows + Rows % 2;
-  static constexpr int kFirst = Pinned ? 3 : 0;
+  static constexpr int kFirst = PointRows ? 3 : 0;
   static constexpr int kComponents = 6 - kFirst;
 
   Head head;
@@ -59,25 +59,25 @@ constexpr std::size_t kLongest = sizeof(Visit<kMaxRows, false>);
 
 /// Calls f with a null pointer to the type of record that a block of so many rows has.
 template <class F>
-void with_type(int rows, bool pinned, F&& f) {
+void with_type(int rows, bool has_point_rows, F&& f) {
   static_assert(kMaxRows == 5);
   switch (rows) {
     case 1:
       return f(static_cast<Visit<1, false>*>(nullptr));
     case 3:
-      return pinned ? f(static_cast<Visit<3, true>*>(nullptr))
-                    : f(static_cast<Visit<3, false>*>(nullptr));
+      return has_point_rows ? f(static_cast<Visit<3, true>*>(nullptr))
+                            : f(static_cast<Visit<3, false>*>(nullptr));
     default:  // 5
-      return pinned ? f(static_cast<Visit<5, true>*>(nullptr))
-                    : f(static_cast<Visit<5, false>*>(nullptr));
+      return has_point_rows ? f(static_cast<Visit<5, true>*>(nullptr))
+                            : f(static_cast<Visit<5, false>*>(nullptr));
   }
 }
 
-/// Calls f with the record that begins at `at`, and goes on to the next one.
+/// Calls f with the record that begins at `at`, then moves `at` to the next one.
 template <class F>
 void take(std::byte*& at, F&& f) {
   const Head& head = *std::launder(reinterpret_cast<const Head*>(at));
-  with_type(head.rows, head.pinned, [&]<class Record>(Record* /*type*/) {
+  with_type(head.rows, head.has_point_rows, [&]<class Record>(Record* /*type*/) {
     f(*std::launder(reinterpret_cast<Record*>(at)));
     at += sizeof(Record);
   });
@@ -95,11 +95,11 @@ Lane<Rows> load(const double* from) {
   }
 }
 
-/// w += J u. The linear part of a pinned block is `sign` times the identity.
+/// w += J u. The linear part of a block with point rows is `sign` times the identity.
 template <class V>
 void add_speeds(const Table<V::kComponents, V::kPadded>& J, double sign, const Vec6& u,
                 Lane<V::Rows>* w) {
-  if constexpr (V::Pinned) {
+  if constexpr (V::PointRows) {
     w[0] += sign * Pair{u[0], u[1]};
     w[1] = Pair{w[1][0] + sign * u[2], w[1][1]};
   }
@@ -114,7 +114,7 @@ void add_speeds(const Table<V::kComponents, V::kPadded>& J, double sign, const V
 template <class V>
 void kick(const Table<V::Rows, V::kComponents>& W, double signed_mass,
           const Numbers<V::Rows>& change, Vec6& u) {
-  if constexpr (V::Pinned) {
+  if constexpr (V::PointRows) {
     for (int j = 0; j < 3; ++j) u[j] += signed_mass * change[j];
     double sum[3];  // not in u itself: a compiler cannot know that u and W are apart
     for (int j = 0; j < 3; ++j) sum[j] = u[3 + j];
@@ -136,8 +136,9 @@ void kick(const Table<V::Rows, V::kComponents>& W, double signed_mass,
 std::int64_t visit_flops(const Block& block) {
   const std::int64_t n = block.rows;
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  const std::int64_t multiplied = block.pinned ? 3 : 6;  // the rest of a pinned J is +-E
-  return bodies * (2 * product_flops(n, multiplied, 1) + (block.pinned ? 9 : 0)) +
+  const std::int64_t multiplied =
+      block.has_point_rows ? 3 : 6;  // the rest of a J of point rows is +-E
+  return bodies * (2 * product_flops(n, multiplied, 1) + (block.has_point_rows ? 9 : 0)) +
          unit_triangle_flops(n) + 5 * n;
 }
 
@@ -145,8 +146,8 @@ std::int64_t visit_flops(const Block& block) {
 std::int64_t pack_flops(const Block& block) {
   const std::int64_t n = block.rows;
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  const std::int64_t multiplied = block.pinned ? 3 : 6;
-  return bodies * (18 * n + n * (n + 1) * multiplied + (block.pinned ? 3 : 0)) + 2 * n;
+  const std::int64_t multiplied = block.has_point_rows ? 3 : 6;
+  return bodies * (18 * n + n * (n + 1) * multiplied + (block.has_point_rows ? 3 : 0)) + 2 * n;
 }
 
 /// J, Mt^-1 J^T and the block's own couplings by way of one of its bodies.
@@ -164,7 +165,7 @@ void pack_side(const Block& block, bool is_a, const InverseMass& inverse, V& vis
     for (int j = 0; j <= i; ++j) {
       for (int c = V::kFirst; c < 6; ++c) visit.coupling[j][i] += J[i][c] * weighed[j][c];
     }
-    if (V::Pinned && i < 3) visit.coupling[i][i] += inverse.linear;
+    if (V::PointRows && i < 3) visit.coupling[i][i] += inverse.linear;
   }
   for (int c = 0; c < V::kComponents; ++c) {
     for (int i = 0; i < V::Rows; ++i) {
@@ -194,7 +195,7 @@ void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, b
                 block.mu,
                 static_cast<std::int8_t>(block.rows),
                 block.is_contact(),
-                block.pinned,
+                block.has_point_rows,
                 cone && block.is_contact() && block.rows == 3};
   for (int i = 0; i < V::Rows; ++i) {
     for (int later = i; later < V::Rows; ++later) visit.coupling[i][later] = 0.0;
@@ -209,7 +210,7 @@ void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, b
     visit.impulse[i] = block.impulse[i];
     visit.inverse_diagonal[i] = 1.0 / (visit.coupling[i][i] + block.softness[i]);
   }
-  if constexpr (V::Rows == 3 && !V::Pinned) {
+  if constexpr (V::Rows == 3 && !V::PointRows) {
     if (visit.head.cone) pack_cone(visit);
   }
   for (int i = V::Rows; i < V::kPadded; ++i) {
@@ -258,7 +259,7 @@ void update(V& block, std::span<Vec6> u) {
   for (int i = 0; i < Rows; ++i) {
     const double x = block.impulse[i];
     double next = x - w[i] * block.inverse_diagonal[i];
-    if (!V::Pinned && block.head.contact) {  // joints are unbounded
+    if (!V::PointRows && block.head.contact) {  // joints are unbounded
       const double hi = i == 0 || block.head.cone ? kUnbounded : block.head.mu * block.impulse[0];
       const double lo = i == 0 ? 0.0 : -hi;
       next = std::min(hi, std::max(lo, next));
@@ -267,7 +268,7 @@ void update(V& block, std::span<Vec6> u) {
     block.impulse[i] = next;
     for (int later = i + 1; later < Rows; ++later) w[later] += block.coupling[i][later] * change[i];
   }
-  if constexpr (Rows == 3 && !V::Pinned) {
+  if constexpr (Rows == 3 && !V::PointRows) {
     if (block.head.cone) keep_in_cone(block, change);
   }
   if (a >= 0) kick<V>(block.W_a, block.mass_a, change, u[static_cast<std::size_t>(a)]);
@@ -287,7 +288,7 @@ void Pgs::pack(const System& system, bool warm_start, bool cone) {
   std::byte* at = records_.get();
   for (Block& block : system.blocks) {
     if (!warm_start) std::fill(block.impulse, block.impulse + block.rows, 0.0);
-    with_type(block.rows, block.pinned, [&]<class Record>(Record* /*type*/) {
+    with_type(block.rows, block.has_point_rows, [&]<class Record>(Record* /*type*/) {
       pack_block(block, system.inverse_mass, cone, *::new (at) Record);
       at += sizeof(Record);
     });

@@ -20,7 +20,8 @@ class Pgs final : public Solver {
   void pack(const System& system, bool warm_start, bool cone);
 
   /// What an iteration reads of the blocks, one record after the other in the order of the visits,
-  /// each as long as its rows ask for (pgs.cpp: Visit). Never copied: every sub-step packs anew.
+  /// each as long as its rows ask for (pgs.cpp: Visit). Never copied: every sub-step packs them
+  /// again.
   std::unique_ptr<std::byte[]> records_;
   std::size_t capacity_ = 0;  // [bytes]
 };

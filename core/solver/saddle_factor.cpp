@@ -29,16 +29,16 @@ void SaddleLdlt::count(Node& node) const {
   const std::int64_t rows = node.n_rows;
   node.counted_rows = node.n_rows;
   node.factor_flops = node.handed_flops;
-  if (node.way == Way::kArticulated) {
+  if (node.kind == NodeKind::kArticulated) {
     const Attached& attached = attached_[node.first_attached];
     const int n_rows = keys_[index(attached.block)].rows();
     node.factor_flops += ArticulatedJoint::factor_flops(n_rows, attached.exact);
     node.solve_flops = ArticulatedJoint::solve_flops(n_rows, attached.exact);
     return;
   }
-  // Zero blocks of a bare node are counted as if they were filled: sizes alone are looked at.
+  // Zero blocks of a leaf node are counted as if they were filled: sizes alone are looked at.
   const std::int64_t gram = n * (n + 6);  // of one row of Y or Z: two flops on half a square
-  const std::int64_t to_general = node.way == Way::kGeneral ? 1 : 0;
+  const std::int64_t to_general = node.kind == NodeKind::kGeneral ? 1 : 0;
   node.factor_flops += to_general * (ldlt_flops(6) + unit_triangle_flops(6, n + rows) + 6 * gram +
                                      product_flops(rows, 6, n) + node.springs.factor) +
                        product_flops(rows, 6, rows + 6) / 2 + ldlt_flops(rows) +
@@ -60,10 +60,10 @@ void SaddleLdlt::add_inertia(const Node& node, Square6& A) const {
   }
 }
 
-// What a node leaves on its coupled bodies, the first of which is its parent. A bare node keeps
+// What a node leaves on its coupled bodies, the first of which is its parent. A leaf node keeps
 // only its rows: what they leave is of so low a rank that it is cheaper made where it goes.
 void SaddleLdlt::add_left(const Node& child, Square6& A, double* B, double* U, int n) {
-  if (child.way == Way::kArticulated) {  // the upper half alone
+  if (child.kind == NodeKind::kArticulated) {  // the upper half alone
     Square6 left;
     child.joint->left(left);
     for (int i = 0; i < 6; ++i) {
@@ -82,7 +82,7 @@ void SaddleLdlt::add_left(const Node& child, Square6& A, double* B, double* U, i
       add(on_diagonal, t, t, U + 6 * (place[t] * n + place[t]), n);
     }
   };
-  if (child.way == Way::kBare) {
+  if (child.kind == NodeKind::kLeaf) {
     const Factor f = at(child);
     const int* first = first_filled_.data() + child.first_coupled;
     with_known_width(child, [&](auto m) {
@@ -114,7 +114,7 @@ void SaddleLdlt::sum_carried(const Node& node, Square6& sum) {
   for (std::size_t c = 0; c < node.n_children; ++c) {
     const Node& child = nodes_[index(children_[node.first_child + c])];
     Square6 left;
-    if (child.way == Way::kArticulated) {
+    if (child.kind == NodeKind::kArticulated) {
       child.joint->left(left);
     } else {
       Square6 lower = {};
@@ -136,7 +136,7 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
     const Attached& attached = attached_[node.first_attached + k];
     const Block& block = blocks[index(attached.block)];
     if (attached.folded) {
-      const auto free = std::count(block.tight, block.tight + block.rows, std::int8_t{0});
+      const auto free = std::count(block.active_set, block.active_set + block.rows, std::int8_t{0});
       const SpringFlops flops =
           spring_flops(block, static_cast<int>(free), attached.other < 0 ? 1 : 2);
       node.springs.factor += flops.factor;
@@ -144,7 +144,7 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
       continue;
     }
     for (int row = 0; row < block.rows; ++row) {
-      if (block.tight[row] != 0) continue;
+      if (block.active_set[row] != 0) continue;
       rows_[node.first_row + index(node.n_rows++)] = {static_cast<int>(k), row};
     }
   }
@@ -189,13 +189,13 @@ void SaddleLdlt::order_by_pivots(double* S, double* least, int n, Row* rows) {
   }
 }
 
-void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks) {
+void SaddleLdlt::factor_leaf(Node& node, std::span<const Block> blocks) {
   with_known(node.n_rows, [&](auto rows) {
-    with_known_width(node, [&](auto n) { factor_bare(node, blocks, rows, n); });
+    with_known_width(node, [&](auto n) { factor_leaf(node, blocks, rows, n); });
   });
 }
 
-void SaddleLdlt::factor_bare(Node& node, std::span<const Block> blocks, auto rows, auto n) {
+void SaddleLdlt::factor_leaf(Node& node, std::span<const Block> blocks, auto rows, auto n) {
   const Factor f = at(node);
   int* first = first_filled_.data() + node.first_coupled;
   std::fill(first, first + node.coupled, rows);

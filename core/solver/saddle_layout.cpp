@@ -1,4 +1,4 @@
-// Which nodes there are, what each is coupled to, and by which way it is factored. Found anew only
+// Which nodes there are, what each is coupled to, and how it is factored. Found again only
 // where constraints come or go.
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 // A row is folded if 1/s exceeds what the row sees of its bodies' inertia by at most this: as many
 // digits of the inertia are lost.
 constexpr double kFold = 1e7;
-constexpr int kBareRows = 8;  // more rows are cheaper when folded
+constexpr int kLeafRows = 8;  // more rows are cheaper when folded
 
 /// Largest J Mt^-1 J^T that a row can have on one body.
 double mobility(const double (&J)[6], const InverseMass& mass) {
@@ -27,7 +27,7 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   constexpr std::size_t kRows = 8;
   constexpr std::size_t kWidth = 6 * kCoupled;
   order_.reserve(bodies, blocks);
-  bodies_ = 0;  // nodes point into what may move now: they are laid out anew
+  bodies_ = 0;  // nodes point into memory that may move now: they are laid out again
   keys_.reserve(blocks);
   nodes_.reserve(bodies);
   node_of_block_.reserve(blocks);
@@ -56,7 +56,7 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
     return mass.linear + mass.angular.trace() * r.squaredNorm();
   };
   int row = 0;
-  if (block.pinned) {  // the arms bound what its first rows see
+  if (block.has_point_rows) {  // the arms bound what its first rows see
     const double* s = block.softness;
     const double least = std::min(s[0], std::min(s[1], s[2]));
     if (!(most_of(block.a, block.r_a) + most_of(block.b, block.r_b) <= kFold * least)) return false;
@@ -67,7 +67,7 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
     if (s == 0.0) return false;
     double most = 0.0;
     if (block.a >= 0) most += mobility(block.J_a[row], system.inverse_mass[index(block.a)]);
-    const auto& J_b = block.pinned ? block.J_a : block.J_b;  // up to its sign
+    const auto& J_b = block.has_point_rows ? block.J_a : block.J_b;  // up to its sign
     if (block.b >= 0) most += mobility(J_b[row], system.inverse_mass[index(block.b)]);
     if (!(most <= kFold * s)) return false;
   }
@@ -81,7 +81,7 @@ bool SaddleLdlt::begin(const System& system) {
   u_star_.resize(system.u.size());
   copy(system.u, u_star_);
   if (!layout_is_the_same(system) && !lay_out(system)) {
-    bodies_ = 0;  // to be laid out anew
+    bodies_ = 0;  // so that they are laid out again
     nodes_.clear();
     pushed_.clear();
     return false;
@@ -96,7 +96,7 @@ bool SaddleLdlt::begin(const System& system) {
 void SaddleLdlt::read(std::span<const Block> blocks) {
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
-    if (node.way == Way::kArticulated) {
+    if (node.kind == NodeKind::kArticulated) {
       const Attached& attached = attached_[node.first_attached];
       node.joint->read(blocks[index(attached.block)], attached.is_a, u_star_.data(),
                        node.reference);
@@ -119,7 +119,7 @@ void SaddleLdlt::read_rows(const Node& node, std::span<const Block> blocks) {
 bool SaddleLdlt::layout_is_the_same(const System& system) {
   const auto key_of = [](const Block& block) {
     return Key{block.a, block.b,
-               4 * block.rows + (block.is_contact() ? 2 : 0) + (block.pinned ? 1 : 0)};
+               4 * block.rows + (block.is_contact() ? 2 : 0) + (block.has_point_rows ? 1 : 0)};
   };
   const auto has_key = [&](const Block& block, const Key& key) { return key_of(block) == key; };
   if (bodies_ != system.u.size() || !std::equal(system.blocks.begin(), system.blocks.end(),
@@ -131,7 +131,7 @@ bool SaddleLdlt::layout_is_the_same(const System& system) {
     return false;
   }
   for (const Node& node : nodes_) {
-    if (node.way != Way::kGeneral) continue;
+    if (node.kind != NodeKind::kGeneral) continue;
     for (std::size_t k = 0; k < node.n_attached; ++k) {
       const Attached& attached = attached_[node.first_attached + k];
       if (attached.foldable != foldable(system.blocks[index(attached.block)], system)) return false;
@@ -157,7 +157,7 @@ bool SaddleLdlt::lay_out(const System& system) {
   link_nodes();
   attach(system.blocks);
   any_folded_ = false;
-  for (Node& node : nodes_) choose_way(node, system);
+  for (Node& node : nodes_) choose_kind(node, system);
   if (!make_room(system)) return false;
   link_articulated();
   return true;
@@ -203,14 +203,14 @@ bool SaddleLdlt::make_room(const System& system) {
   std::size_t values = 0;
   std::size_t rows = 0;
   for (Node& node : nodes_) {
-    if (node.way == Way::kArticulated) count(node);
-    if (node.way == Way::kArticulated) ++articulated;
+    if (node.kind == NodeKind::kArticulated) count(node);
+    if (node.kind == NodeKind::kArticulated) ++articulated;
     const std::size_t w = index(width(node));
     const std::size_t r = index(node.most_rows);
     node.values = values;
-    if (node.way != Way::kArticulated) values += 42 + 6 * w + r * (7 + r + w);
+    if (node.kind != NodeKind::kArticulated) values += 42 + 6 * w + r * (7 + r + w);
     node.update = values;
-    if (node.way == Way::kGeneral) values += w * w;
+    if (node.kind == NodeKind::kGeneral) values += w * w;
     node.first_row = rows;
     rows += r;
   }
@@ -235,12 +235,12 @@ bool SaddleLdlt::make_room(const System& system) {
 void SaddleLdlt::link_articulated() {
   auto next = joints_.begin();
   for (Node& node : nodes_) {
-    if (node.way != Way::kArticulated) continue;
+    if (node.kind != NodeKind::kArticulated) continue;
     node.joint = &*next++;
     node.joint->rest();
   }
   for (Node& node : nodes_) {
-    if (node.way == Way::kArticulated) {
+    if (node.kind == NodeKind::kArticulated) {
       if (node.parent >= 0) {
         ArticulatedJoint* parent = nodes_[index(node.parent)].joint;
         double* at_centre = v_[index(node.parent)].data();
@@ -294,15 +294,15 @@ void SaddleLdlt::attach(std::span<const Block> blocks) {
   }
 }
 
-void SaddleLdlt::choose_way(Node& node, const System& system) {
+void SaddleLdlt::choose_kind(Node& node, const System& system) {
   const std::span<const Block> blocks = system.blocks;
   Attached* attached = attached_.data() + node.first_attached;
   const int* children = children_.data() + node.first_child;
   const bool in_tree = std::all_of(children, children + node.n_children,
                                    [&](int child) { return nodes_[index(child)].coupled == 1; });
-  if (in_tree && node.n_attached == 1 && blocks[index(attached[0].block)].pinned &&
+  if (in_tree && node.n_attached == 1 && blocks[index(attached[0].block)].has_point_rows &&
       node.coupled == (attached[0].other < 0 ? 0 : 1)) {
-    node.way = Way::kArticulated;
+    node.kind = NodeKind::kArticulated;
     const Block& joint = blocks[index(attached[0].block)];
     attached[0].exact = std::all_of(joint.softness, joint.softness + joint.rows,
                                     [](double softness) { return softness == 0.0; });
@@ -310,11 +310,11 @@ void SaddleLdlt::choose_way(Node& node, const System& system) {
   }
   int rows = 0;
   for (std::size_t k = 0; k < node.n_attached; ++k) rows += blocks[index(attached[k].block)].rows;
-  node.way = node.n_children == 0 && rows <= kBareRows ? Way::kBare : Way::kGeneral;
+  node.kind = node.n_children == 0 && rows <= kLeafRows ? NodeKind::kLeaf : NodeKind::kGeneral;
   for (std::size_t k = 0; k < node.n_attached; ++k) {
     const Block& block = blocks[index(attached[k].block)];
     attached[k].foldable = foldable(block, system);
-    attached[k].folded = node.way == Way::kGeneral && attached[k].foldable;
+    attached[k].folded = node.kind == NodeKind::kGeneral && attached[k].foldable;
     if (!attached[k].folded) node.most_rows += block.rows;
     node.folds = node.folds || attached[k].folded;
     node.has_contacts = node.has_contacts || block.is_contact();

@@ -27,30 +27,32 @@ void subtract6(const double* x, double f, double* y) {
 
 void SaddleLdlt::touch(std::size_t block) { nodes_[index(node_of_block_[block])].dirty = true; }
 
-// What acts on the bodies besides the rows that are unknowns: tight rows give J^T x, folded ones
+// What acts on the bodies besides the rows that are unknowns: active rows give J^T x, folded ones
 // -J^T w/s.
 void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
   for (const int i : pushed_) v_[index(i)].setZero();
   for (const int i : pushed_) {
     const Node& node = nodes_[index(i)];
-    if (node.way == Way::kArticulated) continue;
+    if (node.kind == NodeKind::kArticulated) continue;
     for (std::size_t k = 0; k < node.n_attached; ++k) {
       const Attached& attached = attached_[node.first_attached + k];
       const Block& block = blocks[index(attached.block)];
       const double* w = w_.data() + index(attached.block) * kMaxRows;
       double x[kMaxRows];
-      if (block.pinned) {  // no row is ever tight
+      if (block.has_point_rows) {  // no row is ever active
         if (!attached.folded) continue;
         for (int row = 0; row < 3; ++row) x[row] = -w[row] / block.softness[row];
         for (int row = 3; row < block.rows; ++row) x[row] = -w[row] / block.softness[row];
         push(block, x, of_body(block.a), of_body(block.b));
         continue;
       }
-      if (block.rows == 1 && block.tight[0] == 0 && !attached.folded) continue;
+      if (block.rows == 1 && block.active_set[0] == 0 && !attached.folded) continue;
       bool pushes = attached.folded;
       for (int row = 0; row < block.rows; ++row) {
-        const bool tight = block.tight[row] != 0;
-        x[row] = tight ? block.impulse[row] : attached.folded ? -w[row] / block.softness[row] : 0.0;
+        const bool active = block.active_set[row] != 0;
+        x[row] = active            ? block.impulse[row]
+                 : attached.folded ? -w[row] / block.softness[row]
+                                   : 0.0;
         pushes = pushes || x[row] != 0.0;
       }
       if (!pushes) continue;
@@ -64,15 +66,16 @@ Vec6* SaddleLdlt::of_body(int body) {
 }
 
 bool SaddleLdlt::factor_node(Node& node, const System& system) {
-  if (node.way != Way::kArticulated) gather_rows(node, system.blocks);
+  if (node.kind != NodeKind::kArticulated) gather_rows(node, system.blocks);
   flops_ += node.factor_flops;
   if (static_cast<double>(flops_) > system.limits.work) return false;
   node.dirty = false;
   if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
-  if (node.way == Way::kArticulated) {
+  if (node.kind == NodeKind::kArticulated) {
     factor_articulated(node);
   } else {
-    node.way == Way::kBare ? factor_bare(node, system.blocks) : factor_general(node, system.blocks);
+    node.kind == NodeKind::kLeaf ? factor_leaf(node, system.blocks)
+                                 : factor_general(node, system.blocks);
   }
   return true;
 }
@@ -93,9 +96,9 @@ void SaddleLdlt::forward(const Node& node) {
   const int* coupled = coupled_.data() + node.first_coupled;
   const int n = width(node);
   const Factor f = at(node);
-  double weighted[6];  // D^-1 L^-1 g; bare: g
+  double weighted[6];  // D^-1 L^-1 g; leaf: g
   copy6(g, weighted);
-  if (node.way == Way::kGeneral) {
+  if (node.kind == NodeKind::kGeneral) {
     solve_lower(f.A, Known<6>{}, Known<1>{}, weighted);
     copy6(weighted, g);
     for (int j = 0; j < 6; ++j) weighted[j] *= f.A_inverse[j];
@@ -144,7 +147,7 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
   const int* coupled = coupled_.data() + node.first_coupled;
   const Factor f = at(node);
   double change[6];  // D^-1 L^-1 (g + J^T x - B p), then of the velocity
-  if (node.way == Way::kBare) {
+  if (node.kind == NodeKind::kLeaf) {
     weigh(inverse_mass_[index(node.body)], v, change);
   } else {
     copy6(v, change);
@@ -152,7 +155,7 @@ void SaddleLdlt::backward(const Node& node, std::span<Block> blocks) {
   with_known(node.n_rows, [&](auto rows) {
     with_known_width(node, [&](auto m) { backward_rows(node, f, rows, m, blocks, change); });
   });
-  if (node.way == Way::kGeneral) {
+  if (node.kind == NodeKind::kGeneral) {
     const int n = width(node);
     for (int s = 0; s < node.coupled; ++s) {
       const double* p = v_[index(coupled[s])].data();
@@ -190,7 +193,7 @@ bool SaddleLdlt::solve(const System& system) {
   set_momenta(system.blocks);
   for (Node& node : nodes_) {
     if (node.dirty && !factor_node(node, system)) return false;
-    if (node.way == Way::kArticulated) {
+    if (node.kind == NodeKind::kArticulated) {
       node.joint->forward(node.pushed ? v_[position(node)].data() : nullptr, node.handed_to);
     } else {
       forward(node);
@@ -199,7 +202,7 @@ bool SaddleLdlt::solve(const System& system) {
   }
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
-    if (node.way == Way::kArticulated) {
+    if (node.kind == NodeKind::kArticulated) {
       node.joint->backward(node.parent_velocity, v_[i].data());
     } else {
       backward(node, system.blocks);
@@ -213,7 +216,7 @@ bool SaddleLdlt::solve(const System& system) {
 
 void SaddleLdlt::find_impulses(std::span<Block> blocks) {
   for (const Node& node : nodes_) {
-    if (node.way != Way::kArticulated) continue;
+    if (node.kind != NodeKind::kArticulated) continue;
     node.joint->find_impulse(node.parent_velocity,
                              blocks[index(attached_[node.first_attached].block)]);
   }
@@ -225,7 +228,7 @@ void SaddleLdlt::find_spring_impulses(std::span<Block> blocks, bool of_pins) {
   for (const Attached& attached : attached_) {
     if (!attached.folded) continue;
     Block& block = blocks[index(attached.block)];
-    if (block.pinned != of_pins) continue;
+    if (block.has_point_rows != of_pins) continue;
     spring_impulses(w_.data() + index(attached.block) * kMaxRows, of_body(block.a),
                     of_body(block.b), block);
   }

@@ -16,21 +16,21 @@ namespace substep {
 /// formed.
 ///
 ///   [ Mt  -J^T ] [v]   [ J^T x_tight    ]       over the rows that are free;
-///   [ J     s  ] [x] = [ -(J u* + bias) ]       the impulses of tight rows are given
+///   [ J     s  ] [x] = [ -(J u* + bias) ]       the impulses of active rows are given
 ///
 /// A node of the elimination is a body with all constraints to bodies that come later. It is handed
 /// what earlier nodes leave on its body, and leaves a symmetric matrix on the later bodies that it
 /// is coupled to. A node is factored by one of three ways:
-///  - articulated: one pinned joint to one later body or the world, in closed form;
-///  - bare: nothing came before, so Mt^-1 is at hand and only the rows remain, S = s + J Mt^-1 J^T;
+///  - articulated: one joint with point rows to one later body or the world, in closed form;
+///  - leaf: nothing came before, so Mt^-1 is at hand and only the rows remain, S = s + J Mt^-1 J^T;
 ///  - general: LDL^T of the 6 x 6 inertia, then of S.
 /// In a general node rows with enough softness are folded into the bodies as springs of stiffness
 /// 1/s, and x = -(J u + bias)/s follows from the velocities: any number of contact points costs no
 /// more than one 6 x 6 block. Rows without, such as exact joints, stay rows and are pivots after
 /// their body, so that nothing is divided by a small s.
 ///
-/// When rows become tight or free, only their nodes and those on the way to the root are factored
-/// anew.
+/// When rows become active or free, only their nodes and those on the way to the root are factored
+/// again.
 class SaddleLdlt {
  public:
   SaddleLdlt() = default;
@@ -39,15 +39,15 @@ class SaddleLdlt {
 
   void reserve(std::size_t bodies, std::size_t blocks);
   /// Takes a new system, its u as u*. @return false where the factor would take more memory than
-  /// System::limits allow; then there is nothing to solve, and needed_memory() tells how much
+  /// System::limits allow; then there is nothing to solve, and needed_memory() is how much
   bool begin(const System& system);
   /// For the numbers of the factor [bytes].
   [[nodiscard]] double needed_memory() const { return needed_memory_; }
-  /// Takes the bias of the same rows anew; what is factored stays.
+  /// Reads the bias of the same rows again; factors are kept.
   void read(std::span<const Block> blocks);
-  /// Says that rows of a block have become tight or free.
+  /// Says that rows of a block have become active or free.
   void touch(std::size_t block);
-  /// Impulses of free rows from those of tight rows, and u+. Factors what has changed.
+  /// Impulses of free rows from those of active rows, and u+. Factors what has changed.
   /// @return false where that would take more work than System::limits allow; then needed_work()
   /// tells how much, as far as it is known, and nothing else is of use
   bool solve(const System& system);
@@ -68,7 +68,7 @@ class SaddleLdlt {
   [[nodiscard]] std::span<const Vec6> u_star() const { return u_star_; }
 
  private:
-  enum class Way : std::uint8_t { kArticulated, kBare, kGeneral };
+  enum class NodeKind : std::uint8_t { kArticulated, kLeaf, kGeneral };
   /// A constraint at the node of the body that is eliminated first.
   struct Attached {
     int block = 0;
@@ -80,7 +80,7 @@ class SaddleLdlt {
   };
   struct Node {
     int body = 0;
-    Way way = Way::kGeneral;
+    NodeKind kind = NodeKind::kGeneral;
     bool dirty = true;
     int parent = -1;                // the node that is handed what this one leaves
     int coupled = 0;                // later bodies
@@ -94,7 +94,7 @@ class SaddleLdlt {
     int most_rows = 0;
     bool folds = false;  // some of its rows
     bool has_contacts = false;
-    bool gathered = false;  // its rows, and they stay: none can become tight
+    bool gathered = false;  // its rows, and they stay: none can become active
     SpringFlops springs;
     int counted_rows = -1;  // what follows is for so many; with folded rows it changes with them
     std::int64_t handed_flops = 0;  // to add what the children leave
@@ -108,7 +108,7 @@ class SaddleLdlt {
     const double* reference = nullptr;          // of the parent: its pivot, nullptr for its centre
     double* handed_to = nullptr;                // momentum of the parent, nullptr for the world
     const double* parent_velocity = nullptr;    // there
-    bool pushed = false;  // at its centre, by nodes of another way; of any node
+    bool pushed = false;  // at its centre, by nodes of another kind; of any node
   };
   struct Row {
     int attached = 0;
@@ -125,7 +125,7 @@ class SaddleLdlt {
     double* A;          // 6 x 6: L below the diagonal
     double* A_inverse;  // 6: 1/D
     double* Y;          // 6 x width: L^-1 B
-    double* V;          // rows x 6: J L^-T; bare: J Mt^-1
+    double* V;          // rows x 6: J L^-T; leaf: J Mt^-1
     double* S;          // rows x rows: L below the diagonal
     double* S_inverse;  // rows: 1/D
     double* Z;          // rows x width: L^-1 (J of the coupled bodies - J A^-1 B)
@@ -156,7 +156,7 @@ class SaddleLdlt {
   bool make_room(const System& system);
   void attach(std::span<const Block> blocks);
   void link_articulated();
-  void choose_way(Node& node, const System& system);
+  void choose_kind(Node& node, const System& system);
 
   /// @return false where it would take too much work
   bool factor_node(Node& node, const System& system);
@@ -177,8 +177,8 @@ class SaddleLdlt {
         return call(width(node));
     }
   }
-  void factor_bare(Node& node, std::span<const Block> blocks);
-  void factor_bare(Node& node, std::span<const Block> blocks, auto rows, auto n);
+  void factor_leaf(Node& node, std::span<const Block> blocks);
+  void factor_leaf(Node& node, std::span<const Block> blocks, auto rows, auto n);
   void factor_general(Node& node, std::span<const Block> blocks);
   void factor_general(Node& node, std::span<const Block> blocks, auto n);
   void gather_rows(Node& node, std::span<const Block> blocks);
@@ -186,10 +186,10 @@ class SaddleLdlt {
   /// @param B, U of the parent, n wide: where there are more coupled bodies than the parent
   void add_left(const Node& child, Square6& A, double* B, double* U, int n);
   void eliminate_rows(Node& node, std::span<const Block> blocks);
-  /// Factors the rows of a node anew where a pivot was held. @param form makes S, Z and least
+  /// Factors the rows of a node again where a pivot was held. @param form makes S, Z and least
   /// pivots
   void hold_last(const Node& node, const auto& form);
-  /// @param S, least n rows as before they are factored, which is spent  @param rows in: as in S;
+  /// @param S, least n rows, not yet factored; overwritten  @param rows in: as in S;
   /// out: from large pivots to small ones
   static void order_by_pivots(double* S, double* least, int n, Row* rows);
 
@@ -197,10 +197,10 @@ class SaddleLdlt {
   [[nodiscard]] Vec6* of_body(int body);
   void find_spring_impulses(std::span<Block> blocks, bool of_pins);
   void forward(const Node& node);
-  /// @param weighted D^-1 L^-1 g, bare: g
+  /// @param weighted D^-1 L^-1 g, leaf: g
   void forward_rows(const Node& node, const Factor& f, auto rows, auto n, const double* weighted);
   void backward(const Node& node, std::span<Block> blocks);
-  /// @param change in: L^-1 g, bare: Mt^-1 g; out: with the pushes of the rows
+  /// @param change in: L^-1 g, leaf: Mt^-1 g; out: with the pushes of the rows
   void backward_rows(const Node& node, const Factor& f, auto rows, auto n, std::span<Block> blocks,
                      double* change);
 
@@ -217,7 +217,7 @@ class SaddleLdlt {
   std::vector<int> coupled_;  // nodes
   std::vector<int> place_;    // beside coupled_: where the parent has it among its own, -1: itself
   std::vector<int> first_filled_;  // beside coupled_: the first row of Z with such a part that is
-                                   // not zero, as far as is known: of bare nodes
+                                   // not zero, as far as is known: of leaf nodes
   std::vector<int> children_;      // nodes
   std::vector<int> pushed_;        // nodes that are handed momentum at their centre
   std::vector<Row> rows_;
@@ -232,7 +232,7 @@ class SaddleLdlt {
   std::vector<Vec6> u_star_;
   std::vector<double> w_;  // J u* + bias, kMaxRows per block
   std::vector<Vec6> v_;    // per node: momentum, then what is left of it, then the velocity; of an
-                           // articulated node that nobody pushes only the velocity
+                           // articulated node without pushes only the velocity
   std::vector<double> c_;  // per row of a node, from forward to backward
 
   // Of refine():

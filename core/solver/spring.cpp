@@ -92,7 +92,7 @@ void add_row(double k, const double (&J)[6], const double (&J_other)[6], const S
 }  // namespace
 
 void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
-  if (block.pinned) {
+  if (block.has_point_rows) {
     const auto three = [](const Vec3& r) { return Three{{r[0], r[1], r[2]}}; };
     const Three r = three(is_a ? block.r_a : block.r_b);
     const Three r_other = three(is_a ? block.r_b : block.r_a);
@@ -110,7 +110,7 @@ void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
   const auto& J = is_a ? block.J_a : block.J_b;
   const auto& J_other = is_a ? block.J_b : block.J_a;
   for (int row = 0; row < block.rows; ++row) {
-    if (block.tight[row] == 0) add_row(1.0 / block.softness[row], J[row], J_other[row], to);
+    if (block.active_set[row] == 0) add_row(1.0 / block.softness[row], J[row], J_other[row], to);
   }
 }
 
@@ -121,8 +121,8 @@ SpringFlops spring_flops(const Block& block, int rows, int bodies) {
     return SpringFlops{1 + n + n * (n + 1) + other * (2 * n + 4 * n * n), 3 + bodies * 4 * n};
   };
   const SpringFlops of_pin{13 + other * 28, 3 + bodies * 13};
-  const std::int64_t pins = block.pinned ? 3 : 0;
-  const SpringFlops further = of_row(block.pinned ? 3 : 6);
+  const std::int64_t pins = block.has_point_rows ? 3 : 0;
+  const SpringFlops further = of_row(block.has_point_rows ? 3 : 6);
   return {pins * of_pin.factor + (rows - pins) * further.factor,
           pins * of_pin.solve + (rows - pins) * further.solve};
 }
@@ -131,7 +131,8 @@ void spring_impulses(const double* w, const Vec6* a, const Vec6* b, Block& block
   double speed[kMaxRows];
   row_speeds(block, a, b, speed);
   for (int row = 0; row < block.rows; ++row) {
-    if (block.tight[row] == 0) block.impulse[row] = -(w[row] + speed[row]) / block.softness[row];
+    if (block.active_set[row] == 0)
+      block.impulse[row] = -(w[row] + speed[row]) / block.softness[row];
   }
 }
 

@@ -10,10 +10,11 @@ namespace substep {
 namespace {
 
 /// J^T x of one side, added to a momentum: of a pin x and r x x, row by row.
-/// @param sign of the side of a pinned block: +1 for a, -1 for b  @param J of any other block
+/// @param sign of the side of a block with point rows: +1 for a, -1 for b  @param J of any other
+/// block
 [[gnu::always_inline]] inline void add_push(const Block& block, const double (&J)[kMaxRows][6],
                                             double sign, const Vec3& r, const double* x, Vec6& g) {
-  if (!block.pinned) {
+  if (!block.has_point_rows) {
     for (int row = 0; row < block.rows; ++row) {
       for (int j = 0; j < 6; ++j) g[j] += J[row][j] * x[row];
     }
@@ -41,7 +42,7 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
 [[gnu::always_inline]] inline void add_speeds(const Block& block, const double (&J)[kMaxRows][6],
                                               double sign, const Vec3& r, const Vec6& u,
                                               double* speed) {
-  if (!block.pinned) {
+  if (!block.has_point_rows) {
     for (int row = 0; row < block.rows; ++row) speed[row] += dot6(J[row], u.data());
     return;
   }

@@ -65,7 +65,8 @@ struct System {
 
 enum class SolveStatus : std::uint8_t {
   kSolved,      // BPP, Newton: complementary to their tolerance. PGS, XPBD: the sweeps are done
-  kUnsettled,   // BPP: complementary for friction bounds that still move; the next sub-step goes on
+  kUnsettled,   // BPP: complementary for friction bounds that still move; the next sub-step
+                // continues
   kUnsolved,    // BPP: the bound of pivots was reached; Gauss-Seidel took over. Newton: its steps
                 // ran out before it had converged
   kOverLimits,  // more than System::limits; impulses and velocities are of no use

@@ -31,8 +31,8 @@ bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& setti
 
 /// Puts Mt in the place of M, on the rotations of the bodies that are too stiff for dt by the
 /// measure of the mode, and u* = Mt^-1 (beta Mt u + (1 - beta) M u + dt f) in the place of
-/// M^-1 (M u + dt f). What a mode keeps of the velocity, beta, is what tells damping (0) from
-/// geometric inertia (1).
+/// M^-1 (M u + dt f). The share of the velocity that a mode keeps, beta, distinguishes damping (0)
+/// from geometric inertia (1).
 /// @param own of all bodies  @param state with k (and K of mode stiffness) of the last sub-step; u
 /// as M makes it, replaced
 /// @param u_start velocities at the start of the sub-step  @param dt [s]

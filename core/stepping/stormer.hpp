@@ -38,7 +38,7 @@ inline double stormer_growth(double dt, double time) {
 /// What is added to a velocity where sub-steps change their length, of how its acceleration changes
 /// in a sub-step as long as the one before [s]; to a momentum, of its torque.
 /// @param time t, that forces act for: (dt- + dt)/2 [s]
-inline double stormer_hand_over(double dt, double time) {
+inline double stormer_step_change(double dt, double time) {
   const double before = 2.0 * time - dt;
   return before > 0.0 ? (dt * dt - before * before) / (12.0 * before) : dt / 12.0;
 }

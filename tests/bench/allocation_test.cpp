@@ -69,7 +69,7 @@ TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
   }
 }
 
-// Contacts that are foreseen, sweeps that are shared out, regularisation that is taken back.
+// Contacts that are predicted, sweeps that are shared out, regularisation that is taken back.
 TEST(SmallStepsAndRefinements, AllocateNothingAfterTheFirstFrame) {
   for (const auto& [name, solver] :
        {std::pair{"bridge", SolverKind::kPgs}, std::pair{"bridge", SolverKind::kBpp},

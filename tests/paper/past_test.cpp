@@ -51,7 +51,7 @@ TEST(GeometricInertia, KeepsEnergyFor200Seconds) {
   }
 }
 
-// dt^2/2 phi'' is what bends the chain; where it is foreseen, less is left than half (0.46 of it).
+// dt^2/2 phi'' is what bends the chain; where it is predicted, less is left than half (0.46 of it).
 // Joints that give way lengthen the chain by more of what is left: 1e-12 m/N by 2.6 um.
 TEST(SecondOrderDrift, LeavesLessThanHalfTheError) {
   for (const int n : {7, 14, 28}) {

@@ -1,4 +1,4 @@
-// Small steps (Macklin et al. 2019, "Small steps in physics simulation"): contacts are foreseen
+// Small steps (Macklin et al. 2019, "Small steps in physics simulation"): contacts are predicted
 // once a frame, and the sweeps of a frame are shared out over its sub-steps.
 
 #include <gtest/gtest.h>

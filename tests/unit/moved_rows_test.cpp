@@ -116,7 +116,7 @@ TEST(MovedRows, SomeRowsAreThoseOfAll) {
     Block start;
     const int kind = trial % 4;
     start.kind = kind == 3 ? BlockKind::kContact : static_cast<BlockKind>(kind);
-    start.pinned = kind < 2;
+    start.has_point_rows = kind < 2;
     start.rows = kind == 1 || kind == 2 ? 5 : 3;
     for (Vec3* v : {&start.n, &start.t1, &start.t2, &start.rho, &start.r_a, &start.r_b,
                     &start.arm_a, &start.axis, &start.v1, &start.v2, &start.w}) {

@@ -53,7 +53,7 @@ struct Chain {
     JointStage(scene).append(whole(scene), state, R_WB, blocks);
     for (Block& block : blocks.all()) {
       std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
-      std::fill(block.tight, block.tight + kMaxRows, std::int8_t{0});
+      std::fill(block.active_set, block.active_set + kMaxRows, std::int8_t{0});
       for (int row = 0; row < block.rows; ++row) {
         block.softness[row] = 1e-9;
         block.bias[row] = block.phi[row] / dt;
@@ -169,7 +169,7 @@ TEST(Newton, OnBodiesThatDoNotTurnIsTheLinearSolve) {
   Block& block = chain.blocks.all()[0];
   for (int row = 0; row < 3; ++row) {
     block.impulse[row] = block.bias[row] = 0.0;
-    block.tight[row] = 0;
+    block.active_set[row] = 0;
     block.softness[row] = 0.1;
   }
   Chain linear = chain;

@@ -61,7 +61,7 @@ struct Pile {
         block.softness[row] = softness;
         block.bias[row] = uniform(random);
         block.impulse[row] = 0.0;
-        block.tight[row] = block.is_contact() ? kUnknownSet : std::int8_t{0};
+        block.active_set[row] = block.is_contact() ? kUnknownSet : std::int8_t{0};
       }
     }
     inverse_mass = inverse_masses(scene, state);

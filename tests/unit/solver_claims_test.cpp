@@ -36,7 +36,7 @@ struct RowOfBalls {
       block.softness[0] = 0.01;
       block.bias[0] = 0.0;
       block.impulse[0] = 0.0;
-      block.tight[0] = kind == BlockKind::kContact ? kUnknownSet : std::int8_t{0};
+      block.active_set[0] = kind == BlockKind::kContact ? kUnknownSet : std::int8_t{0};
       blocks.push_back(block);
     }
   }

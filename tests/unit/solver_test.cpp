@@ -71,8 +71,8 @@ Problem random_problem(Random& random, const ProblemSize& size) {
         contact ? BlockKind::kContact : (i % 2 == 0 ? kind_of<BallJoint>() : kind_of<HingeJoint>());
     block.rows = contact ? (size.mu > 0.0 ? 3 : 1) : (i % 2 == 0 ? 3 : 5);
     block.mu = contact ? size.mu : 0.0;
-    block.pinned = !contact && i % 4 < 2;  // solvers may use it: half of the joints
-    if (!contact) block.position_rows = block.pinned ? 3 : 2;
+    block.has_point_rows = !contact && i % 4 < 2;  // solvers may use it: half of the joints
+    if (!contact) block.position_rows = block.has_point_rows ? 3 : 2;
     block.a = static_cast<int>(random() % static_cast<unsigned>(size.bodies));
     block.b = static_cast<int>(random() % static_cast<unsigned>(size.bodies + 1)) - 1;
     if (block.a == block.b) block.b = -1;
@@ -86,9 +86,9 @@ Problem random_problem(Random& random, const ProblemSize& size) {
       block.softness[row] = uniform(random, size.softness, 20.0 * size.softness);
       block.bias[row] = uniform(random);
       block.impulse[row] = 0.0;
-      block.tight[row] = contact ? kUnknownSet : std::int8_t{0};
+      block.active_set[row] = contact ? kUnknownSet : std::int8_t{0};
     }
-    if (block.pinned) pin(random, block);
+    if (block.has_point_rows) pin(random, block);
     problem.blocks.push_back(block);
   }
   return problem;
@@ -136,7 +136,7 @@ Dense dense(const Problem& problem) {
   return out;
 }
 
-/// Every solution of the boxed problem, found by trying all active sets. With friction a tight row
+/// Every solution of the boxed problem, found by trying all active sets. With friction a active row
 /// is the equation x_t = +-mu x_n.
 std::vector<Eigen::VectorXd> enumerate(const Problem& problem) {
   const Dense d = dense(problem);
@@ -269,7 +269,7 @@ Problem random_tree(Random& random, int bodies, int loops, double softness) {
   for (Block& block : problem.blocks) {
     if (!block.is_contact()) continue;
     block.kind = kind_of<BallJoint>();
-    block.tight[0] = 0;
+    block.active_set[0] = 0;
   }
   return problem;
 }
@@ -406,14 +406,14 @@ TEST_P(EverySolver, WhatABlockDoesNotUseDoesNotMatter) {
       for (int row = 0; row < kMaxRows; ++row) {
         for (int j = 0; j < 6; ++j) {
           if (row >= block.rows) block.J_a[row][j] = block.J_b[row][j] = nan;
-          if (block.a < 0 && !block.pinned) block.J_a[row][j] = nan;
+          if (block.a < 0 && !block.has_point_rows) block.J_a[row][j] = nan;
           if (block.b < 0) block.J_b[row][j] = nan;
         }
         if (row >= block.rows) block.bias[row] = block.softness[row] = block.impulse[row] = nan;
         block.phi[row] = block.C[row] = block.lambda[row] = nan;
       }
       block.n = Vec3::Constant(nan);
-      if (!block.pinned) block.r_a = block.r_b = block.n;
+      if (!block.has_point_rows) block.r_a = block.r_b = block.n;
     }
     solver->solve(clean.system(), settings_for(GetParam()));
     solver->solve(poisoned.system(), settings_for(GetParam()));
@@ -454,7 +454,7 @@ TEST(Bpp, ForgetsWhereItStarted) {
     for (const std::int8_t start : {kUnknownSet, std::int8_t{0}, std::int8_t{-1}, std::int8_t{1}}) {
       Problem copy = problem;
       for (Block& block : copy.blocks) {
-        if (block.is_contact()) block.tight[0] = start;
+        if (block.is_contact()) block.active_set[0] = start;
       }
       solver.solve(copy.system(), settings_for(SolverKind::kBpp));
       if (!first) first = impulses(copy);

@@ -216,7 +216,7 @@ TEST(Simulator, RefusesStatesOfOtherScenesAndGoesOnWithItsOwn) {
       {"/state/forces/0",
        [](State& s) {
          s.forces.resize(1);
-         s.forces[0].tight[2] = 77;
+         s.forces[0].active_set[2] = 77;
        }},
       {"/state/dt_previous", [](State& s) { s.dt_previous = -1.0; }},
       {"/state/frame", [](State& s) { s.frame = -1; }},

@@ -26,7 +26,7 @@ std::set<std::pair<int, int>> pairs_of(const Blocks& blocks) {
   return pairs;
 }
 
-TEST(ForeseenContacts, HaveEveryPairThatWillTouch) {
+TEST(PredictedContacts, HaveEveryPairThatWillTouch) {
   Random random(11);
   const double ahead = 1.0 / 30.0;
   std::size_t new_pairs = 0;
@@ -46,7 +46,7 @@ TEST(ForeseenContacts, HaveEveryPairThatWillTouch) {
     const State start = initial_state(scene);
     ContactStage stage(scene);
     const Part all = whole(scene);
-    ASSERT_TRUE(stage.foresee(scene, all, start, rotations(start), ahead));
+    ASSERT_TRUE(stage.predict(scene, all, start, rotations(start), ahead));
     Blocks before;
     contact_rows(scene)(start, before);
     for (int k = 0; k <= 8; ++k) {
@@ -54,10 +54,10 @@ TEST(ForeseenContacts, HaveEveryPairThatWillTouch) {
       Blocks fresh;
       contact_rows(scene)(now, fresh);
       Blocks carried;
-      ASSERT_TRUE(stage.carry_and_append(scene, all, now, rotations(now), ahead / 8.0, carried));
-      const auto foreseen = pairs_of(carried);
+      ASSERT_TRUE(stage.append_predicted(scene, all, now, rotations(now), ahead / 8.0, carried));
+      const auto predicted = pairs_of(carried);
       for (const auto& pair : pairs_of(fresh)) {
-        EXPECT_TRUE(foreseen.contains(pair))
+        EXPECT_TRUE(predicted.contains(pair))
             << trial << ": " << pair.first << " and " << pair.second << " at " << k;
       }
       new_pairs += fresh.size() > before.size() ? fresh.size() - before.size() : 0;
@@ -77,7 +77,7 @@ Difference after_a_motion(const Body& a, const Body& b, double by, Random& rando
   State state = initial_state(scene);
   ContactStage stage(scene);
   const Part all = whole(scene);
-  EXPECT_TRUE(stage.foresee(scene, all, state, rotations(state), 0.01));
+  EXPECT_TRUE(stage.predict(scene, all, state, rotations(state), 0.01));
   for (std::size_t i = 0; i < 2; ++i) {
     if (scene.bodies[i].is_static) continue;
     state.x[i] += by * random_vector(random);
@@ -85,7 +85,7 @@ Difference after_a_motion(const Body& a, const Body& b, double by, Random& rando
     state.q[i] = (Quat(1.0, half.x(), half.y(), half.z()) * state.q[i]).normalized();
   }
   Blocks carried;
-  EXPECT_TRUE(stage.carry_and_append(scene, all, state, rotations(state), 0.01, carried));
+  EXPECT_TRUE(stage.append_predicted(scene, all, state, rotations(state), 0.01, carried));
   Blocks fresh;
   contact_rows(scene)(state, fresh);
   Difference worst;

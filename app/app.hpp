@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/lab/introduction.hpp"
 #include "app/lab/lab.hpp"
 #include "app/render/quality.hpp"
 #include "app/render/renderer.hpp"
@@ -28,6 +29,7 @@ struct App : Lab, Viewport {
   void open_link(std::string_view fragment, std::string_view scene = "");
 
   Desk desk;
+  Introduction introduction;
   ui::Look look;
   std::unique_ptr<Renderer> renderer;
   FileBrowser browser;

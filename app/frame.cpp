@@ -86,7 +86,8 @@ class Scaled {
 
 // This run, and what it is compared with: each in a pane of its own, or over it as ghosts.
 void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
-  app.panes = ui::view_panes(app.compare, app.desk, app);
+  app.panes = app.introduction.open() ? ui::introduction_panes(app.look, app)
+                                      : ui::view_panes(app.compare, app.desk, app);
   app.pictures.resize(app.panes.size());
   for (std::size_t i = 0; i < app.panes.size(); ++i) {
     Seen seen{&app.scene_in(i), &app.poses_in(i), nullptr, nullptr};
@@ -114,6 +115,7 @@ void frame(App& app, double wall_dt) {
   const Scaled scaled(app);
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.quality.observe(wall_dt, app.own_time);
+  app.introduction.follow(app, !app.desk.reduced_motion);
   const auto begun = std::chrono::steady_clock::now();
   if (!app.compare.behind(app.session)) app.session.advance(wall_dt);
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
@@ -152,7 +154,8 @@ void frame(App& app, double wall_dt) {
 
   if (!app.desk.follow.empty()) app.open_link(std::exchange(app.desk.follow, ""));
   remember_arrangement(app);
-  if (app.host.link_changed) {
+  // The address stays plain until the laboratory is there: to load it again shows the same.
+  if (app.host.link_changed && !app.introduction.open()) {
     std::string link = app.link();
     if (link != app.last_link) {
       app.last_link = std::move(link);

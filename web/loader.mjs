@@ -68,7 +68,7 @@ const exported = {
   pointer: "vnnn", pointer_gone: "v", button: "vnnn", wheel: "vnn", pinching: "vn", pinch: "vnnn",
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", busy: "n", reset: "v",
-  open_link: "sss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
+  introduce: "v", open_link: "sss", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
   trouble: "vsss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
   widgets: "s", memory: "s",
 };

@@ -117,6 +117,9 @@ std::string apply(const Options& options, App& app) {
   app.desk.dark = !options.light;
   app.desk.panels = !options.bare;
   if (!app.held()) app.session.play();
+  const bool plain = options.scene.empty() && options.settings.empty() && options.open.empty() &&
+                     options.link.empty() && !options.bare;
+  if (plain) app.introduction.offer(app);
   return "";
 }
 

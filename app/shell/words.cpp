@@ -103,6 +103,12 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
   if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
   if (key == "panel") return choose_panel(value, desk.tab);
   if (key == "tour") return go_on_tour(app, value);
+  if (key == "introduction") {
+    bool on = false;
+    std::string problem = choose(value, {"off", "on"}, on);
+    if (problem.empty()) on ? app.introduction.start(app) : app.introduction.leave(app);
+    return problem;
+  }
   return std::nullopt;
 }
 
@@ -156,6 +162,7 @@ std::string App::set(std::string_view key, std::string_view value) {
     return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
   }
   if (auto problem = set_window(*this, key, value)) return *std::move(problem);
+  introduction.leave(*this);  // what follows is about the run in the laboratory
   if (key == "load" || key == "seed" || key == "seconds") return set_experiment(*this, key, value);
   if (key == "accuracy") return set_accuracy(*this, value);
   if (key == "compare") {
@@ -188,6 +195,7 @@ void App::open_link(std::string_view fragment, std::string_view scene) {
                kSceneKept};
     return;
   }
+  introduction.leave(*this);
   const auto scene_before = plain_scene;
   RunStart before = run_start();
   if (!scene.empty()) {

@@ -24,6 +24,10 @@ namespace ui {
 void draw_window(App& app);
 /// What is drawn and written over the picture, once it is known where things are in it.
 void draw_over_picture(App& app);
+/// The first screen; sets app.view_rect.
+void introduction(App& app);
+/// Where its two runs are seen: the session, and the one beside it.
+std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab);
 
 /// The picture under the pointer: turns, moves and zooms it, selects and pulls bodies.
 void view_input(Lab& lab, Desk& desk, Viewport& viewport);

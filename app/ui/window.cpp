@@ -260,6 +260,10 @@ bool is_small(ImVec2 display) { return display.x < 900.0F || display.y < 480.0F;
 void draw_window(App& app) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const bool small = is_small(display);
+  if (app.introduction.open()) {
+    introduction(app);
+    return trouble_card(app.look, app, app);
+  }
   view_input(app, app.desk, app);
   if (small) {
     phone(app, display);
@@ -279,6 +283,7 @@ void draw_window(App& app) {
 }
 
 void draw_over_picture(App& app) {
+  if (app.introduction.open()) return notice(app);
   const bool small = is_small(ImGui::GetIO().DisplaySize);
   annotations(app.look, app, app.desk, app);
   body_labels(app.look, app.session, app.desk, app);

@@ -27,6 +27,8 @@ struct App : Lab, Viewport {
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
   /// @param scene the text of a scene of its own, or ""
   void open_link(std::string_view fragment, std::string_view scene = "");
+  /// The experiment as the fragment of an address, with the level where that is Explore.
+  [[nodiscard]] std::string link() const;
 
   Desk desk;
   Introduction introduction;

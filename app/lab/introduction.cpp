@@ -9,9 +9,9 @@ constexpr std::string_view kIntroductionScene = "swinging_box";
 constexpr const char* kIntroductionKey = "introduction";  // what Host::remember calls it
 constexpr const char* kLeftOnce = "seen";
 
-constexpr double kSlowMotion = 0.25;      // speed while the chain tears [-]
-constexpr double kAftermath = 0.5;  // that is still seen in slow motion [s]
-constexpr double kRewindTime = 4.0;        // the box has passed the lowest point, where N is largest [s]
+constexpr double kSlowMotion = 0.25;  // speed while the chain tears [-]
+constexpr double kAftermath = 0.9;    // that is still seen in slow motion [s]
+constexpr double kRewindTime = 4.0;   // the box has passed the lowest point, where N is largest [s]
 
 }  // namespace
 

@@ -18,10 +18,12 @@ constexpr ImGuiWindowFlags kScreen = ImGuiWindowFlags_NoDecoration | ImGuiWindow
                                      ImGuiWindowFlags_NoSavedSettings |
                                      ImGuiWindowFlags_NoBackground;
 
-// ScreenMeasures of the screen: pictures beside each other, or one over the other where it is narrow.
+// ScreenMeasures of the screen: pictures beside each other, or one over the other where it is
+// narrow.
 struct ScreenMeasures {
   bool stacked = false;
   bool low = false;  // a phone that lies
+  bool large = false;
   float pad = 24.0F;
   float head = 0.0F;   // height of name and sentences
   float label = 0.0F;  // height of what is written beneath a picture
@@ -37,11 +39,12 @@ ScreenMeasures measure_screen(const Look& look, const IntroductionWords& words, 
   ScreenMeasures m;
   m.stacked = display.x < 600.0F && display.y > display.x;
   m.low = display.y < 480.0F;
+  m.large = display.x >= 1000.0F && display.y >= 600.0F;
   m.pad = m.stacked || m.low ? 16.0F : 32.0F;
   const float width = display.x - 2.0F * m.pad;
   m.head = m.pad + 32.0F + lines_height(look.fonts.regular, kPurpose, width);
   if (!m.low) m.head += 4.0F + lines_height(look.fonts.regular, words.claim, width);
-  m.label = 48.0F;
+  m.label = m.large ? 68.0F : 48.0F;
   if (m.low) m.button = 36.0F;
   m.foot = 12.0F + m.button + 12.0F + lines_height(look.fonts.small, words.paper, width) + m.pad;
   if (m.low) m.foot = 12.0F + m.button + 12.0F;  // the paper stands beside the buttons
@@ -71,7 +74,8 @@ float paragraph(const Look& look, ImFont* font, ImVec2 from, float width, bool c
   return y;
 }
 
-void draw_head(const Look& look, const ScreenMeasures& m, const IntroductionWords& words, float width) {
+void draw_head(const Look& look, const ScreenMeasures& m, const IntroductionWords& words,
+               float width) {
   const Theme& t = *look.theme;
   const bool centred = !m.stacked;
   float y = paragraph(look, look.fonts.title, {m.pad, m.pad}, width, centred, t.text, "substep");
@@ -85,25 +89,36 @@ void picture_label(const Look& look, const ScreenMeasures& m, const ViewRect& pi
   const float pad = m.stacked ? m.pad : 8.0F;
   const float width = picture.width - 2.0F * pad;
   const ImVec2 at(picture.x + pad, picture.y + picture.height + 2.0F);
-  const float y = paragraph(look, look.fonts.medium, at, width, !m.stacked, look.theme->text,
-                            fitted(look.fonts.medium, label.title, width));
-  paragraph(look, look.fonts.small, {at.x, y + 2.0F}, width, !m.stacked, note_color,
-            fitted(look.fonts.small, label.note, width));
+  ImFont* title = m.large ? look.fonts.title : look.fonts.medium;
+  ImFont* note = m.large ? look.fonts.regular : look.fonts.small;
+  const float y = paragraph(look, title, at, width, !m.stacked, look.theme->text,
+                            fitted(title, label.title, width));
+  paragraph(look, note, {at.x, y + 2.0F}, width, !m.stacked, note_color,
+            fitted(note, label.note, width));
 }
 
-// The clock of both runs, between their labels, or at the right of the upper one.
-void draw_clock(const Look& look, const ScreenMeasures& m, const ViewRect& torn, float width,
-           const std::string& text) {
+// The clock of both runs, between their labels, or at the right of the upper one; and a line
+// between their pictures.
+void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
+                float width, const std::string& text) {
+  const ViewRect& torn = panes[1];
+  const ViewRect& held = panes[0];
+  const ImU32 line = fade(look.theme->faint, 0.5F);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (m.stacked) {
+    draw.AddLine({0.0F, held.y}, {width, held.y}, line);
+  } else {
+    draw.AddLine({held.x, held.y}, {held.x, held.y + held.height - 12.0F}, line);
+  }
   ImFont* font = look.fonts.small;
   const float size = text_size(font, text.c_str()).x;
   const float x = m.stacked ? width - m.pad - size : 0.5F * (width - size);
-  draw_over(look, *ImGui::GetWindowDrawList(), font, {x, torn.y + torn.height + 4.0F},
-            look.theme->dim, text.c_str());
+  draw_over(look, draw, font, {x, torn.y + torn.height + 4.0F}, look.theme->dim, text.c_str());
 }
 
 // The two ways on. @return whether the laboratory was chosen
-bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWords& words, ImVec2 display,
-          Desk& desk) {
+bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWords& words,
+               ImVec2 display, Desk& desk) {
   constexpr float kGap = 12.0F;
   const float width = m.stacked ? 0.5F * (display.x - 2.0F * m.pad - kGap) : 144.0F;
   const float y = display.y - m.foot + 12.0F;
@@ -134,8 +149,8 @@ bool left_otherwise() {
                       ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
                       io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < 36.0F;
   // Enter acts on the button that the keyboard is on.
-  const bool enter =
-      ImGui::IsKeyPressed(ImGuiKey_Enter, false) || ImGui::IsKeyPressed(ImGuiKey_KeypadEnter, false);
+  const bool enter = ImGui::IsKeyPressed(ImGuiKey_Enter, false) ||
+                     ImGui::IsKeyPressed(ImGuiKey_KeypadEnter, false);
   return tapped || (enter && !io.NavVisible) || ImGui::IsKeyPressed(ImGuiKey_Escape, false);
 }
 
@@ -153,6 +168,15 @@ std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab) {
   if (m.stacked) held.y += torn.height + m.label;
   if (!m.stacked) held.x += torn.width;
   return {held, torn};
+}
+
+// The second is drawn over the first, which fills the window.
+Part introduction_part(const Viewport& viewport, std::size_t pane) {
+  if (pane == 0) return {};
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const ViewRect& held = viewport.panes[0];
+  if (held.x > 0.0F) return {0.0F, 0.0F, held.x / display.x, 1.0F};
+  return {0.0F, 0.0F, 1.0F, held.y / display.y};
 }
 
 void introduction(App& app) {
@@ -173,13 +197,15 @@ void introduction(App& app) {
     const Verdict* verdict = Introduction::torn(app);
     const bool torn = verdict != nullptr && !verdict->holds();
     picture_label(look, m, panes[1], words.torn, torn ? t.orange : t.dim);
-    picture_label(look, m, panes[0], words.held, t.dim);
-    draw_clock(look, m, panes[1], display.x, words.clock);
+    picture_label(look, m, panes[0], words.held, t.teal);
+    draw_clock(look, m, panes, display.x, words.clock);
     leave = draw_foot(look, m, words, display, app.desk) || left_otherwise();
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
-  if (leave) app.introduction.leave(app);
+  if (!leave) return;
+  app.introduction.leave(app);
+  app.desk.tour_hint = false;  // it stood beside the button
 }
 
 }  // namespace substep::ui

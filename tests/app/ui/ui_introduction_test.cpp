@@ -53,9 +53,9 @@ TEST(Introduction, OneChainTearsInSlowMotionAndTheOtherHolds) {
   visit.h.frames(60);
   EXPECT_NEAR(visit.torn().verdict->failed_at(), 0.35, 0.005);
   IntroductionWords words = introduction_words(*visit.h.app);
-  EXPECT_EQ(words.torn.note, "Torn at 0.35 s");
+  EXPECT_TRUE(words.torn.note.starts_with("Torn at 0.35 s")) << words.torn.note;
   EXPECT_NE(words.held.title.find("now 1"), std::string::npos) << words.held.title;
-  visit.h.frames(200);
+  visit.h.frames(260);
   EXPECT_EQ(visit.h.app->session.speed(), 1.0) << "slow while it tears only";
   EXPECT_GT(visit.h.app->session.state().time, 1.0);
   EXPECT_TRUE(visit.h.app->session.verdict().holds());
@@ -182,15 +182,18 @@ TEST(Introduction, AShellThatRemembersNothingDoesNotShowIt) {
 }
 
 TEST(Introduction, BothPicturesAndButtonsAreOnEveryDisplay) {
-  for (const auto& [width, height] :
-       {std::pair{1280.0F, 720.0F}, {1920.0F, 1080.0F}, {390.0F, 844.0F}, {844.0F, 390.0F}, {320.0F, 568.0F}}) {
+  for (const auto& [width, height] : {std::pair{1280.0F, 720.0F},
+                                      {1920.0F, 1080.0F},
+                                      {390.0F, 844.0F},
+                                      {844.0F, 390.0F},
+                                      {320.0F, 568.0F}}) {
     Visit visit(width, height);
     ASSERT_EQ(visit.h.app->panes.size(), 2U);
     for (const ViewRect& pane : visit.h.app->panes) {
       EXPECT_GE(pane.x, 0.0F);
       EXPECT_LE(pane.x + pane.width, width);
       EXPECT_GT(pane.width, 150.0F);
-      EXPECT_GT(pane.height, 120.0F) << width << "x" << height;
+      EXPECT_GT(pane.height, 110.0F) << width << "x" << height;
     }
     for (const char* label : {"Try it", "Tour"}) {
       const ui::Handle* button = find_handle(label);

@@ -18,10 +18,13 @@ constexpr std::array<std::string_view, 6> kExplored{"solver", "mode",  "alpha",
 
 bool needs_lab(const Lab& lab) {
   if (lab.seed != 0) return true;
-  return std::ranges::any_of(setting_fields(), [&](const SettingField& field) {
-    const bool explored = std::ranges::find(kExplored, field.name) != kExplored.end();
-    return !explored && setting_text(field, lab.session.settings()) !=
-                            setting_text(field, lab.session.loaded().settings);
+  const Settings& now = lab.session.settings();
+  const Settings& own = lab.session.loaded().settings;
+  const auto fields = setting_fields();
+  return std::any_of(fields.begin(), fields.end(), [&](const SettingField& field) {
+    const bool explored =
+        std::find(kExplored.begin(), kExplored.end(), field.name) != kExplored.end();
+    return !explored && setting_text(field, now) != setting_text(field, own);
   });
 }
 

@@ -18,7 +18,9 @@ constexpr ImGuiWindowFlags kScreen = ImGuiWindowFlags_NoDecoration | ImGuiWindow
                                      ImGuiWindowFlags_NoSavedSettings |
                                      ImGuiWindowFlags_NoBackground;
 
-// ScreenMeasures of the screen: pictures beside each other, or one over the other where it is
+constexpr float kAbove = 10.0F;  // room above what is written beneath a picture
+
+// Measures of the screen: pictures beside each other, or one over the other where it is
 // narrow.
 struct ScreenMeasures {
   bool stacked = false;
@@ -97,6 +99,20 @@ void picture_label(const Look& look, const ScreenMeasures& m, const ViewRect& pi
             fitted(note, label.note, width));
 }
 
+// What is written beneath a picture stands on the colour of panels: a grid runs behind it.
+void draw_grounds(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
+                  ImVec2 display) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const auto ground = [&](float top, float bottom) {
+    draw.AddRectFilled({0.0F, top}, {display.x, bottom}, fade(look.theme->panel, 0.92F));
+    draw.AddLine({0.0F, top}, {display.x, top}, look.theme->panel_border);
+  };
+  const ViewRect& torn = panes[1];
+  const ViewRect& held = panes[0];
+  if (m.stacked) ground(torn.y + torn.height - kAbove, held.y);
+  ground(held.y + held.height - kAbove, display.y);
+}
+
 // The clock of both runs, between their labels, or at the right of the upper one; and a line
 // between their pictures.
 void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
@@ -105,10 +121,8 @@ void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<Vie
   const ViewRect& held = panes[0];
   const ImU32 line = fade(look.theme->faint, 0.5F);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  if (m.stacked) {
-    draw.AddLine({0.0F, held.y}, {width, held.y}, line);
-  } else {
-    draw.AddLine({held.x, held.y}, {held.x, held.y + held.height - 12.0F}, line);
+  if (!m.stacked) {
+    draw.AddLine({held.x, held.y + 16.0F}, {held.x, held.y + held.height - 24.0F}, line);
   }
   ImFont* font = look.fonts.small;
   const float size = text_size(font, text.c_str()).x;
@@ -193,6 +207,7 @@ void introduction(App& app) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   if (ImGui::Begin("##introduction", nullptr, kScreen)) {
+    draw_grounds(look, m, panes, display);
     draw_head(look, m, words, display.x - 2.0F * m.pad);
     const Verdict* verdict = Introduction::torn(app);
     const bool torn = verdict != nullptr && !verdict->holds();

@@ -1,7 +1,7 @@
 // The left panel: which scene, how it is solved, and what is shown of it.
 
 #include <array>
-#include <memory>
+#include <string>
 
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -26,35 +26,14 @@ void heading_with_level(const Look& look, Desk& desk) {
   desk.level = static_cast<DeskLevel>(level);
 }
 
-void scene_picker(const Look& look, Lab& lab, const char* tip) {
-  const Scene& now = lab.session.scene();
-  const float width = ImGui::GetContentRegionAvail().x;
-  std::shared_ptr<const Scene> chosen;
-  menu_button(look, "scene", now.title.c_str(), width, look.m.row + 4.0F, tip, [&] {
-    const std::string* group = nullptr;
-    for (const auto& scene : lab.library.scenes()) {
-      if (group == nullptr || *group != scene->group) {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float top = group == nullptr ? 4.0F : 10.0F;
-        draw_text(*ImGui::GetWindowDrawList(), look.fonts.small, {at.x + 8.0F, at.y + top},
-                  look.theme->dim, group_title(scene->group).c_str());
-        ImGui::Dummy({1.0F, top + 18.0F});
-        group = &scene->group;
-      }
-      const bool current = scene->name == now.name;
-      if (menu_item(look, scene->title.c_str(), "", current)) chosen = scene;
-    }
-  });
-  if (chosen) lab.run(chosen);
-}
-
 // What to look for in the scene, or the tip of its button where the Lab's controls need the room.
-void scene_controls(const Look& look, Lab& lab, DeskLevel level) {
+void scene_controls(const Look& look, Lab& lab, Desk& desk) {
   const Scene& now = lab.session.scene();
   const std::string about = now.look_for.empty() ? now.description : now.look_for;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const bool room = level == DeskLevel::kExplore || display.y >= 800.0F || display.x < 900.0F;
-  scene_picker(look, lab, room ? "" : about.c_str());
+  const bool lab_level = desk.level == DeskLevel::kLab;
+  const bool room = !lab_level || display.y >= 800.0F || display.x < 900.0F;
+  scene_picker(look, lab, desk, room ? "" : about.c_str());
   if (room) label(look.fonts.small, look.theme->dim, about.c_str());
 }
 
@@ -101,7 +80,7 @@ void showing(const Look& look, const Session& session, Desk& desk) {
 void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   heading_with_level(look, desk);
   Settings s = lab.session.settings();
-  scene_controls(look, lab, desk.level);
+  scene_controls(look, lab, desk);
   if (desk.level == DeskLevel::kExplore) {
     space(look.m.section);
     return explore_controls(look, lab, desk, viewport);

@@ -60,6 +60,7 @@ struct Desk {
   int selected = -1;       // body, or -1
   bool card_left = false;  // the side of the view that its card is on
   ui::TimeAxis time;
+  std::string unfolded_scene;  // whose variants the list of scenes shows
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // where the plots were drawn last
   bool accuracy_large = false;  // its picture lies over the view

@@ -75,6 +75,7 @@ std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
 void effect_switches(const Look& look, Session& session) {
   Effects effects = session.scene().effects;
   bool first = true;
+  ImGui::PushID("effects");  // joints are also shown or not
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {6.0F, 6.0F});
   for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
     const auto& [name, member] = kEffectNames[i];
@@ -84,6 +85,7 @@ void effect_switches(const Look& look, Session& session) {
     first = false;
   }
   ImGui::PopStyleVar();
+  ImGui::PopID();
   if (effects != session.scene().effects) session.set_effects(effects);
 }
 

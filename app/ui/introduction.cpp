@@ -18,6 +18,11 @@ constexpr ImGuiWindowFlags kScreen = ImGuiWindowFlags_NoDecoration | ImGuiWindow
                                      ImGuiWindowFlags_NoSavedSettings |
                                      ImGuiWindowFlags_NoBackground;
 
+constexpr ImGuiWindowFlags kGround = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
+                                     ImGuiWindowFlags_NoFocusOnAppearing |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 constexpr float kAbove = 10.0F;  // room above what is written beneath a picture
 
 // Measures of the screen: pictures beside each other, or one over the other where it is
@@ -99,18 +104,24 @@ void picture_label(const Look& look, const ScreenMeasures& m, const ViewRect& pi
             fitted(note, label.note, width));
 }
 
+// A window of its own: what it covers is not drawn.
+void ground(const char* id, float top, float bottom, float width) {
+  ImGui::SetNextWindowPos({0.0F, top});
+  ImGui::SetNextWindowSize({width, bottom - top});
+  ImGui::Begin(id, nullptr, kGround);
+  ImGui::End();
+}
+
 // What is written beneath a picture stands on the colour of panels: a grid runs behind it.
-void draw_grounds(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
-                  ImVec2 display) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const auto ground = [&](float top, float bottom) {
-    draw.AddRectFilled({0.0F, top}, {display.x, bottom}, fade(look.theme->panel, 0.92F));
-    draw.AddLine({0.0F, top}, {display.x, top}, look.theme->panel_border);
-  };
+void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, ImVec2 display) {
   const ViewRect& torn = panes[1];
   const ViewRect& held = panes[0];
-  if (m.stacked) ground(torn.y + torn.height - kAbove, held.y);
-  ground(held.y + held.height - kAbove, display.y);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
+  const float label = torn.y + torn.height - kAbove;
+  if (m.stacked) ground("##introduction_label", label, held.y, display.x);
+  ground("##introduction_foot", held.y + held.height - kAbove, display.y, display.x);
+  ImGui::PopStyleVar(2);
 }
 
 // The clock of both runs, between their labels, or at the right of the upper one; and a line
@@ -184,13 +195,14 @@ std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab) {
   return {held, torn};
 }
 
-// The second is drawn over the first, which fills the window.
+// Together they fill the window.
 Part introduction_part(const Viewport& viewport, std::size_t pane) {
-  if (pane == 0) return {};
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const ViewRect& held = viewport.panes[0];
-  if (held.x > 0.0F) return {0.0F, 0.0F, held.x / display.x, 1.0F};
-  return {0.0F, 0.0F, 1.0F, held.y / display.y};
+  const float x = held.x / display.x;
+  const float y = held.y / display.y;
+  if (held.x > 0.0F) return pane == 0 ? Part{x, 0.0F, 1.0F - x, 1.0F} : Part{0.0F, 0.0F, x, 1.0F};
+  return pane == 0 ? Part{0.0F, y, 1.0F, 1.0F - y} : Part{0.0F, 0.0F, 1.0F, y};
 }
 
 void introduction(App& app) {
@@ -202,12 +214,12 @@ void introduction(App& app) {
   app.view_rect = picture_area(m, display);
   const std::vector<ViewRect> panes = introduction_panes(look, app);
   bool leave = false;
-  ImGui::SetNextWindowPos({0.0F, 0.0F});
-  ImGui::SetNextWindowSize(display);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
+  draw_grounds(m, panes, display);
+  ImGui::SetNextWindowPos({0.0F, 0.0F});
+  ImGui::SetNextWindowSize(display);
   if (ImGui::Begin("##introduction", nullptr, kScreen)) {
-    draw_grounds(look, m, panes, display);
     draw_head(look, m, words, display.x - 2.0F * m.pad);
     const Verdict* verdict = Introduction::torn(app);
     const bool torn = verdict != nullptr && !verdict->holds();

@@ -37,6 +37,8 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport);
 void throw_ball(Lab& lab, const Viewport& viewport);
 
 void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
+/// The menu of scenes.
+void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip);
 /// What the level Explore has of them, below the scene.
 void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 /// Mode and solver with their parameters: the controls that any run has.

@@ -65,10 +65,13 @@ export async function open({ flags = [] } = {}) {
   };
 }
 
-/** What the page remembers of a visit in which the first screen was left. */
+/** What the page remembers of a visit in which the first screen was left for the Lab. */
 function leftFirstScreen() {
   try {
     localStorage.setItem("substep.introduction", "seen");
+    if (localStorage.getItem("substep.arrangement") === null) {
+      localStorage.setItem("substep.arrangement", "level=lab");
+    }
   } catch { /* about:blank keeps nothing */ }
 }
 
@@ -76,7 +79,7 @@ function leftFirstScreen() {
  * A page with the application running in it.
  * @param options {width, height, ratio, fragment, light, touch, calm, context, path, before, first};
  *   before is a script that runs ahead of the page's own, and then nothing is waited for; first is a
- *   first visit: otherwise the person has left the first screen at an earlier one
+ *   first visit: otherwise the person has left the first screen for the Lab at an earlier one
  * @returns the page; page.complaints lists what it logged as warning or error
  */
 export async function openPage(session, options = {}) {

@@ -8,6 +8,7 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : Lab(std::move(shipped)), renderer(std::move(draws)) {
   restarted = [this](bool loaded) {
     if (loaded) desk.selected = -1;
+    if (loaded) introduction.close(*this);  // another run has taken its place
     // A run that starts anew is seen from its start on, at the zoom that was chosen.
     for (ui::PlotState& plot : desk.plots) plot.set = false;
     desk.time.from = 0.0;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/lab/introduction.hpp"
 #include "app/lab/lab.hpp"
 #include "app/render/quality.hpp"
 #include "app/render/renderer.hpp"
@@ -27,8 +28,11 @@ struct App : Lab, Viewport {
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
   /// @param own the scene that came with it, or what was wrong with that
   void open_link(std::string_view fragment, std::optional<SceneResult> own = {});
+  /// The experiment as the fragment of an address, with the level where that is Explore.
+  [[nodiscard]] std::string link() const;
 
   Desk desk;
+  Introduction introduction;
   ui::Look look;
   std::unique_ptr<Renderer> renderer;
   FileBrowser browser;

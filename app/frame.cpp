@@ -32,9 +32,13 @@ void update_look(App& app) {
   const ui::Theme& theme = app.desk.dark ? ui::dark_theme() : ui::light_theme();
   const bool touch = io.DisplaySize.x < 900.0F;
   const float row = touch ? 32.0F : 26.0F;
-  if (changed || app.look.theme != &theme || app.look.m.row != row) {
+  // The panels of a window of 720 need no scrolling.
+  const float section = io.DisplaySize.y < 800.0F ? 9.0F : 13.0F;
+  if (changed || app.look.theme != &theme || app.look.m.row != row ||
+      app.look.m.section != section) {
     app.look.theme = &theme;
     app.look.m.row = row;
+    app.look.m.section = section;
     ui::apply_style(app.look);
   }
 }
@@ -86,14 +90,16 @@ class Scaled {
 
 // This run, and what it is compared with: each in a pane of its own, or over it as ghosts.
 void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
-  app.panes = ui::view_panes(app.compare, app.desk, app);
+  app.panes = app.introduction.open() ? ui::introduction_panes(app.look, app)
+                                      : ui::view_panes(app.compare, app.desk, app);
   app.pictures.resize(app.panes.size());
   for (std::size_t i = 0; i < app.panes.size(); ++i) {
     Seen seen{&app.scene_in(i), &app.poses_in(i), nullptr, nullptr};
     if (i == 0) seen = {seen.scene, seen.poses, &app.session.state(), &app.session.trail()};
     app.view.build(seen, options, app.look.theme->view, app.panes[i],
                    static_cast<double>(display.x), static_cast<double>(display.y), app.pictures[i]);
-    app.pictures[i].part = ui::part_of_window(app, i);
+    app.pictures[i].part =
+        app.introduction.open() ? ui::introduction_part(app, i) : ui::part_of_window(app, i);
   }
   if (app.panes.size() > 1) return;
   if (const Poses* exact = app.exam.at(app.session); exact && !app.compare.open()) {
@@ -110,10 +116,10 @@ void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
 }  // namespace
 
 void frame(App& app, double wall_dt) {
-  if (app.pixel_ratio == 0.0F) recall_arrangement(app);  // the shell is there now
   const Scaled scaled(app);
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.quality.observe(wall_dt, app.own_time);
+  app.introduction.follow(app, !app.desk.reduced_motion);
   const auto begun = std::chrono::steady_clock::now();
   if (!app.compare.behind(app.session)) app.session.advance(wall_dt);
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
@@ -152,7 +158,8 @@ void frame(App& app, double wall_dt) {
 
   if (!app.desk.follow.empty()) app.open_link(std::exchange(app.desk.follow, ""));
   remember_arrangement(app);
-  if (app.host.link_changed) {
+  // The address stays plain until the laboratory is there: to load it again shows the same.
+  if (app.host.link_changed && !app.introduction.open()) {
     std::string link = app.link();
     if (link != app.last_link) {
       app.last_link = std::move(link);

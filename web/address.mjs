@@ -94,15 +94,17 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     link,
     url,
     open,
-    /** Follows the address from now on. */
+    /** Follows the address from now on. @returns whether it held an experiment */
     async start() {
-      if (!keep) return;
+      if (!keep) return false;
+      const linked = location.hash.length > 1;
       await read();
       window.addEventListener("popstate", async () => {
         if (location.hash === written) return;
         clearTimeout(timer);
         await read();
       }, { signal });
+      return linked;
     },
     /** Loads the page with what ran before the present scene, or as it begins. */
     goBefore() {

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "app/lab/frame_slices.hpp"
+#include "app/text/citation.hpp"
 #include "app/text/export.hpp"
 #include "app/text/format.hpp"
+#include "app/text/introduction.hpp"
 #include "app/ui/handles.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"
@@ -63,6 +65,17 @@ const char* open_link(const char* fragment, std::optional<substep::SceneResult> 
   return keep(outcome(app().trouble.problems));
 }
 
+// What the first screen says, or null where it is not there.
+json introduction() {
+  if (!app().introduction.open()) return nullptr;
+  const substep::IntroductionWords words = introduction_words(app());
+  return {{"purpose", substep::kPurpose},
+          {"claim", words.claim},
+          {"paper", words.paper},
+          {"torn", words.torn.title + ": " + words.torn.note},
+          {"held", words.held.title + ": " + words.held.note}};
+}
+
 std::string text_of(const json& value) {
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
@@ -98,12 +111,19 @@ const char* substep_set(const char* text) {
 }
 
 void substep_step(int frames) {
+  app().introduction.leave(app());
   for (int i = 0; i < frames && !app().session.stopped(); ++i) app().session.step();
 }
 
-void substep_substep() { app().session.substep(); }
+void substep_substep() {
+  app().introduction.leave(app());
+  app().session.substep();
+}
 
-void substep_go_to(double time) { app().session.go_to(app().session.timeline().at_time(time)); }
+void substep_go_to(double time) {
+  app().introduction.leave(app());
+  app().session.go_to(app().session.timeline().at_time(time));
+}
 
 void substep_play(int on) {
   if (on != 0) {
@@ -115,7 +135,12 @@ void substep_play(int on) {
 
 int substep_busy() { return app().busy() ? 1 : 0; }
 
-void substep_reset() { app().reset(); }
+void substep_reset() {
+  app().introduction.leave(app());
+  app().reset();
+}
+
+void substep_introduce() { app().introduction.offer(app()); }
 
 const char* substep_open_link(const char* fragment) { return open_link(fragment, {}); }
 
@@ -226,6 +251,7 @@ const char* substep_report() {
       {"view",
        {app().view_rect.x, app().view_rect.y, app().view_rect.width, app().view_rect.height}},
       {"frame_time", app().frame_time},
+      {"introduction", introduction()},
   };
   if (r.leader.body >= 0) {
     out["leader"] = {{"body", s.scene().bodies[static_cast<std::size_t>(r.leader.body)].name},

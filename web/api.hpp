@@ -34,6 +34,9 @@ SUBSTEP_EXPORTED int substep_busy();
 
 SUBSTEP_EXPORTED void substep_reset();
 
+/// Shows the first screen, unless the person has left it at an earlier visit.
+SUBSTEP_EXPORTED void substep_introduce();
+
 /// @return what of it could not be read
 SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment);
 

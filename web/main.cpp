@@ -10,6 +10,7 @@
 #include <string>
 
 #include "app/render/gl_renderer.hpp"
+#include "app/shell/arrangement.hpp"
 #include "web/host.hpp"
 #include "web/instance.hpp"
 
@@ -57,6 +58,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
     instance->app->host.recall = nullptr;
   }
   instance->app->recall_scenes();
+  recall_arrangement(*instance->app);
   substep::web::use_page_clipboard();
   return "";
 }

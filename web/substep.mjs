@@ -161,7 +161,8 @@ async function open(frame, options) {
   if (options.link !== undefined) problems.push(...(await calls.openLink(options.link)).problems);
   if (problems.length > 0) console.warn("createSubstep: not all options could be used", problems);
   if (options.play === false) calls.pause();
-  await address.start();
+  const linked = await address.start();
+  if (frame.wholePage && !linked) wasm.introduce();
   twin = makeTwin(frame.twin, calls);
 
   listen(frame.canvas, wasm, wake, !frame.wholePage, frame.signal);

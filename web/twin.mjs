@@ -8,7 +8,10 @@ const fields = { scene: "Scene", method: "Method", state: "State",
   substeps: "Sub-steps per frame", energy: "Energy", verdict: "Verdict" };
 
 const markup = (id) => `
+<p data-introduction hidden></p>
 <form class="substep-keys" aria-label="Controls">
+  <button type="button" name="enter" hidden>Try it</button>
+  <button type="button" name="tour" hidden>Tour</button>
   <label for="${id}-scene">Scene</label><select id="${id}-scene" name="scene"></select>
   <label for="${id}-mode">Stabilisation</label><select id="${id}-mode" name="mode"></select>
   <label for="${id}-solver">Solver</label><select id="${id}-solver" name="solver"></select>
@@ -30,7 +33,8 @@ export function makeTwin(section, calls) {
   section.innerHTML = markup(section.id);
   const form = section.querySelector("form");
   const live = section.querySelector("[aria-live]");
-  const { scene, mode, solver, alpha, play, step, reset } = form.elements;
+  const { enter, tour, scene, mode, solver, alpha, play, step, reset } = form.elements;
+  const introduction = section.querySelector("[data-introduction]");
   const shown = Object.fromEntries(
     [...section.querySelectorAll("[data-field]")].map((e) => [e.dataset.field, e]));
 
@@ -46,6 +50,13 @@ export function makeTwin(section, calls) {
     if (problems.length > 0) live.textContent = `${target.name}: ${problems[0].message}`;
     update();
   });
+  const follow = (settings, next) => {
+    calls.set(settings);
+    update();
+    next.focus(); // the button is gone
+  };
+  enter.addEventListener("click", () => follow({ introduction: "off" }, scene));
+  tour.addEventListener("click", () => follow({ tour: 1 }, scene));
   play.addEventListener("click", () => {
     calls.report().playing ? calls.pause() : calls.play();
     update();
@@ -59,6 +70,16 @@ export function makeTwin(section, calls) {
     calls.reset();
     update();
   });
+
+  /** The first screen in words; @returns what of it is read out once. */
+  function introduce(words) {
+    for (const part of [introduction, enter, tour]) part.hidden = !words;
+    if (!words) return "";
+    const text = `${words.purpose}. ${words.claim} Left: ${words.torn}. Right: ${words.held}. `
+      + `${words.paper}.`;
+    if (introduction.textContent !== text) introduction.textContent = text;
+    return `${words.claim} ${words.paper}. Enter or Escape leads to the laboratory`;
+  }
 
   let said = "";
   let told = -Infinity;
@@ -92,7 +113,8 @@ export function makeTwin(section, calls) {
     put(alpha, String(r.alpha));
     play.textContent = r.playing ? "Pause" : "Play";
     // Read out only what a person waits for, not every number that moves.
-    const words = [r.title, r.mode, state, r.verdict, r.trouble, r.notice].filter(Boolean).join(", ");
+    const seen = introduce(r.introduction) || [r.title, r.mode, state, r.verdict].join(", ");
+    const words = [seen, r.trouble, r.notice].filter(Boolean).join(", ");
     if (words !== said) live.textContent = said = words;
   }
 

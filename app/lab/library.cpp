@@ -59,6 +59,27 @@ std::shared_ptr<const Scene> Library::find(std::string_view name) const {
   return found == scenes_.end() ? nullptr : *found;
 }
 
+// The shortest: a variant of a variant stands with the others.
+const Scene* Library::base_of(const Scene& scene) const {
+  const Scene* base = nullptr;
+  for (const auto& other : scenes_) {
+    const std::size_t end = other->name.size();
+    const bool prefix = scene.name.size() > end && scene.name[end] == '_' &&
+                        std::string_view(scene.name).starts_with(other->name);
+    if (!prefix || is_own(scene) || is_own(*other)) continue;
+    if (base == nullptr || other->name.size() < base->name.size()) base = other.get();
+  }
+  return base;
+}
+
+std::vector<std::shared_ptr<const Scene>> Library::variants_of(const Scene& base) const {
+  std::vector<std::shared_ptr<const Scene>> variants;
+  for (const auto& scene : scenes_) {
+    if (base_of(*scene) == &base) variants.push_back(scene);
+  }
+  return variants;
+}
+
 void Library::add_shipped(Scene scene) {
   scenes_.push_back(std::make_shared<const Scene>(std::move(scene)));
   sort();

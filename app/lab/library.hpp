@@ -19,6 +19,10 @@ class Library {
 
   [[nodiscard]] const std::vector<std::shared_ptr<const Scene>>& scenes() const { return scenes_; }
   [[nodiscard]] std::shared_ptr<const Scene> find(std::string_view name) const;
+  /// The shipped scene that a shipped scene is a variant of, by its name: heavy_stack of
+  /// heavy_stack_tall. Null where it stands for itself.
+  [[nodiscard]] const Scene* base_of(const Scene& scene) const;
+  [[nodiscard]] std::vector<std::shared_ptr<const Scene>> variants_of(const Scene& base) const;
   /// Adds a scene that the program ships as code.
   void add_shipped(Scene scene);
   /// Adds a person's own scene, or puts it in the place of an older one of the same name. It comes

@@ -20,6 +20,7 @@
 #include "app/app.hpp"
 #include "app/native/host.hpp"
 #include "app/render/gl_renderer.hpp"
+#include "app/shell/arrangement.hpp"
 #include "app/ui/context.hpp"
 #include "core/model/setting_fields.hpp"
 
@@ -117,6 +118,9 @@ std::string apply(const Options& options, App& app) {
   app.desk.dark = !options.light;
   app.desk.panels = !options.bare;
   if (!app.held()) app.session.play();
+  const bool plain = options.scene.empty() && options.settings.empty() && options.open.empty() &&
+                     options.link.empty() && !options.bare;
+  if (plain) app.introduction.offer(app);
   return "";
 }
 
@@ -168,6 +172,7 @@ int run(const Options& options) {
     // Pictures for tests and pages do not depend on what somebody did before.
     if (!options.screenshot.empty()) app.host.remember = nullptr, app.host.recall = nullptr;
     app.recall_scenes();
+    recall_arrangement(app);
     listen(window.handle);
     const std::string problem = apply(options, app);
     if (!problem.empty()) {

@@ -19,6 +19,7 @@ std::string text_of(const App& app) {
                      "&left_open=" + (d.left.open ? "1" : "0") +
                      "&right_open=" + (d.right.open ? "1" : "0") +
                      "&scale=" + number_text(d.scale) + "&tour=" + (d.tour_hint ? "new" : "seen") +
+                     "&level=" + (d.level == DeskLevel::kLab ? "lab" : "explore") +
                      "&views=" + (d.split ? "split" : "ghosts") + "&plots=";
   for (const ui::PlotState& plot : d.plots) {
     text += plot.shown ? 's' : 'h';
@@ -38,6 +39,7 @@ void take(Desk& d, const LinkPart& part) {
   if (part.key == "right_open") d.right.open = part.value != "0";
   if (part.key == "scale" && number) d.scale = std::clamp(*number, 0.8, 1.5);
   if (part.key == "tour") d.tour_hint = part.value != "seen";
+  if (part.key == "level") d.level = part.value == "lab" ? DeskLevel::kLab : DeskLevel::kExplore;
   if (part.key == "views") d.split = part.value == "split";
   if (part.key == "plots" && part.value.size() == 2 * d.plots.size()) {
     for (std::size_t i = 0; i < d.plots.size(); ++i) {
@@ -52,6 +54,7 @@ void take(Desk& d, const LinkPart& part) {
 void recall_arrangement(App& app) {
   if (!app.host.recall) return;
   app.desk.tour_hint = true;  // until it says otherwise, it is a first visit
+  app.desk.level = DeskLevel::kExplore;
   for (const LinkPart& part : parse_link(app.host.recall(kKey))) take(app.desk, part);
   app.last_arrangement = text_of(app);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/app.hpp"
+#include "app/shell/level.hpp"
 #include "app/text/format.hpp"
 #include "app/text/link.hpp"
 #include "app/text/tour.hpp"
@@ -31,14 +32,16 @@ std::string choose(std::string_view value, std::array<std::string_view, 2> words
   return "";
 }
 
-std::string choose_panel(std::string_view value, Tab& tab) {
+std::string choose_panel(std::string_view value, Desk& desk) {
   static constexpr std::array<std::string_view, 5> kNames{"controls", "plots", "why", "compare",
                                                           "accuracy"};
   const auto* const found = std::find(kNames.begin(), kNames.end(), value);
   if (found == kNames.end()) {
     return "'" + std::string(value) + "' is not controls, plots, why, compare or accuracy";
   }
-  tab = static_cast<Tab>(found - kNames.begin());
+  desk.tab = static_cast<Tab>(found - kNames.begin());
+  const bool lab_only = desk.tab == Tab::kCompare || desk.tab == Tab::kAccuracy;
+  if (lab_only) desk.level = DeskLevel::kLab;
   return "";
 }
 
@@ -97,12 +100,27 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
       return choose(value, {"off", "on"}, desk.view.*option.member);
   }
   if (key == "help") return choose(value, {"off", "on"}, desk.help);
-  if (key == "more") return choose(value, {"off", "on"}, desk.more);
+  if (key == "level") {
+    bool lab = desk.level == DeskLevel::kLab;
+    std::string problem = choose(value, {"explore", "lab"}, lab);
+    desk.level = lab ? DeskLevel::kLab : DeskLevel::kExplore;
+    return problem;
+  }
+  if (key == "more") {
+    if (value == "on") desk.level = DeskLevel::kLab;
+    return choose(value, {"off", "on"}, desk.more);
+  }
   if (key == "menu") return choose(value, {"none", "share"}, desk.open_share_menu);
   if (key == "select") return select_body(app, value);
   if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
-  if (key == "panel") return choose_panel(value, desk.tab);
+  if (key == "panel") return choose_panel(value, desk);
   if (key == "tour") return go_on_tour(app, value);
+  if (key == "introduction") {
+    bool on = false;
+    std::string problem = choose(value, {"off", "on"}, on);
+    if (problem.empty()) on ? app.introduction.start(app) : app.introduction.leave(app);
+    return problem;
+  }
   return std::nullopt;
 }
 
@@ -156,8 +174,16 @@ std::string App::set(std::string_view key, std::string_view value) {
     return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
   }
   if (auto problem = set_window(*this, key, value)) return *std::move(problem);
-  if (key == "load" || key == "seed" || key == "seconds") return set_experiment(*this, key, value);
-  if (key == "accuracy") return set_accuracy(*this, value);
+  introduction.leave(*this);  // what follows is about the run in the laboratory
+  if (key == "load" || key == "seed" || key == "seconds") {
+    std::string problem = set_experiment(*this, key, value);
+    if (needs_lab(*this)) desk.level = DeskLevel::kLab;
+    return problem;
+  }
+  if (key == "accuracy") {
+    desk.level = DeskLevel::kLab;
+    return set_accuracy(*this, value);
+  }
   if (key == "compare") {
     std::string problem;
     const std::vector<Overrides> runs =
@@ -170,6 +196,7 @@ std::string App::set(std::string_view key, std::string_view value) {
     const Preset* preset = find_preset(value);
     if (preset == nullptr) return "'" + std::string(value) + "' is not " + preset_names();
     change(settings_for(*preset, session.scene()));
+    if (needs_lab(*this)) desk.level = DeskLevel::kLab;
     return "";
   }
   const SettingField* field = find_setting(key);
@@ -177,7 +204,12 @@ std::string App::set(std::string_view key, std::string_view value) {
   Settings s = session.settings();
   if (const auto problem = set_setting(*field, value, s)) return *problem;
   change(s);
+  if (needs_lab(*this)) desk.level = DeskLevel::kLab;  // what was set is seen
   return "";
+}
+
+std::string App::link() const {
+  return Lab::link() + (desk.level == DeskLevel::kExplore ? "&level=explore" : "");
 }
 
 void App::open_link(std::string_view fragment, std::optional<SceneResult> own) {
@@ -188,6 +220,7 @@ void App::open_link(std::string_view fragment, std::optional<SceneResult> own) {
                kSceneKept};
     return;
   }
+  introduction.leave(*this);
   const auto scene_before = plain_scene;
   RunStart before = run_start();
   if (own && !own->scene) {
@@ -200,6 +233,8 @@ void App::open_link(std::string_view fragment, std::optional<SceneResult> own) {
   // The scene first: it brings settings of its own, which the others then change.
   auto parts = parse_link(fragment);
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
+  // The level last: other keys lead to the Lab where they need it, and it has the last word.
+  std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key != "level"; });
   if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
     compare.close();
   }

@@ -135,17 +135,6 @@ void presets(const Look& look, Desk& desk) {
   }
 }
 
-void add_menu(const Look& look, const Session& session, Compare& compare, const char* name,
-              float width) {
-  menu_button(look, "add", name, width, look.m.row + 4.0F, "", [&] {
-    for (const Addition& addition : additions()) {
-      if (menu_item(look, addition.name, "", false)) {
-        compare.add(session, {addition.change});
-      }
-    }
-  });
-}
-
 // From the start again, or all of them from the state that this run has now.
 void restart_buttons(const Look& look, Lab& lab) {
   const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
@@ -188,12 +177,23 @@ std::string run_title(const Session& session, const Compare& compare) {
   return own.empty() ? "this run" : overrides_title(own) + " (this run)";
 }
 
+void compare_menu(const Look& look, const Session& session, Compare& compare, const char* name,
+                  float width) {
+  menu_button(look, "add", name, width, look.m.row + 4.0F, "", [&] {
+    for (const Addition& addition : additions()) {
+      if (menu_item(look, addition.name, "", false)) {
+        compare.add(session, {addition.change});
+      }
+    }
+  });
+}
+
 void compare(const Look& look, Lab& lab, Desk& desk) {
   section(look, "Compare");
   const float width = ImGui::GetContentRegionAvail().x;
   if (!lab.compare.open()) {
     presets(look, desk);
-    add_menu(look, lab.session, lab.compare, "One of your own …", width);
+    compare_menu(look, lab.session, lab.compare, "One of your own …", width);
     return;
   }
   restart_buttons(look, lab);
@@ -213,7 +213,7 @@ void compare(const Look& look, Lab& lab, Desk& desk) {
   }
   space(look.m.section + 4.0F);
   if (lab.compare.runs().size() < Compare::kMost)
-    add_menu(look, lab.session, lab.compare, "Add another …", width);
+    compare_menu(look, lab.session, lab.compare, "Add another …", width);
   if (button(look, "close", Icon::kNone, "End the comparison", ButtonKind::kGhost, width,
              look.m.row, "")) {
     lab.compare.close();

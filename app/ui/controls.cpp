@@ -1,6 +1,7 @@
 // The left panel: which scene, how it is solved, and what is shown of it.
 
-#include <memory>
+#include <array>
+#include <string>
 
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -8,29 +9,32 @@
 namespace substep::ui {
 namespace {
 
-void scene_picker(const Look& look, Lab& lab) {
-  const Scene& now = lab.session.scene();
-  section(look, "Scene");
+// The heading of the scene, and at its right how much of the laboratory is shown.
+void heading_with_level(const Look& look, Desk& desk) {
+  static constexpr std::array<Choice, 2> kLevels{
+      {{"Explore", "Scene, method, load and comparison, with the plots of N and energy"},
+       {"Lab", "Every setting, plot and measurement"}}};
+  constexpr float kSwitch = 132.0F;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  std::shared_ptr<const Scene> chosen;
-  menu_button(look, "scene", now.title.c_str(), width, look.m.row + 4.0F, "", [&] {
-    const std::string* group = nullptr;
-    for (const auto& scene : lab.library.scenes()) {
-      if (group == nullptr || *group != scene->group) {
-        const ImVec2 at = ImGui::GetCursorScreenPos();
-        const float top = group == nullptr ? 4.0F : 10.0F;
-        draw_text(*ImGui::GetWindowDrawList(), look.fonts.small, {at.x + 8.0F, at.y + top},
-                  look.theme->dim, group_title(scene->group).c_str());
-        ImGui::Dummy({1.0F, top + 18.0F});
-        group = &scene->group;
-      }
-      const bool current = scene->name == now.name;
-      if (menu_item(look, scene->title.c_str(), "", current)) chosen = scene;
-    }
-  });
-  label(look.fonts.small, look.theme->dim,
-        now.look_for.empty() ? now.description.c_str() : now.look_for.c_str());
-  if (chosen) lab.run(chosen);
+  const float y = at.y + 0.5F * (look.m.row - text_size(look.fonts.caps, "SCENE").y);
+  ImGui::SetCursorScreenPos({at.x, y});
+  section(look, "Scene");
+  ImGui::SetCursorScreenPos({at.x + width - kSwitch, at.y});
+  int level = static_cast<int>(desk.level);
+  segmented(look, "level", kLevels, level, kSwitch);
+  desk.level = static_cast<DeskLevel>(level);
+}
+
+// What to look for in the scene, or the tip of its button where the Lab's controls need the room.
+void scene_controls(const Look& look, Lab& lab, Desk& desk) {
+  const Scene& now = lab.session.scene();
+  const std::string about = now.look_for.empty() ? now.description : now.look_for;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const bool lab_level = desk.level == DeskLevel::kLab;
+  const bool room = !lab_level || display.y >= 800.0F || display.x < 900.0F;
+  scene_picker(look, lab, desk, room ? "" : about.c_str());
+  if (room) label(look.fonts.small, look.theme->dim, about.c_str());
 }
 
 // Only what the scene has can be shown; the dots are the colours that it is drawn in.
@@ -73,14 +77,20 @@ void showing(const Look& look, const Session& session, Desk& desk) {
 
 }  // namespace
 
-void controls(const Look& look, Lab& lab, Desk& desk) {
+void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
+  heading_with_level(look, desk);
   Settings s = lab.session.settings();
-  scene_picker(look, lab);
+  scene_controls(look, lab, desk);
+  if (desk.level == DeskLevel::kExplore) {
+    space(look.m.section);
+    return explore_controls(look, lab, desk, viewport);
+  }
   // The picker may have brought a scene with settings of its own.
   if (lab.session.settings() != s) s = lab.session.settings();
+  effect_switches(look, lab.session);
   space(look.m.section);
   method_controls(look, lab.session.scene(), s, desk.more);
-  if (desk.more) effect_switches(look, lab);
+  if (desk.more) effect_table(look, lab);
   space(look.m.section);
   showing(look, lab.session, desk);
   if (s != lab.session.settings()) lab.change(s);

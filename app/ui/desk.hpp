@@ -14,6 +14,12 @@ namespace substep {
 /// Which of the phone's panels is open; beside the picture, the controls always are.
 enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy };
 
+/// How much of the laboratory is shown.
+enum class DeskLevel : unsigned char {
+  kExplore,  // scene, method, load and comparison, with the plots of N and energy
+  kLab       // everything
+};
+
 enum class Plot : unsigned char { kSubsteps, kEnergy, kDrift, kError, kTime, kCount };
 
 /// A panel at a side of the picture.
@@ -33,6 +39,7 @@ struct Desk {
   Desk();
   [[nodiscard]] ui::PlotState& plot(Plot p) { return plots[static_cast<std::size_t>(p)]; }
 
+  DeskLevel level = DeskLevel::kLab;  // a first visit begins in kExplore, see recall_arrangement()
   bool dark = true;
   bool panels = true;  // off: nothing but the picture
   bool help = false;
@@ -53,6 +60,7 @@ struct Desk {
   int selected = -1;       // body, or -1
   bool card_left = false;  // the side of the view that its card is on
   ui::TimeAxis time;
+  std::string unfolded_scene;  // whose variants the list of scenes shows
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // where the plots were drawn last
   bool accuracy_large = false;  // its picture lies over the view

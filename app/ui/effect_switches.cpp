@@ -1,5 +1,5 @@
-// The effects of the scene: switched off and on while it runs, each with its rows and its time. An
-// effect that is off has no stage.
+// The effects of the scene: switched off and on while it runs, and a table of their rows and times.
+// An effect that is off has no stage.
 
 #include <algorithm>
 #include <array>
@@ -72,29 +72,48 @@ std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
 
 }  // namespace
 
-void effect_switches(const Look& look, Lab& lab) {
+void effect_switches(const Look& look, Session& session) {
+  Effects effects = session.scene().effects;
+  bool first = true;
+  ImGui::PushID("effects");  // joints are also shown or not
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {6.0F, 6.0F});
+  for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
+    const auto& [name, member] = kEffectNames[i];
+    if (!(session.loaded().effects.*member)) continue;
+    const std::string tip = std::string(kFacts[i].tip) + "\nOff until a reset.";
+    toggle(look, name.data(), effects.*member, 0, first, tip.c_str());
+    first = false;
+  }
+  ImGui::PopStyleVar();
+  ImGui::PopID();
+  if (effects != session.scene().effects) session.set_effects(effects);
+}
+
+void effect_table(const Look& look, Lab& lab) {
   const Theme& t = *look.theme;
   const Session& session = lab.session;
   const CostBreakdown* costs = lab.costs();
   const float width = ImGui::GetContentRegionAvail().x;
   columns(look, ImGui::GetCursorScreenPos(), width, t.dim, "rows", costs ? "adds" : "builds in");
-  label(look.fonts.small, t.dim, "Effects, until a reset");
+  label(look.fonts.small, t.dim, "Effects");
 
-  Effects effects = session.scene().effects;
+  const float text = text_size(look.fonts.small, "0").y;
   for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
     const auto& [name, member] = kEffectNames[i];
     if (!(session.loaded().effects.*member)) continue;
     const EffectCost* cost = cost_of(costs, name);
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    toggle(look, name.data(), effects.*member, 0, true, tip_text(kFacts[i], cost).c_str());
     const bool on = session.scene().effects.*member;
+    draw_text(*ImGui::GetWindowDrawList(), look.fonts.small, at, on ? t.text : t.dim, name.data());
     int FrameReport::*const rows = kFacts[i].rows;
-    const float text = text_size(look.fonts.small, "0").y;
-    columns(look, {at.x, at.y + 0.5F * (look.m.row - text)}, width, on ? t.text : t.dim,
+    columns(look, at, width, on ? t.text : t.dim,
             on && rows != nullptr ? grouped(session.report().*rows) : "–",
-            on ? time_text(lab.session, kFacts[i], cost) : "–");
+            on ? time_text(session, kFacts[i], cost) : "–");
+    ImGui::PushID(static_cast<int>(i));
+    ImGui::InvisibleButton("cost", {width, text});
+    ImGui::PopID();
+    tooltip(look, name.data(), tip_text(kFacts[i], cost).c_str());
   }
-  if (effects != session.scene().effects) lab.session.set_effects(effects);
 
   if (lab.accuracy.effects.running()) {
     if (progress(look, lab.accuracy.effects.progress(), "What was measured so far stays")) {

@@ -51,7 +51,7 @@ float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const G
 }
 
 // What this is, whose method it is, and under which licence it may be used.
-void about(const Look& look, Lab& lab) {
+void about(const Look& look, Lab& lab, Desk& desk) {
   const Theme& t = *look.theme;
   card_title(look, 0, Icon::kNone, "substep");
   label(look.fonts.regular, t.text, kPurpose);
@@ -63,6 +63,12 @@ void about(const Look& look, Lab& lab) {
              look.m.row, "The paper's entry for a bibliography")) {
     ImGui::SetClipboardText(kPaperBibtex);
     lab.tell("BibTeX copied");
+  }
+  ImGui::SameLine(0.0F, 8.0F);
+  if (button(look, "introduction", Icon::kNone, "Introduction", ButtonKind::kPlain, 0.0F,
+             look.m.row, "The first screen again; this run starts anew afterwards")) {
+    desk.help = false;
+    desk.follow = "introduction=on";
   }
   space(8.0F);
 }
@@ -77,7 +83,7 @@ void help_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport)
   const bool two = ImGui::GetIO().DisplaySize.x > 760.0F;  // columns
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   if (begin_card(look, viewport, "##help", two ? 656.0F : 400.0F, card_middle(viewport), 0.5F)) {
-    about(look, lab);
+    about(look, lab, desk);
     section(look, two ? "Keys and gestures" : "Gestures and keys");
     const ImVec2 at = ImGui::GetCursorScreenPos();
     constexpr float kKeys = 64.0F;

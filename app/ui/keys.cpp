@@ -56,11 +56,11 @@ constexpr std::array<KeyAction, 19> kActions{
      {"V", "vV", "compared: ghosts or side by side",
       [](App& app, char) { app.desk.split = !app.desk.split; }},
      {"H", "hH", "panels on or off", [](App& app, char) { app.desk.panels = !app.desk.panels; }},
-     {"T", "tT", "light or dark", [](App& app, char) { app.desk.dark = !app.desk.dark; }},
+     {"T", "tT", "light or dark", [](App& app, char) { app.desk.dark = !app.desk.dark; }, true},
      {"+  −", "+=-", "larger or smaller interface",
-      [](App& app, char typed) { change_scale(app, typed == '-' ? -0.1 : 0.1); }},
+      [](App& app, char typed) { change_scale(app, typed == '-' ? -0.1 : 0.1); }, true},
      {"G", "gG", "the guided tour, and its next step",
-      [](App& app, char) { go_on_with_tour(app.desk); }},
+      [](App& app, char) { go_on_with_tour(app.desk); }, true},
      {"L", "lL", "copy the link", [](App& app, char) { copy_link(app); }},
      {"C", "cC", "copy the command", [](App& app, char) { copy_command(app); }},
      {"O", "oO", "open a scene file",
@@ -83,9 +83,11 @@ void handle_keys(App& app) {
     if (c >= 128) continue;
     const char key = static_cast<char>(c);
     for (const KeyAction& action : kActions) {
+      if (app.introduction.open() && !action.on_first_screen) continue;
       if (action.typed.find(key) != std::string_view::npos) action.act(app, key);
     }
   }
+  if (app.introduction.open()) return;
   if (ImGui::IsKeyPressed(ImGuiKey_F6)) focus_next_panel(io.KeyShift);
   if (ImGui::IsKeyPressed(ImGuiKey_Home)) app.session.go_to(0);
   if (ImGui::IsKeyPressed(ImGuiKey_End)) app.session.go_to(app.session.timeline().size() - 1);

@@ -18,6 +18,7 @@ struct KeyAction {
   std::string_view typed;  // the characters that do it, each at its place on the keyboard's layout
   std::string_view what;
   void (*act)(App& app, char typed) = nullptr;
+  bool on_first_screen = false;  // others wait until it is left
 };
 std::span<const KeyAction> key_actions();
 

@@ -24,13 +24,23 @@ namespace ui {
 void draw_window(App& app);
 /// What is drawn and written over the picture, once it is known where things are in it.
 void draw_over_picture(App& app);
+/// The first screen; sets app.view_rect.
+void introduction(App& app);
+/// Where its two runs are seen: the session, and the one beside it.
+std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab);
+/// The part of the window that one of the two pictures covers.
+Part introduction_part(const Viewport& viewport, std::size_t pane);
 
 /// The picture under the pointer: turns, moves and zooms it, selects and pulls bodies.
 void view_input(Lab& lab, Desk& desk, Viewport& viewport);
 /// A ball from beside the eye at what the pointer is on.
 void throw_ball(Lab& lab, const Viewport& viewport);
 
-void controls(const Look& look, Lab& lab, Desk& desk);
+void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
+/// The menu of scenes.
+void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip);
+/// What the level Explore has of them, below the scene.
+void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 /// Mode and solver with their parameters: the controls that any run has.
 /// @param more whether the finer points are unfolded
 void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more);
@@ -48,8 +58,13 @@ void why(const Look& look, const Session& session, Desk& desk);
 void criterion_terms(const Look& look, const Session& session, const Criterion& criterion);
 /// What runs beside this run.
 void compare(const Look& look, Lab& lab, Desk& desk);
-/// The effects of the scene, to be switched off while it runs, with what each costs.
-void effect_switches(const Look& look, Lab& lab);
+/// A menu of methods, each of which may be added to what runs beside it.
+void compare_menu(const Look& look, const Session& session, Compare& compare, const char* name,
+                  float width);
+/// The effects of the scene by name, to be switched off while it runs.
+void effect_switches(const Look& look, Session& session);
+/// Their rows, and what each costs.
+void effect_table(const Look& look, Lab& lab);
 /// Where the time of a frame goes: stages, effects, the criterion.
 void effect_costs(const Look& look, Lab& lab);
 /// What accuracy costs: all methods over this scene.

@@ -193,8 +193,11 @@ constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
 
 std::vector<const PlotInfo*> shown_plots(const Session& session, Desk& desk) {
   std::vector<const PlotInfo*> shown;
+  const bool explore = desk.level == DeskLevel::kExplore;
   for (const PlotInfo& info : kPlots) {
-    if (exists(session, info.plot) && desk.plot(info.plot).shown) shown.push_back(&info);
+    const bool wanted = explore ? info.plot == Plot::kSubsteps || info.plot == Plot::kEnergy
+                                : exists(session, info.plot) && desk.plot(info.plot).shown;
+    if (wanted) shown.push_back(&info);
   }
   return shown;
 }
@@ -294,14 +297,15 @@ void save_table(const Lab& lab, Desk& desk) {
 
 void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float height) {
   // All of one height, the last with the labels of the time axis below it.
-  toolbar(look, lab, desk, viewport);
+  const bool tools = desk.level == DeskLevel::kLab;
+  if (tools) toolbar(look, lab, desk, viewport);
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const std::vector<const PlotInfo*> shown = shown_plots(lab.session, desk);
   const auto count = static_cast<float>(shown.size());
   const float gap = 0.75F * look.m.section;
-  const float rest =
-      height - look.m.row - 8.0F - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
+  const float above = tools ? look.m.row + 8.0F : 0.0F;
+  const float rest = height - above - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
   const float unit = std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot));
   const PlotContext in{look, lab.session, lab.compare, desk};
   // What is read off the plots is what the picture shows, also in the past.

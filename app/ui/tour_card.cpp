@@ -108,7 +108,8 @@ void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   if (ImGui::Begin("##tour_button", nullptr, kCard | ImGuiWindowFlags_NoBackground)) {
-    if (v.width >= 664.0F && desk.panels && desk.tab != Tab::kAccuracy) {
+    const bool lab = desk.level == DeskLevel::kLab;
+    if (lab && v.width >= 664.0F && desk.panels && desk.tab != Tab::kAccuracy) {
       if (button(look, "cost", Icon::kNone, "What does accuracy cost?", ButtonKind::kPlain, 0.0F,
                  row, "All methods over this scene: error against cost")) {
         desk.tab = Tab::kAccuracy;
@@ -122,7 +123,7 @@ void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
       go_to(desk, 0);
     }
     if (!fresh) outline(look);
-    if (fresh) {
+    if (fresh && lab) {
       ImGui::SameLine(0.0F, 4.0F);
       if (button(look, "not", Icon::kCross, "", ButtonKind::kPlain, row, row,
                  "Not now; the button stays")) {

@@ -33,13 +33,8 @@ const char* speed_name(double speed) {
   return "?";
 }
 
-void play_buttons(App& app, float height, float gap) {
+void single_steps(App& app, float height, float gap) {
   const Look& look = app.look;
-  const bool playing = app.session.playing();
-  if (button(look, "play", playing ? Icon::kPause : Icon::kPlay, "", ButtonKind::kPrimary, 48.0F,
-             height, playing ? "Pause (Space)" : "Play (Space)")) {
-    app.session.toggle();
-  }
   ImGui::SameLine(0.0F, gap);
   if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 36.0F, height,
              "One frame (.), back with the comma key")) {
@@ -50,6 +45,17 @@ void play_buttons(App& app, float height, float gap) {
              "One sub-step (;): one pass of the loop of Algorithm 1")) {
     app.session.substep();
   }
+}
+
+void play_buttons(App& app, float height, float gap) {
+  const Look& look = app.look;
+  const bool playing = app.session.playing();
+  if (button(look, "play", playing ? Icon::kPause : Icon::kPlay, "", ButtonKind::kPrimary, 48.0F,
+             height, playing ? "Pause (Space)" : "Play (Space)")) {
+    app.session.toggle();
+  }
+  // Single frames and sub-steps are the Lab's; their keys are there all the same.
+  if (app.desk.level == DeskLevel::kLab) single_steps(app, height, gap);
   ImGui::SameLine(0.0F, gap);
   if (button(look, "reset", Icon::kReset, "", ButtonKind::kPlain, 36.0F, height,
              "Back to the start (R)")) {
@@ -147,6 +153,7 @@ float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) 
   if (add("theme", app.desk.dark ? Icon::kSun : Icon::kMoon, "Light or dark (T)")) {
     app.desk.dark = !app.desk.dark;
   }
+  if (app.desk.level == DeskLevel::kExplore) return right - 8.0F;
   if (add("panels", Icon::kPanels, "Panels on or off (H)")) app.desk.panels = !app.desk.panels;
   if (add("ball", Icon::kBall, "Throw a ball (B throws it at the pointer)")) throw_ball(app, app);
   if (add("frame", Icon::kFrame, "Show everything (F)")) app.view.frame_all(app.session);

@@ -65,10 +65,13 @@ struct Panel {
 void draw_plots(App& app, float height) {
   const Look& look = app.look;
   const bool brief = height < 640.0F;
-  const float below = why_summary_height() + timing_height(look, app.session, brief);
-  plots(look, app, app.desk, app, height - below - 2.0F * look.m.section);
+  const bool timed = app.desk.level == DeskLevel::kLab;
+  float below = why_summary_height() + look.m.section;
+  if (timed) below += timing_height(look, app.session, brief) + look.m.section;
+  plots(look, app, app.desk, app, height - below);
   space(look.m.section);
   why_summary(look, app.session, app.desk);
+  if (!timed) return;
   space(look.m.section);
   timing(look, app.session, brief);
 }
@@ -77,7 +80,7 @@ void draw_plots(App& app, float height) {
 constexpr std::array<Panel, 5> kPanels{
     {{Tab::kControls,
       {"Controls", "Which scene, and how it is solved"},
-      [](App& app, float) { controls(app.look, app, app.desk); }},
+      [](App& app, float) { controls(app.look, app, app.desk, app); }},
      {Tab::kPlots, {"Plots", "What happens, frame by frame"}, draw_plots},
      {Tab::kWhy,
       {"Why N", "Which body sets the sub-step count"},
@@ -103,9 +106,18 @@ const Panel& choose_panel(const Look& look, std::span<const Panel> panels, Tab& 
   return open;
 }
 
+// Those of the level, in the order of kPanels: Explore has the plots, and beside them what sets N
+// while that is looked at.
+std::span<const Panel> panels_of(const Desk& desk) {
+  const std::span<const Panel> all(kPanels);
+  if (desk.level == DeskLevel::kLab) return all;
+  return all.first(desk.tab == Tab::kWhy ? 3 : 2);
+}
+
 // What is in the right panel.
 void instruments(App& app, float height) {
-  const auto panels = std::span(kPanels).subspan(1);
+  const auto panels = panels_of(app.desk).subspan(1);
+  if (panels.size() == 1) return panels.front().draw(app, height);
   choose_panel(app.look, panels, app.desk.tab).draw(app, height - app.look.m.row - 8.0F);
 }
 
@@ -163,7 +175,7 @@ void desktop_panels(App& app, const Rect& space) {
     ImGui::SetNextWindowPos({space.x, space.y});
     ImGui::SetNextWindowSizeConstraints({left_width, 0.0F}, {left_width, space.height});
     if (ImGui::Begin("##controls", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
-      controls(app.look, app, app.desk);
+      controls(app.look, app, app.desk, app);
       scroll_by_drag();
     }
     ImGui::End();
@@ -218,7 +230,7 @@ void phone(App& app, ImVec2 display) {
     transport(app, true);
     if (app.desk.panels) {
       ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
-      const Panel& open = choose_panel(app.look, kPanels, app.desk.tab);
+      const Panel& open = choose_panel(app.look, panels_of(app.desk), app.desk.tab);
       ImGui::Dummy({1.0F, 0.0F});
       if (ImGui::BeginChild("content", {0, 0})) {
         if (open.tab == Tab::kPlots) {  // alone: there is little room
@@ -226,7 +238,7 @@ void phone(App& app, ImVec2 display) {
         } else {
           open.draw(app, 0.0F);
         }
-        if (open.tab == Tab::kWhy) {
+        if (open.tab == Tab::kWhy && app.desk.level == DeskLevel::kLab) {
           space(app.look.m.section);
           timing(app.look, app.session, false);
         }
@@ -260,6 +272,10 @@ bool is_small(ImVec2 display) { return display.x < 900.0F || display.y < 480.0F;
 void draw_window(App& app) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const bool small = is_small(display);
+  if (app.introduction.open()) {
+    introduction(app);
+    return trouble_card(app.look, app, app);
+  }
   view_input(app, app.desk, app);
   if (small) {
     phone(app, display);
@@ -279,6 +295,7 @@ void draw_window(App& app) {
 }
 
 void draw_over_picture(App& app) {
+  if (app.introduction.open()) return notice(app);
   const bool small = is_small(ImGui::GetIO().DisplaySize);
   annotations(app.look, app, app.desk, app);
   body_labels(app.look, app.session, app.desk, app);

@@ -50,6 +50,7 @@ const states = {
   accuracy: (page) => call(page, "set", { help: "off", panel: "accuracy" }),
   comparison: (page) => call(page, "set", { panel: "compare", compare: "mode:none", views: "split" }),
   "the tour": (page) => call(page, "set", { tour: 2 }),
+  "the first screen": (page) => call(page, "set", { introduction: "on" }),
   "a lost context": (page) => page.evaluate(() => document.querySelector(".substep-view")
     .getContext("webgl2").getExtension("WEBGL_lose_context").loseContext()),
 };

@@ -65,10 +65,21 @@ export async function open({ flags = [] } = {}) {
   };
 }
 
+/** What the page remembers of a visit in which the first screen was left for the Lab. */
+function leftFirstScreen() {
+  try {
+    localStorage.setItem("substep.introduction", "seen");
+    if (localStorage.getItem("substep.arrangement") === null) {
+      localStorage.setItem("substep.arrangement", "level=lab");
+    }
+  } catch { /* about:blank keeps nothing */ }
+}
+
 /**
  * A page with the application running in it.
- * @param options {width, height, ratio, fragment, light, touch, calm, context, path, before}; before
- *   is a script that runs ahead of the page's own, and then nothing is waited for
+ * @param options {width, height, ratio, fragment, light, touch, calm, context, path, before, first};
+ *   before is a script that runs ahead of the page's own, and then nothing is waited for; first is a
+ *   first visit: otherwise the person has left the first screen for the Lab at an earlier one
  * @returns the page; page.complaints lists what it logged as warning or error
  */
 export async function openPage(session, options = {}) {
@@ -95,6 +106,7 @@ export async function openPage(session, options = {}) {
     if (response.status() >= 400) page.complaints.push(`${response.status()}: ${response.url()}`);
   });
   if (options.before) await page.addInitScript(options.before);
+  if (!options.first) await page.addInitScript(leftFirstScreen);
   const fragment = options.fragment ? `#${options.fragment}` : "";
   await page.goto(`${session.address}${options.path ?? ""}${fragment}`);
   if (!options.before) await page.waitForFunction(() => window.substep, null, { timeout: 60000 });

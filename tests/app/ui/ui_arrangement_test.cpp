@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "app/shell/arrangement.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -63,7 +64,7 @@ TEST(Arrangement, ComesBackOnTheNextVisit) {
   const auto keeps = [&](Headless& h) {
     h.app->host.remember = [&](const std::string& k, const std::string& v) { kept[k] = v; };
     h.app->host.recall = [&](const std::string& k) { return kept[k]; };
-    h.app->pixel_ratio = 0.0F;  // as before the first frame
+    recall_arrangement(*h.app);
     h.frames(2);
   };
   {

@@ -178,7 +178,7 @@ TEST(Keys, DriveTheRun) {
 
 TEST(Pointer, ChoosesAModeAndTurnsTheView) {
   Headless h;
-  h.click(136.0F, 234.0F);  // "damping"
+  h.press("damping");
   EXPECT_EQ(h.app->session.settings().mode, Mode::kDamping);
 
   const Vec3 eye = h.app->view.camera.eye(h.app->view_rect);

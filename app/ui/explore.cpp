@@ -1,0 +1,141 @@
+// Explore's controls: method, load, comparison and a ball, and nothing else.
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "app/text/format.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+#include "core/model/methods.hpp"
+
+namespace substep::ui {
+namespace {
+
+// A name at the left, and at its right a menu of a table's entries.
+template <class Entries, class Value, class Title, class Note>
+void menu_row(const Look& look, const char* name, const Entries& entries, Value& value, Title title,
+              Note note, const char* tip) {
+  constexpr float kName = 104.0F;
+  const ImVec2 origin = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  const float line = text_size(look.fonts.regular, name).y;
+  draw_text(*ImGui::GetWindowDrawList(), look.fonts.regular,
+            {origin.x, origin.y + 0.5F * (look.m.row + 2.0F - line)}, look.theme->dim, name);
+  ImGui::SetCursorScreenPos({origin.x + kName, origin.y});
+  const std::string current = title(entries[static_cast<std::size_t>(value)]);
+  menu_button(look, name, current.c_str(), width - kName, look.m.row + 2.0F, tip, [&] {
+    for (const auto& entry : entries) {
+      if (menu_item(look, std::string(title(entry)).c_str(), note(entry), entry.value == value)) {
+        value = entry.value;
+      }
+    }
+  });
+}
+
+// The parameter that the mode is steered by.
+void parameters(const Look& look, Settings& s) {
+  if (reads(s, "alpha")) {
+    slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
+           "Distance from the limit of stability, which is 1 (Eq. 5). N is proportional to 1/√α "
+           "(Eq. 10): quartering alpha doubles N.");
+  }
+  if (reads(s, "n")) slider(look, "N", s.n, 1, 128, true, "Sub-steps in every frame: dt = h/N.");
+  if (reads(s, "n_cap")) {
+    slider(look, "N cap", s.n_cap, 1, 64, true,
+           "Sub-steps up to here; what they do not reach, the mode damps.");
+  }
+}
+
+void method(const Look& look, Settings& s) {
+  section(look, "Method");
+  menu_row(
+      look, "Stabilisation", kModes, s.mode, [](const ModeEntry& e) { return std::string(e.name); },
+      [](const ModeEntry& e) { return e.line; }, "What keeps the run stable (1 to 8)");
+  menu_row(
+      look, "Solver", kSolvers, s.solver, [](const SolverEntry& e) { return std::string(e.title); },
+      [](const SolverEntry& e) { return e.full_name; },
+      "What solves the velocities of a sub-step, Eq. 3");
+  label(look.fonts.small, look.theme->dim, entry_of(s.mode).line);
+  parameters(look, s);
+}
+
+double heaviest_mass(const Scene& scene) {
+  double most = 0.0;
+  for (const Body& body : scene.bodies) {
+    if (!body.is_static) most = std::max(most, body.mass);
+  }
+  return most;
+}
+
+// To 1, 1.5, 2, 3, 5 or 7 in its decade: a run that starts anew with every pixel shows nothing.
+double rounded_load(double load) {
+  constexpr std::array<double, 7> kSteps{1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0};
+  const double decade = std::pow(10.0, std::floor(std::log10(load) + 1e-9));
+  double nearest = kSteps[0];
+  for (const double step : kSteps) {
+    if (std::abs(std::log(load / decade / step)) < std::abs(std::log(load / decade / nearest))) {
+      nearest = step;
+    }
+  }
+  return nearest * decade;
+}
+
+// The same comparison goes on with the new load.
+void change_load(Lab& lab, double load) {
+  std::vector<Overrides> beside;
+  for (const Compare::Run& run : lab.compare.runs()) beside.push_back(run.overrides);
+  lab.vary(load, lab.seed);
+  if (!beside.empty()) lab.compare.start(lab.session, std::move(beside));
+}
+
+void load_row(const Look& look, Lab& lab) {
+  section(look, "Load", (grouped(heaviest_mass(lab.session.loaded())) + " kg").c_str());
+  double load = lab.load;
+  if (!power_slider(look, "Factor  ×", load, 0.01, 100.0,
+                    "Factor on the mass of the heaviest body: the mass ratio. The run starts "
+                    "anew.")) {
+    return;
+  }
+  load = rounded_load(load);
+  if (std::abs(load - lab.load) > 1e-9 * load) change_load(lab, load);
+}
+
+void comparison(const Look& look, Lab& lab, Desk& desk) {
+  section(look, "Compare");
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (!lab.compare.open()) {
+    compare_menu(look, lab.session, lab.compare, "Another method beside it …", width);
+    if (!lab.compare.open()) return;
+    lab.reset();  // both from the start
+    lab.session.play();
+    return;
+  }
+  checkbox(look, "Side by side", desk.split, width,
+           "Each in a view of its own, or the other as a ghost (V)");
+  if (button(look, "end", Icon::kNone, "End the comparison", ButtonKind::kPlain, width, look.m.row,
+             "")) {
+    lab.compare.close();
+  }
+}
+
+}  // namespace
+
+void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
+  Settings s = lab.session.settings();
+  method(look, s);
+  if (s != lab.session.settings()) lab.change(s);
+  space(look.m.section);
+  load_row(look, lab);
+  space(look.m.section);
+  comparison(look, lab, desk);
+  space(look.m.section);
+  if (button(look, "throw", Icon::kBall, "Throw a ball", ButtonKind::kPlain,
+             ImGui::GetContentRegionAvail().x, look.m.row + 2.0F,
+             "From beside the eye; B throws it at the pointer")) {
+    throw_ball(lab, viewport);
+  }
+}
+
+}  // namespace substep::ui

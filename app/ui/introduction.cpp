@@ -1,0 +1,238 @@
+// The first screen: two runs beside each other, what they are, and the way into the laboratory.
+
+#include "app/text/introduction.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "app/app.hpp"
+#include "app/text/citation.hpp"
+#include "app/ui/over_picture.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr ImGuiWindowFlags kScreen = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings |
+                                     ImGuiWindowFlags_NoBackground;
+
+constexpr ImGuiWindowFlags kGround = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
+                                     ImGuiWindowFlags_NoFocusOnAppearing |
+                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+constexpr float kAbove = 10.0F;  // room above what is written beneath a picture
+
+// Measures of the screen: pictures beside each other, or one over the other where it is
+// narrow.
+struct ScreenMeasures {
+  bool stacked = false;
+  bool low = false;  // a phone that lies
+  bool large = false;
+  float pad = 24.0F;
+  float head = 0.0F;   // height of name and sentences
+  float label = 0.0F;  // height of what is written beneath a picture
+  float foot = 0.0F;   // height of buttons and paper
+  float button = 44.0F;
+};
+
+float lines_height(ImFont* font, const std::string& text, float width) {
+  return text_size(font, wrapped(font, text.c_str(), width).c_str()).y;
+}
+
+ScreenMeasures measure_screen(const Look& look, const IntroductionWords& words, ImVec2 display) {
+  ScreenMeasures m;
+  m.stacked = display.x < 600.0F && display.y > display.x;
+  m.low = display.y < 480.0F;
+  m.large = display.x >= 1000.0F && display.y >= 600.0F;
+  m.pad = m.stacked || m.low ? 16.0F : 32.0F;
+  const float width = display.x - 2.0F * m.pad;
+  m.head = m.pad + 32.0F + lines_height(look.fonts.regular, kPurpose, width);
+  if (!m.low) m.head += 4.0F + lines_height(look.fonts.regular, words.claim, width);
+  m.label = m.large ? 68.0F : 48.0F;
+  if (m.low) m.button = 36.0F;
+  m.foot = 12.0F + m.button + 12.0F + lines_height(look.fonts.small, words.paper, width) + m.pad;
+  if (m.low) m.foot = 12.0F + m.button + 12.0F;  // the paper stands beside the buttons
+  return m;
+}
+
+ViewRect picture_area(const ScreenMeasures& m, ImVec2 display) {
+  return {0.0F, m.head, display.x, std::max(1.0F, display.y - m.head - m.foot)};
+}
+
+// What is written on several lines, each centred or all from the left.
+// @return where it ends
+float paragraph(const Look& look, ImFont* font, ImVec2 from, float width, bool centred, ImU32 color,
+                const std::string& text) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const std::string lines = wrapped(font, text.c_str(), width);
+  float y = from.y;
+  for (std::size_t at = 0; at < lines.size();) {
+    const std::size_t end = std::min(lines.find('\n', at), lines.size());
+    const std::string line = lines.substr(at, end - at);
+    const ImVec2 size = text_size(font, line.c_str());
+    const float x = centred ? from.x + 0.5F * (width - size.x) : from.x;
+    draw_over(look, draw, font, {x, y}, color, line.c_str());
+    y += size.y;
+    at = end + 1;
+  }
+  return y;
+}
+
+void draw_head(const Look& look, const ScreenMeasures& m, const IntroductionWords& words,
+               float width) {
+  const Theme& t = *look.theme;
+  const bool centred = !m.stacked;
+  float y = paragraph(look, look.fonts.title, {m.pad, m.pad}, width, centred, t.text, "substep");
+  y = paragraph(look, look.fonts.regular, {m.pad, m.pad + 32.0F}, width, centred, t.text, kPurpose);
+  if (m.low) return;
+  paragraph(look, look.fonts.regular, {m.pad, y + 4.0F}, width, centred, t.dim, words.claim);
+}
+
+void picture_label(const Look& look, const ScreenMeasures& m, const ViewRect& picture,
+                   const IntroductionWords::Label& label, ImU32 note_color) {
+  const float pad = m.stacked ? m.pad : 8.0F;
+  const float width = picture.width - 2.0F * pad;
+  const ImVec2 at(picture.x + pad, picture.y + picture.height + 2.0F);
+  ImFont* title = m.large ? look.fonts.title : look.fonts.medium;
+  ImFont* note = m.large ? look.fonts.regular : look.fonts.small;
+  const float y = paragraph(look, title, at, width, !m.stacked, look.theme->text,
+                            fitted(title, label.title, width));
+  paragraph(look, note, {at.x, y + 2.0F}, width, !m.stacked, note_color,
+            fitted(note, label.note, width));
+}
+
+// A window of its own: what it covers is not drawn.
+void ground(const char* id, float top, float bottom, float width) {
+  ImGui::SetNextWindowPos({0.0F, top});
+  ImGui::SetNextWindowSize({width, bottom - top});
+  ImGui::Begin(id, nullptr, kGround);
+  ImGui::End();
+}
+
+// What is written beneath a picture stands on the colour of panels: a grid runs behind it.
+void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, ImVec2 display) {
+  const ViewRect& torn = panes[1];
+  const ViewRect& held = panes[0];
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
+  const float label = torn.y + torn.height - kAbove;
+  if (m.stacked) ground("##introduction_label", label, held.y, display.x);
+  ground("##introduction_foot", held.y + held.height - kAbove, display.y, display.x);
+  ImGui::PopStyleVar(2);
+}
+
+// The clock of both runs, between their labels, or at the right of the upper one; and a line
+// between their pictures.
+void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
+                float width, const std::string& text) {
+  const ViewRect& torn = panes[1];
+  const ViewRect& held = panes[0];
+  const ImU32 line = fade(look.theme->faint, 0.5F);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  if (!m.stacked) {
+    draw.AddLine({held.x, held.y + 16.0F}, {held.x, held.y + held.height - 24.0F}, line);
+  }
+  ImFont* font = look.fonts.small;
+  const float size = text_size(font, text.c_str()).x;
+  const float x = m.stacked ? width - m.pad - size : 0.5F * (width - size);
+  draw_over(look, draw, font, {x, torn.y + torn.height + 4.0F}, look.theme->dim, text.c_str());
+}
+
+// The two ways on. @return whether the laboratory was chosen
+bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWords& words,
+               ImVec2 display, Desk& desk) {
+  constexpr float kGap = 12.0F;
+  const float width = m.stacked ? 0.5F * (display.x - 2.0F * m.pad - kGap) : 144.0F;
+  const float y = display.y - m.foot + 12.0F;
+  const float left = m.stacked || m.low ? m.pad : 0.5F * (display.x - kGap) - width;
+  ImGui::SetCursorScreenPos({left, y});
+  const bool chosen = button(look, "try", Icon::kNone, "Try it", ButtonKind::kPrimary, width,
+                             m.button, "Into the laboratory (Enter)");
+  ImGui::SameLine(0.0F, kGap);
+  if (button(look, "tour", Icon::kNone, "Tour", ButtonKind::kPlain, width, m.button,
+             "The paper's story in six steps")) {
+    desk.follow = "tour=1";
+  }
+  if (m.low) {
+    const float x = left + 2.0F * (width + kGap) + 4.0F;
+    paragraph(look, look.fonts.small, {x, y}, display.x - m.pad - x, false, look.theme->dim,
+              words.paper);
+  } else {
+    paragraph(look, look.fonts.small, {m.pad, y + m.button + 12.0F}, display.x - 2.0F * m.pad,
+              !m.stacked, look.theme->dim, words.paper);
+  }
+  return chosen;
+}
+
+// A tap beside the buttons, Enter or Escape.
+bool left_otherwise() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const bool tapped = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered() &&
+                      ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+                      io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < 36.0F;
+  // Enter acts on the button that the keyboard is on.
+  const bool enter = ImGui::IsKeyPressed(ImGuiKey_Enter, false) ||
+                     ImGui::IsKeyPressed(ImGuiKey_KeypadEnter, false);
+  return tapped || (enter && !io.NavVisible) || ImGui::IsKeyPressed(ImGuiKey_Escape, false);
+}
+
+}  // namespace
+
+// The run that holds first: it is the session, and its picture fills what the other leaves.
+std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const ScreenMeasures m = measure_screen(look, introduction_words(lab), display);
+  ViewRect torn = picture_area(m, display);
+  if (m.stacked) torn.height *= 0.5F;
+  if (!m.stacked) torn.width *= 0.5F;
+  torn.height = std::max(1.0F, torn.height - m.label);
+  ViewRect held = torn;
+  if (m.stacked) held.y += torn.height + m.label;
+  if (!m.stacked) held.x += torn.width;
+  return {held, torn};
+}
+
+// Together they fill the window.
+Part introduction_part(const Viewport& viewport, std::size_t pane) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const ViewRect& held = viewport.panes[0];
+  const float x = held.x / display.x;
+  const float y = held.y / display.y;
+  if (held.x > 0.0F) return pane == 0 ? Part{x, 0.0F, 1.0F - x, 1.0F} : Part{0.0F, 0.0F, x, 1.0F};
+  return pane == 0 ? Part{0.0F, y, 1.0F, 1.0F - y} : Part{0.0F, 0.0F, 1.0F, y};
+}
+
+void introduction(App& app) {
+  const Look& look = app.look;
+  const Theme& t = *look.theme;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const IntroductionWords words = introduction_words(app);
+  const ScreenMeasures m = measure_screen(look, words, display);
+  app.view_rect = picture_area(m, display);
+  const std::vector<ViewRect> panes = introduction_panes(look, app);
+  bool leave = false;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
+  draw_grounds(m, panes, display);
+  ImGui::SetNextWindowPos({0.0F, 0.0F});
+  ImGui::SetNextWindowSize(display);
+  if (ImGui::Begin("##introduction", nullptr, kScreen)) {
+    draw_head(look, m, words, display.x - 2.0F * m.pad);
+    const Verdict* verdict = Introduction::torn(app);
+    const bool torn = verdict != nullptr && !verdict->holds();
+    picture_label(look, m, panes[1], words.torn, torn ? t.orange : t.dim);
+    picture_label(look, m, panes[0], words.held, t.teal);
+    draw_clock(look, m, panes, display.x, words.clock);
+    leave = draw_foot(look, m, words, display, app.desk) || left_otherwise();
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  if (!leave) return;
+  app.introduction.leave(app);
+  app.desk.tour_hint = false;  // it stood beside the button
+}
+
+}  // namespace substep::ui

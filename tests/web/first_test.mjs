@@ -1,0 +1,126 @@
+// A first visit: two chains on one clock, and the way into the laboratory:
+// node tests/web/first_test.mjs [FOLDER OF THE BUILT PAGE]
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { call, click, drawn, open, openPage, picture, quiet, reports, save } from "./browser.mjs";
+import { difference, part, variance } from "./pixels.mjs";
+
+let session;
+before(async () => { session = await open(); });
+after(() => session?.close());
+
+/** Waits until the first screen is there, or was left. */
+const introduced = (page, shown) => page.waitForFunction(
+  (s) => (window.substep.report().introduction !== null) === s, shown, { timeout: 20000 });
+
+/** Waits until the first screen says that the left chain has torn. */
+const torn = (page) => page.waitForFunction(
+  () => /Torn at 0.35 s/.test(window.substep.report().introduction?.torn), null, { timeout: 60000 });
+
+const left = { x: 40, y: 140, width: 560, height: 360 };
+const right = { x: 680, y: 140, width: 560, height: 360 };
+
+for (const light of [false, true]) {
+  for (const [width, height] of [[1280, 720], [1920, 1080], [390, 844]]) {
+    test(`${width}x${height}, ${light ? "light" : "dark"}: one chain tears beside one that holds`, async () => {
+      const page = await openPage(session, { width, height, light, first: true });
+      await introduced(page, true);
+      await torn(page);
+      const { introduction, mode, verdict } = await call(page, "report");
+      assert.match(introduction.held, /^Adaptive: N sub-steps, now 1\d/);
+      assert.match(introduction.paper, /Adaptive Sub-stepping for Constrained.*Giles.*Andrews/);
+      assert.deepEqual([mode, verdict], ["adaptive", "holds"]);
+      await page.waitForTimeout(1000);
+      await save(page, `first-${width}-${light ? "light" : "dark"}`);
+      if (width === 1280) {
+        const before = await picture(page);
+        assert.ok(variance(part(before, left)) > 40 && variance(part(before, right)) > 40, "a picture is blank");
+        await page.waitForTimeout(500);
+        const now = await picture(page);
+        for (const side of [left, right]) {
+          assert.ok(difference(part(before, side), part(now, side)) > 0.002, "a chain stands still");
+        }
+      }
+      quiet(page);
+      await page.context().close();
+    });
+  }
+}
+
+test("Try it opens the laboratory, once and for all", async () => {
+  const page = await openPage(session, { first: true });
+  await introduced(page, true);
+  assert.equal(await page.evaluate(() => location.hash), "", "the address is no longer plain");
+  await click(page, "Try it");
+  await introduced(page, false);
+  const report = await call(page, "report");
+  assert.deepEqual([report.scene, report.mode, report.playing], ["swinging_box", "adaptive", true]);
+  await page.waitForFunction(() => /scene=swinging_box/.test(location.hash));
+  assert.ok(!/compare/.test(await page.evaluate(() => location.hash)));
+  await page.goto("about:blank");
+  await page.goto(session.address);
+  await page.waitForFunction(() => window.substep, null, { timeout: 60000 });
+  await drawn(page);
+  await introduced(page, false);
+  quiet(page);
+  await page.context().close();
+});
+
+test("Enter, Escape and a tap leave it; Tour begins the tour", async () => {
+  for (const leave of [(p) => p.keyboard.press("Enter"), (p) => p.keyboard.press("Escape"),
+    (p) => p.mouse.click(320, 300), (p) => click(p, "Tour")]) {
+    const page = await openPage(session, { first: true });
+    await introduced(page, true);
+    await drawn(page);
+    await leave(page);
+    await introduced(page, false);
+    quiet(page);
+    await page.context().close();
+  }
+});
+
+test("a link and the API go past it", async () => {
+  const linked = await openPage(session, { first: true, fragment: "scene=bridge&mode=none" });
+  assert.equal((await call(linked, "report")).introduction, null);
+  await reports(linked, "scene", "bridge");
+  await linked.context().close();
+  const page = await openPage(session, { first: true });
+  await introduced(page, true);
+  await call(page, "set", { mode: "damping" });
+  await introduced(page, false);
+  assert.equal((await call(page, "report")).mode, "damping");
+  quiet(page);
+  await page.context().close();
+});
+
+test("the keyboard finds the same words and two buttons in HTML", async () => {
+  const page = await openPage(session, { first: true });
+  await introduced(page, true);
+  await page.waitForTimeout(1100);
+  const twin = await page.locator(".substep-twin").textContent();
+  for (const words of ["A laboratory for stable constrained rigid bodies", "One step per frame",
+    "Adaptive: N sub-steps", "Giles and S. Andrews"]) {
+    assert.ok(twin.includes(words), `"${words}" is not in: ${twin}`);
+  }
+  await page.keyboard.press("Tab");
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), "Try it");
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), "Tour");
+  await page.keyboard.press("Shift+Tab");
+  await page.keyboard.press("Enter");
+  await introduced(page, false);
+  assert.equal(await page.evaluate(() => document.activeElement.name), "scene");
+  assert.equal(await page.getByRole("button", { name: "Try it" }).count(), 0, "it is still there");
+  quiet(page);
+  await page.context().close();
+});
+
+test("a laboratory in an article begins without it", async () => {
+  const page = await openPage(session, { path: "example/article.html", before: "1", first: true });
+  await page.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
+  const shown = await page.evaluate(() => Object.values(window.laboratories)
+    .map((l) => l.report().introduction));
+  assert.ok(shown.every((words) => words === null));
+  await page.context().close();
+});

@@ -133,6 +133,7 @@ for (const solver of ["PGS", "BPP"]) {
   test(`runs every scene of the paper in every mode by clicks, with ${solver}`, async () => {
     for (const scene of scenes) {
       await api("set", { scene });
+      await drawn(page); // its effects move what is below them
       await click(page, solver, "Method");
       for (const mode of modes) {
         await click(page, mode, "mode");

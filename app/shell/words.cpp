@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/app.hpp"
+#include "app/text/event_text.hpp"
 #include "app/text/format.hpp"
 #include "app/text/link.hpp"
 #include "app/text/tour.hpp"
@@ -158,6 +159,14 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (auto problem = set_window(*this, key, value)) return *std::move(problem);
   if (key == "load" || key == "seed" || key == "seconds") return set_experiment(*this, key, value);
   if (key == "accuracy") return set_accuracy(*this, value);
+  if (key == "events") {
+    std::string problem;
+    auto events = read_events(value, *session.loaded_scene(), session.settings(), problem);
+    if (!problem.empty()) return problem;
+    session.follow(std::move(events));
+    reset();
+    return "";
+  }
   if (key == "compare") {
     std::string problem;
     const std::vector<Overrides> runs =
@@ -203,6 +212,9 @@ void App::open_link(std::string_view fragment, std::string_view scene) {
   // The scene first: it brings settings of its own, which the others then change.
   auto parts = parse_link(fragment);
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
+  // What was done in the run last: it belongs to the start that the others choose.
+  std::stable_partition(parts.begin(), parts.end(),
+                        [](const auto& p) { return p.key != "events"; });
   if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
     compare.close();
   }

@@ -131,7 +131,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
     accuracy.cancel_search();
     accuracy.effects.cancel();
   } else if (value == "alpha") {
-    if (accuracy.reference() == nullptr) {
+    if (!accuracy.can_search()) {
       return "'alpha' searches beside a sweep that has found its reference: set accuracy=run "
              "first";
     }

@@ -31,7 +31,7 @@ constexpr std::uint8_t kVersion = 1;
 enum Kind : std::uint8_t { kBall, kEffects, kGrab, kMove, kLetGo, kSettings, kKinds };
 constexpr unsigned kKindBits = 3;
 constexpr std::int64_t kMostFrames = 100'000'000;
-constexpr std::size_t kMostCopies = 60'000;  // of bodies, by balls and switched effects
+constexpr std::size_t kMostCopies = 12'000;  // of bodies, by balls and switched effects
 constexpr double kGrid = 65536.0;            // of targets [1/m]
 
 using Ballistics = std::array<double, 8>;

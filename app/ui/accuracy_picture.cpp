@@ -256,10 +256,10 @@ std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& ac
   draw_accuracy_grid(look, accuracy, scatter.axes, draw);
   draw_floor(look, accuracy, scatter.axes, draw);
   draw_front(look, scatter.points, scatter.axes, draw);
+  draw_limit(look, accuracy, scatter.points, scatter.axes, draw);
   draw_curves(look, accuracy, scatter,
               pointed ? series_name(accuracy.results()[*pointed].experiment.settings) : "", draw);
   draw_failed(look, accuracy, scatter, draw);
-  draw_limit(look, accuracy, scatter.points, scatter.axes, draw);
   ring_current(look, accuracy, current, scatter, draw);
   if (pointed) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

@@ -265,10 +265,31 @@ TEST(Events, ALinkWithBadEventsRunsTheRest) {
   EXPECT_EQ(h.app->trouble.problems.front().pointer, "events");
 }
 
+// All that may be done before one frame is done at once, and the run goes on.
+TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
+  const auto scene = shipped("wall");
+  std::vector<RunEvent> events;
+  for (int i = 0; fits_link(events, *scene); ++i) {
+    Effects effects = scene->effects;
+    effects.friction = i % 2 == 0;
+    events.push_back({0, effects});
+  }
+  Headless h;
+  h.app->open_link("scene=wall&events=" + events_text(events, scene->settings));
+  ASSERT_EQ(h.app->trouble.problems.size(), 1U) << "one too many";
+  events.pop_back();
+  h.app->trouble = {};
+  h.app->open_link("scene=wall&events=" + events_text(events, scene->settings));
+  EXPECT_EQ(h.app->trouble.title, "");
+  h.app->session.pause();
+  step(h.app->session, 2);
+  EXPECT_EQ(h.app->session.state().frame, 2);
+}
+
 // Each ball makes a copy of the scene: a scene of many bodies can have few.
 TEST(Events, AreFewInALargeScene) {
   Scene large = *shipped("pendulum");
-  large.bodies.resize(20000, large.bodies.back());
+  large.bodies.resize(2000, large.bodies.back());
   std::vector<RunEvent> events(40, RunEvent{0, odd_ball(0)});
   EXPECT_FALSE(fits_link(events, large));
   events.resize(2);

@@ -1,6 +1,7 @@
 #include "app/cli/all_methods.hpp"
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -12,19 +13,13 @@
 
 namespace substep::cli {
 
-std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const Scene>& scene,
-                                                   double seconds, int jobs,
+std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const Scene>& scene,
+                                                   std::vector<Experiment> experiments, int jobs,
                                                    const std::atomic<bool>& cancelled) {
-  Experiment plain = experiment_of(*scene, scene->settings);
-  plain.duration = seconds;
-  ParallelSweep sweep{scene, {}, jobs, {}, {}, &cancelled};
+  ParallelSweep sweep{scene, std::move(experiments), jobs, {}, {}, &cancelled};
   std::map<std::string, std::size_t> order;
-  for (const SweepPoint& point : default_sweep(*scene)) {
-    if (point.load != 1.0) continue;
-    Experiment experiment = plain;
-    experiment.settings = point.settings;
-    const bool is_new = order.emplace(experiment_id(experiment), order.size()).second;
-    if (is_new) sweep.experiments.push_back(std::move(experiment));
+  for (const Experiment& experiment : sweep.experiments) {
+    order.emplace(experiment_id(experiment), order.size());
   }
   std::vector<Result> results(sweep.experiments.size());
   sweep.on_result = [&](const Result& result) {
@@ -39,6 +34,22 @@ std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const S
   const bool complete = run_sweep(sweep);
   progress.clear();
   return complete ? std::optional(std::move(results)) : std::nullopt;
+}
+
+std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const Scene>& scene,
+                                                   double seconds, int jobs,
+                                                   const std::atomic<bool>& cancelled) {
+  Experiment plain = experiment_of(*scene, scene->settings);
+  plain.duration = seconds;
+  std::vector<Experiment> experiments;
+  std::set<std::string> known;
+  for (const SweepPoint& point : default_sweep(*scene)) {
+    if (point.load != 1.0) continue;
+    Experiment experiment = plain;
+    experiment.settings = point.settings;
+    if (known.insert(experiment_id(experiment)).second) experiments.push_back(experiment);
+  }
+  return run_experiments(scene, std::move(experiments), jobs, cancelled);
 }
 
 }  // namespace substep::cli

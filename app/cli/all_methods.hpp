@@ -17,4 +17,10 @@ std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const S
                                                    double seconds, int jobs,
                                                    const std::atomic<bool>& cancelled);
 
+/// Runs these experiments of a scene, no two of them the same. @return results in their order,
+/// nothing where it was cancelled
+std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const Scene>& scene,
+                                                   std::vector<Experiment> experiments, int jobs,
+                                                   const std::atomic<bool>& cancelled);
+
 }  // namespace substep::cli

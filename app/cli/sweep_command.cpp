@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "app/cli/all_methods.hpp"
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/length_flags.hpp"
@@ -24,6 +25,7 @@
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
+#include "core/io/stored_sweep.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep::cli {
@@ -54,6 +56,7 @@ struct SweepOptions {
   std::string scene;
   std::string out;
   std::string shard;
+  std::string ship;
   int seeds = 1;
   int jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   bool list = false;
@@ -103,6 +106,17 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
                        left / 60, left % 60);
   }
   return {text, static_cast<std::size_t>(n)};
+}
+
+/// What scenes/sweeps has of a scene.
+int ship(const SweepOptions& options) {
+  const std::atomic<bool>& cancelled = cancel_on_signal();
+  const auto scene = load_scene(options.scene);
+  if (!scene) return kBadInput;
+  const auto results = run_experiments(scene, quick_sweep(*scene), options.jobs, cancelled);
+  if (!results) return kCancelled;
+  const std::string text = sweep_text(*results, results->front().reference);
+  return write_file(options.ship, text) ? kOk : kBadInput;
 }
 
 int sweep(const SweepOptions& options, const Shard& shard) {
@@ -203,6 +217,11 @@ void add_sweep(CLI::App& app, int& exit_code) {
       ->add_flag("--list", options->list,
                  "print the experiments, one JSON object a line, and run none")
       ->excludes(out);
+  command
+      ->add_option("--ship", options->ship,
+                   "write what the window shows before it runs anything: scenes/sweeps/SCENE.txt")
+      ->check(named())
+      ->excludes(out);
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   options->length.add_to(*command);
   options->settings.add_to(*command);
@@ -213,7 +232,9 @@ void add_sweep(CLI::App& app, int& exit_code) {
       "  substep sweep bridge --seconds 2 --iterations 50 --out bridge_50\n"
       "  parallel substep sweep bridge --out b --jobs 1 --shard {}/4 ::: 1 2 3 4; substep merge b");
   command->callback([options, &exit_code] {
-    exit_code = sweep(*options, parse_shard(options->shard).value_or(Shard{}));
+    exit_code = options->ship.empty()
+                    ? sweep(*options, parse_shard(options->shard).value_or(Shard{}))
+                    : ship(*options);
   });
 }
 

@@ -3,45 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
 
 #include "app/lab/frame_slices.hpp"
 #include "core/io/experiment.hpp"
+#include "scenes/generator/sweeps.hpp"
 
 namespace substep {
 namespace {
-
-/// The curves grow evenly when every fourth value comes first, then every second, then the rest;
-/// the map of loads comes last.
-constexpr int kMapRound = 3;
-int round_of(std::size_t along_curve) {
-  if (along_curve % 4 == 0) return 0;
-  return along_curve % 2 == 0 ? 1 : 2;
-}
-
-std::vector<Experiment> plan(const Scene& scene) {
-  struct Step {
-    int round;
-    Experiment experiment;
-  };
-  Experiment plain = experiment_of(scene, scene.settings);
-  // Beyond its window a motion cannot be foretold, and people wait.
-  plain.duration = predictable_window(scene, scene.criteria.duration);
-  std::vector<Step> steps;
-  std::map<std::string, std::size_t> along;
-  for (const SweepPoint& point : default_sweep(scene)) {
-    const int round =
-        point.load == 1.0 ? round_of(along[series_name(point.settings)]++) : kMapRound;
-    Step& step = steps.emplace_back(Step{round, plain});
-    step.experiment.settings = point.settings;
-    step.experiment.load = point.load;
-  }
-  std::stable_sort(steps.begin(), steps.end(),
-                   [](const Step& a, const Step& b) { return a.round < b.round; });
-  std::vector<Experiment> experiments;
-  for (Step& step : steps) experiments.push_back(std::move(step.experiment));
-  return experiments;
-}
 
 double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -52,8 +20,9 @@ double wall_clock() {
 void Accuracy::start(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   search_.reset();
+  shipped_.reset();
   paper_ = paper_settings(*scene_);
-  sweep_.emplace(scene_, plan(*scene_), kWindowBudget);
+  sweep_.emplace(scene_, quick_sweep(*scene_), kWindowBudget);
   cancelled_ = false;
   elapsed_ = 0.0;
   last_ = -1.0;
@@ -61,6 +30,29 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
   if (picture == AccuracyPicture::kStabilityMap && !has_map()) {
     picture = AccuracyPicture::kErrorAgainstCost;
   }
+}
+
+bool Accuracy::show_shipped(const std::shared_ptr<const Scene>& scene, bool asked) {
+  if (shipped_ && scene_ == scene) return true;
+  if (running() || (sweep_ && !asked) || (looked_up_ == scene && !asked)) return false;
+  looked_up_ = scene;
+  auto stored = read_sweep(scenes::sweep_of(scene->name), *scene);
+  if (!stored) return false;
+  scene_ = scene;
+  search_.reset();
+  sweep_.reset();
+  cancelled_ = false;
+  shipped_ = std::move(stored);
+  shipped_plan_.clear();
+  for (const Result& result : shipped_->results) shipped_plan_.push_back(result.experiment);
+  error = first_axis(*scene);
+  cost = CostAxis::kOperations;
+  if (const auto& recommended = scene->recommended) {
+    error = recommended->of;
+    wanted.at(static_cast<std::size_t>(error)) = recommended->within;
+  }
+  look_at_what_there_is();
+  return true;
 }
 
 void Accuracy::cancel() { cancelled_ = true; }
@@ -112,11 +104,13 @@ double Accuracy::seconds_left() const {
 
 const std::vector<Result>& Accuracy::results() const {
   static const std::vector<Result> none;
+  if (shipped_) return shipped_->results;
   return sweep_ ? sweep_->results() : none;
 }
 
 const std::vector<Experiment>& Accuracy::experiments() const {
   static const std::vector<Experiment> none;
+  if (shipped_) return shipped_plan_;
   return sweep_ ? sweep_->experiments() : none;
 }
 
@@ -125,9 +119,18 @@ bool Accuracy::has_map() const {
                      [](const Experiment& e) { return e.load != 1.0; });
 }
 
-const Reference* Accuracy::reference() const { return sweep_ ? sweep_->reference() : nullptr; }
+const ReferenceSummary* Accuracy::reference() const {
+  if (shipped_) return &shipped_->reference;
+  return sweep_ ? sweep_->reference() : nullptr;
+}
 
-std::vector<Accuracy::Point> Accuracy::points() const { return run_points(results(), error, cost); }
+double Accuracy::floor() const {
+  return error == ErrorAxis::kTrajectory && reference() != nullptr ? reference()->uncertainty : 0.0;
+}
+
+std::vector<Accuracy::Point> Accuracy::points() const {
+  return run_points(results(), error, cost, floor());
+}
 
 std::optional<Accuracy::Point> Accuracy::best(const std::vector<Point>& points) const {
   return error_is_given ? cheapest_within(points, limit().most)
@@ -144,10 +147,11 @@ void Accuracy::search_alpha() {
   searched_for_ = limit();
   Experiment paper = experiment_of(*scene_, paper_);
   paper.duration = experiments().front().duration;
-  search_.emplace(error_is_given ? AlphaSearch::largest_within(scene_, paper, *reference(), error,
-                                                               searched_for_.most, kWindowBudget)
-                                 : AlphaSearch::smallest_within(scene_, paper, *reference(), cost,
-                                                                searched_for_.most, kWindowBudget));
+  search_.emplace(error_is_given
+                      ? AlphaSearch::largest_within(scene_, paper, *sweep_->reference(), error,
+                                                    searched_for_.most, kWindowBudget)
+                      : AlphaSearch::smallest_within(scene_, paper, *sweep_->reference(), cost,
+                                                     searched_for_.most, kWindowBudget));
 }
 
 const AlphaSearch* Accuracy::alpha_search() const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/lab/effect_costs.hpp"
+#include "core/io/stored_sweep.hpp"
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"
@@ -26,6 +27,11 @@ class Accuracy {
 
   /// Sweeps this scene; what was there before is forgotten.
   void start(std::shared_ptr<const Scene> scene);
+  /// Shows the sweep that is shipped with this scene, where there is one: at once, without times.
+  /// What a sweep found by running stays, unless it is asked for. @return whether it is shown
+  bool show_shipped(const std::shared_ptr<const Scene>& scene, bool asked = false);
+  /// Whether the results were shipped with the scene.
+  [[nodiscard]] bool shipped() const { return shipped_.has_value(); }
   /// The results are of this scene, which moves as theirs does: it is the same by another name.
   void is_of(std::shared_ptr<const Scene> scene) { scene_ = std::move(scene); }
   /// Stops within the frame. The results so far stay.
@@ -54,16 +60,21 @@ class Accuracy {
   /// Whether the heaviest body's mass is varied: bodies of one mass have no map.
   [[nodiscard]] bool has_map() const;
   /// Null until it is found.
-  [[nodiscard]] const Reference* reference() const;
+  [[nodiscard]] const ReferenceSummary* reference() const;
+  /// Errors below this are not measured: the uncertainty of the reference, of paths [m].
+  [[nodiscard]] double floor() const;
 
-  /// Runs of the scene as it stands that hold, with a positive error, by the axes.
+  /// Runs of the scene as it stands that hold, with a positive error, by the axes; where it is
+  /// below the floor, at the floor.
   [[nodiscard]] std::vector<Point> points() const;
   /// What comes up to what is wanted: the cheapest within the error, or the most exact within the
   /// cost. Nothing does where it is empty.
   [[nodiscard]] std::optional<Point> best(const std::vector<Point>& points) const;
   /// Looks for the alpha of the paper's method that comes up to what is wanted, between the values
-  /// of its curve and with as many sub-steps at most. For a scene whose reference is found.
+  /// of its curve and with as many sub-steps at most. Where can_search().
   void search_alpha();
+  /// Whether the reference is there, frame by frame: after a sweep that ran.
+  [[nodiscard]] bool can_search() const { return sweep_ && sweep_->reference() != nullptr; }
   void cancel_search() { search_.reset(); }
   /// The search for what is wanted as it is now, or null. It waits while something else is wanted.
   [[nodiscard]] const AlphaSearch* alpha_search() const;
@@ -79,6 +90,7 @@ class Accuracy {
   EffectCosts effects;
 
   AccuracyPicture picture = AccuracyPicture::kErrorAgainstCost;
+  bool all_methods = false;               // every curve in its colour, not only the headline ones
   CostAxis cost = CostAxis::kOperations;  // a sub-step is not the same work with every method
   ErrorAxis error = ErrorAxis::kTrajectory;
   /// Whether an error is given and the least cost is looked for, or the other way around.
@@ -102,6 +114,9 @@ class Accuracy {
 
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;
+  std::optional<StoredSweep> shipped_;      // in its place
+  std::shared_ptr<const Scene> looked_up_;  // last, for what is shipped with it
+  std::vector<Experiment> shipped_plan_;
   Settings paper_;                     // of the sweep's curve, without its alpha
   std::optional<AlphaSearch> search_;  // goes by the reference of the sweep
   Limit searched_for_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "app/text/command.hpp"
+#include "app/text/event_text.hpp"
 #include "app/text/link.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
@@ -193,30 +194,46 @@ const Poses& Lab::poses_in(std::size_t pane) const {
   return pane == 0 ? session.poses() : compare.runs()[pane - 1].poses;
 }
 
+const Scene& Lab::edited_scene() const {
+  return session.edition() != nullptr ? *session.edition()->start : *plain_scene;
+}
+
 std::string Lab::command() const {
+  const Scene& scene = edited_scene();
   const std::int64_t since = session.edition() != nullptr ? session.edition()->frame : 0;
-  std::string command = make_command(link_scene(), session.settings(),
-                                     session.state().frame - since, is_own(link_scene()));
+  std::string command =
+      make_command(scene, session.settings(), session.state().frame - since, is_own(scene));
   if (session.edition() != nullptr) return command;  // its bodies have load and seed already
   if (load != 1.0) command += " --load " + number_text(load);
   if (seed != 0) command += " --seed " + std::to_string(seed);
   return command;
 }
 
+std::string Lab::events_in_link() const {
+  if (session.log().empty()) return "";
+  const auto events = session.log().events();
+  if (!events || !fits_link(*events, session.loaded())) return "";
+  std::string text = events_text(*events, session.log().start());
+  return text.size() <= kMostEventText ? text : "";
+}
+
 const Scene& Lab::link_scene() const {
   // Without load and seed, which stand beside it: they would act twice.
-  return session.edition() != nullptr ? *session.edition()->start : *plain_scene;
+  return events_in_link().empty() ? edited_scene() : *plain_scene;
 }
 
 std::string Lab::link() const {
+  const std::string events = events_in_link();
+  const bool edited = events.empty() && session.edition() != nullptr;
   Experiment experiment;
-  experiment.settings = session.settings();
+  experiment.settings = events.empty() ? session.settings() : session.log().start();
   experiment.duration = session.scene().criteria.duration;
-  if (session.edition() == nullptr) {  // else its bodies have them already
+  if (!edited) {  // else its bodies have them already
     experiment.load = load;
     experiment.seed = seed;
   }
-  std::string link = make_link(link_scene(), experiment);
+  std::string link = make_link(edited ? edited_scene() : *plain_scene, experiment);
+  if (!events.empty()) link += "&events=" + events;
   if (compare.open()) {
     std::vector<Overrides> runs;
     for (const Compare::Run& run : compare.runs()) runs.push_back(run.overrides);

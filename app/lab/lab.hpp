@@ -70,8 +70,8 @@ struct Lab {
 
   /// The experiment as the fragment of an address.
   [[nodiscard]] std::string link() const;
-  /// The scene that a link starts from: the loaded one, or, where it was edited since (a ball
-  /// thrown, an effect switched off), the scene as it stood at the last edit.
+  /// The scene that a link starts from: the loaded one, with what was done to it as events; where
+  /// those are too many, the scene as it stood when it was last edited.
   [[nodiscard]] const Scene& link_scene() const;
   /// What to type for the same run on the command line.
   [[nodiscard]] std::string command() const;
@@ -99,6 +99,12 @@ struct Lab {
   int run_count = 0;      // resets and loads
   /// Called after the run began anew. @param loaded with another scene
   std::function<void(bool loaded)> restarted;
+
+ private:
+  /// The scene as it stood when it was last edited (a ball thrown, an effect switched off), else
+  /// the loaded one.
+  [[nodiscard]] const Scene& edited_scene() const;
+  [[nodiscard]] std::string events_in_link() const;
 };
 
 }  // namespace substep

@@ -35,6 +35,7 @@ Session::Session(std::shared_ptr<const Scene> scene, std::size_t past_bytes)
 void Session::load(std::shared_ptr<const Scene> scene) {
   loaded_ = std::move(scene);
   scene_ = loaded_;
+  log_.forget();
   make_simulator();
   ++generation_;
   restart();
@@ -58,13 +59,13 @@ void Session::reset() {
 
 void Session::restart() {
   hand_.reset();
+  if (const Settings* scripted = log_.restart(settings())) use_settings(*scripted);
   one_frame_ = just_failed_ = false;
   report_ = simulator_->observe();
   forces_ = {};
   verdict_ = std::make_unique<Verdict>(*scene_, state(), report_);
   history_.start(report_, scene_->frame);
   timeline_.start(moment());
-  thrown_ = 0;
   editions_.clear();
   trail_.clear();
   extend_trail();
@@ -111,17 +112,8 @@ void Session::hold() {
 void Session::set_settings(const Settings& settings) {
   slices_.drop(*simulator_);
   if (settings != this->settings()) slices_.forget();
+  log_.choose(settings);
   simulator_->set_settings(settings);
-}
-
-void Session::grab(int body, const Vec3& anchor, const Vec3& target) {
-  forget_future();
-  hand_ = Grab{body, anchor, target, joined_mass(*scene_, body)};
-  verdict_->disturb(state().time);
-}
-
-void Session::pull_to(const Vec3& target) {
-  if (hand_) hand_->target = target;
 }
 
 // Another scene from the present frame on: the run is no longer that of the one loaded.
@@ -147,26 +139,6 @@ const Session::Edition* Session::edition() const {
     if (edition.of == scene_) return &edition;
   }
   return nullptr;
-}
-
-void Session::throw_ball(const Ball& ball) {
-  come_between_frames();
-  if (stopped()) return;
-  const std::size_t slot =
-      loaded_->bodies.size() + static_cast<std::size_t>(thrown_++ % Ball::kMost);
-  go_on_in(with_ball(*scene_, ball, slot),
-           [ball, slot](State state) { return with_ball(std::move(state), ball, slot); });
-}
-
-void Session::set_effects(const Effects& effects) {
-  come_between_frames();
-  if (stopped() || effects == scene_->effects) return;
-  Scene scene = *scene_;
-  scene.effects = effects;
-  go_on_in(std::move(scene), [](State state) {
-    state.rest.clear();  // what rests may fall without them
-    return state;
-  });
 }
 
 void Session::extend_trail() {
@@ -199,11 +171,6 @@ void Session::come_between_frames() {
   } else {
     simulator_->set_state(substeps_from_);
   }
-}
-
-void Session::begin_frame() {
-  forget_future();
-  simulator_->set_grab(hand_);
 }
 
 void Session::take_frame() {
@@ -266,8 +233,9 @@ void Session::request_step() {
 void Session::substep() {
   if (stopped()) return;
   pause();
-  if (substeps_left() == 0) substeps_from_ = state();
+  const bool first = substeps_left() == 0;
   begin_frame();
+  if (first) substeps_from_ = state();
   report_ = simulator_->substep();
   if (substeps_left() == 0) {
     end_frame();

@@ -10,6 +10,7 @@
 #include "app/lab/ball.hpp"
 #include "app/lab/frame_slices.hpp"
 #include "app/lab/history.hpp"
+#include "app/lab/run_events.hpp"
 #include "app/lab/timeline.hpp"
 #include "core/lab/verdict.hpp"
 #include "core/model/scene.hpp"
@@ -75,6 +76,9 @@ class Session {
   void let_go() { hand_.reset(); }
   [[nodiscard]] const std::optional<Grab>& held() const { return hand_; }
   void throw_ball(const Ball& ball);
+  /// From its next reset on the run follows these events, those of a link.
+  void follow(std::vector<RunEvent> script);
+  [[nodiscard]] const EventLog& log() const { return log_; }
   /// Goes on with some of the scene's effects switched off, or on again.
   void set_effects(const Effects& effects);
   /// The scene as it was loaded; scene() differs where a hand was in it.
@@ -154,6 +158,11 @@ class Session {
   void make_simulator();
   void use_scene(std::shared_ptr<const Scene> scene);
   void go_on_in(Scene scene, std::function<State(State)> carry);
+  void put_ball(const Ball& ball);
+  void put_effects(const Effects& effects);
+  void use_settings(const Settings& settings);
+  void hold_body(const std::optional<Pull>& pull);
+  void act(const RunEvent& event);
   bool step_in_past();
   void begin_frame();
   void take_frame();
@@ -180,6 +189,7 @@ class Session {
   State substeps_from_;       // where the frame of single sub-steps began
   bool one_frame_ = false;    // is all that is to be taken
   std::optional<Grab> hand_;  // acts from the next frame on
+  EventLog log_;
   Poses previous_;
   Poses poses_;
   std::deque<Vec3> trail_;
@@ -190,7 +200,6 @@ class Session {
   bool playing_ = false;
   bool resumes_ = false;  // it played until hold()
   bool just_failed_ = false;
-  int thrown_ = 0;  // balls since the scene was loaded
   int generation_ = 0;
 };
 

@@ -16,6 +16,9 @@ void Session::go_to(std::size_t index) {
   report_ = m.report;
   forces_ = m.forces;
   *verdict_ = m.verdict;
+  log_.go_to(m.state.frame);
+  if (log_.following()) hold_body(log_.hand());
+  if (const Settings* scripted = log_.scripted()) use_settings(*scripted);
   trail_.clear();
   if (scene_->criteria.track) {
     const auto tracked = static_cast<std::size_t>(*scene_->criteria.track);
@@ -42,6 +45,7 @@ void Session::go_to_last_good(double seconds) {
 
 // Continuing from a past moment discards the later frames.
 void Session::forget_future() {
+  log_.forget_future();
   if (timeline_.at_end()) return;
   timeline_.cut();
   history_.cut(timeline_.now().state.time);

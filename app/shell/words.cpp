@@ -9,6 +9,7 @@
 
 #include "app/app.hpp"
 #include "app/shell/level.hpp"
+#include "app/text/event_text.hpp"
 #include "app/text/format.hpp"
 #include "app/text/link.hpp"
 #include "app/text/tour.hpp"
@@ -148,7 +149,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
     accuracy.cancel_search();
     accuracy.effects.cancel();
   } else if (value == "alpha") {
-    if (accuracy.reference() == nullptr) {
+    if (!accuracy.can_search()) {
       return "'alpha' searches beside a sweep that has found its reference: set accuracy=run "
              "first";
     }
@@ -183,6 +184,14 @@ std::string App::set(std::string_view key, std::string_view value) {
   if (key == "accuracy") {
     desk.level = DeskLevel::kLab;
     return set_accuracy(*this, value);
+  }
+  if (key == "events") {
+    std::string problem;
+    auto events = read_events(value, *session.loaded_scene(), session.settings(), problem);
+    if (!problem.empty()) return problem;
+    session.follow(std::move(events));
+    reset();
+    return "";
   }
   if (key == "compare") {
     std::string problem;
@@ -233,6 +242,9 @@ void App::open_link(std::string_view fragment, std::optional<SceneResult> own) {
   // The scene first: it brings settings of its own, which the others then change.
   auto parts = parse_link(fragment);
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
+  // What was done in the run last: it belongs to the start that the others choose.
+  std::stable_partition(parts.begin(), parts.end(),
+                        [](const auto& p) { return p.key != "events"; });
   // The level last: other keys lead to the Lab where they need it, and it has the last word.
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key != "level"; });
   if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/text/format.hpp"
+#include "app/ui/accuracy_curves.hpp"
 #include "app/ui/accuracy_picture.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/panels.hpp"
@@ -23,19 +25,21 @@ constexpr std::array<Choice, static_cast<std::size_t>(CostAxis::kCount)> kCosts{
      {"Operations", "Of the solver, counted, per frame: the same on every machine"},
      {"Time", "Median of a frame on this machine, while everything else runs"}}};
 
-/// A button to start or to stop, and how far it is.
-void sweep_bar(const Look& look, Lab& lab) {
-  Accuracy& accuracy = lab.accuracy;
-  const float width = ImGui::GetContentRegionAvail().x;
-  if (!accuracy.running()) {
-    const bool again = !accuracy.results().empty();
-    if (button(look, "sweep", Icon::kPlay, again ? "Run it again" : "Run all methods",
-               again ? ButtonKind::kPlain : ButtonKind::kPrimary, width, look.m.row + 4.0F,
-               "Every method over this scene from its start, in the background")) {
-      accuracy.start(lab.plain_scene);
-    }
-    return;
+/// A button to start.
+bool sweep_button(const Look& look, Lab& lab, float width) {
+  const bool again = !lab.accuracy.results().empty();
+  if (!button(look, "sweep", Icon::kPlay, again ? "Run again" : "Run all methods",
+              again ? ButtonKind::kPlain : ButtonKind::kPrimary, width, look.m.row,
+              "Every method over this scene from its start, in the background, with the times of "
+              "this machine")) {
+    return false;
   }
+  lab.accuracy.start(lab.plain_scene);
+  return true;
+}
+
+void sweep_progress(const Look& look, Accuracy& accuracy) {
+  if (!accuracy.running()) return;
   if (progress(look, accuracy.progress(), "The results so far stay")) accuracy.cancel();
 }
 
@@ -45,6 +49,11 @@ std::string state_text(const Accuracy& accuracy) {
                                     [](const Result& r) { return !r.metrics.holds; });
   std::string text = std::to_string(results.size()) + " of " + std::to_string(accuracy.planned()) +
                      " runs, " + std::to_string(failed) + " failed";
+  if (accuracy.shipped()) {
+    return std::to_string(results.size()) + " runs of " +
+           plain_number(results.front().experiment.duration) + " s, " + std::to_string(failed) +
+           " failed. Computed in advance: run again to measure times.";
+  }
   if (accuracy.running() && accuracy.effects.running()) return text + ", waits for the stages";
   if (accuracy.running() && accuracy.reference() == nullptr) return "Finding the reference …";
   if (accuracy.cancelled()) return text + ", cancelled";
@@ -69,7 +78,9 @@ void axes_row(const Look& look, Accuracy& accuracy) {
     accuracy.error = axes[static_cast<std::size_t>(current)];
   }
   int cost = static_cast<int>(accuracy.cost);
-  if (segmented_row(look, "Cost", kCosts, cost, "What goes to the right")) {
+  const std::span<const Choice> costs(kCosts);  // the last is the time, which no file can know
+  if (segmented_row(look, "Cost", accuracy.shipped() ? costs.first(2) : costs, cost,
+                    "What goes to the right")) {
     accuracy.cost = static_cast<CostAxis>(cost);
   }
 }
@@ -107,6 +118,57 @@ void picture(const Look& look, Lab& lab, ImVec2 size) {
   if (const auto chosen = accuracy_picture(look, lab.accuracy, lab.session.settings(), size)) {
     lab.run_result(lab.accuracy.results()[*chosen]);
   }
+}
+
+/// Where the picture is of a scene that does not run.
+void other_scene(const Look& look, Lab& lab) {
+  if (lab.accuracy.scene() == lab.plain_scene) return;
+  label(look.fonts.small, look.theme->dim, "The picture below is of another scene.");
+  if (!is_own(*lab.plain_scene) && !lab.accuracy.running() &&
+      button(look, "this scene", Icon::kNone, "Show this scene", ButtonKind::kGhost, 0.0F,
+             look.m.row, "What was computed in advance for the scene that runs")) {
+    lab.accuracy.show_shipped(lab.plain_scene, true);
+  }
+  space(8.0F);
+}
+
+/// What belongs to the picture: which curves, how large, and to compute it here.
+void picture_buttons(const Look& look, Lab& lab, Desk& desk) {
+  Accuracy& accuracy = lab.accuracy;
+  if (!shows_map(accuracy)) {
+    toggle(look, "All methods", accuracy.all_methods, 0, true,
+           "Every curve in its colour, with the list of their names");
+  }
+  if (ImGui::GetIO().DisplaySize.x >= 900.0F) {
+    if (!shows_map(accuracy)) ImGui::SameLine(0.0F, 6.0F);
+    if (button(look, "larger", desk.accuracy_large ? Icon::kNone : Icon::kFrame,
+               desk.accuracy_large ? "Dock" : "Larger", ButtonKind::kGhost, 0.0F, look.m.row,
+               "The picture over the view")) {
+      desk.accuracy_large = !desk.accuracy_large;
+    }
+  }
+  label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
+  if (!accuracy.running()) sweep_button(look, lab, 0.0F);
+}
+
+void map_note(const Look& look, const Accuracy& accuracy) {
+  label(look.fonts.small, look.theme->dim,
+        ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
+         "cell tells when the run fails, in seconds, the paler the later; blue ones with a tick "
+         "are stable for all " +
+         plain_number(accuracy.experiments().front().duration) + " s.")
+            .c_str());
+}
+
+void error_note(const Look& look, const Accuracy& accuracy) {
+  const ReferenceSummary* reference = accuracy.reference();
+  if (reference == nullptr) return;
+  label(look.fonts.small, look.theme->dim,
+        ("Measured from: " + reference->source + ", uncertain by " +
+         coarse_number(reference->uncertainty) + " m, over " + plain_number(reference->window) +
+         " s. The band is the Pareto front. Point at a grey curve for its name.")
+            .c_str());
+  space(8.0F);
 }
 
 /// Who is who, and how many of each hold, by solver and integrator.
@@ -165,6 +227,7 @@ void picture_legend(const Look& look, const Accuracy& accuracy) {
 
 void accuracy(const Look& look, Lab& lab, Desk& desk) {
   Accuracy& accuracy = lab.accuracy;
+  accuracy.show_shipped(lab.plain_scene);
   section(look, "What does accuracy cost?");
   picture_row(look, lab.accuracy);
   // Beside the errors it is where the search was asked for.
@@ -172,50 +235,36 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {
     if (accuracy.running()) {  // it goes on beside what this shows
       label(look.fonts.small, look.theme->dim, ("All methods. " + state_text(accuracy)).c_str());
-      sweep_bar(look, lab);
+      sweep_progress(look, accuracy);
     }
     effect_costs(look, lab);
     return;
   }
-  const bool other = accuracy.scene() && accuracy.scene() != lab.plain_scene;
-  if (accuracy.planned() == 0 || other) {
+  if (accuracy.planned() == 0) {
     label(look.fonts.small, look.theme->dim,
-          other ? "The picture below is of another scene."
-                : "Error against cost for every method. Updates live; click a point to run it.");
+          "Error against cost for every method. Updates live; click a point to run it.");
     space(8.0F);
-  }
-  sweep_bar(look, lab);
-  if (accuracy.planned() == 0) return;
-  label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
-  space(8.0F);
-  if (!shows_map(accuracy)) axes_row(look, lab.accuracy);
-  const float width = ImGui::GetContentRegionAvail().x;
-  if (!desk.accuracy_large) picture(look, lab, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
-  if (ImGui::GetIO().DisplaySize.x >= 900.0F &&
-      button(look, "larger", desk.accuracy_large ? Icon::kNone : Icon::kFrame,
-             desk.accuracy_large ? "Dock" : "Larger", ButtonKind::kGhost, 0.0F, look.m.row,
-             "The picture over the view")) {
-    desk.accuracy_large = !desk.accuracy_large;
-  }
-  if (shows_map(accuracy)) {
-    label(look.fonts.small, look.theme->dim,
-          ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
-           "cell tells when the run fails, in seconds, the paler the later; blue ones with a tick "
-           "are stable for all " +
-           plain_number(accuracy.experiments().front().duration) + " s.")
-              .c_str());
+    sweep_button(look, lab, ImGui::GetContentRegionAvail().x);
     return;
   }
-  advice(look, lab);
-  if (const Reference* reference = accuracy.reference()) {
-    label(look.fonts.small, look.theme->dim,
-          ("Measured from: " + reference->source + ", uncertain by " +
-           coarse_number(reference->uncertainty) + " m, over " + plain_number(reference->window) +
-           " s. The band is the Pareto front.")
-              .c_str());
+  other_scene(look, lab);
+  sweep_progress(look, accuracy);
+  if (!shows_map(accuracy)) {
+    label(look.fonts.regular, look.theme->text, conclusion(accuracy, accuracy.points()).c_str());
+    space(6.0F);
+    axes_row(look, lab.accuracy);
+  }
+  const float width = ImGui::GetContentRegionAvail().x;
+  if (!desk.accuracy_large) picture(look, lab, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
+  picture_buttons(look, lab, desk);
+  if (shows_map(accuracy)) {
+    map_note(look, accuracy);
+    return;
   }
   space(8.0F);
-  picture_legend(look, lab.accuracy);
+  advice(look, lab);
+  error_note(look, accuracy);
+  if (accuracy.all_methods) picture_legend(look, lab.accuracy);
 }
 
 void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport& viewport) {

@@ -7,30 +7,12 @@
 #include <vector>
 
 #include "app/text/format.hpp"
-#include "app/ui/curve_style.hpp"
+#include "app/ui/accuracy_curves.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
 namespace {
-
-/// "0.82 mm", "3.1 J"
-std::string error_text(double error, ErrorAxis axis) {
-  const Unit unit = unit_for(error);
-  return coarse_number(error / unit.factor) + " " + unit.prefix +
-         (axis == ErrorAxis::kEnergy ? "J" : "m");
-}
-
-std::string cost_text(double cost, CostAxis axis) {
-  switch (axis) {
-    case CostAxis::kSubsteps:
-      return short_number(cost) + " sub-steps per frame";
-    case CostAxis::kOperations:
-      return short_number(cost) + " operations per frame";
-    default:
-      return duration(1e-3 * cost) + " per frame";
-  }
-}
 
 constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting that keeps within it"},
                                         {"a cost", "The most exact setting that keeps within it"}}};
@@ -95,7 +77,7 @@ void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
   Accuracy& accuracy = lab.accuracy;
   const AlphaSearch* search = accuracy.alpha_search();
   if (!search) {
-    if (accuracy.reference() != nullptr &&
+    if (accuracy.can_search() &&
         button(look, "find_alpha", Icon::kNone, "Find the paper's alpha", ButtonKind::kGhost, 0.0F,
                look.m.row,
                "Between the values of its curve: by halving, each try a whole run of the scene")) {

@@ -9,26 +9,6 @@
 namespace substep::ui {
 namespace {
 
-ImU32 color_of(const Theme& theme, Tint tint) {
-  switch (tint) {
-    case Tint::kBlue:
-      return theme.blue;
-    case Tint::kOrange:
-      return theme.orange;
-    case Tint::kTeal:
-      return theme.teal;
-    case Tint::kAmber:
-      return theme.amber;
-    case Tint::kPurple:
-      return theme.purple;
-    case Tint::kText:
-      return theme.text;
-    case Tint::kDim:
-      return theme.dim;
-  }
-  return theme.text;
-}
-
 /// By the mode, and by what decides N in it.
 void style_of_mode(const Theme& theme, const Settings& s, CurveStyle& style) {
   const ModeEntry& mode = entry_of(s.mode);
@@ -109,6 +89,26 @@ void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
 }
 
 }  // namespace
+
+ImU32 color_of(const Theme& theme, Tint tint) {
+  switch (tint) {
+    case Tint::kBlue:
+      return theme.blue;
+    case Tint::kOrange:
+      return theme.orange;
+    case Tint::kTeal:
+      return theme.teal;
+    case Tint::kAmber:
+      return theme.amber;
+    case Tint::kPurple:
+      return theme.purple;
+    case Tint::kText:
+      return theme.text;
+    case Tint::kDim:
+      return theme.dim;
+  }
+  return theme.text;
+}
 
 CurveStyle curve_style(const Theme& theme, const Settings& s) {
   CurveStyle style;

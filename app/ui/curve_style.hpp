@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/ui/look.hpp"
+#include "core/model/methods.hpp"
 #include "core/model/settings.hpp"
 
 namespace substep::ui {
@@ -22,6 +23,7 @@ struct CurveStyle {
   [[nodiscard]] std::string name() const { return family + ", " + own_name; }
 };
 CurveStyle curve_style(const Theme& theme, const Settings& settings);
+ImU32 color_of(const Theme& theme, Tint tint);
 
 /// Line and point of a curve, as they stand before its name.
 void draw_swatch(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 centre);

@@ -53,14 +53,15 @@ std::string reason(std::span<const RunPoint> points, std::span<const Result> res
 
 }  // namespace
 
-std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost) {
+std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost,
+                                 double floor) {
   std::vector<RunPoint> points;
   for (std::size_t i = 0; i < results.size(); ++i) {
     if (results[i].experiment.load != 1.0) continue;  // on the map
     const auto value = error_of(results[i], error);
     const double price = cost_of(results[i], cost);
     if (!value || !(*value > 0.0) || !(price > 0.0)) continue;
-    points.push_back({{price, *value}, i});
+    points.push_back({{price, std::max(*value, floor)}, i});
   }
   const std::vector<bool> front = pareto_front(values_of(points));
   for (std::size_t i = 0; i < points.size(); ++i) points[i].front = front[i];

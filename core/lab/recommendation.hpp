@@ -19,7 +19,9 @@ struct RunPoint : CostAndError {
 };
 
 /// The runs of the scene as it stands that hold, with a positive error and cost.
-std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost);
+/// @param floor errors below it are not measured, and count as this
+std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost,
+                                 double floor = 0.0);
 
 /// The cheapest whose error is no more than this, and the other way around.
 std::optional<RunPoint> cheapest_within(std::span<const RunPoint> points, double error);

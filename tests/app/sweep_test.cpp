@@ -55,6 +55,13 @@ void skip_without(const char* what) {
 constexpr const char* kCharts = "the chart library: npm ci --prefix app/report, then build";
 constexpr const char* kParallel = "GNU Parallel";
 
+// The whole of one: of the others a sample is computed where they are shown.
+TEST(SweepCommand, ShipsWhatIsInTheFolderOfScenes) {
+  const fs::path out = fresh("free_fall.txt");
+  ASSERT_EQ(substep("sweep free_fall --ship " + out.string()).exit_code, 0);
+  EXPECT_EQ(text_of(out), text_of(fs::path(SUBSTEP_SOURCE_DIR) / "scenes/sweeps/free_fall.txt"));
+}
+
 TEST(SweepCommand, WritesOneResultALineAndAReport) {
   const fs::path out = fresh("sweep");
   const Outcome sweep = substep("sweep pendulum --seconds 0.5 --out " + out.string());

@@ -1,8 +1,9 @@
 // A text as the fragment of an address: the experiment that is read is written as a link that is
-// read to the same experiment.
+// read to the same experiment, and so are the events of its run.
 
 #include <memory>
 
+#include "app/text/event_text.hpp"
 #include "app/text/link.hpp"
 #include "core/io/experiment.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -30,10 +31,29 @@ void read_and_write_experiment(const std::string& fragment) {
           "a link that was made is the same experiment");
 }
 
+void read_and_write_events(const std::string& fragment) {
+  const auto scene = find("pendulum");
+  for (const LinkPart& part : parse_link(fragment)) {
+    if (part.key != "events") continue;
+    std::string problem;
+    const auto events = read_events(part.value, *scene, scene->settings, problem);
+    require(problem.empty() || events.empty(), "either events or a problem");
+    if (!problem.empty()) continue;
+    const std::string text = events_text(events, scene->settings);
+    require(text.size() <= 2 * kMostEventText, "what was read takes little room");
+    if (text.size() > kMostEventText) continue;
+    const auto again = read_events(text, *scene, scene->settings, problem);
+    require(problem.empty(), "events that were written can be read");
+    require(events_text(again, scene->settings) == text, "they are the same events");
+  }
+}
+
 }  // namespace
 }  // namespace substep::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  substep::fuzz::read_and_write_experiment(substep::fuzz::text_of(data, size));
+  const std::string fragment = substep::fuzz::text_of(data, size);
+  substep::fuzz::read_and_write_experiment(fragment);
+  substep::fuzz::read_and_write_events(fragment);
   return 0;
 }

@@ -100,6 +100,31 @@ test("holds a scene of one's own, and another browser runs it", async () => {
   await other.context().close();
 });
 
+test("holds thrown balls in little room, and another browser throws them again", async () => {
+  const page = await openPage(session);
+  await call(page, "pause");
+  await call(page, "reset");
+  await page.mouse.move(620, 300);
+  for (let i = 0; i < 20; ++i) {
+    await call(page, "step", 3);
+    await page.keyboard.press("b");
+    await drawn(page);
+  }
+  await call(page, "step", 30);
+  await page.waitForURL(/events=/);
+  const link = await call(page, "link");
+  assert.ok(link.length < 2000, `${link.length} letters`);
+  const frame = Math.round((await call(page, "report")).time * 60);
+  const other = await openPage(session, { fragment: link.slice(link.indexOf("#") + 1) });
+  await call(other, "pause");
+  await call(other, "reset");
+  await call(other, "step", frame);
+  assert.equal(await call(other, "hash"), await call(page, "hash"));
+  quiet(other);
+  await page.context().close();
+  await other.context().close();
+});
+
 test("that cannot be read is told, and the page runs", async () => {
   const broken = ["mode=warp&alpha=7&%zz&=&scene=%00", "scene=no_such_scene", "scene64=AAAA",
     "scene64=%%%", "scene64=", "&&&", `scene64=${"A".repeat(5000)}`, "alpha=1e999&n=-3&solver="];

@@ -52,7 +52,7 @@ const heavySettings = [
 /** One that may run, and takes long. */
 const heavyRun = "solver=pgs&iterations=400&mode=const&n=10000";
 
-/** 50 fragments, each with what it is. */
+/** Fragments, each with what it is. */
 async function links() {
   const zeros = (size) => pack(`{"a": "${"0".repeat(size)}"}`);
   const list = [];
@@ -74,6 +74,10 @@ async function links() {
   list.push(["a megabyte of percent signs", `scene=${"%00".repeat(350000)}`]);
   list.push(["compare of 10,000", `scene=bridge&compare=${"mode:none;".repeat(10000)}`]);
   list.push(["a compared run that is heavy", `scene=bridge&compare=${heavySettings[0].replaceAll("=", ":").replaceAll("&", ",")}`]);
+  const toggles = Buffer.from([1, ...Array.from({ length: 150 }, (_, i) => [1, i % 2 ? 0x7f : 0]).flat()]);
+  list.push(["150 effects switched before a frame", `scene=wall&events=${toggles.toString("base64url")}`]);
+  list.push(["events of noise", `scene=bridge&events=${"AQqz-_".repeat(1300)}`]);
+  list.push(["a megabyte of events", `scene=bridge&events=${"AAAA".repeat(250000)}`]);
   list.push(["an end that never comes", "scene=bridge&seconds=1e308&speed=1e308&load=1e308&seed=1e308"]);
   return list;
 }

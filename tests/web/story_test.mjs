@@ -31,7 +31,7 @@ test("none tears, adaptive holds, alpha changes N, the link is copied", async ()
   assert.deepEqual([report.mode, report.verdict], ["adaptive", "holds"]);
   assert.ok(report.playing, "it goes on");
   await click(page, "What does accuracy cost?");
-  await offered(page, "Run all methods");
+  await offered(page, "Run again"); // the picture is there at once
   await pick(page, "Copy link");
   await drawn(page);
   const link = await page.evaluate(() => navigator.clipboard.readText());

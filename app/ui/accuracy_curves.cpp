@@ -1,0 +1,192 @@
+#include "app/ui/accuracy_curves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <optional>
+
+#include "app/text/format.hpp"
+#include "core/model/methods.hpp"
+
+namespace substep::ui {
+namespace {
+
+using Point = Accuracy::Point;
+
+constexpr std::size_t kHeadlines = 5;
+
+/// A headline curve: its name is short, since it stands in the picture.
+struct Kind {
+  const char* name;
+  SolverKind solver;
+  Mode mode;
+  Integrator integrator;
+  Tint tint;
+};
+constexpr std::array<Kind, 7> kKinds{
+    {{"Constant N", SolverKind::kBpp, Mode::kConst, Integrator::kEuler, Tint::kBlue},
+     {"Adaptive", SolverKind::kBpp, Mode::kAdaptive, Integrator::kEuler, Tint::kOrange},
+     {"Störmer", SolverKind::kBpp, Mode::kAdaptive, Integrator::kStormer, Tint::kPurple},
+     {"Leapfrog", SolverKind::kBpp, Mode::kAdaptive, Integrator::kLeapfrog, Tint::kTeal},
+     {"Newton", SolverKind::kNewton, Mode::kConst, Integrator::kLeapfrog, Tint::kAmber},
+     {"PGS", SolverKind::kPgs, Mode::kConst, Integrator::kEuler, Tint::kDim},
+     {"XPBD", SolverKind::kXpbd, Mode::kConst, Integrator::kEuler, Tint::kDim}}};
+
+/// Without the finer points that have curves of their own.
+bool is_plain(const Settings& s) {
+  return s.policy == Policy::kFrame && !s.islands && s.drift_order == 1 && s.refinements == 0 &&
+         s.contact_stiffness == ContactStiffness::kPaper && !s.share_iterations &&
+         s.gyroscopic == Gyroscopic::kImplicit && s.forces != Forces::kNumerov;
+}
+
+bool is_of(const Kind& kind, const Settings& s) {
+  return is_plain(s) && s.solver == kind.solver && s.mode == kind.mode &&
+         s.integrator == kind.integrator && (!reads(s, "iterations") || s.iterations > 2);
+}
+
+const Settings& settings_of(const Accuracy& accuracy, const Point& point) {
+  return accuracy.results()[point.result].experiment.settings;
+}
+
+void choose_headlines(const Theme& theme, const Accuracy& accuracy,
+                      const std::vector<Point>& points, std::vector<AccuracyCurve>& curves) {
+  std::size_t chosen = 0;
+  for (const Kind& kind : kKinds) {
+    if (chosen + 1 == kHeadlines) break;  // the last place is that of the best
+    const auto found = std::find_if(curves.begin(), curves.end(), [&](const AccuracyCurve& c) {
+      return c.points.size() > 1 && is_of(kind, settings_of(accuracy, c.points.front()));
+    });
+    if (found == curves.end()) continue;
+    found->headline = true;
+    found->name = kind.name;
+    if (!accuracy.all_methods) found->style.color = color_of(theme, kind.tint);
+    ++chosen;
+  }
+  const auto best = accuracy.best(points);
+  if (!best) return;
+  const std::string series = series_name(settings_of(accuracy, *best));
+  for (AccuracyCurve& curve : curves) {
+    if (curve.series != series || curve.headline) continue;
+    curve.headline = true;
+    curve.name = accuracy.error_is_given ? "Cheapest" : "Most exact";
+    if (!accuracy.all_methods) curve.style.color = theme.text;
+  }
+}
+
+/// The cheapest or most exact of constant N with the direct solver and Euler: what people know.
+std::optional<Point> plain_best(const Accuracy& accuracy, const std::vector<Point>& points) {
+  std::vector<Point> plain;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(plain),
+               [&](const Point& p) { return is_of(kKinds.front(), settings_of(accuracy, p)); });
+  return accuracy.best(plain);
+}
+
+const char* kept_name(ErrorAxis axis) {
+  switch (axis) {
+    case ErrorAxis::kTrajectory:
+      return "the path";
+    case ErrorAxis::kEnergy:
+      return "the energy";
+    case ErrorAxis::kGap:
+      return "joint gaps";
+    default:
+      return "overlaps";
+  }
+}
+
+const char* fewer(CostAxis axis) {
+  switch (axis) {
+    case CostAxis::kSubsteps:
+      return "fewer sub-steps";
+    case CostAxis::kOperations:
+      return "fewer operations";
+    default:
+      return "less time";
+  }
+}
+
+std::string with_parameter(const Settings& s) {
+  const SeriesParameter parameter = series_parameter(s);
+  return short_name(s) + " (" + parameter.name + " = " + plain_number(parameter.value) + ")";
+}
+
+/// "4.1 times", or "" where it is not worth a word.
+std::string times(double ratio) { return ratio < 1.05 ? "" : coarse_number(ratio) + " times "; }
+
+}  // namespace
+
+std::string error_text(double error, ErrorAxis axis) {
+  const Unit unit = unit_for(error);
+  return plain_number(error / unit.factor) + " " + unit.prefix +
+         (axis == ErrorAxis::kEnergy ? "J" : "m");
+}
+
+std::string cost_text(double cost, CostAxis axis) {
+  switch (axis) {
+    case CostAxis::kSubsteps:
+      return short_number(cost) + " sub-steps per frame";
+    case CostAxis::kOperations:
+      return short_number(cost) + " operations per frame";
+    default:
+      return duration(1e-3 * cost) + " per frame";
+  }
+}
+
+std::string short_name(const Settings& s) {
+  const SolverEntry& solver = entry_of(s.solver);
+  std::string name = curve_style(dark_theme(), s).own_name;
+  if (!solver.at_end && s.integrator != Integrator::kEuler) {
+    name += std::string(", ") + entry_of(s.integrator).title;
+  }
+  if (s.solver != SolverKind::kBpp) {
+    return std::string(solver.title) + (name.empty() ? "" : ", ") + name;
+  }
+  name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
+  return name;
+}
+
+std::vector<AccuracyCurve> curves_of(const Theme& theme, const Accuracy& accuracy,
+                                     const std::vector<Point>& points) {
+  std::map<std::string, std::vector<Point>> by_series;
+  for (const Point& p : points) by_series[series_name(settings_of(accuracy, p))].push_back(p);
+  std::vector<AccuracyCurve> curves;
+  for (auto& [series, own] : by_series) {
+    const auto parameter = [&](const Point& p) {
+      return series_parameter(settings_of(accuracy, p)).value;
+    };
+    std::sort(own.begin(), own.end(),
+              [&](const Point& a, const Point& b) { return parameter(a) < parameter(b); });
+    const Settings& s = settings_of(accuracy, own.front());
+    curves.push_back({series, std::move(own), curve_style(theme, s), short_name(s)});
+  }
+  choose_headlines(theme, accuracy, points, curves);
+  return curves;
+}
+
+std::string conclusion(const Accuracy& accuracy, const std::vector<Point>& points) {
+  if (points.size() < 2) return "";
+  const bool error_given = accuracy.error_is_given;
+  const std::string limit =
+      error_given
+          ? "To keep " + std::string(kept_name(accuracy.error)) + " within " +
+                error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)),
+                           accuracy.error)
+          : "Within " + cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)),
+                                  accuracy.cost);
+  const auto best = accuracy.best(points);
+  if (!best) return limit + ", no tested method is enough.";
+  const auto plain = plain_best(accuracy, points);
+  const std::string name = with_parameter(settings_of(accuracy, *best));
+  const std::string verdict =
+      limit + ", " + name + (error_given ? " is the cheapest" : " errs least");
+  if (!plain) return verdict + "; no tested constant N with Euler gets there.";
+  if (plain->result == best->result) return verdict + ".";
+  const std::string ratio =
+      times(error_given ? plain->cost / best->cost : plain->error / best->error);
+  if (ratio.empty()) return verdict + "; constant N with Euler is as good.";
+  return verdict + ": " + ratio + (error_given ? fewer(accuracy.cost) : "closer") +
+         " than constant N with Euler.";
+}
+
+}  // namespace substep::ui

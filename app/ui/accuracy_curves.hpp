@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/lab/accuracy.hpp"
+#include "app/ui/curve_style.hpp"
+
+namespace substep::ui {
+
+/// The points of one method, along its own parameter.
+struct AccuracyCurve {
+  std::string series;
+  std::vector<Accuracy::Point> points;
+  CurveStyle style;
+  std::string name;       // beside its end: "Störmer", or "Cheapest" where it is on no other
+  bool headline = false;  // drawn in colour and named
+};
+
+/// "Constant N", "Adaptive, leapfrog", "PGS, constant N": the direct solver and Euler go without
+/// saying.
+std::string short_name(const Settings& settings);
+
+/// The curves of these points. Headline ones are that of the best point and, up to five, those that
+/// people compare: constant N, the paper's method, higher orders, Newton, Gauss-Seidel.
+std::vector<AccuracyCurve> curves_of(const Theme& theme, const Accuracy& accuracy,
+                                     const std::vector<Accuracy::Point>& points);
+
+/// What the picture comes to, in a sentence: "To keep the path within 1 mm, Constant N, Störmer
+/// (n = 3) is the cheapest: 65 times fewer operations than constant N with Euler." "" where there
+/// are no two points.
+std::string conclusion(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points);
+
+/// "0.82 mm", "3.1 J"
+std::string error_text(double error, ErrorAxis axis);
+/// "12 sub-steps per frame"
+std::string cost_text(double cost, CostAxis axis);
+
+}  // namespace substep::ui

@@ -26,8 +26,8 @@ struct App : Lab, Viewport {
   /// @return what is wrong with it, or ""
   std::string set(std::string_view key, std::string_view value);
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
-  /// @param own the scene that came with it, or what was wrong with that
-  void open_link(std::string_view fragment, std::optional<SceneResult> own = {});
+  /// @param scene the one that came with it, or what was wrong with that
+  void open_link(std::string_view fragment, std::optional<SceneResult> scene = {});
   /// The experiment as the fragment of an address, with the level where that is Explore.
   [[nodiscard]] std::string link() const;
 

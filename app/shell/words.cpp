@@ -221,7 +221,7 @@ std::string App::link() const {
   return Lab::link() + (desk.level == DeskLevel::kExplore ? "&level=explore" : "");
 }
 
-void App::open_link(std::string_view fragment, std::optional<SceneResult> own) {
+void App::open_link(std::string_view fragment, std::optional<SceneResult> scene) {
   if (static_cast<double>(fragment.size()) > kLongestLink) {
     trouble = {"The link was not followed",
                {{"", "it has " + grouped(static_cast<double>(fragment.size())) +
@@ -232,11 +232,11 @@ void App::open_link(std::string_view fragment, std::optional<SceneResult> own) {
   introduction.leave(*this);
   const auto scene_before = plain_scene;
   RunStart before = run_start();
-  if (own && !own->scene) {
-    trouble = {"The link's scene was not loaded", std::move(own->problems)};
+  if (scene && !scene->scene) {
+    trouble = {"The link's scene was not loaded", std::move(scene->problems)};
     return;
   }
-  if (own) run(add_own(*own->scene));
+  if (scene) run(add_own(*scene->scene));
   std::vector<Problem> problems;
   bool scene_refused = false;
   // The scene first: it brings settings of its own, which the others then change.

@@ -133,7 +133,7 @@ TEST(Events, AnOwnSceneHasThemBesideIt) {
   EXPECT_EQ(h.app->link_scene().bodies.size(), scene.bodies.size());
   Headless other;
   other.app->open_link(h.app->link().substr(h.app->link().find('&') + 1),
-                       write_scene(h.app->link_scene()));
+                       read_scene(write_scene(h.app->link_scene())));
   EXPECT_EQ(other.app->trouble.title, "");
   other.app->session.pause();
   step(other.app->session, 27);

@@ -189,7 +189,7 @@ TEST(Link, OfAnEditedSceneIsOpened) {
       EXPECT_EQ(read.scene->bodies.size(), session.scene().bodies.size());
       EXPECT_NE(h.app->command().find(read.scene->name + ".json"), std::string::npos);
       Headless other;
-      other.app->open_link("alpha=0.1", write_scene(edited));
+      other.app->open_link("alpha=0.1", read_scene(write_scene(edited)));
       EXPECT_EQ(other.app->trouble.title, "") << name << " " << edit;
       EXPECT_EQ(other.app->session.scene().bodies.size(), edited.bodies.size());
       session.go_to(10);

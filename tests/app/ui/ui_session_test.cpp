@@ -371,11 +371,11 @@ TEST(HeavyStart, ASceneInsideALinkIsOneWithItsSettings) {
   Scene own = *shipped("pendulum");
   own.name = "own_pendulum";
   const std::string text = write_scene(own);
-  h.app->open_link("mode=const&n=10000&solver=pgs&iterations=2000", text);
+  h.app->open_link("mode=const&n=10000&solver=pgs&iterations=2000", read_scene(text));
   EXPECT_EQ(h.app->session.scene().name, "own_pendulum");
   ASSERT_TRUE(h.app->held()) << "only its settings make it heavy";
   EXPECT_NE(h.app->heavy.before.scene->name, "own_pendulum");
-  h.app->open_link("alpha=0.3", "{}");
+  h.app->open_link("alpha=0.3", read_scene("{}"));
   EXPECT_NE(h.app->trouble.title.find("link's scene"), std::string::npos);
   EXPECT_NE(h.app->session.settings().alpha, 0.3);
 }

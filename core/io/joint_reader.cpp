@@ -58,11 +58,8 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   if (!in.text("type", kMaxNameSize, type, kRequired)) return {};
   std::optional<Joint> joint = make_joint(type);
   if (!joint) {
-    std::string known;
-    for (const std::string_view one : kJointTypes) {
-      known += (known.empty() ? "" : " or ") + std::string(one);
-    }
-    in.problem("type", value_text(type) + " is not " + known);
+    const std::vector<std::string_view> known(kJointTypes.begin(), kJointTypes.end());
+    in.problem("type", value_text(type) + " is not " + one_of(known));
     return {};
   }
   base(*joint).name = name;

@@ -421,7 +421,8 @@ TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: must be above 0 (kg), not -1\n" +
-                         path.string() + ": /joints/0/type: \"hnige\" is not ball or hinge\n");
+                         path.string() +
+                         ": /joints/0/type: \"hnige\" is not ball, hinge or prismatic\n");
 }
 
 TEST(CommandLine, MapIsATableAndAPicture) {

@@ -211,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"JointOfNoKind",
                 R"("type": "hinge")",
                 R"("type": "slider")",
-                {"/joints/0/type: \"slider\" is not ball or hinge"}},
+                {"/joints/0/type: \"slider\" is not ball, hinge or prismatic"}},
         BadFile{"EffectOfNoKind",
                 R"("friction"],)",
                 R"("friction", "magnetism"],)",

@@ -94,8 +94,10 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
   scene.settings.n = 3;  // else they are the recommended ones, and left out
   scene.carried.emplace().forces.emplace_back();
   scene.joints.emplace_back(std::get<HingeJoint>(scenes::pendulum().joints[0]));
+  scene.joints.emplace_back(PrismaticJoint{});
   const Json json = Json::parse(write_scene(scene), nullptr, false);
-  const std::string hinge = "/joints/" + std::to_string(scene.joints.size() - 1);
+  const std::string hinge = "/joints/" + std::to_string(scene.joints.size() - 2);
+  const std::string prismatic = "/joints/" + std::to_string(scene.joints.size() - 1);
   // Where in the scene stands what the schema describes there.
   const std::map<std::string, std::string> places{
       {"", ""},
@@ -113,7 +115,8 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
       {"/$defs/shape/oneOf/1", "/bodies/1/shape"},
       {"/$defs/shape/oneOf/2", "/bodies/0/shape"},
       {"/$defs/joint/oneOf/0", "/joints/0"},
-      {"/$defs/joint/oneOf/1", hinge}};
+      {"/$defs/joint/oneOf/1", hinge},
+      {"/$defs/joint/oneOf/2", prismatic}};
   std::size_t seen = 0;
   for_each_object(schema(), "", [&](const std::string& pointer, const Json& object) {
     ++seen;

@@ -166,7 +166,8 @@ class EventReader {
         held_.reset();
         break;
       case kSettings:
-        problem = apply_changes(in_.text(std::min<std::uint64_t>(in_.whole(), kMostEventText)),
+        problem = apply_changes(in_.text(static_cast<std::size_t>(
+                                    std::min<std::uint64_t>(in_.whole(), kMostEventText))),
                                 settings_);
         event.what = settings_;
         break;
@@ -198,7 +199,7 @@ class EventReader {
     const auto anchor = in_.doubles<3>(nullptr);
     const std::size_t own = scene_.bodies.size();
     const std::size_t count = own + std::min<std::size_t>(balls_, Ball::kMost);
-    if (body >= count || (body < own && scene_.bodies[body].is_static)) {
+    if (body >= count || (body < own && scene_.bodies[static_cast<std::size_t>(body)].is_static)) {
       problem = "pulls a body that does not move";
     }
     for (const double x : anchor) {

@@ -43,7 +43,7 @@ SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment);
 /// Begins to read a scene's text; what was read before is forgotten.
 SUBSTEP_EXPORTED void substep_read(const char* text);
 
-/// Goes on reading for a short time. @return 0 when it is done
+/// Continues reading for one slice. @return 0 when it is done
 SUBSTEP_EXPORTED int substep_read_some();
 
 /// Opens the scene that was read: substep_open_text in parts.

@@ -12,7 +12,7 @@ namespace substep::web {
 struct Instance {
   ui::Context context;
   std::unique_ptr<App> app;
-  std::unique_ptr<SceneReading> reading;  // that goes on, or waits to be opened
+  std::unique_ptr<SceneReading> reading;  // of the scene that is being read, or was read
   bool pinching = false;                  // two fingers are or were on the picture
 };
 

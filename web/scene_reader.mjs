@@ -12,7 +12,7 @@ export function makeSceneReader(wasm) {
       while (wasm.readSome()) await new Promise((next) => { setTimeout(next); });
       return use();
     });
-    last = read.catch(() => {}); // whoever waits for it hears of it
+    last = read.catch(() => {}); // the caller's promise reports it
     return read;
   };
 }

@@ -34,8 +34,8 @@ struct RunEvent {
 std::optional<Vec3> hand_target(const Vec3& target);
 
 /// Everything that was done to a run, to do it again, bit for bit: what a link holds. The run of
-/// such a link follows a script until a person throws, pulls or switches an effect; new settings
-/// stay until the scene is loaded again, and the rest of the script goes on.
+/// such a link follows a script until a person throws, pulls or switches an effect. Settings that
+/// the person changes override those of the script until the scene is loaded again.
 class EventLog {
  public:
   /// More moves of the hand than any link holds are not noted.

@@ -62,18 +62,13 @@ Vec3 anchor_of(const Session& session, const JointBase& joint) {
   return poses.x[a] + poses.q[a] * joint.anchor_a;
 }
 
-/// From the anchor on b to that on a, without the way that the joint leaves free.
-Vec3 gap_of(const Session& session, const Joint& joint) {
+Vec3 error_of(const Session& session, const Joint& joint) {
   const JointBase& j = base(joint);
   const Poses& poses = session.poses();
   const auto b = static_cast<std::size_t>(j.b);
   const Vec3 x = j.b == kWorld ? Vec3(Vec3::Zero()) : poses.x[b];
   const Quat q = j.b == kWorld ? Quat::Identity() : poses.q[b];
-  const Vec3 gap = anchor_of(session, j) - (x + q * j.anchor_b);
-  const auto axes = axes_of(joint);
-  if (!axes || !axes->slides) return gap;
-  const Vec3 axis = q * axes->b;
-  return gap - axis * axis.dot(gap);
+  return gap_of(joint, anchor_of(session, j) - (x + q * j.anchor_b), q);
 }
 
 Vec3 point_of(const Session& session, const ContactForce& contact) {
@@ -190,7 +185,7 @@ void draw_errors(const Look& look, const Session& session, const Desk& desk,
   const double factor = std::pow(10.0, std::clamp(power, 0.0, 12.0));
   for (const Joint& joint : scene.joints) {
     const Vec3 a = anchor_of(session, base(joint));
-    const auto s = seen(viewport, a, a + factor * gap_of(session, joint));
+    const auto s = seen(viewport, a, a + factor * error_of(session, joint));
     if (!s) continue;
     draw_line(look, draw, *s, look.theme->orange, 2.5F);
     draw.AddCircleFilled(s->to, 3.0F, look.theme->orange);

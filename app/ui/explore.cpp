@@ -69,7 +69,8 @@ double heaviest_mass(const Scene& scene) {
   return most;
 }
 
-// To 1, 1.5, 2, 3, 5 or 7 in its decade: a run that starts anew with every pixel shows nothing.
+// Rounds to 1, 1.5, 2, 3, 5 or 7 in its decade, so that a drag does not restart the run at every
+// pixel.
 double rounded_load(double load) {
   constexpr std::array<double, 7> kSteps{1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0};
   const double decade = std::pow(10.0, std::floor(std::log10(load) + 1e-9));
@@ -82,7 +83,7 @@ double rounded_load(double load) {
   return nearest * decade;
 }
 
-// The same comparison goes on with the new load.
+// Restarts the run and its comparison with the new load.
 void change_load(Lab& lab, double load) {
   std::vector<Overrides> beside;
   for (const Compare::Run& run : lab.compare.runs()) beside.push_back(run.overrides);
@@ -94,8 +95,8 @@ void load_row(const Look& look, Lab& lab) {
   section(look, "Load", (grouped(heaviest_mass(lab.session.loaded())) + " kg").c_str());
   double load = lab.load;
   if (!power_slider(look, "Factor  ×", load, 0.01, 100.0,
-                    "Factor on the mass of the heaviest body: the mass ratio. The run starts "
-                    "anew.")) {
+                    "Factor on the mass of the heaviest body: the mass ratio. The run "
+                    "restarts.")) {
     return;
   }
   load = rounded_load(load);

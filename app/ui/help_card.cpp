@@ -66,7 +66,7 @@ void about(const Look& look, Lab& lab, Desk& desk) {
   }
   ImGui::SameLine(0.0F, 8.0F);
   if (button(look, "introduction", Icon::kNone, "Introduction", ButtonKind::kPlain, 0.0F,
-             look.m.row, "The first screen again; this run starts anew afterwards")) {
+             look.m.row, "Shows the first screen; afterwards this run restarts")) {
     desk.help = false;
     desk.follow = "introduction=on";
   }

@@ -1,5 +1,7 @@
 #include "core/constraints/ball_joint.hpp"
 
+#include <algorithm>
+
 #include "core/constraints/stiffness_flops.hpp"
 
 namespace substep {
@@ -7,7 +9,7 @@ namespace substep {
 void BallRows::constants(const JointBase& joint, Block& block) {
   block.rows = block.position_rows = 3;
   block.has_point_rows = true;
-  for (std::int8_t& tight : block.active_set) tight = 0;  // no row is ever let go of
+  std::fill_n(block.active_set, kMaxRows, std::int8_t{0});  // rows of joints have no bounds
   for (int i = 0; i < 3; ++i) block.C[i] = joint.compliance;
 }
 

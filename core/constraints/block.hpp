@@ -35,11 +35,10 @@ struct Block {
   // else of J is filled than J_a of the further rows: gradient() knows. Of any other block J_a and
   // J_b are filled.
   bool has_point_rows = false;
-  std::int8_t position_rows = 0;  // joint: the first rows are of positions, the others of angles
-  bool seeded = false;            // the last sub-step had this block: impulse is of it
-  bool was_closed = false;        // contact: carried a force in the last sub-step
-  std::int8_t
-      active_set[kMaxRows];  // active set of BPP: -1 at lo, 0 free as all of joints, +1 at hi
+  std::int8_t position_rows = 0;     // joint: the first rows are of positions, the others of angles
+  bool seeded = false;               // the last sub-step had this block: impulse is of it
+  bool was_closed = false;           // contact: carried a force in the last sub-step
+  std::int8_t active_set[kMaxRows];  // of BPP: -1 at lo, 0 free as all of joints, +1 at hi
 
   // A pin in a direct solve reads no further than these: of a long chain that is less memory.
   Vec3 r_a = Vec3::Zero();  // arms from the centres of mass to the point of action, world [m]

@@ -19,8 +19,8 @@ class ContactStage {
   /// @param ahead [s]
   bool predict(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
                double ahead);
-  /// Whether no two bodies touch unpredicted in a sub-step, as fast as they are: an impact may have
-  /// made them faster. @param dt the sub-step to come [s]
+  /// Whether every contact of a sub-step is among those predicted; after an impact bodies may be
+  /// too fast. @param dt the sub-step to come [s]
   [[nodiscard]] bool prediction_valid(const Scene& scene, const Part& part, const State& state,
                                       double dt) const;
   /// The rows that were predicted, where their bodies have gone since, as far as they may close

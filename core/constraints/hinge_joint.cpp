@@ -1,15 +1,15 @@
 #include "core/constraints/hinge_joint.hpp"
 
-#include <cmath>
-
 #include "core/constraints/stiffness_flops.hpp"
+#include "core/math/across.hpp"
 
 namespace substep {
 
-void across(const Vec3& axis, Vec3& v1, Vec3& v2) {
-  const Vec3 helper = std::abs(axis.x()) < 0.8 ? Vec3::UnitX() : Vec3::UnitY();
-  v1 = axis.cross(helper).normalized();
-  v2 = axis.cross(v1);
+// (s . t)'' = s'' . t + 2 s' . t' + s . t''
+double dot_curvature(const Vec3& s, const Vec3& t, const Vec3& omega_a, const Vec3& omega_b) {
+  const Vec3 s_dot = omega_a.cross(s);
+  const Vec3 t_dot = omega_b.cross(t);
+  return omega_a.cross(s_dot).dot(t) + 2.0 * s_dot.dot(t_dot) + s.dot(omega_b.cross(t_dot));
 }
 
 void HingeRows::constants(const HingeJoint& joint, Block& block) {
@@ -27,19 +27,12 @@ JointGeometry HingeRows::geometry(const HingeJoint& joint) {
   return geometry;
 }
 
-// (u . v)'' = u'' . v + 2 u' . v' + u . v''
 void HingeRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature) {
   BallRows::curvature(block, u_a, u_b, curvature);
   const Vec3 omega_a = u_a.tail<3>();
   const Vec3 omega_b = u_b.tail<3>();
-  const Vec3& u = block.axis;
-  const Vec3 u_dot = omega_a.cross(u);
-  const Vec3 u_ddot = omega_a.cross(u_dot);
-  for (int k = 0; k < 2; ++k) {
-    const Vec3& v = k == 0 ? block.v1 : block.v2;
-    const Vec3 v_dot = omega_b.cross(v);
-    curvature[3 + k] = u_ddot.dot(v) + 2.0 * u_dot.dot(v_dot) + u.dot(omega_b.cross(v_dot));
-  }
+  curvature[3] = dot_curvature(block.axis, block.v1, omega_a, omega_b);
+  curvature[4] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
 }
 
 // Torque on a: l u x v. Turning a: l (theta x u) x v = l [v][u] theta. Turning b:

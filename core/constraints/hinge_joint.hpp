@@ -4,8 +4,9 @@
 
 namespace substep {
 
-/// Two unit vectors across a unit axis, right-handed with it.
-void across(const Vec3& axis, Vec3& v1, Vec3& v2);
+/// d2/dt2 of s . t [1/s^2], where s turns with a and t with b at constant rates.
+/// @param omega_a, omega_b [rad/s]
+double dot_curvature(const Vec3& s, const Vec3& t, const Vec3& omega_a, const Vec3& omega_b);
 
 // C     = u . v                        u turns with a, v with b
 // dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)

@@ -32,22 +32,7 @@ void set_gradients(Block& block, RowRange rows) {
   for (int k = 0; k < 3; ++k) set(2 + k, Vec3::Zero(), turn[k], turn[k]);
 }
 
-/// The directions of a block as its bodies turn.
-void turn_directions(const Block& start, const Motion& a, const Motion& b, Block& moved) {
-  moved.axis = a.R * start.axis;
-  moved.w = a.R * start.w;
-  moved.v1 = b.R * start.v1;
-  moved.v2 = b.R * start.v2;
-}
-
-/// (s . t)'' of s that turns with a and t that turns with b: s'' . t + 2 s' . t' + s . t''.
-double bent(const Vec3& s, const Vec3& t, const Vec3& omega_a, const Vec3& omega_b) {
-  const Vec3 s_dot = omega_a.cross(s);
-  const Vec3 t_dot = omega_b.cross(t);
-  return omega_a.cross(s_dot).dot(t) + 2.0 * s_dot.dot(t_dot) + s.dot(omega_b.cross(t_dot));
-}
-
-/// What the angles' rows do to the torque on a as a turns, sum of l [t][s]: HingeRows has it.
+/// What the rows of angles do to the torque on a as a turns: the sum of l [t][s], as of a hinge.
 Mat3 angular_stiffness(const Block& block) {
   const Vec3 across = block.lambda[2] * block.v1 + block.lambda[3] * block.v2;
   return skew_product(across, block.axis) + block.lambda[4] * skew_product(block.v2, block.w);
@@ -59,7 +44,7 @@ void PrismaticRows::constants(const PrismaticJoint& joint, Block& block) {
   block.rows = 5;
   block.position_rows = 2;
   block.has_point_rows = false;
-  std::fill_n(block.active_set, kMaxRows, std::int8_t{0});  // no row is ever let go of
+  std::fill_n(block.active_set, kMaxRows, std::int8_t{0});  // rows of joints have no bounds
   std::fill_n(block.C, 2, joint.compliance);
   std::fill_n(block.C + 2, 3, joint.angular_compliance);
 }
@@ -106,9 +91,9 @@ void PrismaticRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u
     const Vec3 v_dot = omega_b.cross(v);
     curvature[k] = omega_b.cross(v_dot).dot(block.r_b) + 2.0 * v_dot.dot(rho_dot) + v.dot(rho_ddot);
   }
-  curvature[2] = bent(block.axis, block.v1, omega_a, omega_b);
-  curvature[3] = bent(block.axis, block.v2, omega_a, omega_b);
-  curvature[4] = bent(block.w, block.v2, omega_a, omega_b);
+  curvature[2] = dot_curvature(block.axis, block.v1, omega_a, omega_b);
+  curvature[3] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
+  curvature[4] = dot_curvature(block.w, block.v2, omega_a, omega_b);
 }
 
 // The force f = l_1 v_1 + l_2 v_2 on a at r_a, -f on b at rho. It turns with b:
@@ -150,7 +135,10 @@ void PrismaticRows::move(const Block& start, const Motion& a, const Motion& b, R
   moved_errors(start, a, b, moved.phi);
   moved.r_b = slid_rho(start, a, b);
   moved.r_a = a.R * start.r_a;
-  turn_directions(start, a, b, moved);
+  moved.axis = a.R * start.axis;
+  moved.w = a.R * start.w;
+  moved.v1 = b.R * start.v1;
+  moved.v2 = b.R * start.v2;
   set_gradients(moved, rows);
 }
 
@@ -178,11 +166,12 @@ Vec3 PrismaticRows::torque(const Block& block, const double* force) {
 
 void PrismaticRows::push_change(const Block& block, const Motion& a, const Motion& b,
                                 const double* force, Vec6& on_a, Vec6& on_b) {
-  Block moved;
-  turn_directions(block, a, b, moved);
   const Vec3 f = PrismaticRows::force(block, force);
-  const Vec3 f_moved = PrismaticRows::force(moved, force);
-  const Vec3 couple = torque(moved, force) - torque(block, force);
+  const Vec3 f_moved = b.R * f;
+  const Vec3 across = force[2] * block.v1 + force[3] * block.v2;
+  const Vec3 couple_moved =
+      (a.R * block.axis).cross(b.R * across) + force[4] * (a.R * block.w).cross(b.R * block.v2);
+  const Vec3 couple = couple_moved - torque(block, force);
   const Vec3 turned = (a.R * block.r_a).cross(f_moved) - block.r_a.cross(f) + couple;
   const Vec3 slid = slid_rho(block, a, b).cross(f_moved) - block.r_b.cross(f) + couple;
   on_a.head<3>() += f_moved - f;

@@ -18,6 +18,8 @@ struct JointBase {
   Vec3 anchor_a = Vec3::Zero();  // in the frame of a [m]
   Vec3 anchor_b = Vec3::Zero();  // in the frame of b, or in the world for kWorld [m]
   double compliance = 0.0;       // C of the positional rows [m/N], >= 0
+
+  static constexpr bool kSlides = false;  // whether the anchors may be apart along the axis
 };
 
 // Each kind has kType, its name in files, and own_fields(), which names what it has beside
@@ -48,15 +50,15 @@ struct HingeJoint : JointBase {
 };
 
 /// The anchor on a slides along the axis through the anchor on b, and the bodies keep their
-/// attitude to each other, axis beside axis and across beside across: 5 rows.
+/// attitude to each other: the axes stay parallel, and so do the directions across them. 5 rows.
 struct PrismaticJoint : JointBase {
   static constexpr const char* kType = "prismatic";
-  static constexpr bool kSlides = true;  // its anchors may be apart along its axis
-  Vec3 axis_a = Vec3::UnitX();           // unit, in the frame of a [-]
-  Vec3 axis_b = Vec3::UnitX();           // unit, in the frame of b, or in the world for kWorld [-]
-  Vec3 across_a = Vec3::UnitY();         // unit, across axis_a [-]
-  Vec3 across_b = Vec3::UnitY();         // unit, across axis_b [-]
-  double angular_compliance = 0.0;       // C of the three angular rows [rad/(N m)], >= 0
+  static constexpr bool kSlides = true;
+  Vec3 axis_a = Vec3::UnitX();      // unit, in the frame of a [-]
+  Vec3 axis_b = Vec3::UnitX();      // unit, in the frame of b, or in the world for kWorld [-]
+  Vec3 across_a = Vec3::UnitY();    // unit, across axis_a [-]
+  Vec3 across_b = Vec3::UnitY();    // unit, across axis_b [-]
+  double angular_compliance = 0.0;  // C of the three angular rows [rad/(N m)], >= 0
 
   template <class J, class Field>
   static void own_fields(J& joint, Field&& field) {

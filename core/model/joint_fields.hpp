@@ -55,13 +55,20 @@ inline std::optional<JointAxes> across_of(const Joint& joint) {
 inline std::optional<JointAxes> axes_of(const Joint& joint) {
   return std::visit(
       [](const auto& j) -> std::optional<JointAxes> {
-    if constexpr (requires { j.axis_a; }) {
-      return JointAxes{j.axis_a, j.axis_b, requires {j.kSlides;
-    }};
-}
-return std::nullopt;
-},
+        if constexpr (requires { j.axis_a; }) return JointAxes{j.axis_a, j.axis_b, j.kSlides};
+        return std::nullopt;
+      },
       joint);
+}
+
+/// What of the way between a joint's anchors is an error: all of it, or what is across the axis
+/// along which the joint slides.
+/// @param apart from the anchor on b to that on a, world [m]  @param q_b attitude of b
+inline Vec3 gap_of(const Joint& joint, const Vec3& apart, const Quat& q_b) {
+  const std::optional<JointAxes> axes = axes_of(joint);
+  if (!axes || !axes->slides) return apart;
+  const Vec3 axis = q_b * axes->b;
+  return apart - axis * axis.dot(apart);
 }
 
 /// C of a joint's angular rows [rad/(N m)]; nothing where it has none.

@@ -1,8 +1,8 @@
 #include "core/model/scene_builder.hpp"
 
-#include <cmath>
 #include <utility>
 
+#include "core/math/across.hpp"
 #include "core/model/effects_of.hpp"
 
 namespace substep {
@@ -83,12 +83,13 @@ int SceneBuilder::add_prismatic(int a, int b, const Vec3& point, const Vec3& axi
   PrismaticJoint joint;
   place(scene_, a, b, point, joint);
   const Vec3 along = axis.normalized();
-  const Vec3 helper = std::abs(along.x()) < 0.8 ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 across = along.cross(helper).normalized();
+  Vec3 v1;
+  Vec3 v2;
+  across(along, v1, v2);
   joint.axis_a = axis_in(scene_, a, along);
   joint.axis_b = axis_in(scene_, b, along);
-  joint.across_a = axis_in(scene_, a, across);
-  joint.across_b = axis_in(scene_, b, across);
+  joint.across_a = axis_in(scene_, a, v1);
+  joint.across_b = axis_in(scene_, b, v1);
   return add(Joint(std::move(joint)));
 }
 

@@ -57,13 +57,8 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
     const JointBase& j = base(scene.joints[i]);
     const Pose a = pose(scene, j.a);
     const Pose b = pose(scene, j.b);
-    const auto axes = axes_of(scene.joints[i]);
-    Vec3 apart = a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b;
-    if (axes && axes->slides) {
-      const Vec3 axis = b.q * axes->b;
-      apart -= axis * axis.dot(apart);
-    }
-    const double gap = apart.norm();
+    const Vec3 apart = a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b;
+    const double gap = gap_of(scene.joints[i], apart, b.q).norm();
     if (gap > scene.criteria.joint_gap) {
       problems.push_back({pointer_to("/joints", i),
                           "the anchors start " + number_text(gap) + " apart, which is more than " +
@@ -74,7 +69,7 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
       const auto fault = parallel_fault(a.q * pair->a, b.q * pair->b);
       if (fault) problems.push_back({pointer_to("/joints", i), what + *fault});
     };
-    check_parallel(axes, "the axes ");
+    check_parallel(axes_of(scene.joints[i]), "the axes ");
     check_parallel(across_of(scene.joints[i]), "the directions across the axes ");
   }
 }

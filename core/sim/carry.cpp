@@ -69,7 +69,7 @@ void Simulator::Impl::seed_forces() {
     for (double& impulse : block.impulse) impulse = 0.0;
     block.seeded = false;
     if (block.is_contact()) {
-      for (std::int8_t& tight : block.active_set) tight = kUnknownSet;
+      std::fill_n(block.active_set, kMaxRows, kUnknownSet);
       block.was_closed = false;
       block.elastic[0] = 0.0;
     } else if (!all_are_stored && !springs) {

@@ -27,9 +27,10 @@ void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt) {
 
 namespace {
 
+const Vec6 kRest = Vec6::Zero();
+
 /// phi'' of a joint's rows at constant velocities [m/s^2, 1/s^2].
 void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature) {
-  static const Vec6 kRest = Vec6::Zero();
   const auto velocity = [&](int body) -> const Vec6& {
     return body < 0 ? kRest : u[static_cast<std::size_t>(body)];
   };

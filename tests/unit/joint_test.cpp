@@ -1,4 +1,5 @@
 #include "core/constraints/moved_rows.hpp"
+#include "core/math/across.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/solver/system.hpp"
 #include "core/stepping/integrate.hpp"

@@ -2,6 +2,7 @@
 
 #include "core/constraints/moved_rows.hpp"
 
+#include "core/math/across.hpp"
 #include "core/math/turn.hpp"
 #include "core/stepping/integrate.hpp"
 #include "tests/unit/support.hpp"

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/math/across.hpp"
 #include "core/solver/bpp.hpp"
 #include "tests/unit/support.hpp"
 

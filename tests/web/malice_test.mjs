@@ -52,7 +52,7 @@ const heavySettings = [
 /** One that may run, and takes long. */
 const heavyRun = "solver=pgs&iterations=400&mode=const&n=10000";
 
-/** Fragments, each with what it is. */
+/** @returns pairs of a description and a fragment */
 async function links() {
   const zeros = (size) => pack(`{"a": "${"0".repeat(size)}"}`);
   const list = [];

@@ -265,7 +265,7 @@ TEST(Events, ALinkWithBadEventsRunsTheRest) {
   EXPECT_EQ(h.app->trouble.problems.front().pointer, "events");
 }
 
-// All that may be done before one frame is done at once, and the run goes on.
+// The most events that a link may hold before one frame are applied at once; the run continues.
 TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
   const auto scene = shipped("wall");
   std::vector<RunEvent> events;

@@ -74,6 +74,8 @@ const exported = {
   widgets: "s", memory: "s",
 };
 
+const encoder = new TextEncoder();
+
 /**
  * A function of the module. Texts go through the heap: a file does not fit on the stack.
  * @param life {stopped}: why no call is made any more, or ""; set where one ends in a trap, which
@@ -87,12 +89,12 @@ function wrap(module, name, signature, life) {
     const texts = [];
     const raw = (type, i) => {
       if (type === "n") return Number(args[i]);
-      const text = String(args[i]);
-      const size = module.lengthBytesUTF8(text) + 1;
-      const at = module._malloc(size);
-      if (at === 0) throw new Error(`there is no memory for a text of ${size} bytes`);
+      const bytes = encoder.encode(String(args[i])); // far faster than the module's own way
+      const at = module._malloc(bytes.length + 1);
+      if (at === 0) throw new Error(`there is no memory for a text of ${bytes.length} bytes`);
       texts.push(at);
-      module.stringToUTF8(text, at, size);
+      module.HEAPU8.set(bytes, at);
+      module.HEAPU8[at + bytes.length] = 0;
       return at;
     };
     try {

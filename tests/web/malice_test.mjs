@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { call, click, dropPicked, drawn, open, openPage, pickUp, quiet, save } from "./browser.mjs";
+import { call, click, dropPicked, drawn, find, open, openPage, pickUp, place, quiet, save } from "./browser.mjs";
 import { pack } from "../../web/inline_scene.mjs";
 
 let session;
@@ -131,6 +131,16 @@ function beat() {
   next();
 }
 
+/** Forgets how long the page did not answer so far: the protocol of this test takes its time too. */
+const listenAgain = (page) => page.evaluate(() => new Promise((done) => {
+  setTimeout(() => {
+    window.longest = 0;
+    done();
+  }, 100);
+}));
+
+const silence = (page) => page.evaluate(() => Math.round(window.longest));
+
 /**
  * Takes one of them, lets it run, and goes back.
  * @param bring into the page, which costs what the protocol of this test costs
@@ -139,23 +149,26 @@ function beat() {
  */
 async function suffer(page, what, bring, take) {
   const before = await call(page, "link");
+  const { run } = await call(page, "report");
   const brought = await bring();
-  await page.evaluate(() => new Promise((done) => {
-    setTimeout(() => {
-      window.longest = 0;
-      done();
-    }, 100);
-  }));
+  await listenAgain(page);
   await take(brought);
+  await page.waitForFunction((last) => { // it was read, or refused
+    const now = window.substep.report();
+    return now.run !== last || now.trouble !== "";
+  }, run, { polling: 100, timeout: 20000 });
   await page.waitForTimeout(150);
   let report = await call(page, "report");
   const held = report.held !== "";
+  let silent = await silence(page);
   if (held) {
-    await click(page, "Run it"); // in spite of the forecast
+    const button = await find(page, "Run it"); // in spite of the forecast
+    await listenAgain(page);
+    await page.mouse.click(...place(button));
     await page.waitForTimeout(400);
+    silent = Math.max(silent, await silence(page));
     report = await call(page, "report");
   }
-  const silent = await page.evaluate(() => Math.round(window.longest));
   assert.match(await call(page, "hash"), /^[0-9a-f]{16}$/, what);
   const end = held ? "held" : report.trouble !== "" ? "refused" : report.verdict;
   const left = await call(page, "openLink", before.slice(before.indexOf("#")));

@@ -91,6 +91,7 @@ export function makeTour(frame, calls) {
   const numbers = new Map(); // of the sentences, by name
   let shown = 0; // the step, 0 outside the tour
   let words = null;
+  let tried = false; // a number of this step was changed here
 
   const go = (step) => {
     calls.set({ tour: step });
@@ -110,6 +111,7 @@ export function makeTour(frame, calls) {
   function number(name) {
     const made = makeNumber(
       (value) => {
+        tried = true;
         calls.set({ [name]: value });
         update();
       },
@@ -133,6 +135,7 @@ export function makeTour(frame, calls) {
     const within = [section, frame.twin].some((e) => e.contains(document.activeElement));
     ring.hide();
     numbers.clear();
+    tried = false;
     title.textContent = words.title;
     where.textContent = `Tour, ${words.step} of ${words.count}`;
     for (const name of ["text", "watch", "task"]) fill(parts[name], words[name]);
@@ -161,7 +164,9 @@ export function makeTour(frame, calls) {
     if (other) tell();
     for (const [name, { show }] of numbers) show(words.numbers[name]);
     put(parts.now, words.now);
+    const answered = words.reply !== "" && words.reply !== parts.reply.textContent;
     put(parts.reply, words.reply);
+    if (answered && tried) task.scrollIntoView({ block: "nearest" }); // on a phone there is little room
     task.classList.toggle("substep-tour-done", words.done);
   }
 

@@ -10,7 +10,7 @@
 namespace substep {
 
 Tour::Arrangement Tour::arrangement_of(Desk& desk) {
-  Arrangement a{desk.tab, desk.level, desk.left.open, desk.split, {}};
+  Arrangement a{desk.tab, desk.level, desk.left.open, desk.split, desk.time.span, {}};
   for (std::size_t i = 0; i < a.shown.size(); ++i) a.shown[i] = desk.plots[i].shown;
   return a;
 }
@@ -20,6 +20,7 @@ void Tour::arrange(Desk& desk, const Arrangement& a) {
   desk.level = a.level;
   desk.left.open = a.left_open;
   desk.split = a.split;
+  desk.time.span = a.span;
   for (std::size_t i = 0; i < a.shown.size(); ++i) desk.plots[i].shown = a.shown[i];
 }
 
@@ -43,6 +44,7 @@ std::string Tour::go(App& app, std::string_view value) {
   loop_.end(app);
   arrange(app.desk, before_->arrangement);
   app.desk.split = false;
+  app.desk.time.span = step.loop.end;
   // The page's text takes the place of the controls.
   if (app.desk.tour_in_page) app.desk.left.open = false;
   app.open_link(step.link);

@@ -36,6 +36,7 @@ class Tour {
     DeskLevel level = DeskLevel::kLab;
     bool left_open = true;
     bool split = false;
+    double span = 0.0;  // of the plots [s]
     std::array<bool, static_cast<std::size_t>(Plot::kCount)> shown{};
   };
   struct Before {

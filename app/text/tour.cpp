@@ -40,9 +40,9 @@ std::span<const TourStep> tour_steps() {
         .reply = reply_lose_less},
        {.title = "Adaptive sub-steps",
         .text = "The paper computes the stiffness from the forces in the chain, and from the "
-                "stiffness the number of sub-steps that the next frame needs. At alpha = 0.1 N is "
+                "stiffness the number of sub-steps that the next frame needs. At alpha = 0.1 N is "
                 "10 at the turning points and 20 at the bottom of the swing. In ten seconds 0.15 % "
-                "of the energy is lost. Here alpha = {alpha}.",
+                "of the energy is lost. Here alpha = {alpha}.",
         .watch = "Watch [which link sets N](why), and [the law](law) with its numbers.",
         .task = "",
         .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler&panel=why"
@@ -51,7 +51,7 @@ std::span<const TourStep> tour_steps() {
         .reply = reply_range_of_n},
        {.title = "Alpha trades cost for accuracy",
         .text = "Alpha sets the distance to the limit of stability, which is 1. This run has "
-                "alpha = {alpha}, the orange ghost 0.1. N is proportional to 1/√α: a quarter of "
+                "alpha = {alpha}, the orange ghost 0.1. N is proportional to 1/√α: a quarter of "
                 "the alpha takes twice the sub-steps and loses half the energy.",
         .watch = "Watch [the plot of N](substeps) and [the energy drift](drift).",
         .task = "Double N: set alpha to a quarter, 0.025.",
@@ -66,13 +66,13 @@ std::span<const TourStep> tour_steps() {
         .watch = "Watch the ghost, and [the plot of N](substeps).",
         .task = "Make the box four times as heavy.",
         .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler"
-                "&compare=mode:const,n:7&panel=plots&plots=substeps,error&level=explore",
+                "&n=7&compare=mode:const&panel=plots&plots=substeps,error&level=explore",
         .loop = {.end = 4.0},
         .reply = reply_heavier_box},
        {.title = "What does accuracy cost?",
         .text = "Sometimes nothing. Leapfrog lets gravity act over the middles of two sub-steps. "
-                "At alpha = 0.1 it keeps the energy to a millionth, with as many sub-steps as the "
-                "orange ghost, which is Euler. This run has alpha = {alpha}.",
+                "At alpha = 0.1 it keeps the energy to a millionth, with as many sub-steps as the "
+                "orange ghost, which is Euler. This run has alpha = {alpha}.",
         .watch = "Watch [the energy drift](drift). [Error against cost](accuracy) shows all "
                  "methods.",
         .task = "Save half the sub-steps: raise alpha to 0.4.",

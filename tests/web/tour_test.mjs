@@ -71,7 +71,7 @@ for (const light of [false, true]) {
       await page.evaluate(axe);
       for (let step = 1; step <= steps; ++step) {
         await goTo(page, step);
-        await page.waitForTimeout(1600);
+        await page.waitForTimeout(500);
         await assertFits(page, width, height);
         assert.deepEqual(await findings(page), [], `step ${step}`);
         const labels = (await call(page, "widgets")).map((w) => w.label);
@@ -118,11 +118,11 @@ test("a number is dragged, the run has it, and the task is answered by the run",
   const n = (await call(page, "settings")).find((s) => s.name === "n").value;
   assert.equal(String(n), "6");
   assert.ok((await call(page, "report")).time < 1, "the run did not start again");
-  const said = await reply(page, "tears");
+  const said = await reply(page, "With 6 sub-steps the");
   const { verdict } = await call(page, "report");
   const failed = /fails at ([\d.]+) s/.exec(verdict);
   assert.ok(failed, verdict);
-  assert.equal(said, `With 6 sub-steps the chain tears at ${Number(failed[1]).toFixed(2)} s.`);
+  assert.ok(said.endsWith(` at ${Number(failed[1]).toFixed(2)} s.`), said);
   assert.equal(await tour(page).locator(".substep-tour-done").count(), 1);
   await save(page, "tour-task-done");
   await drag(page, number(page, "Sub-steps per frame"), 20);
@@ -204,7 +204,7 @@ test("what breaks does so again and again, and slowly", async () => {
     window.times = [];
     window.substep.on("frame", ({ time }) => window.times.push(time));
   });
-  await page.getByText("slow motion").waitFor();
+  await page.getByText(" s, slow motion").waitFor();
   await reply(page, "1,000 kg the chain tears at 0\\.35 s");
   await page.waitForFunction(() => window.times.filter((t, i) => t < window.times[i - 1]).length >= 2,
     null, { timeout: 60000 });

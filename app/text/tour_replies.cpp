@@ -29,7 +29,8 @@ std::string lost(const Lab& lab, const RunLoop::Pass& pass) {
 std::string failure(const RunLoop::Pass& pass) {
   const char* what = "the run fails at ";
   if (pass.reason.find("joint gap") != std::string::npos) what = "the chain tears at ";
-  if (pass.reason.find("energy gain") != std::string::npos) what = "the run gains energy and fails at ";
+  if (pass.reason.find("energy gain") != std::string::npos)
+    what = "the run gains energy and fails at ";
   return what + fixed(pass.failed_at, 2) + " s";
 }
 

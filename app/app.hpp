@@ -29,6 +29,8 @@ struct App : Lab, Viewport {
   /// The experiment that a link describes; what cannot be read is shown and the rest holds.
   /// @param scene the one that came with it, or what was wrong with that
   void open_link(std::string_view fragment, std::optional<SceneResult> scene = {});
+  /// The same, up to start_opened().
+  void open_link_paused(std::string_view fragment, std::optional<SceneResult> scene = {});
   /// The experiment as the fragment of an address, with the level where that is Explore.
   [[nodiscard]] std::string link() const;
 

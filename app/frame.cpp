@@ -54,6 +54,7 @@ void take_capture(App& app, int width, int height) {
   const int y = pixel(a.y, height - 1);
   const int w = std::max(1, pixel(a.x + a.width, width) - x);
   const int h = std::max(1, pixel(a.y + a.height, height) - y);
+  app.renderer->present(true);
   const std::string png = encode_png(w, h, app.renderer->pixels(x, y, w, h));
   if (app.host.save_file) app.host.save_file(app.desk.capture->name, png);
   app.desk.capture.reset();

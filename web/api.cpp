@@ -52,19 +52,6 @@ substep::SceneResult read_result() {
   return std::exchange(instance->reading, nullptr)->result();
 }
 
-const char* open_result(substep::SceneResult result, const char* from) {
-  const bool playing = app().session.playing();
-  app().open_result(std::move(result), from);
-  if (!playing) app().session.pause();
-  return keep(outcome(app().trouble.problems));
-}
-
-const char* open_link(const char* fragment, std::optional<substep::SceneResult> scene) {
-  app().trouble = {};
-  app().open_link(fragment, std::move(scene));
-  return keep(outcome(app().trouble.problems));
-}
-
 // What the first screen says, or null where it is not there.
 json introduction() {
   if (!app().introduction.open()) return nullptr;
@@ -91,7 +78,10 @@ const char* substep_open(const char* name) {
 }
 
 const char* substep_open_text(const char* text, const char* from) {
-  return open_result(substep::read_scene(text), from);
+  const bool playing = app().session.playing();
+  app().open_text(text, from);
+  if (!playing) app().session.pause();
+  return keep(outcome(app().trouble.problems));
 }
 
 const char* substep_set(const char* text) {
@@ -142,7 +132,11 @@ void substep_reset() {
 
 void substep_introduce() { app().introduction.offer(app()); }
 
-const char* substep_open_link(const char* fragment) { return open_link(fragment, {}); }
+const char* substep_open_link(const char* fragment) {
+  app().trouble = {};
+  app().open_link(fragment);
+  return keep(outcome(app().trouble.problems));
+}
 
 void substep_read(const char* text) {
   instance->reading = std::make_unique<substep::SceneReading>(text);
@@ -156,11 +150,19 @@ int substep_read_some() {
   return 0;
 }
 
-const char* substep_open_read(const char* from) { return open_result(read_result(), from); }
+const char* substep_open_read(const char* from) {
+  const bool playing = app().session.playing();
+  if (app().open_paused(read_result(), from)) app().opened->plays = playing;
+  return keep(outcome(app().trouble.problems));
+}
 
 const char* substep_open_read_link(const char* fragment) {
-  return open_link(fragment, read_result());
+  app().trouble = {};
+  app().open_link_paused(fragment, read_result());
+  return keep(outcome(app().trouble.problems));
 }
+
+void substep_start_opened() { app().start_opened(); }
 
 const char* substep_link() { return keep_text(app().link()); }
 

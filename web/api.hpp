@@ -52,6 +52,9 @@ SUBSTEP_EXPORTED const char* substep_open_read(const char* from);
 /// substep_open_link with the scene that was read for its scene.
 SUBSTEP_EXPORTED const char* substep_open_read_link(const char* fragment);
 
+/// Starts the run that one of the two opened, or has it wait where its frames take long.
+SUBSTEP_EXPORTED void substep_start_opened();
+
 SUBSTEP_EXPORTED const char* substep_link();
 
 SUBSTEP_EXPORTED const char* substep_command();

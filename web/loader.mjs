@@ -64,12 +64,13 @@ export async function loadEngine(progress) {
 
 // Results and parameters of the exports: v nothing, n number, s text.
 const exported = {
-  start: "snn", context_lost: "v", context_restored: "s", resize: "vnnn", frame: "vn", cursor: "n",
+  start: "snn", context_lost: "v", context_restored: "s", resize: "vnnn", frame: "vn", deferred: "n", present: "nn", cursor: "n",
   pointer: "vnnn", pointer_gone: "v", button: "vnnn", wheel: "vnn", pinching: "vn", pinch: "vnnn",
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", busy: "n", reset: "v",
-  open_link: "ss", read: "vs", read_some: "n", open_read: "ss", open_read_link: "ss",
-  introduce: "v", tour: "s", tour_in_page: "vn", dark: "n", link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
+  open_link: "ss", read: "vs", read_some: "n", open_read: "ss", open_read_link: "ss", start_opened: "v",
+  introduce: "v", tour: "s", tour_in_page: "vn", dark: "n",
+  link: "s", command: "s", own_scene: "s", saved_scene: "s", settings: "s", history: "s",
   trouble: "vsss", tell: "vs", recording: "vn", hash: "s", report: "s", scenes: "s",
   widgets: "s", memory: "s",
 };

@@ -46,7 +46,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   substep::web::context = context;
   emscripten_webgl_make_context_current(context);
   instance = std::make_unique<substep::web::Instance>();
-  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name());
+  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name(), true);
   if (!renderer) return error.c_str();
   substep::Library library("/scenes");
   if (library.scenes().empty()) return "no scenes came with the page";
@@ -71,7 +71,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
   static std::string error;
   error.clear();
   emscripten_webgl_make_context_current(substep::web::context);
-  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name());
+  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name(), true);
   if (!renderer) return error.c_str();
   instance->app->renderer = std::move(renderer);
   return "";
@@ -84,7 +84,16 @@ EMSCRIPTEN_KEEPALIVE void substep_resize(float width, float height, float ratio)
   io.DisplayFramebufferScale = {ratio, ratio};
 }
 
-/// Draws one frame. @param dt wall time since the last one [s]
+/// Whether a frame is shown by substep_present, once a processor has drawn it.
+EMSCRIPTEN_KEEPALIVE int substep_deferred() { return instance->app->renderer->deferred() ? 1 : 0; }
+
+/// Shows the frame that substep_frame began. @param wait 0: only where it is finished
+/// @return 0 where it is still being drawn
+EMSCRIPTEN_KEEPALIVE int substep_present(int wait) {
+  return instance->app->renderer->present(wait != 0) ? 1 : 0;
+}
+
+/// Draws one frame, or begins to. @param dt wall time since the last one [s]
 EMSCRIPTEN_KEEPALIVE void substep_frame(double dt) {
   ImGui::GetIO().DeltaTime = static_cast<float>(dt > 1e-4 ? dt : 1e-4);
   if (instance->pinching) instance->app->hand.moved = true;

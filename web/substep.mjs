@@ -2,9 +2,9 @@
 import { makeAddress } from "./address.mjs";
 import { makeApi } from "./api.mjs";
 import { makeCapture } from "./capture.mjs";
+import { Clock } from "./clock.mjs";
 import { makeFiles } from "./files.mjs";
 import { makeFrame } from "./frame.mjs";
-import { Graphics } from "./graphics.mjs";
 import { listen } from "./input.mjs";
 import { LoadError, loadEngine, loseContext, makeEngine } from "./loader.mjs";
 import { makeSceneReader } from "./scene_reader.mjs";
@@ -41,48 +41,6 @@ async function load(frame) {
       await frame.ask("The laboratory could not be loaded", `${error.message}. Is there a network?`,
         "Try again");
     }
-  }
-}
-
-/** Draws while something goes on and for a moment after every event, as long as it can be seen. */
-class Clock {
-  constructor(wasm, frame, afterDraw) {
-    Object.assign(this, { wasm, frame, afterDraw });
-    this.before = performance.now();
-    this.awakeUntil = 0;
-    this.graphics = new Graphics(wasm, frame, () => this.wake());
-    this.seen = false; // until the watcher says so
-    this.watcher = new IntersectionObserver((entries) => {
-      this.seen = entries.at(-1).isIntersecting; // there are several where the page was busy
-      this.graphics.see(this.seen);
-      this.wake();
-    });
-    this.watcher.observe(frame.canvas);
-    this.tick = (now) => {
-      this.request = requestAnimationFrame(this.tick);
-      const dt = Math.max(0, (now - this.before) / 1000);
-      this.before = now;
-      if (wasm.stopped || !this.graphics.canDraw() || !this.seen) return;
-      if (frame.fit(wasm)) this.wake();
-      if (wasm.busy() || now < this.awakeUntil) this.draw(dt);
-    };
-    this.wake();
-    this.request = requestAnimationFrame(this.tick);
-  }
-
-  /** Until what moves has come to rest. */
-  wake() { this.awakeUntil = performance.now() + 1500; }
-
-  draw(dt) {
-    this.wasm.frame(dt);
-    this.frame.canvas.style.cursor = ["default", "grab", "text"][this.wasm.cursor()];
-    this.afterDraw();
-  }
-
-  stop() {
-    cancelAnimationFrame(this.request);
-    this.watcher.disconnect();
-    this.graphics.close();
   }
 }
 

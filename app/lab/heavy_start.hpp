@@ -16,6 +16,13 @@ struct RunStart {
   bool playing = false;
 };
 
+/// A run that came from outside and has not started: what its frames cost is not forecast yet.
+struct OpenedRun {
+  int run = 0;         // Lab::run_count then
+  bool plays = false;  // unless its frames take long
+  RunStart before;     // the run that it replaced
+};
+
 /// A run that waits for a person to start it, since its frames take long.
 struct HeavyStart {
   std::string why;  // empty where there is none

@@ -53,6 +53,12 @@ bool Lab::open_text(std::string_view json, const std::string& from) {
 }
 
 bool Lab::open_result(SceneResult result, const std::string& from) {
+  if (!open_paused(std::move(result), from)) return false;
+  start_opened();
+  return true;
+}
+
+bool Lab::open_paused(SceneResult result, const std::string& from) {
   if (!result.scene) {
     trouble = {from + " was not loaded", std::move(result.problems)};
     return false;
@@ -60,8 +66,8 @@ bool Lab::open_result(SceneResult result, const std::string& from) {
   trouble = {};
   RunStart before = run_start();
   run(add_own(*result.scene));
-  session.play();
-  hold_if_heavy(std::move(before));
+  session.pause();
+  opened = {run_count, true, std::move(before)};
   return true;
 }
 
@@ -84,9 +90,17 @@ void Lab::run(const RunStart& start) {
   copy.playing ? session.play() : session.pause();
 }
 
-void Lab::hold_if_heavy(RunStart before) {
-  heavy = {heavy_start(session.shared_scene(), session.settings()), run_count, std::move(before)};
-  if (held()) session.pause();
+void Lab::start_opened() {
+  if (opened && opened->run == run_count) {  // no other run has begun since
+    heavy = {heavy_start(session.shared_scene(), session.settings()), run_count,
+             std::move(opened->before)};
+    if (held()) {
+      session.pause();
+    } else if (opened->plays) {
+      session.play();
+    }
+  }
+  opened.reset();
 }
 
 std::shared_ptr<const Scene> Lab::add_own(const Scene& scene) {

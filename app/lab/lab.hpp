@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -32,6 +33,10 @@ struct Lab {
   bool open_text(std::string_view json, const std::string& from);
   /// The same for the text of a file, or for what was wrong with reading it.
   bool open_result(SceneResult result, const std::string& from);
+  /// open_result() in two calls, for a page that answers in between: the run is there, and waits.
+  bool open_paused(SceneResult result, const std::string& from);
+  /// Plays the run that was opened. Where its frames take long it says so and waits for a person.
+  void start_opened();
   /// Adds a scene to the person's own, here and at the next visit. @return as it is in the library
   std::shared_ptr<const Scene> add_own(const Scene& scene);
   /// Brings back the person's own scenes of earlier visits. Called once, when the host is there.
@@ -58,9 +63,6 @@ struct Lab {
   /// How the run began, to go back to it.
   [[nodiscard]] RunStart run_start() const;
   void run(const RunStart& start);
-  /// Pauses a run that came from outside where its frames take long, and says so.
-  /// @param before the run that it replaced
-  void hold_if_heavy(RunStart before);
   /// Whether the run waits for a person to start it.
   [[nodiscard]] bool held() const { return !heavy.why.empty() && heavy.run == run_count; }
   /// Whether something goes on by itself: a run that plays, a sweep, a search.
@@ -92,6 +94,7 @@ struct Lab {
   Host host;
   Trouble trouble;  // none where the title is empty
   Notice notice;
+  std::optional<OpenedRun> opened;  // that start_opened() plays
   HeavyStart heavy;
   // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
   std::shared_ptr<const Scene> plain_scene;

@@ -242,4 +242,16 @@ void Canvas::resolve() const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+void Fence::set() {
+  glDeleteSync(sync_);
+  sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+  glFlush();
+}
+
+bool Fence::reached() const {
+  GLint status = GL_UNSIGNALED;
+  glGetSynciv(sync_, GL_SYNC_STATUS, 1, nullptr, &status);
+  return status == GL_SIGNALED;
+}
+
 }  // namespace substep::gl

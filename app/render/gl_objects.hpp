@@ -136,4 +136,20 @@ class Canvas {
   GLuint texture_ = 0;                     // of single samples: colours
 };
 
+/// Says when the graphics have carried out the calls before it.
+class Fence {
+ public:
+  Fence() = default;
+  ~Fence() { glDeleteSync(sync_); }
+  Fence(const Fence&) = delete;
+  Fence& operator=(const Fence&) = delete;
+
+  /// After the calls made so far, in place of where it was.
+  void set();
+  [[nodiscard]] bool reached() const;
+
+ private:
+  GLsync sync_ = nullptr;
+};
+
 }  // namespace substep::gl

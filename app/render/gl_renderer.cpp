@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/render/cover.hpp"
+#include "app/render/fans.hpp"
 #include "app/render/gl_objects.hpp"
 #include "app/render/gl_pictures.hpp"
 #include "app/render/quality.hpp"
@@ -33,13 +34,15 @@ class GlRenderer final : public Renderer {
     ImGui_ImplOpenGL3_Shutdown();
   }
 
-  bool build(std::string_view draws, std::string& error);
+  bool build(std::string_view draws, bool may_defer, std::string& error);
   void begin_frame() override {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui::GetIO().Fonts->ClearTexData();  // the graphics have it; made again where it is wanted
   }
   void draw(std::span<const Picture> pictures, ImDrawData& panels,
             const DrawOptions& options) override;
+  [[nodiscard]] bool deferred() const override { return deferred_; }
+  bool present(bool wait) override;
   std::vector<std::uint8_t> pixels(int x, int y, int width, int height) override;
   void fonts_changed() override { ImGui_ImplOpenGL3_DestroyFontsTexture(); }
 
@@ -52,18 +55,21 @@ class GlRenderer final : public Renderer {
 
   PicturePainter painter_;
   gl::Canvas canvas_;
+  gl::Fence painted_;  // after what paints the canvas, where that is deferred
   gl::Program texture_;
   GLuint empty_array_ = 0;
   std::vector<Picture> drawn_;        // on the canvas
   std::vector<PixelRect> covered_;    // by panels: not drawn
   Quality quality_ = Quality::kFine;  // of the canvas
   bool software_ = false;             // a processor draws
-  int unchanged_ = 0;                 // frames since the pictures changed
-  int width_ = 0;                     // of the window's frame buffer [pixel]
+  bool deferred_ = false;
+  ImDrawData* panels_ = nullptr;  // that present() draws, over the canvas
+  int unchanged_ = 0;             // frames since the pictures changed
+  int width_ = 0;                 // of the window's frame buffer [pixel]
   int height_ = 0;
 };
 
-bool GlRenderer::build(std::string_view draws, std::string& error) {
+bool GlRenderer::build(std::string_view draws, bool may_defer, std::string& error) {
   if (!ImGui_ImplOpenGL3_Init(nullptr)) {
     error = "Dear ImGui's OpenGL back end did not start";
     return false;
@@ -71,6 +77,7 @@ bool GlRenderer::build(std::string_view draws, std::string& error) {
   const std::string header = glsl::kHeader;
   glGenVertexArrays(1, &empty_array_);
   software_ = is_software(draws.empty() ? gl::renderer_name() : std::string(draws));
+  deferred_ = may_defer && software_;
   const bool ok =
       texture_.build(header + glsl::kTextureVertex, header + glsl::kTextureFragment, error);
   return painter_.build(error) && ok;
@@ -138,8 +145,22 @@ void GlRenderer::draw(std::span<const Picture> pictures, ImDrawData& panels,
     paint(pictures);
     drawn_.assign(pictures.begin(), pictures.end());
   }
+  if (software_) slice_fans(panels);
+  panels_ = &panels;
+  if (deferred_) {
+    painted_.set();
+  } else {
+    present(true);
+  }
+}
+
+bool GlRenderer::present(bool wait) {
+  if (panels_ == nullptr) return true;
+  if (!wait && !painted_.reached()) return false;
   show_canvas();
-  ImGui_ImplOpenGL3_RenderDrawData(&panels);
+  ImGui_ImplOpenGL3_RenderDrawData(panels_);
+  panels_ = nullptr;
+  return true;
 }
 
 std::vector<std::uint8_t> GlRenderer::pixels(int x, int y, int width, int height) {
@@ -161,9 +182,10 @@ std::vector<std::uint8_t> GlRenderer::pixels(int x, int y, int width, int height
 
 }  // namespace
 
-std::unique_ptr<Renderer> make_gl_renderer(std::string& error, std::string_view draws) {
+std::unique_ptr<Renderer> make_gl_renderer(std::string& error, std::string_view draws,
+                                           bool may_defer) {
   auto renderer = std::make_unique<GlRenderer>();
-  if (!renderer->build(draws, error)) return nullptr;
+  if (!renderer->build(draws, may_defer, error)) return nullptr;
   return renderer;
 }
 

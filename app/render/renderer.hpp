@@ -34,7 +34,13 @@ class Renderer {
   virtual void begin_frame() = 0;
   virtual void draw(std::span<const Picture> pictures, ImDrawData& panels,
                     const DrawOptions& options) = 0;
-  /// What was drawn last, as RGB rows from the top; right after draw().
+  /// Whether draw() only begins a picture, which present() shows once it is finished.
+  [[nodiscard]] virtual bool deferred() const { return false; }
+  /// Shows what draw() began, before the next begin_frame().
+  /// @param wait false: only where it is finished
+  /// @return false where it is still being drawn
+  virtual bool present(bool wait) { return static_cast<void>(wait), true; }
+  /// What is shown, as RGB rows from the top; right after draw() or present().
   /// @param x, y from the top left corner [pixel]
   [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;
   /// The font atlas was rebuilt, for another pixel ratio.

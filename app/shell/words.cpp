@@ -221,6 +221,11 @@ std::string App::link() const {
 }
 
 void App::open_link(std::string_view fragment, std::optional<SceneResult> scene) {
+  open_link_paused(fragment, std::move(scene));
+  start_opened();
+}
+
+void App::open_link_paused(std::string_view fragment, std::optional<SceneResult> scene) {
   if (static_cast<double>(fragment.size()) > kLongestLink) {
     trouble = {"The link was not followed",
                {{"", "it has " + grouped(static_cast<double>(fragment.size())) +
@@ -263,7 +268,8 @@ void App::open_link(std::string_view fragment, std::optional<SceneResult> scene)
     problems.push_back({part.key.empty() ? "=" + part.value : part.key, problem});
     scene_refused = scene_refused || part.key == "scene";
   }
-  hold_if_heavy(std::move(before));
+  opened = {run_count, session.playing(), std::move(before)};
+  session.pause();
   if (problems.empty()) return;
   const bool kept = scene_refused && plain_scene == scene_before;
   std::string aftermath = kept ? kSceneKept : "";

@@ -109,7 +109,7 @@ void picture_row(const Look& look, Accuracy& accuracy) {
 /// The map, or the picture with the name of what goes up; a click on a run runs it.
 void picture(const Look& look, Lab& lab, ImVec2 size) {
   if (shows_map(lab.accuracy)) {
-    if (const auto chosen = stability_map(look, lab.accuracy, size.x)) {
+    if (const auto chosen = stability_map(look, lab, size.x)) {
       lab.run_result(lab.accuracy.results()[*chosen]);
     }
     return;
@@ -153,10 +153,9 @@ void picture_buttons(const Look& look, Lab& lab, Desk& desk) {
 
 void map_note(const Look& look, const Accuracy& accuracy) {
   label(look.fonts.small, look.theme->dim,
-        ("To the right the mass ratio, heaviest to lightest body, by the mass of the heaviest. A "
-         "cell tells when the run fails, in seconds, the paler the later; blue ones with a tick "
-         "are stable for all " +
-         plain_number(accuracy.experiments().front().duration) + " s.")
+        ("A cell shows when the run fails, in seconds; blue cells with a tick are stable for all " +
+         plain_number(accuracy.experiments().front().duration) +
+         " s. The mass of the heaviest body is varied. Drag over the map to run what you pass.")
             .c_str());
 }
 
@@ -276,15 +275,19 @@ void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport&
   constexpr float kCaption = 76.0F;  // what runs is named at the top of the view
   constexpr float kFoot = 52.0F;     // the way into the tour, and the scale of the tint
   const ViewRect& v = viewport.view_rect;
-  const ImVec2 size(v.width - 2.0F * kAround, std::min(v.height - kCaption - kFoot, 620.0F));
-  ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption});
+  constexpr float kMapHeight = 330.0F;  // below the run that it changes
+  const float room = v.height - kCaption - kFoot;
+  const ImVec2 size(v.width - 2.0F * kAround,
+                    std::min(room, shows_map(lab.accuracy) ? kMapHeight : 620.0F));
+  const float down = shows_map(lab.accuracy) ? room - size.y : 0.0F;
+  ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption + down});
   ImGui::SetNextWindowSize(size);
   if (ImGui::Begin("##accuracy", nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoScrollbar)) {
-    const ImVec2 room = ImGui::GetContentRegionAvail();
-    picture(look, lab, {room.x, room.y - 22.0F});
+    const ImVec2 inside = ImGui::GetContentRegionAvail();
+    picture(look, lab, {inside.x, inside.y - 22.0F});
   }
   ImGui::End();
 }

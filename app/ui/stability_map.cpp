@@ -1,6 +1,7 @@
 #include "app/ui/stability_map.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/stepping/mode_rules.hpp"
 
 namespace substep::ui {
 namespace {
@@ -18,6 +20,15 @@ constexpr float kMapGutter = 44.0F;  // the values of the parameter
 constexpr float kCell = 22.0F;       // height
 constexpr float kCellGap = 2.0F;     // between cells
 constexpr float kWidest = 96.0F;     // of a cell
+constexpr float kMapFoot = 36.0F;    // mass ratios and their title
+constexpr float kBesideWidth = 640.0F;
+constexpr float kBetween = 28.0F;  // maps beside each other
+
+/// Where a map is drawn, and in which sizes.
+struct Layout {
+  ImVec2 origin;  // of the cells
+  ImVec2 cell;
+};
 
 /// The cells of one mode.
 struct Grid {
@@ -26,6 +37,15 @@ struct Grid {
   std::vector<double> loads;   // rising
   std::map<std::pair<double, double>, std::size_t> results;  // by value and load
 };
+
+bool is_constant(const Grid& grid) { return grid.settings.mode == Mode::kConst; }
+
+/// "adaptive per frame: alpha": the mode and what goes down.
+std::string name_of(const Look& look, const Grid& grid) {
+  if (is_constant(grid)) return "constant N: sub-steps per frame";
+  return curve_style(*look.theme, grid.settings).own_name + ": " +
+         series_parameter(grid.settings).name;
+}
 
 void add_once(std::vector<double>& list, double value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
@@ -86,90 +106,194 @@ void read_cell(const Look& look, const Result& result, double ratio) {
                                           {"mass ratio " + plain_number(ratio), t.dim},
                                           {verdict_words(result.metrics.verdict),
                                            result.metrics.holds ? t.dim : t.orange},
-                                          {"Click to run it", t.accent}});
+                                          {"Click to run it, or drag", t.accent}});
 }
 
-std::optional<std::size_t> draw_grid(const Look& look, const Accuracy& accuracy, const Grid& grid,
-                                     float width) {
-  const Theme& t = *look.theme;
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const auto rows = static_cast<float>(grid.values.size());
-  const auto columns = static_cast<float>(grid.loads.size());
-  const float cell = std::min(kWidest, (width - kMapGutter) / columns);
-  const ImVec2 size(kMapGutter + cell * columns, kCell * rows + 18.0F);
+/// Whether a result is the run that is seen.
+bool runs_now(const Lab& lab, const Result& result) {
+  const Settings& now = lab.session.settings();
+  const Settings& of = result.experiment.settings;
+  return lab.plain_scene == lab.accuracy.scene() && lab.load == result.experiment.load &&
+         series_name(now) == series_name(of) &&
+         series_parameter(now).value == series_parameter(of).value;
+}
+
+/// Where N lies among the rows of constant N, by its logarithm. [rows]
+double row_of(const std::vector<double>& values, double n) {
+  std::size_t i = 0;
+  while (i + 2 < values.size() && n > values[i + 1]) ++i;
+  const double row =
+      static_cast<double>(i) + std::log(n / values[i]) / std::log(values[i + 1] / values[i]);
+  return std::clamp(row, -0.5, static_cast<double>(values.size()) - 0.5);
+}
+
+/// The mean N that a row of adaptive sub-stepping takes under each load.
+struct Path {
+  double alpha = 0.0;
+  std::vector<double> n;  // by load, 0 where it is not known
+};
+
+/// Of the alpha that the scene asks for, or else the one next to it.
+Path path_of(const Accuracy& accuracy, const std::vector<Grid>& grids) {
+  const auto adaptive = std::find_if(grids.begin(), grids.end(), [](const Grid& g) {
+    return rules_of(g.settings.mode).count == SubstepCount::kStable;
+  });
+  if (adaptive == grids.end()) return {};
+  const auto distance = [&](double alpha) {
+    return std::abs(std::log(alpha / accuracy.scene()->settings.alpha));
+  };
+  Path path;
+  path.alpha = *std::min_element(adaptive->values.begin(), adaptive->values.end(),
+                                 [&](double a, double b) { return distance(a) < distance(b); });
+  for (const double load : adaptive->loads) {
+    const auto known = adaptive->results.find({path.alpha, load});
+    const bool is_there = known != adaptive->results.end();
+    const Work work = is_there ? accuracy.results()[known->second].metrics.work : Work{};
+    path.n.push_back(work.frames > 0
+                         ? static_cast<double>(work.substeps) / static_cast<double>(work.frames)
+                         : 0.0);
+  }
+  return path;
+}
+
+/// Over the cells of constant N: what adaptive sub-stepping takes without being asked.
+void draw_path(const Look& look, const Grid& grid, const Path& path, const Layout& layout) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::string name = series_name(grid.settings);
-  const bool clicked = ImGui::InvisibleButton(name.c_str(), size);
-  const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const bool hovered = ImGui::IsItemHovered();
-  const double ratio = mass_ratio(*accuracy.scene());
-  const auto centred = [&](ImVec2 from, float across, ImU32 color, const std::string& text) {
+  const ImU32 color = look.theme->teal;
+  std::vector<ImVec2> points;
+  for (std::size_t i = 0; i < path.n.size() && i < grid.loads.size(); ++i) {
+    if (path.n[i] <= 0.0) continue;
+    points.push_back({layout.origin.x + layout.cell.x * (static_cast<float>(i) + 0.5F),
+                      layout.origin.y + layout.cell.y * static_cast<float>(
+                                                            row_of(grid.values, path.n[i]) + 0.5)});
+  }
+  draw.AddPolyline(points.data(), static_cast<int>(points.size()), look.theme->panel, 0, 5.0F);
+  draw.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, 2.0F);
+  for (const ImVec2& at : points) {
+    draw.AddCircleFilled(at, 4.5F, look.theme->panel);
+    draw.AddCircleFilled(at, 3.0F, color);
+  }
+}
+
+/// Text in the middle of a cell.
+void draw_centred(const Look& look, ImVec2 from, ImVec2 size, ImU32 color,
+                  const std::string& text) {
+  const ImVec2 extent = text_size(look.fonts.small, text.c_str());
+  draw_text(*ImGui::GetWindowDrawList(), look.fonts.small,
+            {from.x + 0.5F * (size.x - extent.x), from.y + 0.5F * (size.y - extent.y)}, color,
+            text.c_str());
+}
+
+void draw_cell(const Look& look, const Result& result, ImVec2 min, ImVec2 max) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 color = look.theme->text;
+  draw.AddRectFilled(min, max, cell_color(*look.theme, result), 3.0F);
+  if (result.metrics.holds) {  // a word would be wider than some cells
+    draw_icon(draw, Icon::kCheck, {0.5F * (min.x + max.x), 0.5F * (min.y + max.y)}, 14.0F, color);
+  } else {
+    draw_centred(look, min, {max.x - min.x, max.y - min.y}, color,
+                 fixed(result.metrics.failed_at, 2));
+  }
+}
+
+/// The values of the parameter at the left, the mass ratios below.
+void draw_axes(const Look& look, const Grid& grid, const Layout& layout, double ratio) {
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImU32 color = look.theme->dim;
+  const auto at_left = [&](float y, const std::string& text) {
     const ImVec2 extent = text_size(look.fonts.small, text.c_str());
     draw_text(draw, look.fonts.small,
-              {from.x + 0.5F * (across - extent.x), from.y + 0.5F * (kCell - extent.y)}, color,
+              {layout.origin.x - 8.0F - extent.x, y + 0.5F * (kCell - extent.y)}, color,
               text.c_str());
   };
-  std::optional<std::size_t> under;
+  const float foot = layout.origin.y + layout.cell.y * static_cast<float>(grid.values.size());
   for (std::size_t row = 0; row < grid.values.size(); ++row) {
-    const float y = origin.y + kCell * static_cast<float>(row);
-    const std::string value = plain_number(grid.values[row]);
-    const ImVec2 extent = text_size(look.fonts.small, value.c_str());
-    draw_text(draw, look.fonts.small,
-              {origin.x + kMapGutter - 8.0F - extent.x, y + 0.5F * (kCell - extent.y)}, t.dim,
-              value.c_str());
+    at_left(
+        layout.origin.y + layout.cell.y * static_cast<float>(row) + 0.5F * (layout.cell.y - kCell),
+        plain_number(grid.values[row]));
+  }
+  for (std::size_t column = 0; column < grid.loads.size(); ++column) {
+    draw_centred(look, {layout.origin.x + layout.cell.x * static_cast<float>(column), foot - 3.0F},
+                 {layout.cell.x - kCellGap, kCell}, color, short_ratio(grid.loads[column] * ratio));
+  }
+  const float width = layout.cell.x * static_cast<float>(grid.loads.size());
+  draw_centred(look, {layout.origin.x, foot + 12.0F}, {width - kCellGap, kCell}, color,
+               "mass ratio, heaviest to lightest body");
+}
+
+/// @return the result that the pointer chose
+std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Grid& grid,
+                                     const Path& path, float width) {
+  const Theme& t = *look.theme;
+  const Accuracy& accuracy = lab.accuracy;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  const auto rows = static_cast<float>(grid.values.size());
+  const auto columns = static_cast<float>(grid.loads.size());
+  const Layout layout{{corner.x + kMapGutter, corner.y},
+                      {std::min(kWidest, (width - kMapGutter) / columns), kCell}};
+  const ImVec2 size(kMapGutter + layout.cell.x * columns, kCell * rows + kMapFoot);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  ImGui::InvisibleButton(series_name(grid.settings).c_str(), size);
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const bool pointed = ImGui::IsItemHovered() || ImGui::IsItemActive();
+  const bool pressed = ImGui::IsItemActivated();
+  const bool dragged = ImGui::IsItemActive();
+  const double ratio = mass_ratio(*accuracy.scene());
+  draw_axes(look, grid, layout, ratio);
+  std::optional<std::size_t> under;
+  bool is_live = false;
+  for (std::size_t row = 0; row < grid.values.size(); ++row) {
     for (std::size_t column = 0; column < grid.loads.size(); ++column) {
-      const ImVec2 min(origin.x + kMapGutter + cell * static_cast<float>(column), y);
-      const ImVec2 max(min.x + cell - kCellGap, min.y + kCell - kCellGap);
+      const ImVec2 min(layout.origin.x + layout.cell.x * static_cast<float>(column),
+                       layout.origin.y + layout.cell.y * static_cast<float>(row));
+      const ImVec2 max(min.x + layout.cell.x - kCellGap, min.y + layout.cell.y - kCellGap);
       const auto known = grid.results.find({grid.values[row], grid.loads[column]});
       if (known == grid.results.end()) {  // still to come
         draw.AddRectFilled(min, max, t.well, 3.0F);
         continue;
       }
       const Result& result = accuracy.results()[known->second];
-      draw.AddRectFilled(min, max, cell_color(t, result), 3.0F);
-      if (result.metrics.holds) {  // a word would be wider than some cells
-        draw_icon(draw, Icon::kCheck, {0.5F * (min.x + max.x), 0.5F * (min.y + max.y)}, 14.0F,
-                  t.text);
-      } else {
-        centred({min.x, min.y - 0.5F * kCellGap}, cell - kCellGap, t.text,
-                fixed(result.metrics.failed_at, 2));
-      }
-      if (!hovered || mouse.x < min.x || mouse.x >= max.x || mouse.y < min.y || mouse.y >= max.y) {
+      draw_cell(look, result, min, max);
+      const bool live = runs_now(lab, result);
+      if (live) draw.AddRect({min.x - 1, min.y - 1}, {max.x + 1, max.y + 1}, t.text, 4.0F, 0, 2);
+      if (!pointed || mouse.x < min.x || mouse.x >= max.x || mouse.y < min.y || mouse.y >= max.y) {
         continue;
       }
       under = known->second;
+      is_live = live;
       draw.AddRect(min, max, t.text, 3.0F);
     }
   }
-  for (std::size_t column = 0; column < grid.loads.size(); ++column) {
-    centred(
-        {origin.x + kMapGutter + cell * static_cast<float>(column), origin.y + kCell * rows - 3.0F},
-        cell - kCellGap, t.dim, short_ratio(grid.loads[column] * ratio));
-  }
-  // The axes: the parameter is named above the map.
-  const ImVec2 axis = text_size(look.fonts.small, "ratio");
-  draw_text(draw, look.fonts.small,
-            {origin.x + kMapGutter - 8.0F - axis.x,
-             origin.y + kCell * rows - 3.0F + 0.5F * (kCell - axis.y)},
-            t.dim, "ratio");
-  if (under) {
-    ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
-    const Result& result = accuracy.results()[*under];
-    read_cell(look, result, result.experiment.load * ratio);
-  }
-  return clicked ? under : std::nullopt;
+  if (is_constant(grid)) draw_path(look, grid, path, layout);
+  if (!under) return std::nullopt;
+  ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+  const Result& result = accuracy.results()[*under];
+  read_cell(look, result, result.experiment.load * ratio);
+  return pressed || (dragged && !is_live) ? under : std::nullopt;
+}
+
+/// What the line over constant N is.
+void path_note(const Look& look, const Path& path) {
+  label(look.fonts.small, look.theme->teal,
+        ("Line: mean N of adaptive sub-stepping, alpha = " + plain_number(path.alpha)).c_str());
 }
 
 }  // namespace
 
-std::optional<std::size_t> stability_map(const Look& look, const Accuracy& accuracy, float width) {
+std::optional<std::size_t> stability_map(const Look& look, const Lab& lab, float width) {
+  const std::vector<Grid> grids = grids_of(lab.accuracy);
+  const Path path = path_of(lab.accuracy, grids);
+  const bool beside = width > kBesideWidth;  // each other
+  const float each = beside ? (width - kBetween) / static_cast<float>(grids.size()) : width;
   std::optional<std::size_t> chosen;
-  for (const Grid& grid : grids_of(accuracy)) {
-    const CurveStyle style = curve_style(*look.theme, grid.settings);
-    label(look.fonts.small, look.theme->dim,
-          (style.own_name + ": " + series_parameter(grid.settings).name).c_str());
-    if (const auto one = draw_grid(look, accuracy, grid, width)) chosen = one;
-    space(8.0F);
+  for (const Grid& grid : grids) {
+    if (beside && &grid != &grids.front()) ImGui::SameLine(0.0F, kBetween);
+    ImGui::BeginGroup();
+    label(look.fonts.small, look.theme->text, name_of(look, grid).c_str());
+    if (const auto one = draw_grid(look, lab, grid, path, each)) chosen = one;
+    if (is_constant(grid) && !path.n.empty()) path_note(look, path);
+    ImGui::EndGroup();
+    if (!beside) space(8.0F);
   }
   return chosen;
 }

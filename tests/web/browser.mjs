@@ -124,13 +124,18 @@ export const quiet = (page) => assert.deepEqual(page.complaints, []);
 export const reports = (page, name, value) => page.waitForFunction(
   ([n, v]) => window.substep.report()[n] === v, [name, value], { timeout: 20000 });
 
+/** A file in a hand over the page. @param bytes a text or an array of bytes */
+export const pickUp = (page, name, bytes) => page.evaluateHandle(([n, b]) => {
+  const data = new DataTransfer();
+  data.items.add(new File([typeof b === "string" ? b : new Uint8Array(b)], n));
+  return data;
+}, [name, bytes]);
+
 /** Drops a file on the laboratory. @param bytes a text or an array of bytes */
-export async function drop(page, name, bytes) {
-  const transfer = await page.evaluateHandle(([n, b]) => {
-    const data = new DataTransfer();
-    data.items.add(new File([typeof b === "string" ? b : new Uint8Array(b)], n));
-    return data;
-  }, [name, bytes]);
+export const drop = async (page, name, bytes) => dropPicked(page, await pickUp(page, name, bytes));
+
+/** @param transfer what pickUp() gave */
+export async function dropPicked(page, transfer) {
   await page.dispatchEvent(".substep-view", "drop", { dataTransfer: transfer });
   await page.waitForTimeout(200);
   await drawn(page);
@@ -171,7 +176,13 @@ export async function pick(page, entry) {
 
 /** Waits until the page has drawn what it was told: a panel that opens takes a few frames. */
 export const drawn = (page) => page.evaluate(async () => {
-  for (let i = 0; i < 4; ++i) await new Promise((done) => { requestAnimationFrame(done); });
+  const next = () => new Promise((done) => { requestAnimationFrame(done); });
+  const pictures = () => [...document.querySelectorAll("canvas")].flatMap((c) => c.pictures ?? []);
+  const shown = () => pictures().reduce((sum, p) => sum + p.shown, 0);
+  for (let i = 0; i < 4; ++i) {
+    const before = shown();
+    do await next(); while (shown() === before && pictures().some((p) => p.shown < p.begun));
+  }
 });
 
 /** A picture of the page or of a part of it, decoded. @param clip {x, y, width, height} */

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { call, click, drop, drawn, open, openPage, quiet, save } from "./browser.mjs";
+import { call, click, dropPicked, drawn, open, openPage, pickUp, quiet, save } from "./browser.mjs";
 import { pack } from "../../web/inline_scene.mjs";
 
 let session;
@@ -133,12 +133,20 @@ function beat() {
 
 /**
  * Takes one of them, lets it run, and goes back.
+ * @param bring into the page, which costs what the protocol of this test costs
+ * @param take what was brought
  * @returns {what, silent, end}: how long the page did not answer at most [ms], and what came of it
  */
-async function suffer(page, what, take) {
+async function suffer(page, what, bring, take) {
   const before = await call(page, "link");
-  await page.evaluate(() => { window.longest = 0; });
-  await take();
+  const brought = await bring();
+  await page.evaluate(() => new Promise((done) => {
+    setTimeout(() => {
+      window.longest = 0;
+      done();
+    }, 100);
+  }));
+  await take(brought);
   await page.waitForTimeout(150);
   let report = await call(page, "report");
   const held = report.held !== "";
@@ -177,7 +185,8 @@ test("links made to harm are refused, wait for a person, or run in slices", asyn
   assert.ok(list.length >= 50, `${list.length} links`);
   const suffered = [];
   for (const [what, fragment] of some(list)) {
-    suffered.push(await suffer(page, what, () => call(page, "openLink", fragment)));
+    suffered.push(await suffer(page, what, () => page.evaluateHandle((text) => [text], fragment),
+      (link) => page.evaluate(([text]) => window.substep.openLink(text), link)));
   }
   tell(suffered);
   const count = (as) => suffered.filter(({ end }) => end === as).length;
@@ -193,7 +202,8 @@ test("files made to harm, dropped on the page", async () => {
   assert.equal(list.length, 20);
   const suffered = [];
   for (const [what, text] of some(list)) {
-    suffered.push(await suffer(page, what, () => drop(page, `${what}.json`, text)));
+    suffered.push(await suffer(page, what, () => pickUp(page, `${what}.json`, text),
+      (file) => dropPicked(page, file)));
   }
   tell(suffered);
   quiet(page);

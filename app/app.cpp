@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "app/text/tour.hpp"
+
 namespace substep {
 
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
@@ -9,6 +11,7 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
   restarted = [this](bool loaded) {
     if (loaded) desk.selected = -1;
     if (loaded) introduction.close(*this);  // another run has taken its place
+    if (loaded && session.scene().name != kTourScene) tour.close(*this);
     // A run that starts anew is seen from its start on, at the zoom that was chosen.
     for (ui::PlotState& plot : desk.plots) plot.set = false;
     desk.time.from = 0.0;

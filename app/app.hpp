@@ -10,6 +10,7 @@
 #include "app/render/quality.hpp"
 #include "app/render/renderer.hpp"
 #include "app/shell/file_browser.hpp"
+#include "app/shell/tour.hpp"
 #include "app/ui/desk.hpp"
 #include "app/ui/look.hpp"
 #include "app/ui/viewport.hpp"
@@ -35,6 +36,7 @@ struct App : Lab, Viewport {
 
   Desk desk;
   Introduction introduction;
+  Tour tour;
   ui::Look look;
   std::unique_ptr<Renderer> renderer;
   FileBrowser browser;

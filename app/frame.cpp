@@ -121,6 +121,7 @@ void frame(App& app, double wall_dt) {
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.quality.observe(wall_dt, app.own_time);
   app.introduction.follow(app, !app.desk.reduced_motion);
+  app.tour.follow(app);
   const auto begun = std::chrono::steady_clock::now();
   if (!app.compare.behind(app.session)) app.session.advance(wall_dt);
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {

@@ -254,6 +254,7 @@ const char* substep_report() {
        {app().view_rect.x, app().view_rect.y, app().view_rect.width, app().view_rect.height}},
       {"frame_time", app().frame_time},
       {"introduction", introduction()},
+      {"tour", app().desk.tour + 1},  // the number of the step, 0 outside the tour
   };
   if (r.leader.body >= 0) {
     out["leader"] = {{"body", s.scene().bodies[static_cast<std::size_t>(r.leader.body)].name},

@@ -87,6 +87,16 @@ SUBSTEP_EXPORTED const char* substep_report();
 /// Where the controls of the last picture lie, and the bodies in it, in CSS pixels of the canvas.
 SUBSTEP_EXPORTED const char* substep_widgets();
 
+/// The step of the guided tour that is shown, with its numbers as the run has them; null outside
+/// the tour.
+SUBSTEP_EXPORTED const char* substep_tour();
+
+/// Whether the page shows the text of the tour; the window does not then.
+SUBSTEP_EXPORTED void substep_tour_in_page(int on);
+
+/// Whether the theme is the dark one.
+SUBSTEP_EXPORTED int substep_dark();
+
 /// Names and titles of the scenes that there are.
 SUBSTEP_EXPORTED const char* substep_scenes();
 

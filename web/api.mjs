@@ -78,6 +78,7 @@ const makeLooking = (wasm, report) => ({
   report,
   settings: () => parse(wasm.settings()),
   scenes: () => parse(wasm.scenes()),
+  tour: () => parse(wasm.tour()),
   widgets: () => parse(wasm.widgets()),
   memory: () => parse(wasm.memory()),
   hash: () => wasm.hash(),

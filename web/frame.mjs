@@ -3,7 +3,8 @@
 
 let instances = 0;
 
-const markup = (id) => `
+const markup = (id, wholePage) => `
+${wholePage ? '<section class="substep-tour" hidden></section>' : ""}
 <canvas class="substep-view" tabindex="0" role="application" aria-describedby="${id}-twin"
   aria-label="substep: simulation, controls and plots"></canvas>
 <section class="substep-twin" id="${id}-twin" aria-label="What the simulation shows"></section>
@@ -16,19 +17,20 @@ const markup = (id) => `
   </div>
 </div>`;
 
-/** The styles come with the module, once for all laboratories of a page. */
-function addStyles() {
-  const href = new URL("substep.css", import.meta.url).href;
+/** Styles come with the module, once for all laboratories of a page. */
+function addStyles(name) {
+  const href = new URL(name, import.meta.url).href;
   if ([...document.styleSheets].some((sheet) => sheet.href === href)) return;
   const link = Object.assign(document.createElement("link"), { rel: "stylesheet", href });
   document.head.append(link);
 }
 
 export function makeFrame(element, wholePage) {
-  addStyles();
+  addStyles("substep.css");
+  if (wholePage) addStyles("tour.css");
   element.classList.add("substep");
   element.classList.toggle("substep-shares", !wholePage); // wheel and fingers, with the page
-  element.innerHTML = markup(`substep-${++instances}`);
+  element.innerHTML = markup(`substep-${++instances}`, wholePage);
   const ending = new AbortController();
   const canvas = element.querySelector("canvas");
   const overlay = element.querySelector(".substep-overlay");
@@ -52,6 +54,7 @@ export function makeFrame(element, wholePage) {
     wholePage,
     signal: ending.signal, // for what listens beyond the canvas
     twin: element.querySelector(".substep-twin"),
+    tour: element.querySelector(".substep-tour"), // null in a page of somebody else's
     say,
     /** Says it and waits for the button to be pressed. */
     ask(title, text, answer) {
@@ -60,10 +63,14 @@ export function makeFrame(element, wholePage) {
     },
     progress(share) { bar.value = share; },
     clear() { overlay.hidden = true; },
+    /** The HTML has the theme of the laboratory. */
+    paint(dark) { element.dataset.theme = dark ? "dark" : "light"; },
     /** Leaves the element as it was. */
     end() {
       ending.abort();
       element.replaceChildren();
+      element.classList.remove("substep-touring");
+      delete element.dataset.theme;
     },
 
     /** The drawing buffer has as many pixels as the screen shows. @returns whether it changed */

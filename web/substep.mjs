@@ -8,6 +8,7 @@ import { makeFrame } from "./frame.mjs";
 import { listen } from "./input.mjs";
 import { LoadError, loadEngine, loseContext, makeEngine } from "./loader.mjs";
 import { makeSceneReader } from "./scene_reader.mjs";
+import { makeTour } from "./tour.mjs";
 import { makeTwin } from "./twin.mjs";
 
 // The smallest module with a vector in it: a function that gives two times 0.
@@ -98,8 +99,11 @@ async function open(frame, options) {
 
   let api = null;
   let twin = null;
+  let tour = null;
   const clock = new Clock(wasm, frame, () => {
     capture.afterDraw();
+    frame.paint(wasm.dark());
+    tour?.afterDraw();
     twin?.afterDraw();
     api?.afterDraw(); // last: one who listens may remove the laboratory
   });
@@ -108,6 +112,7 @@ async function open(frame, options) {
   host.stopped = () => startAgain(frame, wasm, address);
 
   wasm.reducedMotion(matchMedia("(prefers-reduced-motion: reduce)").matches ? 1 : 0);
+  wasm.tourInPage(frame.tour ? 1 : 0);
   frame.fit(wasm);
   api = makeApi({ wasm, wake, address, capture, clock, frame });
   const { calls } = api;
@@ -121,6 +126,7 @@ async function open(frame, options) {
   if (options.play === false) calls.pause();
   const linked = await address.start();
   if (frame.wholePage && !linked) wasm.introduce();
+  if (frame.tour) tour = makeTour(frame, calls);
   twin = makeTwin(frame.twin, calls);
 
   listen(frame.canvas, wasm, wake, !frame.wholePage, frame.signal);

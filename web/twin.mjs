@@ -81,6 +81,8 @@ export function makeTwin(section, calls) {
     return `${words.claim} ${words.paper}. Enter or Escape leads to the laboratory`;
   }
 
+  const inTour = () => section.parentElement?.classList.contains("substep-touring");
+
   let said = "";
   let told = -Infinity;
   let names = "";
@@ -113,7 +115,9 @@ export function makeTwin(section, calls) {
     put(alpha, String(r.alpha));
     play.textContent = r.playing ? "Pause" : "Play";
     // Read out only what a person waits for, not every number that moves.
-    const seen = introduce(r.introduction) || [r.title, r.mode, state, r.verdict].join(", ");
+    const run = [r.title, r.mode, state, r.verdict].join(", ");
+    // The run of a tour repeats itself; what it comes to is read out beside its text.
+    const seen = introduce(r.introduction) || (inTour() ? `Guided tour, step ${r.tour}` : run);
     const words = [seen, r.trouble, r.notice].filter(Boolean).join(", ");
     if (words !== said) live.textContent = said = words;
   }

@@ -35,12 +35,6 @@ Overrides differences(const Settings& of, const Settings& from) {
   return list;
 }
 
-std::vector<Overrides> all_overrides(const std::vector<Compare::Run>& runs) {
-  std::vector<Overrides> list;
-  for (const Compare::Run& run : runs) list.push_back(run.overrides);
-  return list;
-}
-
 std::string_view solver_title(std::string_view name) {
   const auto solver = value_of<SolverKind>(name);
   return solver ? entry_of(*solver).title : name;
@@ -61,6 +55,12 @@ Settings Compare::settings_of(const Overrides& overrides, const Settings& sessio
     if (const SettingField* field = find_setting(o.key)) set_setting(*field, o.value, s);
   }
   return s;
+}
+
+std::vector<Overrides> Compare::overrides() const {
+  std::vector<Overrides> list;
+  for (const Run& run : runs_) list.push_back(run.overrides);
+  return list;
 }
 
 void Compare::start(const Session& session, std::vector<Overrides> runs) {
@@ -121,14 +121,14 @@ Cost Compare::cost(const Session& session) const {
   return cost;
 }
 
-void Compare::add(const Session& session, Overrides overrides) {
-  std::vector<Overrides> list = all_overrides(runs_);
-  list.push_back(std::move(overrides));
+void Compare::add(const Session& session, Overrides one) {
+  std::vector<Overrides> list = overrides();
+  list.push_back(std::move(one));
   start(session, std::move(list));
 }
 
 void Compare::remove(const Session& session, std::size_t index) {
-  std::vector<Overrides> list = all_overrides(runs_);
+  std::vector<Overrides> list = overrides();
   list.erase(list.begin() + static_cast<std::ptrdiff_t>(index));
   start(session, std::move(list));
 }

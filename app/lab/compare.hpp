@@ -68,6 +68,8 @@ class Compare {
 
   [[nodiscard]] bool open() const { return !runs_.empty(); }
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
+  /// The methods of all runs.
+  [[nodiscard]] std::vector<Overrides> overrides() const;
   /// Of the session, since the comparison began.
   [[nodiscard]] Cost cost(const Session& session) const;
 
@@ -77,7 +79,7 @@ class Compare {
   /// From the session's present state on, with the same methods.
   void restart(const Session& session);
   /// Adds, changes or removes one, and starts all of them anew.
-  void add(const Session& session, Overrides overrides);
+  void add(const Session& session, Overrides one);
   void remove(const Session& session, std::size_t index);
   /// Changes the method of one that runs, live.
   void change(const Session& session, std::size_t index, const Settings& settings);

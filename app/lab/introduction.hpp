@@ -1,6 +1,7 @@
 #pragma once
 
 #include "app/lab/lab.hpp"
+#include "app/lab/run_loop.hpp"
 
 namespace substep {
 
@@ -15,7 +16,7 @@ class Introduction {
   void start(Lab& lab);
   /// Before each picture: slow motion while the chain tears, and back to the start at the end.
   /// @param repeats otherwise it stops at the end
-  void follow(Lab& lab, bool repeats) const;
+  void follow(Lab& lab, bool repeats) { loop_.follow(lab, repeats); }
   /// Starts what ran before.
   void leave(Lab& lab);
   /// The same where another run has begun already.
@@ -27,7 +28,7 @@ class Introduction {
  private:
   bool open_ = false;
   RunStart before_;
-  double speed_before_ = 1.0;
+  RunLoop loop_;
 };
 
 }  // namespace substep

@@ -1,5 +1,6 @@
 #include "app/lab/lab.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,7 @@ Lab::Lab(Library shipped) : library(std::move(shipped)), session(library.scenes(
   session.frame_taken = [this] {
     const bool together = compare.take_frame(session);
     // What comes after a failure is not physics. Beside others that hold it is what one compares.
-    if (session.just_failed() && !compare.open()) session.hold();
+    if (session.just_failed() && !compare.open() && hold_at_failure) session.hold();
     return together;
   };
   session.scene_edited = [this](const SceneEdit& edit) { compare.edit(session, edit); };
@@ -86,7 +87,7 @@ void Lab::run(const RunStart& start) {
   run(copy.scene);
   if (copy.load != 1.0 || copy.seed != 0) vary(copy.load, copy.seed);
   change(copy.settings);
-  if (copy.playing) session.play();
+  copy.playing ? session.play() : session.pause();
 }
 
 void Lab::start_opened() {
@@ -139,12 +140,14 @@ void Lab::vary(double new_load, int new_seed) {
   const Settings kept = session.settings();
   const auto plain = plain_scene;
   const double end = pause_at;
+  std::vector<Overrides> beside = compare.overrides();
   run(std::make_shared<const Scene>(start_of(*plain, new_load, new_seed)));
   plain_scene = plain;
   load = new_load;
   seed = new_seed;
   pause_at = end;
   change(kept);
+  if (!beside.empty()) compare.start(session, std::move(beside));
 }
 
 void Lab::run_result(const Result& result) {
@@ -236,6 +239,14 @@ const Scene& Lab::link_scene() const {
   return events_in_link().empty() ? edited_scene() : *plain_scene;
 }
 
+double Lab::heaviest_mass() const {
+  double most = 0.0;
+  for (const Body& body : session.loaded().bodies) {
+    if (!body.is_static) most = std::max(most, body.mass);
+  }
+  return most;
+}
+
 std::string Lab::link() const {
   const std::string events = events_in_link();
   const bool edited = events.empty() && session.edition() != nullptr;
@@ -248,11 +259,7 @@ std::string Lab::link() const {
   }
   std::string link = make_link(edited ? edited_scene() : *plain_scene, experiment);
   if (!events.empty()) link += "&events=" + events;
-  if (compare.open()) {
-    std::vector<Overrides> runs;
-    for (const Compare::Run& run : compare.runs()) runs.push_back(run.overrides);
-    link += "&compare=" + overrides_text(runs);
-  }
+  if (compare.open()) link += "&compare=" + overrides_text(compare.overrides());
   return link;
 }
 

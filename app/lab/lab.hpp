@@ -49,7 +49,7 @@ struct Lab {
   void change(const Settings& settings);
   /// Whether K is evaluated in every mode, to be seen.
   void watch_stiffness(bool on);
-  /// Runs the scene from another of its starts, with the settings as they are.
+  /// Runs the scene from another of its starts, with the settings and the comparison as they are.
   void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.
   void run_result(const Result& result);
@@ -70,6 +70,8 @@ struct Lab {
     return session.playing() || accuracy.busy() || compare.behind(session);
   }
 
+  /// Of the bodies that move, in the scene as it was loaded [kg]; the load is a factor on it.
+  [[nodiscard]] double heaviest_mass() const;
   /// The experiment as the fragment of an address.
   [[nodiscard]] std::string link() const;
   /// The scene that a link starts from: the loaded one, with what was done to it as events; where
@@ -98,8 +100,9 @@ struct Lab {
   std::shared_ptr<const Scene> plain_scene;
   double load = 1.0;  // [-]
   int seed = 0;
-  double pause_at = 0.0;  // an experiment's end, 0 where there is none [s]
-  int run_count = 0;      // resets and loads
+  double pause_at = 0.0;        // an experiment's end, 0 where there is none [s]
+  int run_count = 0;            // resets and loads
+  bool hold_at_failure = true;  // a run that fails pauses, where nothing is compared with it
   /// Called after the run began anew. @param loaded with another scene
   std::function<void(bool loaded)> restarted;
 

@@ -61,7 +61,8 @@ void recall_arrangement(App& app) {
 
 void remember_arrangement(App& app) {
   // Not while something is dragged: a width changes with every pixel.
-  if (!app.host.remember || ImGui::IsAnyMouseDown()) return;
+  // Nor while the tour arranges the window.
+  if (!app.host.remember || ImGui::IsAnyMouseDown() || app.desk.tour >= 0) return;
   std::string text = text_of(app);
   if (text == app.last_arrangement) return;
   app.last_arrangement = std::move(text);

@@ -12,7 +12,6 @@
 #include "app/text/event_text.hpp"
 #include "app/text/format.hpp"
 #include "app/text/link.hpp"
-#include "app/text/tour.hpp"
 #include "core/lab/presets.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/scene_limits.hpp"
@@ -58,23 +57,21 @@ std::string select_body(App& app, std::string_view name) {
   return "";
 }
 
-// "off", or the number of a step: its experiment from the start.
-std::string go_on_tour(App& app, std::string_view value) {
-  const auto steps = tour_steps();
-  const auto step = parse_number(value);
-  const auto count = static_cast<double>(steps.size());
-  if (value != "off" && (!step || *step != std::round(*step) || *step < 1.0 || *step > count)) {
-    return "is not off or a whole number from 1 to " + std::to_string(steps.size());
+// The names of the plots to be shown, with commas between them.
+std::string choose_plots(std::string_view value, Desk& desk) {
+  static constexpr std::array<std::string_view, static_cast<std::size_t>(Plot::kCount)> kNames{
+      "substeps", "energy", "drift", "error", "time"};
+  std::array<bool, kNames.size()> shown{};
+  for (std::string_view rest = value; !rest.empty();) {
+    const std::string_view name = rest.substr(0, rest.find(','));
+    rest.remove_prefix(std::min(name.size() + 1, rest.size()));
+    const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+    if (found == kNames.end()) {
+      return "'" + std::string(name) + "' is not substeps, energy, drift, error or time";
+    }
+    shown.at(static_cast<std::size_t>(found - kNames.begin())) = true;
   }
-  app.desk.tour_hint = false;
-  if (value == "off") {
-    app.desk.tour = -1;
-    return "";
-  }
-  app.desk.tour = static_cast<int>(*step) - 1;
-  app.open_link(steps[static_cast<std::size_t>(app.desk.tour)].link);
-  app.reset();
-  app.session.play();
+  for (std::size_t i = 0; i < shown.size(); ++i) desk.plots.at(i).shown = shown.at(i);
   return "";
 }
 
@@ -115,10 +112,12 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
   if (key == "select") return select_body(app, value);
   if (key == "views") return choose(value, {"ghosts", "split"}, desk.split);
   if (key == "panel") return choose_panel(value, desk);
-  if (key == "tour") return go_on_tour(app, value);
+  if (key == "plots") return choose_plots(value, desk);
+  if (key == "tour") return app.tour.go(app, value);
   if (key == "introduction") {
     bool on = false;
     std::string problem = choose(value, {"off", "on"}, on);
+    if (problem.empty() && on) app.tour.leave(app);
     if (problem.empty()) on ? app.introduction.start(app) : app.introduction.leave(app);
     return problem;
   }
@@ -252,7 +251,9 @@ void App::open_link_paused(std::string_view fragment, std::optional<SceneResult>
                         [](const auto& p) { return p.key != "events"; });
   // The level last: other keys lead to the Lab where they need it, and it has the last word.
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key != "level"; });
-  if (std::none_of(parts.begin(), parts.end(), [](const auto& p) { return p.key == "compare"; })) {
+  // The tour sees to the comparison itself, and gives it back.
+  if (std::none_of(parts.begin(), parts.end(),
+                   [](const auto& p) { return p.key == "compare" || p.key == "tour"; })) {
     compare.close();
   }
   std::set<std::string_view> followed;

@@ -2,47 +2,97 @@
 
 #include <array>
 
+#include "app/text/tour_replies.hpp"
+
 namespace substep {
 
 std::span<const TourStep> tour_steps() {
-  static constexpr std::array<TourStep, 6> kSteps{
-      {{"A heavy box on a thin chain",
-        "25 links of 1 kg carry 1,000 kg, at one step per frame and with an exact solver: the "
-        "chain tears at 0.35 s. Its pull, turned by any small rotation of a link, pushes back like "
-        "a "
-        "spring that is too stiff for so long a step.",
-        "The links, and the error as it climbs. The run pauses where it fails.",
-        "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots"},
-       {"Enough sub-steps hold it",
-        "Seven sub-steps hold; with six (orange ghost) the chain tears after a few seconds. You "
-        "cannot know in advance that it takes seven, and every frame pays for the worst one.",
-        "The ghost leaves the chain as it passes the lowest point.",
-        "scene=swinging_box&mode=const&n=7&solver=bpp&integrator=euler&compare=n:6&panel=plots"},
-       {"Damping holds it too, and slows it",
-        "Adaptive damping takes one step per frame and damps the rotations that are too stiff for "
-        "it. After ten seconds a fifth of the energy is gone.",
-        "The box falls behind the orange ghost, which swings undamped.",
-        "scene=swinging_box&mode=damping&alpha=0.1&solver=bpp&integrator=euler"
-        "&compare=mode:adaptive&panel=plots"},
-       {"Adaptive sub-steps",
-        "From the forces in the chain the paper reads how stiff it is, and from that how many "
-        "sub-steps the next frame needs: 10 at the turning points, 20 at the bottom of the swing. "
-        "In ten seconds 0.15 % of the energy is lost.",
-        "Why this N: the link and the rotation that set it.",
-        "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler&panel=why"},
-       {"Alpha trades cost for distance",
-        "Alpha says how far from the limit of stability a step keeps. N is proportional to 1/√α: "
-        "the orange ghost has a quarter of the alpha, twice the sub-steps and half the loss.",
-        "The two curves of N, one twice the other.",
-        "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler"
-        "&compare=alpha:0.025&panel=plots"},
-       {"What does accuracy cost?",
-        "Sometimes nothing: leapfrog lets gravity act over the middles of two sub-steps and keeps "
-        "the energy to a millionth, at the same number of sub-steps. The orange ghost is Euler.",
-        "The energy. Then run all methods in the panel Accuracy: error against cost.",
-        "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=leapfrog"
-        "&compare=integrator:euler&panel=accuracy"}}};
+  static constexpr std::array<TourStep, 7> kSteps{
+      {{.title = "A heavy box on a thin chain",
+        .text = "A box of {load} hangs on 25 links of 1 kg each. The solver is exact and takes one "
+                "step per frame. The pull of the chain turns with every link and acts like a "
+                "spring. For so long a step this spring is too stiff.",
+        .watch = "Watch the links in slow motion, and [the joint error](error) as it climbs.",
+        .task = "Does a lighter box help? Set its mass to 10 kg.",
+        .link = "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots&plots=error"
+                "&level=explore",
+        .loop = {.end = 4.0, .slow_until = 0.5},
+        .reply = reply_lighter_box},
+       {.title = "Enough sub-steps hold it",
+        .text = "Every frame takes {n}. Seven are enough for this chain. You cannot know "
+                "the number in advance, and every frame pays for the worst one.",
+        .watch = "Watch the chain as it swings down, and [the joint error](error).",
+        .task = "Break it: set six sub-steps.",
+        .link = "scene=swinging_box&mode=const&n=7&solver=bpp&integrator=euler&panel=plots"
+                "&plots=error&level=explore",
+        .loop = {.end = 4.0},
+        .reply = reply_break_it},
+       {.title = "Damping holds it too, and slows it",
+        .text = "A frame takes at most {n_cap}. What is too stiff for that is damped. The chain "
+                "holds even with one sub-step, but after ten seconds a fifth of the energy is "
+                "gone.",
+        .watch = "Watch the box fall behind the orange ghost, which swings undamped, and "
+                 "[the kinetic energy](energy).",
+        .task = "Lose less than a tenth: allow more sub-steps.",
+        .link = "scene=swinging_box&mode=capped&n_cap=1&alpha=0.1&solver=bpp&integrator=euler"
+                "&compare=mode:adaptive&panel=plots&plots=energy,drift&level=explore",
+        .loop = {.end = 10.0},
+        .reply = reply_lose_less},
+       {.title = "Adaptive sub-steps",
+        .text = "The paper computes the stiffness from the forces in the chain, and from the "
+                "stiffness the number of sub-steps that the next frame needs. At alpha = 0.1 N is "
+                "10 at the turning points and 20 at the bottom of the swing. In ten seconds 0.15 % "
+                "of the energy is lost. Here alpha = {alpha}.",
+        .watch = "Watch [which link sets N](why), and [the law](law) with its numbers.",
+        .task = "",
+        .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler&panel=why"
+                "&plots=substeps,energy&level=explore",
+        .loop = {.end = 10.0},
+        .reply = reply_range_of_n},
+       {.title = "Alpha trades cost for accuracy",
+        .text = "Alpha sets the distance to the limit of stability, which is 1. This run has "
+                "alpha = {alpha}, the orange ghost 0.1. N is proportional to 1/√α: a quarter of "
+                "the alpha takes twice the sub-steps and loses half the energy.",
+        .watch = "Watch [the plot of N](substeps) and [the energy drift](drift).",
+        .task = "Double N: set alpha to a quarter, 0.025.",
+        .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler"
+                "&compare=alpha:0.1&panel=plots&plots=substeps,drift&level=explore",
+        .loop = {.end = 5.0},
+        .reply = reply_double_n},
+       {.title = "The load changes, and N follows",
+        .text = "The box has a mass of {load}. At 1,000 kg seven constant sub-steps hold as well: "
+                "the orange ghost has them. A heavier box makes the chain stiffer. Seven are then "
+                "too few, and adaptive sub-steps become more.",
+        .watch = "Watch the ghost, and [the plot of N](substeps).",
+        .task = "Make the box four times as heavy.",
+        .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler"
+                "&n=7&compare=mode:const&panel=plots&plots=substeps,error&level=explore",
+        .loop = {.end = 4.0},
+        .reply = reply_heavier_box},
+       {.title = "What does accuracy cost?",
+        .text = "Sometimes nothing. Leapfrog lets gravity act over the middles of two sub-steps. "
+                "At alpha = 0.1 it keeps the energy to a millionth, with as many sub-steps as the "
+                "orange ghost, which is Euler. This run has alpha = {alpha}.",
+        .watch = "Watch [the energy drift](drift). [Error against cost](accuracy) shows all "
+                 "methods.",
+        .task = "Save half the sub-steps: raise alpha to 0.4.",
+        .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=leapfrog"
+                "&compare=integrator:euler,alpha:0.1&panel=plots&plots=substeps,drift"
+                "&level=explore",
+        .loop = {.end = 5.0},
+        .reply = reply_half_the_substeps}}};
   return kSteps;
+}
+
+std::span<const TourPlace> tour_places() {
+  static constexpr std::array<TourPlace, 7> kPlaces{{{"substeps", "plots", "plot", "substeps"},
+                                                     {"energy", "plots", "plot", "energy"},
+                                                     {"drift", "plots", "plot", "drift"},
+                                                     {"error", "plots", "plot", "error"},
+                                                     {"why", "why", "why", "setter"},
+                                                     {"law", "why", "why", "law"},
+                                                     {"accuracy", "accuracy", "tabs", "Accuracy"}}};
+  return kPlaces;
 }
 
 }  // namespace substep

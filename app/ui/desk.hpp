@@ -52,10 +52,11 @@ struct Desk {
   Tab tab = Tab::kControls;
   PanelSide left;
   PanelSide right;
-  double scale = 1.0;        // of everything but the picture, 0.8 to 1.5
-  int tour = -1;             // step of the guided tour, or -1
-  float tour_height = 0.0F;  // of its card, which the picture makes room for
-  bool tour_hint = false;    // nobody has taken it or put it aside yet
+  double scale = 1.0;         // of everything but the picture, 0.8 to 1.5
+  int tour = -1;              // step of the guided tour, or -1
+  float tour_height = 0.0F;   // of its card, which the picture makes room for
+  bool tour_in_page = false;  // the page shows its text, beside the canvas
+  bool tour_hint = false;     // nobody has taken it or put it aside yet
   ViewOptions view;
   int selected = -1;       // body, or -1
   bool card_left = false;  // the side of the view that its card is on

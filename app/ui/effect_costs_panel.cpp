@@ -23,7 +23,7 @@ constexpr float kTimes = 60.0F;
 constexpr float kOperations = 64.0F;
 
 /// A part of a frame with what it takes; less than nothing where it spares work.
-struct Part {
+struct CostRow {
   std::string name;
   double seconds = 0.0;  // a frame
   double flops = 0.0;    // a frame
@@ -31,12 +31,12 @@ struct Part {
   std::string tip;
 };
 
-std::vector<Part> parts_of(const Theme& t, const CostBreakdown& costs) {
+std::vector<CostRow> parts_of(const Theme& t, const CostBreakdown& costs) {
   const Work& work = costs.run.work;
   const auto frames = static_cast<double>(std::max<std::int64_t>(1, work.frames));
-  std::vector<Part> parts;
+  std::vector<CostRow> parts;
   for (const EffectCost& cost : costs.effects) {
-    Part part{std::string(cost.effect), 1e-3 * cost.ms, cost.flops, t.blue, ""};
+    CostRow part{std::string(cost.effect), 1e-3 * cost.ms, cost.flops, t.blue, ""};
     part.tip =
         "A frame as it is, less the same frame without this effect, from the same state "
         "with the same number of sub-steps.";
@@ -58,19 +58,19 @@ std::vector<Part> parts_of(const Theme& t, const CostBreakdown& costs) {
 }
 
 /// Bars to either side of nothing, with times and operations at the right.
-void draw_parts(const Look& look, const std::vector<Part>& parts) {
+void draw_parts(const Look& look, const std::vector<CostRow>& parts) {
   const Theme& t = *look.theme;
   const float width = ImGui::GetContentRegionAvail().x;
   const float room = width - kPartNames - kTimes - kOperations - 8.0F;
   double low = 0.0;
   double high = 0.0;
-  for (const Part& part : parts) {
+  for (const CostRow& part : parts) {
     low = std::min(low, part.seconds);
     high = std::max(high, part.seconds);
   }
   const double scale = high > low ? static_cast<double>(room) / (high - low) : 0.0;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  for (const Part& part : parts) {
+  for (const CostRow& part : parts) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::InvisibleButton(part.name.c_str(), {width, kPartRow});
     mark(part.name.c_str(), at, {at.x + width, at.y + kPartRow}, "effect costs");

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
@@ -61,14 +60,6 @@ void method(const Look& look, Settings& s) {
   parameters(look, s);
 }
 
-double heaviest_mass(const Scene& scene) {
-  double most = 0.0;
-  for (const Body& body : scene.bodies) {
-    if (!body.is_static) most = std::max(most, body.mass);
-  }
-  return most;
-}
-
 // Rounds to 1, 1.5, 2, 3, 5 or 7 in its decade, so that a drag does not restart the run at every
 // pixel.
 double rounded_load(double load) {
@@ -83,16 +74,8 @@ double rounded_load(double load) {
   return nearest * decade;
 }
 
-// Restarts the run and its comparison with the new load.
-void change_load(Lab& lab, double load) {
-  std::vector<Overrides> beside;
-  for (const Compare::Run& run : lab.compare.runs()) beside.push_back(run.overrides);
-  lab.vary(load, lab.seed);
-  if (!beside.empty()) lab.compare.start(lab.session, std::move(beside));
-}
-
 void load_row(const Look& look, Lab& lab) {
-  section(look, "Load", (grouped(heaviest_mass(lab.session.loaded())) + " kg").c_str());
+  section(look, "Load", (grouped(lab.heaviest_mass()) + " kg").c_str());
   double load = lab.load;
   if (!power_slider(look, "Factor  ×", load, 0.01, 100.0,
                     "Factor on the mass of the heaviest body: the mass ratio. The run "
@@ -100,7 +83,7 @@ void load_row(const Look& look, Lab& lab) {
     return;
   }
   load = rounded_load(load);
-  if (std::abs(load - lab.load) > 1e-9 * load) change_load(lab, load);
+  if (std::abs(load - lab.load) > 1e-9 * load) lab.vary(load, lab.seed);
 }
 
 void comparison(const Look& look, Lab& lab, Desk& desk) {

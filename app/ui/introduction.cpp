@@ -152,8 +152,7 @@ bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWord
   const bool chosen = button(look, "try", Icon::kNone, "Try it", ButtonKind::kPrimary, width,
                              m.button, "Into the laboratory (Enter)");
   ImGui::SameLine(0.0F, kGap);
-  if (button(look, "tour", Icon::kNone, "Tour", ButtonKind::kPlain, width, m.button,
-             "The paper's story in six steps")) {
+  if (button(look, "tour", Icon::kNone, "Tour", ButtonKind::kPlain, width, m.button, kTourTip)) {
     desk.follow = "tour=1";
   }
   if (m.low) {

@@ -10,6 +10,7 @@
 #include "app/lab/criterion.hpp"
 #include "app/lab/lab.hpp"
 #include "app/shell/file_browser.hpp"
+#include "app/text/tour_words.hpp"
 #include "app/ui/desk.hpp"
 #include "app/ui/look.hpp"
 #include "app/ui/viewport.hpp"
@@ -86,7 +87,9 @@ Part part_of_window(const Viewport& viewport, std::size_t pane);
 void compare_legend(const Look& look, const Session& session, const Compare& compare,
                     const Viewport& viewport);
 /// The guided tour's card, or the button that opens it.
-void tour(const Look& look, Desk& desk, const Viewport& viewport);
+/// @param words of the step that is shown, null outside the tour
+void tour(const Look& look, Desk& desk, const Viewport& viewport, const TourWords* words);
+inline constexpr const char* kTourTip = "The paper's story in seven steps";
 /// What this run is called beside others.
 std::string run_title(const Session& session, const Compare& compare);
 /// @param brief without the list of stages

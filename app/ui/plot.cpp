@@ -8,8 +8,10 @@
 #include <tuple>
 
 #include "app/text/format.hpp"
+#include "app/ui/handles.hpp"
 #include "app/ui/plot_curves.hpp"
 #include "app/ui/plot_labels.hpp"
+#include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -265,6 +267,7 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   draw_names(look, spec, axis.from, f, draw);
   if (spec.time_labels) draw_cursor_time(look, f, axis, draw);
 
+  mark(spec.id, {origin.x, origin.y - kHeading}, {origin.x + size.x, origin.y + size.y}, "plot");
   ImGui::SetCursorScreenPos(f.min);
   ImGui::InvisibleButton("curves", {f.max.x - f.min.x, f.max.y - f.min.y},
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |

@@ -193,7 +193,8 @@ constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
 
 std::vector<const PlotInfo*> shown_plots(const Session& session, Desk& desk) {
   std::vector<const PlotInfo*> shown;
-  const bool explore = desk.level == DeskLevel::kExplore;
+  // A step of the tour has chosen its plots at either level.
+  const bool explore = desk.level == DeskLevel::kExplore && desk.tour < 0;
   for (const PlotInfo& info : kPlots) {
     const bool wanted = explore ? info.plot == Plot::kSubsteps || info.plot == Plot::kEnergy
                                 : exists(session, info.plot) && desk.plot(info.plot).shown;

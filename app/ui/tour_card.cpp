@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "app/text/tour.hpp"
+#include "app/text/tour_words.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 
@@ -19,8 +19,7 @@ constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
 void go_to(Desk& desk, int step) { desk.follow = "tour=" + std::to_string(step + 1); }
 
 void end(Desk& desk) {
-  if (desk.tour >= 0) desk.follow = "tour=off";  // its ghosts go with it
-  desk.tour = -1;
+  if (desk.tour >= 0) desk.follow = "tour=off";  // the run before comes back
   desk.tour_hint = false;
 }
 
@@ -59,10 +58,19 @@ void steps_row(const Look& look, Desk& desk, int step, int count) {
   }
 }
 
-void card(const Look& look, Desk& desk, const Viewport& viewport, int step) {
+// The task and what the run answers to it.
+void task(const Look& look, const TourWords& words) {
   const Theme& t = *look.theme;
-  const auto steps = tour_steps();
-  const TourStep& now = steps[static_cast<std::size_t>(step)];
+  if (!words.task.empty()) {
+    label(look.fonts.medium, t.text, tour_sentence(words.task, words.numbers).c_str());
+  }
+  const bool answered = !words.reply.text.empty();
+  label(look.fonts.small, words.reply.done ? t.teal : t.dim,
+        answered ? words.reply.text.c_str() : words.now.c_str());
+}
+
+void card(const Look& look, Desk& desk, const Viewport& viewport, const TourWords& words) {
+  const Theme& t = *look.theme;
   const ViewRect& v = viewport.view_rect;
   const float width = std::min(440.0F, v.width - 24.0F);
   // Below the picture, which has made room for it.
@@ -74,16 +82,17 @@ void card(const Look& look, Desk& desk, const Viewport& viewport, int step) {
   if (ImGui::Begin("##tour", nullptr, kCard)) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float right = at.x + ImGui::GetContentRegionAvail().x;
-    const std::string title = std::to_string(step + 1) + "  ·  " + now.title;
+    const std::string title = std::to_string(words.step + 1) + "  ·  " + words.title;
     draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {at.x, at.y + 4.0F}, t.text,
               fitted(look.fonts.medium, title, right - at.x - 32.0F).c_str());
     ImGui::SetCursorScreenPos({right - 24.0F, at.y});
     if (button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 24.0F, 24.0F, "End the tour")) {
       end(desk);
     }
-    label(look.fonts.regular, t.text, now.text);
-    label(look.fonts.small, t.dim, (std::string("Watch: ") + now.watch).c_str());
-    steps_row(look, desk, step, static_cast<int>(steps.size()));
+    label(look.fonts.regular, t.text, tour_sentence(words.text, words.numbers).c_str());
+    label(look.fonts.small, t.dim, tour_sentence(words.watch, words.numbers).c_str());
+    task(look, words);
+    steps_row(look, desk, static_cast<int>(words.step), static_cast<int>(words.count));
   }
   desk.tour_height = ImGui::GetWindowHeight() + 12.0F;
   ImGui::End();
@@ -118,8 +127,7 @@ void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
       ImGui::SameLine(0.0F, 8.0F);
     }
     if (button(look, "tour", Icon::kNone, fresh ? "Take the tour" : "Tour",
-               fresh ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, row,
-               "The paper's story in six steps")) {
+               fresh ? ButtonKind::kPrimary : ButtonKind::kPlain, 0.0F, row, kTourTip)) {
       go_to(desk, 0);
     }
     if (!fresh) outline(look);
@@ -146,12 +154,12 @@ void go_on_with_tour(Desk& desk) {
   }
 }
 
-void tour(const Look& look, Desk& desk, const Viewport& viewport) {
-  if (desk.tour < 0) desk.tour_height = 0.0F;
-  if (desk.tour >= 0) {
-    card(look, desk, viewport, desk.tour);
-  } else {
+void tour(const Look& look, Desk& desk, const Viewport& viewport, const TourWords* words) {
+  if (words == nullptr || desk.tour_in_page) desk.tour_height = 0.0F;
+  if (words == nullptr) {
     invitation(look, desk, viewport);
+  } else if (!desk.tour_in_page) {
+    card(look, desk, viewport, *words);
   }
 }
 

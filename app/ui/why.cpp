@@ -10,6 +10,7 @@
 #include "app/lab/stiffness.hpp"
 #include "app/text/caption.hpp"
 #include "app/text/format.hpp"
+#include "app/ui/handles.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/timing.hpp"
 #include "app/ui/widgets.hpp"
@@ -269,12 +270,17 @@ void why(const Look& look, const Session& session, Desk& desk) {
     nothing_stiff(look, session);
     return;
   }
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  const float right = from.x + ImGui::GetContentRegionAvail().x;
   label(look.fonts.medium, t.text, setter_text(scene, criterion).c_str());
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4.0F);
   const bool rotates = criterion.set_by == CriterionTerm::kRotation;
   label(look.fonts.small, t.dim,
         (rotates ? both_terms_text(criterion) : stiffness_and_mass(criterion.stiffness)).c_str());
+  const float middle = ImGui::GetCursorScreenPos().y;
+  mark("setter", from, {right, middle}, "why");
   law(look, session, criterion);
+  mark("law", {from.x, middle}, {right, ImGui::GetCursorScreenPos().y}, "why");
   const std::string note = taken_note(session);
   if (!note.empty()) {
     label(look.fonts.small, session.report().capped ? t.orange : t.dim, note.c_str());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -91,6 +92,14 @@ constexpr std::array<Panel, 5> kPanels{
      {Tab::kAccuracy,
       {"Accuracy", "What does accuracy cost? All methods over this scene"},
       [](App& app, float) { accuracy(app.look, app, app.desk); }}}};
+
+// The panel of a tab, the first where there is none.
+const Panel& panel_of(std::span<const Panel> panels, Tab tab) {
+  for (const Panel& panel : panels) {
+    if (panel.tab == tab) return panel;
+  }
+  return panels.front();
+}
 
 // Tabs as wide as the panel. @return the panel that is open, the first where another is
 const Panel& choose_panel(const Look& look, std::span<const Panel> panels, Tab& tab) {
@@ -209,8 +218,9 @@ void desktop(App& app, ImVec2 display) {
 void phone(App& app, ImVec2 display) {
   const bool lying = display.x > display.y;
   const float side = lying ? std::min(392.0F, 0.5F * display.x) : display.x;
-  // A card of the tour takes its place from both.
-  const float share = app.desk.tour >= 0 ? 0.52F : 0.44F;
+  // A card of the tour takes its place from both; its text in the page leaves plots to be seen.
+  const bool guided = app.desk.tour >= 0 && app.desk.tour_in_page;
+  const float share = app.desk.tour < 0 ? 0.44F : guided ? 0.48F : 0.52F;
   const float top = lying ? 0.0F : std::round(share * display.y);
   app.view_rect = lying ? ViewRect{0.0F, 0.0F, display.x - side, display.y}
                         : ViewRect{0.0F, 0.0F, display.x, top};
@@ -230,7 +240,10 @@ void phone(App& app, ImVec2 display) {
     transport(app, true);
     if (app.desk.panels) {
       ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
-      const Panel& open = choose_panel(app.look, panels_of(app.desk), app.desk.tab);
+      const auto panels = panels_of(app.desk);
+      // The text of the tour takes the room of the tabs, and leads to the panels itself.
+      const Panel& open =
+          guided ? panel_of(panels, app.desk.tab) : choose_panel(app.look, panels, app.desk.tab);
       ImGui::Dummy({1.0F, 0.0F});
       if (ImGui::BeginChild("content", {0, 0})) {
         if (open.tab == Tab::kPlots) {  // alone: there is little room
@@ -284,7 +297,11 @@ void draw_window(App& app) {
   }
   app.view_rect.height -= app.desk.tour_height;
   selection_card(app.look, app.session, app.desk, app, small);
-  tour(app.look, app.desk, app);
+  std::optional<TourWords> words;
+  if (app.desk.tour >= 0) {
+    words = tour_words(app, static_cast<std::size_t>(app.desk.tour), app.tour.loop());
+  }
+  tour(app.look, app.desk, app, words ? &*words : nullptr);
   if (!small) accuracy_card(app.look, app, app.desk, app);
   failure_card(app.look, app, app.desk, app);
   help_card(app.look, app, app.desk, app);

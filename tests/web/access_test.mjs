@@ -77,7 +77,7 @@ test("HTML tells what the canvas shows, and says aloud only what matters", async
   const page = await openPage(session);
   await page.evaluate(() => {
     window.said = [];
-    const live = document.querySelector("[aria-live=polite]");
+    const live = document.querySelector(".substep-twin [aria-live=polite]");
     new MutationObserver(() => window.said.push(live.textContent)).observe(live, { childList: true });
   });
   await page.waitForTimeout(4000);

@@ -7,8 +7,6 @@ let session;
 before(async () => { session = await open(); });
 after(() => session?.close());
 
-const labels = async (page) => (await call(page, "widgets")).map((w) => w.label);
-
 /** Waits until a control is there. */
 const offered = (page, label) => page.waitForFunction(
   (l) => window.substep.widgets().some((w) => w.label === l), label, { timeout: 20000 });
@@ -37,34 +35,6 @@ test("none tears, adaptive holds, alpha changes N, the link is copied", async ()
   const link = await page.evaluate(() => navigator.clipboard.readText());
   assert.ok(link.startsWith(session.address), link);
   assert.match(link, /scene=swinging_box.*mode=adaptive/);
-  quiet(page);
-  await page.context().close();
-});
-
-test("the tour leads through six steps, and each shows what it says", async () => {
-  const page = await openPage(session);
-  await offered(page, "Take the tour");
-  await click(page, "Take the tour");
-  const steps = [
-    { mode: "none" }, { mode: "const", n: "7" }, { mode: "damping" }, { mode: "adaptive" },
-    { mode: "adaptive", alpha: "0.1" }, { integrator: "leapfrog" },
-  ];
-  for (const [i, wanted] of steps.entries()) {
-    const settings = Object.fromEntries(
-      (await call(page, "settings")).map((s) => [s.name, String(s.value)]));
-    for (const [name, value] of Object.entries(wanted)) {
-      assert.equal(settings[name], value, `step ${i + 1}, ${name}`);
-    }
-    if (i === 0) await fails(page); // and pauses there
-    else assert.ok((await call(page, "report")).playing, `step ${i + 1} does not play`);
-    if (i > 0) assert.ok((await labels(page)).includes("Back"), `step ${i + 1}`);
-    await save(page, `tour-${i + 1}`);
-    await click(page, i < 5 ? "Next" : "Done");
-    await drawn(page);
-  }
-  assert.ok(!(await labels(page)).includes("Done"), "the tour has not ended");
-  await click(page, "Tour"); // the button stays, in few words
-  assert.ok((await labels(page)).includes("Next"));
   quiet(page);
   await page.context().close();
 });

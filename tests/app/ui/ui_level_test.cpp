@@ -14,10 +14,13 @@
 namespace substep {
 namespace {
 
-// Places that can be pressed; a control that is marked twice counts once.
+// Places that can be pressed; a control that is marked twice counts once, and plots are read.
 std::size_t controls_shown() {
   std::set<std::tuple<float, float, float, float>> places;
-  for (const ui::Handle& h : ui::handles()) places.insert({h.min.x, h.min.y, h.max.x, h.max.y});
+  for (const ui::Handle& h : ui::handles()) {
+    if (h.group == "plot" || h.group == "why") continue;
+    places.insert({h.min.x, h.min.y, h.max.x, h.max.y});
+  }
   return places.size();
 }
 

@@ -1,0 +1,117 @@
+#include "app/text/tour_replies.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "app/text/format.hpp"
+#include "app/text/tour_words.hpp"
+
+namespace substep {
+namespace {
+
+std::string seconds(double time) { return plain_number(time) + " s"; }
+
+std::string mass(const Lab& lab) { return tour_number(lab, "load").text; }
+
+/// Share of the energy that can be exchanged which a pass lost, < 0 where it gained [-].
+double lost_share(const Lab& lab, const RunLoop::Pass& pass) {
+  const auto scale = lab.session.scene().criteria.energy_scale;
+  return scale ? -pass.drift / *scale : 0.0;
+}
+
+std::string lost(const Lab& lab, const RunLoop::Pass& pass) {
+  const double share = lost_share(lab, pass);
+  return coarse_number(100.0 * std::abs(share)) + " % of its energy " +
+         (share < 0.0 ? "gained" : "lost");
+}
+
+/// "the chain tears at 0.35 s", by what the verdict says of it.
+std::string failure(const RunLoop::Pass& pass) {
+  const char* what = "the run fails at ";
+  if (pass.reason.find("joint gap") != std::string::npos) what = "the chain tears at ";
+  if (pass.reason.find("energy gain") != std::string::npos)
+    what = "the run gains energy and fails at ";
+  return what + fixed(pass.failed_at, 2) + " s";
+}
+
+TourReply failed(const RunLoop::Outcome& outcome) {
+  std::string text = failure(outcome.run) + ".";
+  text[0] = 'T';
+  return {text, false};
+}
+
+std::string count(std::int64_t substeps) { return grouped(static_cast<double>(substeps)); }
+
+}  // namespace
+
+TourReply reply_lighter_box(const Lab& lab, const RunLoop::Outcome& outcome) {
+  if (outcome.open()) return {};
+  const std::string what = "With " + mass(lab) + " ";
+  if (outcome.failed()) {
+    return {what + failure(outcome.run) + ".", lab.load < 1.0};
+  }
+  return {what + "it holds for " + seconds(outcome.time) + ".", lab.load < 1.0};
+}
+
+TourReply reply_break_it(const Lab& lab, const RunLoop::Outcome& outcome) {
+  if (outcome.open()) return {};
+  const std::string what = "With " + tour_number(lab, "n").text + " ";
+  if (outcome.failed()) {
+    return {what + failure(outcome.run) + ".", true};
+  }
+  return {what + "it holds for " + seconds(outcome.time) + ".", false};
+}
+
+TourReply reply_lose_less(const Lab& lab, const RunLoop::Outcome& outcome) {
+  if (outcome.failed()) return failed(outcome);
+  if (outcome.open() || outcome.beside.empty()) return {};
+  return {"After " + seconds(outcome.time) + ": " + lost(lab, outcome.run) + ", by the ghost " +
+              coarse_number(100.0 * lost_share(lab, outcome.beside[0])) + " %.",
+          lost_share(lab, outcome.run) < 0.1};
+}
+
+TourReply reply_range_of_n(const Lab& lab, const RunLoop::Outcome& outcome) {
+  if (outcome.failed()) return failed(outcome);
+  if (outcome.open()) return {};
+  return {"After " + seconds(outcome.time) + ": N from " + std::to_string(outcome.run.least_n) +
+              " to " + std::to_string(outcome.run.most_n) + ", " + lost(lab, outcome.run) + ".",
+          false};
+}
+
+TourReply reply_double_n(const Lab& lab, const RunLoop::Outcome& outcome) {
+  if (outcome.failed()) return failed(outcome);
+  if (outcome.open() || outcome.beside.empty()) return {};
+  const RunLoop::Pass& run = outcome.run;
+  const RunLoop::Pass& ghost = outcome.beside[0];
+  const double ratio = static_cast<double>(run.substeps) / static_cast<double>(ghost.substeps);
+  return {"After " + seconds(outcome.time) + ": " + count(run.substeps) + " sub-steps, " +
+              coarse_number(ratio) + " times the ghost's; " + lost(lab, run) + ", by the ghost " +
+              coarse_number(100.0 * lost_share(lab, ghost)) + " %.",
+          ratio > 1.9};
+}
+
+TourReply reply_heavier_box(const Lab& lab, const RunLoop::Outcome& outcome) {
+  if (outcome.failed()) return failed(outcome);
+  if (outcome.open() || outcome.beside.empty()) return {};
+  const RunLoop::Pass& ghost = outcome.beside[0];
+  const std::string beside = ghost.stable ? "Seven constant sub-steps hold as well."
+                                          : "With seven constant sub-steps " + failure(ghost) + ".";
+  return {"With " + mass(lab) + " N is up to " + std::to_string(outcome.run.most_n) +
+              " and the chain holds. " + beside,
+          !ghost.stable};
+}
+
+TourReply reply_half_the_substeps(const Lab& lab, const RunLoop::Outcome& outcome) {
+  if (outcome.failed()) return failed(outcome);
+  if (outcome.open() || outcome.beside.empty()) return {};
+  const RunLoop::Pass& run = outcome.run;
+  const RunLoop::Pass& ghost = outcome.beside[0];
+  const double ratio = static_cast<double>(run.substeps) / static_cast<double>(ghost.substeps);
+  const bool better = std::abs(lost_share(lab, run)) < std::abs(lost_share(lab, ghost));
+  return {count(run.substeps) + " sub-steps, " + lost(lab, run) +
+              "; Euler, the ghost: " + count(ghost.substeps) + " and " +
+              coarse_number(100.0 * lost_share(lab, ghost)) + " %.",
+          ratio < 0.6 && better};
+}
+
+}  // namespace substep

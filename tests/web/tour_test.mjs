@@ -1,0 +1,303 @@
+// The guided tour: HTML beside the canvas, with numbers to drag, tasks, and words that point at
+// plots: node tests/web/tour_test.mjs [FOLDER OF THE BUILT PAGE]
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { after, before, test } from "node:test";
+import { call, click, drawn, open, openPage, quiet, reports, save } from "./browser.mjs";
+
+const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const steps = 7;
+
+let session;
+before(async () => { session = await open(); });
+after(() => session?.close());
+
+const tour = (page) => page.locator(".substep-tour");
+const button = (page, name) => tour(page).getByRole("button", { name, exact: true });
+const number = (page, name) => tour(page).getByRole("slider", { name, exact: true });
+const canvasBox = (page) => page.locator(".substep-view").boundingBox();
+
+/** Goes to a step, and waits until its text is there. */
+async function goTo(page, step) {
+  await call(page, "set", { tour: step });
+  await page.getByText(`Tour, ${step} of ${steps}`).waitFor();
+  await drawn(page);
+}
+
+/** Waits for the answer of the run. */
+const reply = async (page, words) => {
+  const said = tour(page).getByRole("status");
+  await page.waitForFunction(
+    (w) => new RegExp(w).test(document.querySelector(".substep-tour [role=status]").textContent),
+    words, { timeout: 90000 });
+  return said.textContent();
+};
+
+/** Drags from the middle of an element. */
+async function drag(page, element, dx) {
+  const { x, y, width, height } = await element.boundingBox();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  await page.mouse.move(x + width / 2 + dx / 2, y + height / 2);
+  await page.mouse.move(x + width / 2 + dx, y + height / 2);
+  await page.mouse.up();
+}
+
+async function findings(page) {
+  const { violations } = await page.evaluate(() => window.axe.run());
+  return violations.filter((v) => ["serious", "critical"].includes(v.impact))
+    .map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`);
+}
+
+/** Nothing is cut off, and at least half of the height or width is left to the canvas. */
+async function assertFits(page, width, height) {
+  const box = await tour(page).boundingBox();
+  const canvas = await canvasBox(page);
+  assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= width && box.y + box.height <= height);
+  assert.ok(canvas.width * canvas.height > 0.5 * width * height, "the canvas is too small");
+  const beside = canvas.x >= box.x + box.width - 1 || canvas.y + canvas.height <= box.y + 1;
+  assert.ok(beside, "the text covers the canvas");
+  const cut = await tour(page).evaluate((e) => [...e.querySelectorAll("*")]
+    .filter((part) => part.scrollWidth > part.clientWidth + 1 && part.clientWidth > 0)
+    .map((part) => part.className));
+  assert.deepEqual(cut, [], "cut off at the side");
+}
+
+for (const light of [false, true]) {
+  for (const [width, height] of [[1280, 720], [1920, 1080], [390, 844]]) {
+    test(`${width}x${height}, ${light ? "light" : "dark"}: every step fits and axe finds nothing`, async () => {
+      const page = await openPage(session, { width, height, light, touch: width < 900 });
+      await page.evaluate(axe);
+      for (let step = 1; step <= steps; ++step) {
+        await goTo(page, step);
+        await page.waitForTimeout(500);
+        await assertFits(page, width, height);
+        assert.deepEqual(await findings(page), [], `step ${step}`);
+        const labels = (await call(page, "widgets")).map((w) => w.label);
+        assert.ok(!labels.includes("Next") && !labels.includes("Done"), "its card is in the canvas too");
+        await save(page, `tour-${width}-${light ? "light" : "dark"}-${step}`);
+      }
+      quiet(page);
+      await page.context().close();
+    });
+  }
+}
+
+test("the button in the canvas begins it; Next, Back and Done lead through it", async () => {
+  const page = await openPage(session);
+  assert.equal(await tour(page).isVisible(), false);
+  await page.waitForFunction(() => window.substep.widgets().some((w) => w.label === "Take the tour"));
+  await click(page, "Take the tour");
+  await page.getByText(`Tour, 1 of ${steps}`).waitFor();
+  assert.ok(await button(page, "Back").isDisabled());
+  const wanted = [{ mode: "none" }, { mode: "const", n: "7" }, { mode: "capped" }, { mode: "adaptive" },
+    { alpha: "0.1" }, { mode: "adaptive" }, { integrator: "leapfrog" }];
+  for (const [i, settings] of wanted.entries()) {
+    await page.getByText(`Tour, ${i + 1} of ${steps}`).waitFor();
+    const now = Object.fromEntries((await call(page, "settings")).map((s) => [s.name, String(s.value)]));
+    for (const [name, value] of Object.entries(settings)) assert.equal(now[name], value, `step ${i + 1}, ${name}`);
+    assert.equal((await call(page, "report")).tour, i + 1);
+    if (i + 1 < steps) await button(page, "Next").click();
+  }
+  await button(page, "Back").click();
+  await page.getByText(`Tour, ${steps - 1} of ${steps}`).waitFor();
+  await button(page, "Next").click();
+  await button(page, "Done").click();
+  await reports(page, "tour", 0);
+  assert.equal(await tour(page).isVisible(), false);
+  quiet(page);
+  await page.context().close();
+});
+
+test("a number is dragged, the run has it, and the task is answered by the run", async () => {
+  const page = await openPage(session);
+  await goTo(page, 2);
+  assert.match(await reply(page, "holds"), /^With 7 sub-steps it holds for 4 s\.$/);
+  await drag(page, number(page, "Sub-steps per frame"), -12);
+  const n = (await call(page, "settings")).find((s) => s.name === "n").value;
+  assert.equal(String(n), "6");
+  assert.ok((await call(page, "report")).time < 1, "the run did not start again");
+  const said = await reply(page, "With 6 sub-steps the");
+  const { verdict } = await call(page, "report");
+  const failed = /fails at ([\d.]+) s/.exec(verdict);
+  assert.ok(failed, verdict);
+  assert.ok(said.endsWith(` at ${Number(failed[1]).toFixed(2)} s.`), said);
+  assert.equal(await tour(page).locator(".substep-tour-done").count(), 1);
+  await save(page, "tour-task-done");
+  await drag(page, number(page, "Sub-steps per frame"), 20);
+  assert.equal(await number(page, "Sub-steps per frame").textContent(), "8 sub-steps");
+  await reply(page, "With 8 sub-steps it holds");
+  assert.equal(await tour(page).locator(".substep-tour-done").count(), 0);
+  quiet(page);
+  await page.context().close();
+});
+
+test("the keys of a slider change a number", async () => {
+  const page = await openPage(session);
+  await goTo(page, 5);
+  const alpha = number(page, "Alpha");
+  await alpha.focus();
+  const value = () => alpha.getAttribute("aria-valuetext");
+  for (const [key, wanted] of [["ArrowRight", "0.125"], ["ArrowUp", "0.16"], ["ArrowLeft", "0.125"],
+    ["ArrowDown", "0.1"], ["PageDown", "0.04"], ["PageUp", "0.1"], ["End", "1"], ["ArrowRight", "1"],
+    ["Home", "0.01"]]) {
+    await page.keyboard.press(key);
+    assert.equal(await value(), wanted, key);
+    assert.equal((await call(page, "report")).alpha, Number(wanted), key);
+  }
+  assert.deepEqual(await alpha.evaluate((e) => ["valuenow", "valuemin", "valuemax"]
+    .map((name) => Number(e.getAttribute(`aria-${name}`)))), [0.01, 0.01, 1]);
+  await goTo(page, 6);
+  await number(page, "Mass of the box").focus();
+  await page.keyboard.press("ArrowRight");
+  assert.equal(await number(page, "Mass of the box").getAttribute("aria-valuetext"), "2,000 kg");
+  assert.match(await page.evaluate(() => window.substep.link()), /load=2.*compare=/);
+  quiet(page);
+  await page.context().close();
+});
+
+test("a number that is set elsewhere is shown in the sentence", async () => {
+  const page = await openPage(session);
+  await goTo(page, 5);
+  await call(page, "set", { alpha: 0.07 });
+  await drawn(page);
+  assert.equal(await number(page, "Alpha").textContent(), "0.07");
+  await number(page, "Alpha").focus();
+  await page.keyboard.press("ArrowRight"); // to the next stop from between two of them
+  assert.equal((await call(page, "report")).alpha, 0.08);
+  await page.context().close();
+});
+
+test("words point at plots: a ring on hover and focus, the panel on a click", async () => {
+  const page = await openPage(session);
+  await goTo(page, 5);
+  await page.waitForTimeout(300);
+  const ring = page.locator(".substep-ring");
+  assert.equal(await ring.isVisible(), false);
+  await button(page, "the energy drift").hover();
+  await drawn(page);
+  const plot = (await call(page, "widgets")).find((w) => w.group === "plot" && w.label === "drift");
+  const canvas = await canvasBox(page);
+  const box = await ring.boundingBox();
+  assert.ok(Math.abs(box.x + box.width / 2 - canvas.x - plot.x - plot.width / 2) < 3);
+  assert.ok(Math.abs(box.y + box.height / 2 - plot.y - plot.height / 2) < 3);
+  await save(page, "tour-ring");
+  await page.mouse.move(canvas.x + canvas.width / 2, 300);
+  assert.equal(await ring.isVisible(), false);
+  await button(page, "the plot of N").focus();
+  assert.equal(await ring.isVisible(), true);
+  await goTo(page, 4);
+  await call(page, "set", { panel: "plots" });
+  await button(page, "the law").click();
+  await drawn(page);
+  assert.ok((await call(page, "widgets")).some((w) => w.group === "why" && w.label === "law"));
+  assert.equal(await ring.isVisible(), true);
+  quiet(page);
+  await page.context().close();
+});
+
+test("what breaks does so again and again, and slowly", async () => {
+  const page = await openPage(session);
+  await goTo(page, 1);
+  await page.evaluate(() => {
+    window.times = [];
+    window.substep.on("frame", ({ time }) => window.times.push(time));
+  });
+  await page.getByText(" s, slow motion").waitFor();
+  await reply(page, "1,000 kg the chain tears at 0\\.35 s");
+  await page.waitForFunction(() => window.times.filter((t, i) => t < window.times[i - 1]).length >= 2,
+    null, { timeout: 60000 });
+  assert.ok(Math.max(...await page.evaluate(() => window.times)) < 1.4);
+  quiet(page);
+  await page.context().close();
+});
+
+test("with reduced motion it stops at the end, and Play shows it once more", async () => {
+  const page = await openPage(session, { calm: true });
+  await goTo(page, 1);
+  await reports(page, "playing", false);
+  assert.match((await call(page, "report")).verdict, /^fails/);
+  await call(page, "play");
+  await page.waitForFunction(() => window.substep.report().time < 0.3);
+  await page.context().close();
+});
+
+test("leaving gives back the run, its comparison and the window", async () => {
+  for (const leave of [(p) => button(p, "Close the tour").click(), (p) => p.keyboard.press("Escape")]) {
+    const page = await openPage(session, { fragment: "scene=bridge&mode=damping&compare=mode:none" });
+    const width = (await canvasBox(page)).width;
+    const labels = async () => (await call(page, "widgets")).filter((w) => w.group !== "body")
+      .map((w) => w.label).sort();
+    await drawn(page);
+    await goTo(page, 7);
+    assert.ok((await canvasBox(page)).width < width);
+    await button(page, "Error against cost").click();
+    await leave(page);
+    await reports(page, "tour", 0);
+    await drawn(page);
+    const report = await call(page, "report");
+    assert.deepEqual([report.scene, report.mode, report.playing], ["bridge", "damping", true]);
+    assert.match(await page.evaluate(() => window.substep.link()), /compare=mode%3Anone|compare=mode:none/);
+    assert.equal((await canvasBox(page)).width, width);
+    assert.equal(await page.locator(".substep-ring").isVisible(), false);
+    assert.ok((await labels()).includes("Controls") || (await labels()).includes("Explore"), "the controls are gone");
+    assert.equal(await page.evaluate(() => document.activeElement.className), "substep-view");
+    quiet(page);
+    await page.context().close();
+  }
+});
+
+test("the keyboard alone: from the first screen through a step and out", async () => {
+  const page = await openPage(session, { first: true });
+  await page.waitForFunction(() => window.substep.report().introduction !== null);
+  await page.waitForTimeout(1100);
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), "Tour");
+  await page.keyboard.press("Enter");
+  await page.getByText(`Tour, 1 of ${steps}`).waitFor();
+  await drawn(page);
+  const focused = () => page.evaluate(() => document.activeElement.textContent
+    || document.activeElement.getAttribute("aria-label"));
+  assert.equal(await focused(), "A heavy box on a thin chain", "it is not read from its title on");
+  const reached = [];
+  for (let i = 0; i < 4; ++i) {
+    await page.keyboard.press("Tab");
+    reached.push(await focused());
+  }
+  assert.deepEqual(reached, ["1,000 kg", "the joint error", "Next", "substep: simulation, controls and plots"]);
+  await page.keyboard.press("Shift+Tab");
+  await page.keyboard.press("Enter");
+  assert.equal(await focused(), "Enough sub-steps hold it");
+  await page.keyboard.press("Escape");
+  await reports(page, "tour", 0);
+  quiet(page);
+  await page.context().close();
+});
+
+test("its colours follow the theme of the laboratory", async () => {
+  const page = await openPage(session);
+  await goTo(page, 3);
+  const back = () => tour(page).evaluate((e) => getComputedStyle(e).backgroundColor);
+  const dark = await back();
+  await call(page, "set", { theme: "light" });
+  await drawn(page);
+  assert.notEqual(await back(), dark);
+  await page.evaluate(axe);
+  assert.deepEqual(await findings(page), []);
+  await page.context().close();
+});
+
+test("a laboratory in an article has the card in its window, as before", async () => {
+  const page = await openPage(session, { path: "example/article.html", before: "1" });
+  await page.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
+  const labels = await page.evaluate(async () => {
+    const [lab] = Object.values(window.laboratories);
+    lab.set({ tour: 2 });
+    for (let i = 0; i < 8; ++i) await new Promise((done) => { requestAnimationFrame(done); });
+    return lab.widgets().map((w) => w.label);
+  });
+  assert.ok(labels.includes("Next"), labels.join());
+  assert.equal(await tour(page).count(), 0);
+  await page.context().close();
+});

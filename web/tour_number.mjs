@@ -1,0 +1,81 @@
+// A number in a sentence of the tour: dragged to the sides, or changed with the keys of a slider.
+
+const pixels = 10; // of a drag from one value to the next
+const page = 4; // values that Page Up and Page Down pass
+
+const keys = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: page,
+  PageDown: -page, Home: -Infinity, End: Infinity };
+
+/** Where a value lies among the stops; between two of them at a half. */
+function indexOf(stops, value) {
+  const above = stops.findIndex((stop) => stop >= value * (1 - 1e-9));
+  if (above < 0) return stops.length - 0.5;
+  return Math.abs(stops[above] - value) <= 1e-9 * value ? above : above - 0.5;
+}
+
+/** The value so many stops on. */
+function moved(stops, from, by) {
+  const index = by > 0 ? Math.floor(from) + by : Math.ceil(from) + by;
+  return stops[Math.min(stops.length - 1, Math.max(0, index))];
+}
+
+/**
+ * @param {(value: number) => void} change called while it moves
+ * @param {() => void} settle called when a drag ends, and after a key
+ * @returns {element, show}; show takes what the laboratory says of the number
+ */
+export function makeNumber(change, settle) {
+  const element = document.createElement("span");
+  element.className = "substep-number";
+  element.tabIndex = 0;
+  element.setAttribute("role", "slider");
+  let now = { stops: [0], value: 0 };
+  let drag = null; // {x, index, value}: where it began; {by}: how far it is
+
+  const set = (value) => {
+    if (value !== now.value) change(value);
+  };
+  element.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    element.setPointerCapture(event.pointerId);
+    element.focus({ preventScroll: true });
+    drag = { x: event.clientX, index: indexOf(now.stops, now.value), value: now.value,
+      by: 0 };
+    event.preventDefault(); // no selection of text
+  });
+  element.addEventListener("pointermove", (event) => {
+    if (!drag) return;
+    const by = Math.round((event.clientX - drag.x) / pixels);
+    if (by !== drag.by) set(by === 0 ? drag.value : moved(now.stops, drag.index, by));
+    drag.by = by;
+  });
+  for (const type of ["pointerup", "pointercancel"]) {
+    element.addEventListener(type, () => {
+      if (drag && now.value !== drag.value) settle();
+      drag = null;
+    });
+  }
+  element.addEventListener("keydown", (event) => {
+    const by = keys[event.key];
+    if (by === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    set(moved(now.stops, indexOf(now.stops, now.value), by));
+    settle();
+  });
+
+  return {
+    element,
+    /** @param number {label, value, text, stops} */
+    show(number) {
+      const changed = number.value !== now.value || number.text !== now.text;
+      now = number;
+      if (!changed) return;
+      element.textContent = number.text;
+      const attributes = { label: number.label, valuenow: number.value, valuetext: number.text,
+        valuemin: number.stops[0], valuemax: number.stops.at(-1) };
+      for (const [name, value] of Object.entries(attributes)) {
+        element.setAttribute(`aria-${name}`, value);
+      }
+    },
+  };
+}

@@ -47,7 +47,8 @@ export async function pack(text) {
 /** @returns the text; fails where the letters are no packed text, a RangeError where it is too long */
 export async function unpack(letters) {
   const binary = atob(letters.replaceAll("-", "+").replaceAll("_", "/"));
-  const bytes = Uint8Array.from(binary, (letter) => letter.charCodeAt(0));
+  const bytes = new Uint8Array(binary.length); // letter by letter: from() takes 100 ns for each
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
   const plain = await through(bytes, new DecompressionStream("deflate-raw"), largestUnpacked);
   return new TextDecoder("utf-8", { fatal: true }).decode(plain);
 }

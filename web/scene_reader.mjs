@@ -10,8 +10,10 @@ export function makeSceneReader(wasm) {
   let last = Promise.resolve();
   return (text, use) => {
     const read = last.then(async () => {
+      await answering();
       wasm.read(text);
-      while (wasm.readSome()) await answering();
+      do await answering(); while (wasm.readSome());
+      await answering();
       const given = use();
       await answering();
       if (!wasm.stopped) wasm.startOpened();

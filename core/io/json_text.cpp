@@ -83,6 +83,7 @@ class Builder {
   /// An object or a list that is open. The library's own look-up takes time proportional to the
   /// number of keys; a large object has an index beside it.
   struct Level {
+    static constexpr std::size_t kTypical = 8;
     static constexpr std::size_t kSmall = 16;
 
     Json* json;
@@ -105,6 +106,7 @@ class Builder {
     }
     Member* append(std::string key) {
       auto& object = json->get_ref<Json::object_t&>();
+      if (object.empty()) object.reserve(kTypical);  // growing copies the keys
       object.push_back(Member(std::move(key), nullptr));
       for (std::size_t i = index.size(); object.size() > kSmall && i < object.size(); ++i) {
         index.emplace(at(object, i).first, i);

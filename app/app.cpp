@@ -12,7 +12,7 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
     if (loaded) desk.selected = -1;
     if (loaded) introduction.close(*this);  // another run has taken its place
     if (loaded && session.scene().name != kTourScene) tour.close(*this);
-    // A run that starts anew is seen from its start on, at the zoom that was chosen.
+    // A restarted run is shown from its start, at the chosen zoom.
     for (ui::PlotState& plot : desk.plots) plot.set = false;
     desk.time.from = 0.0;
     desk.time.follow = true;

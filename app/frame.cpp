@@ -43,7 +43,7 @@ void update_look(App& app) {
   }
 }
 
-// Hands the picture that was asked for to the shell.
+// Saves the requested picture through the host.
 void take_capture(App& app, int width, int height) {
   const ViewRect& a = app.desk.capture->area;
   const float ratio = ImGui::GetIO().DisplayFramebufferScale.x;
@@ -60,7 +60,7 @@ void take_capture(App& app, int width, int height) {
   app.desk.capture.reset();
 }
 
-// The shell speaks in its own logical pixels, of which the interface's are `scale` times as large.
+// Converts from the shell's logical pixels to the interface's, which are `scale` times as large.
 class Scaled {
  public:
   explicit Scaled(App& app) : size_(ImGui::GetIO().DisplaySize), ratio_(buffer_scale()) {
@@ -126,7 +126,7 @@ void frame(App& app, double wall_dt) {
   if (!app.compare.behind(app.session)) app.session.advance(wall_dt);
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
     app.session.pause();
-    app.pause_at = 0.0;  // whoever plays on wants to see more
+    app.pause_at = 0.0;  // playing again passes the end
   }
   app.accuracy.advance(Accuracy::slice(app.session.playing(), wall_dt - app.own_time));
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -149,7 +149,7 @@ void frame(App& app, double wall_dt) {
 
   const ImGuiIO& io = ImGui::GetIO();
   ViewOptions shown = app.desk.view;
-  if (app.compare.open()) shown.tint = false;  // colours say who is who then
+  if (app.compare.open()) shown.tint = false;  // colours identify the runs then
   draw_pictures(app, shown, io.DisplaySize);
   ui::draw_over_picture(app);
   ImGui::Render();

@@ -17,7 +17,7 @@ SUBSTEP_EXPORTED const char* substep_open(const char* name);
 /// A scene as JSON. @param from what people call it: a file's name
 SUBSTEP_EXPORTED const char* substep_open_text(const char* text, const char* from);
 
-/// Settings by name, as an object. Those that can be read hold, the others are told.
+/// Settings by name, as an object. Valid ones are applied, the others reported.
 SUBSTEP_EXPORTED const char* substep_set(const char* text);
 
 /// Takes frames at once, without waiting for the clock.

@@ -13,7 +13,7 @@ export class Clock {
     this.timer = 0; // of a frame that was begun and not shown
     this.pictures = frame.canvas.pictures = { begun: 0, shown: 0 }; // for tests that look at pixels
     this.graphics = new Graphics(wasm, frame, () => this.wake());
-    this.seen = false; // until the watcher says so
+    this.seen = false; // until the watcher reports it
     this.watcher = new IntersectionObserver((entries) => {
       this.seen = entries.at(-1).isIntersecting; // there are several where the page was busy
       this.graphics.see(this.seen);

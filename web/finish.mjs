@@ -22,7 +22,7 @@ for (const entry of await readdir(folder, { recursive: true, withFileTypes: true
 }
 const hash = createHash("sha256");
 for (const name of files) hash.update(name).update(await readFile(join(folder, name)));
-// A folder is asked for by its name as well as by its page's.
+// A folder is requested by its name as well as by its page's.
 await copyFile(join(source, "service_worker.js"), join(folder, "service_worker.js"));
 await writeFile(join(folder, "files.json"),
   JSON.stringify({ version: hash.digest("hex").slice(0, 16), files: ["./", ...files] }, null, 1));

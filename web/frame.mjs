@@ -54,7 +54,7 @@ export function makeFrame(element, wholePage) {
     wholePage,
     signal: ending.signal, // for what listens beyond the canvas
     twin: element.querySelector(".substep-twin"),
-    tour: element.querySelector(".substep-tour"), // null in a page of somebody else's
+    tour: element.querySelector(".substep-tour"), // null in an article
     say,
     /** Says it and waits for the button to be pressed. */
     ask(title, text, answer) {

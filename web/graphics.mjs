@@ -21,7 +21,7 @@ export class Graphics {
     Object.assign(this, { wasm, frame, wake });
     this.state = "held"; // then "leaving", "away", "coming"; "taken" by the system
     this.seen = false;
-    this.patience = 2000; // until it asks for what the system took [ms]
+    this.patience = 2000; // before it requests a context again [ms]
     frame.canvas.addEventListener("webglcontextlost", (event) => this.lost(event));
     frame.canvas.addEventListener("webglcontextrestored", () => this.restored());
     makeRoom(1);
@@ -63,7 +63,7 @@ export class Graphics {
   /** Gives the graphics up while it is out of sight. @returns whether it did */
   handOn() {
     if (this.seen || !this.canDraw() || !this.wasm.canHandOn()) return false;
-    this.state = "leaving"; // until the browser has said so nothing can be asked for again
+    this.state = "leaving"; // no context can be requested before the browser confirms the loss
     this.wasm.handOnGraphics();
     return true;
   }

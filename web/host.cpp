@@ -30,7 +30,7 @@ EM_JS(char*, host_recall, (const char* key), {
 namespace substep::web {
 namespace {
 
-// What was pasted last: the page tells it before it sends the key.
+// The text pasted last: the page sets it before it sends the key.
 std::string pasted;
 
 }  // namespace

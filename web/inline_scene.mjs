@@ -3,7 +3,7 @@
 /** Of what a link unpacks to [bytes]: 1 kB of letters can stand for 1 MB. */
 export const largestUnpacked = 4 << 20;
 
-// A stream inflates all that it is given before it hands anything on: 1 kB becomes 1 MB at most.
+// A stream inflates all of its input before it gives any output: 1 kB becomes 1 MB at most.
 const sliceSize = 1024; // [bytes]
 
 /** A stream of the bytes in slices, read on demand. */

@@ -70,7 +70,7 @@ EMSCRIPTEN_KEEPALIVE void substep_pinch(double factor, double dx, double dy) {
   instance->app->view.camera.pan(dx, dy, instance->app->panes.front());
 }
 
-/// @return whether the application wants to hear it, so that the page should not act on it
+/// @return whether the application uses it, so that the page should not act on it
 EMSCRIPTEN_KEEPALIVE int substep_key(const char* name, int down, int ctrl, int shift, int alt,
                                      int super) {
   ImGuiIO& io = ImGui::GetIO();
@@ -90,7 +90,7 @@ EMSCRIPTEN_KEEPALIVE void substep_text(const char* utf8) {
   ImGui::GetIO().AddInputCharactersUTF8(utf8);
 }
 
-/// No key and no button stays down while nobody looks.
+/// Releases all keys and buttons when the page loses focus.
 EMSCRIPTEN_KEEPALIVE void substep_focus(int focused) { ImGui::GetIO().AddFocusEvent(focused != 0); }
 
 EMSCRIPTEN_KEEPALIVE void substep_reduced_motion(int on) {

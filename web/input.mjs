@@ -105,7 +105,7 @@ export function listen(canvas, wasm, wake, shares, signal) {
     for (const down of [1, 0]) wasm.key("v", down, down, 0, 0, 0);
     wake();
   }, { signal });
-  // A ring around the page shows where the keyboard is, for those who came with Tab.
+  // A ring around the page shows keyboard focus.
   let tab = false;
   window.addEventListener("keydown", (event) => { tab = event.key === "Tab"; },
     { capture: true, signal });

@@ -1,4 +1,4 @@
-// Loads the WebAssembly and its data with the progress told, and wraps what it exports.
+// Loads the WebAssembly and its data, reports the progress, and wraps what it exports.
 import { sizes } from "./version.mjs";
 
 /** A download that did not come to its end: trying again may help. */

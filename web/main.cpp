@@ -21,7 +21,7 @@ std::unique_ptr<Instance> instance;
 namespace {
 EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
 
-// Browsers hide the name behind an extension; "" where they do not tell.
+// Browsers hide the name behind an extension; "" where that is missing.
 std::string renderer_name() {
   constexpr GLenum kUnmaskedRenderer = 0x9246;
   if (!emscripten_webgl_enable_extension(context, "WEBGL_debug_renderer_info")) return "";
@@ -100,7 +100,7 @@ EMSCRIPTEN_KEEPALIVE void substep_frame(double dt) {
   substep::frame(*instance->app, dt);
 }
 
-/// The mouse cursor wanted: 0 arrow, 1 hand, 2 text.
+/// The mouse cursor to show: 0 arrow, 1 hand, 2 text.
 EMSCRIPTEN_KEEPALIVE int substep_cursor() {
   switch (ImGui::GetMouseCursor()) {
     case ImGuiMouseCursor_Hand:

@@ -1,7 +1,7 @@
 // Keeps a copy of all files in the browser, so that the laboratory works without a network, and puts
 // a new version in its place as a whole: service_worker.js does the work.
 
-const untouched = 10000; // so long after its start a page that nobody used may start anew [ms]
+const untouched = 10000; // after its start an unused page may reload for so long [ms]
 let used = false; // from the first moment on, also while it loads
 for (const event of ["pointerdown", "keydown"]) {
   window.addEventListener(event, () => { used = true; }, { once: true, capture: true });

@@ -1,4 +1,4 @@
-// The laboratory in plain HTML, for those who do not see the canvas or do not use a pointer: what
+// The laboratory in plain HTML, for screen readers and keyboards: what
 // it shows, read out where it matters, and its main controls. The controls come into sight when the
 // keyboard reaches them.
 

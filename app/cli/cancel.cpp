@@ -16,7 +16,7 @@
 namespace substep::cli {
 namespace {
 
-// Long enough for a command that looks at the flag after every frame, short enough for who waits.
+// Long enough for a command that checks the flag after every frame, short enough for a person.
 constexpr std::chrono::milliseconds kPatience{120};
 
 std::atomic<bool> g_cancelled{false};

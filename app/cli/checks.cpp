@@ -56,7 +56,7 @@ bool run_checks(std::vector<Check>& checks, int jobs,
     const std::lock_guard lock(mutex);
     checks[i] = std::move(check);
     while (told < checks.size() && checks[told].done) on_done(checks[told++]);
-    if (std::ferror(stdout) != 0) next = checks.size();  // no one is told: no use to go on
+    if (std::ferror(stdout) != 0) next = checks.size();  // the output is closed: stop
   };
   const auto work = [&] {
     try {

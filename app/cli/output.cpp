@@ -220,7 +220,7 @@ bool is_standard_output(const std::string& path) {
   if (path == "-") return true;
   const auto named = about(path);
   const auto standard = about(STDOUT_FILENO);
-  // /dev/null is what it is, whoever writes to it.
+  // /dev/null is never replaced.
   return named && standard && same(*named, *standard) &&
          (!S_ISCHR(named->st_mode) || ::isatty(STDOUT_FILENO) != 0);
 }

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a picture needs: thousands of numbers of 17 digits help nobody.
+/// As many digits as a picture needs, not all 17.
 double shortened(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", x);

@@ -42,7 +42,7 @@ struct RunOptions {
   BudgetFlags budget;
 };
 
-/// What the scene will ask for, told before it moves.
+/// Prints the forecast of the first frame.
 std::string forecast_line(const Scene& scene, const Settings& settings) {
   const Forecast told = forecast(scene, settings);
   std::string text = "foretold     " + std::to_string(told.at_start) + " sub-steps at the start";

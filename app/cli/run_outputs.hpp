@@ -32,7 +32,7 @@ class RunOutputs {
   bool open(const RunFiles& files);
   void begin(const Simulator& simulator);
   void add(const Simulator& simulator, const FrameReport& frame);
-  /// Whether a result could not be written: no use to go on.
+  /// Whether a result could not be written; the run stops then.
   [[nodiscard]] bool failed() const;
   /// @return false and a message on stderr where not all could be written
   bool end(const Simulator& simulator, const Measure& measure);

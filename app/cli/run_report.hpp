@@ -9,7 +9,7 @@
 
 namespace substep::cli {
 
-/// Gathers what people want to know of a run as it goes.
+/// Gathers the summary of a run as it goes.
 class RunReport {
  public:
   RunReport(const Scene& scene, const FrameReport& start);

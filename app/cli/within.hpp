@@ -7,7 +7,7 @@
 
 namespace substep::cli {
 
-/// A number from `least` to `most`. CLI::Range lets "nan" through, which compares with nothing.
+/// A number from `least` to `most`. CLI::Range accepts "nan", which compares with nothing.
 inline CLI::Validator within(double least, double most) {
   const std::string range = number_text(least) + " to " + number_text(most);
   return {[=](std::string& text) {

@@ -226,7 +226,7 @@ Bytes font_file(const stbtt_fontinfo& font, const Bytes& source) {
                                                                {"maxp", maxp}};
   Bytes out{'O', 'T', 'T', 'O'};
   put(out, static_cast<std::uint32_t>(tables.size()), 2);
-  for (int i = 0; i < 3; ++i) put(out, 0, 2);  // search hints that nobody reads here
+  for (int i = 0; i < 3; ++i) put(out, 0, 2);  // search hints, unused here
   std::size_t offset = out.size() + 16 * tables.size();
   for (const auto& [tag, table] : tables) {
     out.insert(out.end(), tag.begin(), tag.end());

@@ -1,5 +1,5 @@
 #pragma once
-// Dear ImGui's user configuration: what it finds wrong with how it is called is told on the error
+// Dear ImGui's user configuration: errors in how it is called are printed on the error
 // output and counted, in every build. Nobody's run ends by it, and tests see it.
 
 namespace substep::imgui {

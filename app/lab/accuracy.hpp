@@ -28,7 +28,7 @@ class Accuracy {
   /// Sweeps this scene; what was there before is forgotten.
   void start(std::shared_ptr<const Scene> scene);
   /// Shows the sweep that is shipped with this scene, where there is one: at once, without times.
-  /// What a sweep found by running stays, unless it is asked for. @return whether it is shown
+  /// Results of a sweep that ran are kept unless `asked`. @return whether it is shown
   bool show_shipped(const std::shared_ptr<const Scene>& scene, bool asked = false);
   /// Whether the results were shipped with the scene.
   [[nodiscard]] bool shipped() const { return shipped_.has_value(); }
@@ -45,7 +45,7 @@ class Accuracy {
 
   /// Whether advance() has something to do.
   [[nodiscard]] bool busy() const { return effects.running() || searching() || running(); }
-  /// Whether the sweep is not over; it waits while a search goes on.
+  /// Whether the sweep is unfinished; it waits while a search runs.
   [[nodiscard]] bool running() const {
     return sweep_.has_value() && !cancelled_ && !sweep_->done();
   }
@@ -76,7 +76,7 @@ class Accuracy {
   /// Whether the reference is there, frame by frame: after a sweep that ran.
   [[nodiscard]] bool can_search() const { return sweep_ && sweep_->reference() != nullptr; }
   void cancel_search() { search_.reset(); }
-  /// The search for what is wanted as it is now, or null. It waits while something else is wanted.
+  /// The search for the present requirement, or null. It waits while another one is set.
   [[nodiscard]] const AlphaSearch* alpha_search() const;
   [[nodiscard]] bool searching() const { return alpha_search() && !search_->done(); }
   /// What its sub-steps are capped at.
@@ -86,7 +86,7 @@ class Accuracy {
   /// Whether two runs or more have such an error.
   [[nodiscard]] bool has(ErrorAxis axis) const;
 
-  /// What the parts of a frame cost; measured before a sweep goes on.
+  /// What the parts of a frame cost; measured before a sweep continues.
   EffectCosts effects;
 
   AccuracyPicture picture = AccuracyPicture::kErrorAgainstCost;
@@ -95,13 +95,13 @@ class Accuracy {
   ErrorAxis error = ErrorAxis::kTrajectory;
   /// Whether an error is given and the least cost is looked for, or the other way around.
   bool error_is_given = true;
-  /// The error that is wanted at most, by its axis [m, J].
+  /// The largest error allowed, by its axis [m, J].
   std::array<double, static_cast<std::size_t>(ErrorAxis::kCount)> wanted{1e-3, 1.0, 1e-4, 1e-4};
   /// What a frame may cost at most, by its axis [-, -, ms].
   std::array<double, static_cast<std::size_t>(CostAxis::kCount)> budget{8.0, 1e5, 0.05};
 
  private:
-  /// What is wanted at most, and of what.
+  /// The requirement: a limit on an error or a cost.
   struct Limit {
     bool of_error = true;
     std::size_t axis = 0;

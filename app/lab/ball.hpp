@@ -16,7 +16,7 @@ struct Ball {
 };
 
 /// The scene with one more body, or with another one in the place of an earlier ball. A scene
-/// without contact gets it, for balls alone: its own bodies go on passing through each other.
+/// without contact gets it, for balls alone: its own bodies still pass through each other.
 /// @param slot index of the ball's body, at most the number of bodies that there are
 Scene with_ball(const Scene& scene, const Ball& ball, std::size_t slot);
 

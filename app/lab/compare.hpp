@@ -78,7 +78,7 @@ class Compare {
   void close() { runs_.clear(); }
   /// From the session's present state on, with the same methods.
   void restart(const Session& session);
-  /// Adds, changes or removes one, and starts all of them anew.
+  /// Adds, changes or removes one, and restarts all of them.
   void add(const Session& session, Overrides one);
   void remove(const Session& session, std::size_t index);
   /// Changes the method of one that runs, live.

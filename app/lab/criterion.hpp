@@ -12,7 +12,7 @@ namespace substep {
 /// Which of the criterion's two terms is the larger: the number of sub-steps follows it.
 enum class CriterionTerm : std::uint8_t { kNone, kStiffness, kRotation };
 
-/// What each term of the criterion asks for, by Eqs. 10 and 11.
+/// What each term of the criterion requires, by Eqs. 10 and 11.
 struct Criterion {
   CriterionTerm set_by = CriterionTerm::kNone;
   StiffnessLeader stiffness;   // the stiffest degree of freedom; body -1 where nothing is stiff
@@ -21,7 +21,7 @@ struct Criterion {
   double angular_speed = 0.0;  // of that body [rad/s]
   bool rotation_on = false;    // the setting
   bool remembered = false;     // the fastest rotation of the last seconds counts
-  int n_stiffness = 1;         // N that each term alone asks for
+  int n_stiffness = 1;         // N that each term alone requires
   int n_rotation = 1;
 
   /// The body that sets N, or -1.
@@ -35,11 +35,11 @@ Criterion criterion_of(const Scene& scene, const Settings& settings, const State
 std::string degree_of_freedom(const StiffnessLeader& who);
 /// "link_3, rotation about z"; "top, spinning at 60 rad/s now"; what sets N.
 std::string setter_text(const Scene& scene, const Criterion& criterion);
-/// One term in words, with what it asks for: "Stiffness of link_3, along y" and
+/// One term in words, with what it requires: "Stiffness of link_3, along y" and
 /// "Rotation of top, 60 rad/s now".
 std::string stiffness_text(const Scene& scene, const Criterion& criterion);
 std::string rotation_text(const Scene& scene, const Criterion& criterion);
-/// Why the rotation term asks for what it asks for, in words.
+/// Explains the value of the rotation term, in words.
 std::string rotation_meaning(const Scene& scene, const Criterion& criterion);
 /// What both terms ask for: "stiffness alone N = 12, rotation alone N = 23".
 std::string both_terms_text(const Criterion& criterion);

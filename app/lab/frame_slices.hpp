@@ -7,15 +7,15 @@
 
 namespace substep {
 
-/// What a window lets a simulation take: it answers between two sub-steps, and one of so much work
-/// takes about 0.1 s.
+/// The budget of a simulation in a window. The window answers between two sub-steps; one of so much
+/// work takes about 0.1 s.
 inline constexpr Budget kWindowBudget{
     .memory = 64.0 * kMebibyte, .substep = 1e8, .contacts = 10'000.0};
 
 /// Computing between two pictures [s].
 inline constexpr double kSlice = 0.025;
 
-/// Takes frames in slices of time, so that the window goes on answering: a frame that is long is
+/// Takes frames in slices of time, so that the window keeps answering: a frame that is long is
 /// taken over several calls. The motion is that of Simulator::step(), bit for
 /// bit.
 class FrameSlices {
@@ -36,7 +36,7 @@ class FrameSlices {
   }
   /// Leaves the open frame: the simulation is where it began.
   void drop(Simulator& simulator);
-  /// Whether the next frame is short, as far as the last one tells.
+  /// Whether the next frame is expected to be as short as the last one.
   [[nodiscard]] bool quick() const { return frame_time_ > 0.0 && frame_time_ < kLong; }
   /// After what changes how long frames take.
   void forget() { *this = {}; }

@@ -46,7 +46,7 @@ void Samples::drop_front(std::size_t count) {
 
 void Samples::truncate(std::size_t count) {
   if (count >= values_.size()) return;
-  // The last block has to be made anew from what is left of it.
+  // The last block is rebuilt from its remaining samples.
   const std::size_t whole = count / kLargestBlock * kLargestBlock;
   const std::vector<float> rest(values_.begin() + static_cast<std::ptrdiff_t>(whole),
                                 values_.begin() + static_cast<std::ptrdiff_t>(count));

@@ -90,7 +90,7 @@ class History {
     return first_time_ + static_cast<double>(i) * frame_;
   }
   /// The samples at and between two times, as [first, last); one more to either side where there
-  /// is one, so that a line goes on over the edge.
+  /// is one, so that a line continues over the edge.
   struct Slice {
     std::size_t first = 0;
     std::size_t last = 0;

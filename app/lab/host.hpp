@@ -13,7 +13,7 @@ struct Host {
   std::function<void(const std::string& fragment)> link_changed;  // keeps the address up to date
   std::function<void()> copy_link;  // puts the address that holds the experiment on the clipboard
   std::function<void()> open_link;  // follows the link on the clipboard
-  std::function<void()> open_file;  // lets the person choose a scene file, and opens it
+  std::function<void()> open_file;  // opens a dialogue for a scene file, and loads it
   std::function<void(bool on)> record;  // begins and ends a video of the window
   /// Hands a file to the person: into the working folder natively, a download in the page.
   std::function<void(const std::string& name, const std::string& bytes)> save_file;

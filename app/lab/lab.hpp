@@ -28,14 +28,14 @@ struct Lab {
 
   /// Runs a shipped scene. @return false where there is none of that name
   bool open(std::string_view name);
-  /// Runs a scene given as text. Where it has problems they are shown and the old one goes on.
+  /// Runs a scene given as text. If it has problems they are shown and the old run continues.
   /// @param from what people call it: a file's name
   bool open_text(std::string_view json, const std::string& from);
   /// The same for the text of a file, or for what was wrong with reading it.
   bool open_result(SceneResult result, const std::string& from);
-  /// open_result() in two calls, for a page that answers in between: the run is there, and waits.
+  /// open_result() up to start_opened(): the run is there and paused. A page answers in between.
   bool open_paused(SceneResult result, const std::string& from);
-  /// Plays the run that was opened. Where its frames take long it says so and waits for a person.
+  /// Plays the run that was opened. If its frames take long it stays paused, and a card says why.
   void start_opened();
   /// Adds a scene to the person's own, here and at the next visit. @return as it is in the library
   std::shared_ptr<const Scene> add_own(const Scene& scene);
@@ -47,7 +47,7 @@ struct Lab {
   void reset();
   /// New settings for the run, live. Whether K is watched stays as it is.
   void change(const Settings& settings);
-  /// Whether K is evaluated in every mode, to be seen.
+  /// Whether K is evaluated in every mode, for display.
   void watch_stiffness(bool on);
   /// Runs the scene from another of its starts, with the settings and the comparison as they are.
   void vary(double load, int seed);
@@ -65,7 +65,7 @@ struct Lab {
   void run(const RunStart& start);
   /// Whether the run waits for a person to start it.
   [[nodiscard]] bool held() const { return !heavy.why.empty() && heavy.run == run_count; }
-  /// Whether something goes on by itself: a run that plays, a sweep, a search.
+  /// Whether anything runs without input: a run that plays, a sweep, a search.
   [[nodiscard]] bool busy() const {
     return session.playing() || accuracy.busy() || compare.behind(session);
   }
@@ -103,7 +103,7 @@ struct Lab {
   double pause_at = 0.0;        // an experiment's end, 0 where there is none [s]
   int run_count = 0;            // resets and loads
   bool hold_at_failure = true;  // a run that fails pauses, where nothing is compared with it
-  /// Called after the run began anew. @param loaded with another scene
+  /// Called after the run was restarted. @param loaded with another scene
   std::function<void(bool loaded)> restarted;
 
  private:

@@ -20,7 +20,7 @@ bool has_settings(const std::vector<RunEvent>& events) {
   return std::any_of(events.begin(), events.end(), is_settings);
 }
 
-/// Whether K is evaluated to be seen does not change the motion.
+/// Whether K is evaluated for display does not change the motion.
 bool same_motion(Settings a, const Settings& b) {
   a.watch_stiffness = b.watch_stiffness;
   return a == b;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kSlowMotion = 0.25;  // speed [-]
 constexpr double kBefore = 0.4;       // slow motion begins this long before a known failure [s]
-constexpr double kAftermath = 0.9;    // that is still seen in slow motion [s]
+constexpr double kAftermath = 0.9;    // still shown in slow motion [s]
 
 // The first failure among the run and those compared with it.
 std::optional<double> first_failure(const Lab& lab) {

@@ -124,7 +124,7 @@ void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   use_scene(std::make_shared<const Scene>(std::move(scene)));
   simulator_->set_state(std::move(carried));
   verdict_->disturb(state().time);
-  // A link has little room: from it the run goes on like any start.
+  // A link has little room: from its start the run begins without the last forces.
   Scene edition = as_scene();
   edition.carried.reset();
   editions_.push_back({scene_, std::make_shared<const Scene>(std::move(edition)), state().frame});

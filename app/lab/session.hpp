@@ -38,7 +38,7 @@ class Session {
   /// @param past_bytes how much memory the saved states may take
   explicit Session(std::shared_ptr<const Scene> scene, std::size_t past_bytes = Timeline::kBytes);
 
-  /// Starts another scene with the settings that it asks for. Plays if this one was to.
+  /// Starts another scene with that scene's settings. Plays if this one was to.
   void load(std::shared_ptr<const Scene> scene);
   /// Back to the start of the scene as it was loaded. A run that failed while it played plays.
   void reset();
@@ -46,7 +46,7 @@ class Session {
   /// Lets wall time pass: frames are taken while there is time for them. The time that one call can
   /// ask for is capped, so that a tab that slept does not come back to a backlog, and what does not
   /// fit into `budget` is dropped: the run is then slower than the wall, see pace(). A frame that
-  /// takes longer goes on at the next call.
+  /// takes longer continues in the next call.
   /// @param budget [s] @return frames taken
   int advance(double wall_dt, double budget = kSlice);
   /// One frame, whether it plays or not: what is left of the one that substep() began. Where the
@@ -61,8 +61,8 @@ class Session {
   /// Sub-steps that the frame begun by substep() still has; 0 between frames.
   [[nodiscard]] int substeps_left() const { return simulator_->substeps_left(); }
 
-  /// The past: every frame, as far as memory goes. From a moment in it the run goes on bit for bit;
-  /// what came after it is forgotten then.
+  /// The past: every frame, as far as memory goes. A run continued from any of them is the same bit
+  /// for bit; later frames are discarded then.
   [[nodiscard]] const Timeline& timeline() const { return timeline_; }
   void go_to(std::size_t moment);
   /// To the frame before this one, or to the start of the one that substep() began.
@@ -104,7 +104,7 @@ class Session {
   void hold();
   void toggle() { playing_ ? pause() : play(); }
   [[nodiscard]] bool playing() const { return playing_; }
-  /// The state stopped being finite: only a reset or the past goes on.
+  /// The state is no longer finite: only a reset or an earlier frame leads on.
   [[nodiscard]] bool stopped() const { return report_.status != StepStatus::kOk; }
 
   [[nodiscard]] double speed() const { return speed_; }
@@ -119,7 +119,7 @@ class Session {
   /// At the end of the last frame, or sub-step where those are single.
   [[nodiscard]] const State& state() const { return slices_.state(*simulator_); }
   [[nodiscard]] const Settings& settings() const { return simulator_->settings(); }
-  /// A frame that advance() has begun begins anew with them.
+  /// A frame that advance() has begun is restarted with them.
   void set_settings(const Settings& settings);
   [[nodiscard]] const FrameReport& report() const { return report_; }
   [[nodiscard]] const Verdict& verdict() const { return *verdict_; }
@@ -133,7 +133,7 @@ class Session {
   /// What joints and contacts did in the last sub-step.
   [[nodiscard]] const ConstraintForces& forces() const { return forces_; }
   [[nodiscard]] std::uint64_t hash() const { return state_hash(state()); }
-  /// Counts scenes loaded, for those who must notice a new one.
+  /// Counts scenes loaded, so that a new one can be detected.
   [[nodiscard]] int generation() const { return generation_; }
 
   /// Poses at the accumulated wall time, between the last two frames: motion stays smooth at any

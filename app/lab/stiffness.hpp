@@ -15,7 +15,7 @@ StiffnessLeader stiffest_of(const Scene& scene, const State& state, std::size_t 
 /// ask for. Empty where K is not known.
 std::vector<StiffnessLeader> stiffness_by_body(const Scene& scene, const State& state);
 
-/// What each body asks for: its largest k/M over that of the whole scene, 0..1, 0 of what does not
+/// What each body requires: its largest k/M over that of the whole scene, 0..1, 0 of what does not
 /// move. Empty where K is not known or nothing is stiff.
 std::vector<double> stiffness_shares(const Scene& scene, const State& state);
 

@@ -11,7 +11,7 @@
 
 namespace substep {
 
-/// A run at the end of a frame: all that it takes to look at it and to go on from it bit for bit.
+/// A run at the end of a frame: enough to draw it and to continue from it bit for bit.
 struct Moment {
   std::shared_ptr<const Scene> scene;  // a thrown ball makes it another one
   Settings settings;                   // that its frame was taken with

@@ -61,7 +61,7 @@ double pixel_ratio(const Window& window) {
   return std::max(1.0, static_cast<double>(x));
 }
 
-// Window coordinates, in which GLFW speaks of the pointer, per logical pixel.
+// Window coordinates, GLFW's unit of the pointer, per logical pixel.
 double window_ratio(const Window& window) {
   int window_width = 0;
   int buffer_width = 0;
@@ -169,7 +169,7 @@ int run(const Options& options) {
     App app(std::move(library), std::move(renderer));
     window.app = &app;
     NativeHost host(app);
-    // Pictures for tests and pages do not depend on what somebody did before.
+    // Pictures for tests and pages do not depend on earlier visits.
     if (!options.screenshot.empty()) app.host.remember = nullptr, app.host.recall = nullptr;
     app.recall_scenes();
     recall_arrangement(app);

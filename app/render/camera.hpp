@@ -22,13 +22,13 @@ struct Bounds {
   double radius = 1.0;
 };
 
-/// Orbits a point. What the person asks for is a goal; the camera eases to it.
+/// Orbits a point. Input sets a goal; the camera eases to it.
 class OrbitCamera {
  public:
   static constexpr double kFieldOfView = 0.61;  // vertical, over the view rectangle [rad]
 
-  /// Jumps to where the scene wants to be looked at from.
-  /// @param half_width what must be seen to either side of the target, however narrow the view [m]
+  /// Jumps to the scene's own view.
+  /// @param half_width that must be visible to either side of the target, in any view [m]
   void place(const Camera& camera, double half_width);
   [[nodiscard]] static Vec3 right_of(const Camera& camera);
   /// Moves so that the ball fills the view, seen from where it is now.
@@ -55,11 +55,11 @@ class OrbitCamera {
     double distance = 20.0;
   };
   [[nodiscard]] static Vec3 backward(const Pose& pose);
-  /// Farther away where the view is narrower than what is to be seen.
+  /// Farther away where the view is narrower than what must be visible.
   [[nodiscard]] double fit(const ViewRect& view) const;
   Pose now_;
   Pose goal_;
-  double aspect_ = 1.0;  // width over height of what is to be seen
+  double aspect_ = 1.0;  // width over height of what must be visible
 };
 
 }  // namespace substep

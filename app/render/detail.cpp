@@ -61,7 +61,7 @@ void sort_into(std::array<std::vector<Instance>, kCount>& levels, std::span<cons
   for (auto& level : levels) level.clear();
   const double focal = focal_length(needs);
   for (const Instance& body : bodies) {
-    // The nearest point of it is seen largest.
+    // Its nearest point appears largest.
     const double w = std::max(1e-3, depth(body, *needs.picture) - reach(body));
     const double radius = static_cast<double>(body.rounding) * focal / w;
     levels[level_of(radius, tolerance, segments)].push_back(body);

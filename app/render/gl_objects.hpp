@@ -13,7 +13,7 @@
 
 namespace substep::gl {
 
-/// Where a field lies, as glVertexAttribPointer wants it.
+/// Offset of a field, as glVertexAttribPointer takes it.
 inline const void* at(std::size_t offset) {
   // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets as pointers
   return reinterpret_cast<const void*>(offset);
@@ -44,7 +44,7 @@ class Program {
   GLuint id_ = 0;
 };
 
-/// A buffer that is written anew every frame.
+/// A buffer that is rewritten every frame.
 class StreamBuffer {
  public:
   StreamBuffer() { glGenBuffers(1, &id_); }
@@ -92,7 +92,7 @@ class ShadowMap {
   ShadowMap(const ShadowMap&) = delete;
   ShadowMap& operator=(const ShadowMap&) = delete;
 
-  /// Makes it anew where it differs. @param size of its edges [pixel]
+  /// Recreates it if its size differs. @param size of its edges [pixel]
   void fit(int size);
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] bool complete() const;
@@ -113,7 +113,7 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// Makes it anew where it differs. @param width, height [pixel]; @param samples per pixel
+  /// Recreates it if its size differs. @param width, height [pixel]; @param samples per pixel
   void fit(int width, int height, int samples);
   /// To draw to.
   [[nodiscard]] unsigned frame_buffer() const { return frame_buffers_[0]; }
@@ -136,7 +136,7 @@ class Canvas {
   GLuint texture_ = 0;                     // of single samples: colours
 };
 
-/// Says when the graphics have carried out the calls before it.
+/// Signals when the graphics have executed the calls before it.
 class Fence {
  public:
   Fence() = default;

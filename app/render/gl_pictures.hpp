@@ -48,7 +48,7 @@ class PicturePainter {
              std::span<const PixelRect> hidden);
 
  private:
-  // World to the light's clip space: a box around the focus, seen from far along the light.
+  // World to the light's clip space: a box around the focus, viewed along the light.
   [[nodiscard]] Eigen::Matrix4f light_matrix(const Picture& picture) const;
   void draw_picture(const Picture& picture, const Target& target,
                     std::span<const PixelRect> hidden);

@@ -37,7 +37,7 @@ class GlRenderer final : public Renderer {
   bool build(std::string_view draws, bool may_defer, std::string& error);
   void begin_frame() override {
     ImGui_ImplOpenGL3_NewFrame();
-    ImGui::GetIO().Fonts->ClearTexData();  // the graphics have it; made again where it is wanted
+    ImGui::GetIO().Fonts->ClearTexData();  // uploaded; rebuilt on demand
   }
   void draw(std::span<const Picture> pictures, ImDrawData& panels,
             const DrawOptions& options) override;

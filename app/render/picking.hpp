@@ -14,7 +14,7 @@ struct Ray {
   [[nodiscard]] Vec3 at(double distance) const { return origin + distance * direction; }
 };
 
-/// What is seen at a point of the window. @param x, y clip coordinates, -1..1, y up
+/// The body at a point of the window. @param x, y clip coordinates, -1..1, y up
 Ray ray_through(const Eigen::Matrix4d& view_projection, double x, double y);
 
 struct Hit {

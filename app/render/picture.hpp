@@ -24,7 +24,7 @@ struct Instance {
   float rounding = 0.0F;                // radius of a box's edges [m]
   std::array<float, 4> orientation{};   // quaternion x y z w
   std::array<float, 3> half_extents{};  // of a box; radius, three times, of a ball [m]
-  float pattern = 0.0F;                 // 1: quartered, so that turning is seen
+  float pattern = 0.0F;                 // 1: quartered, so that rotation is visible
   Color color;
 
   bool operator==(const Instance&) const = default;

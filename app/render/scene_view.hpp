@@ -11,9 +11,9 @@
 
 namespace substep {
 
-/// What the person wants drawn beside the bodies.
+/// What is drawn beside the bodies.
 struct ViewOptions {
-  bool tint = true;       // bodies by k/M: who asks for small steps
+  bool tint = true;       // bodies by k/M: which need small steps
   bool joints = true;     // pins of joints
   bool trail = true;      // path of the tracked body
   bool labels = true;     // masses
@@ -55,7 +55,7 @@ struct ViewPalette {
   float shadow = 0.5F;
 };
 
-/// A run as it is looked at: what is seen of it, and what its bodies are tinted by.
+/// A run to draw: its scene and poses, and what its bodies are tinted by.
 struct Seen {
   const Scene* scene = nullptr;
   const Poses* poses = nullptr;
@@ -68,7 +68,7 @@ class SceneView {
  public:
   OrbitCamera camera;
 
-  /// The camera starts anew with a new scene.
+  /// Resets the camera for a new scene.
   void follow(const Session& session);
   void frame_all(const Session& session);
   /// @param view where the run is seen in the window

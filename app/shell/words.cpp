@@ -212,7 +212,7 @@ std::string App::set(std::string_view key, std::string_view value) {
   Settings s = session.settings();
   if (const auto problem = set_setting(*field, value, s)) return *problem;
   change(s);
-  if (needs_lab(*this)) desk.level = DeskLevel::kLab;  // what was set is seen
+  if (needs_lab(*this)) desk.level = DeskLevel::kLab;  // the setting has its control there
   return "";
 }
 

@@ -9,7 +9,7 @@ namespace substep {
 
 /// What the first screen says, for the canvas and for its twin in HTML.
 struct IntroductionWords {
-  std::string claim;  // what is seen in the two pictures
+  std::string claim;  // what the two pictures show
   std::string paper;  // whose method it is
   struct Label {
     std::string title;

@@ -84,7 +84,7 @@ std::string make_link(const Scene& scene, const Experiment& experiment) {
   return link;
 }
 
-// Through its JSON form: one reader knows what is allowed.
+// Through its JSON form, so that one reader checks the values.
 ExperimentInput read_experiment_link(std::string_view fragment, const SceneFinder& find,
                                      Problems& problems) {
   const std::size_t before = problems.size();

@@ -33,7 +33,7 @@ struct AccuracyAxes {
                        (max.y - min.y);
   }
   [[nodiscard]] ImVec2 at(const Accuracy::Point& p) const { return {x(p.cost), y(p.error)}; }
-  /// On the rail above the picture; PGS a little higher, so that both solvers can be seen.
+  /// On the rail above the picture; PGS a little higher, so that both solvers are visible.
   [[nodiscard]] ImVec2 on_rail(const Accuracy::Point& p, bool higher) const {
     return {x(p.cost), min.y - (higher ? 15.0F : 6.0F)};
   }
@@ -45,7 +45,7 @@ AccuracyAxes accuracy_axes(const Accuracy& accuracy, const std::vector<Accuracy:
 
 void draw_accuracy_grid(const Look& look, const Accuracy& accuracy, const AccuracyAxes& axes,
                         ImDrawList& draw);
-/// What the reference cannot tell from no error, shaded.
+/// Errors below the uncertainty of the reference, shaded.
 void draw_floor(const Look& look, const Accuracy& accuracy, const AccuracyAxes& axes,
                 ImDrawList& draw);
 

@@ -78,7 +78,7 @@ void axes_row(const Look& look, Accuracy& accuracy) {
     accuracy.error = axes[static_cast<std::size_t>(current)];
   }
   int cost = static_cast<int>(accuracy.cost);
-  const std::span<const Choice> costs(kCosts);  // the last is the time, which no file can know
+  const std::span<const Choice> costs(kCosts);  // the last is the time, which no file holds
   if (segmented_row(look, "Cost", accuracy.shipped() ? costs.first(2) : costs, cost,
                     "What goes to the right")) {
     accuracy.cost = static_cast<CostAxis>(cost);
@@ -170,7 +170,7 @@ void error_note(const Look& look, const Accuracy& accuracy) {
   space(8.0F);
 }
 
-/// Who is who, and how many of each hold, by solver and integrator.
+/// The legend, and how many runs of each curve are stable, by solver and integrator.
 void picture_legend(const Look& look, const Accuracy& accuracy) {
   struct Mark {
     CurveStyle style;
@@ -229,10 +229,10 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   accuracy.show_shipped(lab.plain_scene);
   section(look, "What does accuracy cost?");
   picture_row(look, lab.accuracy);
-  // Beside the errors it is where the search was asked for.
+  // Beside the errors the search has its own place.
   if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(look, lab.accuracy);
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {
-    if (accuracy.running()) {  // it goes on beside what this shows
+    if (accuracy.running()) {  // the sweep continues beside this
       label(look.fonts.small, look.theme->dim, ("All methods. " + state_text(accuracy)).c_str());
       sweep_progress(look, accuracy);
     }

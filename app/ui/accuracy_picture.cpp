@@ -51,7 +51,7 @@ void draw_front(const Look& look, const std::vector<Point>& points, const Accura
   }
 }
 
-/// Whether the reference cannot tell its error from none.
+/// Whether its error is below the uncertainty of the reference.
 bool on_floor(const Accuracy& accuracy, const Point& p) { return p.error <= accuracy.floor(); }
 
 void draw_curve(const Look& look, const Accuracy& accuracy, const AccuracyCurve& curve,

@@ -19,7 +19,7 @@ constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting that 
 constexpr std::array<const char*, static_cast<std::size_t>(CostAxis::kCount)> kBudgetNames{
     "Sub-steps", "Operations", "Time, ms"};
 
-/// What is wanted, and how much of it.
+/// The requirement: which axis, and its limit.
 void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Point>& points) {
   int given = accuracy.error_is_given ? 0 : 1;
   if (segmented_row(look, "Given", kGiven, given, "What is wanted; the other is looked for")) {
@@ -44,7 +44,7 @@ void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Po
   }
 }
 
-/// "1 mm", "0.05 ms per frame": what is wanted at most.
+/// "1 mm", "0.05 ms per frame": the limit.
 std::string limit_text(const Accuracy& accuracy) {
   if (accuracy.error_is_given) {
     return error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), accuracy.error);
@@ -72,7 +72,7 @@ std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
          " times what the setting above takes.";
 }
 
-/// The paper's own knob, chosen for what is wanted by whole runs. @param best beside it, or null
+/// The paper's alpha that meets the requirement, found by runs. @param best beside it, or null
 void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
   Accuracy& accuracy = lab.accuracy;
   const AlphaSearch* search = accuracy.alpha_search();

@@ -36,7 +36,7 @@ ImU32 ground(const Look& look, float opacity) {
   return ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, opacity});
 }
 
-// A line with an edge of the background, so that it is seen on bright bodies and dark ones.
+// A line with an outline in the background colour: visible on bright and dark bodies.
 void draw_line(const Look& look, ImDrawList& draw, const Segment& s, ImU32 color,
                float width = kLine) {
   draw.AddLine(s.from, s.to, ground(look, 0.5F), width + 2.0F);
@@ -84,7 +84,7 @@ double force_scale(const Session& session) {
   return std::max(1e-9, mass * g);
 }
 
-// Arrows grow with the root of the force: a link's weight and the box's are both seen.
+// Lengths grow with the root of the force: a link's weight and the box's are both visible.
 void force_arrow(const Look& look, const Viewport& viewport, ImDrawList& draw, const Vec3& at,
                  const Vec3& force, double scale, ImU32 color) {
   constexpr double kFull = 48.0;   // of a force like the scale [px]

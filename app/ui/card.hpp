@@ -1,5 +1,5 @@
 #pragma once
-// Cards over the picture: what went wrong, what there is to know.
+// Cards over the picture: errors and explanations.
 
 #include <imgui.h>
 

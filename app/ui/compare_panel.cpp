@@ -58,7 +58,7 @@ struct Line {
   const Cost* cost;
 };
 
-// Two rows: who it is and how it stands, what it has cost.
+// Two rows: name and verdict, then cost.
 void draw_line(const Look& look, const Line& line, float right) {
   const Theme& t = *look.theme;
   const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -1,4 +1,4 @@
-// The two terms of the criterion, each with the N that it asks for: the larger sets N.
+// The two terms of the criterion, each with the N that it requires: the larger one sets N.
 
 #include <string>
 

@@ -41,7 +41,7 @@ std::string iterations_text(const Settings& s, bool always) {
          (shared ? " per frame" : "");
 }
 
-/// By how many iterations there are; Numerov's is told apart by its colour from discs of others.
+/// By the number of iterations; Numerov differs by its colour.
 int corners_at_end(const Settings& s) {
   if (entry_of(s.solver).sweeps) return s.iterations == 1 ? 5 : s.share_iterations ? 3 : 4;
   if (s.iterations == 1) return 3;

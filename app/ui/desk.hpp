@@ -56,7 +56,7 @@ struct Desk {
   int tour = -1;              // step of the guided tour, or -1
   float tour_height = 0.0F;   // of its card, which the picture makes room for
   bool tour_in_page = false;  // the page shows its text, beside the canvas
-  bool tour_hint = false;     // nobody has taken it or put it aside yet
+  bool tour_hint = false;     // the tour was neither taken nor dismissed yet
   ViewOptions view;
   int selected = -1;       // body, or -1
   bool card_left = false;  // the side of the view that its card is on
@@ -65,7 +65,7 @@ struct Desk {
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // where the plots were drawn last
   bool accuracy_large = false;  // its picture lies over the view
-  bool split = false;           // what is compared is seen side by side, not as ghosts
+  bool split = false;           // compared runs are drawn side by side, not as ghosts
   int compare_open = -1;        // of which of the compared the settings are shown
   int dismissed_failure = 0;    // of which run the failure was put aside
   int failure_run = 0;          // of which run the failure is shown,

@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kTimeColumn = 64.0F;
 
-/// What the tips say, and what a frame's report tells of an effect by itself.
+/// The text of the tips, and what a frame's report holds of each effect.
 struct EffectFacts {
   const char* tip;
   int FrameReport::*rows;       // null where it has none of its own

@@ -115,7 +115,7 @@ void energy_plot(const PlotContext& in, float height, bool last) {
   spec.id = "energy";
   spec.time_labels = last;
   spec.from_zero = true;
-  spec.linear = true;  // what adds up can be seen only there
+  spec.linear = true;  // sums are visible on a linear axis only
   spec.factor = unit.factor;
   spec.least_span = std::max(unit.factor, kLeastEnergy);
   if (several) {

@@ -25,7 +25,7 @@ struct Theme {
   ImU32 accent = 0;
   ImU32 accent_hover = 0;
   ImU32 on_accent = 0;
-  // Series and states, told apart by people who do not see red and green as others do.
+  // Series and states, distinguishable with red-green colour blindness.
   ImU32 blue = 0;
   ImU32 orange = 0;
   ImU32 teal = 0;

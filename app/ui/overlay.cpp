@@ -122,7 +122,7 @@ void body_labels(const Look& look, const Session& session, const Desk& desk,
     if (!project(viewport, poses.x[i], p)) continue;
     const std::string text = grouped(body.mass) + " kg";
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
-    // Below the body as it is seen where it hangs, above it where it stands on others.
+    // Below a body that hangs, above one that stands on others.
     const bool below = scene.effects.joints && !scene.effects.contact;
     float low = p.y;
     float high = p.y;

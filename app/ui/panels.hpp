@@ -27,7 +27,7 @@ void draw_window(App& app);
 void draw_over_picture(App& app);
 /// The first screen; sets app.view_rect.
 void introduction(App& app);
-/// Where its two runs are seen: the session, and the one beside it.
+/// Where its two runs are drawn: the session, and the one beside it.
 std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab);
 /// The part of the window that one of the two pictures covers.
 Part introduction_part(const Viewport& viewport, std::size_t pane);
@@ -73,17 +73,17 @@ void accuracy(const Look& look, Lab& lab, Desk& desk);
 /// What to set, in the same panel: the cheapest within an error or the most exact within a cost,
 /// with the reason, a button that runs it, and a search for the paper's alpha.
 void advice(const Look& look, Lab& lab);
-/// How far the search for the paper's alpha is, while it goes on, and a button that ends it.
+/// Progress of the search for the paper's alpha, and a button that ends it.
 void search_bar(const Look& look, Accuracy& accuracy);
-/// Its picture over the view, where that was asked for.
+/// Its picture over the view, while that is chosen.
 void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport& viewport);
-/// Where runs are seen: all of the view, or equal parts of it side by side or one over the other,
+/// Where runs are drawn: all of the view, or equal parts of it side by side or one over the other,
 /// whichever shows the scene larger.
 std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,
                                  const Viewport& viewport);
 /// The part of the window that a pane's picture covers.
 Part part_of_window(const Viewport& viewport, std::size_t pane);
-/// Who is who in the picture; nothing where nothing is compared.
+/// The legend of the compared runs; nothing without a comparison.
 void compare_legend(const Look& look, const Session& session, const Compare& compare,
                     const Viewport& viewport);
 /// The guided tour's card, or the button that opens it.

@@ -24,7 +24,7 @@ struct TimeAxis {
   std::optional<double> hover;       // pointed at in this frame [s]
   std::optional<double> hover_next;  // what the plots report for the next one [s]
   std::optional<double> drag_from;   // a range is being dragged from here [s]
-  std::optional<double> clicked;     // to be looked at; whoever goes there resets it [s]
+  std::optional<double> clicked;     // to go to; reset by the reader [s]
   std::optional<double> past;        // the moment that the window shows, where it is no longer
                                      // the newest [s]
 

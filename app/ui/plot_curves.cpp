@@ -65,7 +65,7 @@ std::vector<Column> decimated(const Series& series, const History::Slice& slice,
   return columns;
 }
 
-// Less than anybody sees [pixel]: a curve that is drawn anew with each frame must not shimmer.
+// Below what is visible [pixel]: a curve that is redrawn every frame must not shimmer.
 constexpr float kUnseen = 0.1F;
 
 std::vector<Column> columns_of(const Series& series, double from, const PlotFrame& f) {

@@ -29,7 +29,7 @@ void draw_on_ground(const Look& look, ImDrawList& draw, ImVec2 at, ImU32 color,
   draw_text(draw, look.fonts.small, at, color, text.c_str());
 }
 
-/// A curve's end as it is seen, and what is written there.
+/// The visible end of a curve, and its label.
 struct CurveEnd {
   ImVec2 at;
   ImU32 color = 0;

@@ -1,4 +1,4 @@
-// The card of the selected body: what it is, how it moves, what holds it, what it asks for.
+// The card of the selected body: properties, motion, constraints, required N.
 
 #include <algorithm>
 #include <cmath>

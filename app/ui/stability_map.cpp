@@ -109,7 +109,7 @@ void read_cell(const Look& look, const Result& result, double ratio) {
                                           {"Click to run it, or drag", t.accent}});
 }
 
-/// Whether a result is the run that is seen.
+/// Whether a result is of the present run.
 bool runs_now(const Lab& lab, const Result& result) {
   const Settings& now = lab.session.settings();
   const Settings& of = result.experiment.settings;
@@ -133,7 +133,7 @@ struct Path {
   std::vector<double> n;  // by load, 0 where it is not known
 };
 
-/// Of the alpha that the scene asks for, or else the one next to it.
+/// Of the scene's own alpha, or of the nearest one on the map.
 Path path_of(const Accuracy& accuracy, const std::vector<Grid>& grids) {
   const auto adaptive = std::find_if(grids.begin(), grids.end(), [](const Grid& g) {
     return rules_of(g.settings.mode).count == SubstepCount::kStable;
@@ -156,7 +156,7 @@ Path path_of(const Accuracy& accuracy, const std::vector<Grid>& grids) {
   return path;
 }
 
-/// Over the cells of constant N: what adaptive sub-stepping takes without being asked.
+/// Over the cells of constant N: the mean N of adaptive sub-stepping.
 void draw_path(const Look& look, const Grid& grid, const Path& path, const Layout& layout) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 color = look.theme->teal;

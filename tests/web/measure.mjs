@@ -1,20 +1,22 @@
 // What the page costs here: node tests/web/measure.mjs [FOLDER] [minutes of memory, 0]
-// Frames a second of the page and of an empty one, the main thread's time of a frame without physics
-// with 200 s of plots, a sweep beside the run, and how memory goes.
+// Frames a second of an empty page and pictures a second of this one, the main thread's time of a
+// picture without physics with 200 s of plots, a sweep beside the run, and memory over time.
 import { call, drawn, open, openPage } from "./browser.mjs";
 
 const minutes = Number(process.argv[3] ?? 0);
 const session = await open();
 
-/** Frames a second, and times of the calls that draw one [ms]. */
+/** Pictures a second, or frames where the page has no laboratory. */
 const frames = (page, seconds) => page.evaluate(async (s) => {
+  const pictures = document.querySelector("canvas")?.pictures;
   const start = performance.now();
+  const before = pictures?.shown;
   let count = 0;
   while (performance.now() - start < 1000 * s) {
     await new Promise(requestAnimationFrame);
     ++count;
   }
-  return 1000 * count / (performance.now() - start);
+  return 1000 * (pictures ? pictures.shown - before : count) / (performance.now() - start);
 }, seconds);
 
 async function empty() {
@@ -25,15 +27,22 @@ async function empty() {
   return rate;
 }
 
-/** Times of wasm.frame, which builds the panels and hands all to the graphics [ms]. */
+/** Times of the callbacks in which a picture is begun, with the panels of its frame [ms]. */
 const patch = `
-const begin = window.requestAnimationFrame;
 window.frameTimes = [];
-window.requestAnimationFrame = (draw) => begin.call(window, (now) => {
+let begun = false;
+const { fenceSync } = WebGL2RenderingContext.prototype; // the last call of those
+WebGL2RenderingContext.prototype.fenceSync = function (...given) {
+  begun = true;
+  return fenceSync.apply(this, given);
+};
+const later = window.setTimeout;
+window.setTimeout = (run, ...rest) => later.call(window, () => {
   const start = performance.now();
-  draw(now);
-  window.frameTimes.push(performance.now() - start);
-});`;
+  begun = false;
+  run();
+  if (begun) window.frameTimes.push(performance.now() - start);
+}, ...rest);`;
 
 const middle = (list, share = 0.5) => [...list].sort((a, b) => a - b)[Math.floor(share * list.length)];
 
@@ -44,7 +53,7 @@ for (const scene of ["swinging_box", "bridge", "heavy_stack"]) {
   await page.waitForTimeout(4000); // until the quality of the picture has settled
   const rate = await frames(page, 6);
   const report = await call(page, "report");
-  console.log(`${scene}: ${rate.toFixed(1)} frames/s, ${report.milliseconds.toFixed(2)} ms to simulate one`);
+  console.log(`${scene}: ${rate.toFixed(1)} pictures/s, ${report.milliseconds.toFixed(2)} ms to simulate one`);
   if (scene === "swinging_box") {
     await call(page, "pause");
     await call(page, "step", 12000); // 200 s
@@ -67,7 +76,7 @@ for (const scene of ["swinging_box", "bridge", "heavy_stack"]) {
     const asked = performance.now();
     await call(page, "set", { accuracy: "cancel" });
     const waited = performance.now() - asked;
-    console.log(`a sweep beside it: ${beside.toFixed(1)} of ${without.toFixed(1)} frames/s; ` +
+    console.log(`a sweep beside it: ${beside.toFixed(1)} of ${without.toFixed(1)} pictures/s; ` +
       `cancelled ${waited.toFixed(0)} ms after it was asked to be`);
   }
   await page.context().close();

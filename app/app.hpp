@@ -17,8 +17,8 @@
 
 namespace substep {
 
-/// The application: the laboratory, seen through a window. The same natively, in the page and in
-/// tests; the shell owns the window, its events and the clock. Panels take of it what they show.
+/// The application: the laboratory in a window. Identical natively, in the page and in tests; the
+/// shell owns the window, its events and the clock. Panels take only the parts that they show.
 struct App : Lab, Viewport {
   /// @param library not empty; its first scene runs
   App(Library library, std::unique_ptr<Renderer> renderer);
@@ -26,12 +26,12 @@ struct App : Lab, Viewport {
   /// Changes a part of the experiment: "scene", "solver", "alpha", ... as links spell them.
   /// @return what is wrong with it, or ""
   std::string set(std::string_view key, std::string_view value);
-  /// The experiment that a link describes; what cannot be read is shown and the rest holds.
-  /// @param scene the one that came with it, or what was wrong with that
+  /// Opens the experiment in a link. Unreadable parts are reported; the rest applies.
+  /// @param scene the scene that came with the link, or the error from reading it
   void open_link(std::string_view fragment, std::optional<SceneResult> scene = {});
-  /// The same, up to start_opened().
+  /// Like open_link(), but stops before start_opened().
   void open_link_paused(std::string_view fragment, std::optional<SceneResult> scene = {});
-  /// The experiment as the fragment of an address, with the level where that is Explore.
+  /// The experiment as a URL fragment; includes the level if it is Explore.
   [[nodiscard]] std::string link() const;
 
   Desk desk;
@@ -41,18 +41,18 @@ struct App : Lab, Viewport {
   std::unique_ptr<Renderer> renderer;
   FileBrowser browser;
 
-  // Kept by frame().
-  float pixel_ratio = 0.0F;        // that the fonts were made for
+  // State of frame().
+  float pixel_ratio = 0.0F;        // of the current fonts
   double frame_time = 1.0 / 60.0;  // smoothed [s]
-  double own_time = 0.0;           // that the last frame took to simulate [s]
+  double own_time = 0.0;           // simulation time of the last frame [s]
   QualityGovernor quality;
   std::string last_link;
   std::string last_arrangement;
-  unsigned last_event = 0;  // of Dear ImGui, that was brought to the scale
+  unsigned last_event = 0;  // last Dear ImGui event that was rescaled
 };
 
-/// One frame on the screen: lets the time pass, builds the panels, draws. The shell has told Dear
-/// ImGui the display's size, its pixel ratio and the events.
+/// One frame: advances the simulation, builds the panels, draws. The shell has already passed the
+/// display size, pixel ratio and events to Dear ImGui.
 /// @param wall_dt time since the last call [s]
 void frame(App& app, double wall_dt);
 

@@ -5,9 +5,9 @@
 
 namespace substep {
 
-/// What a person throws into a scene.
+/// A ball that the user throws into a scene.
 struct Ball {
-  static constexpr int kMost = 24;  // in one scene: the oldest goes
+  static constexpr int kMost = 24;  // per scene; a new one replaces the oldest
 
   Vec3 position = Vec3::Zero();  // world [m]
   Vec3 velocity = Vec3::Zero();  // world [m/s]
@@ -15,12 +15,12 @@ struct Ball {
   double mass = 20.0;            // [kg]
 };
 
-/// The scene with one more body, or with another one in the place of an earlier ball. A scene
-/// without contact gets it, for balls alone: its own bodies still pass through each other.
-/// @param slot index of the ball's body, at most the number of bodies that there are
+/// The scene with the ball added, or replacing an earlier one. In a scene without contact only
+/// balls collide; its own bodies still pass through each other.
+/// @param slot index of the ball's body, at most the number of bodies
 Scene with_ball(const Scene& scene, const Ball& ball, std::size_t slot);
 
-/// The state of a scene, carried over to the scene that has the ball in that slot.
+/// Converts a state of the scene to the scene with the ball in that slot.
 State with_ball(State state, const Ball& ball, std::size_t slot);
 
 }  // namespace substep

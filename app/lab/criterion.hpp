@@ -9,19 +9,19 @@
 
 namespace substep {
 
-/// Which of the criterion's two terms is the larger: the number of sub-steps follows it.
+/// The larger of the criterion's two terms; it determines N.
 enum class CriterionTerm : std::uint8_t { kNone, kStiffness, kRotation };
 
-/// What each term of the criterion requires, by Eqs. 10 and 11.
+/// The requirement of each term of the criterion, by Eqs. 10 and 11.
 struct Criterion {
   CriterionTerm set_by = CriterionTerm::kNone;
-  StiffnessLeader stiffness;   // the stiffest degree of freedom; body -1 where nothing is stiff
+  StiffnessLeader stiffness;   // the stiffest degree of freedom; body -1 if nothing is stiff
   double r_rotation = 0.0;     // [1/s^2]
-  int rotation_body = -1;      // -1 where no body rotates, or the term is switched off
+  int rotation_body = -1;      // -1 if no body rotates or the term is switched off
   double angular_speed = 0.0;  // of that body [rad/s]
   bool rotation_on = false;    // the setting
-  bool remembered = false;     // the fastest rotation of the last seconds counts
-  int n_stiffness = 1;         // N that each term alone requires
+  bool remembered = false;     // the value is the maximum of the last seconds
+  int n_stiffness = 1;         // N required by each term alone
   int n_rotation = 1;
 
   /// The body that sets N, or -1.
@@ -33,15 +33,15 @@ Criterion criterion_of(const Scene& scene, const Settings& settings, const State
 
 /// "along x", "rotation about z": a degree of freedom of a body, about its principal axes.
 std::string degree_of_freedom(const StiffnessLeader& who);
-/// "link_3, rotation about z"; "top, spinning at 60 rad/s now"; what sets N.
+/// "link_3, rotation about z"; "top, spinning at 60 rad/s now": the cause of N.
 std::string setter_text(const Scene& scene, const Criterion& criterion);
-/// One term in words, with what it requires: "Stiffness of link_3, along y" and
-/// "Rotation of top, 60 rad/s now".
+/// One term with its requirement: "Stiffness of link_3, along y" and "Rotation of top, 60 rad/s
+/// now".
 std::string stiffness_text(const Scene& scene, const Criterion& criterion);
 std::string rotation_text(const Scene& scene, const Criterion& criterion);
-/// Explains the value of the rotation term, in words.
+/// Explains the value of the rotation term.
 std::string rotation_meaning(const Scene& scene, const Criterion& criterion);
-/// What both terms ask for: "stiffness alone N = 12, rotation alone N = 23".
+/// The requirement of both terms: "stiffness alone N = 12, rotation alone N = 23".
 std::string both_terms_text(const Criterion& criterion);
 
 }  // namespace substep

@@ -7,26 +7,26 @@
 
 namespace substep {
 
-/// "Where does the time go?": what stages, effects and the criterion take in a scene with given
-/// settings, measured from its start in slices beside the frames.
+/// "Where does the time go?": the cost of stages, effects and the criterion in a scene with given
+/// settings, measured from its start in slices between frames.
 class EffectCosts {
  public:
-  /// Measures this; what was there before is forgotten.
-  /// @param scene as it stands, without the experiment's load and seed
+  /// Starts a measurement. Discards earlier results.
+  /// @param scene without the experiment's load and seed applied
   void start(std::shared_ptr<const Scene> scene, Experiment experiment);
-  /// Stops within the frame. What was measured so far stays.
+  /// Stops before the next frame. Keeps the results so far.
   void cancel() { running_ = false; }
-  /// Goes on for about so long, where it runs. @param seconds of this frame's time
+  /// Continues the measurement, if it runs. @param seconds budget in this frame
   void advance(double seconds);
 
   [[nodiscard]] bool running() const { return running_; }
   [[nodiscard]] double progress() const { return run_ ? run_->progress() : 0.0; }  ///< 0 to 1
-  /// What is measured, and in which scene; null where nothing was.
+  /// The scene and the experiment measured; null if there are none.
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
   [[nodiscard]] const Experiment* experiment() const {
     return run_ ? &run_->experiment() : nullptr;
   }
-  /// Of the frames so far; null before the first one is done.
+  /// Breakdown of the frames so far; null before the first.
   [[nodiscard]] const CostBreakdown* breakdown() const {
     return breakdown_ ? &*breakdown_ : nullptr;
   }

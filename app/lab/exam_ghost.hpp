@@ -9,19 +9,19 @@
 
 namespace substep {
 
-/// Adds the exam's scenes to the shipped ones, as far as the vocabulary reaches them, with leapfrog
-/// and 16 sub-steps a frame to begin with.
+/// Adds the exam's scenes that the scene format can express, with leapfrog and 16 sub-steps per
+/// frame.
 void add_exam(Library& library);
 
-/// Where the bodies of an exam scene should be, at the time that the session is shown at.
+/// The exact poses of an exam scene at the time that the session shows.
 class ExamGhost {
  public:
-  /// Once a picture. @return nothing where the session runs no scene of the exam as it stands, or
-  /// one without an exact motion
+  /// Call once per drawn frame. @return null unless the session runs an unmodified exam scene with
+  /// an exact motion
   const Poses* at(const Session& session);
 
  private:
-  std::shared_ptr<const Scene> scene_;  // that motion_ was looked up for
+  std::shared_ptr<const Scene> scene_;  // for which motion_ was looked up
   std::function<ExamMotion()> start_;
   ExamMotion motion_;
   double t_ = 0.0;  // of poses_ [s]

@@ -7,7 +7,7 @@
 
 namespace substep {
 
-/// What is needed to start a run again.
+/// The data needed to restart a run.
 struct RunStart {
   std::shared_ptr<const Scene> scene;
   Settings settings;
@@ -16,23 +16,23 @@ struct RunStart {
   bool playing = false;
 };
 
-/// A run that came from outside and has not started: what its frames cost is not forecast yet.
+/// An opened run that has not started; the cost of its frames is not yet estimated.
 struct OpenedRun {
-  int run = 0;         // Lab::run_count then
-  bool plays = false;  // unless its frames take long
+  int run = 0;         // Lab::run_count at that time
+  bool plays = false;  // unless its frames are slow
   RunStart before;     // the run that it replaced
 };
 
-/// A run that waits for a person to start it, since its frames take long.
+/// A run that waits for confirmation because its frames are slow.
 struct HeavyStart {
-  std::string why;  // empty where there is none
-  int run = 0;      // Lab::run_count then
+  std::string why;  // empty if there is none
+  int run = 0;      // Lab::run_count at that time
   RunStart before;  // the run that it replaced
 };
 
-/// Whether a run should wait for a person to start it: one sub-step is taken beside it to see what
-/// a frame costs.
-/// @return why, a sentence for people; "" where a frame takes less than about half a second
+/// Whether a run should wait for confirmation. Takes one sub-step on a copy to estimate the cost of
+/// a frame.
+/// @return the reason, a sentence; "" if a frame takes less than about half a second
 std::string heavy_start(const std::shared_ptr<const Scene>& scene, const Settings& settings);
 
 }  // namespace substep

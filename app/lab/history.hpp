@@ -11,11 +11,11 @@
 
 namespace substep {
 
-/// What the plots show, one number a frame.
+/// Quantities that the plots show, one value per frame.
 enum class Channel : std::uint8_t {
-  kSubsteps,     // N taken, by the island that took most [-]
-  kMean,         // of the bodies: less where islands have their own N [-]
-  kLimit,        // N at alpha = 1: fewer than this is unstable [-], 0 where K is not known
+  kSubsteps,     // N taken, of the island with the most [-]
+  kMean,         // mean over the bodies: smaller if islands have their own N [-]
+  kLimit,        // N at alpha = 1: fewer is unstable [-], 0 if K is not known
   kKinetic,      // [J]
   kPotential,    // minus that at the start [J]
   kTotal,        // the sum of these two [J]
@@ -32,7 +32,7 @@ enum class Channel : std::uint8_t {
   kCount
 };
 
-/// Least and greatest of some samples; what is not finite is left out.
+/// Minimum and maximum of samples; ignores values that are not finite.
 struct Extent {
   float low = std::numeric_limits<float>::infinity();
   float high = -std::numeric_limits<float>::infinity();
@@ -43,8 +43,8 @@ struct Extent {
   [[nodiscard]] bool empty() const { return low > high; }
 };
 
-/// Samples with the extents of blocks of 8, 64 and 512 of them: the extent of any stretch costs
-/// some tens of steps, however long it is.
+/// Samples with the extents of blocks of 8, 64 and 512: the extent of a range of any length takes
+/// some tens of steps.
 class Samples {
  public:
   static constexpr std::size_t kFan = 8;
@@ -58,24 +58,24 @@ class Samples {
   /// Keeps the oldest `count`.
   void truncate(std::size_t count);
   [[nodiscard]] std::span<const float> values() const { return values_; }
-  /// Of the samples [first, last).
+  /// Extent of the samples [first, last).
   [[nodiscard]] Extent extent(std::size_t first, std::size_t last) const;
 
  private:
   std::vector<float> values_;
-  std::array<std::vector<Extent>, kLevels> levels_;  // of whole and of begun blocks
+  std::array<std::vector<Extent>, kLevels> levels_;  // of complete and partial blocks
 };
 
-/// The last minutes of a run, one sample a frame, oldest first and contiguous.
+/// The last minutes of a run, one sample per frame, oldest first and contiguous.
 class History {
  public:
   static constexpr std::size_t kCapacity =
       std::size_t{60} * 600;  // ten minutes at 60 frames a second
 
-  /// @param frame length of a frame [s]
+  /// @param frame duration of a frame [s]
   void start(const FrameReport& report, double frame);
   void add(const FrameReport& report);
-  /// Forgets what is later than `time` [s].
+  /// Discards samples later than `time` [s].
   void cut(double time);
 
   [[nodiscard]] std::span<const float> operator[](Channel channel) const {
@@ -85,27 +85,27 @@ class History {
     return channels_[static_cast<std::size_t>(channel)];
   }
   [[nodiscard]] std::size_t size() const { return channels_[0].values().size(); }
-  /// Time at the end of the frame of sample i [s]; the samples lie one frame apart.
+  /// Time at the end of the frame of sample i [s]; samples are one frame apart.
   [[nodiscard]] double time(std::size_t i) const {
     return first_time_ + static_cast<double>(i) * frame_;
   }
-  /// The samples at and between two times, as [first, last); one more to either side where there
-  /// is one, so that a line continues over the edge.
+  /// The samples between two times, as [first, last), extended by one on either side if there is
+  /// one, so that a line continues past the edge.
   struct Slice {
     std::size_t first = 0;
     std::size_t last = 0;
   };
   [[nodiscard]] Slice between(double t0, double t1) const;
-  /// Value of the sample nearest to a time. NaN where there is none within a frame.
+  /// Value of the sample nearest to a time; NaN if there is none within a frame.
   [[nodiscard]] double at(Channel channel, double time) const;
   [[nodiscard]] double potential_at_start() const { return potential_at_start_; }  ///< [J]
-  /// What the samples of the potential count from so that the lowest is 0, added to them and to
-  /// those of the total [J]. The zero of a potential is free; this one keeps kinetic, potential
-  /// and total energy on one readable scale.
+  /// Offset added to the potential and to the total so that the lowest potential is 0 [J]. The zero
+  /// of a potential is arbitrary; this one keeps kinetic, potential and total energy on one
+  /// readable scale.
   [[nodiscard]] double potential_offset() const;
-  /// The largest change of the total energy so far, up or down [J].
+  /// Largest absolute change of the total energy so far [J].
   [[nodiscard]] double largest_drift() const;
-  /// The largest kinetic energy so far [J].
+  /// Largest kinetic energy so far [J].
   [[nodiscard]] double largest_kinetic() const;
   [[nodiscard]] double start_time() const { return start_time_; }
   [[nodiscard]] double end_time() const { return size() == 0 ? start_time_ : time(size() - 1); }

@@ -8,33 +8,33 @@
 
 namespace substep {
 
-/// What a shell can do for the application. Each may be empty.
+/// Services that a shell provides to the application. Each may be empty.
 struct Host {
-  std::function<void(const std::string& fragment)> link_changed;  // keeps the address up to date
-  std::function<void()> copy_link;  // puts the address that holds the experiment on the clipboard
-  std::function<void()> open_link;  // follows the link on the clipboard
-  std::function<void()> open_file;  // opens a dialogue for a scene file, and loads it
-  std::function<void(bool on)> record;  // begins and ends a video of the window
-  /// Hands a file to the person: into the working folder natively, a download in the page.
+  std::function<void(const std::string& fragment)> link_changed;  // updates the address
+  std::function<void()> copy_link;      // copies the experiment's address to the clipboard
+  std::function<void()> open_link;      // opens the link on the clipboard
+  std::function<void()> open_file;      // opens a file dialogue and loads the chosen scene
+  std::function<void(bool on)> record;  // starts or stops a video of the window
+  /// Saves a file: into the working folder natively, as a download in the page.
   std::function<void(const std::string& name, const std::string& bytes)> save_file;
-  /// Keeps how the window is arranged from one visit to the next; "" where nothing was kept.
+  /// Stores a value for later visits; recall() returns "" if nothing was stored.
   std::function<void(const std::string& key, const std::string& value)> remember;
   std::function<std::string(const std::string& key)> recall;
 };
 
 inline constexpr const char* kSceneKept = "The scene that runs was kept.";
 
-/// What went wrong with outside data: shown in a panel until it is closed.
+/// A problem with external data; shown in a panel until it is closed.
 struct Trouble {
   std::string title;  // "my_scene.json was not loaded"
   std::vector<Problem> problems;
-  std::string aftermath = kSceneKept;  // what was done all the same; may be empty
+  std::string aftermath = kSceneKept;  // the consequence; may be empty
 };
 
-/// A sentence that is shown for a moment.
+/// A message that is shown briefly.
 struct Notice {
   std::string text;
-  double left = 0.0;  // [s]
+  double left = 0.0;  // remaining time [s]
 };
 
 }  // namespace substep

@@ -5,24 +5,24 @@
 
 namespace substep {
 
-/// The first screen of a visit: the opening scene twice on one clock, with adaptive sub-steps and,
-/// beside it, with one step per frame, which tears. Both run live and start again together.
+/// The first screen of a visit: the opening scene twice on one clock, with adaptive sub-steps and
+/// with one step per frame, which tears. Both run live and restart together.
 class Introduction {
  public:
   [[nodiscard]] bool open() const { return open_; }
-  /// Shows it unless the person has left it at an earlier visit, or nothing is remembered.
+  /// Shows it unless the user dismissed it on an earlier visit or nothing can be stored.
   void offer(Lab& lab);
-  /// Shows it. What runs now is started again when it is left.
+  /// Shows it. Leaving it restarts the current run.
   void start(Lab& lab);
-  /// Before each picture: slow motion while the chain tears, and back to the start at the end.
-  /// @param repeats otherwise it stops at the end
+  /// Call before each drawn frame: slow motion while the chain tears, restart at the end.
+  /// @param repeats false: stops at the end
   void follow(Lab& lab, bool repeats) { loop_.follow(lab, repeats); }
-  /// Starts what ran before.
+  /// Closes it and restarts the earlier run.
   void leave(Lab& lab);
-  /// The same where another run has begun already.
+  /// Closes it when another run has already begun.
   void close(Lab& lab);
 
-  /// How the run with one step per frame is judged; null where it is not there.
+  /// Verdict of the run with one step per frame; null if there is no such run.
   [[nodiscard]] static const Verdict* torn(const Lab& lab);
 
  private:

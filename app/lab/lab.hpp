@@ -18,71 +18,72 @@
 
 namespace substep {
 
-/// What runs and what is remembered of it, without a window: the scenes that there are, the run,
-/// what runs beside it, and what was measured.
+/// The laboratory without a window: the scene library, the run, the runs compared with it, and the
+/// measurements.
 struct Lab {
   /// @param library not empty; its first scene runs
   explicit Lab(Library library);
-  Lab(const Lab&) = delete;  // the session calls back
+  Lab(const Lab&) = delete;  // session holds callbacks to this object
   Lab& operator=(const Lab&) = delete;
 
-  /// Runs a shipped scene. @return false where there is none of that name
+  /// Runs a shipped scene. @return false if there is none of that name
   bool open(std::string_view name);
-  /// Runs a scene given as text. If it has problems they are shown and the old run continues.
-  /// @param from what people call it: a file's name
+  /// Runs a scene given as text. If it has problems they are shown and the current run continues.
+  /// @param from its name in messages: a file name
   bool open_text(std::string_view json, const std::string& from);
-  /// The same for the text of a file, or for what was wrong with reading it.
+  /// Like open_text(), for a scene already read, or the problems of reading it.
   bool open_result(SceneResult result, const std::string& from);
-  /// open_result() up to start_opened(): the run is there and paused. A page answers in between.
+  /// open_result() without start_opened(): the run is loaded and paused, so that a page can redraw
+  /// in between.
   bool open_paused(SceneResult result, const std::string& from);
-  /// Plays the run that was opened. If its frames take long it stays paused, and a card says why.
+  /// Plays the opened run. If its frames are slow it stays paused, and a card gives the reason.
   void start_opened();
-  /// Adds a scene to the person's own, here and at the next visit. @return as it is in the library
+  /// Adds a scene to the user's own, and stores it. @return the scene in the library
   std::shared_ptr<const Scene> add_own(const Scene& scene);
-  /// Brings back the person's own scenes of earlier visits. Called once, when the host is there.
+  /// Restores the user's own scenes of earlier visits. Call once, after the host is set.
   void recall_scenes();
-  /// Hands the run as it is now to the person, as a scene file.
+  /// Saves the run in its current state as a scene file.
   void save_scene();
   void run(std::shared_ptr<const Scene> scene);
   void reset();
-  /// New settings for the run, live. Whether K is watched stays as it is.
+  /// Changes the settings of the run live, except the evaluation of K for display.
   void change(const Settings& settings);
   /// Whether K is evaluated in every mode, for display.
   void watch_stiffness(bool on);
-  /// Runs the scene from another of its starts, with the settings and the comparison as they are.
+  /// Restarts the scene with another load and seed; keeps the settings and the comparison.
   void vary(double load, int seed);
   /// Runs a point of the accuracy picture from its start.
   void run_result(const Result& result);
-  /// Makes the scene of the accuracy picture one of the person's own, which starts with what its
+  /// Saves the scene of the accuracy picture as one of the user's own, with the settings that its
   /// sweep recommends, and runs it.
   void keep(const Recommended& recommended);
-  /// Measures what the parts of this run's frames cost, from its start.
+  /// Measures the cost breakdown of this run's frames, from its start.
   void measure_costs();
-  /// What was measured of this run with its present settings, or null.
+  /// The breakdown of this run with its current settings, or null.
   [[nodiscard]] const CostBreakdown* costs() const;
-  /// How the run began, to go back to it.
+  /// The start of the current run, to return to it.
   [[nodiscard]] RunStart run_start() const;
   void run(const RunStart& start);
-  /// Whether the run waits for a person to start it.
+  /// Whether the run waits for confirmation.
   [[nodiscard]] bool held() const { return !heavy.why.empty() && heavy.run == run_count; }
-  /// Whether anything runs without input: a run that plays, a sweep, a search.
+  /// Whether anything runs without input: playback, a sweep, a search.
   [[nodiscard]] bool busy() const {
     return session.playing() || accuracy.busy() || compare.behind(session);
   }
 
-  /// Of the bodies that move, in the scene as it was loaded [kg]; the load is a factor on it.
+  /// Largest mass of a moving body in the scene as loaded [kg]; the load multiplies it.
   [[nodiscard]] double heaviest_mass() const;
-  /// The experiment as the fragment of an address.
+  /// The experiment as a URL fragment.
   [[nodiscard]] std::string link() const;
-  /// The scene that a link starts from: the loaded one, with what was done to it as events; where
-  /// those are too many, the scene as it stood when it was last edited.
+  /// The scene that a link starts from: the loaded one, with user actions as events; if those do
+  /// not fit, the scene at its last edit.
   [[nodiscard]] const Scene& link_scene() const;
-  /// What to type for the same run on the command line.
+  /// The command line for the same run.
   [[nodiscard]] std::string command() const;
-  /// This run, 0, or one of those that are compared with it.
+  /// Pane 0 is this run; the others are the runs compared with it.
   [[nodiscard]] const Scene& scene_in(std::size_t pane) const;
   [[nodiscard]] const Poses& poses_in(std::size_t pane) const;
-  /// Says something in passing.
+  /// Shows a notice for a moment.
   void tell(std::string text);
 
   Library library;
@@ -92,23 +93,22 @@ struct Lab {
   ExamGhost exam;  // of scenes with a known answer
   Accuracy accuracy;
   Host host;
-  Trouble trouble;  // none where the title is empty
+  Trouble trouble;  // none if the title is empty
   Notice notice;
-  std::optional<OpenedRun> opened;  // that start_opened() plays
+  std::optional<OpenedRun> opened;  // to be played by start_opened()
   HeavyStart heavy;
-  // The scene as it was loaded, and which of its starts runs: Experiment's load and seed.
+  // The scene as loaded, without load and seed; both belong to Experiment.
   std::shared_ptr<const Scene> plain_scene;
   double load = 1.0;  // [-]
   int seed = 0;
-  double pause_at = 0.0;        // an experiment's end, 0 where there is none [s]
+  double pause_at = 0.0;        // end of an experiment, 0 if none [s]
   int run_count = 0;            // resets and loads
-  bool hold_at_failure = true;  // a run that fails pauses, where nothing is compared with it
-  /// Called after the run was restarted. @param loaded with another scene
+  bool hold_at_failure = true;  // a failed run pauses, unless it is being compared
+  /// Called after a restart. @param loaded whether another scene was loaded
   std::function<void(bool loaded)> restarted;
 
  private:
-  /// The scene as it stood when it was last edited (a ball thrown, an effect switched off), else
-  /// the loaded one.
+  /// The scene at its last edit (a ball thrown, an effect switched off), or the loaded one.
   [[nodiscard]] const Scene& edited_scene() const;
   [[nodiscard]] std::string events_in_link() const;
 };

@@ -10,8 +10,7 @@
 
 namespace substep {
 
-/// The shipped scenes: every *.json of one folder that reads without problems, in the order that
-/// the picker shows them.
+/// The shipped scenes: every *.json of one folder that reads without problems, in menu order.
 class Library {
  public:
   Library() = default;
@@ -19,15 +18,15 @@ class Library {
 
   [[nodiscard]] const std::vector<std::shared_ptr<const Scene>>& scenes() const { return scenes_; }
   [[nodiscard]] std::shared_ptr<const Scene> find(std::string_view name) const;
-  /// The shipped scene that a shipped scene is a variant of, by its name: heavy_stack of
-  /// heavy_stack_tall. Null where it stands for itself.
+  /// The base scene of a shipped variant, by name: heavy_stack for heavy_stack_tall. Null if the
+  /// scene is not a variant.
   [[nodiscard]] const Scene* base_of(const Scene& scene) const;
   [[nodiscard]] std::vector<std::shared_ptr<const Scene>> variants_of(const Scene& base) const;
-  /// Adds a scene that the program ships as code.
+  /// Adds a scene defined in code.
   void add_shipped(Scene scene);
-  /// Adds a person's own scene, or puts it in the place of an older one of the same name. It comes
-  /// into a group of its own, and where a shipped scene has its name, under another name.
-  /// @return the scene as it is in the library
+  /// Adds a user's scene to its own group, or replaces an earlier one of the same name. It is
+  /// renamed if a shipped scene has its name.
+  /// @return the scene in the library
   std::shared_ptr<const Scene> add(const Scene& scene);
 
  private:
@@ -35,11 +34,11 @@ class Library {
   std::vector<std::shared_ptr<const Scene>> scenes_;
 };
 
-/// Whether a scene of the library was added by the person.
+/// Whether the user added the scene.
 bool is_own(const Scene& scene);
-inline constexpr std::string_view kOwnGroup = "own";  // of their scenes
+inline constexpr std::string_view kOwnGroup = "own";  // of the user's scenes
 
-/// What the picker calls a group of scenes: "From the paper" for "paper".
+/// The menu heading of a group: "From the paper" for "paper".
 std::string group_title(std::string_view group);
 
 }  // namespace substep

@@ -1,5 +1,5 @@
 #pragma once
-// A person's own scenes, from one visit to the next.
+// The user's own scenes, kept between visits.
 
 #include <memory>
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace substep {
 
-/// The scenes that were opened last, newest first. Few and small ones: they live in a browser's
-/// storage or in a file of settings.
+/// The scenes opened most recently, newest first. Few and small: they are stored in a browser's
+/// storage or a settings file.
 class OwnScenes {
  public:
   static constexpr std::size_t kMost = 8;
   static constexpr std::size_t kMaxText = 300'000;  // of one scene [bytes]
 
-  /// Puts a scene to the front, in place of an older one of its name.
+  /// Moves a scene to the front; replaces an older one of its name.
   void add(const std::shared_ptr<const Scene>& scene);
 
-  /// Whether a scene can be kept, as far as its numbers of bodies and joints tell: to write a large
-  /// one takes long.
+  /// Whether a scene is small enough to store, by its numbers of bodies and joints; serialising a
+  /// large one is slow.
   static bool may_keep(const Scene& scene);
 
-  /// As one text, and back. What cannot be read is left out: it was kept by an older version.
+  /// Serialised as one text. Scenes that cannot be read, from an older version, are skipped.
   [[nodiscard]] std::string text() const;
   static OwnScenes read(std::string_view text);
 
@@ -32,7 +32,7 @@ class OwnScenes {
 
  private:
   std::vector<std::shared_ptr<const Scene>> scenes_;
-  std::vector<std::string> texts_;  // of scenes_; empty where it is too long to keep
+  std::vector<std::string> texts_;  // of scenes_; empty if too long to store
 };
 
 }  // namespace substep

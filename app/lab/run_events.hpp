@@ -12,7 +12,7 @@
 
 namespace substep {
 
-/// A hand on a body, or where it pulls to now.
+/// A hand on a body, and its current target.
 struct Pull {
   int body = 0;
   Vec3 anchor = Vec3::Zero();  // body frame [m]
@@ -23,56 +23,56 @@ struct LetGo {
   friend bool operator==(const LetGo&, const LetGo&) = default;
 };
 
-/// What a person did to a run, before the frame that follows `frame`.
+/// A user action, before the frame that follows `frame`.
 struct RunEvent {
   std::int64_t frame = 0;
   std::variant<Ball, Effects, Pull, LetGo, Settings> what;
 };
 
-/// Where a hand may pull to: rounded to 1/65536 m, so that a link holds a pull in little room.
-/// Nothing where it is not finite or too far away.
+/// The target of a hand, rounded to 1/65536 m so that links stay short. Empty if it is not finite
+/// or too far away.
 std::optional<Vec3> hand_target(const Vec3& target);
 
-/// Everything that was done to a run, to do it again, bit for bit: what a link holds. The run of
-/// such a link follows a script until a person throws, pulls or switches an effect. Settings that
-/// the person changes override those of the script until the scene is loaded again.
+/// All user actions of a run, to reproduce it bit for bit; links contain them. A run opened from a
+/// link follows them as a script until the user throws, pulls or switches an effect. Settings that
+/// the user changes override those of the script until the scene is reloaded.
 class EventLog {
  public:
-  /// More moves of the hand than any link holds are not noted.
+  /// Hand moves and settings beyond this number of events, more than fit a link, are not recorded.
   static constexpr std::size_t kMost = 4096;
 
-  /// Another scene: nothing to follow.
+  /// Clears the script, for another scene.
   void forget() { script_.clear(); }
-  /// A run begins at its start. @return scripted()
+  /// Call at the start of a run. @return scripted()
   const Settings* restart(const Settings& settings);
-  /// The settings that the script has now, or null where it does not change any.
+  /// The script's current settings, or null if it does not change any.
   [[nodiscard]] const Settings* scripted() const;
-  /// From its next start on the run follows these, in order. @param settings that it starts with
+  /// Sets the script to follow from the next restart. @param settings initial settings
   void follow(std::vector<RunEvent> script, const Settings& settings);
-  /// A person acts: what the script had left is dropped.
+  /// Call on a user action: ends the script.
   void take_over() { following_ = false; }
-  /// A person sets these.
+  /// Call when the user changes the settings.
   void choose(const Settings& settings);
-  /// The run is looked at as it was at this frame: later events did not happen yet.
+  /// Seeks to a frame; later events are kept but not yet in effect.
   void go_to(std::int64_t frame);
-  /// It continues from there.
+  /// Discards the events after the current frame.
   void forget_future();
 
   void add(std::int64_t frame, const Ball& ball) { append({frame, ball}); }
   void add(std::int64_t frame, const Effects& effects) { append({frame, effects}); }
-  /// What the next frame is taken with; noted where it differs from the frame before.
+  /// Records the settings or the hand of the next frame if they changed.
   void note(std::int64_t frame, const Settings& settings);
   void note(std::int64_t frame, const std::optional<Pull>& hand);
 
-  /// The next event of the script if it belongs before the next frame; it then counts as taken.
+  /// The script's next event if it is due before the next frame; it then counts as taken.
   const RunEvent* next(std::int64_t frame);
   [[nodiscard]] bool following() const { return following_; }
 
-  /// Whether a hand was in the run, or will be.
+  /// Whether past and scripted events are settings only.
   [[nodiscard]] bool empty() const;
-  /// What was done and what the script will do; nothing where it was too much to be noted.
+  /// Past events and the rest of the script; empty if some were not recorded.
   [[nodiscard]] std::optional<std::vector<RunEvent>> events() const;
-  /// That the run began with.
+  /// Settings at the start of the run.
   [[nodiscard]] const Settings& start() const { return start_; }
   [[nodiscard]] const std::optional<Pull>& hand() const { return hand_; }
   /// Balls thrown so far.
@@ -82,17 +82,17 @@ class EventLog {
   void append(RunEvent event);
   void in_effect(const RunEvent& event);
 
-  std::vector<RunEvent> done_;  // and after those, in a future that is not forgotten yet
-  std::size_t count_ = 0;       // done
+  std::vector<RunEvent> done_;  // including those of a future that is not yet discarded
+  std::size_t count_ = 0;       // number of past events in done_
   Settings start_;
   Settings settings_;         // in effect
   std::optional<Pull> hand_;  // in effect
   bool whole_ = true;
   std::vector<RunEvent> script_;
   Settings script_start_;
-  std::size_t next_ = 0;  // of the script
+  std::size_t next_ = 0;  // index into script_
   bool following_ = false;
-  bool own_settings_ = false;  // a person changed them: the script no longer does
+  bool own_settings_ = false;  // the user changed the settings; the script no longer does
 };
 
 }  // namespace substep

@@ -9,29 +9,29 @@
 
 namespace substep {
 
-/// Repeats a run and what is compared with it: from the start to an end and again, in slow motion
-/// around the moment at which one of them fails.
+/// Repeats a run and those compared with it from start to end, in slow motion around the first
+/// failure.
 class RunLoop {
  public:
   struct Plan {
-    double end = 4.0;         // where it starts again unless the run fails before [s]
-    double slow_until = 0.0;  // in slow motion from its start until then [s]
+    double end = 4.0;         // restarts here unless the run fails earlier [s]
+    double slow_until = 0.0;  // slow motion from the start until this time [s]
   };
-  /// One of the runs over a pass.
+  /// One run over one pass.
   struct Pass {
     bool stable = true;
-    double failed_at = 0.0;  // where it is not [s]
-    std::string reason;      // the verdict's
+    double failed_at = 0.0;  // if not stable [s]
+    std::string reason;      // from the verdict
     double drift = 0.0;      // change of the total energy [J]
-    int least_n = 0;         // sub-steps of a frame [-]
+    int least_n = 0;         // sub-steps per frame [-]
     int most_n = 0;
     std::int64_t substeps = 0;  // of all frames [-]
   };
-  /// What the run came to with its present settings and load.
+  /// Result of the run with its current settings and load.
   struct Outcome {
     enum class Kind : unsigned char {
-      kOpen,    // it has not reached the end yet
-      kStable,  // a pass from start to end held
+      kOpen,    // the end is not reached yet
+      kStable,  // stable over a whole pass
       kFailed
     };
     [[nodiscard]] bool open() const { return kind == Kind::kOpen; }
@@ -40,16 +40,16 @@ class RunLoop {
     Kind kind = Kind::kOpen;
     double time = 0.0;  // of the failure, or of the end [s]
     Pass run;
-    std::vector<Pass> beside;  // what is compared with it
+    std::vector<Pass> beside;  // the runs compared with it
   };
 
   [[nodiscard]] bool open() const { return plan_.has_value(); }
-  /// Repeats the run that is there now. A run that fails no longer pauses.
+  /// Starts to repeat the current run. Disables the pause at failure.
   void begin(Lab& lab, const Plan& plan);
-  /// Before each picture.
-  /// @param repeats otherwise it pauses at the end; played from there, it starts again
+  /// Call before each drawn frame.
+  /// @param repeats false: pauses at the end; playing again restarts it
   void follow(Lab& lab, bool repeats);
-  /// Ends it: the speed is the one of before.
+  /// Stops repeating and restores the speed.
   void end(Lab& lab);
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
 
@@ -63,13 +63,13 @@ class RunLoop {
   std::optional<Plan> plan_;
   double speed_ = 1.0;  // outside slow motion [-]
   bool slow_ = false;
-  bool rested_ = false;            // it was paused at the end of this pass
-  std::optional<double> failure_;  // the first of this pass, or of the pass before [s]
+  bool rested_ = false;            // paused at the end of this pass
+  std::optional<double> failure_;  // the first of this or the previous pass [s]
   bool failed_ = false;            // in this pass
-  Settings settings_;              // that the outcome is of
-  double load_ = 1.0;              // the same [-]
-  bool whole_ = false;             // this pass has had them from its start
-  bool stale_ = false;             // it failed with others
+  Settings settings_;              // of the outcome
+  double load_ = 1.0;              // of the outcome [-]
+  bool whole_ = false;             // settings and load are unchanged since the start of this pass
+  bool stale_ = false;             // it failed with other settings
   Outcome outcome_;
 };
 

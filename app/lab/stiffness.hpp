@@ -11,12 +11,11 @@ namespace substep {
 /// The stiffest degree of freedom of a body that moves. K must be known.
 StiffnessLeader stiffest_of(const Scene& scene, const State& state, std::size_t body);
 
-/// The stiffest degree of freedom of each moving body, the largest k/M first: what each alone would
-/// ask for. Empty where K is not known.
+/// The stiffest degree of freedom of each moving body, by descending k/M. Empty if K is not known.
 std::vector<StiffnessLeader> stiffness_by_body(const Scene& scene, const State& state);
 
-/// What each body requires: its largest k/M over that of the whole scene, 0..1, 0 of what does not
-/// move. Empty where K is not known or nothing is stiff.
+/// Each body's largest k/M relative to that of the scene, 0..1; 0 for static bodies. Empty if K is
+/// not known or nothing is stiff.
 std::vector<double> stiffness_shares(const Scene& scene, const State& state);
 
 }  // namespace substep

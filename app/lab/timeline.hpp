@@ -11,27 +11,27 @@
 
 namespace substep {
 
-/// A run at the end of a frame: enough to draw it and to continue from it bit for bit.
+/// A run at the end of a frame: enough to draw it and to continue it bit for bit.
 struct Moment {
-  std::shared_ptr<const Scene> scene;  // a thrown ball makes it another one
-  Settings settings;                   // that its frame was taken with
+  std::shared_ptr<const Scene> scene;  // edits change the scene
+  Settings settings;                   // of its frame
   State state;
   FrameReport report;
   Verdict verdict;
   ConstraintForces forces;
 };
 
-/// The moments of a run, oldest first, and which of them is looked at. Where they would take more
-/// than their share of memory every second one of the older half is forgotten: the recent past is
-/// there frame by frame, the distant one in larger and larger steps. The start is always there.
+/// The moments of a run, oldest first, and the index of the current one. When the memory limit is
+/// reached, every second moment of the older half is removed: recent frames are complete, distant
+/// ones increasingly sparse. The start is always kept.
 class Timeline {
  public:
   static constexpr std::size_t kBytes = std::size_t{64} << 20U;
   explicit Timeline(std::size_t bytes = kBytes) : most_bytes_(bytes) {}
 
-  /// Forgets everything; the moment is the start of a run.
+  /// Clears everything; the moment is the start of a run.
   void start(Moment moment);
-  /// What came after the present moment is forgotten, and this one is the present.
+  /// Discards later moments and appends this one as the current one.
   void add(Moment moment);
   void cut();
   void go_to(std::size_t index);
@@ -42,7 +42,7 @@ class Timeline {
   [[nodiscard]] const Moment& operator[](std::size_t i) const { return moments_[i]; }
   [[nodiscard]] const Moment& now() const { return moments_[index_]; }
   [[nodiscard]] const Moment& last() const { return moments_.back(); }
-  /// The moment closest to a time. @param time [s]
+  /// Index of the moment closest to a time. @param time [s]
   [[nodiscard]] std::size_t at_time(double time) const;
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 

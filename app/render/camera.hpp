@@ -7,8 +7,8 @@
 
 namespace substep {
 
-/// The part of the window that shows the scene, in logical pixels from the top left corner. The
-/// picture fills the window; what matters in it is kept inside this rectangle.
+/// The part of the window for the scene, in logical pixels from the top left corner. The picture
+/// fills the window; its main content stays inside this rectangle.
 struct ViewRect {
   float x = 0.0F;
   float y = 0.0F;
@@ -16,22 +16,22 @@ struct ViewRect {
   float height = 1.0F;
 };
 
-/// A ball that holds something.
+/// A bounding sphere.
 struct Bounds {
   Vec3 centre = Vec3::Zero();
   double radius = 1.0;
 };
 
-/// Orbits a point. Input sets a goal; the camera eases to it.
+/// Orbits a target point. Input sets a goal; the camera eases to it.
 class OrbitCamera {
  public:
   static constexpr double kFieldOfView = 0.61;  // vertical, over the view rectangle [rad]
 
-  /// Jumps to the scene's own view.
-  /// @param half_width that must be visible to either side of the target, in any view [m]
+  /// Jumps to the scene's own camera.
+  /// @param half_width to be visible on either side of the target, in any view [m]
   void place(const Camera& camera, double half_width);
   [[nodiscard]] static Vec3 right_of(const Camera& camera);
-  /// Moves so that the ball fills the view, seen from where it is now.
+  /// Moves so that the sphere fills the view; keeps the viewing direction.
   void frame(const Bounds& bounds);
   void orbit(double yaw, double pitch);                     ///< [rad]
   void pan(double right, double up, const ViewRect& view);  ///< by logical pixels
@@ -40,10 +40,10 @@ class OrbitCamera {
   void update(double dt, bool jump);
 
   [[nodiscard]] Vec3 eye(const ViewRect& view) const;
-  /// How large things are seen in a view, up to a common factor: by which views are compared.
+  /// Apparent size in a view, up to a common factor; used to compare views.
   [[nodiscard]] double magnification(const ViewRect& view) const;
   [[nodiscard]] Vec3 target() const { return now_.target; }
-  /// World to clip space of a window, the target in the middle of the view rectangle.
+  /// World to clip space of the window, with the target at the centre of the view rectangle.
   [[nodiscard]] Eigen::Matrix4d view_projection(const ViewRect& view, double window_width,
                                                 double window_height) const;
 
@@ -55,11 +55,11 @@ class OrbitCamera {
     double distance = 20.0;
   };
   [[nodiscard]] static Vec3 backward(const Pose& pose);
-  /// Farther away where the view is narrower than what must be visible.
+  /// Distance; larger if the view is narrower than the required aspect.
   [[nodiscard]] double fit(const ViewRect& view) const;
   Pose now_;
   Pose goal_;
-  double aspect_ = 1.0;  // width over height of what must be visible
+  double aspect_ = 1.0;  // width over height of the required region
 };
 
 }  // namespace substep

@@ -1,6 +1,6 @@
 #pragma once
-// What panels hide of the picture. A software renderer spends most of a frame on filling pixels, so
-// those are left out.
+// Parts of the picture hidden by panels. A software renderer spends most of a frame on filling
+// pixels, so those parts are skipped.
 
 #include <span>
 #include <vector>
@@ -17,10 +17,10 @@ struct PixelRect {
   bool operator==(const PixelRect&) const = default;
 };
 
-/// The inside of every panel, without its round corners. After ImGui::Render().
+/// The interior of every panel, without its rounded corners. Call after ImGui::Render().
 std::vector<PixelRect> covered_by_panels();
 
-/// The parts of the window that nothing covers, without overlap.
+/// The uncovered parts of the window, without overlap.
 std::vector<PixelRect> uncovered(const PixelRect& window, std::span<const PixelRect> covers);
 
 }  // namespace substep

@@ -1,5 +1,5 @@
 #pragma once
-// How finely each body is drawn: with the fewest vertices whose outline is true on the screen.
+// Level of detail of bodies: the fewest vertices whose outline is accurate on the screen.
 
 #include <array>
 #include <cstddef>
@@ -14,13 +14,13 @@ namespace substep {
 inline constexpr std::array<int, 3> kBoxSegments{0, 1, 3};
 inline constexpr std::array<int, 5> kBallSegments{0, 1, 2, 3, 8};
 
-/// How far a mesh lies off the shape that it stands for, as a share of its rounding radius.
+/// Distance of a mesh from the exact shape, relative to its rounding radius.
 double outline_error(int segments);
 
-/// Vertices of a mesh. @param flats as rounded_box() takes them
+/// Vertices of a mesh. @param flats see rounded_box()
 int vertices_of(int segments, bool flats);
 
-/// What the choice depends on.
+/// Inputs of the choice.
 struct DetailNeeds {
   const Picture* picture = nullptr;  // for its projection
   int width = 0;                     // of the target [pixel]
@@ -30,15 +30,15 @@ struct DetailNeeds {
                      // tolerance grows
 };
 
-/// Bodies by the mesh that draws them; those of a mesh from the nearest to the farthest, so that
-/// what lies behind another is not shaded. Of bodies smaller than a pixel one per pixel is drawn.
+/// Bodies by mesh, each list sorted from near to far, so that hidden fragments are not shaded. Of
+/// bodies smaller than a pixel, one per pixel is drawn.
 struct DetailedBodies {
   std::array<std::vector<Instance>, kBoxSegments.size()> boxes;
   std::array<std::vector<Instance>, kBallSegments.size()> balls;
 
   void choose(std::span<const Instance> all_boxes, std::span<const Instance> all_balls,
               const DetailNeeds& needs);
-  /// Of all meshes together.
+  /// Of all meshes.
   [[nodiscard]] std::size_t vertices() const;
 
  private:

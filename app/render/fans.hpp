@@ -1,13 +1,13 @@
 #pragma once
-// How the convex areas of panels are cut into triangles.
+// Triangulation of the convex areas of panels.
 
 #include <imgui.h>
 
 namespace substep {
 
-/// Dear ImGui fills a convex area by a fan of triangles. In a panel with round corners all of them
-/// are thin and as long as the panel, and a processor goes over their rows one by one. Slices from
-/// the top edge to the bottom cover the same pixels in fewer rows.
+/// Dear ImGui fills a convex area by a triangle fan. In a panel with rounded corners the triangles
+/// are thin and as long as the panel, and a software rasteriser visits their rows one by one.
+/// Horizontal slices cover the same pixels in fewer rows.
 void slice_fans(ImDrawData& panels);
 
 }  // namespace substep

@@ -1,7 +1,7 @@
 #pragma once
-// The few OpenGL objects that the renderer needs, each freed with its owner.
+// The OpenGL objects of the renderer, each freed with its owner.
 
-// <epoxy/gl.h> natively, <GLES3/gl3.h> on the web: the build says which.
+// <epoxy/gl.h> natively, <GLES3/gl3.h> on the web: chosen by the build.
 #include SUBSTEP_GL_HEADER
 
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace substep::gl {
 
-/// Offset of a field, as glVertexAttribPointer takes it.
+/// Offset of a field, as a pointer for glVertexAttribPointer.
 inline const void* at(std::size_t offset) {
   // NOLINTNEXTLINE(performance-no-int-to-ptr): OpenGL takes offsets as pointers
   return reinterpret_cast<const void*>(offset);
 }
 
-/// What draws, as the driver of the current context calls it.
+/// GL_RENDERER of the current context.
 std::string renderer_name();
 
 /// A vertex and a fragment shader linked together.
@@ -30,7 +30,7 @@ class Program {
   Program& operator=(Program&& other) noexcept;
   ~Program();
 
-  /// Compiles and links. @return false with the compiler's words added to `error`
+  /// Compiles and links. @return false on error, with the compiler's log appended to `error`
   bool build(const std::string& vertex, const std::string& fragment, std::string& error);
   void use() const { glUseProgram(id_); }
   void set(const char* name, int value) const;
@@ -44,7 +44,7 @@ class Program {
   GLuint id_ = 0;
 };
 
-/// A buffer that is rewritten every frame.
+/// A vertex buffer that is rewritten every frame.
 class StreamBuffer {
  public:
   StreamBuffer() { glGenBuffers(1, &id_); }
@@ -59,19 +59,19 @@ class StreamBuffer {
   GLuint id_ = 0;
 };
 
-/// A mesh that is drawn once for each of its bodies.
+/// An instanced mesh of bodies.
 class BodyMesh {
  public:
-  /// @param segments as rounded_box() takes them
-  /// @param flats false: for balls alone
+  /// @param segments see rounded_box()
+  /// @param flats false: for balls only
   BodyMesh(int segments, bool flats);
   ~BodyMesh();
   BodyMesh(const BodyMesh&) = delete;
   BodyMesh& operator=(const BodyMesh&) = delete;
 
-  /// The bodies that draw() draws from now on.
+  /// Sets the bodies for draw().
   void upload(const std::vector<Instance>& bodies);
-  /// @param program of them; its `rounded` is set
+  /// @param program draws the bodies; its uniform `rounded` is set
   void draw(const Program& program) const;
 
  private:
@@ -84,7 +84,7 @@ class BodyMesh {
   bool rounded_;
 };
 
-/// A depth texture to draw the light's view into.
+/// A depth texture for the light's view.
 class ShadowMap {
  public:
   ShadowMap();
@@ -105,7 +105,7 @@ class ShadowMap {
   GLuint frame_buffer_ = 0;
 };
 
-/// Where the picture is drawn before the panels come over it; it stays there for the next frame.
+/// The frame buffer of the picture, without the panels; its content persists to the next frame.
 class Canvas {
  public:
   Canvas() = default;
@@ -115,11 +115,11 @@ class Canvas {
 
   /// Recreates it if its size differs. @param width, height [pixel]; @param samples per pixel
   void fit(int width, int height, int samples);
-  /// To draw to.
+  /// The frame buffer to draw to.
   [[nodiscard]] unsigned frame_buffer() const { return frame_buffers_[0]; }
-  /// Puts the samples together, once all is drawn, and goes back to the window's frame buffer.
+  /// Resolves multisampling after drawing, and binds the window's frame buffer.
   void resolve() const;
-  /// Its colours, smoothly between its pixels; after resolve().
+  /// Binds its colours with linear filtering; call after resolve().
   void bind_texture() const;
 
  private:
@@ -131,12 +131,12 @@ class Canvas {
   int width_ = 0;
   int height_ = 0;
   int samples_ = 0;
-  std::array<GLuint, 2> frame_buffers_{};  // drawn to; of single samples, where there are more
-  std::array<GLuint, 2> buffers_{};        // of many samples: colours; depth
-  GLuint texture_ = 0;                     // of single samples: colours
+  std::array<GLuint, 2> frame_buffers_{};  // drawn to; single-sampled, if the first is multisampled
+  std::array<GLuint, 2> buffers_{};        // multisampled: colours; depth
+  GLuint texture_ = 0;                     // single-sampled: colours
 };
 
-/// Signals when the graphics have executed the calls before it.
+/// Signals when the GPU has executed the preceding calls.
 class Fence {
  public:
   Fence() = default;
@@ -144,7 +144,7 @@ class Fence {
   Fence(const Fence&) = delete;
   Fence& operator=(const Fence&) = delete;
 
-  /// After the calls made so far, in place of where it was.
+  /// Inserts the fence after the calls made so far; replaces an earlier one.
   void set();
   [[nodiscard]] bool reached() const;
 

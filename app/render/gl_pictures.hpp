@@ -14,35 +14,35 @@
 
 namespace substep {
 
-/// What a quality is made of.
+/// Parameters of a quality.
 struct Grain {
   double scale = 1.0;      // of the window's width and height [-]
   int samples = 1;         // per pixel
   int shadow_size = 0;     // [texel]
   float taps = 1.0F;       // of the shadow map per pixel
   double tolerance = 0.5;  // of outlines [pixel]
-  int vertices = 0;        // of bodies, before their outlines get coarser
+  int vertices = 0;        // limit for bodies; beyond it outlines get coarser
 };
 Grain grain_of(Quality quality);
 
-/// Where pictures are drawn, all of it.
+/// The frame buffer to draw to, all of it.
 struct Target {
   GLuint frame_buffer = 0;  // with a depth buffer
   int width = 0;            // [pixel]
   int height = 0;
 };
 
-/// Draws pictures, in the OpenGL context in which it was made.
+/// Draws pictures in the OpenGL context that was current at construction.
 class PicturePainter {
  public:
-  /// Before anything else. @return false with the reason added to `error`
+  /// Call first. @return false on error, with the reason appended to `error`
   bool build(std::string& error);
   ~PicturePainter();
   PicturePainter() = default;
   PicturePainter(const PicturePainter&) = delete;
   PicturePainter& operator=(const PicturePainter&) = delete;
 
-  /// Each picture in its part of the target.
+  /// Draws each picture in its part of the target.
   /// @param hidden parts of the target that are not shaded, from its top left corner
   void paint(std::span<const Picture> pictures, Quality quality, const Target& target,
              std::span<const PixelRect> hidden);
@@ -56,7 +56,7 @@ class PicturePainter {
   void draw_shadows(const Eigen::Matrix4f& light);
   void draw_bodies(const Picture& picture, const Eigen::Matrix4f& light);
   void draw_ghosts(const Picture& picture, const Target& target);
-  // Makes ready what draw_meshes() draws.
+  // Uploads the instances for draw_meshes().
   void upload(std::span<const Instance> boxes, std::span<const Instance> balls,
               const Picture& picture, const Target& target);
   void draw_meshes(const gl::Program& program) const;
@@ -80,7 +80,7 @@ class PicturePainter {
   gl::Program ribbon_;
   GLuint empty_array_ = 0;
   GLuint ribbon_array_ = 0;
-  Grain grain_;  // of what is painted
+  Grain grain_;  // of the current paint()
 };
 
 }  // namespace substep

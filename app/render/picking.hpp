@@ -14,7 +14,7 @@ struct Ray {
   [[nodiscard]] Vec3 at(double distance) const { return origin + distance * direction; }
 };
 
-/// The body at a point of the window. @param x, y clip coordinates, -1..1, y up
+/// The ray through a point of the window. @param x, y clip coordinates, -1..1, y up
 Ray ray_through(const Eigen::Matrix4d& view_projection, double x, double y);
 
 struct Hit {
@@ -22,7 +22,7 @@ struct Hit {
   double distance = 0.0;  // along the ray [m]
 };
 
-/// The first sphere or box that a ray meets; planes are looked through.
+/// The first sphere or box hit by a ray; planes are ignored.
 std::optional<Hit> first_hit(const Ray& ray, const Scene& scene, const Poses& poses);
 
 }  // namespace substep

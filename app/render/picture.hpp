@@ -1,5 +1,5 @@
 #pragma once
-// What there is to draw, as plain values: made from a scene and its state, drawn by a Renderer.
+// The content of a picture as plain values: built from a scene and its state, drawn by a Renderer.
 
 #include <Eigen/Core>
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace substep {
 
-/// Colour as a person would give it: sRGB and coverage, each 0..1.
+/// sRGB colour and coverage, each 0..1.
 struct Color {
   float r = 0.0F;
   float g = 0.0F;
@@ -18,12 +18,12 @@ struct Color {
   bool operator==(const Color&) const = default;
 };
 
-/// One box or ball: sixteen floats, as the graphics card reads them.
+/// One box or ball: sixteen floats, in the layout of the vertex attributes.
 struct Instance {
   std::array<float, 3> position{};      // [m]
   float rounding = 0.0F;                // radius of a box's edges [m]
   std::array<float, 4> orientation{};   // quaternion x y z w
-  std::array<float, 3> half_extents{};  // of a box; radius, three times, of a ball [m]
+  std::array<float, 3> half_extents{};  // of a box; of a ball the radius, three times [m]
   float pattern = 0.0F;                 // 1: quartered, so that rotation is visible
   Color color;
 
@@ -38,7 +38,7 @@ struct RibbonVertex {
   bool operator==(const RibbonVertex&) const = default;
 };
 
-/// A part of the window, as shares of its width and height from the top left corner.
+/// A part of the window, as fractions of its width and height from the top left corner.
 struct Part {
   float x = 0.0F;
   float y = 0.0F;
@@ -48,33 +48,33 @@ struct Part {
   bool operator==(const Part&) const = default;
 };
 
-/// An endless floor: a grid that fades into the distance, and the shadows that fall on it.
+/// An infinite floor: a grid that fades with distance, and the shadows on it.
 struct Ground {
   bool visible = true;
   std::array<float, 3> origin{};  // [m]
   std::array<float, 3> normal{0, 1, 0};
   std::array<float, 3> along{1, 0, 0};  // one of the grid's directions
   float cell = 1.0F;                    // [m]
-  float fade = 30.0F;                   // where it has gone, from `focus` [m]
+  float fade = 30.0F;                   // distance from `focus` at which it is invisible [m]
 
   bool operator==(const Ground&) const = default;
 };
 
 struct Picture {
-  Part part;  // of the window that is drawn; the projection is that of the whole window
+  Part part;  // of the window; the projection is for the whole window
   Eigen::Matrix4f view_projection = Eigen::Matrix4f::Identity();
   std::array<float, 3> eye{};
-  std::array<float, 3> focus{};                     // what the shadows are sharpest around [m]
+  std::array<float, 3> focus{};                     // centre of the sharpest shadows [m]
   float focus_radius = 10.0F;                       // [m]
   std::array<float, 3> to_light{0.4F, 0.9F, 0.3F};  // unit
   Color background_top;
   Color background_bottom;
   Color grid;
-  float ambient = 0.4F;  // light from everywhere, of 1
-  float shadow = 0.5F;   // how dark a shadow on the ground is
+  float ambient = 0.4F;  // ambient light, 0..1
+  float shadow = 0.5F;   // darkness of shadows on the ground, 0..1
   std::vector<Instance> boxes;
   std::vector<Instance> balls;
-  std::vector<Instance> ghost_boxes;  // seen through, without shadows
+  std::vector<Instance> ghost_boxes;  // translucent, without shadows
   std::vector<Instance> ghost_balls;
   std::vector<RibbonVertex> ribbons;  // triangles
   Ground ground;

@@ -7,18 +7,18 @@
 
 namespace substep {
 
-/// Whether what draws is a processor. @param renderer as OpenGL names it
+/// Whether the renderer is software. @param renderer GL_RENDERER
 bool is_software(std::string_view renderer);
 
-/// The finest quality with which a processor that must draw so many bodies does not keep the window
-/// waiting.
+/// The finest quality at which a software renderer keeps the window responsive with this many
+/// bodies.
 Quality finest_in_software(std::size_t bodies);
 
-/// Chooses how finely a picture that moves is drawn, so that it moves at 30 frames a second where a
-/// processor must draw it. It looks at the time that drawing takes and never touches the run.
+/// Chooses the quality of a moving picture so that a software renderer reaches 30 frames a second.
+/// It observes the drawing time and never affects the run.
 class QualityGovernor {
  public:
-  /// Once a frame. @param wall_dt since the last one [s]
+  /// @param own share of it spent on simulation, which coarser pictures would not save [s]
   /// @param own of that time, what simulating took: coarser pictures would not save it [s]
   void observe(double wall_dt, double own);
   [[nodiscard]] Quality quality() const { return quality_; }
@@ -26,11 +26,11 @@ class QualityGovernor {
  private:
   Quality quality_ = Quality::kFine;
   bool tried_ = false;     // this quality was reached from a coarser one
-  int seen_ = 0;           // frames of the window that is judged
-  int slow_ = 0;           // of them
-  double lost_ = 0.0;      // what those took [s]
+  int seen_ = 0;           // frames in the current window
+  int slow_ = 0;           // slow frames among them
+  double lost_ = 0.0;      // their total time [s]
   double steady_ = 0.0;    // since the quality changed [s]
-  double patience_ = 8.0;  // before a finer one is tried again [s]
+  double patience_ = 8.0;  // wait before a finer quality is tried again [s]
 };
 
 }  // namespace substep

@@ -10,34 +10,35 @@
 
 namespace substep {
 
-/// How finely the picture is drawn; the panels over it are always as sharp as the screen.
+/// Quality of the picture; the panels are always at full resolution.
 enum class Quality : unsigned char {
-  kSketch,  // of a quarter of the pixels
-  kCoarse,  // of fewer pixels
-  kPlain,   // edges in steps
+  kSketch,  // a quarter of the pixels
+  kCoarse,  // fewer pixels
+  kPlain,   // aliased edges
   kFine     // smooth edges
 };
 
-/// What a frame is drawn for.
+/// Parameters of a frame.
 struct DrawOptions {
   int width = 0;  // of the window's frame buffer [pixel]
   int height = 0;
-  Quality moving = Quality::kFine;  // while a picture changes; what rests is drawn at its best
+  Quality moving =
+      Quality::kFine;  // while the picture changes; a static picture is drawn at full quality
 };
 
-/// Draws pictures side by side and the panels over them. The window system belongs to the shell.
+/// Draws pictures side by side and the panels over them. The shell owns the window system.
 class Renderer {
  public:
   virtual ~Renderer() = default;
 
-  /// Before the panels are built: makes ready what Dear ImGui needs.
+  /// Call before the panels are built: prepares the Dear ImGui backend.
   virtual void begin_frame() = 0;
   virtual void draw(std::span<const Picture> pictures, ImDrawData& panels,
                     const DrawOptions& options) = 0;
-  /// Whether draw() only begins a picture, which present() shows once it is finished.
+  /// Whether draw() only begins a picture, to be shown by present() when finished.
   [[nodiscard]] virtual bool deferred() const { return false; }
-  /// Shows what draw() began, before the next begin_frame().
-  /// @param wait false: only where it is finished
+  /// @param wait false: only if it is finished
+  /// @return false if it is still being drawn
   /// @return false where it is still being drawn
   virtual bool present(bool wait) { return static_cast<void>(wait), true; }
   /// What is shown, as RGB rows from the top; right after draw() or present().

@@ -6,8 +6,7 @@
 
 namespace substep {
 
-/// The unit box, each corner with the normal along which rounding moves it out: at full rounding it
-/// is a ball.
+/// The unit box. Rounding moves each vertex out along its normal; a fully rounded box is a ball.
 struct RoundedBoxMesh {
   struct Vertex {
     std::array<float, 3> corner;
@@ -18,7 +17,7 @@ struct RoundedBoxMesh {
 };
 
 /// @param segments per eighth of a turn; 0: sharp edges
-/// @param flats false: without the flats between the edges, which have no size at full rounding
+/// @param flats false: without the flat faces, which are degenerate at full rounding
 RoundedBoxMesh rounded_box(int segments, bool flats);
 
 }  // namespace substep

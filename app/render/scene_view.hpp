@@ -11,9 +11,9 @@
 
 namespace substep {
 
-/// What is drawn beside the bodies.
+/// Optional parts of the picture.
 struct ViewOptions {
-  bool tint = true;       // bodies by k/M: which need small steps
+  bool tint = true;       // tint bodies by k/M
   bool joints = true;     // pins of joints
   bool trail = true;      // path of the tracked body
   bool labels = true;     // masses
@@ -24,7 +24,7 @@ struct ViewOptions {
   bool axes = false;      // of bodies
 };
 
-/// What links and scripts call them.
+/// Names of the options in links and scripts.
 struct ViewSwitch {
   std::string_view key;
   bool ViewOptions::*member;
@@ -45,17 +45,17 @@ struct ViewPalette {
   Color background_bottom;
   Color grid;
   Color body;
-  Color fixture;  // what does not move
+  Color fixture;  // static bodies
   Color joint;
   Color trail;
-  Color stiff_low;   // tint where k/M is 0
-  Color stiff_mid;   // where it is half of the largest
+  Color stiff_low;   // tint of k/M = 0
+  Color stiff_mid;   // tint of half of the largest k/M
   Color stiff_high;  // tint of the body that sets N
   float ambient = 0.5F;
   float shadow = 0.5F;
 };
 
-/// A run to draw: its scene and poses, and what its bodies are tinted by.
+/// A run to draw: its scene and poses, and the state for the tint.
 struct Seen {
   const Scene* scene = nullptr;
   const Poses* poses = nullptr;
@@ -63,7 +63,7 @@ struct Seen {
   const std::deque<Vec3>* trail = nullptr;  // null: none
 };
 
-/// Looks at a session: keeps the camera and makes the picture.
+/// The view of a session: owns the camera and builds the picture.
 class SceneView {
  public:
   OrbitCamera camera;
@@ -71,10 +71,10 @@ class SceneView {
   /// Resets the camera for a new scene.
   void follow(const Session& session);
   void frame_all(const Session& session);
-  /// @param view where the run is seen in the window
+  /// @param view the rectangle of the run in the window
   void build(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
              const ViewRect& view, double window_width, double window_height, Picture& out) const;
-  /// The bodies of another run over the same picture, in one colour that is seen through.
+  /// Adds the bodies of another run to the picture, in one translucent colour.
   static void add_ghost(const Scene& scene, const Poses& poses, const Color& color, Picture& out);
 
  private:

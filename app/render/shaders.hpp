@@ -43,8 +43,8 @@ void main() {
 }
 )";
 
-/// Shared by what receives shadows: how much of the light arrives, softened over four samples, or
-/// in a hurry one, that the hardware filters once more.
+/// Shared by surfaces that receive shadows: the fraction of light, averaged over four samples, or
+/// one at low quality, with hardware filtering on top.
 inline constexpr const char* kShadowFunction = R"(
 uniform sampler2DShadow shadow_map;
 uniform float shadow_texel;
@@ -143,8 +143,8 @@ void main() {
 }
 )";
 
-/// Lines one pixel wide at every cell and stronger ones at every fifth; each kind goes before it
-/// gets denser than the pixels.
+/// Lines one pixel wide at every cell and stronger ones at every fifth; each kind fades out before
+/// it gets denser than the pixels.
 inline constexpr const char* kGroundFragment = R"(
 in vec2 v_uv;
 in vec4 v_shadow;
@@ -194,7 +194,7 @@ out vec4 out_color;
 void main() { out_color = vec4(v_color.rgb * v_color.a, v_color.a); }
 )";
 
-/// A texture over all of the viewport.
+/// A texture over the whole viewport.
 inline constexpr const char* kTextureVertex = R"(
 out vec2 v_uv;
 void main() {

@@ -17,7 +17,7 @@ struct LogRange {  // of logarithms
   double high = 1.0;
 };
 
-/// Where costs and errors lie on the screen.
+/// Maps costs and errors to the screen.
 struct AccuracyAxes {
   ImVec2 min;
   ImVec2 max;
@@ -33,13 +33,13 @@ struct AccuracyAxes {
                        (max.y - min.y);
   }
   [[nodiscard]] ImVec2 at(const Accuracy::Point& p) const { return {x(p.cost), y(p.error)}; }
-  /// On the rail above the picture; PGS a little higher, so that both solvers are visible.
+  /// On the rail above the picture; PGS slightly higher, so that both solvers are visible.
   [[nodiscard]] ImVec2 on_rail(const Accuracy::Point& p, bool higher) const {
     return {x(p.cost), min.y - (higher ? 15.0F : 6.0F)};
   }
 };
 
-/// Those of these points in a picture of this size, with room for the floor where points lie on it.
+/// The axes for these points in a picture of this size, including the floor if points lie on it.
 AccuracyAxes accuracy_axes(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points,
                            const std::vector<Accuracy::Point>& failed, ImVec2 origin, ImVec2 size);
 

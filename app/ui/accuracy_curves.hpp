@@ -14,22 +14,21 @@ struct AccuracyCurve {
   std::string series;
   std::vector<Accuracy::Point> points;
   CurveStyle style;
-  std::string name;       // beside its end: "Störmer", or "Cheapest" where it is on no other
+  std::string name;  // label at its end: "Störmer", or "Cheapest" if the point is on no other curve
   bool headline = false;  // drawn in colour and named
 };
 
-/// "Constant N", "Adaptive, leapfrog", "PGS, constant N": the direct solver and Euler go without
-/// saying.
+/// "Constant N", "Adaptive, leapfrog", "PGS, constant N": the direct solver and Euler are omitted.
 std::string short_name(const Settings& settings);
 
-/// The curves of these points. Headline ones are that of the best point and, up to five, those that
-/// people compare: constant N, the paper's method, higher orders, Newton, Gauss-Seidel.
+/// The curves of these points. The headline curves are that of the best point and up to five common
+/// ones: constant N, the paper's method, higher orders, Newton, Gauss-Seidel.
 std::vector<AccuracyCurve> curves_of(const Theme& theme, const Accuracy& accuracy,
                                      const std::vector<Accuracy::Point>& points);
 
-/// What the picture comes to, in a sentence: "To keep the path within 1 mm, Constant N, Störmer
-/// (n = 3) is the cheapest: 65 times fewer operations than constant N with Euler." "" where there
-/// are no two points.
+/// The picture's conclusion in a sentence: "To keep the path within 1 mm, Constant N, Störmer (n =
+/// 3) is the cheapest: 65 times fewer operations than constant N with Euler." "" with fewer than
+/// two points.
 std::string conclusion(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points);
 
 /// "0.82 mm", "3.1 J"

@@ -10,9 +10,8 @@
 
 namespace substep::ui {
 
-/// Error against cost, both logarithmic: a curve per method, the Pareto front, the failed runs on a
-/// rail of their own. @param current settings of the run, ringed @return the result that was
-/// clicked
+/// Error against cost on logarithmic axes: a curve per method, the Pareto front, the failed runs on
+/// a separate rail. @param current settings of the run, ringed @return the result that was clicked
 std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& accuracy,
                                             const Settings& current, ImVec2 size);
 

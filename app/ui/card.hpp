@@ -12,26 +12,27 @@
 
 namespace substep::ui {
 
-/// A card of a width, centred in the view; ImGui::End() ends it. @param centre_y, pivot_y where on
-/// the display, and which height of the card lies there, 0 the top @param centre_x where not there
+/// Begins a card of the given width, centred in the view; end it with ImGui::End(). @param centre_y
+/// position on the display @param pivot_y height in the card that lies there, 0 the top @param
+/// centre_x instead of the centre
 bool begin_card(const Look& look, const Viewport& viewport, const char* id, float width,
                 float centre_y, float pivot_y, std::optional<float> centre_x = {});
-/// Where a tall card's middle lies: in the view, or in the window where the view is low.
+/// Middle of a tall card: that of the view, or of the window if the view is low.
 float card_middle(const Viewport& viewport);
 struct CardPlace {
   float y = 0.0F;
-  float pivot = 0.0F;  // of the card, that lies at y: 0 its top, 1 its bottom
-  float x = 0.0F;      // of its middle
+  float pivot = 0.0F;  // of the card at y: 0 its top, 1 its bottom
+  float x = 0.0F;      // centre of the card
 };
-/// Where a card covers little of a picture: at its lower edge, or, where panels are below it, on
-/// those, under the bar that plays and the tabs.
+/// A place that covers little of a picture: at its lower edge, or, if panels are below it, on
+/// those, under the transport bar and the tabs.
 CardPlace card_below(const ViewRect& picture);
-/// The same place, or another at the picture's edges where the card covers less of the bodies, or
-/// over the panel at its right where bodies fill the picture.
-/// @param size of the card  @param which as it was chosen before, or -1; then it is chosen
+/// card_below(), or another place at the picture's edges if the card covers less of the bodies
+/// there, or over the right panel if bodies fill the picture.
+/// @param size of the card @param which the earlier choice, or -1 to choose
 CardPlace card_beside(const Session& session, const Viewport& viewport, ImVec2 size, int& which);
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title);
-/// The cross at its corner, the last thing in a card. @return whether it was clicked
+/// The close button in the corner; call last in a card. @return whether it was clicked
 bool card_closed(const Look& look);
 
 }  // namespace substep::ui

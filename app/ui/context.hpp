@@ -8,13 +8,13 @@
 
 namespace substep::ui {
 
-/// Dear ImGui for as long as this lives: made before the renderer, gone after it.
+/// Owns the Dear ImGui context; create it before the renderer.
 class Context {
  public:
   Context() : context_(ImGui::CreateContext()) {
     ImGuiIO& io = ImGui::GetIO();
     io.UserData = &handles_;
-    io.IniFilename = nullptr;  // nothing is written beside the program
+    io.IniFilename = nullptr;  // no ini file
     io.LogFilename = nullptr;
     io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     io.ConfigWindowsMoveFromTitleBarOnly = true;

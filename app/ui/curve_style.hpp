@@ -10,26 +10,26 @@
 
 namespace substep::ui {
 
-/// How a method's curve looks: colour by mode, hollow with leapfrog and Störmer, dashed where the
-/// solver sweeps.
+/// Style of a method's curve: colour by mode, hollow for leapfrog and Störmer, dashed for an
+/// iterative solver.
 struct CurveStyle {
   ImU32 color = 0;
   bool hollow = false;
   bool dashed = false;
   int corners = 0;       // of its points, 0 a disc
-  std::string family;    // "BPP, leapfrog": solver and, where it has a choice of them, integrator
-  std::string own_name;  // within it: "adaptive per frame"
+  std::string family;    // "BPP, leapfrog": solver, and integrator if it offers a choice
+  std::string own_name;  // within the family: "adaptive per frame"
 
   [[nodiscard]] std::string name() const { return family + ", " + own_name; }
 };
 CurveStyle curve_style(const Theme& theme, const Settings& settings);
 ImU32 color_of(const Theme& theme, Tint tint);
 
-/// Line and point of a curve, as they stand before its name.
+/// Line and point of a curve, in front of its name.
 void draw_swatch(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 centre);
-/// A point of it. @param ground what a hollow one is filled with
+/// A point of the curve. @param ground fill colour of a hollow one
 void draw_point(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 at);
-/// A dashed line. @param phase where in a dash it begins, and then where the next one does [px]
+/// A dashed line. @param phase start within a dash, updated for the next line [px]
 void draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width, float& phase);
 
 }  // namespace substep::ui

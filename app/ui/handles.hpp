@@ -1,6 +1,5 @@
 #pragma once
-// Where the controls of the last frame lie, by what is written on them: for those who work the
-// window by program, tests above all.
+// Positions of the last frame's controls, by label: for automation, mainly tests.
 
 #include <imgui.h>
 
@@ -12,14 +11,14 @@ namespace substep::ui {
 struct Handle {
   std::string group;  // of a row of choices, or ""
   std::string label;
-  ImVec2 min;  // in the interface's own pixels, see Desk::scale
+  ImVec2 min;  // in interface pixels, see Desk::scale
   ImVec2 max;
 };
 
-/// Those of the frame that was drawn last, in the order in which they came.
+/// Handles of the last frame, in drawing order.
 const std::vector<Handle>& handles();
-void forget_handles();  ///< at the start of a frame
-/// The part of a control that can be seen; nothing where none of it can.
+void forget_handles();  ///< call at the start of a frame
+/// Records the visible part of a control, if any.
 void mark(const char* label, ImVec2 min, ImVec2 max, const char* group = "");
 
 }  // namespace substep::ui

@@ -1,5 +1,5 @@
 #pragma once
-// What the keyboard does: the one table that acts on keys and that the list of keys is made from.
+// Keyboard shortcuts: one table for handling keys and for the list of keys.
 
 #include <span>
 #include <string_view>
@@ -12,20 +12,20 @@ struct App;
 
 namespace ui {
 
-/// One line of the list: keys that belong together.
+/// One line of the list: related keys.
 struct KeyAction {
-  std::string_view shown;  // what the list calls them
-  std::string_view typed;  // the characters that do it, each at its place on the keyboard's layout
+  std::string_view shown;  // name in the list
+  std::string_view typed;  // the characters that trigger it, by keyboard layout
   std::string_view what;
   void (*act)(App& app, char typed) = nullptr;
-  bool on_first_screen = false;  // others wait until it is left
+  bool on_first_screen = false;  // others are disabled on the first screen
 };
 std::span<const KeyAction> key_actions();
 
-/// Acts on what was typed in this frame, unless text is being typed somewhere.
+/// Handles the keys typed in this frame, unless a text field is active.
 void handle_keys(App& app);
 
-/// The keyboard goes to the next panel that is open, or to the one before.
+/// Moves keyboard focus to the next open panel, or the previous one.
 void focus_next_panel(bool back);
 
 }  // namespace ui

@@ -1,5 +1,5 @@
 #pragma once
-// How the application looks: colours, fonts and measures. Lengths are logical pixels on a grid
+// Appearance of the application: colours, fonts and metrics. Lengths are logical pixels on a grid
 // of 4.
 
 #include <imgui.h>
@@ -15,12 +15,12 @@ struct Theme {
   ImU32 panel = 0;
   ImU32 panel_border = 0;
   ImU32 raised = 0;   // menus, tooltips and cards: over panels
-  ImU32 well = 0;     // what holds plots and segments
+  ImU32 well = 0;     // background of plots and segments
   ImU32 control = 0;  // buttons at rest
   ImU32 control_hover = 0;
   ImU32 track = 0;  // of sliders
   ImU32 text = 0;
-  ImU32 dim = 0;    // second voice, readable still (WCAG AA on the panel)
+  ImU32 dim = 0;    // grid lines, disabled items
   ImU32 faint = 0;  // grid lines, switched-off things
   ImU32 accent = 0;
   ImU32 accent_hover = 0;
@@ -45,7 +45,7 @@ struct Fonts {
   ImFont* small_medium = nullptr;
   ImFont* caps = nullptr;  // headings of sections
   ImFont* title = nullptr;
-  ImFont* large = nullptr;  // the one number that matters
+  ImFont* large = nullptr;  // the principal number
 };
 
 struct Metrics {
@@ -67,11 +67,11 @@ struct Look {
 /// Rasterises the fonts for a pixel ratio and replaces the atlas.
 Fonts build_fonts(float pixel_ratio);
 
-/// Sets what Dear ImGui's own widgets (menus, tooltips, scroll bars) look like.
+/// Sets the style of Dear ImGui's own widgets (menus, tooltips, scroll bars).
 void apply_style(const Look& look);
 
 inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
-/// The colour of a run that is compared, in plots and in the picture. @param run counts from 0
+/// The colour of a compared run, in plots and in the picture. @param run from 0
 ImU32 compare_color(const Look& look, std::size_t run);
 /// The same colour, less opaque.
 ImU32 fade(ImU32 color, float opacity);

@@ -1,5 +1,5 @@
 #pragma once
-// For what is drawn over the picture: where things of the world are on the display.
+// Projection of world points to the display, for overlays on the picture.
 
 #include <imgui.h>
 
@@ -8,14 +8,14 @@
 
 namespace substep::ui {
 
-/// World to the display, by the matrices of the picture that is shown in a pane.
-/// @return false behind the eye
+/// World to display, with the matrices of the picture in a pane.
+/// @return false if the point is behind the eye
 bool project(const Viewport& viewport, const Vec3& x, ImVec2& out, std::size_t pane = 0);
 
-/// How long a logical pixel is at a point of the world [m].
+/// Size of a logical pixel at a point of the world [m].
 double pixel_size(const Viewport& viewport, const Vec3& x);
 
-/// Text with a soft halo of the background around it: readable on any body.
+/// Text with a soft halo of the background colour, readable on any body.
 void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
                const char* text);
 

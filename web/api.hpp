@@ -1,6 +1,6 @@
 #pragma once
-// What window.substep is made of: each call takes and gives text, JSON where there is structure. A
-// text that is given holds until the next call.
+// The exports behind window.substep: arguments and results are text, JSON if structured. A returned
+// text is valid until the next call.
 
 #ifdef __EMSCRIPTEN__
 #include <emscripten.h>
@@ -11,21 +11,21 @@
 
 extern "C" {
 
-/// A scene of the library by its name.
+/// Opens a scene of the library by name.
 SUBSTEP_EXPORTED const char* substep_open(const char* name);
 
-/// A scene as JSON. @param from what people call it: a file's name
+/// Opens a scene given as JSON. @param from its name in messages: a file name
 SUBSTEP_EXPORTED const char* substep_open_text(const char* text, const char* from);
 
-/// Settings by name, as an object. Valid ones are applied, the others reported.
+/// Sets settings by name, given as an object. Applies valid ones and reports the others.
 SUBSTEP_EXPORTED const char* substep_set(const char* text);
 
-/// Takes frames at once, without waiting for the clock.
+/// Takes frames at once, independent of the clock.
 SUBSTEP_EXPORTED void substep_step(int frames);
 
 SUBSTEP_EXPORTED void substep_substep();
 
-/// Looks at the moment of the past that is closest to a time. @param time [s]
+/// Shows the past moment closest to a time. @param time [s]
 SUBSTEP_EXPORTED void substep_go_to(double time);
 
 SUBSTEP_EXPORTED void substep_play(int on);
@@ -34,45 +34,45 @@ SUBSTEP_EXPORTED int substep_busy();
 
 SUBSTEP_EXPORTED void substep_reset();
 
-/// Shows the first screen, unless the person has left it at an earlier visit.
+/// Shows the first screen, unless the user dismissed it on an earlier visit.
 SUBSTEP_EXPORTED void substep_introduce();
 
-/// @return what of it could not be read
+/// @return the parts that could not be read
 SUBSTEP_EXPORTED const char* substep_open_link(const char* fragment);
 
-/// Begins to read a scene's text; what was read before is forgotten.
+/// Begins to parse a scene's text; discards an earlier one.
 SUBSTEP_EXPORTED void substep_read(const char* text);
 
-/// Continues reading for one slice. @return 0 when it is done
+/// Continues parsing for one slice. @return 0 when done
 SUBSTEP_EXPORTED int substep_read_some();
 
-/// Opens the scene that was read: substep_open_text in parts.
+/// Opens the parsed scene: substep_open_text in steps.
 SUBSTEP_EXPORTED const char* substep_open_read(const char* from);
 
-/// substep_open_link with the scene that was read for its scene.
+/// substep_open_link with the parsed scene.
 SUBSTEP_EXPORTED const char* substep_open_read_link(const char* fragment);
 
-/// Starts the run that one of the two opened, or has it wait where its frames take long.
+/// Starts the run that either of the two opened, or waits for confirmation if its frames are slow.
 SUBSTEP_EXPORTED void substep_start_opened();
 
 SUBSTEP_EXPORTED const char* substep_link();
 
 SUBSTEP_EXPORTED const char* substep_command();
 
-/// The scene that the link starts from, as a file; "" where it is a shipped one, which a link
-/// names, or too large for a link.
+/// The scene that the link starts from, as a file; "" if it is a shipped one, which the link names,
+/// or too large for a link.
 SUBSTEP_EXPORTED const char* substep_own_scene();
 
-/// The run as it is now, as a scene file.
+/// The current state of the run as a scene file.
 SUBSTEP_EXPORTED const char* substep_saved_scene();
 
-/// What the plots remember, as CSV: one line a frame.
+/// The samples of the plots as CSV, one line per frame.
 SUBSTEP_EXPORTED const char* substep_history();
 
-/// Settings with their values now, and what is allowed.
+/// Settings with their current and allowed values.
 SUBSTEP_EXPORTED const char* substep_settings();
 
-/// Something that the page found wrong with outside data.
+/// Shows a problem with external data that the page found.
 SUBSTEP_EXPORTED void substep_trouble(const char* title, const char* place, const char* message);
 
 SUBSTEP_EXPORTED void substep_tell(const char* text);
@@ -81,23 +81,22 @@ SUBSTEP_EXPORTED void substep_recording(int on);
 
 SUBSTEP_EXPORTED const char* substep_hash();
 
-/// The last frame and how the run stands.
+/// The last frame and the verdict.
 SUBSTEP_EXPORTED const char* substep_report();
 
-/// Where the controls of the last picture lie, and the bodies in it, in CSS pixels of the canvas.
+/// Rectangles of the last picture's controls and bodies, in CSS pixels of the canvas.
 SUBSTEP_EXPORTED const char* substep_widgets();
 
-/// The step of the guided tour that is shown, with its numbers as the run has them; null outside
-/// the tour.
+/// The current step of the guided tour with its current numbers; null outside the tour.
 SUBSTEP_EXPORTED const char* substep_tour();
 
-/// Whether the page shows the text of the tour; the window does not then.
+/// Whether the page shows the text of the tour instead of the window.
 SUBSTEP_EXPORTED void substep_tour_in_page(int on);
 
-/// Whether the theme is the dark one.
+/// Whether the theme is dark.
 SUBSTEP_EXPORTED int substep_dark();
 
-/// Names and titles of the scenes that there are.
+/// Names and titles of all scenes.
 SUBSTEP_EXPORTED const char* substep_scenes();
 
 }  // extern "C"

@@ -4,7 +4,7 @@
 
 namespace substep::web {
 
-/// What the application asks of the page: each is a function of Module.host, see web/host.cpp.
+/// Services that the page provides to the application: functions of Module.host, see web/host.cpp.
 Host page_host();
 /// Dear ImGui's copy and paste through the page.
 void use_page_clipboard();

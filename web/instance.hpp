@@ -1,5 +1,5 @@
 #pragma once
-// The one application of this module: made by substep_start, used by everything that is exported.
+// The single application of this module: created by substep_start, used by all exports.
 
 #include <memory>
 
@@ -12,8 +12,8 @@ namespace substep::web {
 struct Instance {
   ui::Context context;
   std::unique_ptr<App> app;
-  std::unique_ptr<SceneReading> reading;  // of the scene that is being read, or was read
-  bool pinching = false;                  // two fingers are or were on the picture
+  std::unique_ptr<SceneReading> reading;  // of the scene being parsed, or parsed last
+  bool pinching = false;                  // a two-finger gesture on the picture is or was active
 };
 
 /// Null before substep_start.

@@ -1,5 +1,5 @@
 #pragma once
-// Many runs, each beside what is expected of it, on several threads.
+// Runs with an expected verdict, on several threads.
 
 #include <atomic>
 #include <functional>
@@ -12,7 +12,7 @@
 
 namespace substep::cli {
 
-/// A run and what came of it.
+/// A run and its result.
 struct Check {
   std::shared_ptr<const Scene> scene;
   VerdictCell cell;
@@ -27,9 +27,9 @@ struct Check {
 
 inline const std::atomic<bool> kNeverCancelled{false};
 
-/// @param jobs runs at a time; 0: one for each processor
-/// @param on_done called in order, as soon as a run and those before it are over
-/// @return false where it was cancelled: the runs that were done are told all the same
+/// @param jobs parallel runs; 0: one per processor
+/// @param on_done called in order, once a run and those before it have finished
+/// @return false if cancelled; finished runs are still reported
 bool run_checks(std::vector<Check>& checks, int jobs,
                 const std::function<void(const Check&)>& on_done,
                 const std::atomic<bool>& cancelled = kNeverCancelled);

@@ -5,15 +5,15 @@
 
 namespace substep::cli {
 
-// What the program ends with.
+// Exit codes.
 inline constexpr int kOk = 0;
 inline constexpr int kUnexpectedVerdict = 1;
 inline constexpr int kBadInput = 2;
 inline constexpr int kNotFinite = 3;
-inline constexpr int kUnforeseen = 4;   // not enough memory, or a defect of the program
-inline constexpr int kCancelled = 130;  // as shells have it for Ctrl-C
+inline constexpr int kUnforeseen = 4;   // out of memory, or an internal error
+inline constexpr int kCancelled = 130;  // the shells' code for Ctrl-C
 
-// Each adds its subcommand. The result is the exit code of the one that ran.
+// Each adds its subcommand and writes its exit code.
 void add_run(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
 void add_cost(CLI::App& app, int& exit_code);

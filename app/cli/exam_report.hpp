@@ -9,7 +9,7 @@
 
 namespace substep::cli {
 
-/// A case and what came of it. Exam and result are empty where the vocabulary does not reach it.
+/// A case and its result. Exam and result are empty if the scene format cannot express the case.
 struct ExamOutcome {
   const ExamEntry* entry = nullptr;
   ExamCase exam;
@@ -17,16 +17,16 @@ struct ExamOutcome {
   [[nodiscard]] bool reached_by_vocabulary() const { return entry->not_reached.empty(); }
 };
 
-/// "passes", "fails: ..." with what failed, or "not reached: needs springs".
+/// "passes", "fails: ..." with the reason, or "not reached: needs springs".
 std::string verdict_of(const ExamOutcome& outcome);
 
-/// A case with its tolerances and every run, on standard output.
+/// Prints a case with its tolerances and all runs to standard output.
 void print_case(const ExamOutcome& outcome);
-/// A line for each case, and how many pass.
+/// Prints a line per case, and the number of passes.
 void print_summary(const std::vector<ExamOutcome>& outcomes);
 
 Json exam_json(const std::vector<ExamOutcome>& outcomes);
-/// One HTML file that opens without a network: tables with a bar for every error, no script.
+/// A self-contained HTML page: tables with a bar for every error, no script.
 std::string exam_page(const std::vector<ExamOutcome>& outcomes);
 
 }  // namespace substep::cli

@@ -4,10 +4,10 @@
 
 namespace substep::cli {
 
-/// Runs experiments that come one JSON object a line and prints one result a line, as each is done.
+/// Runs experiments, one JSON object per line, and prints one result per line as each completes.
 /// @param path file, or "-" for standard input
-/// @param scene name or file of the scene that the experiments name; "" finds shipped ones
-/// @return exit code; a line that is wrong is told on stderr and the others run all the same
+/// @param scene name or file of the scene used by the experiments; "": shipped scenes
+/// @return exit code; an invalid line is reported on stderr and the others still run
 int run_experiments(const std::string& path, const std::string& scene);
 
 }  // namespace substep::cli

@@ -2,9 +2,9 @@
 
 namespace substep::cli {
 
-/// Runs the hard set under every setting that could be recommended and prints, as Markdown, what
-/// each holds and costs. @param jobs runs at a time; 0: one for each processor
-/// @return false where it was cancelled; nothing is printed then
+/// Runs the hard set with every setting that could be recommended and prints the verdicts and costs
+/// as Markdown. @param jobs parallel runs; 0: one per processor
+/// @return false if cancelled; nothing is printed in that case
 bool print_hard_table(int jobs);
 
 }  // namespace substep::cli

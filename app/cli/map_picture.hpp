@@ -8,22 +8,22 @@
 
 namespace substep::cli {
 
-/// What came of one run of a map.
+/// Result of one run of a map.
 struct MapCell {
-  std::string map;     // what is varied
-  std::string label;   // the same for people
-  double value = 0.0;  // of it
+  std::string map;     // the parameter varied
+  std::string label;   // its label
+  double value = 0.0;  // value of the parameter
   double alpha = 0.0;
   SolverKind solver{};
   bool holds = false;
-  double seconds = 0.0;  // that it ran, simulated [s]
-  int n_median = 0;      // sub-steps a frame
+  double seconds = 0.0;  // simulated time until the end or the failure [s]
+  int n_median = 0;      // per frame
   int n_max = 0;
   std::int64_t substeps = 0;
 };
 
-/// An SVG: a column for each map, a row for each solver; in each cell the median of the sub-steps a
-/// frame, or when it failed.
+/// An SVG: a column per map, a row per solver; each cell shows the median number of sub-steps per
+/// frame, or the time of failure.
 std::string map_picture(const std::vector<MapCell>& cells);
 
 }  // namespace substep::cli

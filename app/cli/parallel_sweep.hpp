@@ -15,14 +15,14 @@ struct ParallelSweep {
   int jobs = 1;
   /// Called from any thread as runs end. @return false to stop the sweep
   std::function<bool(const Result&)> on_result;
-  /// Called from the first thread every now and then with the share that is done, 0 to 1.
+  /// Called periodically from the first thread with the completed share, 0 to 1.
   std::function<void(double)> on_progress;
-  /// The sweep stops within a frame once this is set.
+  /// Stops the sweep within a frame when set.
   const std::atomic<bool>* cancelled = nullptr;
 };
 
-/// Runs the experiments, the longest first, on that many threads.
-/// @return false where it was cancelled or stopped
+/// Runs the experiments on `jobs` threads, the longest first.
+/// @return false if cancelled or stopped
 bool run_sweep(const ParallelSweep& sweep);
 
 }  // namespace substep::cli

@@ -9,23 +9,23 @@
 
 namespace substep::cli {
 
-/// Writes report.html into the folder: every picture of these results in one file that opens
-/// without a network. @return false and a message on stderr where it cannot be written
+/// Writes report.html into the folder: all pictures of these results in one self-contained file.
+/// @return false, with a message on stderr, if it cannot be written
 bool write_sweep_report(const std::filesystem::path& folder, const Scene* scene,
                         const std::vector<Json>& results, bool quiet);
 
-/// Writes a page of the report's kind (app/report/report.mjs reads it) to a file.
+/// Writes a page in the report's format (read by app/report/report.mjs) to a file.
 bool write_page(const std::filesystem::path& path, const Json& data, bool quiet);
 
-/// A curve over time for a page's pictures.
+/// A curve over time.
 struct Curve {
   std::string name;
   std::vector<double> x;
   std::vector<double> y;
-  std::string note;     // behind the name: "fails at 0.35 s"
+  std::string note;     // after the name: "fails at 0.35 s"
   bool failed = false;  // it ends with a cross
   bool dashed = false;
-  bool step = false;  // constant between its points
+  bool step = false;  // piecewise constant
 };
 Json chart_json(const std::string& title, const std::string& note, const std::string& x,
                 const std::string& y, bool log, const std::vector<Curve>& curves);

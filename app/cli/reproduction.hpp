@@ -9,13 +9,13 @@
 
 namespace substep::cli {
 
-/// One figure or claim of the paper beside what comes out here.
+/// A figure or claim of the paper and our result.
 struct Card {
   std::string title;
-  std::string paper;    // what the paper says
-  std::string here;     // what came out now
-  std::string why;      // where they differ
-  std::string command;  // shows it on the command line
+  std::string paper;    // the paper's statement
+  std::string here;     // our result
+  std::string why;      // reason for a difference
+  std::string command;  // command line that reproduces it
   enum class Outcome { kAgrees, kDiffers, kFails } outcome = Outcome::kFails;
   std::vector<Json> charts;  // chart_json
 };
@@ -23,7 +23,7 @@ struct Card {
 struct Reproduction {
   int jobs = 1;
   const std::atomic<bool>* cancelled = nullptr;
-  /// Called before each card with its number, from 0, and its name.
+  /// Called before each card with its number, from 0, the number of cards and its name.
   std::function<void(std::size_t, std::size_t, const std::string&)> on_card;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The cards, a function each. A cancelled run leaves what it says of no use.
+// One function per card. If the run is cancelled, the result is meaningless.
 
 #include "app/cli/reproduction.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the cards of the reproduction are made of: runs side by side, and words and curves of them.
+// Helpers for the cards of the reproduction: parallel runs, and texts and curves from them.
 
 #include <memory>
 #include <string>
@@ -25,23 +25,23 @@ Settings pgs(Mode mode, Drift drift = Drift::kAuto, int iterations = 25);
 
 std::shared_ptr<const Scene> shared(Scene scene);
 
-/// All runs, on as many threads as the options say, in their order.
+/// Traces all runs on options.jobs threads. @return in the order of `runs`
 std::vector<RunTrace> trace_all(const std::vector<Run>& runs, const Reproduction& options);
 
-/// Over time, one value of each run.
+/// One quantity of each run over time.
 std::vector<Curve> curves_of(const std::vector<Run>& runs, const std::vector<RunTrace>& traces,
                              std::vector<double> RunTrace::*value);
 
 /// "holds", "fails at 0.35 s"
 std::string life(const RunTrace& trace);
-/// "none fails at 0.90 s, adaptive holds": of so many runs from the first on.
+/// "none fails at 0.90 s, adaptive holds": for `count` runs from `first`.
 std::string lives(const std::vector<Run>& runs, const std::vector<RunTrace>& traces,
                   std::size_t first, std::size_t count);
 
 double peak(const std::vector<double>& values);
-/// The value that a share of all does not exceed.
+/// The smallest value that at least this share of the values does not exceed.
 double quantile(std::vector<double> values, double share);
-/// Sub-steps of the frames; the start has none.
+/// Sub-steps of the frames, without the start.
 std::vector<double> by_frame(const RunTrace& trace);
 /// Change of energy over the run, as a percentage of the scene's scale [%].
 double energy_change(const Scene& scene, const RunTrace& trace);

@@ -9,12 +9,12 @@
 
 namespace substep::cli {
 
-/// The most that a file of results may have [bytes]: some 250,000 results.
+/// Maximum size of a results file [bytes]: some 250,000 results.
 inline constexpr std::size_t kMostResults = 512U << 20U;
 
-/// A file of results that a killed program leaves whole: every line is appended in one write, a
-/// line that was cut short is taken off when the file is opened again, and nothing else ever is.
-/// While one program has it open no other can.
+/// A results file that stays valid if the program is killed: every line is appended in one write,
+/// and a truncated last line is removed when the file is reopened; nothing else is ever removed.
+/// Only one program can have it open.
 class ResultsFile {
  public:
   ResultsFile() = default;
@@ -22,20 +22,20 @@ class ResultsFile {
   ResultsFile(const ResultsFile&) = delete;
   ResultsFile& operator=(const ResultsFile&) = delete;
 
-  /// Opens or begins the file and reads what is there. @return false and a message on stderr where
-  /// it is no results file, broken, in use or not writable; it is then left untouched
+  /// Opens or creates the file and reads its results. @return false, with a message on stderr, if
+  /// it is not a results file, damaged, in use or not writable; it is then unchanged
   bool open(const std::string& path);
-  /// Whether the experiment of that id is done.
+  /// Whether there is a result for the experiment of that id.
   [[nodiscard]] bool contains(const std::string& id) const { return lines_.contains(id); }
-  /// Adds a result; from any thread. @return false and a message where it could not be written; the
-  /// file then ends with the result before it
+  /// Appends a result; thread-safe. @return false, with a message, if it could not be written; the
+  /// file then ends with the previous result
   bool append(const std::string& id, const Json& result);
-  /// Rewrites the file in the order of these ids, then the others in the order they came. Only a
-  /// whole new file takes the place of the old one.
+  /// Rewrites the file in the order of these ids, followed by the others in their order of arrival.
+  /// The old file is replaced only by a complete new one.
   bool finish(const std::vector<std::string>& order);
 
   [[nodiscard]] std::size_t size() const { return order_.size(); }
-  /// In the order of the file.
+  /// In file order.
   [[nodiscard]] std::vector<Json> results() const;
 
  private:
@@ -50,12 +50,12 @@ class ResultsFile {
   std::vector<std::string> order_;            // ids
 };
 
-/// Reads the lines of a results file into id -> line. @return false and messages on stderr, with
-/// file and line, where one is wrong
+/// Reads the lines of a results file into id -> line. @return false, with messages on stderr giving
+/// file and line, if one is invalid
 bool read_results(const std::string& path, const std::string& text,
                   std::map<std::string, std::string>& lines, std::vector<std::string>& order);
 
-/// What two results of one experiment must agree in: all but the times.
+/// The part of a result that must be equal for equal experiments: all but the times.
 std::string without_timing(const std::string& line);
 
 }  // namespace substep::cli

@@ -12,7 +12,7 @@
 
 namespace substep::cli {
 
-/// Where each result goes: a file, "-" for standard output, "" for nowhere.
+/// Destination of each result: a file, "-" for standard output, "" for none.
 struct RunFiles {
   std::string csv;
   std::string json;
@@ -20,21 +20,22 @@ struct RunFiles {
   std::string joints;
 
   void add_to(CLI::App& command);
-  /// Throws a CLI::ValidationError where two results go to the same place, or one to the scene's.
+  /// Throws a CLI::ValidationError if two results have the same destination, or one is the scene's
+  /// file.
   void check(const std::string& scene) const;
   [[nodiscard]] bool take_standard_output() const;
 };
 
-/// Writes the results of a run as it goes.
+/// Writes the results of a run frame by frame.
 class RunOutputs {
  public:
-  /// @return false and a message on stderr where one of them cannot be written
+  /// @return false, with a message on stderr, if one of them cannot be written
   bool open(const RunFiles& files);
   void begin(const Simulator& simulator);
   void add(const Simulator& simulator, const FrameReport& frame);
-  /// Whether a result could not be written; the run stops then.
+  /// Whether a write failed; the run then stops.
   [[nodiscard]] bool failed() const;
-  /// @return false and a message on stderr where not all could be written
+  /// @return false, with a message on stderr, if anything could not be written
   bool end(const Simulator& simulator, const Measure& measure);
 
  private:

@@ -9,16 +9,16 @@
 
 namespace substep::cli {
 
-/// Gathers the summary of a run as it goes.
+/// Accumulates the summary of a run.
 class RunReport {
  public:
   RunReport(const Scene& scene, const FrameReport& start);
 
   void add(const FrameReport& report);
 
-  /// One short line on how far the run is, for a terminal.
+  /// A one-line progress message for a terminal.
   [[nodiscard]] std::string progress(std::int64_t frames) const;
-  /// A few lines on the whole run, each ended by a line feed.
+  /// A summary of the whole run in a few lines, each ended by a line feed.
   [[nodiscard]] std::string summary(std::uint64_t state_hash) const;
 
  private:
@@ -38,7 +38,7 @@ class RunReport {
   double computing_ = 0.0;    // [s]
 };
 
-/// "bpp, adaptive, alpha 0.1, per frame, euler": the settings that matter in the mode.
+/// "bpp, adaptive, alpha 0.1, per frame, euler": the settings relevant to the mode.
 std::string settings_line(const Settings& settings);
 
 }  // namespace substep::cli

@@ -8,10 +8,10 @@
 
 namespace substep::cli {
 
-/// What a run does over time, frame by frame, the start first.
+/// Time series of a run, one value per frame, beginning with the start.
 struct RunTrace {
   std::vector<double> time;              // [s]
-  std::vector<double> substeps;          // of the frame that ends then [-]
+  std::vector<double> substeps;          // of the frame that ends at that time [-]
   std::vector<double> kinetic;           // [J]
   std::vector<double> energy;            // [J]
   std::vector<double> constraint_error;  // [m, rad]
@@ -25,7 +25,7 @@ struct RunTrace {
   [[nodiscard]] double total_substeps() const;
 };
 
-/// Runs until the time is over or the verdict falls.
+/// Runs for the duration or until the verdict fails.
 RunTrace trace_run(const std::shared_ptr<const Scene>& scene, const Settings& settings,
                    double duration);
 

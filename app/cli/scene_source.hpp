@@ -8,17 +8,18 @@
 
 namespace substep::cli {
 
-/// A scene by the name of a shipped one, by a file's path, or "-" for the standard input. Where it
-/// cannot be read, every problem is printed to stderr and the result is null.
+/// Loads a scene by shipped name or file path; "-" is standard input. On failure prints all
+/// problems to stderr and returns null.
 std::shared_ptr<const Scene> load_scene(const std::string& name_or_path);
 
-/// Where load_scene() reads it: the file of a shipped scene, else what is given.
+/// The path that load_scene() reads: the file of a shipped scene, or the argument.
 std::string scene_path(const std::string& name_or_path);
 
 /// Names of the shipped scenes, in alphabetical order.
 std::vector<std::string> shipped_names();
 
-/// Where the shipped scenes are: the environment variable SUBSTEP_SCENES, or the source's folder.
+/// The folder of the shipped scenes: the environment variable SUBSTEP_SCENES, or the source's
+/// folder.
 std::string scenes_folder();
 
 }  // namespace substep::cli

@@ -10,13 +10,13 @@
 
 namespace substep::cli {
 
-/// Every setting as a flag; what is not given stays as the scene has it.
+/// All settings as flags; those not given keep the scene's values.
 class SettingsFlags {
  public:
   /// Adds the flags. This object must outlive the parse.
   void add_to(CLI::App& command);
 
-  /// The scene's settings with the preset and the flags that were given.
+  /// The scene's settings with the given preset and flags applied.
   [[nodiscard]] Settings applied_to(const Scene& scene) const;
 
  private:

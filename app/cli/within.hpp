@@ -7,7 +7,7 @@
 
 namespace substep::cli {
 
-/// A number from `least` to `most`. CLI::Range accepts "nan", which compares with nothing.
+/// Accepts a number from `least` to `most`. CLI::Range accepts "nan", which is unordered.
 inline CLI::Validator within(double least, double most) {
   const std::string range = number_text(least) + " to " + number_text(most);
   return {[=](std::string& text) {
@@ -18,7 +18,7 @@ inline CLI::Validator within(double least, double most) {
           "in [" + range + "]"};
 }
 
-/// A file or folder: an empty text names none, and is likely a variable that was not set.
+/// Accepts a file or folder name; rejects an empty one, probably an unset variable.
 inline CLI::Validator named() {
   return {[](std::string& text) { return text.empty() ? "the name is empty" : std::string(); }, ""};
 }

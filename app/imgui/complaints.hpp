@@ -1,11 +1,11 @@
 #pragma once
-// Dear ImGui's user configuration: errors in how it is called are printed on the error
-// output and counted, in every build. Nobody's run ends by it, and tests see it.
+// Dear ImGui's user configuration: failed assertions are printed to standard error and counted, in
+// every build. They never end a run; tests check the count.
 
 namespace substep::imgui {
 
 void complain(const char* broken, const char* file, int line);
-/// How often, since the program began.
+/// Number of failed assertions since the program began.
 int complaints();
 
 }  // namespace substep::imgui

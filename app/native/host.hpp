@@ -7,14 +7,13 @@
 
 namespace substep {
 
-/// What the application asks of its window: files in the working folder, settings kept in the
-/// person's configuration folder, videos as numbered pictures. Where something cannot be written
-/// the application says so and goes on.
+/// Services for the application's window: files in the working folder, settings in the user's
+/// configuration folder, videos as numbered pictures. Write errors are reported and not fatal.
 class NativeHost {
  public:
-  /// Serves the application, which must not outlive this.
+  /// Sets app's host functions; the application must not outlive this object.
   explicit NativeHost(App& app);
-  /// After each frame on the screen, while its pixels are there to be read.
+  /// Call after each drawn frame, before its pixels are replaced.
   /// @param width, height of the frame buffer [pixel]
   void after_frame(int width, int height);
 
@@ -25,16 +24,16 @@ class NativeHost {
   void open_link();
 
   App& app_;
-  std::filesystem::path folder_;    // that scene files were looked for in last
+  std::filesystem::path folder_;    // last folder of scene files
   std::filesystem::path pictures_;  // folder of the video
   int count_ = 0;                   // pictures of the video
 };
 
-/// What the window shows, as a PNG file. @param width, height of the frame buffer [pixel]
+/// The window's content as a PNG file. @param width, height of the frame buffer [pixel]
 std::string picture_of(App& app, int width, int height);
 
-/// Writes through a file beside it, so that a crash leaves the old file or the new one.
-/// @return whether it could
+/// Writes via a temporary file, so that a crash leaves either the old file or the new one.
+/// @return whether it succeeded
 bool write_file(const std::filesystem::path& path, const std::string& bytes);
 
 }  // namespace substep

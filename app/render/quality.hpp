@@ -18,8 +18,8 @@ Quality finest_in_software(std::size_t bodies);
 /// It observes the drawing time and never affects the run.
 class QualityGovernor {
  public:
+  /// Call once per frame. @param wall_dt since the last call [s]
   /// @param own share of it spent on simulation, which coarser pictures would not save [s]
-  /// @param own of that time, what simulating took: coarser pictures would not save it [s]
   void observe(double wall_dt, double own);
   [[nodiscard]] Quality quality() const { return quality_; }
 

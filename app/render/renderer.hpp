@@ -22,8 +22,7 @@ enum class Quality : unsigned char {
 struct DrawOptions {
   int width = 0;  // of the window's frame buffer [pixel]
   int height = 0;
-  Quality moving =
-      Quality::kFine;  // while the picture changes; a static picture is drawn at full quality
+  Quality moving = Quality::kFine;  // while the picture changes; static pictures are fine
 };
 
 /// Draws pictures side by side and the panels over them. The shell owns the window system.
@@ -37,14 +36,14 @@ class Renderer {
                     const DrawOptions& options) = 0;
   /// Whether draw() only begins a picture, to be shown by present() when finished.
   [[nodiscard]] virtual bool deferred() const { return false; }
+  /// Shows the picture that draw() began; call before the next begin_frame().
   /// @param wait false: only if it is finished
   /// @return false if it is still being drawn
-  /// @return false where it is still being drawn
   virtual bool present(bool wait) { return static_cast<void>(wait), true; }
-  /// What is shown, as RGB rows from the top; right after draw() or present().
+  /// The picture shown, as RGB rows from the top; call right after draw() or present().
   /// @param x, y from the top left corner [pixel]
   [[nodiscard]] virtual std::vector<std::uint8_t> pixels(int x, int y, int width, int height) = 0;
-  /// The font atlas was rebuilt, for another pixel ratio.
+  /// Call after the font atlas was rebuilt for another pixel ratio.
   virtual void fonts_changed() = 0;
 };
 

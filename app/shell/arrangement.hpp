@@ -4,10 +4,9 @@ namespace substep {
 
 struct App;
 
-/// How the window is arranged: kept from visit to visit.
-/// Reads what the shell has kept; nothing happens where it keeps nothing.
+/// The arrangement of the window, kept between visits. Restores the stored arrangement, if any.
 void recall_arrangement(App& app);
-/// Hands the arrangement to the shell where it has changed since.
+/// Stores the arrangement if it has changed.
 void remember_arrangement(App& app);
 
 }  // namespace substep

@@ -7,8 +7,8 @@
 
 namespace substep {
 
-/// Chooses a scene file where the system has no chooser of its own to offer: the folders and the
-/// scene files (*.json) of one folder at a time.
+/// A chooser for scene files if the system has none: lists the folders and scene files (*.json) of
+/// one folder at a time.
 class FileBrowser {
  public:
   struct Entry {
@@ -17,18 +17,18 @@ class FileBrowser {
   };
 
   [[nodiscard]] bool open() const { return open_; }
-  /// Shows a folder; where it cannot be read says so and stays where it was.
+  /// Shows a folder; if it cannot be read, sets problem() and keeps the current one.
   void show(const std::filesystem::path& folder);
   void close() { open_ = false; }
-  /// What a person typed: a folder is shown. @return the file that it names, or an empty path
+  /// Handles typed text: shows a folder. @return the file that it names, or an empty path
   [[nodiscard]] std::filesystem::path follow(const std::string& text);
 
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
-  /// Folders first, each by name; what is hidden is left out.
+  /// Folders first, each sorted by name; without hidden ones.
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
-  /// What stands in the field for the path: the folder, or what a person types over it.
+  /// Content of the path field: the folder, or typed text.
   [[nodiscard]] std::array<char, 1024>& typed() { return typed_; }
-  /// Why the last folder could not be shown, or "".
+  /// The reason why the last folder could not be shown, or "".
   [[nodiscard]] const std::string& problem() const { return problem_; }
 
  private:

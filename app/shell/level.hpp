@@ -4,7 +4,7 @@ namespace substep {
 
 struct Lab;
 
-/// Whether a run differs from its scene's own in what only the Lab shows.
+/// Whether a run differs from its scene in settings that only the Lab level shows.
 bool needs_lab(const Lab& lab);
 
 }  // namespace substep

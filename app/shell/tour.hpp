@@ -14,23 +14,23 @@ namespace substep {
 
 struct App;
 
-/// The guided tour: runs the experiment of a step in a loop, and gives back what was there before.
-/// Desk::tour is the step that is shown.
+/// The guided tour: runs the experiment of a step in a loop, and restores the earlier run at the
+/// end. Desk::tour is the current step.
 class Tour {
  public:
-  /// Goes to a step, or ends the tour. @param value "off" or the number of a step, from 1
-  /// @return what is wrong with it, or ""
+  /// Goes to a step, or ends the tour. @param value "off" or a step number, from 1
+  /// @return error message, or ""
   std::string go(App& app, std::string_view value);
-  /// Before each picture: slow motion where something breaks, and back to the start at the end.
+  /// Call before each drawn frame: slow motion around failures, restart at the end.
   void follow(App& app);
-  /// Ends it and starts what ran before, with the window as it was.
+  /// Ends it, restores the window and restarts the earlier run.
   void leave(App& app);
-  /// The same where another run has begun already.
+  /// Ends it when another run has already begun.
   void close(App& app);
   [[nodiscard]] const RunLoop& loop() const { return loop_; }
 
  private:
-  /// What a step changes of the window.
+  /// The parts of the window that a step changes.
   struct Arrangement {
     Tab tab = Tab::kControls;
     DeskLevel level = DeskLevel::kLab;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as bytes, and back: what a link packs its events with.
+// Packing of numbers into bytes, for the events in links.
 
 #include <algorithm>
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace substep {
 
-/// Length code of a double that is that of the list before.
+/// Length code of a double that is equal to that of the previous list.
 inline constexpr unsigned kRepeated = 9;
 
 /// Emscripten 3.1's library has no std::bit_cast.
@@ -36,13 +36,13 @@ class ByteWriter {
     }
     bytes.push_back(static_cast<std::uint8_t>(value));
   }
-  /// Small ones of either sign in few bytes.
+  /// Zigzag encoding: small values of either sign take few bytes.
   void difference(std::int64_t value) {
     const auto bits = static_cast<std::uint64_t>(value);
     whole((bits << 1U) ^ (value < 0 ? ~std::uint64_t{0} : 0U));
   }
-  /// Each as its leading bytes that are not zero, all lengths first.
-  /// @param last repeated where it is the same, or null
+  /// Each value as its leading bytes up to the last that is not zero; all lengths come first.
+  /// @param last equal values are encoded as repeated; may be null
   template <std::size_t n>
   void doubles(const std::array<double, n>& values, const std::array<double, n>* last) {
     std::vector<std::uint8_t> leading;
@@ -65,7 +65,7 @@ class ByteWriter {
   }
 };
 
-/// What is cut short or no number of its kind ends the reading: ok() is false then.
+/// Truncated or malformed input ends the reading: ok() is then false.
 class ByteReader {
  public:
   explicit ByteReader(const std::vector<std::uint8_t>& bytes) : bytes_(bytes) {}

@@ -7,7 +7,7 @@
 
 namespace substep {
 
-/// A text of methods.hpp with the values of settings where it names them: "N up to {n_cap}".
+/// A text of methods.hpp with placeholders replaced by settings: "N up to {n_cap}".
 std::string with_values(std::string_view text, const Settings& settings);
 
 }  // namespace substep

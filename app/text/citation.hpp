@@ -2,8 +2,8 @@
 
 namespace substep {
 
-// What this is and whose method it is, as the window says it and as core/docs/references.bib and
-// LICENSE have it.
+// Purpose, paper and licence as shown in the window; keep in step with core/docs/references.bib and
+// LICENSE.
 inline constexpr const char* kPurpose = "A laboratory for stable constrained rigid bodies";
 inline constexpr const char* kPaperTitle =
     "Adaptive Sub-stepping for Constrained Rigid Body Simulations";
@@ -11,7 +11,7 @@ inline constexpr const char* kPaperAuthors = "C. Giles and S. Andrews, MIG '24"
 inline constexpr const char* kPaperDoi = "10.1145/3677388.3696331";
 inline constexpr const char* kLicence = "MIT licence, © 2026 The substep authors";
 
-/// The paper's entry for a bibliography.
+/// The paper's BibTeX entry.
 inline constexpr const char* kPaperBibtex = R"(@inproceedings{giles2024,
   author = {Giles, Chris and Andrews, Sheldon},
   title = {Adaptive Sub-stepping for Constrained Rigid Body Simulations},

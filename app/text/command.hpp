@@ -8,10 +8,10 @@
 
 namespace substep {
 
-/// What to type at the root of the sources for the same run:
-/// "./dev cli run bridge --mode const --n 12 --frames 240". Settings are there where they differ
-/// from the scene's own; the scene is named, or its file where it is `own`, as saving calls it.
-/// @param frames that the run has taken; 0 leaves the length to the scene
+/// The command line for the same run, from the root of the sources: "./dev cli run bridge --mode
+/// const --n 12 --frames 240". Includes the settings that differ from the scene's own; names the
+/// scene, or its saved file if it is `own`.
+/// @param frames taken by the run; 0: the scene's duration
 std::string make_command(const Scene& scene, const Settings& settings, std::int64_t frames,
                          bool own);
 

@@ -11,19 +11,20 @@
 
 namespace substep {
 
-/// The most that the events of a link may take [characters].
+/// Maximum size of the events in a link [characters].
 inline constexpr std::size_t kMostEventText = 8192;
 
 /// Whether a link to a run of this scene may hold these events. Each ball and each switched effect
-/// makes a copy of the scene: a large one can have few.
+/// copies the scene, so the limit is lower for large scenes.
 bool fits_link(std::span<const RunEvent> events, const Scene& scene);
 
-/// Events as letters that an address can hold, without loss: about 60 for a ball, 10 for each
-/// frame of a hand that moves. @param start settings that the run begins with
+/// Lossless URL-safe encoding of events: about 60 characters per ball, 10 per frame of a moving
+/// hand.
+/// @param start initial settings of the run
 std::string events_text(std::span<const RunEvent> events, const Settings& start);
 
-/// Reads such text for a run of this scene. @param problem what is wrong with it, or "" @return the
-/// events, none where something is wrong
+/// Decodes such text for a run of this scene. @param problem error message, or "" @return the
+/// events; none on error
 std::vector<RunEvent> read_events(std::string_view text, const Scene& scene, const Settings& start,
                                   std::string& problem);
 

@@ -9,15 +9,15 @@
 
 namespace substep {
 
-/// A run of a table: what a person calls it, and what it did.
+/// A run in the table: its name and its samples.
 struct ExportedRun {
   std::string name;
   const History* history = nullptr;
 };
 
-/// The channels as CSV, one line a frame and run, by the names that the command line gives them
-/// too (core/io/frame_columns.hpp). What the scene has no effect for is left out.
-/// @param from what is earlier is left out [s]
+/// The channels as CSV, one line per frame and run, with the column names of the command line
+/// (core/io/frame_columns.hpp). Channels that do not apply to the scene are omitted.
+/// @param from omits earlier samples [s]
 std::string history_csv(const Scene& scene, std::span<const ExportedRun> runs,
                         std::span<const Channel> channels, double from);
 

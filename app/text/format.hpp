@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as people read them. Minus signs are real ones, and powers of ten stand high.
+// Formatting of numbers for display, with true minus signs and superscript powers of ten.
 
 #include <optional>
 #include <string>
@@ -8,24 +8,24 @@ namespace substep {
 
 /// Three significant digits: "0.852", "12.3", "5,520", "5.52×10⁵".
 std::string short_number(double value);
-/// Two significant digits, for where room is scarce: "0.0042", "4.4×10⁻⁶".
+/// Two significant digits, for narrow places: "0.0042", "4.4×10⁻⁶".
 std::string coarse_number(double value);
-/// Three significant digits without zeros at the end: "0.1", "0.025".
+/// Three significant digits without trailing zeros: "0.1", "0.025".
 std::string plain_number(double value);
 /// "1,000"
 std::string grouped(double value);
-/// With one of J, kJ, MJ, ...: the unit that keeps `scale` between 1 and 1,000.
+/// An SI prefix, as in J, kJ, MJ: the one that brings `scale` between 1 and 1,000.
 struct Unit {
-  std::string prefix;   // "k", and beyond f and T a power of ten: "10¹⁸ "
+  std::string prefix;   // "k"; beyond f and T a power of ten: "10¹⁸ "
   double factor = 1.0;  // value of one unit
 };
 Unit unit_for(double scale);
 /// A change of energy with its sign: "−12.3 mJ", "+1.20 kJ", "0 J"
 std::string energy_change(double joules);
-/// The same and, where there is a scale to compare it with, its share: "−12.3 mJ (−0.02 %)".
+/// The same with its share of the scale, if there is one: "−12.3 mJ (−0.02 %)".
 /// @param scale core/lab/energy_scale.hpp [J]
 std::string energy_change(double joules, std::optional<double> scale);
-/// Fixed digits after the point, with a real minus and no minus zero.
+/// Fixed number of decimals, with a true minus sign and no negative zero.
 std::string fixed(double value, int digits);
 /// "+0.01 %", "−20.3 %"
 std::string percent(double share);

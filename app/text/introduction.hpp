@@ -7,10 +7,10 @@
 
 namespace substep {
 
-/// What the first screen says, for the canvas and for its twin in HTML.
+/// Texts of the first screen, for the canvas and for its HTML twin.
 struct IntroductionWords {
-  std::string claim;  // what the two pictures show
-  std::string paper;  // whose method it is
+  std::string claim;  // caption of the two pictures
+  std::string paper;  // authors of the method
   struct Label {
     std::string title;
     std::string note;

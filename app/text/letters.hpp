@@ -8,10 +8,10 @@
 
 namespace substep {
 
-/// Bytes as base64url (RFC 4648) without padding: letters that an address holds as they are.
+/// Bytes as base64url (RFC 4648) without padding: characters that URLs do not escape.
 std::string to_letters(const std::vector<std::uint8_t>& bytes);
 
-/// Nothing where the text is none.
+/// Decodes it; empty if the text is invalid.
 std::optional<std::vector<std::uint8_t>> from_letters(std::string_view letters);
 
 }  // namespace substep

@@ -4,8 +4,7 @@
 
 namespace substep {
 
-// What the runs of the tour's steps answer: read from the last pass of the loop, never from a
-// number that was written down.
+// Feedback on the tasks of the steps: computed from the last pass of the loop, without constants.
 TourReply reply_lighter_box(const Lab& lab, const RunLoop::Outcome& outcome);
 TourReply reply_break_it(const Lab& lab, const RunLoop::Outcome& outcome);
 TourReply reply_lose_less(const Lab& lab, const RunLoop::Outcome& outcome);

@@ -8,19 +8,19 @@
 
 namespace substep {
 
-/// A number in a sentence: a setting of the run, with the values that it may be set to.
+/// A number in a sentence: a setting of the run, with its allowed values.
 struct TourNumber {
-  std::string name;           // as links spell it: "n", "alpha", "load"
+  std::string name;           // key in links: "n", "alpha", "load"
   std::string label;          // "Sub-steps per frame"
-  double value = 0.0;         // in the unit that links have
-  std::string text;           // as it is read: "1,000 kg"
-  std::vector<double> stops;  // that a drag passes through, ascending
-  bool from_start = false;    // a run that begins with it says more than one that changes to it
+  double value = 0.0;         // in the unit of links
+  std::string text;           // as displayed: "1,000 kg"
+  std::vector<double> stops;  // values for dragging, ascending
+  bool from_start = false;    // restart the run when the value changes
 };
-/// The value that the run has now. @param name one that tour_steps() uses
+/// The current value in the run. @param name as used in tour_steps()
 TourNumber tour_number(const Lab& lab, std::string_view name);
 
-/// A step as it is shown now, for the card in the window and for the page.
+/// The current content of a step, for the card in the window and for the page.
 struct TourWords {
   std::size_t step = 0;  // from 0
   std::size_t count = 0;
@@ -34,7 +34,7 @@ struct TourWords {
 };
 TourWords tour_words(const Lab& lab, std::size_t step, const RunLoop& loop);
 
-/// A sentence with its numbers as they are now.
+/// A sentence as plain text with its current numbers.
 std::string tour_sentence(const std::vector<TourPart>& parts,
                           const std::vector<TourNumber>& numbers);
 

@@ -6,12 +6,12 @@
 
 namespace substep {
 
-/// A verdict as the window says it: "Stable", "Disturbed at 1.20 s", "Failed at 0.352 s: joint gap
-/// 0.13 m > 0.1 m (link_3)". @param text of a Verdict: "holds", "fails at 0.352 s: ..."
+/// A verdict as displayed: "Stable", "Disturbed at 1.20 s", "Failed at 0.352 s: joint gap 0.13 m >
+/// 0.1 m (link_3)". @param text of a Verdict: "holds", "fails at 0.352 s: ..."
 std::string verdict_words(const std::string& text);
 
-/// Without the reason: "Stable", "Failed at 0.35 s", and "Ready" before a frame was judged.
-/// @param judged whether one was
+/// Without the reason: "Stable", "Failed at 0.35 s", and "Ready" before the first frame was judged.
+/// @param judged whether a frame was judged
 std::string verdict_note(const Verdict& verdict, bool judged);
 
 }  // namespace substep

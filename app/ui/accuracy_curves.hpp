@@ -26,9 +26,9 @@ std::string short_name(const Settings& settings);
 std::vector<AccuracyCurve> curves_of(const Theme& theme, const Accuracy& accuracy,
                                      const std::vector<Accuracy::Point>& points);
 
-/// The picture's conclusion in a sentence: "To keep the path within 1 mm, Constant N, Störmer (n =
-/// 3) is the cheapest: 65 times fewer operations than constant N with Euler." "" with fewer than
-/// two points.
+/// The picture's conclusion in a sentence: "To keep the path within 1 mm, Constant N, Störmer
+/// (n = 3) is the cheapest: 65 times fewer operations than constant N with Euler." "" with fewer
+/// than two points.
 std::string conclusion(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points);
 
 /// "0.82 mm", "3.1 J"

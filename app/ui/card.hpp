@@ -12,9 +12,9 @@
 
 namespace substep::ui {
 
-/// Begins a card of the given width, centred in the view; end it with ImGui::End(). @param centre_y
-/// position on the display @param pivot_y height in the card that lies there, 0 the top @param
-/// centre_x instead of the centre
+/// Begins a card of the given width, centred in the view; end it with ImGui::End().
+/// @param centre_y position on the display; @param pivot_y height in the card that lies there, 0
+/// the top; @param centre_x instead of the view's centre
 bool begin_card(const Look& look, const Viewport& viewport, const char* id, float width,
                 float centre_y, float pivot_y, std::optional<float> centre_x = {});
 /// Middle of a tall card: that of the view, or of the window if the view is low.

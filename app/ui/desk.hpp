@@ -30,7 +30,7 @@ struct PanelSide {
 
 /// A screenshot of a part of the window, taken after this frame is drawn.
 struct Capture {
-  std::string name;  // of the file
+  std::string name;  // file name
   ViewRect area;
 };
 

@@ -20,8 +20,8 @@ struct Theme {
   ImU32 control_hover = 0;
   ImU32 track = 0;  // of sliders
   ImU32 text = 0;
-  ImU32 dim = 0;    // grid lines, disabled items
-  ImU32 faint = 0;  // grid lines, switched-off things
+  ImU32 dim = 0;    // secondary text (WCAG AA on the panel)
+  ImU32 faint = 0;  // grid lines, disabled items
   ImU32 accent = 0;
   ImU32 accent_hover = 0;
   ImU32 on_accent = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// What the window consists of. Each function fills the current Dear ImGui window, and takes what it
-// shows and what it may change.
+// The parts of the window. Each function fills the current Dear ImGui window; its parameters are
+// the data that it shows and may change.
 
 #include <imgui.h>
 
@@ -21,96 +21,96 @@ struct App;
 
 namespace ui {
 
-/// All of the window for this frame; sets app.view_rect.
+/// Draws the whole window for this frame; sets app.view_rect.
 void draw_window(App& app);
-/// What is drawn and written over the picture, once it is known where things are in it.
+/// Draws the overlays of the picture; call after the picture's projection is known.
 void draw_over_picture(App& app);
 /// The first screen; sets app.view_rect.
 void introduction(App& app);
-/// Where its two runs are drawn: the session, and the one beside it.
+/// The rectangles of its two runs: the session and the one beside it.
 std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab);
-/// The part of the window that one of the two pictures covers.
+/// The part of the window covered by one of the two pictures.
 Part introduction_part(const Viewport& viewport, std::size_t pane);
 
-/// The picture under the pointer: turns, moves and zooms it, selects and pulls bodies.
+/// Handles the pointer over the picture: orbits, pans, zooms, selects and pulls bodies.
 void view_input(Lab& lab, Desk& desk, Viewport& viewport);
-/// A ball from beside the eye at what the pointer is on.
+/// Throws a ball from beside the eye at the point under the pointer.
 void throw_ball(Lab& lab, const Viewport& viewport);
 
 void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
-/// The menu of scenes.
+/// The scene menu.
 void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip);
-/// What the level Explore has of them, below the scene.
+/// The controls of the Explore level, below the scene.
 void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
-/// Mode and solver with their parameters: the controls that any run has.
-/// @param more whether the finer points are unfolded
+/// Mode and solver with their parameters: the controls common to all runs.
+/// @param more whether the advanced settings are unfolded
 void method_controls(const Look& look, const Scene& scene, Settings& settings, bool& more);
-/// @param height that the plots share; 0 takes what they need at least
+/// @param height shared by the plots; 0: their minimum
 void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float height);
-/// The run so far as a CSV file, of the channels of the plots that are shown.
+/// Saves the run so far as a CSV file, with the channels of the plots shown.
 void save_table(const Lab& lab, Desk& desk);
-/// What files of this run are called, without an ending.
+/// File name of this run, without an extension.
 std::string file_stem(const Session& session);
-/// Who sets N, in two lines and a picture.
+/// Summary of what sets N, in two lines and a picture.
 void why_summary(const Look& look, const Session& session, Desk& desk);
-/// All of it: the law with its numbers, and every body's part.
+/// The full explanation: the law with its values, and each body's share.
 void why(const Look& look, const Session& session, Desk& desk);
-/// The two terms of the criterion, and which of them sets N.
+/// The two terms of the criterion; marks the one that sets N.
 void criterion_terms(const Look& look, const Session& session, const Criterion& criterion);
-/// What runs beside this run.
+/// The runs compared with this run.
 void compare(const Look& look, Lab& lab, Desk& desk);
-/// A menu of methods, each of which may be added to what runs beside it.
+/// A menu of methods to add to the comparison.
 void compare_menu(const Look& look, const Session& session, Compare& compare, const char* name,
                   float width);
-/// The effects of the scene by name, to be switched off while it runs.
+/// Switches for the scene's effects, live.
 void effect_switches(const Look& look, Session& session);
-/// Their rows, and what each costs.
+/// The effects as rows, with the cost of each.
 void effect_table(const Look& look, Lab& lab);
-/// Where the time of a frame goes: stages, effects, the criterion.
+/// The time of a frame by stage, effect and criterion.
 void effect_costs(const Look& look, Lab& lab);
-/// What accuracy costs: all methods over this scene.
+/// The cost of accuracy: all methods on this scene.
 void accuracy(const Look& look, Lab& lab, Desk& desk);
-/// What to set, in the same panel: the cheapest within an error or the most exact within a cost,
-/// with the reason, a button that runs it, and a search for the paper's alpha.
+/// The recommendation in the same panel: the cheapest within an error or the most exact within a
+/// cost, with the reason, a button to run it, and a search for the paper's alpha.
 void advice(const Look& look, Lab& lab);
-/// Progress of the search for the paper's alpha, and a button that ends it.
+/// Progress of the search for the paper's alpha, with a cancel button.
 void search_bar(const Look& look, Accuracy& accuracy);
-/// Its picture over the view, while that is chosen.
+/// The accuracy picture over the view, while that is selected.
 void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport& viewport);
-/// Where runs are drawn: all of the view, or equal parts of it side by side or one over the other,
-/// whichever shows the scene larger.
+/// Rectangles of the runs: the whole view, or equal parts side by side or stacked, whichever shows
+/// the scene larger.
 std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,
                                  const Viewport& viewport);
-/// The part of the window that a pane's picture covers.
+/// The part of the window covered by a pane's picture.
 Part part_of_window(const Viewport& viewport, std::size_t pane);
-/// The legend of the compared runs; nothing without a comparison.
+/// The legend of the compared runs; draws nothing without a comparison.
 void compare_legend(const Look& look, const Session& session, const Compare& compare,
                     const Viewport& viewport);
 /// The guided tour's card, or the button that opens it.
-/// @param words of the step that is shown, null outside the tour
+/// @param words of the current step, null outside the tour
 void tour(const Look& look, Desk& desk, const Viewport& viewport, const TourWords* words);
 inline constexpr const char* kTourTip = "The paper's story in seven steps";
-/// What this run is called beside others.
+/// Title of this run in a comparison.
 std::string run_title(const Session& session, const Compare& compare);
 /// @param brief without the list of stages
 void timing(const Look& look, const Session& session, bool brief);
 /// @param phone two rows, larger targets
 void transport(App& app, bool phone);
 
-/// The run's past, to be looked at.
+/// The timeline slider of the run's past.
 void scrubber(const Look& look, Session& session, ImVec2 at, float width, float height);
 /// The button with the menu of links, files and pictures.
 void share_menu(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float size);
 void copy_link(const Lab& lab);
 void copy_command(Lab& lab);
-/// A picture of the whole window, when this frame has been drawn.
+/// Takes a screenshot of the whole window after this frame is drawn.
 void capture_window(const Session& session, Desk& desk);
-/// Begins the tour, or goes to its next step; after the last one it ends.
+/// Begins the tour, or goes to its next step; ends it after the last one.
 void go_on_with_tour(Desk& desk);
-/// The folder that a scene file is chosen from, while one is.
+/// The dialogue for choosing a scene file, while open.
 void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser& browser);
 
-/// Over the picture: what runs, N, the scale of the tint, masses, and what went wrong.
+/// Over the picture: title, N, the scale of the tint, masses, and problems.
 void caption(const Look& look, const Session& session, const Viewport& viewport, bool phone);
 void body_labels(const Look& look, const Session& session, const Desk& desk,
                  const Viewport& viewport);
@@ -121,13 +121,13 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
                 const Viewport& viewport);
 void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 void trouble_card(const Look& look, Lab& lab, const Viewport& viewport);
-/// Why a run was not started, with a button that starts it.
+/// The reason why a run was not started, with a button to start it.
 void heavy_card(const Look& look, Lab& lab, const Viewport& viewport);
-/// How far a long frame is, with a button that leaves it.
+/// Progress of a long frame, with a button to cancel it.
 void long_frame_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 void help_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 
-/// Heights that the right panel's fixed parts need.
+/// Heights of the right panel's fixed parts.
 float why_summary_height();
 float timing_height(const Look& look, const Session& session, bool brief);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The curves of a plot: which of a history's samples are drawn, and how.
+// The curves of a plot: selection and drawing of a history's samples.
 
 #include <imgui.h>
 
@@ -11,7 +11,7 @@
 
 namespace substep::ui {
 
-/// Where time and values lie on the screen.
+/// Maps time and values to the screen.
 struct PlotFrame {
   ImVec2 min;
   ImVec2 max;
@@ -34,31 +34,31 @@ struct PlotFrame {
   }
 };
 
-/// What of a history is shown: within the axis, and not cleared. @param from what is earlier was
-/// [s]
+/// The samples within the axis and after the last clear. @param from time of the clear [s]
 History::Slice visible(const History& history, const PlotFrame& f, double from);
 
-/// The extent of samples to each of which an offset is added.
+/// The extent of samples with an offset added.
 Extent shifted(const Extent& extent, double offset);
 
-/// Whether a value has a place on the axis: it is finite, and positive on a logarithmic one.
+/// Whether a value can be drawn: finite, and positive on a logarithmic axis.
 bool drawable(float value, const PlotFrame& f);
 
-/// Least and greatest value of one pixel column, or one sample where there is room for each.
+/// Minimum and maximum of one pixel column, or one sample if each has its own column.
 struct Column {
   float x = 0.0F;
-  float low = 0.0F;  // on the screen
+  float low = 0.0F;  // on screen
   float high = 0.0F;
   float last = 0.0F;
   bool many = false;  // more than one sample
-  bool gap = false;   // nothing to draw between the one before and this one
+  bool gap = false;   // no line between the previous column and this one
 };
 
-/// Those of single samples without which the curve is the same: within `room` of the line between
-/// the ones kept, or of the value before where it is `steps`. @param room [pixel]
+/// Removes columns of single samples that do not change the curve: within `room` of the line
+/// between the kept ones, or of the previous value if `steps`. @param room [pixel]
 std::vector<Column> thinned(const std::vector<Column>& columns, bool steps, float room);
 
-/// One series, at most one vertical line per pixel column. @param from what is earlier is left out
+/// Draws one series with at most one vertical line per pixel column. @param from omits earlier
+/// samples
 void draw_series(const Series& series, double from, const PlotFrame& f, ImDrawList& draw);
 
 }  // namespace substep::ui

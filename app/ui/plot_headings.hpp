@@ -1,5 +1,5 @@
 #pragma once
-// What stands above a plot: its name, and at the right the values that it shows.
+// Heading of a plot: its name, and its values on the right.
 
 #include <imgui.h>
 
@@ -11,17 +11,17 @@
 
 namespace substep::ui {
 
-/// A value as people read it.
+/// Formats a value.
 using ValueText = std::function<std::string(double)>;
 
-/// A coloured dot with its name and value, right-aligned at `right`. @return where it starts
+/// A coloured dot with name and value, right-aligned at `right`. @return its left edge
 float legend(const Look& look, float right, float y, ImU32 color, const std::string& text);
 
 /// "10⁻⁸"
 std::string order_of_magnitude(double value);
 
-/// The value of each run that is compared, right-aligned. @param left where the heading ends
-/// @param text of a value  @param brief the same where there is little room
+/// The values of the compared runs, right-aligned. @param left end of the heading
+/// @param text formats a value @param brief the same in less room
 void compared_values(const PlotContext& in, ImVec2 heading, float left, Channel channel,
                      const ValueText& text, const ValueText& brief);
 
@@ -30,11 +30,11 @@ struct NamedChannel {
   const char* name;
   ImU32 color;
 };
-/// Names with their values, the first at the right; orders of magnitude where there is little room.
+/// Names with values, the first on the right; orders of magnitude in narrow plots.
 void named_values(const PlotContext& in, ImVec2 heading, float left,
                   const std::vector<NamedChannel>& shown);
 
-/// A plot's heading: with its value, or with the values of all that is compared.
+/// A plot's heading with its value, or with the values of all compared runs.
 void count_heading(const PlotContext& in, const char* name, const char* name_of_several,
                    Channel channel, const char* before, const char* after, const ValueText& text);
 

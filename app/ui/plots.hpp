@@ -1,5 +1,5 @@
 #pragma once
-// The plots of the panel, and what all of them are drawn with.
+// The plots of the panel, and their common context.
 
 #include <optional>
 
@@ -10,7 +10,7 @@
 
 namespace substep::ui {
 
-/// What plots show and may change: a click goes to its moment of the run.
+/// Data of the plots; a click on a plot seeks the session.
 struct PlotContext {
   const Look& look;
   Session& session;
@@ -18,31 +18,31 @@ struct PlotContext {
   Desk& desk;
 };
 
-/// What the curve of the run itself is called beside those compared with it.
+/// Name of the run itself in a comparison.
 inline constexpr const char* kThisRun = "this run";
 
-/// Adds the others of a comparison, in the colours that they have in the picture, and marks where
-/// they diverge from this run.
+/// Adds the compared runs, in the same colours as in the picture, and marks where they diverge from
+/// this run.
 void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps = false);
 
-/// Draws a plot over the width of the window, with the time that is looked at; a click goes there.
-/// @param height of the curves, without the labels of the time
+/// Draws a plot over the width of the window, with the current time; a click seeks to its time.
+/// @param height of the curves, without the time labels
 void draw_plot(const PlotContext& in, Plot which, const PlotSpec& spec, float height);
 
-/// Kinetic, potential and total energy on one scale: at every sample the first two make the third.
-/// In a comparison the kinetic energy of each run.
+/// Kinetic, potential and total energy on one scale; the first two add up to the third. In a
+/// comparison, the kinetic energy of each run.
 void energy_plot(const PlotContext& in, float height, bool last);
-/// The change of the total energy since the start, on a scale of its own.
+/// The change of the total energy since the start, on its own scale.
 void drift_plot(const PlotContext& in, float height, bool last);
 
 /// The smallest constant N that would have been stable so far: N at alpha = 1 of the stiffest
-/// frame. Nothing where it would mislead: where N does not vary, where more than small steps keeps
-/// the run stable, and with a solver that sweeps, which needs more sub-steps than its stiffness
-/// says.
+/// frame. Empty if it would mislead: if N is constant, if something besides small steps keeps the
+/// run stable, or with an iterative solver, which needs more sub-steps than its stiffness
+/// indicates.
 std::optional<int> smallest_stable_n(const History& history, const Settings& settings);
 
-/// The curves of the energy plot where nothing is compared, potential and total counted from the
-/// lowest potential so far.
+/// The curves of the energy plot without a comparison; potential and total count from the lowest
+/// potential so far.
 std::vector<Series> energy_series(const Theme& theme, const History& history, bool gravity);
 
 }  // namespace substep::ui

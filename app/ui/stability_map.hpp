@@ -9,10 +9,10 @@
 
 namespace substep::ui {
 
-/// How long runs survive, by the mass ratio and the parameter of a mode: a cell each, blue where it
-/// holds, orange where it fails, the paler the longer it stood. The present run is framed, and
-/// a line over constant N shows the mean N of adaptive sub-stepping. @param width logical pixels
-/// @return the result whose cell was pressed, or is passed by a pointer that is dragged
+/// Survival time by mass ratio and mode parameter: one cell each, blue if stable, orange if it
+/// fails, paler for later failures. The current run is framed, and a line over constant N shows the
+/// mean N of adaptive sub-stepping. @param width logical pixels
+/// @return the result whose cell is pressed or dragged over
 std::optional<std::size_t> stability_map(const Look& look, const Lab& lab, float width);
 
 }  // namespace substep::ui

@@ -9,23 +9,23 @@
 
 namespace substep::ui {
 
-inline constexpr float kHeading = 24.0F;  // a section's heading with the gap below it
+inline constexpr float kHeading = 24.0F;  // height of a section's heading including the gap below
 
-/// A part of a sub-step's work, as it is drawn.
+/// A stage of a sub-step, as drawn.
 struct Stage {
   const char* name;
-  double seconds;  // a frame
+  double seconds;  // per frame
   ImU32 color;
   Channel channel;
 };
-/// Those that the scene calls for, and the rest.
+/// The stages that the scene uses, and the rest.
 std::vector<Stage> stages(const Theme& theme, const Effects& effects, const StageTimes& times);
-/// Those of the run, smoothed.
+/// The smoothed stages of the session.
 std::vector<Stage> stages(const Look& look, const Session& session);
 
-/// The stages side by side, as long as their shares of all.
+/// The stages as one bar, with lengths proportional to their times.
 void stage_bar(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width);
-/// Their names and times, two to a row.
+/// Names and times, two per row.
 void stage_list(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width);
 float stage_list_height(const std::vector<Stage>& list);
 inline constexpr float kStageBar = 12.0F;  // height

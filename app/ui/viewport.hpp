@@ -1,5 +1,5 @@
 #pragma once
-// Where the runs are seen, and the pointer in them.
+// Position of the runs in the window, and pointer state in them.
 
 #include <cstddef>
 #include <vector>
@@ -10,21 +10,21 @@
 
 namespace substep {
 
-/// What the pointer does in the picture while its button is down.
+/// State of the pointer in the picture while its button is down.
 struct Hand {
-  std::size_t pane = 0;        // that it went down in
-  int body = -1;               // that it went down on, or -1
-  Vec3 anchor = Vec3::Zero();  // where on it, body frame [m]
-  Vec3 point = Vec3::Zero();   // the same in the world; it moves in the plane of view there [m]
-  bool moved = false;          // farther than a click
-  bool holding = false;        // the body follows
+  std::size_t pane = 0;        // under the pointer at the press
+  int body = -1;               // under the pointer at the press, or -1
+  Vec3 anchor = Vec3::Zero();  // point on the body, body frame [m]
+  Vec3 point = Vec3::Zero();   // the same in the world; moves parallel to the view plane [m]
+  bool moved = false;          // farther than for a click
+  bool holding = false;        // the body is being pulled
 };
 
-/// The part of the window that panels leave to the picture.
+/// The part of the window not covered by panels.
 struct Viewport {
   SceneView view;
   ViewRect view_rect;
-  /// This run in the first or only pane, those compared with it in the others.
+  /// This run in the first pane, those compared with it in the others.
   std::vector<ViewRect> panes{1};
   std::vector<Picture> pictures{1};  // of the panes
   Hand hand;

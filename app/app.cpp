@@ -10,7 +10,7 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
     : Lab(std::move(shipped)), renderer(std::move(draws)) {
   restarted = [this](bool loaded) {
     if (loaded) desk.selected = -1;
-    if (loaded) introduction.close(*this);  // another run has taken its place
+    if (loaded) introduction.close(*this);  // another run has replaced it
     if (loaded && session.scene().name != kTourScene) tour.close(*this);
     // A restarted run is shown from its start, at the chosen zoom.
     for (ui::PlotState& plot : desk.plots) plot.set = false;

@@ -18,7 +18,7 @@
 namespace substep {
 namespace {
 
-// Fonts and colours follow the window that the app finds itself in.
+// Fonts and colours follow the window's pixel ratio and theme.
 void update_look(App& app) {
   const ImGuiIO& io = ImGui::GetIO();
   const float ratio = std::clamp(io.DisplayFramebufferScale.x, 0.5F, 4.0F);
@@ -60,7 +60,7 @@ void take_capture(App& app, int width, int height) {
   app.desk.capture.reset();
 }
 
-// Converts from the shell's logical pixels to the interface's, which are `scale` times as large.
+// Converts from the shell's logical pixels to interface pixels, which are `scale` times as large.
 class Scaled {
  public:
   explicit Scaled(App& app) : size_(ImGui::GetIO().DisplaySize), ratio_(buffer_scale()) {
@@ -69,7 +69,7 @@ class Scaled {
     io.DisplaySize = {size_.x / scale, size_.y / scale};
     io.DisplayFramebufferScale = {ratio_.x * scale, ratio_.y * scale};
     for (ImGuiInputEvent& event : ImGui::GetCurrentContext()->InputEventsQueue) {
-      if (event.EventId <= app.last_event) continue;  // it waited since an earlier frame
+      if (event.EventId <= app.last_event) continue;  // delayed from an earlier frame
       app.last_event = event.EventId;
       if (event.Type != ImGuiInputEventType_MousePos) continue;
       event.MousePos.PosX /= scale;
@@ -89,7 +89,7 @@ class Scaled {
   ImVec2 ratio_;
 };
 
-// This run, and what it is compared with: each in a pane of its own, or over it as ghosts.
+// This run and those compared with it: in separate panes, or overlaid as ghosts.
 void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
   app.panes = app.introduction.open() ? ui::introduction_panes(app.look, app)
                                       : ui::view_panes(app.compare, app.desk, app);
@@ -126,7 +126,7 @@ void frame(App& app, double wall_dt) {
   if (!app.compare.behind(app.session)) app.session.advance(wall_dt);
   if (app.pause_at > 0.0 && app.session.state().time > app.pause_at - 1e-9) {
     app.session.pause();
-    app.pause_at = 0.0;  // playing again passes the end
+    app.pause_at = 0.0;  // playing again continues past the end
   }
   app.accuracy.advance(Accuracy::slice(app.session.playing(), wall_dt - app.own_time));
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
@@ -149,7 +149,7 @@ void frame(App& app, double wall_dt) {
 
   const ImGuiIO& io = ImGui::GetIO();
   ViewOptions shown = app.desk.view;
-  if (app.compare.open()) shown.tint = false;  // colours identify the runs then
+  if (app.compare.open()) shown.tint = false;  // colours identify the runs instead
   draw_pictures(app, shown, io.DisplaySize);
   ui::draw_over_picture(app);
   ImGui::Render();
@@ -160,7 +160,7 @@ void frame(App& app, double wall_dt) {
 
   if (!app.desk.follow.empty()) app.open_link(std::exchange(app.desk.follow, ""));
   remember_arrangement(app);
-  // The address stays plain until the laboratory is there: to load it again shows the same.
+  // The address is unchanged until the laboratory is shown, so that reloading shows the same.
   if (app.host.link_changed && !app.introduction.open()) {
     std::string link = app.link();
     if (link != app.last_link) {

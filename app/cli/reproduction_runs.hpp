@@ -39,7 +39,7 @@ std::string lives(const std::vector<Run>& runs, const std::vector<RunTrace>& tra
                   std::size_t first, std::size_t count);
 
 double peak(const std::vector<double>& values);
-/// The smallest value that at least this share of the values does not exceed.
+/// The quantile of the values at `share`, 0 to 1.
 double quantile(std::vector<double> values, double share);
 /// Sub-steps of the frames, without the start.
 std::vector<double> by_frame(const RunTrace& trace);

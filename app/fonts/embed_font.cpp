@@ -2,10 +2,10 @@
 //
 //   embed_font FONT.otf NAME OUT.cpp
 //
-// A whole Inter weighs 260 kB a weight; the glyphs below weigh a tenth. Each outline is written
-// again as a plain Type 2 charstring (no subroutines, no hints) into a minimal OpenType file with
-// the tables that ImGui's rasteriser reads: CFF, cmap, head, hhea, hmtx, maxp. All digits get one
-// width, so that numbers that change do not dance.
+// A complete Inter has 260 kB per weight; the glyphs below take a tenth. Each outline is rewritten
+// as a plain Type 2 charstring (no subroutines, no hints) in a minimal OpenType file with the
+// tables that ImGui's rasteriser reads: CFF, cmap, head, hhea, hmtx, maxp. All digits get the same
+// width, so that changing numbers do not jitter.
 
 #include <algorithm>
 #include <array>
@@ -35,11 +35,11 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// First and last code point of each range that the application may show; what the font does not
-// have is left out.
+// First and last code point of each range that the application may show; those missing in the font
+// are skipped.
 constexpr std::array<std::pair<int, int>, 14> kRanges{{
     {0x20, 0x7e},      // ASCII
-    {0xa0, 0x17f},     // Latin-1 and Latin Extended-A: titles of people's own scenes
+    {0xa0, 0x17f},     // Latin-1 and Latin Extended-A: titles of users' scenes
     {0x391, 0x3c9},    // Greek
     {0x2010, 0x2026},  // dashes, quotes, bullet, ellipsis
     {0x2070, 0x208e},  // superscripts and subscripts
@@ -112,7 +112,7 @@ Bytes charstring(const stbtt_fontinfo& font, int glyph, int shift) {
   return out;
 }
 
-// An INDEX of the Compact Font Format (technical note 5176, section 5), offsets of four bytes.
+// An INDEX of the Compact Font Format (technical note 5176, section 5) with four-byte offsets.
 Bytes cff_index(const std::vector<Bytes>& items) {
   Bytes out;
   put(out, static_cast<std::uint32_t>(items.size()), 2);
@@ -143,7 +143,7 @@ Bytes cff_table(const std::vector<Bytes>& charstrings) {
 
 struct Glyph {
   int codepoint = 0;
-  int source = 0;  // index in the font that we read
+  int source = 0;  // index in the source font
   int advance = 0;
   int shift = 0;  // to the right
 };
@@ -171,14 +171,14 @@ std::vector<Glyph> choose_glyphs(const stbtt_fontinfo& font) {
   return glyphs;
 }
 
-// One group per code point: short enough, and format 12 has nothing else to get wrong.
+// One group per code point; short enough, and simple in format 12.
 Bytes cmap_table(const std::vector<Glyph>& glyphs) {
   Bytes out;
   put(out, 0, 2);
   put(out, 1, 2);
   put(out, 3, 2);   // Windows
   put(out, 10, 2);  // full Unicode
-  put(out, 12, 4);  // where the subtable starts
+  put(out, 12, 4);  // offset of the subtable
   put(out, 12, 2);
   put(out, 0, 2);
   put(out, static_cast<std::uint32_t>(16 + 12 * glyphs.size()), 4);

@@ -6,7 +6,7 @@
 namespace substep::imgui {
 namespace {
 
-constexpr int kMostTold = 20;  // a window that is wrong is wrong in every frame
+constexpr int kMostTold = 20;  // a faulty window fails in every frame
 int count = 0;
 
 }  // namespace

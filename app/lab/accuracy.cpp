@@ -59,7 +59,7 @@ void Accuracy::cancel() { cancelled_ = true; }
 
 double Accuracy::slice(bool plays, double drawing) {
   constexpr double kSlow = 1.0 / 30.0;
-  constexpr double kPause = 0.25;  // a tab that slept was not drawing
+  constexpr double kPause = 0.25;  // a longer pause was a sleeping tab
   const double most = drawing > kSlow ? std::min(drawing, kPause) : 0.0;
   return plays ? std::max(0.003, 0.2 * most) : std::max(0.008, 0.6 * most);
 }
@@ -71,12 +71,12 @@ void Accuracy::advance(double seconds) {
   }
   if (searching()) {
     search_->advance(seconds);
-    last_ = -1.0;  // the sweep waits
+    last_ = -1.0;  // the sweep is paused
     return;
   }
   if (!running()) return;
   const double now = wall_clock();
-  if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // a tab that slept was not at work
+  if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // ignores the time of a sleeping tab
   last_ = now;
   sweep_->advance(seconds);
   if (!running()) look_at_what_there_is();
@@ -86,7 +86,7 @@ void Accuracy::look_at_what_there_is() {
   for (int i = 0; i < static_cast<int>(ErrorAxis::kCount) && !has(error); ++i) {
     if (has(static_cast<ErrorAxis>(i))) error = static_cast<ErrorAxis>(i);
   }
-  // Where nothing constrains, most solvers have nothing to do.
+  // Without constraints most solvers have zero cost.
   const auto is_free = [this](const Result& r) { return cost_of(r, cost) == 0.0; };
   const auto n = static_cast<std::ptrdiff_t>(results().size());
   if (2 * std::count_if(results().begin(), results().end(), is_free) > n) {

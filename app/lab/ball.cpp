@@ -6,7 +6,7 @@ namespace substep {
 
 Scene with_ball(const Scene& scene, const Ball& ball, std::size_t slot) {
   Scene out = scene;
-  out.carried.reset();  // it has no place for the ball: with_ball(State) gives it one
+  out.carried.reset();  // has no entry for the ball; with_ball(State) adds one
   if (!out.effects.contact) {
     out.effects.contact = true;
     for (Body& body : out.bodies) body.collision_group = 0;

@@ -14,7 +14,7 @@ constexpr std::int64_t kCheckpointFrames = 32;
 constexpr std::size_t kMostCheckpoints = 200;
 constexpr std::string_view kSame = "same";  // in a link, a run without overrides
 
-// Parts of a text between separators; none of an empty text.
+// Splits a text at separators; empty for an empty text.
 std::vector<std::string_view> split(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
@@ -28,7 +28,7 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 Overrides differences(const Settings& of, const Settings& from) {
   Overrides list;
   for (const SettingField& field : setting_fields()) {
-    if (field.name == "watch_stiffness") continue;  // what is looked at, not what is done
+    if (field.name == "watch_stiffness") continue;  // display only
     std::string value = setting_text(field, of);
     if (value != setting_text(field, from)) list.push_back({std::string(field.name), value});
   }
@@ -157,7 +157,7 @@ bool Compare::step(Run& run, FrameSlices::Clock::time_point until) {
   add_frame(run.cost, run.report);
   if (state.frame % kCheckpointFrames != 0) return true;
   if (run.checkpoints.size() >= kMostCheckpoints) {
-    // Every second one goes: a long run is seen from farther apart. The first stays.
+    // Removes every second one, since a long run is sampled more coarsely. The first stays.
     std::vector<Run::Checkpoint> kept;
     for (std::size_t i = 0; i < run.checkpoints.size(); i += 2) {
       kept.push_back(std::move(run.checkpoints[i]));
@@ -172,7 +172,7 @@ void Compare::watch(Run& run, const Session& session) {
   if (run.divergence) return;
   const State& here = run.simulator->state();
   const State& there = session.state();
-  if (here.frame != there.frame || here.x.size() != there.x.size()) return;  // it stopped
+  if (here.frame != there.frame || here.x.size() != there.x.size()) return;  // the run has stopped
   Divergence most;
   for (std::size_t i = 0; i < here.x.size(); ++i) {
     const double distance = (here.x[i] - there.x[i]).norm();
@@ -181,8 +181,8 @@ void Compare::watch(Run& run, const Session& session) {
   if (most.distance > kThreshold) run.divergence = most;
 }
 
-// The hand that the session's last frame was taken with. What is known of later frames, and of this
-// one, is of a future that was forgotten.
+// Records the hand of the session's last frame. Earlier records of this and later frames belong to
+// a discarded future.
 void Compare::note_hand(const Session& session) {
   const std::int64_t frame = session.state().frame - 1;
   while (!hands_.empty() && hands_.back().frame >= frame) hands_.pop_back();
@@ -201,7 +201,7 @@ const std::optional<Grab>& Compare::hand_at(std::int64_t frame) const {
 bool Compare::take_frame(const Session& session) {
   if (!open()) return true;
   const auto until = end_of_slice(kSlice);
-  if (session.state().frame != frame_ + 1) {  // it was set back since it was looked at
+  if (session.state().frame != frame_ + 1) {  // it was rewound since the last call
     for (Run& run : runs_) seek(run, session, session.state().frame - 1, until);
   }
   frame_ = session.state().frame;
@@ -226,7 +226,7 @@ void Compare::edit(const Session& session, const SceneEdit& edit) {
   follow(session);
 }
 
-// What made a scene out of the one that the comparison began with, in order.
+// The edits between the scene at the start of the comparison and the given one, in order.
 std::vector<const SceneEdit*> Compare::edits_up_to(const Scene& scene) const {
   std::vector<const SceneEdit*> path;
   const Scene* to = &scene;
@@ -239,8 +239,9 @@ std::vector<const SceneEdit*> Compare::edits_up_to(const Scene& scene) const {
   return path;
 }
 
-// To a frame of the session's run: on from where it is if that is on the way, from the last
-// checkpoint that is otherwise. A checkpoint later than the edit of its scene is of another future.
+// Goes to a frame of the session's run: forwards from the current frame if possible, else from the
+// last checkpoint before it. A checkpoint later than the edit of its scene belongs to another
+// future.
 void Compare::seek(Run& run, const Session& session, std::int64_t frame,
                    FrameSlices::Clock::time_point until) {
   const std::vector<const SceneEdit*> path = edits_up_to(session.scene());
@@ -351,7 +352,7 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
         overrides.push_back({key, value});
       }
     }
-    if (!overrides.empty()) runs.push_back(std::move(overrides));  // else nothing could be read
+    if (!overrides.empty()) runs.push_back(std::move(overrides));  // else it is invalid
   }
   if (runs.size() > Compare::kMost) {
     problem = "more than " + std::to_string(Compare::kMost) + " methods beside the run";

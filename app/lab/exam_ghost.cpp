@@ -18,7 +18,7 @@ bool same_bodies(const Scene& a, const Scene& b) {
                     });
 }
 
-/// The exact motion of a scene, or nothing. Another load or start moves otherwise.
+/// The exact motion of a scene, if it has one. Another load or seed has another motion.
 std::function<ExamMotion()> motion_of(const Scene& scene) {
   if (scene.group != kGroup) return {};
   for (const ExamEntry& entry : scenes::exam()) {
@@ -38,7 +38,7 @@ void add_exam(Library& library) {
     Scene scene = exam.scene;
     if (exam.motion) scene.look_for += "; the bodies that are seen through move as it says";
     scene.look_for += ".";
-    // The exam's frames are as long as its tables' rows are apart: too long to look at.
+    // The exam's frames are as long as the row spacing of its tables, too long for display.
     scene.frame = std::min(scene.frame, 1.0 / 60.0);
     scene.settings.mode = Mode::kConst;
     scene.settings.integrator = Integrator::kLeapfrog;
@@ -55,7 +55,7 @@ const Poses* ExamGhost::at(const Session& session) {
   if (!start_) return nullptr;
   const double frame = scene_->frame;
   const double t = std::max(0.0, session.state().time - (1.0 - session.between()) * frame);
-  if (!motion_ || t < t_) {  // motions go forwards only
+  if (!motion_ || t < t_) {  // motions only run forwards
     motion_ = start_();
     poses_ = {{}, {}};
     for (const Body& body : scene_->bodies) {

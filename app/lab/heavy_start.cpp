@@ -10,8 +10,8 @@
 namespace substep {
 namespace {
 
-constexpr double kMost = 3e8;       // of a frame [operations]
-constexpr double kPerSecond = 6e8;  // of a browser on a laptop, roughly [operations/s]
+constexpr double kMost = 3e8;       // per frame [operations]
+constexpr double kPerSecond = 6e8;  // approximately, of a browser on a laptop [operations/s]
 
 std::string seconds_text(double seconds) {
   return seconds < 10.0 ? plain_number(std::round(seconds)) + " s"

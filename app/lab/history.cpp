@@ -60,7 +60,7 @@ Extent Samples::extent(std::size_t first, std::size_t last) const {
   last = std::min(last, values_.size());
   Extent extent;
   while (first < last) {
-    // The largest block that starts here and ends in time.
+    // The largest block that starts here and ends before `last`.
     std::size_t block = 1;
     std::size_t level = 0;
     while (level < kLevels && first % (block * kFan) == 0 && first + block * kFan <= last) {
@@ -87,7 +87,7 @@ void History::start(const FrameReport& report, double frame) {
 }
 
 void History::add(const FrameReport& report) {
-  // Forgotten a tenth at a time: the samples stay contiguous and adding one stays cheap.
+  // A tenth is dropped at a time: samples stay contiguous and adding one stays cheap.
   if (size() >= kCapacity) {
     constexpr std::size_t kBlock = Samples::kLargestBlock;
     constexpr std::size_t kForgotten = kCapacity / 10 / kBlock * kBlock;
@@ -103,7 +103,7 @@ void History::add(const FrameReport& report) {
   add_to(Channel::kKinetic, report.kinetic);
   add_to(Channel::kPotential, report.potential - potential_at_start_);
   add_to(Channel::kTotal, report.kinetic + (report.potential - potential_at_start_));
-  // In double precision first: a drift is many digits smaller than the energies.
+  // Subtract in double precision: a drift is many orders smaller than the energies.
   add_to(Channel::kDrift, report.energy - energy_at_start_);
   add_to(Channel::kJointError, report.constraint_error);
   add_to(Channel::kJointGap, report.joint_gap);
@@ -118,7 +118,9 @@ void History::add(const FrameReport& report) {
 
 double History::potential_offset() const {
   const Extent all = samples(Channel::kPotential).extent(0, size());
-  return all.empty() ? 0.0 : -std::min(0.0, static_cast<double>(all.low));  // the start is at 0
+  return all.empty()
+             ? 0.0
+             : -std::min(0.0, static_cast<double>(all.low));  // the potential at the start is 0
 }
 
 double History::largest_drift() const {

@@ -6,16 +6,16 @@ namespace substep {
 namespace {
 
 constexpr std::string_view kIntroductionScene = "swinging_box";
-constexpr const char* kIntroductionKey = "introduction";  // what Host::remember calls it
+constexpr const char* kIntroductionKey = "introduction";  // key of Host::remember
 constexpr const char* kLeftOnce = "seen";
 
-// The box has passed the lowest point, where N is largest; the chain tears in slow motion.
+// The box has passed the lowest point, where N is largest; the tearing is in slow motion.
 constexpr RunLoop::Plan kLoop{.end = 4.0, .slow_until = 0.5};
 
 }  // namespace
 
 void Introduction::offer(Lab& lab) {
-  // A shell that remembers nothing would show it at every start.
+  // Without storage it would be shown on every start.
   if (lab.host.recall && lab.host.recall(kIntroductionKey) != kLeftOnce) start(lab);
 }
 

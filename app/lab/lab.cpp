@@ -14,14 +14,14 @@
 namespace substep {
 namespace {
 
-constexpr const char* kOwnScenes = "own_scenes";  // what Host::remember calls them
+constexpr const char* kOwnScenes = "own_scenes";  // key of Host::remember
 
 }  // namespace
 
 Lab::Lab(Library shipped) : library(std::move(shipped)), session(library.scenes().front()) {
   session.frame_taken = [this] {
     const bool together = compare.take_frame(session);
-    // What comes after a failure is not physics. Beside others that hold it is what one compares.
+    // The motion after a failure is not physical, but in a comparison it is of interest.
     if (session.just_failed() && !compare.open() && hold_at_failure) session.hold();
     return together;
   };
@@ -30,7 +30,7 @@ Lab::Lab(Library shipped) : library(std::move(shipped)), session(library.scenes(
 }
 
 void Lab::run(std::shared_ptr<const Scene> scene) {
-  compare.close();  // it was about the other scene
+  compare.close();  // it belonged to the other scene
   ++run_count;
   plain_scene = scene;
   load = 1.0;
@@ -72,9 +72,9 @@ bool Lab::open_paused(SceneResult result, const std::string& from) {
 }
 
 RunStart Lab::run_start() const {
-  if (held()) return heavy.before;  // what waits never ran
+  if (held()) return heavy.before;  // the waiting run never started
   RunStart start{plain_scene, session.settings(), load, seed, session.playing()};
-  if (session.edition() != nullptr) {  // its bodies have load and seed already
+  if (session.edition() != nullptr) {  // load and seed are already in its bodies
     start.scene = session.edition()->start;
     start.load = 1.0;
     start.seed = 0;
@@ -83,7 +83,7 @@ RunStart Lab::run_start() const {
 }
 
 void Lab::run(const RunStart& start) {
-  const RunStart copy = start;  // it may be a part of what run() replaces
+  const RunStart copy = start;  // run() may replace the object that `start` refers to
   run(copy.scene);
   if (copy.load != 1.0 || copy.seed != 0) vary(copy.load, copy.seed);
   change(copy.settings);
@@ -119,7 +119,7 @@ void Lab::recall_scenes() {
 void Lab::save_scene() {
   const Scene scene = session.as_scene();
   const std::string text = write_scene(scene);
-  // What has flown too far or spins too fast is beyond what a scene may hold.
+  // Positions and speeds beyond the limits of the scene format are rejected.
   SceneResult result = read_scene(text);
   if (!result.scene) {
     trouble = {"This state cannot be a scene file", std::move(result.problems),
@@ -188,7 +188,7 @@ const CostBreakdown* Lab::costs() const {
 void Lab::change(const Settings& settings) {
   Settings s = settings;
   s.watch_stiffness = session.settings().watch_stiffness;
-  // All others act from the next sub-step on.
+  // The other settings take effect with the next sub-step.
   if (s.probe != session.settings().probe && session.state().frame > 0) {
     tell("The probe acts at a start: reset to see what it does");
   }
@@ -220,7 +220,7 @@ std::string Lab::command() const {
   const std::int64_t since = session.edition() != nullptr ? session.edition()->frame : 0;
   std::string command =
       make_command(scene, session.settings(), session.state().frame - since, is_own(scene));
-  if (session.edition() != nullptr) return command;  // its bodies have load and seed already
+  if (session.edition() != nullptr) return command;  // load and seed are already in its bodies
   if (load != 1.0) command += " --load " + number_text(load);
   if (seed != 0) command += " --seed " + std::to_string(seed);
   return command;
@@ -235,7 +235,7 @@ std::string Lab::events_in_link() const {
 }
 
 const Scene& Lab::link_scene() const {
-  // Without load and seed, which stand beside it: they would act twice.
+  // Without load and seed, which are separate in the link and would be applied twice.
   return events_in_link().empty() ? edited_scene() : *plain_scene;
 }
 
@@ -253,7 +253,7 @@ std::string Lab::link() const {
   Experiment experiment;
   experiment.settings = events.empty() ? session.settings() : session.log().start();
   experiment.duration = session.scene().criteria.duration;
-  if (!edited) {  // else its bodies have them already
+  if (!edited) {  // else load and seed are already in its bodies
     experiment.load = load;
     experiment.seed = seed;
   }

@@ -20,7 +20,7 @@ constexpr std::array<Group, 7> kGroups{{{kOwnGroup, "Your own"},
                                         {"exact", "Small and exact"},
                                         {"exam", "The exam: known answers"},
                                         {"playground", "Playground"}}};
-// First of their groups; the others follow by title.
+// First in their groups; the others are sorted by title.
 constexpr std::array<std::string_view, 3> kFirst{"swinging_box", "bridge", "heavy_stack"};
 
 std::size_t group_rank(std::string_view group) {
@@ -40,7 +40,7 @@ Library::Library(const std::string& folder) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
     const std::filesystem::path& path = entry.path();
-    // scene.schema.json lies beside the scenes.
+    // scene.schema.json is in the same folder.
     if (path.extension() != ".json" || path.stem().extension() == ".schema") continue;
     SceneResult result = read_scene_file(path.string());
     if (result.scene) scenes_.push_back(std::move(result.scene));
@@ -59,7 +59,7 @@ std::shared_ptr<const Scene> Library::find(std::string_view name) const {
   return found == scenes_.end() ? nullptr : *found;
 }
 
-// The shortest: a variant of a variant stands with the others.
+// The shortest name: a variant of a variant is listed with the others.
 const Scene* Library::base_of(const Scene& scene) const {
   const Scene* base = nullptr;
   for (const auto& other : scenes_) {

@@ -23,7 +23,7 @@ void OwnScenes::add(const std::shared_ptr<const Scene>& scene) {
 }
 
 bool OwnScenes::may_keep(const Scene& scene) {
-  constexpr std::size_t kShortest = 70;  // text of a body or a joint [bytes]
+  constexpr std::size_t kShortest = 70;  // minimum text of a body or a joint [bytes]
   return kShortest * (scene.bodies.size() + scene.joints.size()) <= kMaxText;
 }
 

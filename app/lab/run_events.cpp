@@ -80,7 +80,7 @@ void EventLog::in_effect(const RunEvent& event) {
   if (std::holds_alternative<LetGo>(event.what)) hand_.reset();
 }
 
-// Of two that act before one frame, a frame that was begun twice, the later one counts.
+// If two apply to the same frame, which was begun twice, the later one counts.
 void EventLog::append(RunEvent event) {
   forget_future();
   in_effect(event);

@@ -38,7 +38,7 @@ RunLoop::Pass pass_of(const History& history, const Verdict& verdict) {
   return pass;
 }
 
-// Without what is only looked at.
+// Without display-only settings.
 Settings settings_of(const Session& session) {
   Settings settings = session.settings();
   settings.watch_stiffness = false;
@@ -73,7 +73,7 @@ bool RunLoop::is_slow_at(double time) const {
   return failure_ && time > *failure_ - kBefore && time < *failure_ + kAftermath;
 }
 
-// Only where it changes: in between the speed is the person's to choose.
+// Only on a change: in between, the user may choose the speed.
 void RunLoop::set_slow(Lab& lab, bool slow) {
   if (slow == slow_) return;
   slow_ = slow;

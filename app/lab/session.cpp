@@ -9,8 +9,7 @@
 namespace substep {
 namespace {
 
-// The run as a scene that a file can hold: what only acts through an effect that is off is left
-// out.
+// The run as a scene for a file: parts that act only through a disabled effect are omitted.
 Scene edition_of(const Scene& scene, const State& state, const Settings& settings) {
   Scene out = saved_scene(scene, state, settings);
   out.group = kOwnGroup;
@@ -86,7 +85,7 @@ Moment Session::moment() const {
   return {scene_, settings(), state(), report_, *verdict_, forces_};
 }
 
-// No motion between two frames is left to be shown.
+// No interpolation between two frames remains.
 void Session::show_present() {
   accumulator_ = 0.0;
   previous_ = {state().x, state().q};
@@ -116,7 +115,7 @@ void Session::set_settings(const Settings& settings) {
   simulator_->set_settings(settings);
 }
 
-// Another scene from the present frame on: the run is no longer that of the one loaded.
+// Continues in another scene from the current frame; the run no longer belongs to the loaded one.
 void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   forget_future();
   const std::shared_ptr<const Scene> from = scene_;
@@ -124,7 +123,7 @@ void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
   use_scene(std::make_shared<const Scene>(std::move(scene)));
   simulator_->set_state(std::move(carried));
   verdict_->disturb(state().time);
-  // A link has little room: from its start the run begins without the last forces.
+  // To keep links short, the run begins without the last forces.
   Scene edition = as_scene();
   edition.carried.reset();
   editions_.push_back({scene_, std::make_shared<const Scene>(std::move(edition)), state().frame});
@@ -161,8 +160,8 @@ void Session::smooth_times() {
   settle(times_.total, report_.times.total);
 }
 
-// Before something that happens between two frames: one of single sub-steps is ended where that is
-// quick.
+// Call before an action that happens between frames: completes a frame of single sub-steps if that
+// is quick.
 void Session::come_between_frames() {
   slices_.drop(*simulator_);
   if (substeps_left() == 0) return;
@@ -180,7 +179,7 @@ void Session::take_frame() {
   end_frame();
 }
 
-// @return whether what runs beside has kept step
+// @return whether the runs compared with it have completed the frame
 bool Session::end_frame() {
   forces_ = simulator_->constraint_forces();
   const bool held_so_far = verdict_->holds();
@@ -197,7 +196,7 @@ bool Session::end_frame() {
   return !frame_taken || frame_taken();
 }
 
-// @return whether there may be more of them: a frame has ended, and nothing lags behind
+// @return whether further frames may follow: a frame has ended, and no other run lags behind
 bool Session::run_slice(FrameSlices::Clock::time_point until) {
   if (!slices_.open()) {
     begin_frame();

@@ -1,4 +1,4 @@
-// A hand in a run: what a person does to it, what is noted of that, and how it is done again.
+// User actions on a run: applying, recording and replaying them.
 
 #include <utility>
 
@@ -34,7 +34,7 @@ void Session::set_effects(const Effects& effects) {
   put_effects(effects);
 }
 
-// In the place of the oldest ball where there are many.
+// Replaces the oldest ball once the maximum is reached.
 void Session::put_ball(const Ball& ball) {
   const std::size_t slot = loaded_->bodies.size() + log_.balls() % Ball::kMost;
   go_on_in(with_ball(*scene_, ball, slot),
@@ -46,7 +46,7 @@ void Session::put_effects(const Effects& effects) {
   Scene scene = *scene_;
   scene.effects = effects;
   go_on_in(std::move(scene), [](State state) {
-    state.rest.clear();  // what rests may fall without them
+    state.rest.clear();  // sleeping bodies may fall without them
     return state;
   });
   log_.add(state().frame, effects);
@@ -56,7 +56,7 @@ void Session::follow(std::vector<RunEvent> script) { log_.follow(std::move(scrip
 
 void Session::use_settings(const Settings& settings) {
   Settings s = settings;
-  s.watch_stiffness = this->settings().watch_stiffness;  // by what the window shows
+  s.watch_stiffness = this->settings().watch_stiffness;  // a display setting
   simulator_->set_settings(s);
 }
 

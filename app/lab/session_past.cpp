@@ -1,4 +1,4 @@
-// The past of a run: going to it, and on from it.
+// The past of a run: seeking and continuing from it.
 
 #include <algorithm>
 
@@ -51,7 +51,7 @@ void Session::forget_future() {
   history_.cut(timeline_.now().state.time);
 }
 
-// Where the run is looked at in the past: the frame that followed then.
+// In the past: moves to the next recorded frame.
 bool Session::step_in_past() {
   const std::size_t next = timeline_.index() + 1;
   if (timeline_.at_end() || held() || substeps_left() > 0) return false;

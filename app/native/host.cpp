@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFolder = "scene_folder";  // that a scene file was opened from last
+constexpr const char* kFolder = "scene_folder";  // the last folder of scene files
 
-// A path in the working folder that is not taken: bridge.png, bridge-2.png, ...
+// An unused path in the working folder: bridge.png, bridge-2.png, ...
 fs::path free_path(const std::string& name) {
   std::error_code error;
   const fs::path wanted(name);
@@ -29,7 +29,7 @@ fs::path free_path(const std::string& name) {
   return path;
 }
 
-// Folder of the settings by the XDG rules, or empty where there is no home.
+// The settings folder by the XDG rules; empty without a home.
 fs::path config_folder() {
   const char* config = std::getenv("XDG_CONFIG_HOME");
   if (config != nullptr && *config == '/') return fs::path(config) / "substep";
@@ -42,7 +42,7 @@ void remember(const std::string& key, const std::string& value) {
   if (folder.empty()) return;
   std::error_code error;
   fs::create_directories(folder, error);
-  write_file(folder / key, value);  // where it cannot be written it is not kept: nothing needs it
+  write_file(folder / key, value);  // a failure is ignored: the value is optional
 }
 
 std::string recall(const std::string& key) {
@@ -93,8 +93,8 @@ void NativeHost::save(const std::string& name, const std::string& bytes) {
   app_.tell(path.string() + (write_file(path, bytes) ? " was written" : " could not be written"));
 }
 
-// The page that a link opens is somewhere on the web, where a build knows it: CMake's
-// SUBSTEP_PAGE_URL. Without it the link is what follows the address of any copy of the page.
+// The URL of the page, if the build defines it by CMake's SUBSTEP_PAGE_URL. Without it the link is
+// only the fragment, to be appended to the address of any copy of the page.
 void NativeHost::copy_link() {
   const std::string page = SUBSTEP_PAGE_URL;
   ImGui::SetClipboardText((page + "#" + app_.link()).c_str());

@@ -1,7 +1,7 @@
 // The application in a window of its own.
 
 #include <epoxy/gl.h>
-// GLFW must not bring another OpenGL header.
+// GLFW must not include another OpenGL header.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -31,8 +31,8 @@ struct Options {
   std::string scene;
   std::string scenes = SUBSTEP_SCENES_DIR;
   std::vector<std::string> settings;  // "alpha=0.2"
-  std::string open;                   // a scene file, as if it were dropped on the window
-  std::string link;                   // a copied link's part from '#' on
+  std::string open;                   // a scene file, opened as if dropped on the window
+  std::string link;                   // the fragment of a link, from '#'
   std::string screenshot;
   int frames = 60;
   int width = 1280;
@@ -92,7 +92,7 @@ void listen(GLFWwindow* handle) {
   glfwSetDropCallback(handle, drop_files);
 }
 
-// Applies the command line. @return what is wrong with it, or ""
+// Applies the command line. @return error message, or ""
 std::string apply(const Options& options, App& app) {
   if (!options.scene.empty() && !app.open(options.scene)) {
     SceneResult result = read_scene_file(options.scene);
@@ -161,7 +161,7 @@ int run(const Options& options) {
     if (!renderer || library.scenes().empty()) {
       std::fprintf(stderr, "substep: %s\n",
                    renderer ? ("no scenes in " + options.scenes).c_str() : error.c_str());
-      renderer.reset();  // while its context is there
+      renderer.reset();  // while its context exists
       ImGui_ImplGlfw_Shutdown();
       glfwTerminate();
       return 2;

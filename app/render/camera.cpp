@@ -6,8 +6,8 @@
 namespace substep {
 namespace {
 
-constexpr double kNear = 0.02;  // of the distance
-constexpr double kFar = 60.0;   // of the distance
+constexpr double kNear = 0.02;  // relative to the distance
+constexpr double kFar = 60.0;   // relative to the distance
 
 }  // namespace
 
@@ -92,7 +92,8 @@ Eigen::Matrix4d OrbitCamera::view_projection(const ViewRect& view, double window
   to_camera(1, 3) = -y.dot(from);
   to_camera(2, 3) = -back.dot(from);
 
-  // The view rectangle has the field of view; the window sees more by the ratio of the heights.
+  // The field of view is that of the view rectangle; that of the window is larger by the ratio of
+  // heights.
   const double height = std::max(1.0, static_cast<double>(view.height));
   const double focal = height / window_height / std::tan(0.5 * kFieldOfView);
   const double near = kNear * distance;

@@ -13,7 +13,7 @@ PixelRect between(int left, int top, int right, int bottom) {
   return {left, top, std::max(0, right - left), std::max(0, bottom - top)};
 }
 
-// Appends what is left of a rectangle beside another: above, below, and at its sides.
+// Appends the parts of a rectangle outside another: above, below, and on both sides.
 void cut(const PixelRect& from, const PixelRect& c, std::vector<PixelRect>& left) {
   const int top = std::clamp(c.y, from.y, from.y + from.height);
   const int bottom = std::clamp(c.y + c.height, top, from.y + from.height);

@@ -8,11 +8,11 @@
 namespace substep {
 namespace {
 
-constexpr double kMostTolerance = 1e4;  // every body is as coarse as it can be [pixel]
-constexpr double kCube = 2.0;           // that a ball's cube may lie off it [pixel]
-constexpr double kSpeck = 0.5;          // radius of what one pixel holds [pixel]
+constexpr double kMostTolerance = 1e4;  // the coarsest mesh for every body [pixel]
+constexpr double kCube = 2.0;           // allowed deviation of a cube drawn for a ball [pixel]
+constexpr double kSpeck = 0.5;          // radius of a body that fits into a pixel [pixel]
 
-// Along the view, where the projection divides by it [m].
+// Minimum depth, as a divisor in the projection [m].
 double depth(const Instance& body, const Picture& picture) {
   const auto row = picture.view_projection.row(3).cast<double>();
   double w = row(3);
@@ -27,7 +27,7 @@ double reach(const Instance& body) {
   return static_cast<double>(std::hypot(half[0], half[1], half[2]));
 }
 
-// The coarsest mesh whose outline is true. @param radius of the rounding on the screen [pixel]
+// The coarsest mesh with an accurate outline. @param radius of the rounding on the screen [pixel]
 template <std::size_t kCount>
 std::size_t level_of(double radius, double tolerance, const std::array<int, kCount>& segments) {
   std::size_t level = 0;
@@ -36,7 +36,7 @@ std::size_t level_of(double radius, double tolerance, const std::array<int, kCou
   return level;
 }
 
-// Pixels of a length at a depth of 1 m.
+// Pixels per metre at a depth of 1 m.
 double focal_length(const DetailNeeds& needs) {
   const auto row = needs.picture->view_projection.row(1).head<3>();
   return 0.5 * needs.height * static_cast<double>(row.norm());
@@ -61,7 +61,7 @@ void sort_into(std::array<std::vector<Instance>, kCount>& levels, std::span<cons
   for (auto& level : levels) level.clear();
   const double focal = focal_length(needs);
   for (const Instance& body : bodies) {
-    // Its nearest point appears largest.
+    // Its nearest point has the largest projection.
     const double w = std::max(1e-3, depth(body, *needs.picture) - reach(body));
     const double radius = static_cast<double>(body.rounding) * focal / w;
     levels[level_of(radius, tolerance, segments)].push_back(body);
@@ -87,8 +87,8 @@ std::size_t count_vertices(const std::array<std::vector<Instance>, kCount>& leve
 }  // namespace
 
 double outline_error(int segments) {
-  if (segments == 0) return std::numbers::sqrt3 - 1.0;  // a corner that is not rounded
-  // Of the lines of its grid; diagonals of cells lie up to 2.51 times as deep.
+  if (segments == 0) return std::numbers::sqrt3 - 1.0;  // a sharp corner
+  // Lines of its grid; the diagonals of cells deviate up to 2.51 times as much.
   return 2.51 * (1.0 - std::cos(std::numbers::pi / (8.0 * segments)));
 }
 

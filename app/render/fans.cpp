@@ -5,7 +5,7 @@
 namespace substep {
 namespace {
 
-constexpr unsigned kFewestCorners = 5;  // corners of an area that is worth it
+constexpr unsigned kFewestCorners = 5;  // smallest number of corners worth slicing
 
 /// An area whose corners are every `step`-th vertex from the first, in order around it.
 struct Fan {
@@ -17,7 +17,7 @@ struct Fan {
   [[nodiscard]] ImDrawIdx corner(ImDrawIdx i) const { return first + step * (i % corners); }
 };
 
-// The fan with which the indices begin. Soft edges add a vertex to each corner.
+// The fan at the beginning of the indices. Antialiased edges add a vertex to each corner.
 Fan fan_at(std::span<const ImDrawIdx> indices) {
   if (indices.size() < 3) return {};
   const ImDrawIdx step = indices[2] - indices[1];
@@ -32,7 +32,7 @@ Fan fan_at(std::span<const ImDrawIdx> indices) {
   return fan;
 }
 
-// The first corner of the edge that lies highest.
+// The first corner of the highest edge.
 ImDrawIdx top_edge(const Fan& fan, const ImDrawVert* vertices) {
   const auto height = [&](ImDrawIdx i) {
     return vertices[fan.corner(i)].pos.y + vertices[fan.corner(i + 1)].pos.y;
@@ -44,7 +44,7 @@ ImDrawIdx top_edge(const Fan& fan, const ImDrawVert* vertices) {
   return top;
 }
 
-// Down both sides in turn.
+// Alternates between the two sides.
 void slice(const Fan& fan, const ImDrawVert* vertices, std::span<ImDrawIdx> indices) {
   ImDrawIdx left = top_edge(fan, vertices) + fan.corners;  // goes down, round the area
   ImDrawIdx right = left + 1;

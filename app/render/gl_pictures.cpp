@@ -21,7 +21,7 @@ constexpr std::array<Grain, 4> kGrains{{{0.5, 1, 384, 1.0F, 2.0, 6000},
 
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
-// Clears the depth of what is hidden to the nearest, so that nothing is drawn there.
+// Clears the depth of hidden parts to the nearest value, so that nothing is drawn there.
 void leave_out(std::span<const PixelRect> hidden, int height) {
   constexpr float kNearest = 0.0F;
   for (const PixelRect& r : hidden) {
@@ -30,7 +30,7 @@ void leave_out(std::span<const PixelRect> hidden, int height) {
   }
 }
 
-// The graphics card cuts off what is not in the picture's part of the window.
+// The scissor test removes everything outside the picture's part of the window.
 void limit_to(const Part& part, int width, int height) {
   const auto pixel = [](float share, int size) {
     return static_cast<int>(std::lround(share * static_cast<float>(size)));
@@ -82,7 +82,7 @@ Matrix4f PicturePainter::light_matrix(const Picture& picture) const {
   const Vector3f x = Vector3f::UnitZ().cross(back).normalized();
   const Vector3f y = back.cross(x);
   const float radius = std::max(picture.focus_radius, 0.1F);
-  // The middle moves by whole texels, or edges of shadows would crawl.
+  // The centre moves by whole texels to keep shadow edges stable.
   const float texel = 2.0F * radius / static_cast<float>(shadow_map_.size());
   const Vector3f focus = vector(picture.focus);
   const auto snap = [texel](float v) { return std::floor(v / texel) * texel; };
@@ -126,7 +126,7 @@ void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) 
   const auto linear = [](const Color& c) {
     return std::array<float, 3>{c.r * c.r, c.g * c.g, c.b * c.b};
   };
-  // The sky lights from above, the floor from below, both with the room's own tint.
+  // Hemisphere light: sky from above, floor from below, both in the scene's own tint.
   std::array<float, 3> sky = linear(picture.background_top);
   std::array<float, 3> below = linear(picture.background_bottom);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -147,15 +147,15 @@ void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) 
   draw_meshes(body_);
 }
 
-// After draw_bodies, with its light. A little behind where they are, so that a ghost in the same
-// place as its body does not show through it.
+// Call after draw_bodies; uses the same lighting. Ghosts are pushed back slightly, so that they do
+// not show through a body in the same place.
 void PicturePainter::draw_ghosts(const Picture& picture, const Target& target) {
   if (picture.ghost_boxes.empty() && picture.ghost_balls.empty()) return;
   upload(picture.ghost_boxes, picture.ghost_balls, picture, target);
   glEnable(GL_CULL_FACE);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.0F, 8.0F);
-  glDepthMask(GL_TRUE);  // only the nearest face of a ghost is seen
+  glDepthMask(GL_TRUE);  // only the nearest face of a ghost is visible
   body_.use();
   draw_meshes(body_);
   glDisable(GL_POLYGON_OFFSET_FILL);
@@ -165,7 +165,7 @@ void PicturePainter::draw_ghosts(const Picture& picture, const Target& target) {
 void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) {
   const Ground& ground = picture.ground;
   if (!ground.visible) return;
-  // The quad is centred below the focus and the grid stays where it is in the world.
+  // The quad is centred below the focus; the grid is fixed in the world.
   const Vector3f normal = vector(ground.normal).normalized();
   const Vector3f u = vector(ground.along).normalized();
   const Vector3f v = normal.cross(u);
@@ -208,7 +208,7 @@ void PicturePainter::paint(std::span<const Picture> pictures, Quality quality, c
   for (const Picture& picture : pictures) draw_picture(picture, target, hidden);
 }
 
-// Behind everything.
+// Drawn behind everything else.
 void PicturePainter::draw_background(const Picture& picture) {
   glDepthFunc(GL_LEQUAL);
   background_.use();

@@ -17,7 +17,7 @@
 namespace substep {
 namespace {
 
-// The part of a canvas at this scale that lies wholly within a part of the window.
+// The part of a canvas at this scale that lies completely inside a part of the window.
 PixelRect scaled(const PixelRect& r, double scale) {
   const int x = static_cast<int>(std::ceil(scale * r.x));
   const int y = static_cast<int>(std::ceil(scale * r.y));
@@ -48,22 +48,22 @@ class GlRenderer final : public Renderer {
 
  private:
   void paint(std::span<const Picture> pictures);
-  // What panels hide, on a canvas of the present quality.
+  // Parts hidden by panels, in pixels of the current canvas.
   [[nodiscard]] std::vector<PixelRect> hidden() const;
   void show_canvas() const;
   [[nodiscard]] Quality finest(std::span<const Picture> pictures) const;
 
   PicturePainter painter_;
   gl::Canvas canvas_;
-  gl::Fence painted_;  // after what paints the canvas, where that is deferred
+  gl::Fence painted_;  // after the calls that paint the canvas, if deferred
   gl::Program texture_;
   GLuint empty_array_ = 0;
   std::vector<Picture> drawn_;        // on the canvas
-  std::vector<PixelRect> covered_;    // by panels: not drawn
+  std::vector<PixelRect> covered_;    // by panels; not drawn
   Quality quality_ = Quality::kFine;  // of the canvas
-  bool software_ = false;             // a processor draws
+  bool software_ = false;             // software renderer
   bool deferred_ = false;
-  ImDrawData* panels_ = nullptr;  // that present() draws, over the canvas
+  ImDrawData* panels_ = nullptr;  // to be drawn by present() over the canvas
   int unchanged_ = 0;             // frames since the pictures changed
   int width_ = 0;                 // of the window's frame buffer [pixel]
   int height_ = 0;
@@ -107,8 +107,8 @@ void GlRenderer::paint(std::span<const Picture> pictures) {
   canvas_.resolve();
 }
 
-// Draws the canvas where panels do not hide it. A software renderer scales faster this way than by
-// a blit.
+// Draws the canvas where panels do not hide it. With a software renderer this is faster than a
+// blit.
 void GlRenderer::show_canvas() const {
   glEnable(GL_SCISSOR_TEST);
   glDisable(GL_BLEND);
@@ -133,7 +133,7 @@ void GlRenderer::draw(std::span<const Picture> pictures, ImDrawData& panels,
   const bool same =
       fits && std::equal(pictures.begin(), pictures.end(), drawn_.begin(), drawn_.end());
   unchanged_ = same ? unchanged_ + 1 : 0;
-  // A mouse that turns the view leaves single frames without a change.
+  // While the mouse orbits the view, single frames may be unchanged.
   const Quality quality =
       std::min(unchanged_ < 2 ? options.moving : Quality::kFine, finest(pictures));
   std::vector<PixelRect> covered = covered_by_panels();
@@ -164,7 +164,7 @@ bool GlRenderer::present(bool wait) {
 }
 
 std::vector<std::uint8_t> GlRenderer::pixels(int x, int y, int width, int height) {
-  // WebGL reads RGBA only, and rows come from the bottom.
+  // WebGL reads RGBA only, with rows from the bottom.
   const auto w = static_cast<std::size_t>(width);
   const auto h = static_cast<std::size_t>(height);
   std::vector<std::uint8_t> rgba(4 * w * h);

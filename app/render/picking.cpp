@@ -10,8 +10,7 @@ namespace {
 
 constexpr double kMiss = std::numeric_limits<double>::infinity();
 
-// Entry into a ball about the origin, of a ray from outside. @return distance, kMiss where there is
-// none
+// Entry of a ray from outside into a ball about the origin. @return distance, or kMiss
 double enter(const Sphere& sphere, const Vec3& from, const Vec3& along) {
   const double middle = -from.dot(along);
   const double half_squared = sphere.radius * sphere.radius - (from + middle * along).squaredNorm();
@@ -20,7 +19,7 @@ double enter(const Sphere& sphere, const Vec3& from, const Vec3& along) {
   return distance >= 0.0 ? distance : kMiss;
 }
 
-// The same for a box: the ray is in all three slabs at once.
+// The same for a box by the slab method.
 double enter(const Box& box, const Vec3& from, const Vec3& along) {
   double first = 0.0;
   double last = kMiss;

@@ -6,12 +6,12 @@
 namespace substep {
 namespace {
 
-constexpr int kWindow = 12;              // frames that are judged together
+constexpr int kWindow = 12;              // frames per judged window
 constexpr double kSlowFrame = 1.0 / 30;  // a frame that took longer to draw is slow [s]
 constexpr int kFewest = 4;               // frames that are enough where all are slow and
-constexpr double kEnough = 0.6;          // have taken this long together [s]
-constexpr double kAsleep = 10.0;         // a tab in the background: says nothing about drawing [s]
-constexpr double kMostWait = 256.0;      // between attempts at a finer picture [s]
+constexpr double kEnough = 0.6;          // have taken this long in total [s]
+constexpr double kAsleep = 10.0;         // a background tab: not a drawing time [s]
+constexpr double kMostWait = 256.0;      // limit of patience_ [s]
 
 }  // namespace
 
@@ -45,7 +45,7 @@ void QualityGovernor::observe(double wall_dt, double own) {
   seen_ = slow_ = 0;
   lost_ = 0.0;
   if (slow && quality_ != Quality::kSketch) {
-    // A finer picture that failed at once is not tried again soon.
+    // After a finer quality has failed at once, the wait is extended.
     if (tried_ && steady_ < 4.0) patience_ = std::min(2.0 * patience_, kMostWait);
     tried_ = false;
     quality_ = static_cast<Quality>(static_cast<int>(quality_) - 1);

@@ -7,9 +7,9 @@
 namespace substep {
 namespace {
 
-// A line of a face's grid. Each half of a face turns from its normal (slope 0) to the edge, where
-// the neighbouring face takes over (slope 1); between the two middle lines lies the flat. Without a
-// flat they are one.
+// A line of a face's grid. On each half of a face the normal turns from the face's own (slope 0) to
+// the edge (slope 1), where the neighbouring face begins; the flat is between the two middle lines.
+// Without a flat they coincide.
 struct Line {
   float side;   // -1 or 1: of which edge
   float slope;  // of the normal

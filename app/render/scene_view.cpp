@@ -10,7 +10,7 @@
 namespace substep {
 namespace {
 
-constexpr double kAway = 1e6;  // what exploded is not drawn any more [m]
+constexpr double kAway = 1e6;  // bodies farther away, after an explosion, are not drawn [m]
 
 std::array<float, 3> floats(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -46,7 +46,7 @@ void add_box(std::vector<Instance>& out, const Vec3& x, const Quat& q, const Vec
   out.push_back(i);
 }
 
-// With the radius of the edges that suits its size.
+// With an edge radius suitable for its size.
 void add_box(std::vector<Instance>& out, const Vec3& x, const Quat& q, const Vec3& half,
              const Color& color) {
   add_box(out, x, q, half, std::min(0.3 * half.minCoeff(), 0.01 + 0.05 * half.maxCoeff()), color);
@@ -74,7 +74,7 @@ struct ShapeDrawing {
   void operator()(const Plane&) const {}
 };
 
-// What holds a body by a point off its surface. @param half its half thickness [m]
+// The support of a body at a point off its surface. @param half its half thickness [m]
 void add_rod(std::vector<Instance>& out, const Vec3& from, const Vec3& to, double half,
              const Color& color) {
   const Vec3 along = to - from;
@@ -82,14 +82,14 @@ void add_rod(std::vector<Instance>& out, const Vec3& from, const Vec3& to, doubl
           Vec3(half, 0.5 * along.norm(), half), color);
 }
 
-// A ball around the centres of the moving bodies and what is fixed to them.
+// A sphere around the centres of the moving bodies and their fixtures.
 Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) {
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 high = -low;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     if (is_plane(body)) continue;
-    // What flew away from a scene that exploded is not worth looking at.
+    // Bodies thrown far away by an explosion are ignored.
     if (limit != nullptr && (poses.x[i] - limit->centre).norm() > 3.0 * limit->radius) continue;
     const Vec3 r = Vec3::Constant(radius_around(body.shape));
     low = low.cwiseMin(poses.x[i] - r);
@@ -104,8 +104,8 @@ Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) 
   return {0.5 * (low + high), std::max(0.05, 0.5 * (high - low).norm())};
 }
 
-// How far the bodies reach to either side of where the camera looks at the start, as they are seen
-// at the distance of its target: what swings comes to the other side as well, nearer or farther.
+// Half width of the bodies around the camera's initial target, projected to its distance. Bodies
+// may swing to the other side, nearer or farther.
 double width_to_show(const Scene& scene, const Poses& poses) {
   const Vec3 right = OrbitCamera::right_of(scene.camera);
   const Vec3 back = scene.camera.eye - scene.camera.target;
@@ -175,9 +175,9 @@ void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPa
   Vec3 focus = around.centre;
   focus.y() -= 0.5 * drop;
   focus -= Vec3(light.x(), 0.0, light.z()) * 0.5 * drop / light.y();
-  // In steps, so that the light stays where it is from frame to frame: where it moves along with
-  // the bodies, the edges of their shadows crawl and all of the picture changes.
-  const double lit = std::max(0.1, around.radius + 0.35 * drop);  // radius of what casts shadows
+  // In steps, so that the light is constant between frames: if it followed the bodies, the shadow
+  // edges would crawl and the whole picture would change.
+  const double lit = std::max(0.1, around.radius + 0.35 * drop);  // radius of the shadow casters
   const double radius = std::exp2(std::ceil(4.0 * std::log2(lit)) / 4.0);
   const double step = radius / 8.0;
   out.focus = floats((focus / step).array().round() * step);
@@ -209,7 +209,7 @@ void SceneView::add_ghost(const Scene& scene, const Poses& poses, const Color& c
                           Picture& out) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
-    if (body.is_static) continue;  // it stands where the session's own does
+    if (body.is_static) continue;  // identical to the session's own
     if (!(poses.x[i].norm() < kAway)) continue;
     std::visit(ShapeDrawing{out.ghost_boxes, out.ghost_balls, poses.x[i], poses.q[i], color},
                body.shape);
@@ -239,7 +239,7 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
     if (!options.joints) continue;
     const double r = 1.25 * std::min(thin, 0.25 * home_.radius);
     if (const auto axes = axes_of(joint)) {
-      if (axes->slides) {  // the way from the anchor on b
+      if (axes->slides) {  // the path from the anchor on b
         const auto b = static_cast<std::size_t>(j.b);
         const Vec3 from = j.b == kWorld ? j.anchor_b : poses.x[b] + poses.q[b] * j.anchor_b;
         if (from != x) add_rod(out.boxes, from, x, 0.3 * r, palette.joint);
@@ -247,7 +247,7 @@ void SceneView::add_joints(const Seen& seen, const ViewOptions& options, const V
       const Quat along = Quat::FromTwoVectors(Vec3::UnitZ(), poses.q[a] * axes->a);
       add_box(out.boxes, x, along, r * Vec3(0.8, 0.8, 1.3), 0.75 * r, palette.joint);
     } else {
-      // A box round all over: there are many of them, and they are small.
+      // A fully rounded box: there are many of them, and they are small.
       add_box(out.boxes, x, poses.q[a], Vec3::Constant(r), r, palette.joint);
     }
   }
@@ -278,7 +278,7 @@ void SceneView::add_trail(const std::deque<Vec3>& trail, const Color& color, con
 
 void SceneView::place_ground(const Scene& scene, Picture& out) const {
   out.ground = {};
-  // Most scenes stand above y = 0; where nothing says where the floor is, it lies below them.
+  // Most scenes are above y = 0; without a given floor it is placed below them.
   const double floor = lowest_ > -0.6 * home_.radius ? 0.0 : lowest_ - 0.3 * home_.radius;
   out.ground.origin = {0.0F, static_cast<float>(floor), 0.0F};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

@@ -1,4 +1,4 @@
-// Stands in for the bundled page where Node.js or the chart library was not there at build time.
+// Replaces the bundled page if Node.js or the chart library was not available at build time.
 #include "app/report/page.hpp"
 
 namespace substep::report {

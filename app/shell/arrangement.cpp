@@ -53,15 +53,15 @@ void take(Desk& d, const LinkPart& part) {
 
 void recall_arrangement(App& app) {
   if (!app.host.recall) return;
-  app.desk.tour_hint = true;  // until it says otherwise, it is a first visit
+  app.desk.tour_hint = true;  // by default it is a first visit
   app.desk.level = DeskLevel::kExplore;
   for (const LinkPart& part : parse_link(app.host.recall(kKey))) take(app.desk, part);
   app.last_arrangement = text_of(app);
 }
 
 void remember_arrangement(App& app) {
-  // Not while something is dragged: a width changes with every pixel.
-  // Nor while the tour arranges the window.
+  // Not during a drag: a width changes with every pixel.
+  // Nor while the tour controls the window.
   if (!app.host.remember || ImGui::IsAnyMouseDown() || app.desk.tour >= 0) return;
   std::string text = text_of(app);
   if (text == app.last_arrangement) return;

@@ -20,7 +20,7 @@ void FileBrowser::show(const fs::path& folder) {
   for (const fs::directory_iterator end; list != end && !error; list.increment(error)) {
     const std::string name = list->path().filename().string();
     if (name.starts_with('.')) continue;
-    std::error_code unreadable;  // a link that leads nowhere is no folder
+    std::error_code unreadable;  // a dangling link is not a folder
     const bool is_folder = list->is_directory(unreadable);
     if (is_folder || list->path().extension() == ".json") found.push_back({name, is_folder});
   }

@@ -10,7 +10,7 @@
 namespace substep {
 namespace {
 
-// What Explore shows, and what is looked at and not done.
+// Settings shown in Explore, and display-only settings.
 constexpr std::array<std::string_view, 6> kExplored{"solver", "mode",  "alpha",
                                                     "n",      "n_cap", "watch_stiffness"};
 

@@ -45,7 +45,7 @@ std::string Tour::go(App& app, std::string_view value) {
   arrange(app.desk, before_->arrangement);
   app.desk.split = false;
   app.desk.time.span = step.loop.end;
-  // The page's text takes the place of the controls.
+  // The page's text replaces the controls.
   if (app.desk.tour_in_page) app.desk.left.open = false;
   app.open_link(step.link);
   app.reset();

@@ -1,4 +1,4 @@
-// What can be said to the application in words: the keys of links, scripts and command lines.
+// Text commands of the application: the keys of links, scripts and command lines.
 
 #include <algorithm>
 #include <array>
@@ -20,9 +20,9 @@
 namespace substep {
 namespace {
 
-constexpr double kLongestLink = 16384.0;  // [characters]; a scene inside it apart
+constexpr double kLongestLink = 16384.0;  // [characters]; without an embedded scene
 
-// One of two words. @return what is wrong, or ""
+// One of two words. @return error message, or ""
 std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
   if (value != words[0] && value != words[1]) {
     return "'" + std::string(value) + "' is not " + std::string(words[0]) + " or " +
@@ -57,7 +57,7 @@ std::string select_body(App& app, std::string_view name) {
   return "";
 }
 
-// The names of the plots to be shown, with commas between them.
+// The names of the plots to show, separated by commas.
 std::string choose_plots(std::string_view value, Desk& desk) {
   static constexpr std::array<std::string_view, static_cast<std::size_t>(Plot::kCount)> kNames{
       "substeps", "energy", "drift", "error", "time"};
@@ -75,8 +75,8 @@ std::string choose_plots(std::string_view value, Desk& desk) {
   return "";
 }
 
-// What belongs to the window: taken from links and scripts, never written into links.
-// @return what is wrong with it, or ""; nothing where the key is another
+// Window options: accepted in links and scripts, but never written to links.
+// @return error message, or ""; empty for another key
 std::optional<std::string> set_window(App& app, std::string_view key, std::string_view value) {
   Desk& desk = app.desk;
   if (key == "speed" || key == "scale") {
@@ -92,7 +92,7 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
   if (key == "theme") return choose(value, {"light", "dark"}, desk.dark);
   if (key == "panels") return choose(value, {"off", "on"}, desk.panels);
   for (const ViewSwitch& option : kViewSwitches) {
-    // `forces` is a setting too, with other words.
+    // `forces` is also a setting, with other values.
     const bool is_setting = find_setting(key) != nullptr && value != "off" && value != "on";
     if (key == option.key && !is_setting)
       return choose(value, {"off", "on"}, desk.view.*option.member);
@@ -124,7 +124,7 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
   return std::nullopt;
 }
 
-// Another start of the scene, or how long it runs.
+// Load, seed, or duration of the run.
 std::string set_experiment(Lab& lab, std::string_view key, std::string_view value) {
   const auto number = parse_number(value);
   const Range range = key == "load"   ? kLoadRange
@@ -174,7 +174,7 @@ std::string App::set(std::string_view key, std::string_view value) {
     return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
   }
   if (auto problem = set_window(*this, key, value)) return *std::move(problem);
-  introduction.leave(*this);  // what follows is about the run in the laboratory
+  introduction.leave(*this);  // the following commands are for the run in the laboratory
   if (key == "load" || key == "seed" || key == "seconds") {
     std::string problem = set_experiment(*this, key, value);
     if (needs_lab(*this)) desk.level = DeskLevel::kLab;
@@ -212,7 +212,7 @@ std::string App::set(std::string_view key, std::string_view value) {
   Settings s = session.settings();
   if (const auto problem = set_setting(*field, value, s)) return *problem;
   change(s);
-  if (needs_lab(*this)) desk.level = DeskLevel::kLab;  // the setting has its control there
+  if (needs_lab(*this)) desk.level = DeskLevel::kLab;  // the control of this setting is in the Lab
   return "";
 }
 
@@ -243,15 +243,15 @@ void App::open_link_paused(std::string_view fragment, std::optional<SceneResult>
   if (scene) run(add_own(*scene->scene));
   std::vector<Problem> problems;
   bool scene_refused = false;
-  // The scene first: it brings settings of its own, which the others then change.
+  // The scene first: it resets the settings that the other keys change.
   auto parts = parse_link(fragment);
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key == "scene"; });
-  // What was done in the run last: it belongs to the start that the others choose.
+  // Events last: they apply to the run that the other keys define.
   std::stable_partition(parts.begin(), parts.end(),
                         [](const auto& p) { return p.key != "events"; });
-  // The level last: other keys lead to the Lab where they need it, and it has the last word.
+  // The level last: other keys may switch to the Lab, but an explicit level overrides that.
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key != "level"; });
-  // The tour sees to the comparison itself, and gives it back.
+  // The tour controls the comparison itself, and restores it.
   if (std::none_of(parts.begin(), parts.end(),
                    [](const auto& p) { return p.key == "compare" || p.key == "tour"; })) {
     compare.close();

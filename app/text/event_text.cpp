@@ -1,5 +1,5 @@
-// The events of a link, packed. A version, then for every event its kind with the frames since the
-// one before (a whole number of variable length) and its values:
+// The packed events of a link. A version, then for every event its kind with the number of frames
+// since the previous one (a variable-length integer) and its values:
 //
 //   ball      length codes of eight doubles in four bytes, then their bytes
 //   effects   a bit each
@@ -8,8 +8,8 @@
 //   let go    nothing
 //   settings  length and text of those that change: "alpha:0.2,n:5"
 //
-// A double is its leading bytes that are not zero; code 9 repeats that of the ball before. Targets
-// count steps of 1/65536 m, see hand_target().
+// A double is its leading bytes up to the last that is not zero; code 9 repeats the previous
+// ball's. Targets count steps of 1/65536 m, see hand_target().
 #include "app/text/event_text.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ constexpr std::uint8_t kVersion = 1;
 enum Kind : std::uint8_t { kBall, kEffects, kGrab, kMove, kLetGo, kSettings, kKinds };
 constexpr unsigned kKindBits = 3;
 constexpr std::int64_t kMostFrames = 100'000'000;
-constexpr std::size_t kMostCopies = 12'000;  // of bodies, by balls and switched effects
+constexpr std::size_t kMostCopies = 12'000;  // limit on body copies by balls and switched effects
 constexpr double kGrid = 65536.0;            // of targets [1/m]
 
 using Ballistics = std::array<double, 8>;
@@ -51,7 +51,7 @@ std::array<std::int64_t, 3> steps_of(const Vec3& target) {
 std::string changes_text(const Settings& to, const Settings& from) {
   std::string text;
   for (const SettingField& field : setting_fields()) {
-    if (field.name == "watch_stiffness") continue;  // what is looked at, not what is done
+    if (field.name == "watch_stiffness") continue;  // display only
     const std::string value = setting_text(field, to);
     if (value == setting_text(field, from)) continue;
     text.append(text.empty() ? "" : ",").append(field.name).append(":").append(value);
@@ -59,7 +59,7 @@ std::string changes_text(const Settings& to, const Settings& from) {
   return text;
 }
 
-/// @return what is wrong, or ""
+/// @return error message, or ""
 std::string apply_changes(std::string_view text, Settings& settings) {
   while (!text.empty()) {
     const std::string_view pair = text.substr(0, text.find(','));
@@ -75,7 +75,7 @@ std::string apply_changes(std::string_view text, Settings& settings) {
   return "";
 }
 
-/// Writes events one by one, as differences from those before.
+/// Writes events one by one, as differences from the previous ones.
 class EventWriter {
  public:
   explicit EventWriter(const Settings& start) : settings_(start) { out_.bytes.push_back(kVersion); }
@@ -135,13 +135,13 @@ class EventWriter {
   std::int64_t frame_ = 0;
 };
 
-/// Reads events one by one, with what they refer to.
+/// Reads events one by one, relative to the previous ones.
 class EventReader {
  public:
   EventReader(ByteReader& in, const Scene& scene, const Settings& start)
       : in_(in), scene_(scene), settings_(start) {}
 
-  /// @param problem what is wrong with it, or ""
+  /// @param problem error message, or ""
   RunEvent event(std::string& problem) {
     const std::uint64_t head = in_.whole();
     const std::uint64_t frames = head >> kKindBits;

@@ -12,7 +12,7 @@ namespace {
 struct Column {
   Channel channel;
   std::string_view name;
-  bool Effects::*effect;  // null: always there
+  bool Effects::*effect;  // null: always present
 };
 
 constexpr std::array<Column, static_cast<std::size_t>(Channel::kCount)> kColumns{
@@ -33,7 +33,7 @@ constexpr std::array<Column, static_cast<std::size_t>(Channel::kCount)> kColumns
      {Channel::kTimeFriction, "ms_friction", &Effects::friction},
      {Channel::kTimeStiffness, "ms_stiffness", nullptr}}};
 
-// As many digits as a sample has.
+// As many digits as a float sample has.
 std::string number(double value) {
   if (!std::isfinite(value)) return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
   std::array<char, 32> text{};
@@ -41,7 +41,7 @@ std::string number(double value) {
   return text.data();
 }
 
-// A name in one field, whatever it holds.
+// A name as one CSV field, quoted if necessary.
 std::string quoted(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) {
@@ -51,7 +51,7 @@ std::string quoted(const std::string& name) {
   return text + '"';
 }
 
-// Samples count the potential from the start; a file holds it as it is.
+// Samples of the potential are relative to the start; the file has absolute values.
 double value_of(const History& history, Channel channel, std::size_t i) {
   const auto value = static_cast<double>(history[channel][i]);
   const bool counted = channel == Channel::kPotential || channel == Channel::kTotal;

@@ -24,7 +24,7 @@ std::string to_letters(const std::vector<std::uint8_t>& bytes) {
   return text;
 }
 
-// One value has one text: what the last letter has too many is zero.
+// The encoding is unique: unused bits of the last character are zero.
 std::optional<std::vector<std::uint8_t>> from_letters(std::string_view letters) {
   std::vector<std::uint8_t> bytes;
   unsigned bits = 0;

@@ -39,8 +39,8 @@ int digit(char c) {
   return -1;
 }
 
-/// The character that "%41" at the head of a text stands for, or nothing. Control characters stay
-/// as they are written: no name has them, and a complaint about one could not show it.
+/// The character of "%41" at the head of a text, if any. Control characters stay encoded: no name
+/// contains them, and error messages could not show them.
 std::optional<char> escaped(std::string_view text) {
   if (text.size() < 3 || text[0] != '%' || digit(text[1]) < 0 || digit(text[2]) < 0) return {};
   const int code = 16 * digit(text[1]) + digit(text[2]);
@@ -63,7 +63,7 @@ std::string decode(std::string_view text) {
 std::string make_link(const Scene& scene, const Settings& settings) {
   std::string link = "scene=" + encode(scene.name);
   for (const SettingField& field : setting_fields()) {
-    if (field.name == "watch_stiffness") continue;  // what is looked at, not what is done
+    if (field.name == "watch_stiffness") continue;  // display only
     const std::string value = setting_text(field, settings);
     const bool always = std::find(kAlways.begin(), kAlways.end(), field.name) != kAlways.end();
     if (!always && value == setting_text(field, scene.settings)) continue;
@@ -111,7 +111,7 @@ ExperimentInput read_experiment_link(std::string_view fragment, const SceneFinde
   }
   json["settings"] = std::move(settings);
   ExperimentInput input = read_experiment(json, find, problems);
-  if (problems.size() > before) input.experiment.reset();  // a setting alone may be wrong
+  if (problems.size() > before) input.experiment.reset();  // a single setting may be invalid
   return input;
 }
 

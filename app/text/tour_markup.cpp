@@ -5,7 +5,8 @@
 namespace substep {
 namespace {
 
-// What a text begins with: a number, a place, or neither. @param size of its markup [characters]
+// The kind of markup at the start of a text: a number, a place, or neither. @param size of its
+// markup [characters]
 TourPart read_mark(std::string_view text, std::size_t& size) {
   size = 0;
   if (text.starts_with('{')) {

@@ -13,7 +13,7 @@ std::string seconds(double time) { return plain_number(time) + " s"; }
 
 std::string mass(const Lab& lab) { return tour_number(lab, "load").text; }
 
-/// Share of the energy that can be exchanged which a pass lost, < 0 where it gained [-].
+/// Share of the exchangeable energy lost in a pass, < 0 if energy was gained [-].
 double lost_share(const Lab& lab, const RunLoop::Pass& pass) {
   const auto scale = lab.session.scene().criteria.energy_scale;
   return scale ? -pass.drift / *scale : 0.0;
@@ -25,7 +25,7 @@ std::string lost(const Lab& lab, const RunLoop::Pass& pass) {
          (share < 0.0 ? "gained" : "lost");
 }
 
-/// "the chain tears at 0.35 s", by what the verdict says of it.
+/// "the chain tears at 0.35 s", from the verdict.
 std::string failure(const RunLoop::Pass& pass) {
   const char* what = "the run fails at ";
   if (pass.reason.find("joint gap") != std::string::npos) what = "the chain tears at ";

@@ -9,11 +9,11 @@
 namespace substep {
 namespace {
 
-// Each halving and doubling of alpha = 0.1 is among them, ten to a decade (Renard's R10).
+// Contains every halving and doubling of alpha = 0.1, ten per decade (Renard's R10).
 constexpr std::array<double, 21> kAlphas{0.01, 0.0125, 0.016, 0.02, 0.025, 0.032, 0.04,
                                          0.05, 0.063,  0.08,  0.1,  0.125, 0.16,  0.2,
                                          0.25, 0.32,   0.4,   0.5,  0.63,  0.8,   1.0};
-// Four times as heavy is twice the sub-steps.
+// Four times the mass requires twice the sub-steps.
 constexpr std::array<double, 12> kLoads{0.01, 0.02, 0.04, 0.1,  0.2,  0.4,
                                         1.0,  2.0,  4.0,  10.0, 20.0, 40.0};
 constexpr int kMostN = 24;

@@ -12,9 +12,9 @@ namespace {
 using Point = Accuracy::Point;
 
 constexpr float kErrorGutter = 38.0F;  // labels of the errors
-constexpr float kFootHeight = 38.0F;   // labels of the costs, and what they are
+constexpr float kFootHeight = 38.0F;   // labels of the costs, and the axis title
 constexpr float kRail = 20.0F;         // the failed runs
-constexpr float kFloorHeight = 18.0F;  // of the shaded part, at least
+constexpr float kFloorHeight = 18.0F;  // minimum height of the shaded part
 
 LogRange range_of(const std::vector<Point>& a, const std::vector<Point>& b,
                   double CostAndError::*value, double margin) {
@@ -49,7 +49,7 @@ void draw_errors(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawL
 }
 
 void draw_costs(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawList& draw) {
-  float taken = axes.min.x - 20.0F;  // right end of the label before
+  float taken = axes.min.x - 20.0F;  // right end of the previous label
   for (int e = static_cast<int>(std::floor(axes.cost.low)); e <= static_cast<int>(axes.cost.high);
        ++e) {
     for (const double m : {1.0, 2.0, 5.0}) {

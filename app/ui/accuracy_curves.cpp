@@ -16,7 +16,7 @@ using Point = Accuracy::Point;
 
 constexpr std::size_t kHeadlines = 5;
 
-/// A headline curve: its name is short, since it stands in the picture.
+/// A headline curve, with a short name for its label in the picture.
 struct Kind {
   const char* name;
   SolverKind solver;
@@ -33,7 +33,7 @@ constexpr std::array<Kind, 7> kKinds{
      {"PGS", SolverKind::kPgs, Mode::kConst, Integrator::kEuler, Tint::kDim},
      {"XPBD", SolverKind::kXpbd, Mode::kConst, Integrator::kEuler, Tint::kDim}}};
 
-/// Without the finer points that have curves of their own.
+/// Without the parameters that have separate curves.
 bool is_plain(const Settings& s) {
   return s.policy == Policy::kFrame && !s.islands && s.drift_order == 1 && s.refinements == 0 &&
          s.contact_stiffness == ContactStiffness::kPaper && !s.share_iterations &&
@@ -53,7 +53,7 @@ void choose_headlines(const Theme& theme, const Accuracy& accuracy,
                       const std::vector<Point>& points, std::vector<AccuracyCurve>& curves) {
   std::size_t chosen = 0;
   for (const Kind& kind : kKinds) {
-    if (chosen + 1 == kHeadlines) break;  // the last place is that of the best
+    if (chosen + 1 == kHeadlines) break;  // the last place is reserved for the best
     const auto found = std::find_if(curves.begin(), curves.end(), [&](const AccuracyCurve& c) {
       return c.points.size() > 1 && is_of(kind, settings_of(accuracy, c.points.front()));
     });
@@ -74,7 +74,7 @@ void choose_headlines(const Theme& theme, const Accuracy& accuracy,
   }
 }
 
-/// The cheapest or most exact of constant N with the direct solver and Euler: the usual method.
+/// The cheapest or most exact run of constant N with the direct solver and Euler, the usual method.
 std::optional<Point> plain_best(const Accuracy& accuracy, const std::vector<Point>& points) {
   std::vector<Point> plain;
   std::copy_if(points.begin(), points.end(), std::back_inserter(plain),
@@ -111,7 +111,7 @@ std::string with_parameter(const Settings& s) {
   return short_name(s) + " (" + parameter.name + " = " + plain_number(parameter.value) + ")";
 }
 
-/// "4.1 times", or "" where it is not worth a word.
+/// "4.1 times", or "" if the ratio is negligible.
 std::string times(double ratio) { return ratio < 1.05 ? "" : coarse_number(ratio) + " times "; }
 
 }  // namespace

@@ -25,7 +25,7 @@ constexpr std::array<Choice, static_cast<std::size_t>(CostAxis::kCount)> kCosts{
      {"Operations", "Of the solver, counted, per frame: the same on every machine"},
      {"Time", "Median of a frame on this machine, while everything else runs"}}};
 
-/// A button to start.
+/// The start button.
 bool sweep_button(const Look& look, Lab& lab, float width) {
   const bool again = !lab.accuracy.results().empty();
   if (!button(look, "sweep", Icon::kPlay, again ? "Run again" : "Run all methods",
@@ -78,7 +78,8 @@ void axes_row(const Look& look, Accuracy& accuracy) {
     accuracy.error = axes[static_cast<std::size_t>(current)];
   }
   int cost = static_cast<int>(accuracy.cost);
-  const std::span<const Choice> costs(kCosts);  // the last is the time, which no file holds
+  const std::span<const Choice> costs(
+      kCosts);  // the last is the time, which is not stored in files
   if (segmented_row(look, "Cost", accuracy.shipped() ? costs.first(2) : costs, cost,
                     "What goes to the right")) {
     accuracy.cost = static_cast<CostAxis>(cost);
@@ -89,7 +90,7 @@ bool shows_map(const Accuracy& accuracy) {
   return accuracy.picture == AccuracyPicture::kStabilityMap;
 }
 
-/// Which picture; the map only of scenes that have one.
+/// The choice of picture; the map only for scenes that have one.
 void picture_row(const Look& look, Accuracy& accuracy) {
   std::vector<Choice> names{{"Error", "Error against cost, a curve for every method"}};
   std::vector<AccuracyPicture> pictures{AccuracyPicture::kErrorAgainstCost};
@@ -106,7 +107,7 @@ void picture_row(const Look& look, Accuracy& accuracy) {
   }
 }
 
-/// The map, or the picture with the name of what goes up; a click on a run runs it.
+/// The map, or the picture with its vertical axis title; a click on a run starts it.
 void picture(const Look& look, Lab& lab, ImVec2 size) {
   if (shows_map(lab.accuracy)) {
     if (const auto chosen = stability_map(look, lab, size.x)) {
@@ -120,7 +121,7 @@ void picture(const Look& look, Lab& lab, ImVec2 size) {
   }
 }
 
-/// Where the picture is of a scene that does not run.
+/// A note if the results belong to another scene.
 void other_scene(const Look& look, Lab& lab) {
   if (lab.accuracy.scene() == lab.plain_scene) return;
   label(look.fonts.small, look.theme->dim, "The picture below is of another scene.");
@@ -132,7 +133,7 @@ void other_scene(const Look& look, Lab& lab) {
   space(8.0F);
 }
 
-/// What belongs to the picture: which curves, how large, and to compute it here.
+/// Options of the picture: curves, size, and computing it here.
 void picture_buttons(const Look& look, Lab& lab, Desk& desk) {
   Accuracy& accuracy = lab.accuracy;
   if (!shows_map(accuracy)) {
@@ -170,7 +171,7 @@ void error_note(const Look& look, const Accuracy& accuracy) {
   space(8.0F);
 }
 
-/// The legend, and how many runs of each curve are stable, by solver and integrator.
+/// The legend, with the number of stable runs per curve, by solver and integrator.
 void picture_legend(const Look& look, const Accuracy& accuracy) {
   struct Mark {
     CurveStyle style;
@@ -229,10 +230,10 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   accuracy.show_shipped(lab.plain_scene);
   section(look, "What does accuracy cost?");
   picture_row(look, lab.accuracy);
-  // Beside the errors the search has its own place.
+  // With the error picture the search has a separate place.
   if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(look, lab.accuracy);
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {
-    if (accuracy.running()) {  // the sweep continues beside this
+    if (accuracy.running()) {  // the sweep continues in parallel
       label(look.fonts.small, look.theme->dim, ("All methods. " + state_text(accuracy)).c_str());
       sweep_progress(look, accuracy);
     }
@@ -272,10 +273,10 @@ void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport&
     return;
   }
   constexpr float kAround = 16.0F;
-  constexpr float kCaption = 76.0F;  // what runs is named at the top of the view
-  constexpr float kFoot = 52.0F;     // the way into the tour, and the scale of the tint
+  constexpr float kCaption = 76.0F;  // the caption at the top of the view
+  constexpr float kFoot = 52.0F;     // the tour button and the scale of the tint
   const ViewRect& v = viewport.view_rect;
-  constexpr float kMapHeight = 330.0F;  // below the run that it changes
+  constexpr float kMapHeight = 330.0F;  // below the run that it controls
   const float room = v.height - kCaption - kFoot;
   const ImVec2 size(v.width - 2.0F * kAround,
                     std::min(room, shows_map(lab.accuracy) ? kMapHeight : 620.0F));

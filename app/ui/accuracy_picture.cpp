@@ -18,7 +18,7 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kReach = 14.0F;  // a point is pointed at from so far
+constexpr float kReach = 14.0F;  // hover distance of a point
 
 using Point = Accuracy::Point;
 
@@ -28,7 +28,7 @@ void draw_cross(ImDrawList& draw, ImVec2 at, ImU32 color) {
   draw.AddLine({at.x - kArm, at.y + kArm}, {at.x + kArm, at.y - kArm}, color, 1.6F);
 }
 
-/// The front as a broad band: from each of its points as far as the next is not yet paid for.
+/// The front as a broad staircase: each point extends to the cost of the next.
 void draw_front(const Look& look, const std::vector<Point>& points, const AccuracyAxes& axes,
                 ImDrawList& draw) {
   std::vector<Point> front;
@@ -68,7 +68,7 @@ void draw_curve(const Look& look, const Accuracy& accuracy, const AccuracyCurve&
   }
   for (const Point& p : curve.points) {
     const ImVec2 at = axes.at(p);
-    if (on_floor(accuracy, p)) {  // at most so much: it points down
+    if (on_floor(accuracy, p)) {  // an upper bound: it points down
       draw.AddTriangle({at.x - 4.0F, at.y + 2.0F}, {at.x + 4.0F, at.y + 2.0F}, {at.x, at.y + 8.0F},
                        curve.style.color, 1.5F);
     } else {
@@ -77,7 +77,7 @@ void draw_curve(const Look& look, const Accuracy& accuracy, const AccuracyCurve&
   }
 }
 
-/// Behind the others, without a colour of its own.
+/// Behind the others, in grey.
 void draw_grey(const Look& look, const AccuracyCurve& curve, const AccuracyAxes& axes,
                ImDrawList& draw) {
   const ImU32 color = fade(look.theme->dim, look.theme->dark ? 0.34F : 0.4F);
@@ -87,15 +87,15 @@ void draw_grey(const Look& look, const AccuracyCurve& curve, const AccuracyAxes&
   for (const Point& p : curve.points) draw.AddCircleFilled(axes.at(p), 1.6F, color);
 }
 
-/// The names of curves where they end, on the ground of the picture.
-/// @param bottom of the part of the picture that they may take
+/// Labels at the ends of curves, on the background of the picture.
+/// @param bottom lower limit of the labels
 void draw_curve_names(const Look& look, const std::vector<const AccuracyCurve*>& curves,
                       const AccuracyAxes& axes, float bottom, ImDrawList& draw) {
   constexpr float kLine = 15.0F;
   std::vector<float> wanted;
   std::vector<ImVec2> ends;
   for (const AccuracyCurve* curve : curves) {
-    // Where it is most exact: the others come together on the way there.
+    // At the most exact end; curves converge towards the other.
     const auto end =
         std::min_element(curve->points.begin(), curve->points.end(),
                          [](const Point& a, const Point& b) { return a.error < b.error; });
@@ -154,7 +154,7 @@ void draw_limit(const Look& look, const Accuracy& accuracy, const std::vector<Po
   draw.AddCircle(axes.at(*best), 8.0F, t.accent, 0, 2.0F);
 }
 
-/// What lies in the picture, and what of it is pointed at.
+/// Contents of the picture and what the pointer is on.
 struct Scatter {
   std::vector<Point> points;
   std::vector<Point> failed;
@@ -167,7 +167,7 @@ struct Scatter {
   }
 };
 
-/// The result under the pointer, if it is over the picture; marks all of them.
+/// The result under the pointer, if any; draws all points.
 std::optional<std::size_t> point_at(const Accuracy& accuracy, const Scatter& scatter,
                                     bool hovered) {
   std::optional<std::size_t> nearest;
@@ -203,7 +203,7 @@ void draw_failed(const Look& look, const Accuracy& accuracy, const Scatter& scat
   }
 }
 
-/// Around the point of the run that is on the screen.
+/// A ring around the point of the current run.
 void ring_current(const Look& look, const Accuracy& accuracy, const Settings& current,
                   const Scatter& scatter, ImDrawList& draw) {
   const auto ring = [&](const Point& p, bool holds) {
@@ -217,7 +217,7 @@ void ring_current(const Look& look, const Accuracy& accuracy, const Settings& cu
   for (const Point& p : scatter.points) ring(p, true);
 }
 
-/// Grey curves first, then those in colour, last that which is pointed at.
+/// Grey curves first, then coloured ones, then the one under the pointer.
 void draw_curves(const Look& look, const Accuracy& accuracy, const Scatter& scatter,
                  const std::string& pointed, ImDrawList& draw) {
   std::vector<const AccuracyCurve*> named;

@@ -1,5 +1,5 @@
 // "What to set": the cheapest method within an error or the most exact within a cost, and the alpha
-// of the paper's that comes up to it.
+// of the paper's method that meets the same requirement.
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting that 
 constexpr std::array<const char*, static_cast<std::size_t>(CostAxis::kCount)> kBudgetNames{
     "Sub-steps", "Operations", "Time, ms"};
 
-/// The requirement: which axis, and its limit.
+/// The requirement: its axis and its limit.
 void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Point>& points) {
   int given = accuracy.error_is_given ? 0 : 1;
   if (segmented_row(look, "Given", kGiven, given, "What is wanted; the other is looked for")) {
@@ -52,7 +52,7 @@ std::string limit_text(const Accuracy& accuracy) {
   return cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)), accuracy.cost);
 }
 
-/// What the alpha came to that was found for the limit. @param best beside it, or null
+/// Result of the search for alpha. @param best the recommendation, or null
 std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
                        const Accuracy::Point* best) {
   if (!search.choice()) {
@@ -72,7 +72,7 @@ std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
          " times what the setting above takes.";
 }
 
-/// The paper's alpha that meets the requirement, found by runs. @param best beside it, or null
+/// The paper's alpha that meets the requirement, by search. @param best the recommendation, or null
 void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
   Accuracy& accuracy = lab.accuracy;
   const AlphaSearch* search = accuracy.alpha_search();
@@ -97,7 +97,7 @@ void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
   }
 }
 
-/// How the runs of the paper's method stand beside it.
+/// The runs of the paper's method in comparison.
 std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points,
                          const Accuracy::Point& best) {
   const auto paper = accuracy.best(of_paper(points, accuracy.results()));
@@ -160,7 +160,7 @@ void advice(const Look& look, Lab& lab) {
              "This scene from its start with this method")) {
     lab.run_result(Result(result));
   }
-  // What a scene keeps is counted in operations: the same on every machine.
+  // Stored recommendations count operations, which are the same on every machine.
   if (accuracy.error_is_given && accuracy.cost == CostAxis::kOperations) {
     ImGui::SameLine(0.0F, 8.0F);
     if (button(look, "keep", Icon::kNone, "Keep for this scene", ButtonKind::kGhost, 0.0F,

@@ -1,5 +1,5 @@
-// What is drawn over the bodies to be read off them: forces, contacts, frames, errors, the selected
-// body and the hand. Only what is switched on is looked at.
+// Overlays of the picture: forces, contacts, frames, errors, the selected body and the hand.
+// Disabled ones cost nothing.
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ Vec3 point_of(const Session& session, const ContactForce& contact) {
   return session.poses().x[static_cast<std::size_t>(contact.a)] + contact.arm_a;
 }
 
-// What an arrow of full length stands for: the weight of all that moves, where there is gravity.
+// The force of a full-length arrow: the weight of all moving bodies, if there is gravity.
 double force_scale(const Session& session) {
   const Scene& scene = session.scene();
   double mass = 0.0;
@@ -84,10 +84,11 @@ double force_scale(const Session& session) {
   return std::max(1e-9, mass * g);
 }
 
-// Lengths grow with the root of the force: a link's weight and the box's are both visible.
+// Length is proportional to the square root of the force: a link's weight and the box's are both
+// visible.
 void force_arrow(const Look& look, const Viewport& viewport, ImDrawList& draw, const Vec3& at,
                  const Vec3& force, double scale, ImU32 color) {
-  constexpr double kFull = 48.0;   // of a force like the scale [px]
+  constexpr double kFull = 48.0;   // length for a force equal to the scale [px]
   constexpr double kMost = 110.0;  // [px]
   const double f = force.norm();
   if (!(f > 1e-4 * scale)) return;
@@ -127,7 +128,7 @@ void draw_contacts(const Look& look, const Session& session, const Viewport& vie
   }
 }
 
-// x, y and z as in the plots: orange, teal, blue.
+// x, y and z in the colours of the plots: orange, teal, blue.
 void draw_axes(const Look& look, const Viewport& viewport, ImDrawList& draw, const Vec3& at,
                const Quat& q, double length) {
   const Theme& t = *look.theme;
@@ -172,8 +173,8 @@ void draw_joint_frames(const Look& look, const Session& session, const Viewport&
   }
 }
 
-// Gaps of joints are too small to be seen: all are drawn longer by the same power of ten, such that
-// the largest is.
+// Joint gaps are too small to be visible: all are magnified by the same power of ten, chosen for
+// the largest.
 void draw_errors(const Look& look, const Session& session, const Desk& desk,
                  const Viewport& viewport, ImDrawList& draw) {
   const Scene& scene = session.scene();
@@ -198,7 +199,7 @@ void draw_errors(const Look& look, const Session& session, const Desk& desk,
             look.theme->dim, text.c_str());
 }
 
-// Outline of a body on the display: the convex hull of its corners, or of a ball's rim.
+// Outline of a body on the display: the convex hull of its projected corners, or of a ball's rim.
 std::vector<ImVec2> outline(const Session& session, const Viewport& viewport, std::size_t body) {
   const Poses& poses = session.poses();
   const Vec3& x = poses.x[body];
@@ -215,7 +216,7 @@ std::vector<ImVec2> outline(const Session& session, const Viewport& viewport, st
       add(x + poses.q[body] * box->half_extents.cwiseProduct(sign));
     }
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    // The rim is the circle that rays from the eye touch.
+    // The rim is the circle where rays from the eye are tangent.
     const Vec3 to_eye = viewport.view.camera.eye(viewport.panes.front()) - x;
     const double distance = to_eye.norm();
     if (distance <= sphere->radius) return points;

@@ -24,7 +24,7 @@ bool button(const Look& look, const char* id, Icon icon, const char* text, Butto
   const ImRect box(origin, {origin.x + width, origin.y + height});
   ImU32 ink = kind == ButtonKind::kPrimary ? t.on_accent : t.text;
   if (kind == ButtonKind::kPrimary) {
-    // Less opaque rather than lighter: white stays readable on it in both themes.
+    // Less opaque rather than lighter: white text stays readable in both themes.
     draw.AddRectFilled(box.Min, box.Max, hovered ? fade(t.accent, 0.88F) : t.accent, look.m.radius);
   } else if (kind == ButtonKind::kPlain || hovered) {
     draw.AddRectFilled(box.Min, box.Max, hovered ? t.control_hover : t.control, look.m.radius);
@@ -54,7 +54,7 @@ bool progress(const Look& look, double share, const char* tip) {
                      {at.x + std::max(6.0F, bar * static_cast<float>(share)), y + 3.0F},
                      look.theme->accent, 3.0F);
   ImGui::SetCursorScreenPos({at.x + bar + kGap, at.y});
-  ImGui::PushID(tip);  // a panel may show two
+  ImGui::PushID(tip);  // a panel may contain two
   const bool pressed =
       button(look, "cancel", Icon::kNone, "Cancel", ButtonKind::kPlain, kCancel, look.m.row, tip);
   ImGui::PopID();
@@ -63,13 +63,13 @@ bool progress(const Look& look, double share, const char* tip) {
 
 namespace {
 
-// What opens below its button, or above where there is more room, never over it.
+// The popup opens below its button, or above if there is more room, and never covers it.
 bool open_menu(const ImRect& box, const std::function<void()>& menu) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const float below = display.y - box.Max.y - 16.0F;
   const float above = box.Min.y - 16.0F;
   const bool up = below < 240.0F && above > below;
-  const bool left = box.Min.x > display.x - 220.0F;  // grows to where there is room
+  const bool left = box.Min.x > display.x - 220.0F;  // extends towards the side with room
   ImGui::SetNextWindowPos({left ? box.Max.x : box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F},
                           ImGuiCond_Always, {left ? 1.0F : 0.0F, up ? 1.0F : 0.0F});
   ImGui::SetNextWindowSizeConstraints({box.GetWidth(), 0.0F},

@@ -8,7 +8,7 @@
 namespace substep::ui {
 namespace {
 
-/// How much of the moving bodies lies in a part of the display [pixel^2].
+/// Area of the moving bodies within a part of the display [pixel^2].
 float covered(const Session& session, const Viewport& viewport, ImVec2 min, ImVec2 max) {
   float area = 0.0F;
   for (std::size_t i = 0; i < session.scene().bodies.size(); ++i) {

@@ -16,7 +16,7 @@ namespace {
 struct Comparison {
   const char* title;
   const char* note;
-  const char* link;  // settings of the run, then what runs beside it
+  const char* link;  // settings of the run, then the compared runs
 };
 constexpr std::array<Comparison, 4> kComparisons{
     {{"None, damping, adaptive", "what holds, and at what price",
@@ -54,7 +54,7 @@ struct Line {
   std::string name;
   ImU32 color;
   const Verdict* verdict;
-  bool judged;  // a frame was
+  bool judged;  // a frame was judged
   const Cost* cost;
 };
 
@@ -90,7 +90,7 @@ std::string divergence_text(const Session& session, const Compare::Run& run) {
          " is more than " + threshold + " away.";
 }
 
-// One of the others: its line, its settings when opened. @return whether it is to go
+// A compared run: its line, and its settings when open. @return whether to remove it
 bool other(const Look& look, const Session& session, Compare& compare, Desk& desk, std::size_t i) {
   const Compare::Run& run = compare.runs()[i];
   const float width = ImGui::GetContentRegionAvail().x;
@@ -135,7 +135,7 @@ void presets(const Look& look, Desk& desk) {
   }
 }
 
-// From the start again, or all of them from the state that this run has now.
+// Restarts all runs, from the start or from the current state of this run.
 void restart_buttons(const Look& look, Lab& lab) {
   const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
   if (button(look, "start", Icon::kReset, "From start", ButtonKind::kPlain, half, look.m.row,
@@ -150,7 +150,7 @@ void restart_buttons(const Look& look, Lab& lab) {
   }
 }
 
-// Over each other, or each in a view of its own.
+// Overlaid, or in separate views.
 void views_row(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kViews{
       {{"Ghosts", "All in one view: this run as it is, the others in their colours (V)"},
@@ -163,7 +163,7 @@ void views_row(const Look& look, Desk& desk) {
 }  // namespace
 
 std::string run_title(const Session& session, const Compare& compare) {
-  // By what the others do differently.
+  // Named by the differing settings.
   Overrides own;
   for (const Compare::Run& run : compare.runs()) {
     for (const Override& o : run.overrides) {

@@ -1,4 +1,4 @@
-// What is compared, in the picture: side by side in panes, or as ghosts with a legend.
+// The comparison in the picture: side by side in panes, or as ghosts with a legend.
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +13,16 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kCaptionHeight = 64.0F;  // of the view's top, that title and method take
+constexpr float kCaptionHeight = 64.0F;  // height of title and method at the top of the view
 constexpr float kPad = 12.0F;
 
-// One of the runs, as it is named in the picture.
+// One of the runs, as labelled in the picture.
 struct Entry {
   std::string name;
   ImU32 color = 0;
   const Verdict* verdict = nullptr;
   const FrameReport* report = nullptr;
-  bool judged = false;  // a frame was
+  bool judged = false;  // a frame was judged
 };
 
 std::vector<Entry> entries(const Look& look, const Session& session, const Compare& compare) {
@@ -58,16 +58,16 @@ void legend(const Look& look, const Session& session, const Compare& compare,
   }
 }
 
-// Name and verdict at the left of a pane's top, N at its right.
+// Name and verdict in the top left corner of a pane, N in the top right.
 void pane_label(const Look& look, const Entry& entry, const ViewRect& r) {
   const Theme& t = *look.theme;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
   const std::string n = "N " + std::to_string(entry.report->n_substeps);
   const ImVec2 at(r.x + kPad, r.y + 8.0F);
-  constexpr float kNarrow = 150.0F;  // there N stands below the name, or when it failed
+  constexpr float kNarrow = 150.0F;  // N is below the name in narrower panes
   const bool narrow = r.width < kNarrow;
-  float right = r.x + r.width - kPad;  // end of what the name has
+  float right = r.x + r.width - kPad;  // right end of the name
   if (!narrow) {
     const float n_width = text_size(look.fonts.medium, n.c_str()).x;
     draw_over(look, draw, look.fonts.medium, {right - n_width, at.y}, t.text, n.c_str());
@@ -104,7 +104,7 @@ std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,
                                  const Viewport& viewport) {
   const ViewRect& v = viewport.view_rect;
   const ViewRect all{v.x, v.y + kCaptionHeight, v.width, std::max(1.0F, v.height - kCaptionHeight)};
-  const bool narrow = v.width < 480.0F;  // there the caption reaches to the middle
+  const bool narrow = v.width < 480.0F;  // the caption reaches the middle
   if (!desk.split || !compare.open()) return {narrow ? all : v};
   const std::size_t count = 1 + compare.runs().size();
   const auto cell = [&](std::size_t columns) {
@@ -130,8 +130,8 @@ std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,
   return panes;
 }
 
-// The first fills the window, since the others are drawn over it; those at the view's edges go on
-// under the panels.
+// The first picture fills the window, since the others are drawn over it; those at the view's edges
+// continue under the panels.
 Part part_of_window(const Viewport& viewport, std::size_t pane) {
   if (pane == 0) return {};
   const ImVec2 display = ImGui::GetIO().DisplaySize;

@@ -1,4 +1,4 @@
-// The left panel: which scene, how it is solved, and what is shown of it.
+// The left panel: scene, method, and display options.
 
 #include <array>
 #include <string>
@@ -9,7 +9,7 @@
 namespace substep::ui {
 namespace {
 
-// The heading of the scene, and at its right how much of the laboratory is shown.
+// The scene's heading, with the level selector on the right.
 void heading_with_level(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kLevels{
       {{"Explore", "Scene, method, load and comparison, with the plots of N and energy"},
@@ -26,7 +26,7 @@ void heading_with_level(const Look& look, Desk& desk) {
   desk.level = static_cast<DeskLevel>(level);
 }
 
-// What to look for in the scene, or the tip of its button where the Lab's controls need the room.
+// A hint for the scene, or the tip of its button if the Lab's controls need the room.
 void scene_controls(const Look& look, Lab& lab, Desk& desk) {
   const Scene& now = lab.session.scene();
   const std::string about = now.look_for.empty() ? now.description : now.look_for;
@@ -37,7 +37,7 @@ void scene_controls(const Look& look, Lab& lab, Desk& desk) {
   if (room) label(look.fonts.small, look.theme->dim, about.c_str());
 }
 
-// Only what the scene has can be shown; the dots are the colours that it is drawn in.
+// Only options that the scene supports; the dots show their colours.
 void showing(const Look& look, const Session& session, Desk& desk) {
   const Theme& t = *look.theme;
   const Scene& scene = session.scene();
@@ -85,7 +85,7 @@ void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) 
     space(look.m.section);
     return explore_controls(look, lab, desk, viewport);
   }
-  // The picker may have brought a scene with settings of its own.
+  // The picker may have loaded a scene with other settings.
   if (lab.session.settings() != s) s = lab.session.settings();
   effect_switches(look, lab.session);
   space(look.m.section);

@@ -10,7 +10,7 @@
 namespace substep::ui {
 namespace {
 
-// What a term says, its meaning below, its N at the right; the one that sets N in orange.
+// A term, its meaning below, its N on the right; the term that sets N in orange.
 void term(const Look& look, const std::string& what, const std::string& meaning, int n, bool sets) {
   constexpr float kText = 14.0F;  // right of the mark
   const Theme& t = *look.theme;

@@ -9,7 +9,7 @@
 namespace substep::ui {
 namespace {
 
-/// By the mode, and by what decides N in it.
+/// Colour by mode, and by the rule for N.
 void style_of_mode(const Theme& theme, const Settings& s, CurveStyle& style) {
   const ModeEntry& mode = entry_of(s.mode);
   style.color = color_of(theme, mode.tint);
@@ -32,7 +32,7 @@ std::string counted(int n, const char* what) {
   return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
 }
 
-/// "25 sweeps per frame", "2 steps"; "" where there are as many as usual.
+/// "25 sweeps per frame", "2 steps"; "" for the default number.
 std::string iterations_text(const Settings& s, bool always) {
   if (!reads(s, "iterations")) return "";
   const bool shared = reads(s, "share_iterations") && s.share_iterations;
@@ -49,8 +49,8 @@ int corners_at_end(const Settings& s) {
   return s.forces == Forces::kNumerov ? 5 : 0;
 }
 
-/// Solvers that hold constraints at the end of the sub-step have a colour of their own, and are
-/// called by their mode only where N is not simply given.
+/// Solvers that enforce constraints at the end of the sub-step have their own colour, and their
+/// name includes the mode only if N is not constant.
 void style_at_end(const Theme& theme, const Settings& s, CurveStyle& style) {
   const SolverEntry& solver = entry_of(s.solver);
   const bool plain = s.mode == Mode::kNone || s.mode == Mode::kConst;
@@ -116,7 +116,7 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
   style.dashed = entry_of(s.solver).sweeps;
   style_of_mode(theme, s, style);
   style_of_solver(theme, s, style);
-  // Blue triangles are Numerov's.
+  // Blue triangles are reserved for Numerov.
   if (follows_accelerations(s)) style.corners = s.mode == Mode::kAdaptive ? 6 : 3;
   if (s.drift_order == 2) {
     style.corners = 5;

@@ -1,5 +1,5 @@
-// "Where does the time go?": the stages of a frame, what each effect adds to it, and what choosing
-// the number of sub-steps costs.
+// "Where does the time go?": the stages of a frame, the cost of each effect, and the cost of
+// choosing the number of sub-steps.
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,11 @@ constexpr float kPartNames = 66.0F;
 constexpr float kTimes = 60.0F;
 constexpr float kOperations = 64.0F;
 
-/// A part of a frame with what it takes; less than nothing where it spares work.
+/// A part of a frame and its cost; negative if it saves work.
 struct CostRow {
   std::string name;
-  double seconds = 0.0;  // a frame
-  double flops = 0.0;    // a frame
+  double seconds = 0.0;  // per frame
+  double flops = 0.0;    // per frame
   ImU32 color = 0;
   std::string tip;
 };
@@ -57,7 +57,7 @@ std::vector<CostRow> parts_of(const Theme& t, const CostBreakdown& costs) {
   return parts;
 }
 
-/// Bars to either side of nothing, with times and operations at the right.
+/// Bars on both sides of zero, with times and operations on the right.
 void draw_parts(const Look& look, const std::vector<CostRow>& parts) {
   const Theme& t = *look.theme;
   const float width = ImGui::GetContentRegionAvail().x;

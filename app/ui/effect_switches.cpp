@@ -1,5 +1,5 @@
-// The effects of the scene: switched off and on while it runs, and a table of their rows and times.
-// An effect that is off has no stage.
+// The effects of the scene: live switches, and a table of their rows and times. A disabled effect
+// has no stage.
 
 #include <algorithm>
 #include <array>
@@ -16,11 +16,11 @@ namespace {
 
 constexpr float kTimeColumn = 64.0F;
 
-/// The text of the tips, and what a frame's report holds of each effect.
+/// Text of the tip, and the fields of a frame's report for each effect.
 struct EffectFacts {
   const char* tip;
-  int FrameReport::*rows;       // null where it has none of its own
-  double StageTimes::*seconds;  // null where it has no stage of its own
+  int FrameReport::*rows;       // null: no rows of its own
+  double StageTimes::*seconds;  // null: no stage of its own
 };
 constexpr std::array<EffectFacts, kEffectNames.size()> kFacts{
     {{"Weight: m g on every moving body.", nullptr, nullptr},
@@ -51,7 +51,7 @@ const EffectCost* cost_of(const CostBreakdown* costs, std::string_view effect) {
   return found == costs->effects.end() ? nullptr : &*found;
 }
 
-/// What an effect takes: all of it where that was measured, else what its own stage does.
+/// Cost of an effect: the full cost if measured, else the time of its own stage.
 std::string time_text(const Session& session, const EffectFacts& facts, const EffectCost* cost) {
   if (cost != nullptr) return duration(1e-3 * cost->ms);
   return facts.seconds != nullptr ? duration(session.times().*facts.seconds) : "–";
@@ -75,7 +75,7 @@ std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
 void effect_switches(const Look& look, Session& session) {
   Effects effects = session.scene().effects;
   bool first = true;
-  ImGui::PushID("effects");  // joints are also shown or not
+  ImGui::PushID("effects");  // "joints" is also a display option
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {6.0F, 6.0F});
   for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
     const auto& [name, member] = kEffectNames[i];

@@ -1,4 +1,4 @@
-// The plots of energy: its parts and their sum, and how much of the sum was gained or lost.
+// The energy plots: the parts and their sum, and the gain or loss of the sum.
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +14,15 @@
 namespace substep::ui {
 namespace {
 
-// Less than this is rounding in the energies of the scenes [J].
+// Smaller values are rounding errors in the scenes' energies [J].
 constexpr double kLeastEnergy = 1e-6;
 constexpr double kLeastDrift = 1e-9;
 
-// A run that exploded must not make the others a line at zero: it may leave the plot.
+// A run that exploded may leave the plot, so that the others stay readable.
 constexpr double kRoomForFailed = 1.5;
 
-/// The largest of a quantity over this run and those compared with it; failed ones count only where
-/// all failed.
+/// The largest value over this run and those compared with it; failed runs count only if all
+/// failed.
 template <class Largest>
 double largest_of_stable(const Session& session, const Compare& compare, Largest largest) {
   double stable = 0.0;
@@ -36,7 +36,7 @@ double largest_of_stable(const Session& session, const Compare& compare, Largest
   return stable > 0.0 ? stable : any;
 }
 
-/// "0.85", "12.3", ">999": a value in the unit that the heading names.
+/// "0.85", "12.3", ">999": a value in the unit of the heading.
 std::string in_unit(double value, const Unit& unit, double most, int digits) {
   const double v = value / unit.factor;
   if (std::abs(v) > most) return (v > 0.0 ? ">" : "<−") + fixed(most, 0);
@@ -50,8 +50,8 @@ void compared_energies(const PlotContext& in, ImVec2 heading, float left, Channe
       [&](double joules) { return in_unit(joules, unit, 99.0, 1); });
 }
 
-/// Names with their values at the right of a heading, short ones where there is little room, and
-/// where there is less still the values alone: names stand at the curves, in the same colours.
+/// Names with values, right-aligned in a heading; short names if there is little room, and only
+/// values if there is less: the curves are labelled in the same colours.
 struct EnergyLegend {
   const char* name;
   const char* brief;
@@ -88,7 +88,7 @@ void energy_legend(const PlotContext& in, ImVec2 heading, float left, const Unit
 std::vector<Series> energy_series(const Theme& theme, const History& history, bool gravity) {
   const double zero = history.potential_offset();
   std::vector<Series> series{{&history, Channel::kKinetic, theme.teal, "kinetic", false, true}};
-  if (!gravity) return series;  // the total is the same curve
+  if (!gravity) return series;  // the total is identical
   series.push_back(
       {&history, Channel::kPotential, theme.purple, "potential", false, false, 1.0F, zero});
   series.push_back({&history, Channel::kTotal, theme.orange, "total", false, false, 1.5F, zero});
@@ -115,7 +115,7 @@ void energy_plot(const PlotContext& in, float height, bool last) {
   spec.id = "energy";
   spec.time_labels = last;
   spec.from_zero = true;
-  spec.linear = true;  // sums are visible on a linear axis only
+  spec.linear = true;  // sums are only visible on a linear axis
   spec.factor = unit.factor;
   spec.least_span = std::max(unit.factor, kLeastEnergy);
   if (several) {
@@ -166,7 +166,7 @@ void drift_plot(const PlotContext& in, float height, bool last) {
   spec.id = "drift";
   spec.time_labels = last;
   spec.from_zero = true;
-  spec.linear = true;  // a loss is below zero
+  spec.linear = true;  // a loss is negative
   spec.factor = unit.factor;
   spec.least_span = std::max(0.1 * unit.factor, kLeastDrift);
   spec.series.push_back(

@@ -1,4 +1,4 @@
-// Explore's controls: method, load, comparison and a ball, and nothing else.
+// Explore's controls: method, load, comparison and a ball.
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,7 @@
 namespace substep::ui {
 namespace {
 
-// A name at the left, and at its right a menu of a table's entries.
+// A name on the left and a menu of a table's entries on the right.
 template <class Entries, class Value, class Title, class Note>
 void menu_row(const Look& look, const char* name, const Entries& entries, Value& value, Title title,
               Note note, const char* tip) {
@@ -33,7 +33,7 @@ void menu_row(const Look& look, const char* name, const Entries& entries, Value&
   });
 }
 
-// The parameter that the mode is steered by.
+// The main parameter of the mode.
 void parameters(const Look& look, Settings& s) {
   if (reads(s, "alpha")) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
@@ -60,7 +60,7 @@ void method(const Look& look, Settings& s) {
   parameters(look, s);
 }
 
-// Rounds to 1, 1.5, 2, 3, 5 or 7 in its decade, so that a drag does not restart the run at every
+// Rounds to 1, 1.5, 2, 3, 5 or 7 per decade, so that a drag does not restart the run at every
 // pixel.
 double rounded_load(double load) {
   constexpr std::array<double, 7> kSteps{1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0};
@@ -92,7 +92,7 @@ void comparison(const Look& look, Lab& lab, Desk& desk) {
   if (!lab.compare.open()) {
     compare_menu(look, lab.session, lab.compare, "Another method beside it …", width);
     if (!lab.compare.open()) return;
-    lab.reset();  // both from the start
+    lab.reset();  // restart both
     lab.session.play();
     return;
   }

@@ -1,4 +1,4 @@
-// Choosing a scene file, where the system has no chooser to offer.
+// The file dialogue, for systems without a chooser.
 
 #include <imgui.h>
 
@@ -21,7 +21,7 @@ void open(Lab& lab, FileBrowser& browser, const std::filesystem::path& file) {
   }
 }
 
-// The folder in words; Enter goes to another one, or opens a file.
+// The path as text; Enter goes to another folder or opens a file.
 void path_field(const Look& look, Lab& lab, FileBrowser& browser) {
   std::array<char, 1024>& text = browser.typed();
   ImGui::PushFont(look.fonts.regular);
@@ -49,7 +49,7 @@ void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser
     }
     const float height = std::clamp(ImGui::GetIO().DisplaySize.y - 260.0F, 120.0F, 320.0F);
     if (ImGui::BeginChild("entries", {0.0F, height}, ImGuiChildFlags_None)) {
-      // What is clicked changes the list: it is acted on after it was drawn.
+      // A click changes the list: it is handled after drawing.
       std::filesystem::path folder;
       std::filesystem::path file;
       if (browser.folder().has_relative_path() && menu_item(look, "..", "", false)) {

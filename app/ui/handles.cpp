@@ -5,7 +5,7 @@
 namespace substep::ui {
 namespace {
 
-// Those of the context that is current, see context.hpp.
+// Handles of the current context, see context.hpp.
 std::vector<Handle>& list() { return *static_cast<std::vector<Handle>*>(ImGui::GetIO().UserData); }
 
 }  // namespace

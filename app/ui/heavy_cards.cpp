@@ -1,4 +1,4 @@
-// Frames that take long: before they begin, and while they are computed.
+// Cards for slow frames: before the start, and during computation.
 
 #include <algorithm>
 #include <string>

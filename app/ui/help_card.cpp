@@ -1,4 +1,4 @@
-// What is under "?": what this is, every key, and what fingers and mouse do.
+// The "?" card: about, all keys, and gestures of fingers and mouse.
 
 #include <imgui.h>
 
@@ -21,7 +21,7 @@ struct Gesture {
   std::string_view shown;
   std::string_view what;
 };
-// What Dear ImGui and the pointer do; the table of keys is keys.cpp's.
+// Handled by Dear ImGui and the pointer; the table of keys is in keys.cpp.
 constexpr std::array<Gesture, 13> kGestures{{{"click a body", "what it is and does"},
                                              {"drag a body", "pull it, while it plays"},
                                              {"drag beside", "turn the view"},
@@ -50,7 +50,7 @@ float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const G
   return at.y - top;
 }
 
-// What this is, whose method it is, and under which licence it may be used.
+// Purpose, authors of the method, and licence.
 void about(const Look& look, Lab& lab, Desk& desk) {
   const Theme& t = *look.theme;
   card_title(look, 0, Icon::kNone, "substep");
@@ -93,7 +93,7 @@ void help_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport)
     if (two) {
       height = std::max(draw_lines(look, at, kKeys, shown),
                         draw_lines(look, {at.x + 286.0F, at.y}, kGestured, kGestures));
-    } else {  // a phone has fingers and no keyboard
+    } else {  // a phone has no keyboard
       height = draw_lines(look, at, kGestured, kGestures) + 12.0F;
       height += draw_lines(look, {at.x, at.y + height}, kKeys, shown);
     }

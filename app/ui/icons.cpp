@@ -9,7 +9,7 @@ namespace {
 constexpr float kTurn = 6.28318531F;
 
 void draw_reset(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
-  // Most of a circle, and an arrow head where it began.
+  // Most of a circle, with an arrow head at its start.
   const float r = 0.36F * s;
   const float line = 0.115F * s;
   draw.PathArcTo({c.x + 0.04F * s, c.y}, r, 0.43F * kTurn, -0.36F * kTurn, 28);
@@ -21,7 +21,8 @@ void draw_reset(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
 }
 
 void draw_moon(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
-  // A disc less another one up to its right: two arcs between the points where the circles meet.
+  // A disc minus another one shifted up and right: two arcs between the intersections of the
+  // circles.
   const float r = 0.38F * s;
   const float cut = 0.85F * r;
   const float apart = 0.62F * r;
@@ -57,7 +58,7 @@ void draw_corners(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
   }
 }
 
-// A tray, and an arrow that leaves it.
+// A tray with an arrow out of it.
 void draw_share(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
   const float line = 0.11F * s;
   const std::array<ImVec2, 4> tray{{{c.x - 0.36F * s, c.y + 0.04F * s},
@@ -93,7 +94,7 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
                          color, 0.04F * s);
       break;
     case Icon::kSubstep:
-      // A smaller triangle, and the frame that it is a part of in dots.
+      // A smaller triangle inside a dotted frame.
       draw.AddTriangleFilled({c.x - 0.36F * s, c.y - 0.24F * s}, {c.x + 0.02F * s, c.y},
                              {c.x - 0.36F * s, c.y + 0.24F * s}, color);
       for (const float x : {0.14F, 0.34F}) {

@@ -1,4 +1,4 @@
-// The first screen: two runs beside each other, what they are, and the way into the laboratory.
+// The first screen: two runs side by side, their explanation, and the way into the laboratory.
 
 #include "app/text/introduction.hpp"
 
@@ -23,17 +23,16 @@ constexpr ImGuiWindowFlags kGround = ImGuiWindowFlags_NoDecoration | ImGuiWindow
                                      ImGuiWindowFlags_NoFocusOnAppearing |
                                      ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-constexpr float kAbove = 10.0F;  // room above what is written beneath a picture
+constexpr float kAbove = 10.0F;  // gap above the label of a picture
 
-// Measures of the screen: pictures beside each other, or one over the other where it is
-// narrow.
+// Layout of the screen: pictures side by side, or stacked if it is narrow.
 struct ScreenMeasures {
   bool stacked = false;
-  bool low = false;  // a phone that lies
+  bool low = false;  // a phone in landscape
   bool large = false;
   float pad = 24.0F;
   float head = 0.0F;   // height of name and sentences
-  float label = 0.0F;  // height of what is written beneath a picture
+  float label = 0.0F;  // height of the label of a picture
   float foot = 0.0F;   // height of buttons and paper
   float button = 44.0F;
 };
@@ -54,7 +53,7 @@ ScreenMeasures measure_screen(const Look& look, const IntroductionWords& words, 
   m.label = m.large ? 68.0F : 48.0F;
   if (m.low) m.button = 36.0F;
   m.foot = 12.0F + m.button + 12.0F + lines_height(look.fonts.small, words.paper, width) + m.pad;
-  if (m.low) m.foot = 12.0F + m.button + 12.0F;  // the paper stands beside the buttons
+  if (m.low) m.foot = 12.0F + m.button + 12.0F;  // the paper is beside the buttons
   return m;
 }
 
@@ -62,8 +61,8 @@ ViewRect picture_area(const ScreenMeasures& m, ImVec2 display) {
   return {0.0F, m.head, display.x, std::max(1.0F, display.y - m.head - m.foot)};
 }
 
-// What is written on several lines, each centred or all from the left.
-// @return where it ends
+// Wrapped text, each line centred or left-aligned.
+// @return its lower end
 float paragraph(const Look& look, ImFont* font, ImVec2 from, float width, bool centred, ImU32 color,
                 const std::string& text) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -104,7 +103,7 @@ void picture_label(const Look& look, const ScreenMeasures& m, const ViewRect& pi
             fitted(note, label.note, width));
 }
 
-// A window of its own: what it covers is not drawn.
+// A separate window: the covered part of the picture is not drawn.
 void ground(const char* id, float top, float bottom, float width) {
   ImGui::SetNextWindowPos({0.0F, top});
   ImGui::SetNextWindowSize({width, bottom - top});
@@ -112,7 +111,7 @@ void ground(const char* id, float top, float bottom, float width) {
   ImGui::End();
 }
 
-// What is written beneath a picture stands on the colour of panels: a grid runs behind it.
+// The label of a picture on the panel colour, over the grid.
 void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, ImVec2 display) {
   const ViewRect& torn = panes[1];
   const ViewRect& held = panes[0];
@@ -124,7 +123,7 @@ void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, I
   ImGui::PopStyleVar(2);
 }
 
-// The clock of both runs, between their labels, or at the right of the upper one; and a line
+// The clock of both runs, between their labels, or to the right of the upper one; and a line
 // between their pictures.
 void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
                 float width, const std::string& text) {
@@ -141,7 +140,7 @@ void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<Vie
   draw_over(look, draw, font, {x, torn.y + torn.height + 4.0F}, look.theme->dim, text.c_str());
 }
 
-// The two ways on. @return whether the laboratory was chosen
+// The two buttons. @return whether the laboratory was chosen
 bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWords& words,
                ImVec2 display, Desk& desk) {
   constexpr float kGap = 12.0F;
@@ -166,13 +165,13 @@ bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWord
   return chosen;
 }
 
-// A tap beside the buttons, Enter or Escape.
+// A tap outside the buttons, Enter or Escape.
 bool left_otherwise() {
   const ImGuiIO& io = ImGui::GetIO();
   const bool tapped = ImGui::IsWindowHovered() && !ImGui::IsAnyItemHovered() &&
                       ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
                       io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < 36.0F;
-  // Enter acts on the button that the keyboard is on.
+  // Enter activates the focused button.
   const bool enter = ImGui::IsKeyPressed(ImGuiKey_Enter, false) ||
                      ImGui::IsKeyPressed(ImGuiKey_KeypadEnter, false);
   return tapped || (enter && !io.NavVisible) || ImGui::IsKeyPressed(ImGuiKey_Escape, false);
@@ -180,7 +179,7 @@ bool left_otherwise() {
 
 }  // namespace
 
-// The run that holds first: it is the session, and its picture fills what the other leaves.
+// The stable run first: it is the session, and its picture fills the remaining window.
 std::vector<ViewRect> introduction_panes(const Look& look, const Lab& lab) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const ScreenMeasures m = measure_screen(look, introduction_words(lab), display);
@@ -231,7 +230,7 @@ void introduction(App& app) {
   ImGui::PopStyleVar(2);
   if (!leave) return;
   app.introduction.leave(app);
-  app.desk.tour_hint = false;  // it stood beside the button
+  app.desk.tour_hint = false;  // the hint was beside the button
 }
 
 }  // namespace substep::ui

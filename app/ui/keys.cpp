@@ -37,7 +37,7 @@ void choose_mode(App& app, int index) {
 constexpr std::array<KeyAction, 19> kActions{
     {{"Space", " ", "play, pause",
       [](App& app, char) {
-        // The control that the keyboard is on takes the space bar.
+        // The focused control handles the space bar.
         if (!ImGui::GetIO().NavVisible) app.session.toggle();
       }},
      {",  .", ",.", "one frame back, one forward",
@@ -102,7 +102,7 @@ void focus_next_panel(bool back) {
     if (w->WasActive && !w->Hidden && !inner && !without_keys) panels.push_back(w);
   }
   if (panels.empty()) return;
-  // As they are read: from left to right, then down.
+  // Reading order: left to right, then down.
   std::stable_sort(panels.begin(), panels.end(), [](const ImGuiWindow* a, const ImGuiWindow* b) {
     return a->Pos.x != b->Pos.x ? a->Pos.x < b->Pos.x : a->Pos.y < b->Pos.y;
   });

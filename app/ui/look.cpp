@@ -9,7 +9,7 @@
 namespace substep::ui {
 namespace {
 
-// 0xRRGGBB as designers write it.
+// 0xRRGGBB, the usual notation.
 constexpr ImU32 rgb(unsigned hex, unsigned alpha = 255) {
   return (alpha << IM_COL32_A_SHIFT) | (((hex >> 16U) & 0xffU) << IM_COL32_R_SHIFT) |
          (((hex >> 8U) & 0xffU) << IM_COL32_G_SHIFT) | ((hex & 0xffU) << IM_COL32_B_SHIFT);
@@ -126,11 +126,11 @@ Fonts build_fonts(float pixel_ratio) {
     ImFontConfig config;
     config.FontDataOwnedByAtlas = false;
     config.GlyphRanges = kRanges;
-    // Whole pixels are sharpest; with many of them, fractions are what spaces letters evenly.
+    // Whole pixels are sharpest; at high pixel ratios, fractions give even letter spacing.
     config.OversampleH = pixel_ratio < 1.25F ? 2 : 1;
     config.OversampleV = 1;
     config.PixelSnapH = pixel_ratio >= 1.25F;
-    // Dear ImGui never writes to font data that it does not own.
+    // Dear ImGui does not write to font data that it does not own.
     return atlas.AddFontFromMemoryTTF(const_cast<unsigned char*>(data), static_cast<int>(size),
                                       height * pixel_ratio, &config);
   };

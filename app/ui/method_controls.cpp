@@ -1,4 +1,4 @@
-// Mode and solver with their parameters, as the table of methods has them.
+// Mode and solver with their parameters, from the table of methods.
 
 #include <algorithm>
 #include <array>
@@ -85,7 +85,7 @@ const char* title(const Entry& e) {
   return e.title;
 }
 
-// The entries of a table of methods as the choices of a row.
+// The entries of a table of methods, as choices of a row.
 class MethodChoices {
  public:
   template <class Entries>
@@ -103,11 +103,11 @@ class MethodChoices {
   std::vector<Choice> choices_;
 };
 
-// All settings at once, to begin with.
+// Presets of all settings.
 void preset_row(const Look& look, const Scene& scene, Settings& s) {
   const std::vector<Preset> presets = presets_for(scene);
   std::vector<Choice> choices;
-  int current = -1;  // settings of a person's own
+  int current = -1;  // custom settings
   for (const Preset& preset : presets) {
     Settings same = preset.settings;
     same.watch_stiffness = s.watch_stiffness;
@@ -121,7 +121,7 @@ void preset_row(const Look& look, const Scene& scene, Settings& s) {
   }
 }
 
-// The paper's modes, and below them what stands beside and beyond it.
+// The paper's modes, and the others below them.
 void mode_rows(const Look& look, Mode& mode) {
   const std::span<const ModeEntry> all = kModes;
   const auto beyond = std::find_if(all.begin(), all.end(),
@@ -202,7 +202,7 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
   }
 }
 
-// How the mode finds N.
+// The rule for N.
 void finer_points_of_mode(const Look& look, Settings& s) {
   const float width = ImGui::GetContentRegionAvail().x;
   if (reads(s, "policy")) {
@@ -233,7 +233,7 @@ void finer_points_of_mode(const Look& look, Settings& s) {
   }
 }
 
-// What most people never touch; only what acts in this scene, mode and solver.
+// Advanced settings; only those effective with this scene, mode and solver.
 void finer_points(const Look& look, const Effects& effects, Settings& s) {
   const float width = ImGui::GetContentRegionAvail().x;
   finer_points_of_mode(look, s);
@@ -253,7 +253,7 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
       s.drift_tau = 1e-3 * tau_ms;
     }
   }
-  // Störmer's joints are aimed at the end of the sub-step, which leaves nothing to correct.
+  // Störmer's joints target the end of the sub-step and need no correction.
   const bool aimed = follows_accelerations(s) && drift_law(s) == Drift::kFull;
   if (effects.joints && !aimed) {
     bool second = s.drift_order == 2;

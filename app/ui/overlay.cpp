@@ -1,4 +1,4 @@
-// What is written over the picture.
+// Text overlays of the picture.
 
 #include <algorithm>
 #include <array>
@@ -65,7 +65,7 @@ double pixel_size(const Viewport& viewport, const Vec3& x) {
          std::max(1.0, static_cast<double>(viewport.panes.front().height));
 }
 
-// What the large number counts. @param left sub-steps of the frame to come
+// Caption of the large number. @param left remaining sub-steps of the frame
 std::string unit_of_n(const FrameReport& report, int left) {
   const bool islands = report.islands > 0;
   if (left > 0 && islands) return "sub-steps, " + std::to_string(left) + " to go";
@@ -82,7 +82,7 @@ void caption(const Look& look, const Session& session, const Viewport& viewport,
   const float pad = phone ? 12.0F : 16.0F;
   const FrameReport& report = session.report();
   const bool stepped = report.n_substeps > 0 || report.asleep > 0;
-  const bool has_n = stepped && viewport.panes.size() == 1;  // else each pane has its own
+  const bool has_n = stepped && viewport.panes.size() == 1;  // else each pane shows its own
   const std::string n = has_n ? std::to_string(report.n_substeps) : "";
   const std::string unit = has_n ? unit_of_n(report, session.substeps_left()) : "";
   const ImVec2 n_size = text_size(look.fonts.large, n.c_str());
@@ -114,7 +114,7 @@ void body_labels(const Look& look, const Session& session, const Desk& desk,
   }
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ViewRect& v = viewport.panes.front();
-  const std::size_t own = session.loaded().bodies.size();  // a thrown ball has no label
+  const std::size_t own = session.loaded().bodies.size();  // thrown balls have no label
   for (std::size_t i = 0; i < own; ++i) {
     const Body& body = scene.bodies[i];
     if (body.is_static || body.mass < 20.0 * lightest) continue;
@@ -122,7 +122,7 @@ void body_labels(const Look& look, const Session& session, const Desk& desk,
     if (!project(viewport, poses.x[i], p)) continue;
     const std::string text = grouped(body.mass) + " kg";
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
-    // Below a body that hangs, above one that stands on others.
+    // Below a hanging body, above one that rests on others.
     const bool below = scene.effects.joints && !scene.effects.contact;
     float low = p.y;
     float high = p.y;
@@ -142,7 +142,7 @@ void body_labels(const Look& look, const Session& session, const Desk& desk,
       if (project(viewport, poses.x[i] + Vec3(0.0, sphere->radius, 0.0), c)) high = c.y;
     }
     const ImVec2 at(p.x - 0.5F * size.x, below ? low + 6.0F : high - 8.0F - size.y);
-    constexpr float kCaption = 68.0F;  // the lines above are the caption's
+    constexpr float kCaption = 68.0F;  // height of the caption above
     if (at.y < v.y + kCaption || at.x < v.x || at.x + size.x > v.x + v.width ||
         at.y + size.y > v.y + v.height)
       continue;

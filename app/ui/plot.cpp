@@ -18,10 +18,10 @@ namespace substep::ui {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-constexpr float kGutter = 40.0F;  // left of the curves, for the labels of the values
-constexpr float kToggle = 16.0F;  // height of "log" at its top, there while one points at the plot
+constexpr float kGutter = 40.0F;  // left of the curves, for the value labels
+constexpr float kToggle = 16.0F;  // height of "log" at the top, shown while the plot is hovered
 
-// 1, 2 or 5 times a power of ten, so that about `count` fit into the range.
+// 1, 2 or 5 times a power of ten, such that about `count` fit into the range.
 double nice_step(double range, int count) {
   const double rough = range / std::max(1, count);
   const double power = std::pow(10.0, std::floor(std::log10(std::max(rough, 1e-300))));
@@ -31,7 +31,7 @@ double nice_step(double range, int count) {
   return 10.0 * power;
 }
 
-// How many multiples of a step lie in a range.
+// Number of multiples of a step in a range.
 int multiples(double low, double high, double step) {
   return static_cast<int>(std::floor(high / step) - std::ceil(low / step)) + 1;
 }
@@ -52,7 +52,7 @@ Range linear_range(const PlotSpec& spec, const Extent& all) {
     low = std::max(low, -spec.most);
     high = std::min(high, spec.most);
   }
-  // A level belongs to the picture unless it is so high that the curves would lie flat.
+  // A level is included unless it is so high that the curves would be flat.
   for (const Level& level : spec.levels) {
     if (level.value < 3.0 * std::max(high, spec.least_span)) high = std::max(high, level.value);
   }
@@ -61,7 +61,7 @@ Range linear_range(const PlotSpec& spec, const Extent& all) {
   return {low, std::max(high, low + span) + 0.1 * span};
 }
 
-// Whole decades, two of them at least.
+// Whole decades, at least two.
 Range logarithmic_range(const Extent& all) {
   if (!(all.high > 0.0F)) return {-9.0, -3.0};
   const double low = std::floor(std::log10(static_cast<double>(all.least_positive)) + 0.02);
@@ -98,8 +98,8 @@ std::string label_of(const PlotSpec& spec, const PlotFrame& f, double v, int dig
   return fixed(v / spec.factor, digits);
 }
 
-// Lines at round values, and in the gutter what they stand for.
-/// @param taken of the gutter's top
+// Grid lines at round values, with labels in the gutter.
+/// @param taken occupied height at the gutter's top
 void draw_values(const Look& look, const PlotSpec& spec, const PlotFrame& f, float taken,
                  ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.28F : 0.4F);
@@ -107,7 +107,7 @@ void draw_values(const Look& look, const PlotSpec& spec, const PlotFrame& f, flo
   double step = f.logarithmic ? std::max(1.0, std::ceil((f.high - f.low) / std::max(lines, 2.0)))
                               : spec.factor * nice_step((f.high - f.low) / spec.factor,
                                                         static_cast<int>(std::max(lines, 2.0)));
-  // One line says nothing about the scale: in a low plot they stand closer.
+  // One line does not define the scale: low plots have closer lines.
   while (!f.logarithmic && multiples(f.low, f.high, step) < 2) {
     step = spec.factor * nice_step(0.39 * step / spec.factor, 1);
   }
@@ -115,7 +115,7 @@ void draw_values(const Look& look, const PlotSpec& spec, const PlotFrame& f, flo
   const double first = std::ceil(f.low / step - 1e-9) * step;
   const int digits =
       std::clamp(static_cast<int>(-std::floor(std::log10(step / spec.factor) + 1e-9)), 0, 6);
-  float above = f.max.y + 15.0F;  // top of the label below
+  float above = f.max.y + 15.0F;  // top of the previous label
   for (int i = 0; i < 12; ++i) {
     const double v = first + i * step;
     if (v > f.high) break;
@@ -137,7 +137,7 @@ void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDra
   const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 50.0F));
   const int digits = step < 0.1 ? 2 : step < 1.0 ? 1 : 0;
   const double first = std::ceil(f.t0 / step) * step;
-  float before = f.min.x - 8.0F;  // right end of the label before
+  float before = f.min.x - 8.0F;  // right end of the previous label
   for (int i = 0; first + i * step <= f.t1; ++i) {
     const double t = first + i * step;
     const float x = std::round(f.x(t));
@@ -203,12 +203,12 @@ void interact(const PlotFrame& f, double now, TimeAxis& axis) {
   }
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     axis.drag_from.reset();
-    axis.clicked = now;  // the first of the two had gone back
+    axis.clicked = now;  // the first of the two clicks had gone back
     axis.follow_again();
   }
 }
 
-/// @param pointed at the plot  @return whether it is seen
+/// @param pointed whether the plot is hovered @return whether it is visible
 bool scale_toggle(const Look& look, ImVec2 at, bool pointed, PlotState& state) {
   ImGui::SetCursorScreenPos(at);
   if (ImGui::InvisibleButton("scale", {kGutter - 4.0F, kToggle})) {

@@ -19,7 +19,7 @@ std::vector<Column> samples_of(const Series& series, const History::Slice& slice
       gap = true;
       continue;
     }
-    // A stepped series holds from the start of its frame.
+    // A stepped series is constant from the start of its frame.
     const double time = series.history->time(i) - (series.steps ? series.history->frame() : 0.0);
     const float y = f.y(static_cast<double>(values[i]) + series.offset);
     columns.push_back({f.x(time), y, y, y, false, gap});
@@ -32,11 +32,11 @@ std::vector<Column> decimated(const Series& series, const History::Slice& slice,
                               float pixel) {
   const History& history = *series.history;
   const Samples& samples = history.samples(series.channel);
-  // The columns are fixed in time and move with it: edges that did not would flicker.
+  // Columns are fixed in time; otherwise their edges would flicker when the plot scrolls.
   const auto count = static_cast<int>((f.max.x - f.min.x) / pixel);
   const double width = (f.t1 - f.t0) / count;  // [s]
   const double k0 = std::floor(f.t0 / width);
-  const auto sample = [&](double time) {  // the first one not before a time
+  const auto sample = [&](double time) {  // the first sample at or after a time
     const double i = std::ceil((time - history.time(0)) / history.frame() - 1e-6);
     return static_cast<std::size_t>(
         std::clamp(i, static_cast<double>(slice.first), static_cast<double>(slice.last)));
@@ -65,7 +65,7 @@ std::vector<Column> decimated(const Series& series, const History::Slice& slice,
   return columns;
 }
 
-// Below what is visible [pixel]: a curve that is redrawn every frame must not shimmer.
+// Below the visible limit [pixel]: a curve that is redrawn every frame must not shimmer.
 constexpr float kUnseen = 0.1F;
 
 std::vector<Column> columns_of(const Series& series, double from, const PlotFrame& f) {
@@ -77,7 +77,7 @@ std::vector<Column> columns_of(const Series& series, double from, const PlotFram
   return thinned(samples_of(series, slice, f), series.steps, kUnseen * pixel);
 }
 
-// Down to zero, slice by slice. Soft edges between the slices would show as stripes.
+// Filled down to zero, slice by slice. Antialiased edges between slices would show as stripes.
 void fill_series(const Series& series, const std::vector<Column>& columns, float zero, float end,
                  ImDrawList& draw) {
   const ImDrawListFlags flags = draw.Flags;
@@ -93,7 +93,7 @@ void fill_series(const Series& series, const std::vector<Column>& columns, float
   draw.Flags = flags;
 }
 
-/// Where a line from one sample may point so that it passes the next ones by no more than `room`.
+/// Range of slopes for a line from one sample that passes the next ones within `room`.
 struct Cone {
   Column tip;
   float least = -std::numeric_limits<float>::infinity();  // slopes
@@ -160,7 +160,7 @@ bool drawable(float value, const PlotFrame& f) {
 void draw_series(const Series& series, double from, const PlotFrame& f, ImDrawList& draw) {
   const std::vector<Column> columns = columns_of(series, from, f);
   if (columns.empty()) return;
-  const float end = f.x(series.history->end_time());  // a stepped series holds until here
+  const float end = f.x(series.history->end_time());  // end of a stepped series
   if (series.filled && !f.logarithmic) {
     fill_series(series, columns, std::clamp(f.y(0.0), f.min.y, f.max.y), end, draw);
   }
@@ -174,7 +174,7 @@ void draw_series(const Series& series, double from, const PlotFrame& f, ImDrawLi
     const Column& c = columns[i];
     if (c.gap) flush();
     if (series.steps && !points.empty()) points.emplace_back(c.x, columns[i - 1].last);
-    if (c.many) {  // down and up, ending at the last
+    if (c.many) {  // down and up, ending at the last value
       points.emplace_back(c.x, c.low);
       points.emplace_back(c.x, c.high);
     }

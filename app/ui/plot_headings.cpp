@@ -9,7 +9,7 @@
 namespace substep::ui {
 
 namespace {
-constexpr float kLegendGap = 22.0F;  // for the dot, and before it
+constexpr float kLegendGap = 22.0F;  // for the dot and the space before it
 }  // namespace
 
 float legend(const Look& look, float right, float y, ImU32 color, const std::string& text) {

@@ -12,7 +12,7 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kNameLine = 12.0F;  // height of a name, close to the one below
+constexpr float kNameLine = 12.0F;  // line spacing of names
 constexpr float kNameGap = 5.0F;    // from a curve to its name
 
 void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color) {
@@ -20,7 +20,7 @@ void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color) {
   draw_dashes(draw, a, b, color, 1.0F, phase);
 }
 
-// Text on a ground of its own: curves may run behind the words, not through them.
+// Text on a background, so that curves do not cross it.
 void draw_on_ground(const Look& look, ImDrawList& draw, ImVec2 at, ImU32 color,
                     const std::string& text) {
   const ImVec2 size = text_size(look.fonts.small, text.c_str());
@@ -60,7 +60,7 @@ std::vector<NamePlace> apart(const std::vector<float>& wanted, float line, float
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return wanted[a] < wanted[b]; });
-  // Down as far as the name above pushes, then up as far as the ones below and the edge do.
+  // Down as far as the name above requires, then up as required by those below and the edge.
   float least = top + 0.5F * line;
   for (const std::size_t i : order) {
     places[i] = {std::max(wanted[i], least), true};
@@ -93,13 +93,13 @@ void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotF
 
 void draw_levels(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
                  ImDrawList& draw) {
-  float taken = f.min.x;  // by curves and their names
+  float taken = f.min.x;  // occupied by curves and their names
   for (const CurveEnd& end : ends_of(spec, from, f)) {
     taken = std::max(taken, end.at.x + kNameGap + kNameGutter);
   }
   for (const Level& level : spec.levels) {
     const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
-    const bool above = v > f.high;  // off the picture: named at its edge
+    const bool above = v > f.high;  // outside the plot: labelled at its edge
     const float y = above ? f.min.y + 0.5F : std::round(f.y(level.value)) + 0.5F;
     if (!above) draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color);
     const char* arrow = above ? " ↑" : "";
@@ -108,7 +108,7 @@ void draw_levels(const Look& look, const PlotSpec& spec, double from, const Plot
     if (text_size(look.fonts.small, name.c_str()).x > room && !level.brief.empty()) {
       name = level.brief + arrow;
     }
-    // Below it, where there is room: what levels are compared with is mostly above them.
+    // Below the line, if there is room: the curves are mostly above.
     const float height = text_size(look.fonts.small, name.c_str()).y;
     const float text_y = y + 1.0F + height > f.max.y ? y - height - 1.0F : y + 1.0F;
     const float right = f.max.x - text_size(look.fonts.small, name.c_str()).x - 6.0F;
@@ -120,15 +120,15 @@ void draw_levels(const Look& look, const PlotSpec& spec, double from, const Plot
 void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
                 ImDrawList& draw) {
   const std::vector<CurveEnd> ends = ends_of(spec, from, f);
-  float names = f.max.x;  // where those of the curves begin
+  float names = f.max.x;  // left end of the curves' names
   for (const CurveEnd& end : ends) names = std::min(names, end.at.x);
-  float above = f.max.y - 2.0F;  // levels have their names at the top
+  float above = f.max.y - 2.0F;  // names of levels are at the top
   for (const Mark& mark : spec.marks) {
     if (mark.time < f.t0 || mark.time > f.t1) continue;
     const float x = std::round(f.x(mark.time)) + 0.5F;
     draw_dashed(draw, {x, f.min.y}, {x, f.max.y}, mark.color);
     if (mark.name.empty()) continue;
-    // Not over the names of the curves: beside the line, or far from both at the right.
+    // Not over the names of the curves: beside the line, or on the far right.
     const ImVec2 size = text_size(look.fonts.small, mark.name.c_str());
     float left = x - 4.0F - size.x;
     if (left < f.min.x) left = x + 4.0F;

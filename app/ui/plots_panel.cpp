@@ -1,4 +1,4 @@
-// The plots: what happened, frame by frame.
+// The plots panel: time series per frame.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 namespace substep::ui {
 
 void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps) {
-  // Named once: the plots lie above each other with the same time axis.
+  // Labelled once: the plots are stacked on the same time axis.
   const bool named = channel == Channel::kSubsteps || !in.desk.plot(Plot::kSubsteps).shown;
   for (std::size_t i = 0; i < in.compare.runs().size(); ++i) {
     const Compare::Run& run = in.compare.runs()[i];
@@ -53,7 +53,7 @@ namespace {
 
 constexpr float kLeastPlot = 46.0F;  // four of them fit into a window of 720
 
-// A scene with nothing to violate has no plot of errors.
+// A scene without constraints has no plot of errors.
 bool exists(const Session& session, Plot plot) {
   const Effects& effects = session.scene().effects;
   return plot != Plot::kError || effects.joints || effects.contact;
@@ -89,7 +89,7 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
     spec.levels.push_back({static_cast<double>(*n), "Smallest stable constant N: " + grouped(*n),
                            "Stable constant N: " + grouped(*n), t.amber});
   }
-  // A cap is worth a line once N comes near it.
+  // A cap is drawn once N comes near it.
   const int cap = reads(s, "n_max") ? s.n_max : reads(s, "n_cap") ? s.n_cap : 0;
   const std::size_t recent = h.size() - std::min<std::size_t>(h.size(), 600);
   const Extent taken = h.samples(Channel::kSubsteps).extent(recent, h.size());
@@ -158,14 +158,13 @@ void time_plot(const PlotContext& in, float height, bool last) {
   draw_plot(in, Plot::kTime, spec, height);
 }
 
-// A plot of the panel, and what a table of the run takes from it. A new one is a function and a
-// line here.
+// A plot of the panel, with the channels that it exports. A new plot is a function and a line here.
 struct PlotInfo {
   Plot plot;
   const char* name;
   void (*draw)(const PlotContext& in, float height, bool last);
   std::array<Channel, 6> channels;
-  std::size_t count;  // of the channels
+  std::size_t count;  // number of channels
 };
 constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
     {{Plot::kSubsteps,
@@ -193,7 +192,7 @@ constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
 
 std::vector<const PlotInfo*> shown_plots(const Session& session, Desk& desk) {
   std::vector<const PlotInfo*> shown;
-  // A step of the tour has chosen its plots at either level.
+  // A tour step has chosen its plots at either level.
   const bool explore = desk.level == DeskLevel::kExplore && desk.tour < 0;
   for (const PlotInfo& info : kPlots) {
     const bool wanted = explore ? info.plot == Plot::kSubsteps || info.plot == Plot::kEnergy
@@ -238,7 +237,7 @@ void save_menu(const Look& look, const Lab& lab, Desk& desk, const Viewport& vie
             });
 }
 
-// Above the plots: what they show, and how much of it.
+// Toolbar above the plots: which plots, and the time span.
 void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewport) {
   TimeAxis& time = desk.time;
   const float row = look.m.row;
@@ -297,7 +296,7 @@ void save_table(const Lab& lab, Desk& desk) {
 }
 
 void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float height) {
-  // All of one height, the last with the labels of the time axis below it.
+  // All of the same height, the last with the time labels below.
   const bool tools = desk.level == DeskLevel::kLab;
   if (tools) toolbar(look, lab, desk, viewport);
   const ImVec2 from = ImGui::GetCursorScreenPos();
@@ -309,7 +308,7 @@ void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, flo
   const float rest = height - above - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
   const float unit = std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot));
   const PlotContext in{look, lab.session, lab.compare, desk};
-  // What is read off the plots is what the picture shows, also in the past.
+  // Values at the cursor belong to the picture shown, also in the past.
   desk.time.past.reset();
   if (!lab.session.timeline().at_end()) desk.time.past = lab.session.state().time;
   for (const PlotInfo* info : shown) {

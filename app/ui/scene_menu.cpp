@@ -1,4 +1,4 @@
-// The list of scenes: groups, and in them scenes with their variants folded below.
+// The list of scenes: groups of scenes with their variants folded below.
 
 #include <memory>
 #include <string>
@@ -20,7 +20,7 @@ void group_heading(const Look& look, const std::string& group, bool first) {
   ImGui::Dummy({1.0F, top + 18.0F});
 }
 
-// "tall" of "Heavy stack, tall", which stands below "Heavy stack".
+// "tall" of "Heavy stack, tall", which is listed below "Heavy stack".
 std::string variant_title(const Scene& base, const Scene& variant) {
   const std::string shared = base.title + ", ";
   return variant.title.starts_with(shared) ? variant.title.substr(shared.size()) : variant.title;

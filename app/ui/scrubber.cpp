@@ -1,4 +1,4 @@
-// The past as a track: drag along it to look at any saved frame; what fell is marked.
+// The past as a track: drag along it to show any saved frame; failures are marked.
 
 #include <imgui_internal.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kKnob = 7.0F;
 
-// Times along the track; the start of a run has no past yet, and its knob stands at the left.
+// Times along the track; at the start of a run there is no past and the knob is on the left.
 struct TimeTrack {
   float left;
   float right;

@@ -57,7 +57,7 @@ void stiffness_row(const Look& look, const Session& session, std::size_t i) {
       "would ask for alone (Eqs. 10, 11).");
 }
 
-// Joints by the force in them, and the sum over the contacts.
+// Joints by their force, and the sum over the contacts.
 void force_rows(const Look& look, const Session& session, int body) {
   const Scene& scene = session.scene();
   const ConstraintForces& forces = session.forces();
@@ -103,7 +103,7 @@ void selection_card(const Look& look, const Session& session, Desk& desk, const 
   const Body& body = session.scene().bodies[i];
   const float width = phone ? 188.0F : 232.0F;
   const bool left = desk.card_left;
-  // Over the tour's button, and over the scale of the tint.
+  // Above the tour's button and the scale of the tint.
   const float up = 24.0F + look.m.row + 2.0F - (desk.tour >= 0 && phone ? look.m.row : 0.0F);
   ImGui::SetNextWindowPos({left ? v.x + 12.0F : v.x + v.width - 12.0F, v.y + v.height - up},
                           ImGuiCond_Always, {left ? 0.0F : 1.0F, 1.0F});

@@ -1,4 +1,4 @@
-// Taking the experiment out of the window and bringing another one in.
+// Export and import of experiments.
 
 #include <string>
 
@@ -47,7 +47,7 @@ void copy_command(Lab& lab) {
   ImGui::SetClipboardText(lab.command().c_str());
   std::string said = "Command copied";
   if (lab.session.edition() != nullptr && lab.host.save_file) {
-    // The scene with the ball, or without the effect, is in no file yet.
+    // The edited scene, with the ball or without the effect, is not in a file yet.
     const Scene& scene = lab.link_scene();
     lab.host.save_file(scene.name + ".json", write_scene(scene));
     said += ", and the scene that it runs was saved";

@@ -22,9 +22,9 @@ constexpr float kCellGap = 2.0F;     // between cells
 constexpr float kWidest = 96.0F;     // of a cell
 constexpr float kMapFoot = 36.0F;    // mass ratios and their title
 constexpr float kBesideWidth = 640.0F;
-constexpr float kBetween = 28.0F;  // maps beside each other
+constexpr float kBetween = 28.0F;  // between maps
 
-/// Where a map is drawn, and in which sizes.
+/// Position and sizes of a map.
 struct Layout {
   ImVec2 origin;  // of the cells
   ImVec2 cell;
@@ -33,14 +33,14 @@ struct Layout {
 /// The cells of one mode.
 struct Grid {
   Settings settings;           // of any of its runs
-  std::vector<double> values;  // of the parameter, from careless to careful
-  std::vector<double> loads;   // rising
+  std::vector<double> values;  // of the parameter, from coarse to fine
+  std::vector<double> loads;   // ascending
   std::map<std::pair<double, double>, std::size_t> results;  // by value and load
 };
 
 bool is_constant(const Grid& grid) { return grid.settings.mode == Mode::kConst; }
 
-/// "adaptive per frame: alpha": the mode and what goes down.
+/// "adaptive per frame: alpha": the mode and the vertical axis.
 std::string name_of(const Look& look, const Grid& grid) {
   if (is_constant(grid)) return "constant N: sub-steps per frame";
   return curve_style(*look.theme, grid.settings).own_name + ": " +
@@ -51,7 +51,7 @@ void add_once(std::vector<double>& list, double value) {
   if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
 }
 
-/// The modes that are planned under other loads, with the results so far.
+/// The modes with planned runs under other loads, with the results so far.
 std::vector<Grid> grids_of(const Accuracy& accuracy) {
   std::vector<std::pair<std::string, Grid>> named;
   const auto grid = [&](const Settings& s) -> Grid* {
@@ -86,7 +86,7 @@ std::vector<Grid> grids_of(const Accuracy& accuracy) {
   return grids;
 }
 
-/// "320", "3.2k": a cell is narrow.
+/// "320", "3.2k": cells are narrow.
 std::string short_ratio(double ratio) {
   return ratio < 1e3 ? plain_number(ratio) : plain_number(1e-3 * ratio) + "k";
 }
@@ -109,7 +109,7 @@ void read_cell(const Look& look, const Result& result, double ratio) {
                                           {"Click to run it, or drag", t.accent}});
 }
 
-/// Whether a result is of the present run.
+/// Whether a result belongs to the current run.
 bool runs_now(const Lab& lab, const Result& result) {
   const Settings& now = lab.session.settings();
   const Settings& of = result.experiment.settings;
@@ -118,7 +118,7 @@ bool runs_now(const Lab& lab, const Result& result) {
          series_parameter(now).value == series_parameter(of).value;
 }
 
-/// Where N lies among the rows of constant N, by its logarithm. [rows]
+/// Position of N among the rows of constant N, on a logarithmic scale [rows].
 double row_of(const std::vector<double>& values, double n) {
   std::size_t i = 0;
   while (i + 2 < values.size() && n > values[i + 1]) ++i;
@@ -127,13 +127,13 @@ double row_of(const std::vector<double>& values, double n) {
   return std::clamp(row, -0.5, static_cast<double>(values.size()) - 0.5);
 }
 
-/// The mean N that a row of adaptive sub-stepping takes under each load.
+/// The mean N of a row of adaptive sub-stepping for each load.
 struct Path {
   double alpha = 0.0;
-  std::vector<double> n;  // by load, 0 where it is not known
+  std::vector<double> n;  // by load, 0 if unknown
 };
 
-/// Of the scene's own alpha, or of the nearest one on the map.
+/// At the scene's own alpha, or the nearest on the map.
 Path path_of(const Accuracy& accuracy, const std::vector<Grid>& grids) {
   const auto adaptive = std::find_if(grids.begin(), grids.end(), [](const Grid& g) {
     return rules_of(g.settings.mode).count == SubstepCount::kStable;
@@ -156,7 +156,7 @@ Path path_of(const Accuracy& accuracy, const std::vector<Grid>& grids) {
   return path;
 }
 
-/// Over the cells of constant N: the mean N of adaptive sub-stepping.
+/// A line over the cells of constant N: the mean N of adaptive sub-stepping.
 void draw_path(const Look& look, const Grid& grid, const Path& path, const Layout& layout) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 color = look.theme->teal;
@@ -175,7 +175,7 @@ void draw_path(const Look& look, const Grid& grid, const Path& path, const Layou
   }
 }
 
-/// Text in the middle of a cell.
+/// Centred text in a cell.
 void draw_centred(const Look& look, ImVec2 from, ImVec2 size, ImU32 color,
                   const std::string& text) {
   const ImVec2 extent = text_size(look.fonts.small, text.c_str());
@@ -196,7 +196,7 @@ void draw_cell(const Look& look, const Result& result, ImVec2 min, ImVec2 max) {
   }
 }
 
-/// The values of the parameter at the left, the mass ratios below.
+/// The values of the parameter on the left, the mass ratios below.
 void draw_axes(const Look& look, const Grid& grid, const Layout& layout, double ratio) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 color = look.theme->dim;
@@ -221,7 +221,7 @@ void draw_axes(const Look& look, const Grid& grid, const Layout& layout, double 
                "mass ratio, heaviest to lightest body");
 }
 
-/// @return the result that the pointer chose
+/// @return the result chosen by the pointer
 std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Grid& grid,
                                      const Path& path, float width) {
   const Theme& t = *look.theme;
@@ -248,7 +248,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
                        layout.origin.y + layout.cell.y * static_cast<float>(row));
       const ImVec2 max(min.x + layout.cell.x - kCellGap, min.y + layout.cell.y - kCellGap);
       const auto known = grid.results.find({grid.values[row], grid.loads[column]});
-      if (known == grid.results.end()) {  // still to come
+      if (known == grid.results.end()) {  // not yet computed
         draw.AddRectFilled(min, max, t.well, 3.0F);
         continue;
       }
@@ -272,7 +272,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
   return pressed || (dragged && !is_live) ? under : std::nullopt;
 }
 
-/// What the line over constant N is.
+/// Legend of the line over constant N.
 void path_note(const Look& look, const Path& path) {
   label(look.fonts.small, look.theme->teal,
         ("Line: mean N of adaptive sub-stepping, alpha = " + plain_number(path.alpha)).c_str());
@@ -283,7 +283,7 @@ void path_note(const Look& look, const Path& path) {
 std::optional<std::size_t> stability_map(const Look& look, const Lab& lab, float width) {
   const std::vector<Grid> grids = grids_of(lab.accuracy);
   const Path path = path_of(lab.accuracy, grids);
-  const bool beside = width > kBesideWidth;  // each other
+  const bool beside = width > kBesideWidth;  // side by side
   const float each = beside ? (width - kBetween) / static_cast<float>(grids.size()) : width;
   std::optional<std::size_t> chosen;
   for (const Grid& grid : grids) {

@@ -1,4 +1,4 @@
-// Text of the panels: where it lies, how it is fitted and wrapped, and the headings of sections.
+// Text of the panels: alignment, fitting and wrapping, and section headings.
 
 #include <imgui.h>
 
@@ -33,7 +33,7 @@ std::string fitted(ImFont* font, const std::string& text, float width) {
   if (text_size(font, text.c_str()).x <= width) return text;
   std::string cut = text;
   while (!cut.empty()) {
-    // A whole character at a time: continuation bytes go with their first one.
+    // Whole characters only: continuation bytes are removed with their first one.
     while (cut.size() > 1 && (static_cast<unsigned char>(cut.back()) & 0xc0U) == 0x80U) {
       cut.pop_back();
     }
@@ -53,8 +53,8 @@ const char* end_of_word(const char* p) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-// Whether what follows a word is the unit of the number that it is: a percent sign, or a letter or
-// two, by which "0.8 %" and "10 s." are told from most words that are none.
+// Whether the text after a word is the unit of a number: a percent sign, or one or two letters,
+// which distinguishes "0.8 %" and "10 s." from most other words.
 bool is_unit_after(const char* word, const char* end) {
   if (end == word || *end != ' ' || !is_digit(end[-1]) || is_digit(end[1])) return false;
   const auto letters = std::count_if(end + 1, end_of_word(end + 1), [](char c) {
@@ -91,7 +91,7 @@ std::string wrapped(ImFont* font, const char* text, float width) {
 void label(ImFont* font, ImU32 color, const char* text) {
   ImGui::PushFont(font);
   ImGui::PushStyleColor(ImGuiCol_Text, color);
-  ImGui::PushTextWrapPos(0.0F);  // for a word that is longer than a line
+  ImGui::PushTextWrapPos(0.0F);  // for a word longer than a line
   ImGui::TextUnformatted(wrapped(font, text, ImGui::GetContentRegionAvail().x).c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
@@ -99,15 +99,15 @@ void label(ImFont* font, ImU32 color, const char* text) {
 }
 
 void space(float height) {
-  // The item above and the Dummy bring the item spacing with them. It must be there: at the end of
-  // a window, no other item would count the space in.
+  // Compensates for the item spacing of the item above and of the Dummy. The Dummy is needed: at
+  // the end of a window the space would not count without an item.
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + height - 2.0F * ImGui::GetStyle().ItemSpacing.y);
   ImGui::Dummy({0.0F, 0.0F});
 }
 
 namespace {
 
-// Not the unit after the comma: a kilojoule is no kelvin joule, a millijoule no megajoule.
+// Not the unit after the comma: kJ and mJ must keep their case.
 std::string capitals(const char* title) {
   std::string caps(title);
   for (char& c : caps) {
@@ -117,7 +117,7 @@ std::string capitals(const char* title) {
   return caps;
 }
 
-// Capitals read better a little apart. @param draw null only measures @return right end
+// Capitals are more readable with letter spacing. @param draw null: only measures @return right end
 float draw_capitals(const Look& look, ImVec2 at, const std::string& caps, ImDrawList* draw) {
   for (const char* p = caps.c_str(); *p != '\0';) {
     const char* end = p + 1;

@@ -15,7 +15,7 @@ void TimeAxis::zoom(double factor, double fixed, double now) {
   const double wanted = std::clamp(span * factor, kShortest, kLongest);
   if (!follow) {
     end = fixed + (t1 - fixed) * wanted / span;
-    follow = end >= now && end - wanted <= from;  // all of it is in view
+    follow = end >= now && end - wanted <= from;  // everything is in view
   }
   span = wanted;
 }

@@ -1,4 +1,4 @@
-// Where the time goes: the stages of a frame, as a bar with its names.
+// The time of a frame by stage, as a bar with labels.
 
 #include "app/ui/timing.hpp"
 
@@ -15,7 +15,7 @@ namespace {
 constexpr float kNameRow = 17.0F;
 constexpr float kListRow = 20.0F;
 
-// Names with their colours, in as many lines as they need. @param draw null only measures
+// Coloured names, in as many lines as required. @param draw null: only measures
 // @return lines
 int draw_names(const Look& look, const std::vector<Stage>& list, ImVec2 at, float width,
                ImDrawList* draw) {

@@ -15,15 +15,15 @@ constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
                                    ImGuiWindowFlags_AlwaysAutoResize |
                                    ImGuiWindowFlags_NoFocusOnAppearing;
 
-// Followed at the end of the frame, as the link that it is.
+// Opened as a link at the end of the frame.
 void go_to(Desk& desk, int step) { desk.follow = "tour=" + std::to_string(step + 1); }
 
 void end(Desk& desk) {
-  if (desk.tour >= 0) desk.follow = "tour=off";  // the run before comes back
+  if (desk.tour >= 0) desk.follow = "tour=off";  // restores the earlier run
   desk.tour_hint = false;
 }
 
-// Where the tour stands, as dots.
+// Progress of the tour, as dots.
 void draw_dots(const Look& look, int step, int count, ImVec2 at) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (int i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ void steps_row(const Look& look, Desk& desk, int step, int count) {
   }
 }
 
-// The task and what the run answers to it.
+// The task and the feedback from the run.
 void task(const Look& look, const TourWords& words) {
   const Theme& t = *look.theme;
   if (!words.task.empty()) {
@@ -73,7 +73,7 @@ void card(const Look& look, Desk& desk, const Viewport& viewport, const TourWord
   const Theme& t = *look.theme;
   const ViewRect& v = viewport.view_rect;
   const float width = std::min(440.0F, v.width - 24.0F);
-  // Below the picture, which has made room for it.
+  // Below the picture, in the room reserved for it.
   const float bottom = v.y + v.height + desk.tour_height;
   ImGui::SetNextWindowPos({v.x + 0.5F * v.width, bottom - 12.0F}, ImGuiCond_Always, {0.5F, 1.0F});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, bottom - v.y - 24.0F});
@@ -100,14 +100,14 @@ void card(const Look& look, Desk& desk, const Viewport& viewport, const TourWord
   ImGui::PopStyleColor();
 }
 
-// A button over the picture stands out from it by a line.
+// An outline separates a button from the picture.
 void outline(const Look& look) {
   ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(),
                                       look.theme->track, look.m.radius);
 }
 
-// What to do next, at the picture's corner. It says more to those who have not been here before,
-// until it is taken or put aside.
+// Suggestions in the corner of the picture. The text is longer for new users until the tour is
+// taken or dismissed.
 void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
   const ViewRect& v = viewport.view_rect;
   const bool fresh = desk.tour_hint;

@@ -1,4 +1,4 @@
-// The bar at the bottom: play, step, reset, speed; and how the run stands.
+// The bar at the bottom: play, step, reset, speed; and the verdict.
 
 #include <algorithm>
 #include <array>
@@ -54,7 +54,7 @@ void play_buttons(App& app, float height, float gap) {
              height, playing ? "Pause (Space)" : "Play (Space)")) {
     app.session.toggle();
   }
-  // Single frames and sub-steps are the Lab's; their keys are there all the same.
+  // Single frames and sub-steps are Lab controls; their keys always work.
   if (app.desk.level == DeskLevel::kLab) single_steps(app, height, gap);
   ImGui::SameLine(0.0F, gap);
   if (button(look, "reset", Icon::kReset, "", ButtonKind::kPlain, 36.0F, height,
@@ -72,9 +72,9 @@ void play_buttons(App& app, float height, float gap) {
               });
 }
 
-constexpr float kChipFrame = 40.0F;  // of a verdict: its sign and the round ends
+constexpr float kChipFrame = 40.0F;  // width of a verdict's icon and round ends
 
-// Without what it failed by where there is no room for it: that is in its tooltip.
+// Omits the reason if there is no room for it; it is in the tooltip.
 std::string verdict_text(const App& app, float room) {
   const Look& look = app.look;
   if (!app.session.judged()) return "Ready";
@@ -84,7 +84,7 @@ std::string verdict_text(const App& app, float room) {
   return fitted(look.fonts.medium, text.substr(0, text.find(": ")), room);
 }
 
-// Verdict with its sign: a tick, a hand's circle or a cross says it as well as the colour does.
+// Verdict with an icon: a tick, circle or cross, so that it does not depend on colour alone.
 // @return its width
 float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   const Look& look = app.look;
@@ -120,7 +120,7 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   return width;
 }
 
-// Text right-aligned at `right`. @return where it starts
+// Text right-aligned at `right`. @return its left end
 float status(const Look& look, float right, ImVec2 bar, float height, const std::string& text,
              float least_width, const char* tip) {
   const ImVec2 size = text_size(look.fonts.small, text.c_str());
@@ -135,7 +135,7 @@ float status(const Look& look, float right, ImVec2 bar, float height, const std:
   return right - width - 16.0F;
 }
 
-// As many as there is room for, the most useful at the right.
+// As many as there is room for, the most useful on the right.
 float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) {
   const Look& look = app.look;
   const auto add = [&](const char* id, Icon icon, const char* tip) {
@@ -161,11 +161,11 @@ float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) 
 }
 
 std::string time_text(const App& app) {
-  // Within a frame the time goes by fractions of a millisecond.
+  // Within a frame the time advances by fractions of a millisecond.
   return fixed(app.session.state().time, app.session.substeps_left() > 0 ? 4 : 2) + " s";
 }
 
-// Two rows: buttons, then the past between verdict and time.
+// Two rows: buttons, then the timeline between verdict and time.
 void phone_transport(App& app, ImVec2 bar, float width, float height) {
   const Look& look = app.look;
   play_buttons(app, height, 6.0F);
@@ -197,7 +197,7 @@ void transport(App& app, bool phone) {
   play_buttons(app, kHeight, 8.0F);
   const float after_buttons = ImGui::GetItemRectMax().x + kGap;
   float right = icon_buttons(app, after_buttons, bar.x + width, bar, kHeight);
-  // A run that rests is drawn only when something changes: a rate would say nothing.
+  // A paused run is drawn only on changes: a rate would be meaningless.
   if (app.session.playing()) {
     const std::string fps = fixed(1.0 / std::max(1e-3, app.frame_time), 0) + " fps";
     right = status(look, right, bar, kHeight, fps, 40.0F, "Pictures drawn a second");
@@ -211,7 +211,7 @@ void transport(App& app, bool phone) {
                    "Hash of the state's bits: the same on every machine for the same experiment");
   }
 
-  // From the right: verdict, time; the past takes what is left.
+  // From the right: verdict, time; the timeline takes the rest.
   const float room = right - after_buttons;
   const float chip_room = std::clamp(0.45F * room, 100.0F, 300.0F);
   const std::string verdict = verdict_text(app, chip_room);

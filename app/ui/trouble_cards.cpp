@@ -1,4 +1,4 @@
-// What went wrong: a run that did not hold, outside data that could not be read.
+// Error cards: a run that failed, external data that could not be read.
 
 #include <algorithm>
 #include <string>
@@ -12,7 +12,7 @@
 namespace substep::ui {
 namespace {
 
-/// What would have helped the frame that failed, the most likely first.
+/// Remedies for the frame that failed, the most likely first.
 std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
   const Timeline& timeline = session.timeline();
   const Moment& then = timeline[timeline.at_time(session.verdict().failed_at())];
@@ -21,7 +21,7 @@ std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
   return all;
 }
 
-/// A button: the same scene from its start, with what would have helped.
+/// A button: restarts the same scene with the remedy.
 void reset_with(const Look& look, Lab& lab, const Remedy& remedy, ButtonKind kind) {
   const std::string tip = "The same scene from its start with " + remedy.text +
                           (remedy.why.empty() ? "" : "; " + remedy.why);
@@ -42,7 +42,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   const ViewRect& v = viewport.view_rect;
   if (desk.failure_run != lab.run_count) desk.failure_place = -1;
   desk.failure_run = lab.run_count;
-  constexpr ImVec2 kSize(380.0F, 180.0F);  // with the most that it offers
+  constexpr ImVec2 kSize(380.0F, 180.0F);  // with the maximum number of remedies
   const CardPlace place = card_beside(lab.session, viewport, kSize, desk.failure_place);
   if (begin_card(look, viewport, "##failure", kSize.x, place.y, place.pivot, place.x)) {
     card_title(look, look.theme->orange, Icon::kCross,
@@ -61,7 +61,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
       what += " has left the range of numbers. What you see is the last state within it.";
     }
     label(look.fonts.small, look.theme->dim, what.c_str());
-    auto kind = ButtonKind::kPrimary;  // of what is the most likely to help
+    auto kind = ButtonKind::kPrimary;  // for the most likely remedy
     for (const Remedy& remedy : remedies_of(lab.session, v.height > 400.0F ? 3 : 1)) {
       reset_with(look, lab, remedy, kind);
       kind = ButtonKind::kPlain;

@@ -1,4 +1,4 @@
-// The picture is touched: turned, moved and zoomed, and its bodies selected, held and thrown at.
+// Pointer input in the picture: orbit, pan and zoom; select, hold and throw at bodies.
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kClick = 4.0F;  // a pointer that moves less is a click [px]
+constexpr float kClick = 4.0F;  // smaller movements are clicks [px]
 
-// The pane under a point of the display; the first where there is none.
+// The pane at a point of the display; the first if there is none.
 std::size_t pane_at(const Viewport& viewport, ImVec2 p) {
   for (std::size_t i = 1; i < viewport.panes.size(); ++i) {
     const ViewRect& r = viewport.panes[i];
@@ -29,7 +29,7 @@ Ray ray_at(const Viewport& viewport, ImVec2 p, std::size_t pane) {
                      1.0 - 2.0 * static_cast<double>(p.y / display.y));
 }
 
-// What is under the pointer, or close by: links are thin and fingers are not.
+// The body under the pointer, or close to it: links are thin and fingers are not.
 std::optional<Hit> body_at(const Lab& lab, const Viewport& viewport, ImVec2 p, std::size_t pane) {
   const bool touch = ImGui::GetIO().MouseSource == ImGuiMouseSource_TouchScreen;
   const float near = touch ? 14.0F : 5.0F;
@@ -55,7 +55,7 @@ bool can_be_held(const Session& session, int body) {
   return session.playing() && i < bodies.size() && !bodies[i].is_static;
 }
 
-// Where the pointer is in the plane that faces the view and holds a point.
+// The pointer projected to the plane that faces the view and contains a point.
 Vec3 in_plane_of(const Viewport& viewport, ImVec2 pointer, std::size_t pane, const Vec3& point) {
   const Ray ray = ray_at(viewport, pointer, pane);
   const Vec3 forward =
@@ -76,11 +76,12 @@ void press(const Lab& lab, Viewport& viewport, ImVec2 pointer) {
   viewport.hand.anchor = poses.q[i].conjugate() * (viewport.hand.point - poses.x[i]);
 }
 
-// A body that was pressed is taken along, anything else turns the view.
+// A press on a body drags it; elsewhere it orbits the view.
 void drag(Session& session, Viewport& viewport) {
   const ImGuiIO& io = ImGui::GetIO();
   viewport.hand.pane =
-      std::min(viewport.hand.pane, viewport.panes.size() - 1);  // a comparison may end meanwhile
+      std::min(viewport.hand.pane,
+               viewport.panes.size() - 1);  // the comparison may have ended in the meantime
   OrbitCamera& camera = viewport.view.camera;
   Hand& hand = viewport.hand;
   const bool moved = ImGui::IsMouseDragging(ImGuiMouseButton_Left, kClick);
@@ -104,7 +105,7 @@ void drag(Session& session, Viewport& viewport) {
   }
 }
 
-// Its card goes where the body is not.
+// Places the card on the side away from the body.
 void select(Desk& desk, const Viewport& viewport, int body) {
   desk.selected = body;
   const ViewRect& v = viewport.view_rect;
@@ -158,11 +159,11 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport) {
   ImGui::End();
 }
 
-// From beside the eye to what the pointer is on, or to the middle of the view; it takes a moment,
-// so that one sees it fly.
+// Throws from beside the eye at the point under the pointer, or at the middle of the view; slow
+// enough for the flight to be visible.
 void throw_ball(Lab& lab, const Viewport& viewport) {
-  constexpr double kFlight = 0.8;     // [s]
-  constexpr double kDensity = 120.0;  // of cork [kg/m^3]
+  constexpr double kFlight = 0.8;     // duration [s]
+  constexpr double kDensity = 120.0;  // density of cork [kg/m^3]
   constexpr double kFull = 4.18879;   // volume of the unit ball
   const OrbitCamera& camera = viewport.view.camera;
   const Vec3 eye = camera.eye(viewport.panes.front());

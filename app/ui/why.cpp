@@ -20,7 +20,7 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kColumns = 32.0F;  // height of the picture of all bodies
+constexpr float kColumns = 32.0F;  // height of the columns of all bodies
 constexpr std::size_t kMostBars = 12;
 
 const std::string& name_of_body(const Scene& scene, const StiffnessLeader& who) {
@@ -47,7 +47,7 @@ std::string cap_note(const FrameReport& report) {
   return grouped(report.n_wanted) + " wanted, " + grouped(report.n_substeps) + " given";
 }
 
-// One column per body in the order of the scene, as high as its k/M is of the largest.
+// One column per body in scene order, with height proportional to k/M.
 void body_columns(const Look& look, const Session& session, float height) {
   const Scene& scene = session.scene();
   const std::vector<double> shares = stiffness_shares(scene, session.state());
@@ -84,7 +84,7 @@ void body_columns(const Look& look, const Session& session, float height) {
   tooltip(look, body.name.c_str(), text.c_str());
 }
 
-// A line of the law: what it says, its numbers below, the equation at the right.
+// A line of the law: text, its values below, the equation on the right.
 void law_line(const Look& look, const std::string& law, const std::string& numbers,
               const char* equation) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
@@ -121,7 +121,7 @@ void law(const Look& look, const Session& session, const Criterion& criterion) {
            "Eq. 11");
 }
 
-// What the mode makes of the law's number.
+// How the mode uses the law's N.
 std::string taken_note(const Session& session) {
   const FrameReport& report = session.report();
   const Settings& s = session.settings();
@@ -135,7 +135,7 @@ std::string taken_note(const Session& session) {
   return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
 }
 
-// What would set N if the one that does were not there.
+// N without its current cause.
 void without_leader(const Look& look, const Session& session, const Criterion& criterion,
                     const std::vector<StiffnessLeader>& list) {
   const Scene& scene = session.scene();
@@ -163,7 +163,7 @@ void bar_tooltip(const Look& look, const Session& session, const StiffnessLeader
   tooltip(look, title.c_str(), text.c_str());
 }
 
-// One bar per body: the N that it alone would ask for.
+// One bar per body: the N that it alone requires.
 void bars(const Look& look, const Session& session, Desk& desk, const Criterion& criterion,
           const std::vector<StiffnessLeader>& list) {
   constexpr float kRow = 20.0F;

@@ -14,23 +14,23 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kTooltip = 300.0F;   // width of its text at most
-constexpr float kNameWidth = 76.0F;  // of the names at the left of rows
+constexpr float kTooltip = 300.0F;   // maximum width of its text
+constexpr float kNameWidth = 76.0F;  // of the names on the left of rows
 
 float available_width() { return ImGui::GetContentRegionAvail().x; }
 
-// Name at the left of a row, value at the right; between them what remains for the control.
+// Name on the left of a row, value on the right; the rest is for the control.
 ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float y = origin.y + 0.5F * (look.m.row - text_size(look.fonts.regular, name).y);
   draw_text(draw, look.fonts.regular, {origin.x, y}, look.theme->dim, name);
   const float name_width =
-      std::max(kNameWidth, text_size(look.fonts.regular, name).x + 12.0F);  // of a long one
+      std::max(kNameWidth, text_size(look.fonts.regular, name).x + 12.0F);  // of a long name
   return {origin.x + name_width, origin.y, origin.x + width, origin.y + look.m.row};
 }
 
-/// What a slider goes along: its value, that logarithmically, or its power of ten. Dear ImGui's
-/// logarithmic ones end at what their format prints as zero.
+/// The scale of a slider: linear, logarithmic, or by power of ten. Dear ImGui's logarithmic sliders
+/// stop where their format prints zero.
 enum class TrackScale : std::uint8_t { kValue, kLogarithmic, kPower };
 
 template <class T>
@@ -140,8 +140,8 @@ void draw_focus(const Look& look, ImDrawList& draw, ImVec2 min, ImVec2 max) {
 
 namespace {
 
-// At the pointer, whole on the display: Dear ImGui places a tooltip by the size that the one before
-// had, and where that was narrow its lines would be wrapped ever narrower.
+// At the pointer, inside the display: Dear ImGui places a tooltip by the size of the previous one,
+// and after a narrow one its lines would be wrapped ever narrower.
 void place_tooltip(ImVec2 size) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -213,7 +213,7 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
   const float height = look.m.row;
   draw.AddRectFilled(origin, {origin.x + width, origin.y + height}, t.well, look.m.radius);
 
-  // Room beyond the words is shared out evenly; where there is little, the words are set smaller.
+  // Spare width is distributed evenly; if there is too little, the text is smaller.
   const auto words_in = [&](ImFont* f) {
     float sum = 0.0F;
     for (const Choice& choice : choices) sum += text_size(f, choice.name).x;
@@ -270,7 +270,7 @@ bool segmented_row(const Look& look, const char* name, std::span<const Choice> c
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = available_width();
   ImRect frame = row_frame(look, name, origin, width);
-  // Choices that would run together take what the name leaves.
+  // If the choices would overlap, they take the width left by the name.
   float words = 0.0F;
   for (const Choice& choice : choices) {
     words += text_size(look.fonts.small_medium, choice.name).x + 10.0F;

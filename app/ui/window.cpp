@@ -1,4 +1,4 @@
-// Where everything lies: panels around the picture, or below it on a phone.
+// Layout of the window: panels around the picture, or below it on a phone.
 
 #include <imgui_internal.h>
 
@@ -35,8 +35,8 @@ bool begin_panel(const char* id, const Rect& r, ImGuiWindowFlags flags = 0) {
   return ImGui::Begin(id, nullptr, kFixed | flags);
 }
 
-// A finger scrolls a panel by dragging it. Where it began on a control, up or down is meant for the
-// panel, and the control is let go.
+// Scrolls a panel by dragging with a finger. If the drag began on a control and is vertical, the
+// panel scrolls and the control is released.
 void scroll_by_drag() {
   const ImGuiIO& io = ImGui::GetIO();
   const ImGuiContext& g = *ImGui::GetCurrentContext();
@@ -45,7 +45,7 @@ void scroll_by_drag() {
       !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) {
     return;
   }
-  // A window's ground is active when it was pressed, as if the window were to be moved.
+  // A pressed window background is active, as for moving the window.
   const bool on_ground = g.ActiveId == 0 || g.ActiveId == g.ActiveIdWindow->MoveId;
   if (!on_ground) {
     const ImVec2 way = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 4.0F);
@@ -56,7 +56,7 @@ void scroll_by_drag() {
   ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
 }
 
-// A panel that a tab opens. A new one is a file of its own and a line here.
+// A panel opened by a tab. A new one is a separate file and a line here.
 struct Panel {
   Tab tab;
   Choice name;
@@ -77,7 +77,7 @@ void draw_plots(App& app, float height) {
   timing(look, app.session, brief);
 }
 
-// Beside the picture the controls are always open, and the others share a panel.
+// Beside the picture the controls are always open; the others share a panel.
 constexpr std::array<Panel, 5> kPanels{
     {{Tab::kControls,
       {"Controls", "Which scene, and how it is solved"},
@@ -93,7 +93,7 @@ constexpr std::array<Panel, 5> kPanels{
       {"Accuracy", "What does accuracy cost? All methods over this scene"},
       [](App& app, float) { accuracy(app.look, app, app.desk); }}}};
 
-// The panel of a tab, the first where there is none.
+// The panel of a tab, or the first.
 const Panel& panel_of(std::span<const Panel> panels, Tab tab) {
   for (const Panel& panel : panels) {
     if (panel.tab == tab) return panel;
@@ -101,7 +101,7 @@ const Panel& panel_of(std::span<const Panel> panels, Tab tab) {
   return panels.front();
 }
 
-// Tabs as wide as the panel. @return the panel that is open, the first where another is
+// Tabs across the panel. @return the open panel, or the first
 const Panel& choose_panel(const Look& look, std::span<const Panel> panels, Tab& tab) {
   std::vector<Choice> names;
   int current = 0;
@@ -115,28 +115,27 @@ const Panel& choose_panel(const Look& look, std::span<const Panel> panels, Tab& 
   return open;
 }
 
-// Those of the level, in the order of kPanels: Explore has the plots, and beside them what sets N
-// while that is looked at.
+// The panels of the level, in the order of kPanels: Explore has the plots, and the explanation of N
+// while it is open.
 std::span<const Panel> panels_of(const Desk& desk) {
   const std::span<const Panel> all(kPanels);
   if (desk.level == DeskLevel::kLab) return all;
   return all.first(desk.tab == Tab::kWhy ? 3 : 2);
 }
 
-// What is in the right panel.
+// Contents of the right panel.
 void instruments(App& app, float height) {
   const auto panels = panels_of(app.desk).subspan(1);
   if (panels.size() == 1) return panels.front().draw(app, height);
   choose_panel(app.look, panels, app.desk.tab).draw(app, height - app.look.m.row - 8.0F);
 }
 
-constexpr float kEdge = 10.0F;         // width of the strip that a panel is dragged by
+constexpr float kEdge = 10.0F;         // width of a panel's drag strip
 constexpr float kLeastPanel = 240.0F;  // width
 constexpr float kLeastView = 320.0F;
 
-// The strip at a panel's inner edge: dragged, it changes the width; clicked, it folds the panel
-// away or brings it back.
-// @param outward +1 where the panel lies to the right of the strip, -1 to the left
+// The strip at a panel's inner edge: a drag changes the width; a click folds or unfolds the panel.
+// @param outward +1 if the panel is to the right of the strip, -1 if to the left
 void edge(App& app, const char* id, PanelSide& side, const Rect& strip, float width, float most,
           float outward) {
   const Theme& t = *app.look.theme;
@@ -166,7 +165,7 @@ float width_of(const PanelSide& side, float suits, float most) {
                            : suits;
 }
 
-// What a folded panel leaves of its place is the strip that brings it back.
+// A folded panel leaves only the strip that unfolds it.
 void desktop_panels(App& app, const Rect& space) {
   const bool wide = space.width >= 1476.0F;
   const float most = 0.5F * (space.width - kLeastView);
@@ -180,7 +179,7 @@ void desktop_panels(App& app, const Rect& space) {
       right.open ? space.x + space.width - right_width : space.x + space.width + app.look.m.margin;
   app.view_rect = {left_edge, 0.0F, right_edge - left_edge, space.y + space.height + space.y};
   if (left.open) {
-    // As tall as what is in it.
+    // As tall as its contents.
     ImGui::SetNextWindowPos({space.x, space.y});
     ImGui::SetNextWindowSizeConstraints({left_width, 0.0F}, {left_width, space.height});
     if (ImGui::Begin("##controls", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
@@ -214,11 +213,11 @@ void desktop(App& app, ImVec2 display) {
   ImGui::PopStyleVar();
 }
 
-// View on top (or at the left, when lying), controls in tabs below (or at the right).
+// View on top (on the left in landscape), controls in tabs below (on the right).
 void phone(App& app, ImVec2 display) {
   const bool lying = display.x > display.y;
   const float side = lying ? std::min(392.0F, 0.5F * display.x) : display.x;
-  // A card of the tour takes its place from both; its text in the page leaves plots to be seen.
+  // A tour card takes room from both; if its text is in the page, plots stay visible.
   const bool guided = app.desk.tour >= 0 && app.desk.tour_in_page;
   const float share = app.desk.tour < 0 ? 0.44F : guided ? 0.48F : 0.52F;
   const float top = lying ? 0.0F : std::round(share * display.y);
@@ -241,7 +240,7 @@ void phone(App& app, ImVec2 display) {
     if (app.desk.panels) {
       ImGui::SetCursorScreenPos({origin.x, origin.y + 76.0F});
       const auto panels = panels_of(app.desk);
-      // The text of the tour takes the room of the tabs, and leads to the panels itself.
+      // The tour's text replaces the tabs and links to the panels itself.
       const Panel& open =
           guided ? panel_of(panels, app.desk.tab) : choose_panel(app.look, panels, app.desk.tab);
       ImGui::Dummy({1.0F, 0.0F});
@@ -264,7 +263,7 @@ void phone(App& app, ImVec2 display) {
   ImGui::PopStyleVar(3);
 }
 
-// What the application says in passing, above the bar.
+// The application's notice, above the bar.
 void notice(App& app) {
   if (app.notice.text.empty() || app.notice.left <= 0.0) return;
   const Look& look = app.look;

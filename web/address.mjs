@@ -1,23 +1,23 @@
-// The page's address holds the experiment: written while it changes, read when a person comes back
-// to it. A scene of the person's own is inside it, as `scene64`.
+// Keeps the experiment in the page's address: written on changes, read when the user returns. One
+// of the user's own scenes is embedded as `scene64`.
 import { pack, unpack } from "./inline_scene.mjs";
 
-// Longer addresses break in mails and messengers; the address then only names the scene.
+// Longer addresses break in mails and messengers; beyond this the address only names the scene.
 const longestScene = 16_000; // letters
-const settled = 300; // a slider that moves is written when it rests [ms]
+const settled = 300; // delay after the last change, such as of a slider [ms]
 
-/** The parts of a fragment, as they are. */
+/** The parts of a fragment, not decoded. */
 const partsOf = (fragment) => fragment.replace(/^#/, "").split("&").filter((part) => part !== "");
 
 const isScene = (part) => part.startsWith("scene=");
 
 export function makeAddress(wasm, host, readScene, keep, signal) {
-  const packed = { text: "", letters: "" }; // the last own scene
-  let written = ""; // the fragment that this wrote, or read, last
+  const packed = { text: "", letters: "" }; // the last embedded scene
+  let written = ""; // the last fragment written or read here
   let before = ""; // the last fragment of the previous scene
   let timer = 0;
 
-  /** The experiment as a fragment, without '#'. */
+  /** The experiment as a URL fragment, without '#'. */
   async function link() {
     const plain = wasm.link();
     const text = wasm.ownScene();
@@ -33,7 +33,7 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     return `${page}#${await link()}`;
   }
 
-  /** Runs what a fragment holds. @returns {ok, problems} */
+  /** Opens the experiment of a fragment. @returns {ok, problems} */
   async function open(fragment) {
     const parts = partsOf(fragment);
     const scene = parts.find((part) => part.startsWith("scene64="));
@@ -62,7 +62,7 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     const fragment = `#${await link()}`;
     document.title = `${JSON.parse(wasm.report()).title} · substep`;
     if (fragment === written) return;
-    // Going back leads to the scene before, not to every setting on the way.
+    // Going back returns to the previous scene, without the settings in between.
     const sceneOf = (text) => partsOf(text).find((part) => /^scene(64)?=/.test(part));
     const anew = written !== "" && sceneOf(fragment) !== sceneOf(written);
     if (anew) before = written;
@@ -72,7 +72,7 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
 
   async function read() {
     if (written !== "") before = written;
-    written = location.hash; // what it becomes is written in its place
+    written = location.hash; // later versions replace it
     if (written.length > 1) await open(written);
   }
 
@@ -106,7 +106,7 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
       }, { signal });
       return linked;
     },
-    /** Loads the page with what ran before the present scene, or as it begins. */
+    /** Reloads the page with the previous scene's experiment, or without any. */
     goBefore() {
       history.replaceState(null, "", `${location.pathname}${location.search}${before}`);
       location.reload();

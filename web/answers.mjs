@@ -1,5 +1,5 @@
-// How the API answers, so that no call throws whatever its argument does when it is read: getters,
-// proxies and toString may throw, too.
+// Safe answers of the API: no call throws, whatever happens when its argument is read. Getters,
+// proxies and toString may throw as well.
 
 export const largest = 32 << 20; // of a text: more than a scene file may have [letters]
 
@@ -13,12 +13,12 @@ export function show(value) {
     try {
       const text = spell(value);
       if (typeof text === "string") return text.length > 80 ? `${text.slice(0, 80)}...` : text;
-    } catch { /* the other way may work */ }
+    } catch { /* try the other way */ }
   }
   return "what was given";
 }
 
-/** What was thrown, which may be anything, as a text. */
+/** The message of a thrown value of any type. */
 export function messageOf(error) {
   try {
     if (error instanceof Error && typeof error.message === "string") return error.message;
@@ -29,10 +29,10 @@ export function messageOf(error) {
 export const isObject = (value) =>
   typeof value === "object" && value !== null && !Array.isArray(value);
 
-/** A text without what would end it early on its way. */
+/** Whether the value is a text without NUL, which would truncate it in transfer. */
 export const isText = (value) => typeof value === "string" && !value.includes("\0");
 
-/** An option by its name, where options may be left out. It is read once. */
+/** An option by name; options may be undefined. Reads it once. */
 export function optionOf(options, name, otherwise) {
   if (options === undefined || options === null) return otherwise;
   if (!isObject(options)) throw new Error(`${show(options)} is not an object with ${name}`);
@@ -40,16 +40,16 @@ export function optionOf(options, name, otherwise) {
 }
 
 /**
- * Makes calls safe to call.
- * @param trouble gives why no call can be answered any more, or ""; asked again after the call,
- *   since what is read from an argument may end the laboratory
- * @returns {answering, promising, telling}: each makes a call into one that does not throw
+ * Wrappers that make calls safe.
+ * @param trouble returns the reason why calls can no longer be answered, or ""; checked again after
+ *   the call, since reading an argument may end the laboratory
+ * @returns {answering, promising, telling}: each wraps a call so that it does not throw
  */
 export function makeGuards(trouble) {
   const check = () => {
     if (trouble()) throw new Error(trouble());
   };
-  /** The call's answer, or {ok: false, problems}. */
+  /** The call's result, or {ok: false, problems}. */
   const answering = (call) => (...args) => {
     try {
       check();
@@ -60,7 +60,7 @@ export function makeGuards(trouble) {
       return wrong("", messageOf(error));
     }
   };
-  /** A promise of what the call gives; it fails with an Error. */
+  /** A promise of the call's result; rejects with an Error. */
   const promising = (call) => async (...args) => {
     try {
       check();
@@ -69,7 +69,7 @@ export function makeGuards(trouble) {
       throw new Error(messageOf(error));
     }
   };
-  /** A promise of the call's answer, or of {ok: false, problems}. */
+  /** A promise of the call's result, or of {ok: false, problems}. */
   const telling = (call) => async (...args) => {
     try {
       check();

@@ -25,7 +25,7 @@ namespace {
 
 App& app() { return *instance->app; }
 
-// Until the next call.
+// Kept until the next call.
 const char* keep_text(std::string value) {
   static std::string text;
   text = std::move(value);
@@ -33,7 +33,7 @@ const char* keep_text(std::string value) {
 }
 
 const char* keep(const json& value) {
-  // What is not UTF-8 came from outside and is shown with a mark instead.
+  // Invalid UTF-8 from outside is shown as a replacement character.
   return keep_text(value.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
@@ -46,13 +46,13 @@ json outcome(const std::vector<Problem>& problems) {
 
 json number(double value) { return std::isfinite(value) ? json(value) : json(nullptr); }
 
-/// Of the scene that was read.
+/// Of the parsed scene.
 substep::SceneResult read_result() {
   if (!instance->reading) return {nullptr, {{"", "no scene was read"}}};
   return std::exchange(instance->reading, nullptr)->result();
 }
 
-// What the first screen says, or null where it is not there.
+// Texts of the first screen, or null if it is not shown.
 json introduction() {
   if (!app().introduction.open()) return nullptr;
   const substep::IntroductionWords words = introduction_words(app());
@@ -88,7 +88,7 @@ const char* substep_set(const char* text) {
   const json object = json::parse(text, nullptr, false);
   if (!object.is_object()) return keep(outcome({{"", "is not an object of settings"}}));
   std::vector<Problem> problems;
-  if (object.contains("scene")) {  // first: it brings settings of its own
+  if (object.contains("scene")) {  // first: it resets the settings
     const std::string problem = app().set("scene", text_of(object["scene"]));
     if (!problem.empty()) problems.push_back({"scene", problem});
   }
@@ -254,7 +254,7 @@ const char* substep_report() {
        {app().view_rect.x, app().view_rect.y, app().view_rect.width, app().view_rect.height}},
       {"frame_time", app().frame_time},
       {"introduction", introduction()},
-      {"tour", app().desk.tour + 1},  // the number of the step, 0 outside the tour
+      {"tour", app().desk.tour + 1},  // step number from 1, 0 outside the tour
   };
   if (r.leader.body >= 0) {
     out["leader"] = {{"body", s.scene().bodies[static_cast<std::size_t>(r.leader.body)].name},

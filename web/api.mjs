@@ -1,9 +1,9 @@
-// What programs may ask of a laboratory: window.substep, and what createSubstep gives. README.md
-// says it for people. Nothing throws: what is wrong comes back, and what ran goes on.
+// The API of a laboratory: window.substep, and the result of createSubstep, documented in
+// README.md. Nothing throws: errors are returned, and the run continues.
 import { isObject, isText, largest, makeGuards, messageOf, optionOf, right, show, tooLong, wrong }
   from "./answers.mjs";
 
-const longest = 100_000; // frames of one call
+const longest = 100_000; // frames per call
 const gone = "this laboratory was removed: createSubstep opens another";
 
 const parse = (text) => JSON.parse(text);
@@ -25,7 +25,7 @@ function load(wasm, scene, from) {
 
 function set(wasm, settings) {
   if (!isObject(settings)) return wrong("", `${show(settings)} is not an object of settings`);
-  const entries = Object.entries(settings); // a getter may give something else the next time
+  const entries = Object.entries(settings); // a getter may return a different value the next time
   for (const [key, value] of entries) {
     if (!["string", "number", "boolean"].includes(typeof value)) {
       return wrong(key, `${show(value)} is not a text, a number, true or false`);
@@ -73,7 +73,7 @@ function makeChanging(wasm, report) {
   };
 }
 
-/** Calls that only look. */
+/** Read-only calls. */
 const makeLooking = (wasm, report) => ({
   report,
   settings: () => parse(wasm.settings()),
@@ -87,7 +87,7 @@ const makeLooking = (wasm, report) => ({
   saved: () => wasm.savedScene(),
 });
 
-/** Calls that promise what only takes shape later, or fail. */
+/** Calls that return a promise, which may be rejected. */
 const makePromised = (address, capture, report) => ({
   link: () => address.url(),
   screenshot(options) {
@@ -110,7 +110,7 @@ const makePromised = (address, capture, report) => ({
   },
 });
 
-/** Those who hear of frames and verdicts. @param trouble why nobody can begin to listen, or "" */
+/** Listeners to frames and verdicts. @param trouble why none can be added, or "" */
 function makeListeners(report, trouble) {
   const listeners = { frame: new Set(), verdict: new Set() };
   let last = { run: "", frame: -1, verdict: "" };
@@ -125,7 +125,7 @@ function makeListeners(report, trouble) {
     }
   }
   return {
-    /** @returns what ends it; where it could not begin, that bears {ok, problems} */
+    /** @returns a function that ends it; on failure it has the properties {ok, problems} */
     on(event, listener) {
       const known = typeof event === "string" && Object.hasOwn(listeners, event);
       const problem = trouble() || (known && typeof listener === "function" ? ""
@@ -137,7 +137,7 @@ function makeListeners(report, trouble) {
       listeners[event].add(listener);
       return () => listeners[event].delete(listener);
     },
-    /** Tells those who listen what the last picture shows. */
+    /** Notifies the listeners after a drawn frame. */
     afterDraw() {
       if (listeners.frame.size + listeners.verdict.size === 0) return;
       const now = report();

@@ -1,8 +1,8 @@
 // Pictures and videos of the canvas.
 
-// VP8 first: a processor that draws and simulates has little time left to encode.
+// VP8 first: a CPU that draws and simulates has little time left for encoding.
 const formats = ["video/webm;codecs=vp8", "video/webm;codecs=vp9", "video/webm", "video/mp4"];
-const patience = 10000; // for the first pictures of a video to be encoded [ms]
+const patience = 10000; // limit for encoding the first pictures of a video [ms]
 
 /** A part of the canvas as a PNG. @param part {x, y, width, height} in CSS pixels */
 function toPng(canvas, part) {
@@ -17,7 +17,7 @@ function toPng(canvas, part) {
 export function makeCapture(frame, wasm, host, save) {
   const { canvas } = frame;
   const name = () => JSON.parse(wasm.report()).scene;
-  const wanted = []; // {take, fail}: what is done with the pixels when they are there, or never
+  const wanted = []; // {take, fail}: callbacks for the pixels, or for a failure
   let recorder = null;
   let ending = false;
   let started = () => false;
@@ -32,7 +32,7 @@ export function makeCapture(frame, wasm, host, save) {
     });
   }
 
-  /** @returns a promise of the video, or null where the browser cannot make one */
+  /** @returns a promise of the video, or null if the browser cannot record one */
   function begin() {
     const mimeType = globalThis.MediaRecorder && formats.find((f) => MediaRecorder.isTypeSupported(f));
     if (!mimeType || recorder) return null;
@@ -54,7 +54,7 @@ export function makeCapture(frame, wasm, host, save) {
     });
     recorder.start(250);
     wasm.recording(1);
-    host.changed?.(); // a run that rests is drawn again
+    host.changed?.(); // a paused run is redrawn
     return video;
   }
 
@@ -63,7 +63,7 @@ export function makeCapture(frame, wasm, host, save) {
     recorder?.stream.getTracks().forEach((track) => track.stop());
   }
 
-  /** Ends the video, but not before something of it was encoded. */
+  /** Ends the video once some of it has been encoded. */
   function end() {
     ending = true;
     if (started()) stop();
@@ -91,12 +91,12 @@ export function makeCapture(frame, wasm, host, save) {
     picture,
     begin,
     end,
-    /** Right after drawing, while the pixels are there. */
+    /** Call right after drawing, while the pixels are available. */
     afterDraw() {
-      if (recorder) host.changed?.(); // a video of a run that rests has pictures too
+      if (recorder) host.changed?.(); // a video of a paused run has pictures as well
       for (const { take } of wanted.splice(0)) take();
     },
-    /** A video ends with what it has; pictures that are waited for never come. */
+    /** Ends a video with its frames so far; pending pictures fail. */
     close(reason) {
       stop();
       for (const { fail } of wanted.splice(0)) fail(new Error(reason));

@@ -1,21 +1,21 @@
-// When a laboratory draws.
+// Schedules the frames of a laboratory.
 import { Graphics } from "./graphics.mjs";
 
 const cursors = ["default", "grab", "text"];
 
-/** Draws while something goes on and for a moment after every event, as long as it can be seen. */
+/** Draws during activity and for a moment after every event, while the canvas is visible. */
 export class Clock {
-  /** @param afterDraw called when a frame is on the canvas, while its pixels are there */
+  /** @param afterDraw called after each drawn frame, while its pixels are available */
   constructor(wasm, frame, afterDraw) {
     Object.assign(this, { wasm, frame, afterDraw });
     this.before = performance.now();
     this.awakeUntil = 0;
-    this.timer = 0; // of a frame that was begun and not shown
-    this.pictures = frame.canvas.pictures = { begun: 0, shown: 0 }; // for tests that look at pixels
+    this.timer = 0; // for a frame that was begun and not shown
+    this.pictures = frame.canvas.pictures = { begun: 0, shown: 0 }; // for tests that read pixels
     this.graphics = new Graphics(wasm, frame, () => this.wake());
-    this.seen = false; // until the watcher reports it
+    this.seen = false; // until the observer reports it
     this.watcher = new IntersectionObserver((entries) => {
-      this.seen = entries.at(-1).isIntersecting; // there are several where the page was busy
+      this.seen = entries.at(-1).isIntersecting; // several if the page was busy
       this.graphics.see(this.seen);
       this.wake();
     });
@@ -31,12 +31,12 @@ export class Clock {
 
   canDraw() { return !this.wasm.stopped && this.graphics.canDraw(); }
 
-  /** Until what moves has come to rest. */
+  /** Keeps drawing until animations have ended. */
   wake() { this.awakeUntil = performance.now() + 1500; }
 
-  /** Goes on to the next frame, if there is something to draw. */
+  /** Draws the next frame, if there is a change. */
   next(now) {
-    const emptied = this.frame.fit(this.wasm); // a canvas of another size
+    const emptied = this.frame.fit(this.wasm); // the canvas has another size
     if (emptied) this.wake();
     else if (this.timer) return;
     const dt = Math.max(0, (now - this.before) / 1000);
@@ -46,7 +46,7 @@ export class Clock {
     else this.begin(dt);
   }
 
-  /** Draws a frame and shows it, however long that takes. */
+  /** Draws a frame and shows it synchronously. */
   draw(dt) {
     this.pictures.begun += 1;
     this.wasm.frame(dt);
@@ -55,8 +55,8 @@ export class Clock {
   }
 
   /**
-   * Begins a frame that a processor draws, and shows it when it is finished. A browser reads the
-   * pixels of a canvas that has changed, and does not answer until they are drawn.
+   * Begins a software-rendered frame and shows it when it is finished. A browser reads the pixels
+   * of a changed canvas, and blocks until they are drawn.
    */
   begin(dt) {
     this.pictures.begun += 1;

@@ -1,8 +1,8 @@
-// Scene files come in by the menu or dropped on the laboratory; scenes, tables and pictures go out
-// as downloads; a few words are kept in the browser from visit to visit.
+// Scene files come from the menu or by drag and drop; scenes, tables and pictures are downloaded;
+// small values are stored in the browser between visits.
 
-const largest = 8 << 20; // of a scene file: the page does not answer while one is read [bytes]
-const prefix = "substep."; // of what is kept
+const largest = 8 << 20; // per scene file: the page blocks while it reads one [bytes]
+const prefix = "substep."; // of stored keys
 
 const types = { json: "application/json", csv: "text/csv", png: "image/png", webm: "video/webm",
   mp4: "video/mp4" };
@@ -31,7 +31,7 @@ async function copy(text) {
     await navigator.clipboard.writeText(text);
     return true;
   } catch {
-    // Without https there is no clipboard; the old way still works there.
+    // Without https there is no clipboard API; the old method still works.
     const field = Object.assign(document.createElement("textarea"), { value: text });
     field.style.position = "fixed";
     const active = document.activeElement;
@@ -83,7 +83,7 @@ export function makeFiles(frame, wasm, host, readScene) {
     if (!done) tell("The browser does not allow copying here");
     return done;
   };
-  // Where nothing may be kept (private windows, blocked storage) nothing is.
+  // If storage is unavailable (private windows, blocked storage), nothing is stored.
   host.remember = (key, value) => {
     try {
       localStorage.setItem(prefix + key, value);

@@ -1,7 +1,7 @@
 #!/usr/bin/env node
-// The last step of the build: writes what depends on all files of the page.
+// The last step of the build: writes the files that depend on all others.
 //   node web/finish.mjs SOURCE FOLDER FILE...
-// The files are all that the build put into the folder. What an earlier build left there is removed.
+// The files are those of this build. Files of earlier builds are removed from the folder.
 // version.mjs  sizes of what is downloaded, for the progress bar
 // files.json  the version, a hash of all files, and their list: for service_worker.js
 import { createHash } from "node:crypto";
@@ -22,7 +22,7 @@ for (const entry of await readdir(folder, { recursive: true, withFileTypes: true
 }
 const hash = createHash("sha256");
 for (const name of files) hash.update(name).update(await readFile(join(folder, name)));
-// A folder is requested by its name as well as by its page's.
+// A folder is requested by its own name as well as by that of its page.
 await copyFile(join(source, "service_worker.js"), join(folder, "service_worker.js"));
 await writeFile(join(folder, "files.json"),
   JSON.stringify({ version: hash.digest("hex").slice(0, 16), files: ["./", ...files] }, null, 1));

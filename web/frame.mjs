@@ -1,5 +1,5 @@
-// What a laboratory is made of on the page: the canvas, its twin in HTML, and a card over both that
-// says what goes on.
+// The elements of a laboratory on the page: the canvas, its HTML twin, and a card over both for
+// progress and errors.
 
 let instances = 0;
 
@@ -17,7 +17,7 @@ ${wholePage ? '<section class="substep-tour" hidden></section>' : ""}
   </div>
 </div>`;
 
-/** Styles come with the module, once for all laboratories of a page. */
+/** Adds the module's styles, once for all laboratories of a page. */
 function addStyles(name) {
   const href = new URL(name, import.meta.url).href;
   if ([...document.styleSheets].some((sheet) => sheet.href === href)) return;
@@ -29,7 +29,7 @@ export function makeFrame(element, wholePage) {
   addStyles("substep.css");
   if (wholePage) addStyles("tour.css");
   element.classList.add("substep");
-  element.classList.toggle("substep-shares", !wholePage); // wheel and fingers, with the page
+  element.classList.toggle("substep-shares", !wholePage); // wheel and touch are shared with the page
   element.innerHTML = markup(`substep-${++instances}`, wholePage);
   const ending = new AbortController();
   const canvas = element.querySelector("canvas");
@@ -52,20 +52,20 @@ export function makeFrame(element, wholePage) {
     element,
     canvas,
     wholePage,
-    signal: ending.signal, // for what listens beyond the canvas
+    signal: ending.signal, // for listeners outside the canvas
     twin: element.querySelector(".substep-twin"),
     tour: element.querySelector(".substep-tour"), // null in an article
     say,
-    /** Says it and waits for the button to be pressed. */
+    /** Shows a message and waits for its button. */
     ask(title, text, answer) {
       say(title, text, { answer });
       return new Promise((done) => button.addEventListener("click", done, { once: true }));
     },
     progress(share) { bar.value = share; },
     clear() { overlay.hidden = true; },
-    /** The HTML has the theme of the laboratory. */
+    /** Applies the theme of the laboratory to the HTML. */
     paint(dark) { element.dataset.theme = dark ? "dark" : "light"; },
-    /** Leaves the element as it was. */
+    /** Restores the element. */
     end() {
       ending.abort();
       element.replaceChildren();
@@ -73,7 +73,7 @@ export function makeFrame(element, wholePage) {
       delete element.dataset.theme;
     },
 
-    /** The drawing buffer has as many pixels as the screen shows. @returns whether it changed */
+    /** Matches the drawing buffer to the screen's pixels. @returns whether it changed */
     fit(wasm) {
       const ratio = window.devicePixelRatio || 1;
       const box = canvas.getBoundingClientRect();

@@ -1,11 +1,11 @@
-// Who of a page's laboratories holds the graphics. Browsers give a page some 16 contexts and take
-// the oldest away when there are more, so those out of sight hand theirs on to those in sight.
+// Shares WebGL contexts between the laboratories of a page. Browsers allow some 16 contexts and
+// drop the oldest when there are more, so laboratories out of sight give theirs to those in sight.
 
-const most = 6; // laboratories that hold contexts
+const most = 6; // laboratories with contexts
 
-const all = new Set(); // in the order in which they came into sight, longest ago first
+const all = new Set(); // by the time they came into sight, the oldest first
 
-/** Hands on what those out of sight hold, until `room` more fit. */
+/** Releases contexts of laboratories out of sight, until `room` more fit. */
 function makeRoom(room) {
   let held = [...all].filter((one) => one.holds()).length;
   for (const one of all) {
@@ -14,14 +14,14 @@ function makeRoom(room) {
   }
 }
 
-/** The graphics of one laboratory. */
+/** The WebGL context of one laboratory. */
 export class Graphics {
-  /** @param wake called when there is something to draw again */
+  /** @param wake requests a redraw */
   constructor(wasm, frame, wake) {
     Object.assign(this, { wasm, frame, wake });
     this.state = "held"; // then "leaving", "away", "coming"; "taken" by the system
     this.seen = false;
-    this.patience = 2000; // before it requests a context again [ms]
+    this.patience = 2000; // delay before the next request for a context [ms]
     frame.canvas.addEventListener("webglcontextlost", (event) => this.lost(event));
     frame.canvas.addEventListener("webglcontextrestored", () => this.restored());
     makeRoom(1);
@@ -30,9 +30,9 @@ export class Graphics {
 
   holds() { return this.state === "held" || this.state === "coming"; }
   canDraw() { return this.state === "held"; }
-  wasTaken() { return this.state === "taken"; } // a card says so
+  wasTaken() { return this.state === "taken"; } // shown by a card
 
-  /** Whether it is in sight changed. */
+  /** Call when its visibility changes. */
   see(seen) {
     this.seen = seen;
     if (!seen) return;
@@ -41,15 +41,15 @@ export class Graphics {
     this.fetch();
   }
 
-  /** Asks for the graphics again, if they are not there. */
+  /** Requests the context again, if it is lost. */
   fetch() {
     if (this.state !== "away" && this.state !== "taken") return;
     makeRoom(1);
     if (this.state === "away") this.state = "coming";
-    this.wasm.takeGraphics(); // what the system took may come later, or not be given yet
+    this.wasm.takeGraphics(); // the restored context may come later, or not at all
   }
 
-  /** Asks again and again, ever less often: two that are in sight may take each other's. */
+  /** Repeats the request with increasing delay: two in sight may take each other's context. */
   retry() {
     clearTimeout(this.timer);
     this.timer = setTimeout(() => {
@@ -60,17 +60,17 @@ export class Graphics {
     this.patience = Math.min(2 * this.patience, 60000);
   }
 
-  /** Gives the graphics up while it is out of sight. @returns whether it did */
+  /** Releases the context if it is out of sight. @returns whether it did */
   handOn() {
     if (this.seen || !this.canDraw() || !this.wasm.canHandOn()) return false;
-    this.state = "leaving"; // no context can be requested before the browser confirms the loss
+    this.state = "leaving"; // a new context can only be requested after the browser confirms the loss
     this.wasm.handOnGraphics();
     return true;
   }
 
   lost(event) {
     if (!this.frame.canvas.isConnected) return;
-    event.preventDefault(); // or it never comes back
+    event.preventDefault(); // otherwise it is never restored
     if (this.state === "leaving") {
       this.state = "away";
       if (this.seen) this.fetch();

@@ -30,7 +30,7 @@ EM_JS(char*, host_recall, (const char* key), {
 namespace substep::web {
 namespace {
 
-// The text pasted last: the page sets it before it sends the key.
+// The last pasted text: the page sets it before it sends the key.
 std::string pasted;
 
 }  // namespace

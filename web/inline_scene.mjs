@@ -1,9 +1,9 @@
-// A scene inside an address: its text without what is only for the eye, deflated, in base64url.
+// A scene embedded in an address: its text without display-only parts, deflated, in base64url.
 
-/** Of what a link unpacks to [bytes]: 1 kB of letters can stand for 1 MB. */
+/** Maximum unpacked size of a link's scene [bytes]: 1 kB of letters can expand to 1 MB. */
 export const largestUnpacked = 4 << 20;
 
-// A stream inflates all of its input before it gives any output: 1 kB becomes 1 MB at most.
+// A stream inflates its whole input before it returns output: 1 kB becomes 1 MB at most.
 const sliceSize = 1024; // [bytes]
 
 /** A stream of the bytes in slices, read on demand. */
@@ -35,7 +35,7 @@ async function through(bytes, stream, most = Infinity) {
   }
 }
 
-/** @param text a scene file @returns letters that an address can hold */
+/** @param text a scene file @returns URL-safe characters */
 export async function pack(text) {
   const plain = new TextEncoder().encode(JSON.stringify(JSON.parse(text)));
   const packed = await through(plain, new CompressionStream("deflate-raw"));
@@ -47,7 +47,7 @@ export async function pack(text) {
 /** @returns the text; fails where the letters are no packed text, a RangeError where it is too long */
 export async function unpack(letters) {
   const binary = atob(letters.replaceAll("-", "+").replaceAll("_", "/"));
-  const bytes = new Uint8Array(binary.length); // letter by letter: from() takes 100 ns for each
+  const bytes = new Uint8Array(binary.length); // in a loop: from() takes 100 ns per character
   for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
   const plain = await through(bytes, new DecompressionStream("deflate-raw"), largestUnpacked);
   return new TextDecoder("utf-8", { fatal: true }).decode(plain);

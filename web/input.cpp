@@ -1,4 +1,4 @@
-// Events of the page, handed on to the application by web/input.mjs.
+// Page events, forwarded to the application by web/input.mjs.
 
 #include <emscripten.h>
 #include <imgui.h>
@@ -61,16 +61,16 @@ EMSCRIPTEN_KEEPALIVE void substep_wheel(float x, float y) {
   ImGui::GetIO().AddMouseWheelEvent(x, y);
 }
 
-/// A second finger came: what the first one began is no click. 0 when a first finger comes again.
+/// A second finger is down: the press of the first is not a click. 0 for a new first finger.
 EMSCRIPTEN_KEEPALIVE void substep_pinching(int on) { instance->pinching = on != 0; }
 
-/// Two fingers on the picture.
+/// A two-finger gesture on the picture.
 EMSCRIPTEN_KEEPALIVE void substep_pinch(double factor, double dx, double dy) {
   instance->app->view.camera.zoom(factor);
   instance->app->view.camera.pan(dx, dy, instance->app->panes.front());
 }
 
-/// @return whether the application uses it, so that the page should not act on it
+/// @return whether the application handles it, so that the page should not
 EMSCRIPTEN_KEEPALIVE int substep_key(const char* name, int down, int ctrl, int shift, int alt,
                                      int super) {
   ImGuiIO& io = ImGui::GetIO();

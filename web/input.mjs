@@ -1,14 +1,14 @@
-// Mouse, fingers, wheel and keys of the canvas, handed on to the application.
+// Mouse, touch, wheel and key events of the canvas, forwarded to the application.
 
 /**
- * @param wasm what loader.mjs start() gave
- * @param {boolean} shares whether wheel and fingers are the page's until the canvas has the focus
- * @param {() => void} wake called with every event: something is to be drawn again
- * @param {AbortSignal} signal ends what listens beyond the canvas, which would keep it all alive
+ * @param wasm the result of start() in loader.mjs
+ * @param {boolean} shares whether wheel and touch belong to the page until the canvas has the focus
+ * @param {() => void} wake called on every event to request a redraw
+ * @param {AbortSignal} signal removes listeners outside the canvas, which would keep objects alive
  */
 export function listen(canvas, wasm, wake, shares, signal) {
-  const fingers = new Map(); // pointer id -> where it is
-  let pressed = false; // whether the application believes in a finger down
+  const fingers = new Map(); // pointer id -> position
+  let pressed = false; // whether the application has a finger down
 
   const place = (event) => {
     const box = canvas.getBoundingClientRect();
@@ -78,7 +78,7 @@ export function listen(canvas, wasm, wake, shares, signal) {
 
   canvas.addEventListener("wheel", (event) => {
     if (shares && document.activeElement !== canvas) return; // the page scrolls
-    // Lines or pages to pixels; a notch is about 100 of them, and one of ours.
+    // Converts lines or pages to pixels; a notch is about 100 of them, and one of ours.
     const scale = [1, 33, 400][event.deltaMode] / 100;
     wasm.wheel(-event.deltaX * scale, -event.deltaY * scale * (event.ctrlKey ? 4 : 1));
     event.preventDefault();
@@ -86,14 +86,14 @@ export function listen(canvas, wasm, wake, shares, signal) {
 
   const key = (event, down) => {
     const name = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-    if (name === "Tab") return; // leaves the canvas, as everywhere on a page
-    if (name === "F6") { // from panel to panel, which is Ctrl Tab where no browser takes it
+    if (name === "Tab") return; // leaves the canvas, as usual on a page
+    if (name === "F6") { // next panel; browsers reserve Ctrl Tab
       if (down) for (const [tab, ctrl] of [[1, 1], [0, 1], [0, 0]]) wasm.key("Tab", tab, ctrl, 0, 0, 0);
       event.preventDefault();
       return;
     }
     const plain = !event.ctrlKey && !event.metaKey && !event.altKey;
-    // The clipboard is in the paste event, which must come; it sends the key itself.
+    // The paste event has the clipboard and must not be prevented; it sends the key itself.
     if (!plain && name === "v") return;
     const taken = wasm.key(name, down, event.ctrlKey, event.shiftKey, event.altKey, event.metaKey);
     if (down && plain && event.key.length === 1) wasm.text(event.key);
@@ -105,7 +105,7 @@ export function listen(canvas, wasm, wake, shares, signal) {
     for (const down of [1, 0]) wasm.key("v", down, down, 0, 0, 0);
     wake();
   }, { signal });
-  // A ring around the page shows keyboard focus.
+  // A focus ring around the page.
   let tab = false;
   window.addEventListener("keydown", (event) => { tab = event.key === "Tab"; },
     { capture: true, signal });

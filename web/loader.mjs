@@ -1,7 +1,7 @@
-// Loads the WebAssembly and its data, reports the progress, and wraps what it exports.
+// Loads the WebAssembly and its data, reports progress, and wraps the exports.
 import { sizes } from "./version.mjs";
 
-/** A download that did not come to its end: trying again may help. */
+/** An incomplete download; a retry may succeed. */
 export class LoadError extends Error {}
 
 /** Starts to fetch a file of this folder. @param tell called with the bytes of each piece */
@@ -36,7 +36,7 @@ async function fetchEngine() {
   const files = [
     fetchFile("engine.wasm", "application/wasm", tell).then(WebAssembly.compileStreaming),
     fetchFile("engine.data", "application/octet-stream", tell).then((file) => file.arrayBuffer()),
-    // Browsers remember that an import failed: another try needs another address.
+    // Browsers cache a failed import: a retry needs another address.
     import(attempts++ ? `./engine.js?${attempts}` : "./engine.js"),
   ];
   try {
@@ -79,8 +79,8 @@ const encoder = new TextEncoder();
 
 /**
  * A function of the module. Texts go through the heap: a file does not fit on the stack.
- * @param life {stopped}: why no call is made any more, or ""; set where one ends in a trap, which
- *   leaves the module in the middle of what it did
+ * @param life {stopped}: why calls are disabled, or ""; set when a call traps, which leaves the
+ *   module in an inconsistent state
  */
 function wrap(module, name, signature, life) {
   const [result, ...types] = signature;
@@ -90,7 +90,7 @@ function wrap(module, name, signature, life) {
     const texts = [];
     const raw = (type, i) => {
       if (type === "n") return Number(args[i]);
-      const bytes = encoder.encode(String(args[i])); // far faster than the module's own way
+      const bytes = encoder.encode(String(args[i])); // much faster than the module's encoder
       const at = module._malloc(bytes.length + 1);
       if (at === 0) throw new Error(`there is no memory for a text of ${bytes.length} bytes`);
       texts.push(at);
@@ -111,7 +111,7 @@ function wrap(module, name, signature, life) {
   };
 }
 
-/** Gives a canvas's context back at once: browsers grant only a few. */
+/** Releases a canvas's context at once: browsers limit their number. */
 export function loseContext(canvas) {
   canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
 }
@@ -119,11 +119,11 @@ export function loseContext(canvas) {
 const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase());
 
 /**
- * An application of its own for a canvas.
- * @param engine what loadEngine gave
- * @param host what the application may ask of the page: see web/host.cpp
+ * A separate application for a canvas.
+ * @param engine the result of loadEngine
+ * @param host services of the page for the application, see web/host.cpp
  * @returns the exports by their names in camel case; run() starts it, once the host is complete,
- *   handOnGraphics() gives the graphics up until takeGraphics(), close() for good
+ *   handOnGraphics() releases the context until takeGraphics(), close() permanently
  */
 export async function makeEngine(engine, canvas, host) {
   const module = await engine.create({
@@ -133,7 +133,7 @@ export async function makeEngine(engine, canvas, host) {
       WebAssembly.instantiate(engine.compiled, imports).then((instance) => done(instance));
       return {};
     },
-    // Read once by each instance, which may take what it is given.
+    // Read once by each instance, which may take ownership.
     getPreloadedPackage: () => engine.data.slice(0),
     print: (text) => console.log(text),
     printErr: (text) => console.warn(text),
@@ -146,9 +146,9 @@ export async function makeEngine(engine, canvas, host) {
   for (const [name, signature] of Object.entries(exported)) {
     wasm[camel(name)] = wrap(module, name, signature, wasm);
   }
-  let losing = null; // WebGL's own way to lose a context and to have it back
+  let losing = null; // WEBGL_lose_context: loses and restores a context
   wasm.run = (keeps) => {
-    // With alpha, although every pixel is opaque: a software renderer masks it out at a cost.
+    // With alpha, although all pixels are opaque: a software renderer pays for masking it out.
     const context = module.GL.createContext(canvas, {
       majorVersion: 2, minorVersion: 0, alpha: true, antialias: false, depth: false,
     });

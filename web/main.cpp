@@ -1,4 +1,4 @@
-// The application in a page: what web/loader.mjs calls to start it and to let it draw.
+// The application in a page: entry points called by web/loader.mjs for start and drawing.
 
 #include <GLES3/gl3.h>
 #include <emscripten.h>
@@ -21,7 +21,7 @@ std::unique_ptr<Instance> instance;
 namespace {
 EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
 
-// Browsers hide the name behind an extension; "" where that is missing.
+// Browsers provide the name only by an extension; "" without it.
 std::string renderer_name() {
   constexpr GLenum kUnmaskedRenderer = 0x9246;
   if (!emscripten_webgl_enable_extension(context, "WEBGL_debug_renderer_info")) return "";
@@ -38,9 +38,9 @@ using substep::web::instance;
 
 extern "C" {
 
-/// Runs the first scene. @param context of WebGL 2, as Emscripten counts them
-/// @param keeps whether anything is kept from visit to visit; in somebody's article nothing is
-/// @return "" or why it cannot
+/// Runs the first scene. @param context WebGL 2 context, as an Emscripten handle
+/// @param keeps whether data is stored between visits; false in an embedded article
+/// @return "" or the reason for a failure
 EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   static std::string error;
   substep::web::context = context;
@@ -63,8 +63,8 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   return "";
 }
 
-/// Every object of the context is gone. They are let go of while it is lost: later their names
-/// would be those of a context that never had them.
+/// All objects of the context are lost. They are deleted while it is lost; later their names would
+/// refer to objects of the restored context.
 EMSCRIPTEN_KEEPALIVE void substep_context_lost() { instance->app->renderer.reset(); }
 
 EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
@@ -77,18 +77,18 @@ EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
   return "";
 }
 
-/// The canvas in CSS pixels, and its pixels per CSS pixel.
+/// The size of the canvas in CSS pixels, and its pixel ratio.
 EMSCRIPTEN_KEEPALIVE void substep_resize(float width, float height, float ratio) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {width, height};
   io.DisplayFramebufferScale = {ratio, ratio};
 }
 
-/// Whether a frame is shown by substep_present, once a processor has drawn it.
+/// Whether a frame must be shown by substep_present after software rendering.
 EMSCRIPTEN_KEEPALIVE int substep_deferred() { return instance->app->renderer->deferred() ? 1 : 0; }
 
-/// Shows the frame that substep_frame began. @param wait 0: only where it is finished
-/// @return 0 where it is still being drawn
+/// Shows the frame that substep_frame began. @param wait 0: only if it is finished
+/// @return 0 if it is still being drawn
 EMSCRIPTEN_KEEPALIVE int substep_present(int wait) {
   return instance->app->renderer->present(wait != 0) ? 1 : 0;
 }
@@ -112,7 +112,7 @@ EMSCRIPTEN_KEEPALIVE int substep_cursor() {
   }
 }
 
-/// Bytes of the heap that are in use, and that it has, as JSON.
+/// Used and total bytes of the heap, as JSON.
 EMSCRIPTEN_KEEPALIVE const char* substep_memory() {
   static std::string text;
   text = "{\"used\":" + std::to_string(mallinfo().uordblks) +

@@ -1,5 +1,5 @@
-// The page of the laboratory: it fills the window, the address holds the experiment, and what was
-// loaded once works without a network.
+// The page of the laboratory: it fills the window, the address holds the experiment, and it works
+// without a network once loaded.
 import { keepOffline } from "./offline.mjs";
 import { createSubstep } from "./substep.mjs";
 
@@ -8,7 +8,7 @@ const laboratory = document.querySelector("#laboratory");
 try {
   window.substep = await createSubstep(laboratory, { address: true, wholePage: true });
   window.dispatchEvent(new Event("substep-ready"));
-  // The keys work at once: where nothing else has the keyboard, the canvas takes it.
+  // Keys work at once: the canvas takes the focus unless another element has it.
   window.addEventListener("keydown", (event) => {
     if (document.activeElement !== document.body || event.key === "Tab") return;
     const canvas = laboratory.querySelector("canvas");
@@ -16,6 +16,6 @@ try {
     canvas.dispatchEvent(new KeyboardEvent(event.type, event));
   });
 } catch {
-  // It says itself, in its place, why it did not start.
+  // The failure is already shown in the laboratory's element.
 }
 keepOffline();

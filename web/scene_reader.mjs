@@ -1,10 +1,10 @@
-// Scenes that come as text are read in slices, so that the page answers meanwhile.
+// Parses scene texts in slices, so that the page stays responsive.
 
 const answering = () => new Promise((next) => { setTimeout(next); });
 
 /**
- * @returns a function that reads a text, then calls `use`, which opens what was read, starts its run
- *   and promises what `use` gave. Texts wait for those before them.
+ * @returns a function that parses a text, calls `use` to open the scene, starts its run and resolves
+ *   to the result of `use`. Texts are processed in order.
  */
 export function makeSceneReader(wasm) {
   let last = Promise.resolve();
@@ -19,7 +19,7 @@ export function makeSceneReader(wasm) {
       if (!wasm.stopped) wasm.startOpened();
       return given;
     });
-    last = read.catch(() => {}); // the caller's promise reports it
+    last = read.catch(() => {}); // reported by the caller's promise
     return read;
   };
 }

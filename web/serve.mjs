@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Serves a folder of static files on this machine only.
+// Serves a folder of static files on localhost only.
 //   node web/serve.mjs FOLDER [--port N]
 // A taken port is replaced by the next free one. Also a module: serve(folder, port).
 import { createReadStream } from "node:fs";
@@ -23,8 +23,8 @@ const types = {
   ".woff2": "font/woff2",
 };
 
-// What a page from this server may load: its own files alone. Styles are also written in the pages
-// and set by the program; pictures and videos are made in memory.
+// Content security policy: only files of this server. Inline styles are used by the pages and the
+// program; pictures and videos are created in memory.
 const policy = [
   "default-src 'none'", "script-src 'self' 'wasm-unsafe-eval'", "style-src 'self' 'unsafe-inline'",
   "img-src 'self' blob: data:", "media-src 'self' blob:", "font-src 'self'", "connect-src 'self'",
@@ -33,11 +33,11 @@ const policy = [
 
 const everyAnswer = { "Content-Security-Policy": policy, "X-Content-Type-Options": "nosniff" };
 
-/** The path of an address below the server's root: "/", "/example/article.html". */
+/** The path of an address relative to the server's root: "/", "/example/article.html". */
 const pathOf = (url) => decodeURIComponent(new URL(url, "http://x").pathname).replace(/^\/+/, "/");
 
 /**
- * The file that a request asks for, or null for what is not there or outside the folder.
+ * The file of a request, or null if it does not exist or is outside the folder.
  * @param folder without symbolic links
  */
 async function find(folder, url) {
@@ -46,16 +46,16 @@ async function find(folder, url) {
     const asked = normalize(join(folder, pathOf(url)));
     if (!inside(asked)) return null;
     const isFolder = (await stat(asked)).isDirectory();
-    // A symbolic link may be on the way: what counts is where the file is.
+    // The path may contain a symbolic link: the location of the file counts.
     const path = await realpath(isFolder ? join(asked, "index.html") : asked);
     const info = await stat(path);
     return inside(path) && info.isFile() ? { path, isFolder, size: info.size } : null;
   } catch {
-    return null; // no such file, or an address that cannot be read
+    return null; // no such file, or an invalid address
   }
 }
 
-/** Answers without a file. */
+/** Responds without a file. */
 function refuse(response, status, headers = {}) {
   response.writeHead(status, { ...everyAnswer, "Content-Type": "text/plain", ...headers });
   response.end(`${STATUS_CODES[status]}\n`);
@@ -73,7 +73,7 @@ async function answer(folder, request, response) {
   }
   const path = pathOf(request.url);
   if (file.isFolder && !path.endsWith("/")) {
-    // What the page names beside itself is found only below a slash.
+    // Relative addresses in the page require a trailing slash.
     refuse(response, 301, { Location: `${path.split("/").map(encodeURIComponent).join("/")}/` });
     return;
   }
@@ -81,18 +81,18 @@ async function answer(folder, request, response) {
     ...everyAnswer,
     "Content-Type": types[extname(file.path)] ?? "application/octet-stream",
     "Content-Length": file.size,
-    "Cache-Control": "no-cache", // a rebuilt page shows at the next reload
+    "Cache-Control": "no-cache", // a rebuilt page is shown on the next reload
   });
   if (request.method === "HEAD") response.end();
   else createReadStream(file.path).on("error", () => response.destroy()).pipe(response);
 }
 
 /**
- * Starts a server of the files in a folder. Symbolic links are followed only to what is in the
- * folder, too. Only GET and HEAD are answered.
+ * Starts a server for the files in a folder. Symbolic links are followed only within the folder.
+ * Only GET and HEAD are supported.
  * @param port 0: any free one
- * @returns a promise of the server once it listens; it fails where there is no such folder, or the
- *   port is taken
+ * @returns a promise of the listening server; rejected if the folder does not exist or the port is
+ *   taken
  */
 export async function serve(folder, port = 0) {
   const root = await realpath(folder);

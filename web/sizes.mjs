@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// What a visit downloads: node web/sizes.mjs FOLDER. Also a module: measure(folder).
+// Download sizes of a visit: node web/sizes.mjs FOLDER. Also a module: measure(folder).
 import { readdir, readFile } from "node:fs/promises";
 import { join, relative } from "node:path";
 import { pathToFileURL } from "node:url";

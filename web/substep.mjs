@@ -11,7 +11,7 @@ import { makeSceneReader } from "./scene_reader.mjs";
 import { makeTour } from "./tour.mjs";
 import { makeTwin } from "./twin.mjs";
 
-// The smallest module with a vector in it: a function that gives two times 0.
+// The smallest module with a SIMD instruction: a function that returns two times 0.
 const VECTORS = new Uint8Array([
   0, 0x61, 0x73, 0x6d, 1, 0, 0, 0, // magic, version
   1, 5, 1, 0x60, 0, 1, 0x7b, // a type: no parameters, a v128
@@ -19,17 +19,17 @@ const VECTORS = new Uint8Array([
   10, 15, 1, 13, 0, 0x44, 0, 0, 0, 0, 0, 0, 0, 0, 0xfd, 20, 0x0b, // f64.const 0, f64x2.splat, end
 ]);
 
-/** What this browser lacks, or "". */
+/** The feature that this browser lacks, or "". */
 function missing() {
   if (typeof WebAssembly !== "object") return "WebAssembly";
   if (!WebAssembly.validate(VECTORS)) return "WebAssembly with vectors (SIMD)";
   const canvas = document.createElement("canvas");
   if (!canvas.getContext("webgl2")) return "WebGL 2";
-  loseContext(canvas); // browsers give only a few
+  loseContext(canvas); // browsers limit their number
   return "";
 }
 
-/** Loads the program; where the network fails, until it succeeds or the person gives up. */
+/** Loads the program; on network errors retries until it succeeds or the user gives up. */
 async function load(frame) {
   for (;;) {
     frame.say("substep", "Loading the laboratory", { working: true });
@@ -53,9 +53,9 @@ async function load(frame) {
  *   link: an experiment as the fragment of an address, "scene=bridge&mode=none"
  *   play: whether it starts at once, true
  *   address: whether the page's address holds the experiment, false
- *   wholePage: whether wheel and fingers are always the laboratory's; otherwise (false) the page
- *     scrolls under them until the laboratory was clicked or tapped
- * @returns a promise of the API; it fails where the browser lacks something
+ *   wholePage: whether wheel and touch always belong to the laboratory; otherwise (false) they
+ *     scroll the page until the laboratory is clicked or tapped
+ * @returns a promise of the API; rejected if the browser lacks a required feature
  */
 export async function createSubstep(element, options = {}) {
   if (!(element instanceof HTMLElement)) {
@@ -78,7 +78,7 @@ export async function createSubstep(element, options = {}) {
   }
 }
 
-/** Where the program has ended in a trap: the page starts again with the scene before. */
+/** After a trap: restarts the page with the previous scene. */
 async function startAgain(frame, wasm, address) {
   console.error(wasm.stopped);
   const why = "The program ran out of memory, or has a defect. Other pages are not affected.";
@@ -89,7 +89,7 @@ async function startAgain(frame, wasm, address) {
 
 async function open(frame, options) {
   const engine = await load(frame);
-  const host = {}; // what the application may ask of the page: web/host.cpp calls it
+  const host = {}; // called by the application, see web/host.cpp
   const wasm = await makeEngine(engine, frame.canvas, host);
   const readScene = makeSceneReader(wasm);
   const files = makeFiles(frame, wasm, host, readScene);
@@ -105,7 +105,7 @@ async function open(frame, options) {
     frame.paint(wasm.dark());
     tour?.afterDraw();
     twin?.afterDraw();
-    api?.afterDraw(); // last: one who listens may remove the laboratory
+    api?.afterDraw(); // last: a listener may remove the laboratory
   });
   const wake = () => clock.wake();
   host.changed = wake;

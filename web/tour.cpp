@@ -1,4 +1,4 @@
-// The guided tour for the page, which shows its text as HTML: see web/tour.mjs.
+// The guided tour for the page, which shows its text as HTML, see web/tour.mjs.
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -14,7 +14,7 @@ using substep::web::instance;
 
 namespace {
 
-// Where a sentence points: the panel, and the handle in it (substep_widgets).
+// The target of a reference: its panel and its handle (substep_widgets).
 json place_of(const TourPart& part) {
   for (const substep::TourPlace& place : substep::tour_places()) {
     if (place.name != part.name) continue;

@@ -1,8 +1,8 @@
-// The guided tour as HTML beside the canvas. Its sentences, numbers and replies are the
-// application's (app/text/tour.cpp); what is set here is set by the API, like everywhere.
+// The guided tour as HTML beside the canvas. Its sentences, numbers and replies come from the
+// application (app/text/tour.cpp); changes go through the API.
 import { makeNumber } from "./tour_number.mjs";
 
-const shownFor = 2500; // that a place is marked after a click [ms]
+const shownFor = 2500; // duration of a mark after a click [ms]
 
 const markup = (id) => `
 <p class="substep-tour-where"></p>
@@ -58,7 +58,7 @@ function makeRing(frame, calls) {
   };
 }
 
-/** A part of a sentence that points at a place: pointed at it marks it, pressed it opens it. */
+/** A reference in a sentence: hover marks its place, a click opens it. */
 function makePlace(part, ring, calls) {
   const button = Object.assign(document.createElement("button"),
     { type: "button", className: "substep-place", textContent: part.text });
@@ -73,7 +73,7 @@ function makePlace(part, ring, calls) {
   return button;
 }
 
-/** @param frame with a section for it, frame.tour */
+/** @param frame contains the tour's section, frame.tour */
 export function makeTour(frame, calls) {
   const section = frame.tour;
   const id = `${frame.twin.id}-tour`;
@@ -88,10 +88,10 @@ export function makeTour(frame, calls) {
   const [close, back, next] = ["close", "back", "next"]
     .map((name) => section.querySelector(`button[name=${name}]`));
   const ring = makeRing(frame, calls);
-  const numbers = new Map(); // of the sentences, by name
+  const numbers = new Map(); // in the sentences, by name
   let shown = 0; // the step, 0 outside the tour
   let words = null;
-  let tried = false; // a number of this step was changed here
+  let tried = false; // the user changed a number of this step
 
   const go = (step) => {
     calls.set({ tour: step });
@@ -130,7 +130,7 @@ export function makeTour(frame, calls) {
     element.hidden = sentence.length === 0;
   }
 
-  /** The sentences of another step. */
+  /** Shows the sentences of another step. */
   function tell() {
     const within = [section, frame.twin].some((e) => e.contains(document.activeElement));
     ring.hide();
@@ -143,7 +143,7 @@ export function makeTour(frame, calls) {
     back.disabled = words.step === 1;
     next.textContent = words.step < words.count ? "Next" : "Done";
     body.scrollTop = 0;
-    if (within) title.focus({ preventScroll: true }); // it is read from the top
+    if (within) title.focus({ preventScroll: true }); // reading begins at the title
   }
 
   function open(on) {
@@ -166,7 +166,7 @@ export function makeTour(frame, calls) {
     put(parts.now, words.now);
     const answered = words.reply !== "" && words.reply !== parts.reply.textContent;
     put(parts.reply, words.reply);
-    if (answered && tried) task.scrollIntoView({ block: "nearest" }); // on a phone there is little room
+    if (answered && tried) task.scrollIntoView({ block: "nearest" }); // may be out of sight on a phone
     task.classList.toggle("substep-tour-done", words.done);
   }
 

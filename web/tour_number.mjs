@@ -1,28 +1,28 @@
-// A number in a sentence of the tour: dragged to the sides, or changed with the keys of a slider.
+// A number in a sentence of the tour: changed by horizontal drags, or by the keys of a slider.
 
-const pixels = 10; // of a drag from one value to the next
-const page = 4; // values that Page Up and Page Down pass
+const pixels = 10; // drag distance per value
+const page = 4; // values per Page Up or Page Down
 
 const keys = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: page,
   PageDown: -page, Home: -Infinity, End: Infinity };
 
-/** Where a value lies among the stops; between two of them at a half. */
+/** The index of a value among the stops; halfway between two of them if not equal. */
 function indexOf(stops, value) {
   const above = stops.findIndex((stop) => stop >= value * (1 - 1e-9));
   if (above < 0) return stops.length - 0.5;
   return Math.abs(stops[above] - value) <= 1e-9 * value ? above : above - 0.5;
 }
 
-/** The value so many stops on. */
+/** The value a number of stops further. */
 function moved(stops, from, by) {
   const index = by > 0 ? Math.floor(from) + by : Math.ceil(from) + by;
   return stops[Math.min(stops.length - 1, Math.max(0, index))];
 }
 
 /**
- * @param {(value: number) => void} change called while it moves
+ * @param {(value: number) => void} change called during changes
  * @param {() => void} settle called when a drag ends, and after a key
- * @returns {element, show}; show takes what the laboratory says of the number
+ * @returns {element, show}; show takes the number as reported by the laboratory
  */
 export function makeNumber(change, settle) {
   const element = document.createElement("span");
@@ -30,7 +30,7 @@ export function makeNumber(change, settle) {
   element.tabIndex = 0;
   element.setAttribute("role", "slider");
   let now = { stops: [0], value: 0 };
-  let drag = null; // {x, index, value}: where it began; {by}: how far it is
+  let drag = null; // {x, index, value} at the start; {by}: offset so far
 
   const set = (value) => {
     if (value !== now.value) change(value);
@@ -41,7 +41,7 @@ export function makeNumber(change, settle) {
     element.focus({ preventScroll: true });
     drag = { x: event.clientX, index: indexOf(now.stops, now.value), value: now.value,
       by: 0 };
-    event.preventDefault(); // no selection of text
+    event.preventDefault(); // no text selection
   });
   element.addEventListener("pointermove", (event) => {
     if (!drag) return;

@@ -1,8 +1,7 @@
-// The laboratory in plain HTML, for screen readers and keyboards: what
-// it shows, read out where it matters, and its main controls. The controls come into sight when the
-// keyboard reaches them.
+// The laboratory in plain HTML for screen readers and keyboards: its state, announced when
+// important, and its main controls. The controls become visible on keyboard focus.
 
-const period = 1000; // between updates: more would only make noise [ms]
+const period = 1000; // between updates; more frequent ones would be noise [ms]
 
 const fields = { scene: "Scene", method: "Method", state: "State",
   substeps: "Sub-steps per frame", energy: "Energy", verdict: "Verdict" };
@@ -38,7 +37,7 @@ export function makeTwin(section, calls) {
   const shown = Object.fromEntries(
     [...section.querySelectorAll("[data-field]")].map((e) => [e.dataset.field, e]));
 
-  // "none, const or capped": the words of what is allowed.
+  // "none, const or capped": the allowed values in words.
   const choices = (name) => calls.settings().find((s) => s.name === name).allowed
     .split(/, | or /).map((word) => [word, word]);
   fill(mode, choices("mode"));
@@ -53,7 +52,7 @@ export function makeTwin(section, calls) {
   const follow = (settings, next) => {
     calls.set(settings);
     update();
-    next.focus(); // the button is gone
+    next.focus(); // the focused button was removed
   };
   enter.addEventListener("click", () => follow({ introduction: "off" }, scene));
   tour.addEventListener("click", () => follow({ tour: 1 }, scene));
@@ -71,7 +70,7 @@ export function makeTwin(section, calls) {
     update();
   });
 
-  /** The first screen in words; @returns what of it is read out once. */
+  /** The first screen as text. @returns the part to announce once */
   function introduce(words) {
     for (const part of [introduction, enter, tour]) part.hidden = !words;
     if (!words) return "";
@@ -114,9 +113,9 @@ export function makeTwin(section, calls) {
     put(solver, r.solver);
     put(alpha, String(r.alpha));
     play.textContent = r.playing ? "Pause" : "Play";
-    // Read out only what a person waits for, not every number that moves.
+    // Announces only relevant changes, not every changing number.
     const run = [r.title, r.mode, state, r.verdict].join(", ");
-    // The run of a tour repeats itself; what it comes to is read out beside its text.
+    // A run of the tour repeats; its result is announced beside its text.
     const seen = introduce(r.introduction) || (inTour() ? `Guided tour, step ${r.tour}` : run);
     const words = [seen, r.trouble, r.notice].filter(Boolean).join(", ");
     if (words !== said) live.textContent = said = words;

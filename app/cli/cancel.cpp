@@ -16,7 +16,7 @@
 namespace substep::cli {
 namespace {
 
-// Long enough for a command that checks the flag after every frame, short enough for a person.
+// Long enough for a command that checks the flag after every frame, short enough for the user.
 constexpr std::chrono::milliseconds kPatience{120};
 
 std::atomic<bool> g_cancelled{false};
@@ -28,7 +28,7 @@ extern "C" void note_cancel(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-/// Ends the program where the command did not do so itself: a single frame may take minutes.
+/// Ends the program if the command has not done so: a single frame may take minutes.
 void end_when_signalled() {
   while (sem_wait(&g_signalled) != 0) {
   }
@@ -44,7 +44,7 @@ bool watch() {
   try {
     std::thread(end_when_signalled).detach();
   } catch (const std::system_error&) {
-    // No thread to be had: commands that look at the flag end all the same.
+    // No thread available: commands that check the flag still end.
   }
   std::signal(SIGINT, note_cancel);
   std::signal(SIGTERM, note_cancel);

@@ -24,7 +24,7 @@ struct CheckOptions {
   bool hard = false;
   bool json = false;
   int seed = 0;
-  int jobs = 0;  // 0: one for each processor
+  int jobs = 0;  // 0: one per processor
 };
 
 /// "holds", "fails before 4 s", "depends"

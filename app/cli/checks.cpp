@@ -14,7 +14,7 @@
 namespace substep::cli {
 namespace {
 
-/// @return false where it was cancelled
+/// @return false if cancelled
 bool run(Check& check, const std::atomic<bool>& cancelled) {
   const auto start = std::chrono::steady_clock::now();
   const Scene& scene = *check.scene;
@@ -30,13 +30,13 @@ bool run(Check& check, const std::atomic<bool>& cancelled) {
   return true;
 }
 
-/// So many threads less this one; fewer where the machine has no more.
+/// Starts count - 1 threads; fewer if the system has no more.
 std::vector<std::thread> threads_of(std::size_t count, const std::function<void()>& work) {
   std::vector<std::thread> threads;
   try {
     while (threads.size() + 1 < count) threads.emplace_back(work);
   } catch (const std::system_error&) {
-    // Fewer do it.
+    // Continue with fewer.
   }
   return threads;
 }
@@ -74,7 +74,7 @@ bool run_checks(std::vector<Check>& checks, int jobs,
   work();
   for (std::thread& other : others) other.join();
   if (error) std::rethrow_exception(error);
-  for (; told < checks.size(); ++told) {  // done behind one that was cancelled
+  for (; told < checks.size(); ++told) {  // finished after a cancelled one
     if (checks[told].done) on_done(checks[told]);
   }
   return !cancelled;

@@ -48,7 +48,7 @@ void print_stages(const Metrics& run) {
     if (times.*seconds > 0.0) line(name, times.*seconds);
     known += times.*seconds;
   }
-  line("rest", times.total - known);  // errors and energies of a frame
+  line("rest", times.total - known);  // errors and energies, per frame
 }
 
 void print_rows(const Work& work) {

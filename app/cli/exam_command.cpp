@@ -32,7 +32,7 @@ int list_cases() {
   return kOk;
 }
 
-/// The entries with these names, all where there are none. Says on stderr which names are unknown.
+/// The entries with these names, or all without names. Reports unknown names on stderr.
 bool select(const std::vector<std::string>& names, std::vector<const ExamEntry*>& selected) {
   const std::vector<ExamEntry>& all = scenes::exam();
   bool known = true;

@@ -1,5 +1,5 @@
-// The exam as a page: plain HTML in the look of the other reports (app/report/report.css), no
-// script.
+// The exam as a page: plain HTML in the style of the other reports (app/report/report.css), without
+// a script.
 
 #include <algorithm>
 #include <cmath>

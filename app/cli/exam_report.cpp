@@ -13,7 +13,7 @@ std::string run_name(const ExamRow& row) {
   return format_text("%s, %s = %g", row.method.c_str(), row.parameter.c_str(), row.value);
 }
 
-/// The case's best run and its worst quantity against its tolerance.
+/// The case's best run and its worst quantity relative to its tolerance.
 std::string best_text(const ExamOutcome& outcome) {
   const ExamRow& best = outcome.result.rows[outcome.result.best(outcome.exam)];
   if (!best.status.empty()) return "every run fails: " + best.status;
@@ -29,7 +29,7 @@ std::string best_text(const ExamOutcome& outcome) {
                      best.errors[worst], quantity.tolerance, quantity.unit.c_str());
 }
 
-/// What the runs that do not keep what they should have in common with their methods' names.
+/// The failed requirements, with the names of the methods that fail them.
 std::string broken_text(const ExamOutcome& outcome) {
   std::string text;
   for (const ExamRow& row : outcome.result.rows) {

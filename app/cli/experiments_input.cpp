@@ -62,12 +62,12 @@ class Runner {
   std::map<std::pair<std::string, double>, std::unique_ptr<Reference>> references_;
 };
 
-/// Runs a list of experiments, a line each.
+/// Runs a list of experiments, one per line.
 class Experiments {
  public:
   explicit Experiments(std::shared_ptr<const Scene> given) : runner_(std::move(given)) {}
 
-  /// @return main()'s
+  /// @return exit code
   int run(std::istream& input, const std::string& place) {
     std::string line;
     for (number_ = 1;; ++number_) {
@@ -89,7 +89,7 @@ class Experiments {
   }
 
  private:
-  /// @return main()'s where the list ends with this line
+  /// @return exit code if the list ends with this line
   std::optional<int> run_line(const std::string& line, const std::string& place) {
     Problems problems;
     const auto json = parse_json(line, problems);
@@ -116,8 +116,8 @@ class Experiments {
   static constexpr std::size_t kMostBad = 100;         // lines
 
   Runner runner_;
-  std::size_t number_ = 0;  // of the line
-  std::size_t bad_ = 0;     // lines
+  std::size_t number_ = 0;  // current line
+  std::size_t bad_ = 0;     // number of invalid lines
 };
 
 }  // namespace

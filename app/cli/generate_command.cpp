@@ -12,7 +12,7 @@
 namespace substep::cli {
 namespace {
 
-/// The angles that the scenes use come exactly, others as the machine's sine gives them.
+/// Exact for the angles that the scenes use; others use the platform's sine.
 scenes::Angle angle_of_degrees(double degrees) {
   if (degrees == 60.0) return scenes::kSixtyDegrees;
   constexpr double kDegree = 0.017453292519943295;

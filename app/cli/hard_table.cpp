@@ -76,7 +76,7 @@ class HardTable {
       std::size_t holds = 0;
       double substeps = 0.0;
       double frames = 0.0;
-      double ratios = 0.0;  // logarithms of the work beside that of the reference
+      double ratios = 0.0;  // sum of the logarithms of the work relative to the reference
       int compared = 0;
       std::string fallen;
       for (std::size_t i = 0; i < set_.size(); ++i) {
@@ -99,8 +99,8 @@ class HardTable {
     }
   }
 
-  /// A line for every scene: what holds it at the least work, and for every setting the sub-steps a
-  /// frame or the time of the failure.
+  /// A line per scene: the stable setting with the least work, and for every setting the sub-steps
+  /// per frame or the time of failure.
   void print_scenes() const {
     std::printf("\n| family | scene | least work that holds | kflop a frame |");
     for (const Candidate& candidate : candidates_) std::printf(" %s |", candidate.name.c_str());
@@ -139,7 +139,7 @@ class HardTable {
     return static_cast<double>(work.flops) / static_cast<double>(work.frames);
   }
 
-  /// The setting that holds a scene at the least work; the number of settings where none does.
+  /// The stable setting with the least work for a scene; the number of settings if none is stable.
   [[nodiscard]] std::size_t least_work(std::size_t scene) const {
     std::size_t least = candidates_.size();
     for (std::size_t j = 0; j < candidates_.size(); ++j) {

@@ -19,8 +19,8 @@
 namespace substep::cli {
 namespace {
 
-/// Whether the first word is a command or a flag. If not, it says what would be: the library would
-/// only say that a command is missing.
+/// Whether the first word is a command or a flag. If not, prints suggestions; the library would
+/// only report a missing command.
 bool knows_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string_view> names;
   const auto commands = app.get_subcommands([](const CLI::App*) { return true; });
@@ -35,7 +35,7 @@ bool knows_command(const CLI::App& app, const std::string& word) {
   return false;
 }
 
-/// The library's one line, and where to find more; what it quotes is made visible.
+/// The library's one-line message with a pointer to the help; quoted text is escaped.
 std::string failure(const CLI::App* app, const CLI::Error& error) {
   const std::string text = CLI::FailureMessage::simple(app, error);
   std::string shown;
@@ -88,8 +88,8 @@ int parse_and_run(int argc, char** argv) {
   return exit_code;
 }
 
-/// Ends the program where there is no memory. An exception would not always come through: the JSON
-/// library needs memory to free memory.
+/// Ends the program when memory is exhausted. An exception would not always propagate: the JSON
+/// library allocates memory to free memory.
 [[noreturn]] void end_without_memory() {
   std::set_new_handler(nullptr);
   end_outputs(false);
@@ -98,21 +98,21 @@ int parse_and_run(int argc, char** argv) {
   std::_Exit(kUnforeseen);
 }
 
-/// Where an exception cannot be caught: one of Eigen's within what is noexcept.
+/// For exceptions that cannot be caught, such as Eigen's inside noexcept functions.
 [[noreturn]] void end_terminated() {
   try {
     if (const auto error = std::current_exception()) std::rethrow_exception(error);
   } catch (const std::bad_alloc&) {
     end_without_memory();
   } catch (...) {
-    // All that can be said of others is that they are not expected.
+    // Other exceptions are unexpected.
   }
   end_outputs(false);
   complain("substep: ended by an error that it did not expect");
   std::_Exit(kUnforeseen);
 }
 
-/// Nothing that is thrown ends the program without a word.
+/// Every exception ends the program with a message.
 int caught(int argc, char** argv) {
   std::set_new_handler(end_without_memory);
   std::set_terminate(end_terminated);

@@ -19,7 +19,7 @@
 namespace substep::cli {
 namespace {
 
-/// What makes a scene harder, and the scenes that it makes.
+/// A parameter that makes a scene harder, and the scenes that it generates.
 struct Axis {
   const char* name;
   const char* label;
@@ -64,7 +64,7 @@ std::string line_of(const MapCell& c) {
 struct MapOptions {
   std::string out = "-";
   std::string picture;
-  double seconds = 0.0;  // 0: as each axis says
+  double seconds = 0.0;  // 0: the axis's own duration
   int jobs = 0;
 };
 
@@ -85,7 +85,7 @@ int run_map(const MapOptions& options) {
           settings.mode = Mode::kAdaptive;
           settings.solver = solver;
           settings.alpha = alpha;
-          settings.n_max = 1000;  // it is alpha that decides
+          settings.n_max = 1000;  // so that alpha determines N
           checks.push_back({.scene = scene, .cell = {settings, {}}});
           cells.push_back({.map = axis.name,
                            .label = axis.label,

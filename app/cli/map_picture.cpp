@@ -12,10 +12,10 @@ namespace {
 // Pixels.
 constexpr int kCellWidth = 46;
 constexpr int kCellHeight = 26;
-constexpr int kLeft = 62;  // of each map, for the values of alpha
+constexpr int kLeft = 62;  // of each map, for the alpha labels
 constexpr int kTop = 64;   // of the picture, for its title
-constexpr int kHead = 26;  // of each map, for its own
-constexpr int kFoot = 54;  // of each map, for the values and their name
+constexpr int kHead = 26;  // of each map, for its title
+constexpr int kFoot = 54;  // of each map, for the value labels and their title
 constexpr int kRight = 18;
 
 template <class Value, class Of>
@@ -38,7 +38,7 @@ std::string text(double x, double y, const char* style, const std::string& what)
   return format_text("<text x='%g' y='%g' class='%s'>", x, y, style) + what + "</text>\n";
 }
 
-/// Deeper where more sub-steps are taken, by the logarithm: 1 to 1,000.
+/// Darker for more sub-steps, on a logarithmic scale from 1 to 1,000.
 std::string colour_of(const MapCell& cell) {
   if (!cell.holds) return "#f6c9b4";
   const double depth = std::min(1.0, std::log10(std::max(1, cell.n_median)) / 3.0);

@@ -32,7 +32,7 @@ struct MergeOptions {
   bool quiet = false;
 };
 
-/// The parts in the folder: results.*.jsonl, and results.jsonl itself where it is there.
+/// The parts in the folder: results.*.jsonl, and results.jsonl if it exists.
 std::vector<fs::path> parts_of(const fs::path& folder) {
   std::vector<fs::path> parts;
   std::error_code error;
@@ -46,8 +46,8 @@ std::vector<fs::path> parts_of(const fs::path& folder) {
   return parts;
 }
 
-/// Reads a file of results, without the line that a killed program was writing. @return false and
-/// a message on stderr where it cannot be read, or is too large to be one
+/// Reads a file of results without a truncated last line. @return false, with a message on stderr,
+/// if it cannot be read or is too large
 bool read_part(const std::string& path, std::string& text) {
   constexpr std::size_t kMostLine = 1U << 20U;  // [bytes]
   std::ifstream stream(path, std::ios::binary);
@@ -68,8 +68,8 @@ bool read_part(const std::string& path, std::string& text) {
   return false;
 }
 
-/// Whether there is something to merge. A folder that is not there has no parts; it is made only
-/// for results from elsewhere.
+/// Whether there is something to merge. A missing folder has no parts; it is only created for
+/// results from other folders.
 bool has_parts(const fs::path& folder, const std::vector<fs::path>& parts) {
   std::error_code error;
   if (!parts.empty() || fs::exists(folder / "results.jsonl", error)) return true;
@@ -106,7 +106,7 @@ int merge(const MergeOptions& options) {
     return kBadInput;
   }
 
-  // The order of a sweep that was never parted.
+  // The order of an unsharded sweep.
   const std::vector<Json> results = file.results();
   const std::string name = results.front().value("scene", "");
   const std::vector<std::string> shipped = shipped_names();

@@ -41,32 +41,31 @@ bool same(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-std::timed_mutex g_mutex;  // of everything about the outputs, while end_outputs() may come
+std::timed_mutex g_mutex;  // protects all state of the outputs from end_outputs()
 
-/// Those with a file.
+/// The open outputs.
 std::set<Output*>& open_outputs() {
-  // It outlives every thread, and is there when there is no memory left.
+  // Never destroyed, and allocated before memory runs out.
   alignas(std::set<Output*>) static std::byte room[sizeof(std::set<Output*>)];
   static auto* const outputs = new (room) std::set<Output*>;
   return *outputs;
 }
 
-/// Where a path leads in the end: all links followed, one to a file that is not there yet too.
+/// The target of a path with all links resolved, even if the file does not exist.
 fs::path target_of(const std::string& path, std::error_code& error) {
-  constexpr int kMostLinks = 40;  // as Linux has it
+  constexpr int kMostLinks = 40;  // as on Linux
   fs::path at = path;
   for (int i = 0; i < kMostLinks && fs::is_symlink(at, error); ++i) {
     const fs::path next = fs::read_symlink(at, error);
     if (error) return {};
-    at = at.parent_path() / next;  // which is `next` where that is absolute
+    at = at.parent_path() / next;  // `next` itself if that is absolute
   }
   error.clear();
   at = fs::absolute(at, error);
   return error ? fs::path() : fs::weakly_canonical(at, error);
 }
 
-/// A name beside the target that nothing else has, in the same folder because only there it can
-/// take the target's place in one step.
+/// An unused name next to the target: only within one folder is the rename atomic.
 std::string beside(const fs::path& target) {
   constexpr std::size_t kLongest = 200;  // leaves room within the 255 bytes of a name
   static std::atomic<int> count{0};
@@ -149,7 +148,7 @@ bool Output::close() {
   return false;
 }
 
-/// To the disk and in its place, or an error.
+/// Syncs to disk and renames to the target. Returns an error on failure.
 void Output::finish() {
   if (!failed() && std::fflush(file_) != 0) error_ = errno;
   if (!failed() && !temporary_.empty() && ::fsync(::fileno(file_)) != 0) error_ = errno;
@@ -172,7 +171,7 @@ void Output::discard() {
 }
 
 void end_outputs(bool keep) {
-  constexpr std::chrono::milliseconds kWait{20};  // a write may stand before a pipe for ever
+  constexpr std::chrono::milliseconds kWait{20};  // a write may block on a pipe indefinitely
   const std::unique_lock lock(g_mutex, kWait);
   if (!lock.owns_lock()) return;
   while (!open_outputs().empty()) {
@@ -180,7 +179,7 @@ void end_outputs(bool keep) {
     const bool kept = keep && output->ending_ && output->is_open() && !output->failed();
     if (kept) std::fputs(output->ending_->c_str(), output->file_);
     if (kept && output->file_ != stdout) output->finish();
-    output->discard();  // no longer among those that are open
+    output->discard();  // removes it from the open outputs
   }
   if (::ftrylockfile(stdout) != 0) return;
   std::fflush(stdout);
@@ -197,8 +196,7 @@ bool write_file(const std::string& path, const std::string& text) {
 void prepare_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // The lowest free descriptor is this one. Writing to what is open for reading fails, as it
-    // should.
+    // The lowest free descriptor is this one. It is opened for reading, so that writes fail.
     if (::open("/dev/null", O_RDONLY) != stream) return;
   }
   std::signal(SIGPIPE, SIG_IGN);

@@ -11,8 +11,8 @@
 namespace substep::cli {
 namespace {
 
-/// The experiments by what they are likely to cost, the dearest first: then the threads end
-/// together.
+/// The experiments by estimated cost, the most expensive first, so that the threads end at about
+/// the same time.
 std::vector<std::size_t> dearest_first(const ParallelSweep& sweep) {
   std::vector<std::size_t> order(sweep.experiments.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -40,7 +40,7 @@ class Workers {
       try {
         for (int i = 0; i < sweep_.jobs; ++i) threads.emplace_back([this] { caught(); });
       } catch (const std::system_error&) {
-        if (threads.empty()) caught();  // the machine has no more: fewer do it, or this one
+        if (threads.empty()) caught();  // continue with fewer threads, or only this one
       }
       while (working_.load() > 0 || next_.load() < order_.size()) {
         if (stopping()) break;
@@ -62,7 +62,7 @@ class Workers {
     return stopping() ? Reference{} : run.reference();
   }
 
-  /// work(), with what it throws kept for the thread that waits.
+  /// Runs work(); stores an exception for the waiting thread.
   void caught() {
     try {
       work();
@@ -103,7 +103,7 @@ class Workers {
   std::atomic<int> working_{0};
   std::atomic<bool> failed_{false};
   std::mutex mutex_;
-  std::exception_ptr error_;  // under the mutex
+  std::exception_ptr error_;  // protected by the mutex
 };
 
 }  // namespace

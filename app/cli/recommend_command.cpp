@@ -29,7 +29,7 @@
 namespace substep::cli {
 namespace {
 
-constexpr int kMostSubsteps = 10000;  // a frame, as many as settings allow
+constexpr int kMostSubsteps = 10000;  // per frame, the limit of the settings
 
 struct RecommendOptions {
   std::string scene;
@@ -43,7 +43,7 @@ struct RecommendOptions {
   LengthFlags length;
 };
 
-/// What is given, and what is looked for.
+/// The given limit and the quantity to minimise.
 struct Want {
   ErrorAxis error = ErrorAxis::kTrajectory;
   CostAxis cost = CostAxis::kOperations;
@@ -55,7 +55,7 @@ struct Want {
   }
 };
 
-/// Whether runs of the scene have such an error. @return why not, or empty
+/// Whether runs of the scene have such an error. @return the reason if not, or empty
 std::string why_without(ErrorAxis axis, const Scene& scene) {
   switch (axis) {
     case ErrorAxis::kTrajectory:
@@ -100,7 +100,7 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
                  double seconds, const std::atomic<bool>& cancelled) {
   Experiment paper = experiment_of(*scene, paper_settings(*scene));
   paper.duration = seconds;
-  paper.settings.n_max = kMostSubsteps;  // alpha alone is to decide
+  paper.settings.n_max = kMostSubsteps;  // so that alpha alone determines N
   const Reference reference = find_reference(scene, seconds);
   AlphaSearch search =
       want.error_is_given
@@ -120,9 +120,9 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
                choice->alpha, figures(choice->result, want.error).c_str());
 }
 
-/// Writes the scene with what is recommended for it. @return main()'s
+/// Writes the scene with its recommended settings. @return exit code
 int write_with(const Recommended& recommended, const Scene& scene, const std::string& path) {
-  // It may be the file that the scene was read from, which is meant to have it from now on.
+  // The output may be the file that the scene was read from.
   return write_file(path, write_scene(with_recommended(scene, recommended))) ? kOk : kBadInput;
 }
 
@@ -142,7 +142,7 @@ int recommend(const RecommendOptions& options) {
   const std::vector<Result>& results = *swept;
 
   const std::vector<RunPoint> points = run_points(results, want.error, want.cost);
-  // Where the scene takes standard output, words for people go to stderr.
+  // If the scene goes to standard output, messages go to stderr.
   std::FILE* words = is_standard_output(options.out) ? stderr : stdout;
   std::fprintf(words, "%s: %zu of %zu runs hold. Error: %s.\n", scene->name.c_str(), points.size(),
                results.size(), axis_name(want.error));

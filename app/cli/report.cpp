@@ -21,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As many digits as a picture needs, not all 17.
+/// As many digits as a picture needs, fewer than 17.
 double shortened(double x) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", x);
   return parse_number(text).value_or(0.0);
 }
 
-/// The settings of a result, or nothing where the line is of another version.
+/// The settings of a result; empty if the line is of another version.
 std::optional<Experiment> experiment_in(const Json& result, const Scene& scene) {
   Json json = result;
   for (const char* other : {"series", "parameter", "holds", "failed_at", "verdict", "hash",
@@ -42,7 +42,7 @@ std::optional<Experiment> experiment_in(const Json& result, const Scene& scene) 
       .experiment;
 }
 
-/// What stages, rows, effects and the criterion cost, with each solver.
+/// The cost of stages, rows, effects and the criterion, with each solver.
 Json costs_of(const Scene& scene) {
   constexpr double kSeconds = 2.0;  // enough frames for a mean
   Json list = Json::array();
@@ -60,7 +60,7 @@ Json costs_of(const Scene& scene) {
 }
 
 Json time_charts(const Scene& scene, const std::vector<Json>& results) {
-  int least = 0;  // constant N that holds
+  int least = 0;  // smallest stable constant N
   for (const Json& result : results) {
     const Json& parameter = result["parameter"];
     if (result.value("series", "") != "bpp, const, euler" || !result.value("holds", false) ||
@@ -117,7 +117,7 @@ Json time_charts(const Scene& scene, const std::vector<Json>& results) {
 
 Json chart_json(const std::string& title, const std::string& note, const std::string& x,
                 const std::string& y, bool log, const std::vector<Curve>& curves) {
-  constexpr std::size_t kMostPoints = 1500;  // of a curve; more than pixels
+  constexpr std::size_t kMostPoints = 1500;  // per curve; more than the pixels
   Json json{{"title", title}, {"note", note}, {"x", x}, {"y", y}, {"log", log}};
   Json& list = json["curves"] = Json::array();
   for (const Curve& curve : curves) {
@@ -125,7 +125,7 @@ Json chart_json(const std::string& title, const std::string& note, const std::st
     if (!curve.note.empty()) one["note"] = curve.note;
     if (curve.failed) one["failed_at"] = curve.x.empty() ? 0.0 : curve.x.back();
     Json& points = one["points"] = Json::array();
-    // Per stretch the least and the largest value, in the order of time: peaks stay.
+    // Minimum and maximum of each interval, in the order of time, so that peaks are kept.
     const std::size_t n = curve.x.size();
     const std::size_t stretch = std::max<std::size_t>(1, 2 * n / kMostPoints);
     for (std::size_t i = 0; i < n; i += stretch) {
@@ -147,10 +147,10 @@ bool write_page(const fs::path& path, const Json& data, bool quiet) {
   if (report::kHead.empty()) {
     complain("%s: not written, this program was built without Node.js and the chart library",
              path.string().c_str());
-    return true;  // the results are there
+    return true;  // the results themselves are written
   }
   std::string text = data.dump(-1, ' ', true, Json::error_handler_t::replace);
-  // Nothing in the data may end the element that they stand in.
+  // The data must not close the element that contains them.
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     text.replace(at, 1, "\\u003c");
   }
@@ -174,7 +174,7 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
   for (const Json& result : results) {
     failed += result.value("holds", true) ? 0U : 1U;
     Json& one = own.emplace_back(result);
-    one.erase("settings");  // the command says them, and shorter
+    one.erase("settings");  // redundant with the command, which is shorter
     if (!scene) continue;
     if (const auto experiment = experiment_in(result, *scene)) {
       one["command"] = command_line(*experiment, *scene);

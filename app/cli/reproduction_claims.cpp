@@ -1,4 +1,4 @@
-// What the paper claims in words.
+// The paper's claims in words.
 
 #include <cmath>
 
@@ -114,7 +114,7 @@ Card bridge(const Reproduction& options) {
       {"const 8", direct(Mode::kConst, 8)},  {"const 16", direct(Mode::kConst, 16)},
       {"adaptive", direct(Mode::kAdaptive)}, {"capped at 4", direct(Mode::kCapped)}};
   const auto starts = scenes::bridge_starts();
-  std::vector<Run> runs;  // the first start of every method, then the second, ...
+  std::vector<Run> runs;  // the first seed of every method, then the second, ...
   for (const auto& start : starts) {
     const auto scene = shared(scenes::bridge(start));
     for (const Method& method : methods) runs.push_back({method.name, scene, method.settings, 6.0});

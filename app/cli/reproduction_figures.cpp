@@ -19,9 +19,9 @@ Curve substeps_curve(const std::string& name, const RunTrace& trace) {
   return curve;
 }
 
-/// A picture of Fig. 2: adaptive, and the smallest constant N that keeps as small an error.
+/// A picture of Fig. 2: adaptive, and the smallest constant N with no larger error.
 struct Figure2 {
-  int n = 0;            // of the constant run, 0 where none was small enough
+  int n = 0;            // of the constant run, 0 if none was small enough
   double fewer = 0.0;   // share of sub-steps that adaptive saves [-]
   double median = 0.0;  // N of adaptive
   double least = 0.0;
@@ -48,7 +48,7 @@ Figure2 figure_2(const std::string& title, const std::shared_ptr<const Scene>& s
   figure.least = quantile(by_frame(adaptive), 0.0);
   figure.median = quantile(by_frame(adaptive), 0.5);
   figure.most = peak(by_frame(adaptive));
-  for (int n = kMost; n >= 1; --n) {  // from above: an error may dip under the limit by chance
+  for (int n = kMost; n >= 1; --n) {  // downwards: an error may drop below the limit by chance
     const RunTrace& constant = traces[static_cast<std::size_t>(n)];
     if (!constant.holds || peak(constant.*error) > limit) break;
     figure.n = n;
@@ -72,7 +72,7 @@ std::string told(const Figure2& f) {
                              100.0 * std::abs(f.fewer), f.fewer >= 0.0 ? "fewer" : "more", f.n);
 }
 
-/// Of every swing its largest energy: the swings themselves would be a solid band.
+/// The largest energy of each swing: the swings themselves would be a solid band.
 Curve largest_of_swings(const std::string& name, const RunTrace& trace) {
   constexpr double kLeast = 500.0;  // [J]
   Curve curve{name, {}, {}, trace.holds ? "" : trace.verdict, !trace.holds};

@@ -50,7 +50,7 @@ std::vector<RunTrace> trace_all(const std::vector<Run>& runs, const Reproduction
   try {
     for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
   } catch (const std::system_error&) {
-    // The machine has no more: fewer do it.
+    // No more threads available: continue with fewer.
   }
   work();
   for (std::thread& thread : threads) thread.join();

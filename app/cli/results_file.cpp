@@ -27,7 +27,7 @@ void tell(const std::string& path, std::size_t line, const Problems& problems) {
   }
 }
 
-/// All of it, or false with errno.
+/// Writes all of it, or returns false with errno set.
 bool write_all(int descriptor, const std::string& text) {
   std::size_t done = 0;
   while (done < text.size()) {
@@ -115,7 +115,8 @@ bool ResultsFile::read() {
       return false;
     }
   }
-  // What a killed program was writing: no line feed yet. Our own header, or part of it, begins it.
+  // The truncated line of a killed program, without a line feed; it begins with our header or a
+  // part of it.
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   const std::string header = results_header();
   if (whole == 0 && text != header.substr(0, text.size())) {
@@ -147,9 +148,9 @@ bool ResultsFile::write(const std::string& text) {
   const off_t before = ::lseek(descriptor_, 0, SEEK_END);
   if (write_all(descriptor_, text)) return true;
   const int error = errno;
-  // Half a line is worth nothing. Making a file shorter needs no room.
+  // Removes a partial line. Truncation needs no disk space.
   if (::ftruncate(descriptor_, before) != 0) {
-    // The next reader takes the half line off.
+    // The next reader removes the partial line.
   }
   tell(path_, std::string(std::strerror(error)) + "; all results before are kept");
   return false;

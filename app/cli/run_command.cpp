@@ -51,7 +51,7 @@ std::string forecast_line(const Scene& scene, const Settings& settings) {
   return text;
 }
 
-/// "would help   adaptive sub-steps (--mode adaptive)", a line for each remedy.
+/// "would help   adaptive sub-steps (--mode adaptive)", one line per remedy.
 std::string remedy_lines(const Settings& settings, const FrameReport& failed) {
   std::string text;
   for (const Remedy& remedy : remedies(settings, failed)) {
@@ -86,7 +86,7 @@ int run(const RunOptions& options) {
   ProgressLine progress(!options.quiet && stderr_is_terminal());
   outputs.begin(simulator);
 
-  // Where a result takes standard output, words for people go to stderr.
+  // If a result goes to standard output, messages go to stderr.
   std::FILE* words = options.files.take_standard_output() ? stderr : stdout;
   if (!options.quiet) {
     std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
@@ -123,7 +123,7 @@ int run(const RunOptions& options) {
   return verdict.stopped() ? kNotFinite : kOk;
 }
 
-/// Each line says how it is run: what is said of all of them would be ignored.
+/// Each experiment has its own settings: flags for all of them would be ignored.
 void refuse_beside_experiments(const CLI::App& command, const RunOptions& options) {
   for (const CLI::Option* option : command.get_options()) {
     const std::string name = option->get_name();

@@ -14,7 +14,7 @@
 namespace substep::cli {
 namespace {
 
-/// The flags that name result files, and the files.
+/// The flags for result files, with the files.
 NamedPaths by_flag(const RunFiles& f) {
   return {{"--csv", f.csv}, {"--json", f.json}, {"--states", f.states}, {"--joints", f.joints}};
 }
@@ -23,8 +23,8 @@ std::string json_text(const std::string& text) {
   return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// What was found at the start, largest over the joints [m, rad, m/s, rad/s], and done about it
-/// [J].
+/// Errors found at the start, maximum over the joints [m, rad, m/s, rad/s], and the energy of their
+/// correction [J].
 Json start_json(const StartReport& start) {
   const StartErrors& found = start.found;
   return {{"consistent", found.consistent()},

@@ -30,7 +30,8 @@ void RunReport::add(const FrameReport& report) {
 
 std::string RunReport::energy_text() const {
   const double change = last_.energy - energy_at_start_;
-  // Only of an energy that the scene states: what this run exchanges is not known yet.
+  // Only relative to an energy stated in the scene: the energy exchanged in this run is not known
+  // yet.
   const auto& stated = scene_.criteria.energy_scale;
   const auto scale = stated ? energy_scale(stated, 0.0, 0.0) : std::nullopt;
   const auto share = energy_share(change, scale);

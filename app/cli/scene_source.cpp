@@ -25,7 +25,7 @@ std::vector<std::string> shipped_names() {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(scenes_folder(), error)) {
     const std::filesystem::path& path = entry.path();
-    // scene.schema.json lies beside the scenes.
+    // scene.schema.json is in the same folder.
     if (path.extension() != ".json" || path.stem().has_extension()) continue;
     names.push_back(path.stem().string());
   }
@@ -44,7 +44,7 @@ std::shared_ptr<const Scene> load_scene(const std::string& name_or_path) {
   std::string place = name_or_path;
   if (name_or_path == "-") {
     place = "standard input";
-    std::string text;  // more than allowed is told by read_scene()
+    std::string text;  // read_scene() reports a text that is too long
     if (read_bounded(std::cin, kMaxTextSize, text) == Reading::kFailed) {
       complain("%s: %s", place.c_str(), std::strerror(errno));
       return nullptr;

@@ -7,7 +7,7 @@
 namespace substep::cli {
 namespace {
 
-// What the flag is for, and of methods what each is.
+// Help text of the flag, with a description of each method.
 std::string help_of(const SettingField& field) {
   std::string help(field.help);
   const auto append = [&help](std::string_view name, const std::string& what) {
@@ -52,7 +52,7 @@ void SettingsFlags::add_to(CLI::App& command) {
               "--" + name + ",!--no-" + name,
               [this, &field](std::int64_t count) { take(field, count > 0 ? "true" : "false"); },
               help)
-          ->disable_flag_override()  // the library takes any text after '=', and throws
+          ->disable_flag_override()  // the library accepts any text after '=', and throws
           ->group(kGroup);
     } else {
       command

@@ -82,7 +82,7 @@ std::vector<Experiment> experiments_of(const SweepOptions& options, const Scene&
       experiment.seed = seed;
     }
   }
-  std::vector<Experiment> own_part;  // every count-th: each part has cheap and dear ones
+  std::vector<Experiment> own_part;  // every count-th: each part has cheap and expensive ones
   for (std::size_t i = static_cast<std::size_t>(shard.index - 1); i < all.size();
        i += static_cast<std::size_t>(shard.count)) {
     own_part.push_back(std::move(all[i]));
@@ -108,7 +108,7 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
   return {text, static_cast<std::size_t>(n)};
 }
 
-/// What scenes/sweeps has of a scene.
+/// Prints the content of scenes/sweeps for a scene.
 int ship(const SweepOptions& options) {
   const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
@@ -189,7 +189,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
                 file.size(), failed.load(), seconds());
     std::printf("results  %s\n", (folder / name).string().c_str());
   }
-  if (shard.count > 1) return kOk;  // `merge` writes the report of all parts
+  if (shard.count > 1) return kOk;  // `merge` writes the report for all parts
   return write_sweep_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
 }
 

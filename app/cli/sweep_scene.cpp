@@ -11,7 +11,7 @@
 namespace substep::cli {
 namespace {
 
-/// What moves, as text. The results say themselves with which settings, and how long.
+/// The physical content of the scene as text. Settings and duration are in the results.
 std::string moving_part(Scene scene) {
   scene.title = scene.group = scene.description = scene.look_for = "";
   scene.settings = {};

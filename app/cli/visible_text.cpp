@@ -9,8 +9,8 @@ unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
 }
 
-/// The length of the UTF-8 character that the text begins with, 0 where it begins with none.
-/// Overlong forms of control characters have lead bytes that are refused here.
+/// The length of the UTF-8 character at the start of the text, 0 if it is invalid.
+/// Overlong forms of control characters are rejected by their lead bytes.
 std::size_t character_length(std::string_view text) {
   const unsigned lead = byte_at(text, 0);
   std::size_t length = 0;

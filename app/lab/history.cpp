@@ -118,9 +118,7 @@ void History::add(const FrameReport& report) {
 
 double History::potential_offset() const {
   const Extent all = samples(Channel::kPotential).extent(0, size());
-  return all.empty()
-             ? 0.0
-             : -std::min(0.0, static_cast<double>(all.low));  // the potential at the start is 0
+  return all.empty() ? 0.0 : -std::min(0.0, static_cast<double>(all.low));  // 0 at the start
 }
 
 double History::largest_drift() const {

@@ -78,8 +78,7 @@ void axes_row(const Look& look, Accuracy& accuracy) {
     accuracy.error = axes[static_cast<std::size_t>(current)];
   }
   int cost = static_cast<int>(accuracy.cost);
-  const std::span<const Choice> costs(
-      kCosts);  // the last is the time, which is not stored in files
+  const std::span<const Choice> costs(kCosts);  // the last, the time, is not in files
   if (segmented_row(look, "Cost", accuracy.shipped() ? costs.first(2) : costs, cost,
                     "What goes to the right")) {
     accuracy.cost = static_cast<CostAxis>(cost);

@@ -80,8 +80,7 @@ void press(const Lab& lab, Viewport& viewport, ImVec2 pointer) {
 void drag(Session& session, Viewport& viewport) {
   const ImGuiIO& io = ImGui::GetIO();
   viewport.hand.pane =
-      std::min(viewport.hand.pane,
-               viewport.panes.size() - 1);  // the comparison may have ended in the meantime
+      std::min(viewport.hand.pane, viewport.panes.size() - 1);  // a comparison may end meanwhile
   OrbitCamera& camera = viewport.view.camera;
   Hand& hand = viewport.hand;
   const bool moved = ImGui::IsMouseDragging(ImGuiMouseButton_Left, kClick);

@@ -1,4 +1,4 @@
-// The two laboratories of article.html, and what the text around them says of their runs.
+// The two laboratories of article.html, and the text about their runs.
 import { createSubstep } from "../substep.mjs";
 
 const open = (id, mode) => createSubstep(document.getElementById(id), {

@@ -24,7 +24,7 @@ struct App : Lab, Viewport {
   App(Library library, std::unique_ptr<Renderer> renderer);
 
   /// Changes a part of the experiment: "scene", "solver", "alpha", ... as links spell them.
-  /// @return what is wrong with it, or ""
+  /// @return error message, or ""
   std::string set(std::string_view key, std::string_view value);
   /// Opens the experiment in a link. Unreadable parts are reported; the rest applies.
   /// @param scene the scene that came with the link, or the error from reading it

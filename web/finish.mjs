@@ -2,7 +2,7 @@
 // The last step of the build: writes the files that depend on all others.
 //   node web/finish.mjs SOURCE FOLDER FILE...
 // The files are those of this build. Files of earlier builds are removed from the folder.
-// version.mjs  sizes of what is downloaded, for the progress bar
+// version.mjs  sizes of the downloads, for the progress bar
 // files.json  the version, a hash of all files, and their list: for service_worker.js
 import { createHash } from "node:crypto";
 import { copyFile, readdir, readFile, rm, stat, writeFile } from "node:fs/promises";

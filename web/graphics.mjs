@@ -46,7 +46,7 @@ export class Graphics {
     if (this.state !== "away" && this.state !== "taken") return;
     makeRoom(1);
     if (this.state === "away") this.state = "coming";
-    this.wasm.takeGraphics(); // the restored context may come later, or not at all
+    this.wasm.takeGraphics(); // a lost context may come later, or not be granted yet
   }
 
   /** Repeats the request with increasing delay: two in sight may take each other's context. */

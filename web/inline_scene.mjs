@@ -44,7 +44,7 @@ export async function pack(text) {
   return btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "");
 }
 
-/** @returns the text; fails where the letters are no packed text, a RangeError where it is too long */
+/** @returns the text; throws if the letters are invalid, a RangeError if the text is too long */
 export async function unpack(letters) {
   const binary = atob(letters.replaceAll("-", "+").replaceAll("_", "/"));
   const bytes = new Uint8Array(binary.length); // in a loop: from() takes 100 ns per character

@@ -148,7 +148,7 @@ bool Output::close() {
   return false;
 }
 
-/// Syncs to disk and renames to the target. Returns an error on failure.
+/// Syncs to disk and renames to the target; sets error_ on failure.
 void Output::finish() {
   if (!failed() && std::fflush(file_) != 0) error_ = errno;
   if (!failed() && !temporary_.empty() && ::fsync(::fileno(file_)) != 0) error_ = errno;

@@ -108,7 +108,7 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
   return {text, static_cast<std::size_t>(n)};
 }
 
-/// Prints the content of scenes/sweeps for a scene.
+/// Runs the sweep that is shipped with a scene (scenes/sweeps) and writes its file.
 int ship(const SweepOptions& options) {
   const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);

@@ -1,4 +1,4 @@
-// The application in a window of its own.
+// The application in a native window.
 
 #include <epoxy/gl.h>
 // GLFW must not include another OpenGL header.

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kWindow = 12;              // frames per judged window
 constexpr double kSlowFrame = 1.0 / 30;  // a frame that took longer to draw is slow [s]
-constexpr int kFewest = 4;               // frames that are enough where all are slow and
+constexpr int kFewest = 4;               // frames that suffice if all are slow and
 constexpr double kEnough = 0.6;          // have taken this long in total [s]
 constexpr double kAsleep = 10.0;         // a background tab: not a drawing time [s]
 constexpr double kMostWait = 256.0;      // limit of patience_ [s]

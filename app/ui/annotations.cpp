@@ -1,5 +1,5 @@
 // Overlays of the picture: forces, contacts, frames, errors, the selected body and the hand.
-// Disabled ones cost nothing.
+// Disabled ones are not computed.
 
 #include <algorithm>
 #include <array>

@@ -25,8 +25,7 @@ struct TimeAxis {
   std::optional<double> hover_next;  // reported by the plots, for the next frame [s]
   std::optional<double> drag_from;   // start of a range being dragged [s]
   std::optional<double> clicked;     // time to go to; reset by the reader [s]
-  std::optional<double> past;        // the moment that the window shows, where it is no longer
-                                     // the newest [s]
+  std::optional<double> past;        // time shown, if it is not the newest [s]
 
   /// First and last time shown for a run at time `now` [s].
   [[nodiscard]] std::pair<double, double> window(double now) const;

@@ -97,7 +97,7 @@ struct Lab {
   Notice notice;
   std::optional<OpenedRun> opened;  // to be played by start_opened()
   HeavyStart heavy;
-  // The scene as loaded, without load and seed; both belong to Experiment.
+  // The scene as loaded, before load and seed are applied; both as in Experiment.
   std::shared_ptr<const Scene> plain_scene;
   double load = 1.0;  // [-]
   int seed = 0;

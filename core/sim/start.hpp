@@ -11,8 +11,8 @@ namespace substep {
 
 /// Errors of a scene's initial state, and their treatment.
 struct StartReport {
-  StartErrors found;          // of the scene as it stands
-  StartErrors left;           // of the state that the run begins with
+  StartErrors found;          // in the initial state of the scene
+  StartErrors left;           // in the initial state of the run
   bool continued = false;     // the scene continues a saved run: its errors are not corrected
   bool projected = false;     // poses or velocities were changed
   bool failed = false;        // no consistent state was found nearby: left unchanged

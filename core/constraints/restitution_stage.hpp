@@ -42,10 +42,9 @@ class RestitutionStage {
   [[nodiscard]] double impact_speed(const Scene& scene, std::span<const Vec6> u, double dt,
                                     const Block& block) const;
 
-  std::vector<double> e_;       // per body [-]; a pair uses the maximum
-  std::vector<double> impact_;  // per body: fastest impact [m/s]
-  std::vector<std::uint8_t>
-      struck_;  // per block, if impacts were propagated in this sub-step, else empty
+  std::vector<double> e_;             // per body [-]; a pair uses the maximum
+  std::vector<double> impact_;        // per body: fastest impact [m/s]
+  std::vector<std::uint8_t> struck_;  // per block, if impacts were propagated; else empty
 };
 
 }  // namespace substep

@@ -47,8 +47,7 @@ struct ExamMethod {
   std::string name;  // "leapfrog"
   Settings settings;
   std::vector<double> parameters;  // sub-steps per frame, or alpha in mode kAdaptive
-  std::optional<double>
-      order;  // required order of convergence of the first quantity; none: not checked
+  std::optional<double> order;     // required order of the first quantity; none: unchecked
 };
 
 /// A scene and its reference.

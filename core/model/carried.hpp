@@ -12,11 +12,10 @@ struct StoredForce {
   std::uint64_t id = 0;   // of the constraint block
   double lambda[5] = {};  // per row [N or N m]
   // Per row, if extrapolates(); 0 if not yet known.
-  double rate[5] = {};         // of lambda [N/s or N m/s]
-  double rate_change[5] = {};  // of the rate [N/s^2 or N m/s^2]
-  double rate_age = 0.0;       // age of the rate relative to lambda [s]
-  double elastic[5] =
-      {};  // per row, elastic part of phi under the soft drift law: Block::elastic [m, rad]
+  double rate[5] = {};             // of lambda [N/s or N m/s]
+  double rate_change[5] = {};      // of the rate [N/s^2 or N m/s^2]
+  double rate_age = 0.0;           // age of the rate relative to lambda [s]
+  double elastic[5] = {};          // per row, under the soft drift law: Block::elastic [m, rad]
   std::int8_t active_set[5] = {};  // per row of contacts: as Block::active_set
 };
 

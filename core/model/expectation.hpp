@@ -24,9 +24,8 @@ struct Expectation {
   std::optional<Integrator> integrator{};
 
   Expected verdict = Expected::kHolds;
-  std::optional<double>
-      before{};       // for kFails: latest failure time, default the scene's duration [s]
-  std::string why{};  // in one sentence
+  std::optional<double> before{};  // kFails: latest failure time, else the duration [s]
+  std::string why{};               // in one sentence
 
   friend bool operator==(const Expectation&, const Expectation&) = default;
 };

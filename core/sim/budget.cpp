@@ -5,10 +5,9 @@
 namespace substep {
 namespace {
 
-constexpr double kBodyWork = 200.0;  // per body: external forces, masses, pose
-constexpr double kBlockWork =
-    1000.0;                   // per joint or contact point: detection, rows, storage, report
-constexpr int kTypical = 16;  // sub-steps whose mean predicts the others
+constexpr double kBodyWork = 200.0;    // per body: external forces, masses, pose
+constexpr double kBlockWork = 1000.0;  // per joint or contact: detection, rows, storage, report
+constexpr int kTypical = 16;           // sub-steps whose mean predicts the others
 
 double work_of_bodies(const FrameProgress& at) {
   return kBodyWork * static_cast<double>(at.bodies) * at.left;

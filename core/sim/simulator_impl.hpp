@@ -169,10 +169,9 @@ struct Simulator::Impl {
   bool contacts_predicted = false;  // those of the open frame
   FrameReport stopped;              // the report of the frame that failed
 
-  Part all;                  // of the scene
-  bool has_springs = false;  // compliant joints
-  double heaviest =
-      1.0;  // largest mass or moment of inertia of a moving body, at least 1 [kg, kg m^2]
+  Part all;                          // of the scene
+  bool has_springs = false;          // compliant joints
+  double heaviest = 1.0;             // largest mass or moment of inertia, at least 1 [kg, kg m^2]
   std::unique_ptr<Islands> islands;  // built on first use
 
   // Stages: null if the scene does not use the effect.

@@ -214,10 +214,8 @@ class SaddleLdlt {
   std::vector<int> node_of_block_;
   std::vector<Attached> attached_;
   std::vector<int> coupled_;  // nodes
-  std::vector<int>
-      place_;  // parallel to coupled_: index among the parent's coupled bodies, -1: the parent
-  std::vector<int> first_filled_;  // parallel to coupled_: first row of Z with a structurally
-                                   // non-zero part; leaf nodes only
+  std::vector<int> place_;    // parallel to coupled_: index in the parent's, -1: the parent itself
+  std::vector<int> first_filled_;  // parallel to coupled_, leaf nodes: first non-zero row of Z
   std::vector<int> children_;      // nodes
   std::vector<int> pushed_;        // nodes that receive momentum at their centre
   std::vector<Row> rows_;

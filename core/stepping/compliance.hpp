@@ -53,8 +53,7 @@ void give_force(Block& joint, int row, double impulse);
 /// kappa of rows with a common compliance, for their softest direction.
 double spring_kappa(const SubstepTimes& times, std::span<const InverseMass> inverse_mass,
                     const Block& joint, int first, int end);
-inline constexpr double kResolved =
-    0.25;  ///< largest kappa for which Störmer prescribes spring forces
+inline constexpr double kResolved = 0.25;  ///< Störmer prescribes spring forces up to this kappa
 
 /// Sets bias and softness of the compliant rows of a joint. Block::elastic is the elastic part of
 /// phi; the rest is drift.

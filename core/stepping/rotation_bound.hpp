@@ -50,8 +50,7 @@ class RotationCriterion {
  private:
   struct Pendulum {
     int body = -1;
-    Vec3 arm =
-        Vec3::Zero();  // unit vector to its joint, body axes; 0 if the joint is at its centre
+    Vec3 arm = Vec3::Zero();  // unit vector to its joint, body axes; 0 if at its centre
   };
   void find_pendulums(const Scene& scene);
 

@@ -9,16 +9,15 @@ namespace substep {
 
 namespace {
 
-/// A corner of the clipped incident face, in the frame of the reference box. The two lines that
-/// meet in it name it while the boxes slide: 0..3 edges of the incident face, 4..7 sides of the
-/// reference.
+/// A corner of the clipped incident face, in the frame of the reference box. Its persistent id is
+/// the two lines that meet in it: 0..3 edges of the incident face, 4..7 sides of the reference.
 struct Corner {
   Vec3 p = Vec3::Zero();
-  unsigned in = 0;   // line that arrives, walking round the polygon
-  unsigned out = 0;  // line that leaves
+  unsigned in = 0;   // incoming line along the polygon
+  unsigned out = 0;  // outgoing line
 };
 
-/// A quadrilateral cut by four half-planes has at most eight corners.
+/// A quadrilateral clipped by four half-planes has at most eight corners.
 struct Polygon {
   std::array<Corner, 8> corners;
   std::size_t size = 0;
@@ -27,9 +26,8 @@ struct Polygon {
   }
 };
 
-/// Keeps what lies at sign * p[axis] <= limit (Sutherland and Hodgman). What lies on the limit, up
-/// to rounding, is kept and is no crossing: flush faces have four corners, whatever the last bit
-/// says.
+/// Clips to sign * p[axis] <= limit (Sutherland and Hodgman). Points on the limit, within rounding,
+/// are kept and are not crossings: flush faces have four corners regardless of rounding.
 Polygon clip(const Polygon& in, int axis, double sign, double limit, unsigned side) {
   Polygon out;
   const double on = 1e-9 * (1.0 + limit);  // [m]
@@ -50,7 +48,7 @@ Polygon clip(const Polygon& in, int axis, double sign, double limit, unsigned si
   return out;
 }
 
-/// The best separating face of box r against box i: axis, sign and gap (largest over the faces).
+/// The face of box r with the largest gap to box i: axis, sign and gap.
 struct Face {
   int axis = 0;
   double sign = 1.0;
@@ -69,13 +67,13 @@ Face best_face(const Vec3& centre_R, const Mat3& R_RI, const Vec3& half_r, const
   return best;
 }
 
-/// Points of the incident box i on the reference face of box r. Body a is i, body b is r.
+/// Contact points of the incident box i (body a) on the reference face of box r (body b).
 void face_points(const Placed& i, const Vec3& half_i, const Placed& r, const Vec3& half_r,
                  const Face& face, double margin, ContactPoints& out) {
   const Mat3 R_RI = r.R.transpose() * i.R;
   const Vec3 centre_R = r.R.transpose() * (i.x - r.x);
 
-  // The incident face looks most against the reference normal.
+  // The incident face is the most anti-parallel to the reference normal.
   int axis = 0;
   for (int k = 1; k < 3; ++k) {
     if (std::abs(R_RI(face.axis, k)) > std::abs(R_RI(face.axis, axis))) axis = k;
@@ -131,14 +129,14 @@ void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b,
   if (on_a.gap > margin) return;
   const EdgePair edges = best_edges(a, box_a.half_extents, b, box_b.half_extents);
   if (edges.gap > margin) return;
-  // Faces unless two edges are clearly better: one contact that takes turns with four shakes a
-  // stack, and a face that lies on another has edges that cross at nearly the same gap.
+  // Prefer faces unless two edges are clearly better: alternating between one contact and four
+  // shakes a stack, and faces in contact have crossing edges at nearly the same gap.
   constexpr double kFaces = 1e-3;  // [m]
   if (edges.gap > std::max(on_a.gap, on_b.gap) + kFaces &&
       edge_point(edges, a, box_a.half_extents, b, box_b.half_extents, out)) {
     return;
   }
-  // b's face unless a's is clearly better: two faces that lie on each other must not take turns.
+  // Prefer b's face unless a's is clearly better, so that faces in contact do not alternate.
   constexpr double kPreference = 1e-4;  // [m]
   if (on_a.gap > on_b.gap + kPreference) {
     face_points(b, box_b.half_extents, a, box_a.half_extents, on_a, margin, out);

@@ -6,8 +6,8 @@
 namespace substep {
 namespace {
 
-// Edges closer to parallel than this have no common perpendicular worth the name: the faces beside
-// them know better. Sine squared of 0.6 degrees.
+// Edges closer to parallel than this have no well-defined common perpendicular; the adjacent faces
+// are used instead. Sine squared of 0.6 degrees.
 constexpr double kParallel = 1e-4;
 
 double reach(const Mat3& R, const Vec3& half, const Vec3& n) {
@@ -15,10 +15,10 @@ double reach(const Mat3& R, const Vec3& half, const Vec3& n) {
          std::abs(R.col(2).dot(n)) * half[2];
 }
 
-/// An edge of a box: the one along `axis` that lies farthest towards `n`.
+/// The edge of a box along `axis` that is farthest in direction `n`.
 struct Edge {
   Vec3 middle = Vec3::Zero();  // from the box's centre, world axes [m]
-  unsigned index = 0;          // of the box's twelve
+  unsigned index = 0;          // among the box's twelve edges
 };
 
 Edge farthest_edge(const Mat3& R, const Vec3& half, int axis, const Vec3& n) {
@@ -53,11 +53,11 @@ EdgePair best_edges(const Placed& a, const Vec3& half_a, const Placed& b, const 
   return best;
 }
 
-// The points are p_a = c_a + s A and p_b = c_b + t B, with w = c_a - c_b, and what joins them is
-// across both edges:
+// The points are p_a = c_a + s A and p_b = c_b + t B, with w = c_a - c_b, and their connection is
+// perpendicular to both edges:
 //   (w + s A - t B) . A = 0,  (w + s A - t B) . B = 0.
-// Since they are the nearest ones, moving them along their edges changes nothing to first order:
-// the gradient of the gap is n at the arms of p_a and p_b, as for any other contact.
+// Since these are the nearest points, sliding along the edges has no first-order effect: the
+// gradient of the gap is n at the arms of p_a and p_b, as for any other contact.
 bool edge_point(const EdgePair& edges, const Placed& a, const Vec3& half_a, const Placed& b,
                 const Vec3& half_b, ContactPoints& out) {
   const Edge edge_a = farthest_edge(a.R, half_a, edges.axis_a, -edges.n);
@@ -73,14 +73,14 @@ bool edge_point(const EdgePair& edges, const Placed& a, const Vec3& half_a, cons
   ContactPoint point;
   point.a = a.body;
   point.b = b.body;
-  constexpr unsigned kFirstEdgePair = 1U << 14U;  // beyond the features of two faces
+  constexpr unsigned kFirstEdgePair = 1U << 14U;  // above all face features
   point.id = contact_id(a.body, b.body, kFirstEdgePair + edge_a.index * 16U + edge_b.index);
   point.n = edges.n;
   point.gap = edges.gap;
   point.point_a = edge_a.middle + s * A;
   point.point_b = edge_b.middle + t * B;
-  // The exact contact stiffness takes n as fixed in b, as on a face. The distance of two lines
-  // bends without bound as they meet, and no single field of b describes it.
+  // The exact contact stiffness treats n as fixed in b, as on a face: the curvature of the distance
+  // between two lines is unbounded as they meet, and is not described by a field fixed in b.
   point.field_arm = point.point_a;
   out.push_back(point);
   return true;

@@ -8,7 +8,7 @@ namespace substep {
 
 namespace {
 
-// Of a body's reach. More room makes for fewer sweeps and more pairs that are looked at in vain.
+// Margin relative to a body's reach. A larger margin means fewer sweeps but more false pairs.
 constexpr double kRoom = 0.25;
 
 Vec3 half_extents(const Shape& shape, const Mat3& R) {
@@ -98,7 +98,7 @@ void BroadPhase::sweep(const Scene& scene, const State& state) {
     const double half = swept.reach[axis] + swept.room;
     intervals_.push_back({swept.x[axis] - half, swept.x[axis] + half, body});
   }
-  // Ties in the order do not matter: the pairs are sorted below.
+  // The order of ties is irrelevant: the pairs are sorted below.
   std::sort(intervals_.begin(), intervals_.end(),
             [](const Interval& p, const Interval& q) { return p.lo < q.lo; });
   pairs_.clear();

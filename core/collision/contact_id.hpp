@@ -5,8 +5,8 @@
 
 namespace substep {
 
-/// Names a contact from sub-step to sub-step: the two bodies, each below 2^20, and the features
-/// that touch, below 2^20. No joint and no hand has such a name.
+/// Persistent identifier of a contact: the two bodies, each below 2^20, and the touching features,
+/// below 2^20. Distinct from the ids of joints and grabs.
 inline std::uint64_t contact_id(int a, int b, std::uint64_t feature) {
   return (1ULL << 63U) | (static_cast<std::uint64_t>(a) << 42U) |
          (static_cast<std::uint64_t>(b) << 20U) | feature;

@@ -10,7 +10,7 @@ namespace substep {
 struct ContactPoint {
   int a = 0;                    // index into Scene::bodies
   int b = 0;                    // index into Scene::bodies
-  std::uint64_t id = 0;         // pair and features: the same from sub-step to sub-step
+  std::uint64_t id = 0;         // pair and features: persistent across sub-steps
   Vec3 n = Vec3::UnitY();       // unit, from b to a, world
   double gap = 0.0;             // < 0 when overlapping [m]
   Vec3 point_a = Vec3::Zero();  // on the surface of a, from a's centre, world axes [m]

@@ -12,40 +12,41 @@
 
 namespace substep {
 
-/// As far as a body's points may go in a time, falling freely [m].
+/// Bound on the travel of a body's points in a time, in free fall [m].
 double way_in(double time, const Scene& scene, const Body& body, const Vec6& u);
 
 /// Finds every contact point of a scene with a gap of at most the scene's margin. The order of the
-/// points depends on the order of bodies in the scene only.
+/// points depends only on the order of bodies in the scene.
 class Detector {
  public:
   explicit Detector(const Scene& scene);
-  /// @param points that it finds at most, about (Budget::contacts)
+  /// @param points approximate limit on their number (Budget::contacts)
   void set_limit(double points) { limit_ = static_cast<std::size_t>(points); }
 
-  /// @param part only between bodies of it  @param R_WB rotation per body
-  /// @return valid until the next call; not all of them where there are too_many()
+  /// @param part only contacts between its bodies are found  @param R_WB rotation per body
+  /// @return valid until the next call; incomplete if too_many()
   std::span<const ContactPoint> detect(const Scene& scene, const Part& part, const State& state,
                                        std::span<const Mat3> R_WB);
-  /// What may come to touch within a time: the margin of a pair grows by the way that its bodies
-  /// may go in it, falling freely. Boxes against boxes are only listed: where they touch changes
-  /// while they come. @param ahead [s]
+  /// Contacts that may form within a time: the margin of a pair grows by the free-fall travel
+  /// bounds of its bodies. Box pairs are only listed, because their contact points change as they
+  /// approach. @param ahead [s]
   std::span<const ContactPoint> predict(const Scene& scene, const Part& part, const State& state,
                                         std::span<const Mat3> R_WB, double ahead);
-  /// Those boxes again, and as far ahead. @param ahead no more than what was predicted [s]
+  /// Detects contacts of the listed box pairs, with the same look-ahead. @param ahead at most that
+  /// of predict() [s]
   std::span<const ContactPoint> detect_listed(const Scene& scene, const Part& part,
                                               const State& state, std::span<const Mat3> R_WB,
                                               double ahead);
-  /// Per body: that its points may go in the time that the last call looked ahead [m]; or empty.
+  /// Per body: travel bound of its points in the look-ahead of the last call [m]; or empty.
   [[nodiscard]] std::span<const double> ways() const { return way_; }
-  /// How near two bodies had to be in the last call to have a point [m].
+  /// Contact margin of two bodies in the last call [m].
   [[nodiscard]] double margin(const Scene& scene, int i, int j) const;
-  /// Pairs of the part whose boxes may meet. @param way that each body may go meanwhile [m]
+  /// Pairs of the part whose boxes may meet. @param way travel bound per body [m]
   /// @return sorted by i, then j; valid until the next call
   std::span<const BroadPhase::Pair> within_reach(const Scene& scene, const Part& part,
                                                  const State& state, std::span<const Mat3> R_WB,
                                                  std::span<const double> way);
-  /// Whether the last call stopped at a limit.
+  /// True if the last call stopped at a limit.
   [[nodiscard]] bool too_many() const { return broad_phase_.too_many() || points_.size() > limit_; }
 
  private:
@@ -58,7 +59,7 @@ class Detector {
   using Pairs = std::vector<BroadPhase::Pair>;
 
   void look_ahead(const Scene& scene, const State& state, double ahead);
-  /// @param boxes takes pairs of boxes within reach, unless it is null
+  /// @param boxes out: pairs of boxes within reach, unless null
   void find(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
             Pairs* boxes);
   void touch(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
@@ -67,7 +68,7 @@ class Detector {
   BroadPhase broad_phase_;
   std::size_t limit_ = static_cast<std::size_t>(Budget{}.contacts);
   std::vector<Ground> grounds_;
-  std::vector<double> way_;  // per body: that its points may go meanwhile [m]; empty: none
+  std::vector<double> way_;  // per body: travel bound of its points [m]; empty: zero
   ContactPoints points_;
   Pairs near_;
   Pairs listed_;

@@ -11,7 +11,7 @@
 
 namespace substep {
 
-/// Where the shape of a body is.
+/// Placement of a body's shape.
 struct Placed {
   int body;       // index into Scene::bodies
   const Vec3& x;  // centre, world [m]
@@ -20,8 +20,8 @@ struct Placed {
 
 using ContactPoints = std::vector<ContactPoint>;
 
-// One overload of touch() for every two alternatives of Shape, of which only the second may be a
-// plane. A pair without one does not compile.
+// One overload of touch() for every pair of Shape alternatives; only the second may be a plane. A
+// missing overload is a compile error.
 
 void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Plane& plane,
            double margin, ContactPoints& out);
@@ -41,7 +41,7 @@ void touch(const Placed& a, const Box& box, const Placed& b, const Plane& plane,
 void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
            ContactPoints& out);
 
-/// @param a not a plane: planes are static, and bodies that do not move do not collide
+/// @param a not a plane: planes are static, and static bodies do not collide with each other
 inline void touch_shapes(const Placed& a, const Shape& shape_a, const Placed& b,
                          const Shape& shape_b, double margin, ContactPoints& out) {
   std::visit(

@@ -6,9 +6,9 @@
 
 namespace substep {
 
-// A sphere is convex and so is the box: one point. The distance field of the box at the centre is
-// that of the nearest face, edge or corner; along the directions in which the centre lies outside
-// the box the field is round, along the others it is flat.
+// Sphere and box are convex: one point. The distance field of the box at the centre is that of the
+// nearest face, edge or corner: curved along axes in which the centre is outside the box, flat
+// along the others.
 void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& box, double margin,
            ContactPoints& out) {
   const Vec3 c = b.R.transpose() * (a.x - b.x);  // centre in the box's frame
@@ -19,7 +19,7 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& bo
   if (squared > reach * reach) return;
 
   ContactPoint& point = out.emplace_back();
-  int axis = 0;  // of the face, where the nearest point is inside one
+  int axis = 0;  // axis of the nearest face
   int outside = 0;
   for (int i = 0; i < 3; ++i) {
     if (d[i] == 0.0) continue;
@@ -40,7 +40,7 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& bo
   } else {
     double side = d[axis] < 0.0 ? -1.0 : 1.0;
     distance = std::abs(d[axis]);
-    if (outside == 0) {  // the centre is inside: out through the nearest face
+    if (outside == 0) {  // the centre is inside: push out through the nearest face
       double depth = std::numeric_limits<double>::infinity();
       for (int i = 0; i < 3; ++i) {
         const double to_face = box.half_extents[i] - std::abs(c[i]);

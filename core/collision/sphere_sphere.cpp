@@ -12,7 +12,7 @@ void touch(const Placed& a, const Sphere& sphere_a, const Placed& b, const Spher
   if (squared > reach * reach) return;
   const double distance = std::sqrt(squared);
   ContactPoint point;
-  // Two centres at one place: any direction is as good, so take one that turns with b.
+  // Coincident centres: any normal is valid; use one fixed in b.
   point.n = distance > 0.0 ? Vec3(d / distance) : Vec3(b.R.col(1));
   point.gap = distance - sphere_a.radius - sphere_b.radius;
   point.a = a.body;

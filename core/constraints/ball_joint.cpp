@@ -13,7 +13,7 @@ void BallRows::constants(const JointBase& joint, Block& block) {
   for (int i = 0; i < 3; ++i) block.C[i] = joint.compliance;
 }
 
-// An arm r that turns with omega: r'' = omega x (omega x r).
+// An arm r rotating with omega: r'' = omega x (omega x r).
 void BallRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature) {
   const Vec3 omega_a = u_a.tail<3>();
   const Vec3 omega_b = u_b.tail<3>();
@@ -21,7 +21,7 @@ void BallRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, d
   for (int i = 0; i < 3; ++i) curvature[i] = c[i];
 }
 
-// The force l acts on a at r_a. Turning a by theta moves the arm by theta x r_a, so the torque
+// The force l acts on a at r_a. Rotating a by theta moves the arm by theta x r_a, so the torque
 // r_a x l changes by (theta x r_a) x l = l x (r_a x theta) = [l][r_a] theta.
 void BallRows::stiffness(const Block& block, StiffnessMatrix& K) {
   const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
@@ -51,7 +51,7 @@ void BallRows::moved_errors(const Block& start, const Motion& a, const Motion& b
   for (int i = 0; i < 3; ++i) phi[i] = gap[i];
 }
 
-// The force stays, and each arm turns with its body.
+// The force is constant, and each arm rotates with its body.
 void BallRows::push_change(const Block& block, const Motion& a, const Motion& b,
                            const double* force, Vec6& on_a, Vec6& on_b) {
   const Vec3 f{force[0], force[1], force[2]};

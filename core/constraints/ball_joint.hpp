@@ -15,9 +15,9 @@ namespace substep {
 // J_a  = [ E  -[r_a] ],  J_b = [ -E  [r_b] ]
 // so row i has the linear part e_i and the angular part r_a x e_i: gradient().
 
-/// A ball joint: rows 0..2 keep the anchors together. What each function is for: JointRows.
+/// A ball joint: rows 0..2 keep the anchors together. The functions are documented in JointRows.
 struct BallRows {
-  /// Of any joint that pins two points to each other.
+  /// For any joint that pins two points to each other.
   static void constants(const JointBase& joint, Block& block);
   static JointGeometry geometry(const BallJoint& joint) { return {joint.anchor_a, joint.anchor_b}; }
 
@@ -25,7 +25,7 @@ struct BallRows {
   static void rows(const JointGeometry& joint, const Side& a, const Side& b, Block& block) {
     const Vec3 r_a = a.R * joint.anchor_a;
     const Vec3 r_b = b.R * joint.anchor_b;
-    // Differences of centres first: near the origin or far from it, the error is the same.
+    // Subtract the centres first: the rounding error is then the same far from the origin.
     const Vec3 phi = (a.x - b.x) + (r_a - r_b);
     block.r_a = r_a;
     block.r_b = r_b;

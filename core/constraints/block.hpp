@@ -12,35 +12,34 @@ namespace substep {
 inline constexpr int kMaxRows = 5;
 inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Block::active_set of a row that no earlier sub-step knows.
+/// Block::active_set of a row without a previous sub-step.
 inline constexpr std::int8_t kUnknownSet = 2;
 
-/// Of a joint the place of its kind among Joint's alternatives.
+/// For joints, the index of their type in the Joint variant.
 enum class BlockKind : std::uint8_t { kFirstJoint, kContact = 255 };
 
-/// The rows of one joint or of one contact point, on at most two moving bodies; what its arrays
-/// hold beyond its number of rows does not matter. Eq. 3 row by row:
+/// The rows of one joint or of one contact point, on at most two moving bodies; array elements
+/// beyond `rows` are unspecified. Eq. 3 row by row:
 ///   J u+ + softness * impulse = -bias,   lo <= impulse <= hi.
 /// A static body or the world is -1 and has no columns.
 struct Block {
   BlockKind kind = BlockKind::kFirstJoint;
   int a = -1;            // moving body, or -1
   int b = -1;            // moving body, or -1
-  int rows = 0;          // used of kMaxRows
+  int rows = 0;          // number used of kMaxRows
   int body_a = -1;       // index into Scene::bodies, moving or not
   int body_b = -1;       // the same, -1 for the world
-  std::uint64_t id = 0;  // the same from sub-step to sub-step
-  // Two points are tied to each other: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]], further
-  // rows have no linear part and J_b = -J_a, whichever side moves. Solvers go by that, and nothing
-  // else of J is filled than J_a of the further rows: gradient() knows. Of any other block J_a and
-  // J_b are filled.
+  std::uint64_t id = 0;  // constant across sub-steps
+  // Two points are pinned to each other: rows 0..2 are J_a = [E, -[r_a]], J_b = [-E, [r_b]];
+  // further rows have no linear part and J_b = -J_a, whichever side moves. Solvers rely on this,
+  // and only J_a of the further rows is stored; see gradient(). All other blocks store J_a and J_b.
   bool has_point_rows = false;
-  std::int8_t position_rows = 0;     // joint: the first rows are of positions, the others of angles
-  bool seeded = false;               // the last sub-step had this block: impulse is of it
-  bool was_closed = false;           // contact: carried a force in the last sub-step
-  std::int8_t active_set[kMaxRows];  // of BPP: -1 at lo, 0 free as all of joints, +1 at hi
+  std::int8_t position_rows = 0;  // joint: number of positional rows; they precede the angular ones
+  bool seeded = false;            // the block existed in the last sub-step: impulse is its seed
+  bool was_closed = false;        // contact: carried a force in the last sub-step
+  std::int8_t active_set[kMaxRows];  // BPP: -1 at lo, 0 free (always for joints), +1 at hi
 
-  // A pin in a direct solve reads no further than these: of a long chain that is less memory.
+  // Point rows in a direct solve read only the members up to here, to save memory bandwidth.
   Vec3 r_a = Vec3::Zero();  // arms from the centres of mass to the point of action, world [m]
   Vec3 r_b = Vec3::Zero();
   double phi[kMaxRows] = {};       // constraint error [m or rad]; a positive contact gap is open
@@ -49,20 +48,20 @@ struct Block {
   double softness[kMaxRows] = {};  // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
   double impulse[kMaxRows] = {};   // dt lambda: seed in, solution out [N s or N m s]
 
-  double lambda[kMaxRows] = {};  // constraint force of this sub-step, where it is read [N or N m]
+  double lambda[kMaxRows] = {};  // constraint force of this sub-step, computed on demand [N or N m]
   double J_a[kMaxRows][6];       // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
   double J_b[kMaxRows][6];       // d phi / d q_b
 
   // Contact only: row 0 is the normal, rows 1 and 2 friction with bounds +-mu * impulse[0] * share.
   double mu = 0.0;  // [-]
-  // Of the box of friction 1 each. Of the cone |cos|, |sin| of the force's direction: the box whose
-  // corner lies on the circle there, which the solver turns until it is against the sliding.
+  // Friction box: 1 each. Cone: |cos|, |sin| of the force's direction, the box with its corner on
+  // the circle; the solver rotates it until it opposes the sliding.
   double share[2] = {1.0, 1.0};
   Vec3 n = Vec3::Zero();   // from b to a, world
-  Vec3 t1 = Vec3::Zero();  // tangents, world; filled where there is friction
+  Vec3 t1 = Vec3::Zero();  // tangents, world; set only with friction
   Vec3 t2 = Vec3::Zero();
   Vec3 rho = Vec3::Zero();    // from the centre of b to the touching point of a, gap included [m]
-  Vec3 arm_a = Vec3::Zero();  // of a's point that follows a's rotation (0 for a sphere)
+  Vec3 arm_a = Vec3::Zero();  // from a's centre to the point that rotates with a (0 for a sphere)
   Mat3 H = Mat3::Zero();      // curvature of b's distance field at a's point [1/m]: dn = H dx
   // Joints with an axis, world: axis u fixed in a, and v1, v2 across it fixed in b. Prismatic: w
   // across the axis fixed in a.
@@ -71,18 +70,18 @@ struct Block {
   Vec3 v2 = Vec3::Zero();
   Vec3 w = Vec3::Zero();
 
-  // Of compliant rows, compliance.hpp.
-  double elastic[kMaxRows] = {};       // of phi, what is the spring's own [m or rad]
-  double spring_ahead[kMaxRows] = {};  // w+, 0 where the row is no spring
-  double given[kMaxRows] = {};         // impulse that is known before the solve [N s or N m s]
-  double spring_rest[kMaxRows] = {};   // what of its mean is known before the solve [m or rad]
+  // For compliant rows, compliance.hpp.
+  double elastic[kMaxRows] = {};       // elastic part of phi [m or rad]
+  double spring_ahead[kMaxRows] = {};  // w+, 0 if the row is not a spring
+  double given[kMaxRows] = {};         // impulse prescribed before the solve [N s or N m s]
+  double spring_rest[kMaxRows] = {};   // part of the mean stretch known before the solve [m or rad]
 
-  // What Newton with forces numerov needs of the sub-steps before.
+  // For Newton with forces numerov, from earlier sub-steps.
   double rate[kMaxRows] = {};         // of the force at these poses [N/s or N m/s]
   double rate_change[kMaxRows] = {};  // [N/s^2 or N m/s^2]
-  double last[kMaxRows] = {};         // the force of the last one [N or N m]
+  double last[kMaxRows] = {};         // force of the last sub-step [N or N m]
   double last_rate[kMaxRows] = {};    // its rate [N/s or N m/s]
-  double last_rate_age = 0.0;         // how long before that force the rate was so [s]
+  double last_rate_age = 0.0;         // age of that rate relative to that force [s]
 
   [[nodiscard]] bool is_contact() const { return kind == BlockKind::kContact; }
 };
@@ -107,15 +106,15 @@ inline Vec6 gradient(const Block& block, int row, bool of_a) {
   return J;
 }
 
-/// The blocks of a sub-step: cleared and refilled without giving memory back.
+/// The blocks of a sub-step: cleared and refilled without freeing memory.
 class Blocks {
  public:
   void reserve(std::size_t n) { storage_.reserve(n); }
   void clear() { size_ = 0; }
-  /// Lets go of all from the n-th on.
+  /// Drops all blocks from index n on.
   void keep(std::size_t n) { size_ = n; }
   [[nodiscard]] std::size_t capacity() const { return storage_.capacity(); }
-  /// A block at the end, with what it held before it was let go of.
+  /// Appends a block. Its contents are those of a dropped block, if any.
   Block& append() {
     if (size_ == storage_.size()) storage_.emplace_back();
     return storage_[size_++];

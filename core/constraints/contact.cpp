@@ -7,7 +7,7 @@ namespace substep {
 namespace {
 
 [[gnu::always_inline]] inline void set_row(Block& block, int row, const Vec3& along) {
-  const Vec3 direction = along;  // which may be the block's own
+  const Vec3 direction = along;  // a copy: `along` may alias the block
   const Vec3 A = block.r_a.cross(direction);
   const Vec3 B = block.r_b.cross(direction);
   for (int j = 0; j < 3; ++j) {
@@ -22,8 +22,8 @@ namespace {
 
 // C     = D(p) - radius, with n = grad D
 // dC/dt = n . (v_a + omega_a x r_a - v_b - omega_b x r_b)
-// The parts of r_a and r_b along n drop out of the cross products, so any point between the
-// surfaces serves. Both bodies take the one halfway: then friction is one force at one point, and
+// The components of r_a and r_b along n drop out of the cross products, so any point between the
+// surfaces is valid. Both bodies use the midpoint: friction is then one force at one point, and
 // angular momentum is conserved.
 void contact_row(const ContactPoint& point, const ContactModel& model, const Vec3& x_a,
                  const Vec3& x_b, Block& block) {
@@ -69,9 +69,9 @@ void contact_stiffness_paper(const Block& block, StiffnessMatrix& K) {
   if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
 }
 
-// The force on a is l n at p = x_a + r (r = arm_a, turning with a), that on b is -l n with the
-// torque -l rho x n about x_b, rho = p - x_b. The normal turns with b and with p in b's distance
-// field:
+// The force on a is l n at p = x_a + r (r = arm_a, rotating with a), that on b is -l n with the
+// torque -l rho x n about x_b, rho = p - x_b. The normal rotates with b and changes with p in b's
+// distance field:
 //   dn = theta_b x n + H (dp - theta_b x rho),   dp = dx_a - dx_b + theta_a x r
 // Written with matrices: dn = N_b theta_b + H (dx_a - dx_b - [r] theta_a), N_b = H [rho] - [n].
 // Then  d(l n)            = l dn
@@ -89,7 +89,7 @@ void contact_stiffness_normal(const Block& block, StiffnessMatrix& K) {
   const Mat3 N_b = H * rho - n;
   const Mat3 Hr = H * r;
 
-  // dn by the displacement of each body: linear, angular.
+  // Derivative of n by the displacement of each body: linear, angular.
   Eigen::Matrix<double, 3, 6> dn_a;
   Eigen::Matrix<double, 3, 6> dn_b;
   dn_a << H, -Hr;
@@ -122,14 +122,14 @@ void contact_stiffness_normal(const Block& block, StiffnessMatrix& K) {
 
 namespace {
 
-// Friction is the force g = l_1 t1 + l_2 t2 on a at the arm r_a, -g on b at r_b. The tangents are
-// carried along with b, across the normal, and the point of action keeps its distance s along the
-// normal from p, r_a = r + s n, r_b = rho + s n. With dn and dp as above
+// Friction is the force g = l_1 t1 + l_2 t2 on a at the arm r_a, -g on b at r_b. The tangents
+// rotate with b and stay perpendicular to the normal; the point of action keeps its distance s from
+// p along the normal, r_a = r + s n, r_b = rho + s n. With dn and dp as above
 //   dt = -n (t . dn) + (n . theta_b) n x t,   dg = -n (g . dn) + (n . theta_b) n x g,
 //   dr_a = theta_a x r + s dn,   dr_b = dp + s dn,
 //   d(r_a x g) = -[g] dr_a + [r_a] dg,   d(-r_b x g) = [g] dr_b - [r_b] dg.
 void add_friction_stiffness(const Block& block, StiffnessMatrix& K) {
-  using Mat36 = Eigen::Matrix<double, 3, 6>;  // by a displacement: linear, angular
+  using Mat36 = Eigen::Matrix<double, 3, 6>;  // derivative by a displacement: linear, angular
   const Vec3 g = block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
   if (g.isZero(0.0)) return;
   const Vec3& n = block.n;

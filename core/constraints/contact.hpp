@@ -15,24 +15,24 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
                  const Vec3& x_b, Block& block);
 
 /// Rows 1 and 2: no sliding along t1, t2.
-/// @param along t1 is its part across the normal, world
+/// @param along t1 its component normal to n gives t1, world
 void friction_rows(const ContactModel& model, double mu, const Vec3& along, Block& block);
 
 /// The paper's block: the contact as a ball-and-socket joint that carries l = lambda_n n +
-/// friction. It is not the derivative of the contact force (it stiffens a sphere's spin); it steers
-/// N only.
+/// friction. It is not the derivative of the contact force (it stiffens a sphere's spin), and is
+/// used only to choose N.
 void contact_stiffness_paper(const Block& block, StiffnessMatrix& K);
 
 /// The true derivative of the normal force and its torques: lambda_n times the Hessian of phi.
 void contact_stiffness_normal(const Block& block, StiffnessMatrix& K);
 
-/// The true derivative of the contact's force and torques, friction included, its tangents carried
-/// along with body b as move_rows() does.
+/// The true derivative of the contact's force and torques, including friction, with tangents fixed
+/// in body b as in move_rows().
 void contact_stiffness_exact(const Block& block, StiffnessMatrix& K);
 
-/// Which of them enters K. The first and the last steer N. What joins a mass is the normal's alone:
-/// friction is no gradient of an error, its derivative no spring, and a mass that took it for one
-/// tore a bridge under 8 of 512 balls that it holds without.
+/// Selects the terms that enter K. The first and the last choose N. Only the normal term is added
+/// to a mass: friction is not the gradient of an error, so its derivative is not a spring, and
+/// including it broke a bridge under 8 of the 512 balls that it otherwise holds.
 enum class ContactTerms : std::uint8_t { kPaper, kNormal, kExact };
 void contact_stiffness(const Block& block, ContactTerms terms, StiffnessMatrix& K);
 

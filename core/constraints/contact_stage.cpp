@@ -10,7 +10,7 @@ namespace substep {
 
 namespace {
 
-/// Cayley vector of a turn.
+/// Cayley vector of a rotation.
 Vec3 half_turn(const Quat& q_then, const Quat& q) {
   const Quat turn = q * q_then.conjugate();
   return turn.vec() / turn.w();
@@ -48,7 +48,8 @@ bool ContactStage::predict(const Scene& scene, const Part& part, const State& st
                            std::span<const Mat3> R_WB, double ahead) {
   const std::span<const ContactPoint> points = detector_.predict(scene, part, state, R_WB, ahead);
   predicted_.clear();
-  predicted_.reserve(8 * scene.bodies.size() + 32);  // once: a landing must not allocate
+  predicted_.reserve(8 * scene.bodies.size() +
+                     32);  // reserved once: new contacts must not allocate
   if (detector_.too_many()) return false;
   append(points, scene, state, predicted_);
   x_.assign(state.x.begin(), state.x.end());
@@ -59,7 +60,7 @@ bool ContactStage::predict(const Scene& scene, const Part& part, const State& st
 
 bool ContactStage::prediction_valid(const Scene& scene, const Part& part, const State& state,
                                     double dt) const {
-  const double room = 0.5 * scene.contact.margin;  // of each of two bodies
+  const double room = 0.5 * scene.contact.margin;  // per body of a pair
   return std::all_of(part.bodies.begin(), part.bodies.end(), [&](int body) {
     const auto i = static_cast<std::size_t>(body);
     if (scene.bodies[i].is_static) return true;
@@ -111,12 +112,12 @@ FrictionStage::FrictionStage(const Scene& scene) {
 
 namespace {
 
-// Of its length that a direction has across the normal to count. What stands on something rocks,
-// and a direction that is nearly the normal would turn its axes about with every rounding.
+// Minimum tangential fraction of a direction. Standing bodies rock, and with a direction close to
+// the normal rounding would rotate the friction axes.
 constexpr double kAcross = 0.05;
 
-/// The first of some directions that is not along the normal of a contact: a fixed preference, not
-/// a comparison that rounding decides.
+/// The first direction not along the contact normal: a fixed preference, not a comparison subject
+/// to rounding.
 Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
   for (const Vec3& d : directions) {
     const double length = d.norm();
@@ -127,10 +128,10 @@ Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
 
 }  // namespace
 
-// The box of friction has axes, and they must not hang on which body a file names first, nor on how
-// a shape is turned about the normal. On what stands still they lie down the slope, on the level
-// along an axis of it; between two that move along the line of their centres, and where that is the
-// normal, along what both bodies' axes have in common. All of them turn with the scene.
+// The friction box has axes, which must not depend on the order of bodies in a file, nor on the
+// rotation of a shape about the normal. On a static body they point down the slope, or on level
+// ground along one of its axes; between moving bodies along the line of centres, or if that is the
+// normal, along a direction common to both bodies' axes. All rotate with the scene.
 void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB,
                            std::span<Block> blocks) const {
   const Vec3 slope = scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero());

@@ -7,10 +7,10 @@
 
 namespace substep {
 
-/// Rows 0..2 as those of a ball joint to the world, the error no longer than the hand's reach [m].
+/// Rows 0..2 as for a ball joint to the world, with the error clamped to Grab::kReach [m].
 void grab_rows(const Grab& grab, const Side& body, Block& block);
 
-/// Block::id of a hand's rows: that of no joint and no contact.
+/// Block::id of a grab's rows, distinct from all joints and contacts.
 inline constexpr std::uint64_t kGrabId = std::numeric_limits<std::uint64_t>::max();
 inline bool is_grab(const Block& block) { return block.id == kGrabId; }
 

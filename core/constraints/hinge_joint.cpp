@@ -35,9 +35,9 @@ void HingeRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, 
   curvature[4] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
 }
 
-// Torque on a: l u x v. Turning a: l (theta x u) x v = l [v][u] theta. Turning b:
-// l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All of it is linear in v,
-// so both rows go together: w = l_1 v_1 + l_2 v_2.
+// Torque on a: l u x v. Rotating a: l (theta x u) x v = l [v][u] theta. Rotating b:
+// l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All terms are linear in v,
+// so both rows are combined: w = l_1 v_1 + l_2 v_2.
 void HingeRows::stiffness(const Block& block, StiffnessMatrix& K) {
   BallRows::stiffness(block, K);
   const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;

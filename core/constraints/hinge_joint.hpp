@@ -4,15 +4,15 @@
 
 namespace substep {
 
-/// d2/dt2 of s . t [1/s^2], where s turns with a and t with b at constant rates.
+/// d2/dt2 of s . t [1/s^2], where s rotates with a and t with b at constant rates.
 /// @param omega_a, omega_b [rad/s]
 double dot_curvature(const Vec3& s, const Vec3& t, const Vec3& omega_a, const Vec3& omega_b);
 
-// C     = u . v                        u turns with a, v with b
+// C     = u . v                        u rotates with a, v with b
 // dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)
 
 /// A hinge: rows 0..2 of a ball joint, and rows 3, 4, phi = u . v_k [-], which keep the axes
-/// parallel. What each function is for: JointRows.
+/// parallel. The functions are documented in JointRows.
 struct HingeRows {
   static void constants(const HingeJoint& joint, Block& block);
   static JointGeometry geometry(const HingeJoint& joint);

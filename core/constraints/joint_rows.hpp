@@ -1,7 +1,6 @@
 #pragma once
-// The table of joints: what each kind of Joint does as rows of a block. A kind is one struct of
-// static functions in a file of its own, and one entry of JointTable; a kind that leaves a function
-// out does not compile.
+// The table of joint types: their rows in a block. A type is one struct of static functions in its
+// own file, and one entry of JointTable; a missing function is a compile error.
 
 #include <concepts>
 #include <cstddef>
@@ -18,38 +17,39 @@
 
 namespace substep {
 
-/// What a kind of joint J gives. Forces are those of its rows, one per row.
+/// Interface of a joint type J. Forces are per row.
 template <class Rows, class J>
 concept JointRows = requires(const J& joint, Block& block, const Block& start,
                              const JointGeometry& geometry, const Side& side, const Vec6& velocity,
                              const Motion& motion, RowRange range, double* out, const double* force,
                              Vec6& push, StiffnessMatrix& K, std::span<Mat3> turning,
                              std::int64_t bodies) {
-  // What of its block is the same in every sub-step: numbers of rows, compliance.
+  // Constant part of its block: numbers of rows, compliance.
   { Rows::constants(joint, block) } -> std::same_as<void>;
-  // What rows() reads of the joint.
+  // The joint's data for rows().
   { Rows::geometry(joint) } -> std::same_as<JointGeometry>;
   // phi and J at the poses of its sides.
   { Rows::rows(geometry, side, side, block) } -> std::same_as<void>;
   // d2phi/dt2 at constant velocities of a and b [m/s, rad/s].
   { Rows::curvature(start, velocity, velocity, out) } -> std::same_as<void>;
-  // Adds d(J^T lambda)/dq to K, and what of it a body's own rotation does to its own torque.
+  // Adds d(J^T lambda)/dq to K; or only the derivative of a body's torque by its own rotation.
   { Rows::stiffness(start, K) } -> std::same_as<void>;
   { Rows::turning_stiffness(start, turning) } -> std::same_as<void>;
-  // phi, less that before, and J of some rows after a and b have moved; or phi of all alone.
+  // Change of phi, and J, of some rows after a and b have moved; or the change of phi alone, for
+  // all rows.
   { Rows::move(start, motion, motion, range, block) } -> std::same_as<void>;
   { Rows::moved_errors(start, motion, motion, out) } -> std::same_as<void>;
-  // What forces of the rows exert on a: a force at r_a [N], and a couple about it [N m].
+  // Force of the rows on a at r_a [N], and their torque about it [N m].
   { Rows::force(start, force) } -> std::same_as<Vec3>;
   { Rows::torque(start, force) } -> std::same_as<Vec3>;
-  // Adds the change of J^T force as a and b move, on each: force first, then torque.
+  // Adds the change of J^T force due to the motion of a and b: force first, then torque.
   { Rows::push_change(start, motion, motion, force, push, push) } -> std::same_as<void>;
-  // Floating-point operations of the two, with so many bodies that move.
+  // Floating-point operations of the two stiffness functions, by number of moving bodies.
   { Rows::stiffness_flops(bodies) } -> std::same_as<std::int64_t>;
   { Rows::turning_stiffness_flops(bodies) } -> std::same_as<std::int64_t>;
 };
 
-/// In the order of Joint's alternatives.
+/// In the order of the Joint variant.
 using JointTable = std::tuple<BallRows, HingeRows, PrismaticRows>;
 
 inline constexpr std::size_t kJointKinds = std::variant_size_v<Joint>;
@@ -60,7 +60,7 @@ static_assert([]<std::size_t... I>(std::index_sequence<I...>) {
           ...);
 }(std::make_index_sequence<kJointKinds>{}));
 
-/// The kind of a joint's block.
+/// The block kind of a joint.
 inline BlockKind kind_of(const Joint& joint) { return static_cast<BlockKind>(joint.index()); }
 template <class J>
 constexpr BlockKind kind_of() {
@@ -72,7 +72,7 @@ constexpr BlockKind kind_of() {
   (std::make_index_sequence<kJointKinds>{});
 }
 
-/// Calls `visit` with the entry of a joint's kind. @param kind not kContact
+/// Calls `visit` with the table entry of a joint type. @param kind not kContact
 template <std::size_t kFirst = 0, class Visit>
 [[gnu::always_inline]] inline void with_joint_rows(BlockKind kind, Visit&& visit) {
   using Rows = std::tuple_element_t<kFirst, JointTable>;
@@ -85,7 +85,7 @@ template <std::size_t kFirst = 0, class Visit>
   }
 }
 
-/// The same with the joint itself beside its entry.
+/// The same, also passing the joint.
 template <class Visit>
 void with_joint_rows(const Joint& joint, Visit&& visit) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {

@@ -35,7 +35,7 @@ void JointStage::fill(const State& state, std::span<const Mat3> R_WB, std::size_
   const auto side = [&](int body) {
     return body == kWorld ? Side{} : Side{state.x[index(body)], R_WB[index(body)]};
   };
-  // A block that was this joint's before keeps what does not change.
+  // A block reused for the same joint keeps its constant part.
   const Placed& placed = joints_[joint];
   if (block.kind != placed.kind || block.id != joint || block.rows == 0) begin(joint, block);
   const Side a = side(placed.body_a);

@@ -14,8 +14,8 @@ namespace substep {
 /// Errors of all joints at a state.
 struct JointErrors {
   double sum = 0.0;  // 1-norms of phi over all joints [m, rad]
-  double gap = 0.0;  // largest distance of two anchors [m]
-  int joint = -1;    // whose it is
+  double gap = 0.0;  // largest distance between two anchors [m]
+  int joint = -1;    // the joint with that gap
 };
 
 /// phi and J of the joints of a scene, in file order.
@@ -27,14 +27,14 @@ class JointStage {
   [[nodiscard]] JointErrors errors(const State& state, std::span<const Mat3> R_WB) const;
 
  private:
-  /// What a sub-step reads of the joints, one after the other.
+  /// Packed joint data for a sub-step.
   struct Placed {
     int body_a = 0;
     int body_b = kWorld;
     BlockKind kind = BlockKind::kFirstJoint;
     JointGeometry geometry;
   };
-  /// What of a joint's block is the same in every sub-step.
+  /// The constant part of a joint's block.
   void begin(std::size_t joint, Block& block) const;
   [[gnu::always_inline]] inline void fill(const State& state, std::span<const Mat3> R_WB,
                                           std::size_t joint, Block& block) const;

@@ -7,7 +7,7 @@
 namespace substep {
 namespace {
 
-// Where the point p of a that touches is then, from the centre of b.
+// Position of a's contact point p after the motion, from the centre of b.
 Vec3 moved_rho(const Block& start, const Motion& a, const Motion& b) {
   return start.rho + (a.dx - b.dx) + (a.R * start.arm_a - start.arm_a);
 }
@@ -26,13 +26,13 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
   const Vec3 Hd = start.H * d;
   moved.phi[0] = gained_gap(start, d, Hd);
   moved.n = b.R * (start.n + Hd).normalized();
-  // The point that both surfaces share keeps its place along the normal from p.
+  // The common contact point keeps its offset along the normal from p.
   const Vec3 along = (start.r_a - start.arm_a).dot(start.n) * moved.n;
   moved.r_a = moved.arm_a + along;
   moved.r_b = moved.rho + along;
   const int end = std::min(start.rows, rows.first + rows.count);
   if (end > 1) {
-    // How far the material points that touch have slid, along the tangents of the start.
+    // Sliding of the material contact points along the initial tangents.
     const Vec3 slid =
         (a.dx - b.dx) + ((a.R * start.r_a - start.r_a) - (b.R * start.r_b - start.r_b));
     moved.phi[1] = start.t1.dot(slid);
@@ -73,7 +73,7 @@ double moved_gap(const Block& start, const Motion& a, const Motion& b) {
 std::int64_t move_flops(const Block& block, int rows) {
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
   constexpr std::int64_t kRow = 15;   // phi and J of one row at other poses
-  constexpr std::int64_t kBody = 60;  // its turn
+  constexpr std::int64_t kBody = 60;  // its rotation
   return kRow * rows + kBody * bodies;
 }
 

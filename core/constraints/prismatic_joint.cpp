@@ -32,7 +32,8 @@ void set_gradients(Block& block, RowRange rows) {
   for (int k = 0; k < 3; ++k) set(2 + k, Vec3::Zero(), turn[k], turn[k]);
 }
 
-/// What the rows of angles do to the torque on a as a turns: the sum of l [t][s], as of a hinge.
+/// Derivative of the torque on a of the angular rows by the rotation of a: the sum of l [t][s], as
+/// for a hinge.
 Mat3 angular_stiffness(const Block& block) {
   const Vec3 across = block.lambda[2] * block.v1 + block.lambda[3] * block.v2;
   return skew_product(across, block.axis) + block.lambda[4] * skew_product(block.v2, block.w);
@@ -77,7 +78,7 @@ void PrismaticRows::rows(const JointGeometry& joint, const Side& a, const Side& 
   set_gradients(block, {});
 }
 
-// v turns with b as the anchor on b does: v . r_b stays, and phi = v . rho less a constant.
+// v rotates with b like the anchor on b: v . r_b is constant, and phi = v . rho minus a constant.
 //   (v . rho)'' = v'' . rho + 2 v' . rho' + v . rho'',   rho'' = omega_a x (omega_a x r_a)
 void PrismaticRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b,
                               double* curvature) {
@@ -96,7 +97,7 @@ void PrismaticRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u
   curvature[4] = dot_curvature(block.w, block.v2, omega_a, omega_b);
 }
 
-// The force f = l_1 v_1 + l_2 v_2 on a at r_a, -f on b at rho. It turns with b:
+// The force f = l_1 v_1 + l_2 v_2 on a at r_a, -f on b at rho. It rotates with b:
 //   df = theta_b x f,   dr_a = theta_a x r_a,   drho = dx_a - dx_b + theta_a x r_a
 //   d(r_a x f)  = [f][r_a] theta_a - [r_a][f] theta_b
 //   d(-rho x f) = [f] (dx_a - dx_b - [r_a] theta_a) + [rho][f] theta_b
@@ -144,7 +145,7 @@ void PrismaticRows::move(const Block& start, const Motion& a, const Motion& b, R
 
 void PrismaticRows::moved_errors(const Block& start, const Motion& a, const Motion& b,
                                  double* phi) {
-  // Seen from b, whose axes v are.
+  // In the frame of b, in which v is fixed.
   const Vec3 slid = b.R.transpose() * slid_rho(start, a, b) - start.r_b;
   phi[0] = start.v1.dot(slid);
   phi[1] = start.v2.dot(slid);

@@ -6,10 +6,10 @@
 namespace substep {
 namespace {
 
-// No contact that is so far open closes, whatever the impact [m/s].
+// Bias of an open contact: no impact can close it [m/s].
 constexpr double kOpen = 1e30;
 
-/// Speed along the normal, positive when the bodies part [m/s].
+/// Speed along the normal, positive when the bodies separate [m/s].
 double normal_speed(const Block& block, std::span<const Vec6> u) {
   double speed = 0.0;
   for (int j = 0; j < 6; ++j) {
@@ -68,7 +68,7 @@ bool RestitutionStage::spreads(const Scene& scene, std::span<const Vec6> u, doub
   const bool spread = std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
     if (!block.is_contact() || restitution_of(block) == 0.0) return false;
     if (impact_speed(scene, u, dt, block) > 0.0) return false;
-    double change = 0.0;  // no impact makes a body faster than it, by more than twice its speed
+    double change = 0.0;  // no impact changes a speed by more than twice the fastest speed
     for (const int body : {block.a, block.b}) {
       if (body >= 0) change += 2.0 * impact_[static_cast<std::size_t>(body)];
     }

@@ -63,7 +63,7 @@ Mat6 StiffnessMatrix::block(int row, int col) const {
   return K;
 }
 
-// Of every block its columns are turned, squared and summed; of every column one root is taken.
+// Per block: columns are rotated, squared and summed; one root per column.
 std::int64_t StiffnessMatrix::norm_flops() const {
   const std::int64_t size = whole_.empty() ? 3 : 6;
   const std::int64_t of_block = size * size * (5 + 2);
@@ -73,7 +73,7 @@ std::int64_t StiffnessMatrix::norm_flops() const {
 
 void StiffnessMatrix::column_norms(std::span<const int> bodies, std::span<const Mat3> R_WB,
                                    std::span<Vec6> k) const {
-  // A norm does not change with the axes of the rows, so only the columns are turned.
+  // The norm is invariant under rotation of the rows, so only the columns are rotated.
   const auto add_squares = [](const auto& columns, const Mat3& R, auto&& sum) {
     const auto turned = (columns * R).eval();
     for (int c = 0; c < 3; ++c) {

@@ -10,12 +10,12 @@ namespace substep {
 
 /// The assembled geometric stiffness K = d(J^T lambda)/dq (Eq. 1) in 6 x 6 blocks, world axes:
 /// rows are forces on a body, columns displacements of a body. Blocks of one pair of bodies are
-/// summed before any norm is taken. Joints and the paper's contacts only turn forces with their
-/// arms: until a block with more comes, the angular parts are all there is.
+/// summed before any norm is taken. Joints and the paper's contacts contribute only angular parts;
+/// whole blocks are allocated when another term is added.
 class StiffnessMatrix {
  public:
   void reserve(std::size_t bodies, std::size_t pairs);
-  /// Zero, for this many bodies.
+  /// Resets to zero, for this many bodies.
   void clear(std::size_t bodies);
   /// Adds to the angular-angular part. @param block [N m/rad]
   void add_angular(int row, int col, const Mat3& block) {
@@ -29,8 +29,8 @@ class StiffnessMatrix {
   /// Adds a whole block. @param block [N/m, N/rad; N, N m/rad]
   void add(int row, int col, const Mat6& block);
 
-  /// K_d (Eq. 4): the 2-norm of every column, columns taken along the body's principal axes.
-  /// @param bodies of whose columns  @param R_WB rotation per body
+  /// K_d (Eq. 4): the 2-norm of every column, along the body's principal axes.
+  /// @param bodies bodies whose columns are evaluated  @param R_WB rotation per body
   /// @param k out, 6 per body [N/m, N m/rad], >= 0
   void column_norms(std::span<const int> bodies, std::span<const Mat3> R_WB,
                     std::span<Vec6> k) const;
@@ -38,29 +38,30 @@ class StiffnessMatrix {
   /// Floating-point operations of column_norms, additions, multiplications and roots.
   [[nodiscard]] std::int64_t norm_flops() const;
 
-  /// The block of one pair, zero where there is none.
+  /// The block of one pair; zero if absent.
   [[nodiscard]] Mat6 block(int row, int col) const;
-  /// What a body's own turning does to its torque: the angular part of its diagonal block.
+  /// Derivative of a body's torque by its own rotation: the angular part of its diagonal block.
   [[nodiscard]] Mat3 angular(int body) const {
     const auto at = static_cast<std::size_t>(body);
     return whole_.empty() ? angular_[at] : Mat3(whole_[at].bottomRightCorner<3, 3>());
   }
 
  private:
-  /// A pair of bodies that has a block: first the diagonal, body by body, then others as they come.
+  /// A pair of bodies with a block: first the diagonal in order of bodies, then others in order of
+  /// insertion.
   struct Pair {
     int row = 0;
     int next = -1;  // next pair of the same column
   };
-  /// Where the block of a pair is, -1 where there is none.
+  /// Index of a pair's block, -1 if absent.
   [[nodiscard]] int find(int row, int col) const;
-  /// The same, made where there is none.
+  /// The same; inserts the block if absent.
   std::size_t made(int row, int col);
   void widen();
 
   std::vector<Pair> pairs_;
-  std::vector<Mat3> angular_;  // beside pairs_, while whole_ is empty
-  std::vector<Mat6> whole_;    // beside pairs_, else empty
+  std::vector<Mat3> angular_;  // parallel to pairs_, while whole_ is empty
+  std::vector<Mat6> whole_;    // parallel to pairs_, or empty
   std::size_t bodies_ = 0;
 };
 

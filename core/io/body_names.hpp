@@ -1,5 +1,5 @@
 #pragma once
-// Bodies by name, for all that refers to them.
+// Lookup of bodies by name.
 
 #include <map>
 #include <optional>
@@ -14,11 +14,10 @@ inline constexpr std::string_view kWorldName = "world";  ///< as a joint's b; no
 
 class BodyNames {
  public:
-  /// Bodies by their place; a name that stands twice or is reserved is a problem of
-  /// "/bodies/i/name".
+  /// Bodies by index; a duplicate or reserved name is a problem of "/bodies/i/name".
   BodyNames(const std::vector<Body>& bodies, Problems& problems);
 
-  /// The body that a member names, or nothing and a problem.
+  /// The body named by a member, or nothing and a problem.
   std::optional<int> read(ObjectReader& in, std::string_view key, Presence presence) const;
 
   [[nodiscard]] const std::vector<Body>& bodies() const { return bodies_; }

@@ -8,7 +8,7 @@
 
 namespace substep {
 
-/// One entry of "bodies". @return the body; where problems were added, as far as it could be read
+/// One entry of "bodies". @return the body; incomplete if problems were added
 Body read_body(const Json& json, const std::string& pointer, Problems& problems);
 
 }  // namespace substep

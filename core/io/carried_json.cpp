@@ -21,7 +21,7 @@ Vec6 velocity_of(const Body& body) {
   return u;
 }
 
-/// An item for every body, of as many numbers as an Item has; by columns where that is a matrix.
+/// One item per body, with the numbers of an Item; matrices by columns.
 template <class Item>
 void read_items(ObjectReader& in, std::string_view key, const Range& range, std::size_t bodies,
                 std::vector<Item>& items) {
@@ -40,7 +40,7 @@ Json items_json(const std::vector<Item>& items) {
   return list;
 }
 
-/// The last sub-step of every body, where islands have their own.
+/// The last sub-step of every body, if islands have their own.
 void read_own(ObjectReader& in, std::size_t bodies, std::vector<OwnSubstep>& own) {
   std::vector<double> dt(bodies);
   std::vector<double> r(bodies);

@@ -1,5 +1,5 @@
 #pragma once
-// What a saved run takes with it, as JSON: {"dt_previous": 0.002, "u": [[...6], ...], "r": 41,
+// The carried state of a saved run as JSON: {"dt_previous": 0.002, "u": [[...6], ...], "r": 41,
 // "k": [[...6], ...], "k_resisting": [[...9], ...], "forces": [{"id": "2a", "lambda": [...]}]}.
 
 #include <optional>
@@ -11,8 +11,8 @@
 
 namespace substep {
 
-/// The member "carried" of a scene: its lists have an item for every body, or are left out: u is
-/// then the bodies' own. A stiffness without r is a problem.
+/// The member "carried" of a scene: its lists have one item per body or are omitted; u then
+/// defaults to the bodies' velocities. A stiffness without r is a problem.
 std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>& bodies,
                                     Problems& problems);
 

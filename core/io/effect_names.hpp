@@ -1,5 +1,5 @@
 #pragma once
-// The names of effects as scene files spell them, in the order in which files list them.
+// The names of effects in scene files, in file order.
 
 #include <array>
 #include <string_view>

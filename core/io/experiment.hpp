@@ -1,5 +1,5 @@
 #pragma once
-// Experiments as text: an id, JSON and a command line, all of which come back to the same bits.
+// Experiments as text: an id, JSON and a command line, all lossless.
 
 #include <functional>
 #include <memory>
@@ -17,15 +17,15 @@ namespace substep {
 inline constexpr int kMostSeed = 1'000'000;
 inline constexpr Range kLoadRange{1e-6, 1e6};
 
-/// Hash of what the scene holds: bodies, joints, contact, gravity, criteria. Not of words, camera,
-/// verdict table and settings, which make no other run or are the experiment's own.
+/// Hash of the scene's content: bodies, joints, contact, gravity, criteria. Excludes texts, camera
+/// and verdict table, which do not affect a run, and settings, which belong to the experiment.
 std::uint64_t scene_hash(const Scene& scene);
 
-/// The experiment of a scene with the scene's own duration.
+/// An experiment on a scene with the scene's duration.
 Experiment experiment_of(const Scene& scene, const Settings& settings, int seed = 0);
 
-/// 16 hexadecimal digits, the same on every machine. Settings that stand at their default do not
-/// enter, so that a setting added later leaves the ids of before.
+/// 16 hexadecimal digits, machine-independent. Settings at their default are excluded, so that new
+/// settings do not change existing ids.
 std::string experiment_id(const Experiment& experiment);
 
 std::string hex_text(std::uint64_t value);
@@ -38,11 +38,11 @@ Json experiment_json(const Experiment& experiment);
 using SceneFinder = std::function<std::shared_ptr<const Scene>(const std::string& name)>;
 
 struct ExperimentInput {
-  std::optional<Experiment> experiment;  // nothing where there are problems
+  std::optional<Experiment> experiment;  // nothing if there are problems
   std::shared_ptr<const Scene> scene;
 };
-/// Reads what experiment_json writes. Only "scene" must be there: settings and seconds that are
-/// left out are the scene's own; id and hash are checked where they are given.
+/// Reads the output of experiment_json. Only "scene" is required: settings and seconds default to
+/// the scene's; id and hash are checked if present.
 ExperimentInput read_experiment(const Json& json, const SceneFinder& find, Problems& problems);
 
 /// "substep run swinging_box --alpha 0.05 --seconds 10": the same run on the command line.

@@ -14,14 +14,14 @@ std::string number(std::int64_t x) { return std::to_string(x); }
 std::string number(int x) { return std::to_string(x); }
 std::string number(bool x) { return x ? "1" : "0"; }
 
-/// Centre of the body whose path counts as the motion, along one axis [m].
+/// Centre of the tracked body, along one axis [m].
 template <int kAxis>
 std::string tracked(const FrameView& f) {
   if (!f.scene.criteria.track) return "nan";
   return number(f.state.x[static_cast<std::size_t>(*f.scene.criteria.track)][kAxis]);
 }
 
-/// Of all bodies, along one axis of the world.
+/// Sum over bodies, along one world axis.
 template <int kAxis>
 std::string momentum(const FrameView& f) {
   return number(momenta_of(f.scene, f.state).linear[kAxis]);

@@ -11,7 +11,7 @@
 
 namespace substep {
 
-/// What a column reads: one frame and the state at its end.
+/// Input of a column: one frame and the state at its end.
 struct FrameView {
   const Scene& scene;
   const FrameReport& report;
@@ -21,19 +21,19 @@ struct FrameView {
 struct FrameColumn {
   std::string_view name;
   std::string_view meaning;               // with its unit
-  bool Effects::*effect;                  // the column is there only with this effect; null: always
-  std::string (*text)(const FrameView&);  // a number without loss, "inf", or a name of the scene
+  bool Effects::*effect;                  // the column exists only with this effect; null: always
+  std::string (*text)(const FrameView&);  // a lossless number, "inf", or a name of the scene
   bool is_number = true;                  // otherwise a name
 };
 
-/// The columns that a scene calls for, in their order.
+/// The columns for a scene, in order.
 std::vector<FrameColumn> frame_columns(const Scene& scene);
 
 /// "frame,time,substeps,..." and a line feed.
 std::string csv_header(const std::vector<FrameColumn>& columns);
 /// One frame and a line feed.
 std::string csv_line(const std::vector<FrameColumn>& columns, const FrameView& frame);
-/// One frame as a JSON object on one line; null where a number is infinite.
+/// One frame as a JSON object on one line; null for infinite numbers.
 std::string json_line(const std::vector<FrameColumn>& columns, const FrameView& frame);
 
 }  // namespace substep

@@ -9,7 +9,7 @@
 
 namespace substep {
 
-/// One entry of "joints". @return the joint; where problems were added, as far as it could be read
+/// One entry of "joints". @return the joint; incomplete if problems were added
 Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& bodies,
                  Problems& problems);
 

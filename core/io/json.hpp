@@ -1,5 +1,5 @@
 #pragma once
-// The JSON library as this project uses it: keys keep their order, nothing throws.
+// The JSON library as used here: ordered keys, no exceptions.
 
 #include <nlohmann/json.hpp>
 

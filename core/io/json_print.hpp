@@ -6,8 +6,8 @@
 
 namespace substep {
 
-/// A document as a file that people read: short lists on one line, numbers that lose nothing. The
-/// same document gives the same bytes everywhere.
+/// A document as human-readable text: short lists on one line, lossless numbers. The bytes are the
+/// same on every machine.
 std::string json_file(const Json& json);
 
 }  // namespace substep

@@ -36,7 +36,7 @@ class Builder {
  public:
   Builder(std::string_view text, Problems& problems) : text_(text), problems_(problems) {}
 
-  // A number that left the range of doubles, where the walk stopped: offset and length in the text.
+  // A number beyond the range of doubles at the current position: offset and length in the text.
   std::size_t overflow_begin = 0;
   std::size_t overflow_size = 0;
   Json document;
@@ -115,7 +115,8 @@ class Builder {
     }
   };
 
-  /// Puts a value where the walk stands. @return where it is now, or null where there are too many
+  /// Inserts a value at the current position. @return the stored value, or null if there are too
+  /// many
   template <class T>
   Json* put(T&& x) {
     if (++values_ > kMaxJsonValues) {
@@ -195,7 +196,7 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
       if (!ok) return std::nullopt;
       return std::move(builder.document);
     }
-    // Keys that stand twice are found again by the next walk.
+    // Duplicate keys are found again by the next pass.
     problems.push_back(found.back());
     const std::string null = "null" + std::string(builder.overflow_size - 4, ' ');
     copy.replace(builder.overflow_begin, builder.overflow_size, null);

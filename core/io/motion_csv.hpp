@@ -1,6 +1,6 @@
 #pragma once
-// A run as tables of its bodies and of its joints, for comparisons with other programs. Numbers
-// are written without loss, lengths in metres, axes of the world.
+// A run as tables of bodies and joints, for comparison with other programs. Lossless numbers,
+// metres, world axes.
 
 #include <string>
 
@@ -22,7 +22,7 @@ std::string joints_header();
 
 /// A line for each joint of the scene: the force on its body a [N], which acts at the anchor on a,
 /// and the torque about that anchor [N m], both of the last sub-step, and the distance of the two
-/// anchors [m] in the state. "nan" where no sub-step has solved for the joint (both sides asleep).
+/// anchors [m] in the state. "nan" if no sub-step has solved for the joint (both sides asleep).
 std::string joints_lines(const Scene& scene, const State& state, const ConstraintForces& forces);
 
 }  // namespace substep

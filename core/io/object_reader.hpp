@@ -1,5 +1,5 @@
 #pragma once
-// Reads the members of one JSON object, and notes all that is wrong with them.
+// Reads the members of one JSON object and collects all problems.
 
 #include <optional>
 #include <string>
@@ -18,11 +18,11 @@ enum class Presence { kRequired, kOptional };
 inline constexpr Presence kRequired = Presence::kRequired;
 inline constexpr Presence kOptional = Presence::kOptional;
 
-/// Every member that is read is known to the object; finish() reports the others. A member that is
-/// missing or wrong leaves its target as it was. Each function returns whether it set its target.
+/// Members that are read are known; finish() reports all others. A missing or invalid member leaves
+/// its target unchanged. Each function returns true if it set its target.
 class ObjectReader {
  public:
-  /// Notes a problem where json is no object; the reader then has no members.
+  /// Adds a problem if json is not an object; the reader then has no members.
   ObjectReader(const Json& json, std::string pointer, Problems& problems);
 
   bool number(std::string_view key, const Range& range, double& target, Presence presence);
@@ -38,16 +38,16 @@ class ObjectReader {
   /// `rows` lists of `columns` numbers each, one after the other.
   bool table(std::string_view key, const Range& range, double* target, std::size_t rows,
              std::size_t columns, Presence presence);
-  /// The member as it is, or null.
+  /// The raw member, or null.
   const Json* member(std::string_view key, Presence presence);
 
   /// A problem of one member, or of the object itself where key is "".
   void problem(std::string_view key, std::string message);
   /// A problem of one item of a list.
   void item_problem(std::string_view key, std::size_t item, std::string message);
-  /// Notes members that nothing has read, with a guess at what was meant.
+  /// Adds a problem for every unread member, with a suggestion.
   void finish();
-  /// " (did you mean ...?)", or "". Comparing words takes time: only the first problems get one.
+  /// " (did you mean ...?)", or "". Suggestions are slow, so only the first problems get one.
   [[nodiscard]] std::string guess(std::string_view word,
                                   const std::vector<std::string_view>& candidates) const;
 
@@ -55,10 +55,10 @@ class ObjectReader {
   [[nodiscard]] std::string pointer(std::string_view key) const;
 
  private:
-  /// What is wrong with a number; where nothing is, the target is set.
+  /// The fault of a number; sets the target if there is none.
   static std::optional<std::string> number_fault(const Json& value, const Range& range,
                                                  double& target);
-  /// @param pointer gives the row's place, which only a problem needs
+  /// @param pointer function returning the row's location, called only for problems
   template <class Pointer>
   bool row(const Json& value, const Pointer& pointer, const Range& range, double* target,
            std::size_t size);
@@ -69,8 +69,7 @@ class ObjectReader {
   std::vector<std::string_view> known_;
 };
 
-/// The candidate that is at most a few letters away: `did you mean "mass"?` in brackets, or
-/// nothing.
+/// The candidate within a small edit distance: `did you mean "mass"?` in brackets, or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
 
 /// "ball, box or plane"

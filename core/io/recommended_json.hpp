@@ -8,10 +8,10 @@
 
 namespace substep {
 
-/// What a scene file has as "recommended".
+/// The member "recommended" of a scene file.
 Json recommended_json(const Recommended& recommended);
 
-/// Reads it back. Of its settings, what is left out is the default.
+/// Reads it back. Omitted settings are the defaults.
 Recommended read_recommended(const Json& json, const std::string& pointer, Problems& problems);
 
 }  // namespace substep

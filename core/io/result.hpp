@@ -1,6 +1,6 @@
 #pragma once
-// Results files: one JSON object a line (core/io/result.schema.json). The first line says what the
-// file is; every further line is one experiment with its errors, its work and its times.
+// Results files: one JSON object a line (core/io/result.schema.json). The first line identifies the
+// file; every further line is one experiment with errors, work and times.
 
 #include <optional>
 #include <string>
@@ -17,21 +17,20 @@ inline constexpr int kResultsVersion = 1;
 
 /// The first line of a results file, with its line feed.
 std::string results_header();
-/// Notes a problem where a line is not such a first line.
+/// Adds a problem if a line is not a valid first line.
 void check_results_header(std::string_view line, Problems& problems);
 
-/// One result as a line, without line feed. The part "timing" is this machine's; all else is the
-/// same everywhere.
+/// One result as a line, without line feed. Only the part "timing" depends on the machine.
 Json result_json(const Result& result);
 
 /// Its parts "work" and "timing".
 Json work_json(const Work& work);
 Json timing_json(const Timing& timing);
 
-/// Work and times of a run by stage and by row kind, and what each effect adds to a frame.
+/// Work and times of a run by stage and row kind, and the cost of each effect per frame.
 Json costs_json(const CostBreakdown& costs);
 
-/// The id of a line that has the parts of a result. Notes what is wrong with it otherwise.
+/// The id of a valid result line; otherwise adds problems.
 std::optional<std::string> result_id(const Json& line, Problems& problems);
 
 }  // namespace substep

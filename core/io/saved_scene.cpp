@@ -10,7 +10,8 @@
 namespace substep {
 namespace {
 
-// With `mark` and `when` at its end, in place of those of an earlier save. Too long a text stays.
+// Appends `mark` and `when`, replacing those of an earlier save. Texts that would be too long are
+// unchanged.
 void tell_when(std::string& text, const std::string& mark, const std::string& when,
                std::size_t most) {
   std::string told = text.substr(0, text.rfind(mark)) + mark + when;
@@ -28,7 +29,7 @@ Scene saved_scene(const Scene& scene, const State& state, const Settings& settin
     if (body.is_static) continue;
     body.position = state.x[i];
     body.orientation = state.q[i];
-    // Leapfrog keeps u at the middle of a sub-step: what is carried has that one as well.
+    // Leapfrog keeps u at the middle of a sub-step; the carried state includes it.
     const bool at_the_middle = settings.integrator != Integrator::kEuler;
     const Vec6& u = at_the_middle ? state.u_synchronised[i] : state.u[i];
     body.velocity = u.head<3>();

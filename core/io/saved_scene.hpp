@@ -5,12 +5,11 @@
 
 namespace substep {
 
-/// A run as a scene of its own, to be written to a file: it starts where the run is now, with poses
-/// and velocities of `state`, with what its last sub-step left to the next one, and with the run's
-/// settings. Between two frames it continues as the run would have, bit for bit. (Within a frame
-/// the sub-steps to its end are chosen again; a hand that pulls lets go.) Once time has passed,
-/// name and title say so ("bridge_at_3500ms"). The verdict table is of the scene as it was, and
-/// left out.
+/// A run as a scene, to be written to a file: it starts from `state`, with its poses, velocities
+/// and carried data, and with the run's settings. Saved between frames, it continues the run bit
+/// for bit. (Within a frame the remaining sub-steps are rescheduled; a grab is released.) If time >
+/// 0, it is part of name and title ("bridge_at_3500ms"). The verdict table of the original scene is
+/// omitted.
 Scene saved_scene(const Scene& scene, const State& state, const Settings& settings);
 
 }  // namespace substep

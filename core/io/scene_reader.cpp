@@ -42,7 +42,7 @@ void check_refused(const Scene& scene, Problems& problems) {
 
 }  // namespace
 
-/// What advance() does next.
+/// The next part for advance().
 enum class SceneReading::Part : unsigned char {
   kParse,
   kHead,
@@ -61,7 +61,7 @@ struct SceneReading::Impl {
   std::size_t item = 0;  // of the list that is being read
   Json json;
   Problems problems;  // of the text itself
-  Problems found;     // of what stands in it
+  Problems found;     // of its content
   std::shared_ptr<Scene> scene = std::make_shared<Scene>();
   SoundParts sound;
   bool lists_effects = false;
@@ -203,7 +203,7 @@ SceneResult SceneReading::result() {
   std::set<std::string> told;
   for (const Problem& problem : problems) told.insert(problem.pointer);
   for (Problem& problem : impl_->found) {
-    // Where the text itself was wrong, what stands there in its place is wrong again.
+    // Skips content problems at locations that already have a text problem.
     if (!told.contains(problem.pointer)) problems.push_back(std::move(problem));
   }
   if (problems.size() > kMaxProblems) {

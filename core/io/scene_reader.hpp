@@ -11,21 +11,21 @@ namespace substep {
 
 /// Either a scene, or every problem of the text at once.
 struct SceneResult {
-  std::shared_ptr<const Scene> scene;  // null where there are problems
+  std::shared_ptr<const Scene> scene;  // null if there are problems
   Problems problems;
 };
 
-/// Reads a scene of format version 1 (scenes/scene.schema.json) in parts, between which a window
-/// can answer. Never throws.
+/// Reads a scene of format version 1 (scenes/scene.schema.json) in parts, to keep a window
+/// responsive. Never throws.
 class SceneReading {
  public:
   explicit SceneReading(std::string json);
   ~SceneReading();
 
   /// Does the next part: parses the text, reads a thousand bodies or joints, or checks the scene.
-  /// @return whether there is more to do
+  /// @return true if there is more to do
   bool advance();
-  /// Does what is left. To be called once.
+  /// Completes the reading. Call once.
   SceneResult result();
 
  private:
@@ -34,7 +34,7 @@ class SceneReading {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The same at once.
+/// Reads a scene in one call.
 SceneResult read_scene(std::string_view json);
 
 /// The same from a file; a file that cannot be read is a problem with pointer "".

@@ -11,8 +11,7 @@
 
 namespace substep {
 
-/// Whether this is a scene of a version that can be read at all. If not, nothing else is worth
-/// telling.
+/// True if the version is supported. If not, no further problems are reported.
 bool read_version(ObjectReader& in, Problems& problems) {
   const std::size_t before = problems.size();
   std::string format;
@@ -99,7 +98,7 @@ void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, P
   in.finish();
 }
 
-/// The items of a list, or nothing where it is missing, no list or too long.
+/// The items of a list, or nothing if it is missing, not a list or too long.
 const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, Presence presence) {
   const Json* list = in.member(key, presence);
   if (!list) return nullptr;

@@ -6,8 +6,8 @@
 
 namespace substep {
 
-/// The scene as a file of format version 1: what read_scene reads back to an equal scene. The same
-/// scene gives the same bytes everywhere; arrays of numbers stand on one line.
+/// The scene as a file of format version 1; read_scene returns an equal scene. The bytes are the
+/// same on every machine; arrays of numbers are on one line.
 std::string write_scene(const Scene& scene);
 
 }  // namespace substep

@@ -9,7 +9,7 @@
 namespace substep {
 namespace {
 
-/// A value as set_setting takes it, or nothing where its kind is wrong.
+/// A value as text for set_setting, or nothing if its type is wrong.
 std::optional<std::string> setting_value(const SettingField& field, const Json& value) {
   if (std::holds_alternative<FlagSetting>(field.member)) {
     if (!value.is_boolean()) return std::nullopt;

@@ -9,7 +9,7 @@ namespace substep {
 /// All settings, by the names of setting_fields().
 Json settings_json(const Settings& settings);
 
-/// Reads the member "settings" of an object where there is one. What it leaves out stays as it was.
+/// Reads the member "settings" of an object, if present. Omitted settings are unchanged.
 void read_settings(ObjectReader& parent, Settings& settings, Problems& problems);
 
 }  // namespace substep

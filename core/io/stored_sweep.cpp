@@ -62,7 +62,7 @@ std::string line_of(const Metrics& m) {
          error_text(peak(e.joint_gap)) + ' ' + error_text(peak(e.penetration)) + hash_text(m);
 }
 
-/// Takes the text apart; what is not there or no number makes ok() false.
+/// Parses the text; missing values or invalid numbers make ok() false.
 class Fields {
  public:
   explicit Fields(std::string_view text) : text_(text) {}

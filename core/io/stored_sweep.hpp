@@ -1,18 +1,18 @@
 #pragma once
-// The sweep of a shipped scene as text that is shipped with it: what accuracy costs on it is known
-// before anybody runs it. Only what is the same on every machine is kept.
+// The precomputed sweep of a shipped scene as text: error against cost without running it. Only
+// machine-independent values are stored.
 //
-//   substep-sweep 1 PLAN          the id of the experiments: of another scene or sweep it differs
+//   substep-sweep 1 PLAN          id of the experiments, unique to scene and sweep
 //   uncertainty window scale      of the reference [m, s, J]
 //   its source
 //   the source of its scale
 //   a line for each experiment, in the order of quick_sweep():
-//   substeps operations path energy gap overlap #hash       of a run that holds
-//   ! frames substeps operations failed_at verdict #hash    of one that failed
+//   substeps operations path energy gap overlap #hash       for a run that holds
+//   ! frames substeps operations failed_at verdict #hash    for a failed run
 //
-// Errors have four digits, and "-" where a scene has none. The hash is of the bits of the final
-// state, the work and all errors but that of the path, whose reference depends on the library's
-// sine; programs are shipped without it.
+// Errors have four digits, or "-" if undefined for the scene. The hash covers the bits of the final
+// state, the work and all errors except the path's, whose reference depends on the library's sine;
+// it is omitted from shipped programs.
 
 #include <cstdint>
 #include <optional>
@@ -25,14 +25,14 @@
 
 namespace substep {
 
-/// What the window sweeps: every method along its own parameter, as long as the motion can be
-/// predicted. The curves grow evenly in this order, and the map of loads comes last.
+/// The experiments of the window's sweep: every method along its parameter, over the predictable
+/// time of the motion. Ordered so that all curves grow evenly; the map of loads comes last.
 std::vector<Experiment> quick_sweep(const Scene& scene);
 
-/// Of the experiments, in this order.
+/// Id of the experiments in this order.
 std::string plan_id(std::span<const Experiment> experiments);
 
-/// @param results of the experiments of a quick_sweep(), one of each and in its order
+/// @param results results of all experiments of a quick_sweep(), in its order
 std::string sweep_text(std::span<const Result> results, const ReferenceSummary& reference);
 
 struct StoredSweep {
@@ -40,7 +40,7 @@ struct StoredSweep {
   std::vector<Result> results;
 };
 
-/// Nothing where the text is not of the quick_sweep() of this scene as it stands.
+/// Nothing if the text does not match the quick_sweep() of this scene.
 std::optional<StoredSweep> read_sweep(std::string_view text, const Scene& scene);
 
 }  // namespace substep

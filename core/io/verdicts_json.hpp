@@ -7,8 +7,8 @@
 
 namespace substep {
 
-/// The member "verdicts" of a scene; none leaves the table empty. Contradictions are problems: an n
-/// without mode const, a time of what does not fail, `depends` without its reason.
+/// The member "verdicts" of a scene; without it the table is empty. Contradictions are problems: an
+/// n without mode const, a failure time without kFails, `depends` without a reason.
 Expectations read_verdicts(ObjectReader& scene, Problems& problems);
 
 Json verdicts_json(const Expectations& rules);

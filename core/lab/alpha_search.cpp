@@ -95,7 +95,7 @@ void AlphaSearch::take(const Result& result) {
     phase_ = Phase::kHalving;
     quarters_ = runs_;
   }
-  // One end may be missing: all of the range serves, or none of it.
+  // One end may be missing, if the whole range or no part of it satisfies the criterion.
   if (!good_ || bad_ == 0.0 || std::max(bad_ / good_->alpha, good_->alpha / bad_) <= kNarrow) {
     phase_ = Phase::kDone;
     if (good_ && !good_->result.metrics.holds) good_.reset();

@@ -1,18 +1,18 @@
 #pragma once
 // Featherstone's articulated-body inertia ("The calculation of robot dynamics using
-// articulated-body inertias", 1983) in world axes about a point of each body: the point p where its
-// joint holds it. With the acceleration a of that point and the angular acceleration alpha, what
-// has to act on the body at p is
+// articulated-body inertias", 1983) in world axes about the joint point p of each body. With the
+// acceleration a of that point and the angular acceleration alpha, the torque and force required on
+// the body at p are
 //   torque = A alpha + B   a + torque_bias
 //   force  = B^T alpha + M a + force_bias.
 // For one rigid body with centre p + r, mass m and moments I about the centre, Newton and Euler
 // give, with the acceleration of the centre a + alpha x r + omega x (omega x r):
 //   A = I - m [r][r],  B = m [r],  M = m E,
 //   force_bias = m omega x (omega x r),  torque_bias = omega x I omega + r x force_bias.
-// Gravity is no term: the world accelerates by -g in its place.
+// Gravity is represented by an acceleration -g of the world.
 //
-// A body carries its children. What a child needs at its joint, where alpha or a part of it is free
-// because no torque acts there, is again of that form; moved to p it adds to the parent's.
+// The force and torque of a child at its joint, with the free part of alpha eliminated because no
+// torque acts there, have the same form; shifted to p they add to the parent's.
 
 #include <Eigen/Cholesky>
 
@@ -50,7 +50,7 @@ struct ArticulatedInertia {
   [[nodiscard]] Vec3 ball_acceleration(const Vec3& a) const {
     return -A.llt().solve(Vec3(B * a + torque_bias));
   }
-  /// This with alpha eliminated by a ball joint: M - B^T A^-1 B and its bias are left.
+  /// This with alpha eliminated by a ball joint: M - B^T A^-1 B and its bias remain.
   [[nodiscard]] ArticulatedInertia behind_ball() const {
     const Eigen::LLT<Mat3> factor(A);
     ArticulatedInertia left;
@@ -83,7 +83,7 @@ struct ArticulatedInertia {
     return left;
   }
 
-  /// alpha and a where nothing holds the body: force and torque are zero.
+  /// alpha and a of a free body: force and torque are zero.
   [[nodiscard]] Vec6 free_acceleration() const {
     Mat6 whole;
     whole << M, B.transpose(), B, A;
@@ -93,8 +93,8 @@ struct ArticulatedInertia {
   }
 
   /// Adds a child that was eliminated behind its joint.
-  /// @param l from p to the child's joint [m] @param alpha_bias, a_bias what alpha_before and a of
-  /// the child have beside alpha and a - [l] alpha of this body [rad/s^2, m/s^2]
+  /// @param l from p to the child's joint [m] @param alpha_bias, a_bias difference of the child's
+  /// alpha_before and a from alpha and a - [l] alpha of this body [rad/s^2, m/s^2]
   void add(const ArticulatedInertia& child, const Vec3& l, const Vec3& alpha_bias,
            const Vec3& a_bias) {
     // torque += torque_c + l x force_c, with a_c = a - [l] alpha.

@@ -8,7 +8,7 @@
 
 namespace substep {
 
-/// What the cost of a run is counted in, per frame.
+/// Unit of a run's cost, per frame.
 enum class CostAxis : std::uint8_t { kSubsteps, kOperations, kTime, kCount };
 
 /// "largest distance from the reference [m]"
@@ -18,10 +18,10 @@ const char* axis_name(CostAxis axis);
 const char* unit_of(ErrorAxis axis);
 
 double cost_of(const Result& result, CostAxis axis);
-/// Nothing where the scene has no such error, or the run failed.
+/// Nothing if the scene has no such error, or the run failed.
 std::optional<double> error_of(const Result& result, ErrorAxis axis);
 
-/// By what a scene is measured first: the path of the body that it tracks, else energy.
+/// The primary error of a scene: the path of its tracked body, else energy.
 ErrorAxis first_axis(const Scene& scene);
 
 }  // namespace substep

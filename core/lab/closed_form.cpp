@@ -38,7 +38,8 @@ std::optional<UniformAcceleration> box_on_slope(const Scene& scene, const Body& 
   UniformAcceleration motion{box.position, Vec3::Zero(), Vec3::Zero()};
   const double pulling = along.norm();
   if (pulling <= kFlush * pressing) return motion;
-  // Friction is a box in the contact's two tangents: only along one of them is it Coulomb's law.
+  // Friction is a box in the contact's two tangents: it equals Coulomb's law only along one of
+  // them.
   const int forward = axis_along(R, along);
   if (forward < 0) return std::nullopt;
   const double mu = scene.effects.friction ? std::sqrt(box.friction * plane->friction) : 0.0;

@@ -17,9 +17,9 @@ struct UniformAcceleration {
   }
 };
 
-/// The tracked body's motion where a closed form has it: free flight (no joints, no contact, no
-/// torque; a constant force counts), or a box at rest that lies flush on a plane, alone, along the
-/// slope, and sticks or slides down it without tipping over.
+/// The tracked body's motion if it has a closed form: free flight (no joints, contact or torque; a
+/// constant force is allowed), or a single box initially at rest, flush on a plane and aligned with
+/// the slope, that sticks or slides without tipping over.
 std::optional<UniformAcceleration> closed_form(const Scene& scene);
 
 }  // namespace substep

@@ -30,8 +30,8 @@ std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) 
   return std::make_shared<const Scene>(std::move(less));
 }
 
-/// What each of the simulators may take, which all keep their memory until the end: together no
-/// more than one alone. Those are the run, the scene as it is and the scene without each effect.
+/// Budget of each simulator: all keep their memory until the end, so together they share the budget
+/// of one. They are the run, the unchanged scene, and the scene without each effect.
 Budget shared_budget(const Effects& effects, Budget budget) {
   const auto count = 2 + std::count_if(std::begin(kEffects), std::end(kEffects),
                                        [&](const NamedEffect& e) { return effects.*e.effect; });
@@ -43,8 +43,8 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Mean without an eighth at either end, which interrupts and cold caches made. A median would be 0
-/// in a browser, whose clock has steps longer than many frames.
+/// Trimmed mean without an eighth at either end, to exclude interrupts and cold caches. A median
+/// would be 0 in a browser, whose clock resolution is longer than many frames.
 double trimmed_mean(std::vector<double> values) {
   const auto cut = static_cast<std::ptrdiff_t>(values.size() / 8);
   std::sort(values.begin(), values.end());
@@ -53,7 +53,7 @@ double trimmed_mean(std::vector<double> values) {
 
 }  // namespace
 
-/// Single frames of a scene from given states.
+/// Steps single frames of a scene from given states.
 class EffectCostRun::Again {
  public:
   Again(std::shared_ptr<const Scene> scene, std::string_view without, const Budget& budget)
@@ -65,7 +65,7 @@ class EffectCostRun::Again {
     simulator_.set_settings(settings);
     simulator_.set_state(state);
   }
-  /// A part of the frame. @return whether it is complete
+  /// Steps a part of the frame. @return true if it is complete
   bool advance() {
     const FrameReport report = simulator_.step_some(kPartWork);
     if (simulator_.substeps_left() > 0) return false;
@@ -74,7 +74,7 @@ class EffectCostRun::Again {
     return true;
   }
 
-  /// What the scene as it is costs more than this, over the frames that both have taken.
+  /// Cost of the unchanged scene minus this one, over their common frames.
   [[nodiscard]] EffectCost spared(const Again& whole) const {
     EffectCost cost{without_};
     if (frames_.empty()) return cost;
@@ -99,7 +99,7 @@ class EffectCostRun::Again {
   };
 
   Simulator simulator_;
-  std::string_view without_;  // the effect that is off, "" where none is
+  std::string_view without_;  // the disabled effect, or ""
   std::vector<FrameCost> frames_;
 };
 
@@ -113,7 +113,7 @@ EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Bu
   }
   next_ = again_.size();
   same_ = run_.experiment().settings;
-  // Islands have numbers of their own, which follow from what the state remembers of their bodies.
+  // Islands have their own N, which follows from the state of their bodies.
   if (!has_islands(same_)) same_.mode = Mode::kConst;
 }
 

@@ -8,13 +8,13 @@
 
 namespace substep {
 
-/// What an effect adds to a frame: the frame as it is, less the same frame without the effect.
-/// Negative where the effect spares more than it takes.
+/// Cost of an effect per frame: the frame minus the same frame without the effect. Negative if the
+/// effect saves more than it costs.
 struct EffectCost {
-  std::string_view effect;   // as scene files name it
-  double ms = 0.0;           // wall time, mean of the frames but the extreme ones [ms]
-  double flops = 0.0;        // of the solver, mean of the frames
-  double row_updates = 0.0;  // of PGS and XPBD, mean of the frames
+  std::string_view effect;   // name in scene files
+  double ms = 0.0;           // wall time, trimmed mean over frames [ms]
+  double flops = 0.0;        // of the solver, mean over frames
+  double row_updates = 0.0;  // of PGS and XPBD, mean over frames
 };
 
 struct CostBreakdown {
@@ -22,26 +22,25 @@ struct CostBreakdown {
   std::vector<EffectCost> effects;  // those of the scene
 };
 
-/// Runs an experiment and steps each of its frames again, from the same state and with the same
-/// number of sub-steps, once as it is and once without each effect: the motion is the same, so the
-/// difference is the effect's own cost, in the direct solver too, where rows of all kinds are
-/// eliminated together. Islands with numbers of their own find them again; that bodies share one
-/// number because an effect ties them together is part of what it costs. Without contact there is
-/// no friction and no restitution. It goes in parts of a single frame, for a page that must stay
-/// alive.
+/// Runs an experiment and repeats each frame from the same state with the same number of sub-steps,
+/// once unchanged and once without each effect. The motion is the same, so the difference is the
+/// cost of the effect, even in the direct solver, which eliminates rows of all kinds together.
+/// Islands with their own N recompute it; a common N due to coupling by an effect is part of its
+/// cost. Without contact there is no friction and no restitution. Works in parts of a single frame,
+/// to keep a page responsive.
 class EffectCostRun {
  public:
-  /// @param scene as it stands, without the experiment's load and seed
-  /// @param budget of a frame, its memory shared by all that are stepped beside each other
+  /// @param scene without the experiment's load and seed
+  /// @param budget of a frame; its memory is shared by all simulators
   EffectCostRun(const Scene& scene, Experiment experiment, const Budget& budget = {});
   ~EffectCostRun();
   EffectCostRun(const EffectCostRun&) = delete;
   EffectCostRun& operator=(const EffectCostRun&) = delete;
 
-  /// Steps a part of a frame of the run, or of one again. @return false when all is done
+  /// Steps a part of a frame of the run or of a repetition. @return false when done
   bool advance();
   [[nodiscard]] double progress() const { return run_.progress(); }  ///< 0 to 1
-  /// Of the frames so far.
+  /// Costs of the frames so far.
   [[nodiscard]] CostBreakdown costs() const;
   [[nodiscard]] const Experiment& experiment() const { return run_.experiment(); }
 
@@ -49,14 +48,14 @@ class EffectCostRun {
   class Again;
 
   ExperimentRun run_;
-  std::vector<Again> again_;  // the scene as it is, then without each of its effects
-  std::size_t next_ = 0;      // of `again_`, from `before_`
-  State before_;              // the frame that is stepped again
-  Settings same_;             // for as many sub-steps as the run took in it
-  bool more_ = true;          // frames of the run
+  std::vector<Again> again_;  // the unchanged scene, then without each of its effects
+  std::size_t next_ = 0;      // next of `again_`, starting from `before_`
+  State before_;              // start of the repeated frame
+  Settings same_;             // with the number of sub-steps of the run
+  bool more_ = true;          // the run has more frames
 };
 
-/// All of it in one go.
+/// The same in one call.
 CostBreakdown cost_of_effects(const Scene& scene, const Experiment& experiment);
 
 }  // namespace substep

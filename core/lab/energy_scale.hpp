@@ -1,5 +1,5 @@
 #pragma once
-// When a change of energy may be given as a percentage, and of what.
+// The reference energy for drift percentages.
 
 #include <cmath>
 #include <optional>
@@ -10,15 +10,15 @@ namespace substep {
 /// card house has 20 µJ of kinetic energy and settles by 1 mJ, which is not "-5000 %".
 inline constexpr double kLeastEnergyScale = 1e-3;
 
-/// A kinetic energy counts as a scale only where it is this many times the drift: in a run that
-/// gains energy from nowhere the kinetic energy is itself drift.
+/// A kinetic energy is a valid scale only if it is this many times the drift: in a run with
+/// spurious energy gain the kinetic energy is itself drift.
 inline constexpr double kScaleOverDrift = 10.0;
 
-/// The energy that the drift of a run is a share of.
+/// The reference energy for the drift of a run.
 /// @param stated by the scene, the energy that its motion exchanges [J]
 /// @param kinetic the largest kinetic energy so far [J]
 /// @param drift the largest change of the total energy so far, up or down [J]
-/// @return nothing where there is no such energy: the drift is then given in joules alone
+/// @return nothing if there is no such energy: the drift is then given in joules only
 inline std::optional<double> energy_scale(std::optional<double> stated, double kinetic,
                                           double drift) {
   const double scale = stated.value_or(kinetic);
@@ -27,8 +27,7 @@ inline std::optional<double> energy_scale(std::optional<double> stated, double k
   return scale;
 }
 
-/// A drift as a share of a scale [-]. Nothing where there is no scale, or where the drift is larger
-/// than all of it.
+/// A drift as a share of a scale [-]. Nothing if there is no scale or the drift exceeds it.
 inline std::optional<double> energy_share(double drift, std::optional<double> scale) {
   if (!scale || !(std::abs(drift) <= *scale)) return std::nullopt;
   return drift / *scale;

@@ -43,7 +43,7 @@ ExactPendulum::Motion ExactPendulum::at(double t) const {
 
 // ---- free symmetric body: with angular momentum L and the body's axis e,
 //      w = L/I + (1 - I_e/I) (w . e) e,
-// both parts turn at a constant rate: the first about L in the world, the second about e in the
+// both parts rotate at a constant rate: the first about L in the world, the second about e in the
 // body.
 
 Attitude free_symmetric_body(double transverse, double axial, const Attitude& start, double t) {
@@ -110,7 +110,7 @@ Quat ExactTumbling::to_momentum_frame(double t, double phi) const {
 }
 
 const Attitude& ExactTumbling::at(double t) {
-  // Gauss's formula of five points; panels of a thirtieth of a tumble leave no error to be seen.
+  // Five-point Gauss quadrature; the error is negligible with panels of a thirtieth of a tumble.
   constexpr double kPoint[] = {0.0, 0.53846931010568309, 0.90617984593866399};
   constexpr double kWeight[] = {0.56888888888888889, 0.47862867049936647, 0.23692688505618909};
   const double longest = half_period() / 30.0;

@@ -1,5 +1,5 @@
 #pragma once
-// Motions in closed form, and one in minimal coordinates: what the exam and tests measure from.
+// Motions in closed form, and one in minimal coordinates: references for the exam and tests.
 
 #include "core/math/types.hpp"
 
@@ -17,7 +17,7 @@ class ExactPendulum {
   /// Released at rest. @param rate sqrt(m g a/I) of small swings [rad/s]
   /// @param angle at the start, in (0, pi) [rad]
   static ExactPendulum released(double rate, double angle);
-  /// Turns over the top, where it is at the start.
+  /// Rotates over the top, starting there.
   /// @param top_speed angular velocity there, > 0 [rad/s]
   static ExactPendulum over_the_top(double rate, double top_speed);
 
@@ -42,9 +42,9 @@ struct Attitude {
 /// @param start attitude and angular velocity at t = 0  @param t [s]
 Attitude free_symmetric_body(double transverse, double axial, const Attitude& start, double t);
 
-/// A free body with three different moments of inertia that starts by turning almost about the
-/// middle one, and so tumbles (Dzhanibekov's effect): Jacobi's functions, and one quadrature for
-/// the angle about the angular momentum.
+/// A free body with three different moments of inertia, starting with rotation almost about the
+/// middle axis, which tumbles (Dzhanibekov effect): Jacobi's functions, and one quadrature for the
+/// angle about the angular momentum.
 class ExactTumbling {
  public:
   /// @param inertia moments about x, y, z, ascending [kg m^2]
@@ -52,7 +52,7 @@ class ExactTumbling {
   /// both > 0; about x it is zero [rad/s]. The body's axes start along the world's.
   ExactTumbling(const Vec3& inertia, double middle, double largest);
 
-  /// Moves on in time. @param t no less than at the last call [s]
+  /// Advances in time. @param t no less than at the last call [s]
   const Attitude& at(double t);
   /// Time from one tumble to the next [s].
   [[nodiscard]] double half_period() const;
@@ -75,7 +75,7 @@ class ExactTumbling {
   Attitude attitude_;
 };
 
-/// A rigid body that turns about a fixed point under gravity.
+/// A rigid body rotating about a fixed point under gravity.
 struct PivotedBody {
   double mass = 1.0;            // [kg]
   Vec3 inertia = Vec3::Ones();  // principal moments about the fixed point [kg m^2]

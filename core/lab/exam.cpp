@@ -54,7 +54,7 @@ class Run {
   void frame() {
     FrameReport report;
     if (exam_.needs_forces) report = look_ahead();
-    // A frame of one sub-step is over by now.
+    // A frame with one sub-step is complete here.
     if (!exam_.needs_forces || simulator_.substeps_left() > 0) report = simulator_.step();
     row_.substeps += report.n_substeps;
     row_.status = stop_text(exam_.scene, report);
@@ -67,7 +67,7 @@ class Run {
   ExamMeasure measure_;
 };
 
-/// Order from the row before, where both errors show it.
+/// Order relative to the previous row, if both errors are in the valid range.
 std::optional<double> observed_order(const ExamCase& exam, const ExamRow& coarse,
                                      const ExamRow& fine) {
   const double a = coarse.errors.front();
@@ -95,7 +95,7 @@ ExamRow run_one(const ExamCase& exam, const ExamMethod& method, double value) {
   row.passes = true;
   for (std::size_t i = 0; i < exam.quantities.size(); ++i) {
     const ExamQuantity& quantity = exam.quantities[i];
-    // Written so that a number that is not one fails.
+    // The comparison is false for NaN.
     const bool within = row.errors[i] <= quantity.tolerance;
     row.within.push_back(within);
     row.passes = row.passes && within;
@@ -104,8 +104,8 @@ ExamRow run_one(const ExamCase& exam, const ExamMethod& method, double value) {
   return row;
 }
 
-/// A method is judged by the finest pair of runs that shows its order: coarser ones need not be in
-/// the range where it holds.
+/// The order of a method is checked on the finest valid pair of runs: coarser ones may be outside
+/// the asymptotic range.
 void judge_order(const ExamMethod& method, std::vector<ExamRow>& rows) {
   if (!method.order) return;
   const auto finest =
@@ -115,7 +115,7 @@ void judge_order(const ExamMethod& method, std::vector<ExamRow>& rows) {
   finest->keeps = finest->keeps && *finest->order >= *method.order - kOrderAllowance;
 }
 
-/// The worst quantity of a row, in units of its tolerance.
+/// The largest error of a row relative to its tolerance.
 double distance(const ExamCase& exam, const ExamRow& row) {
   double worst = 0.0;
   for (std::size_t i = 0; i < row.errors.size(); ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// The exam: scenes with a published answer or a closed form, run
-// by several methods and measured from that answer. No file is read and nothing is printed here.
+// The exam: scenes with a published or closed-form solution, run by several methods and compared
+// with it. Without file access or output.
 
 #include <functional>
 #include <optional>
@@ -15,16 +15,16 @@
 
 namespace substep {
 
-/// One figure that a case compares with its reference.
+/// One quantity of a case, compared with its reference.
 struct ExamQuantity {
   std::string name;            // "position"
   std::string unit;            // "m"
   double tolerance = 0.0;      // largest error that passes, from the reference's precision [unit]
   std::string why;             // where the tolerance comes from
-  bool for_every_run = false;  // no method may exceed it, at any number of sub-steps
+  bool for_every_run = false;  // the limit for all methods and numbers of sub-steps
 };
 
-/// What a case looks at, once a frame.
+/// Input of a case's measure, once per frame.
 struct ExamView {
   const Scene& scene;
   const State& state;
@@ -34,12 +34,12 @@ struct ExamView {
   const ConstraintForces& forces;
 };
 
-/// Updates the errors so far, one per quantity and zero at first. A measure belongs to one run and
-/// may remember what it has seen.
+/// Updates the errors so far, one per quantity, initially zero. A measure belongs to one run and
+/// may keep state.
 using ExamMeasure = std::function<void(const ExamView&, std::span<double> errors)>;
 
-/// Where bodies should be: sets the poses of those that it knows. @param t no less than at the last
-/// call [s]  @param x, q per body, at the start the scene's [m, -]
+/// The reference motion: sets the poses of the bodies it covers. @param t no less than at the last
+/// call [s]  @param x, q per body, initially the scene's [m, -]
 using ExamMotion = std::function<void(double t, std::vector<Vec3>& x, std::vector<Quat>& q)>;
 
 /// A method and the settings that a case runs it with.
@@ -47,23 +47,23 @@ struct ExamMethod {
   std::string name;  // "leapfrog"
   Settings settings;
   std::vector<double> parameters;  // sub-steps per frame, or alpha in mode kAdaptive
-  std::optional<double> order;     // that the first quantity has to fall with; none: not judged
+  std::optional<double> order;     // required order of the first quantity; none: unchecked
 };
 
 /// A scene and its reference.
 struct ExamCase {
   std::string name;        // "four_bar"
   std::string title;       // for people
-  std::string source;      // whose numbers these are
+  std::string source;      // source of the reference values
   std::string definition;  // of the scene, in a sentence or two
-  Scene scene;             // criteria.duration is how long it runs
+  Scene scene;             // run for criteria.duration
   std::vector<ExamQuantity> quantities;
   std::function<ExamMeasure()> measure;
-  std::function<ExamMotion()> motion;  // the reference to look at; empty where it has no poses
+  std::function<ExamMotion()> motion;  // the reference motion; empty if it has no poses
   std::vector<ExamMethod> methods;
   bool needs_forces = false;
-  /// Errors of the first quantity between these show a method's order: below, the reference's or
-  /// rounding's last digits stand, above, the step is too long for its order.
+  /// Errors of the first quantity between these are used for the order: below, the reference or
+  /// rounding limits the accuracy; above, the step is outside the asymptotic range.
   double least_for_order = 0.0;
   double most_for_order = 0.0;
 };
@@ -72,7 +72,7 @@ struct ExamCase {
 struct ExamEntry {
   std::string name;
   std::string title;
-  std::string not_reached;  // what the vocabulary lacks for it, or empty
+  std::string not_reached;  // the missing feature that prevents it, or empty
   ExamCase (*build)() = nullptr;
 };
 
@@ -81,38 +81,37 @@ struct ExamRow {
   std::string method;
   std::string parameter;                 // "n" or "alpha"
   double value = 0.0;                    // of the parameter
-  double substeps = 0.0;                 // of a frame, mean
-  std::vector<double> errors;            // per quantity; infinite where the run failed
-  std::vector<bool> within;              // per quantity: its tolerance
-  std::optional<double> order;           // against the row before, of the same method
-  std::optional<double> expected_order;  // where the method is judged by this row
+  double substeps = 0.0;                 // mean per frame
+  std::vector<double> errors;            // per quantity; infinite if the run failed
+  std::vector<bool> within;              // per quantity: true if within tolerance
+  std::optional<double> order;           // relative to the previous row of the same method
+  std::optional<double> expected_order;  // if the order is checked in this row
   bool passes = false;                   // all quantities are within their tolerance
-  bool keeps = true;                     // order as expected, and what every run has to keep
-  std::string status;                    // why a run failed, or empty
+  bool keeps = true;                     // the order and the limits for every run are met
+  std::string status;                    // cause of failure, or empty
   double seconds = 0.0;                  // wall time [s]
 };
 
-/// A case passes where at least one run is within all tolerances and every run keeps what it
-/// should: its method's order, and the quantities that are for every run.
+/// A case passes if at least one run is within all tolerances and every run meets its method's
+/// order and the limits for every run.
 struct ExamResult {
   std::vector<ExamRow> rows;
   bool reached = false;  // a run is within all tolerances
-  bool kept = true;      // every run keeps what it should
+  bool kept = true;      // every run meets its requirements
   [[nodiscard]] bool passed() const { return reached && kept; }
-  /// Index of the run within all tolerances that takes the fewest sub-steps, else of the one that
-  /// is closest to them.
+  /// Index of the run with the fewest sub-steps within all tolerances, else of the closest one.
   [[nodiscard]] std::size_t best(const ExamCase& exam) const;
 };
 
 /// Runs every method of a case. @param on_row called after each run, may be empty
 ExamResult run_exam(const ExamCase& exam, const std::function<void(const ExamRow&)>& on_row = {});
 
-/// The methods that a smooth motion is run with: the paper's (Euler, adaptive, by alpha), and by n
-/// Euler, leapfrog, Störmer and Newton with mean forces and with Numerov's weights.
-/// @param base everything else  @param n sub-steps per frame, ascending
+/// The methods for smooth motions: the paper's (Euler, adaptive, by alpha), and by n Euler,
+/// leapfrog, Störmer and Newton with mean forces and with Numerov's weights.
+/// @param base all other settings  @param n sub-steps per frame, ascending
 std::vector<ExamMethod> exam_methods(const Settings& base, const std::vector<double>& n);
 
-/// How far a method's observed order may fall short of its own.
+/// Allowed shortfall of the observed order of convergence.
 inline constexpr double kOrderAllowance = 0.4;
 
 }  // namespace substep

@@ -21,7 +21,7 @@ Body& heaviest(std::vector<Body>& bodies) {
   });
 }
 
-/// The number itself, or the end of the range that it is beyond.
+/// The number clamped to the range.
 double kept(double value, const Range& range) {
   const double least = range.open_below ? std::numeric_limits<double>::min() : range.least;
   return std::clamp(value, least, range.most);
@@ -33,7 +33,7 @@ void apply_load(double load, Scene& scene) {
   if (body.is_static) return;
   const double most =
       std::min(kMassRange.most / body.mass, kInertiaRange.most / body.inertia.maxCoeff());
-  load = std::min(load, most);  // the scene stays one that can be run
+  load = std::min(load, most);  // keeps the scene valid
   body.mass = kept(body.mass * load, kMassRange);
   for (double& moment : body.inertia) moment = kept(moment * load, kInertiaRange);
   for (auto* energy : {&scene.criteria.energy_gain, &scene.criteria.energy_scale}) {
@@ -93,7 +93,7 @@ std::string solver_text(const Settings& s) {
 std::string series_name(const Settings& s) {
   std::string name = solver_text(s);
   name += ", ";
-  // One sub-step is where the curve of constant numbers begins.
+  // One sub-step is the first point of the curve of constant N.
   name += s.mode == Mode::kNone ? "const" : name_of(s.mode);
   if (s.mode == Mode::kAdaptive)
     name += s.policy == Policy::kFrame ? " per frame" : " per sub-step";

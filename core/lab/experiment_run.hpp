@@ -13,17 +13,17 @@ struct Result {
   ReferenceSummary reference;
 };
 
-/// One experiment, frame by frame. It ends with its duration or with its first failure.
+/// One experiment, frame by frame. It ends after its duration or at the first failure.
 class ExperimentRun {
  public:
-  /// @param scene the scene as it stands, without the experiment's load and seed
-  /// @param reference of the scene as it stands; must outlive this. Another load moves otherwise:
-  /// its distance from the reference is not measured
+  /// @param scene the scene without the experiment's load and seed
+  /// @param reference of that scene; must outlive this. With another load the motion differs, so
+  /// the distance from the reference is not measured
   /// @param budget of each of its frames
   ExperimentRun(const Scene& scene, Experiment experiment, const Reference& reference,
                 const Budget& budget = {});
 
-  /// One more frame, or a part of it. @return false when the run is over
+  /// Steps one frame, or a part of it. @return false when the run has ended
   bool advance();
   [[nodiscard]] double progress() const;  ///< 0 to 1
   [[nodiscard]] Result result() const;
@@ -35,11 +35,11 @@ class ExperimentRun {
  private:
   Experiment experiment_;
   Simulator simulator_;
-  FrameReport report_;  // of the last frame that is complete
+  FrameReport report_;  // of the last complete frame
   const Reference& reference_;
   Measure measure_;
   std::int64_t frames_ = 0;
-  double wall_ = 0.0;  // of the frame so far [s]
+  double wall_ = 0.0;  // wall time of the current frame [s]
 };
 
 }  // namespace substep

@@ -1,6 +1,7 @@
 #pragma once
 // Gragg, Bulirsch and Stoer: the modified midpoint rule with 2, 4, ..., 16 sub-steps, extrapolated
-// to none, has order 16 and estimates its own error. For exact references, not for simulations.
+// to zero step length, has order 16 and an error estimate. For exact references, not for
+// simulations.
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -16,7 +17,7 @@ class Extrapolation {
   /// @param tolerance of one step, relative to 1 + |y| [-]
   explicit Extrapolation(double tolerance) : tolerance_(tolerance) {}
 
-  /// y(t + span) from y(t) for y' = f(y), in as many steps as the tolerance asks for.
+  /// y(t + span) from y(t) for y' = f(y), with steps chosen by the tolerance.
   /// @param f writes y' into its second argument
   template <class F>
   void advance(const F& f, double span, Vector& y) {
@@ -25,14 +26,14 @@ class Extrapolation {
   }
 
   /// One attempt at a step, for callers that must return between steps: 2 + 4 + ... + 16
-  /// evaluations of f. @param most the longest step [s] @return by how much y advanced [s]; 0 where
-  /// the error was too large, and the next attempt is shorter
+  /// evaluations of f. @param most the longest step [s] @return time advanced [s]; 0 if the error
+  /// was too large, then the next attempt is shorter
   template <class F>
   double attempt(const F& f, double most, Vector& y) {
     const double step = std::min(length_, most);
     const double error = try_step(f, step, y);
-    // The error of the last but one column goes with the step to the 15th. The 16th root is as good
-    // a guide, and the same bits everywhere.
+    // The error of the last but one column scales with the 15th power of the step. The 16th root is
+    // good enough, and bitwise reproducible.
     const double factor = 0.9 / std::sqrt(std::sqrt(std::sqrt(std::sqrt(std::max(error, 1e-8)))));
     if (error > 1.0) {
       length_ = step * std::clamp(factor, 0.1, 0.7);
@@ -43,7 +44,7 @@ class Extrapolation {
     return step;
   }
 
-  static constexpr double kRounding = 1e-15;  // a rest of a span that is none [-]
+  static constexpr double kRounding = 1e-15;  // relative remainder of a span treated as zero [-]
 
  private:
   static constexpr int kColumns = 8;
@@ -55,7 +56,7 @@ class Extrapolation {
     double error = 0.0;
     for (int j = 0; j < kColumns; ++j) {
       Vector estimate = midpoint(f, step, 2 * (j + 1), y);
-      // Aitken and Neville in the square of the sub-step; the table keeps its last line.
+      // Aitken and Neville in the square of the sub-step; only the last row of the table is stored.
       for (int k = 0; k < j; ++k) {
         const double ratio = static_cast<double>(j + 1) / static_cast<double>(j - k);
         const Vector next = estimate + (estimate - table_[column(k)]) / (ratio * ratio - 1.0);

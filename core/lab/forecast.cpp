@@ -15,7 +15,7 @@ namespace {
 
 using BodyPair = std::pair<int, int>;  // of bodies, the smaller first; 0 is the world, i + 1 body i
 
-/// Bodies and the pairs that joints make of them. All that never moves is one node, the world.
+/// Graph of bodies and joints. All static bodies are one node, the world.
 class JointGraph {
  public:
   explicit JointGraph(const Scene& scene)
@@ -30,7 +30,7 @@ class JointGraph {
     hang();
   }
 
-  /// The mass that one joint carries [kg].
+  /// The mass carried by one joint [kg].
   [[nodiscard]] double load(const Joint& joint) const {
     const BodyPair pair = pair_of(joint);
     const auto found = load_.find(pair);
@@ -43,8 +43,8 @@ class JointGraph {
     int parent;
     std::size_t next = 0;  // edge to look at
     int order = 0;         // when it was found
-    int low = 0;           // the earliest node that it and those below it reach otherwise
-    double mass = 0.0;     // with those below it [kg]
+    int low = 0;  // low-link: the earliest node reachable from it and its subtree by other edges
+    double mass = 0.0;  // including its subtree [kg]
   };
 
   [[nodiscard]] int node(int body) const {
@@ -55,8 +55,8 @@ class JointGraph {
     return std::minmax({node(base(joint).a), node(base(joint).b)});
   }
 
-  /// Tarjan's search for the edges whose loss cuts the graph, from the world on. What is below such
-  /// an edge hangs on it. Iterative: a rope may have thousands of links.
+  /// Tarjan's search for bridges of the graph, starting at the world: a bridge carries everything
+  /// below it. Iterative, because a rope may have thousands of links.
   void hang() {
     std::vector<Visit> path;
     std::vector<BodyPair> in_loops;
@@ -106,7 +106,7 @@ class JointGraph {
   std::map<BodyPair, double> load_;  // mass that a pair carries [kg]
 };
 
-/// Largest k/I where every joint carries its load, and whose it is.
+/// Largest k/I with every joint under its load, and its body.
 std::pair<double, int> hanging_bound(const Scene& scene) {
   const JointGraph graph(scene);
   const double g = scene.effects.gravity ? scene.gravity.norm() : 0.0;
@@ -132,7 +132,7 @@ std::pair<double, int> hanging_bound(const Scene& scene) {
   return most;
 }
 
-/// N that the first frame asks for.
+/// N of the first frame.
 int wanted_at_start(const Scene& scene, Settings settings) {
   settings.mode = Mode::kAdaptive;
   settings.policy = Policy::kFrame;

@@ -5,7 +5,7 @@
 namespace substep {
 namespace {
 
-/// q' of a quaternion in y that turns with omega: (0, omega) q / 2. @param q w, x, y, z
+/// q' of a quaternion in y rotating with omega: (0, omega) q / 2. @param q w, x, y, z
 Eigen::Vector4d quaternion_rate(const Eigen::Vector4d& q, const Vec3& omega) {
   const Quat rate = Quat(0.0, omega.x(), omega.y(), omega.z()) * Quat(q[0], q[1], q[2], q[3]);
   return 0.5 * Eigen::Vector4d(rate.w(), rate.x(), rate.y(), rate.z());
@@ -106,7 +106,8 @@ void JointTree::slope(const Vector& y, Vector& dy) {
   accelerate_outwards(y, dy);
 }
 
-// Equations of motion keep the length of a quaternion; the integrator keeps it to its tolerance.
+// The equations of motion preserve the length of a quaternion; the integrator does so to its
+// tolerance.
 void JointTree::normalise() {
   for (const Node& node : nodes_) {
     if (node.kind == Kind::kHinge) {
@@ -199,7 +200,7 @@ double JointTree::stretch() const {
     if (node.kind == Kind::kFree) continue;
     const Motion& m = motion_[i];
     sum += node.compliance * (weight_ + m.inertia.force(m.alpha, m.a).norm());
-    // A hinge that bends moves what it carries.
+    // Bending of a hinge moves its subtree.
     sum += node.angular_compliance * m.inertia.torque(m.alpha, m.a).norm() * reach_;
   }
   return sum;

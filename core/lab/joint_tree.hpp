@@ -10,8 +10,8 @@
 
 namespace substep {
 
-/// The exact motion in space of bodies on hinges and ball joints that form trees, in minimal
-/// coordinates: joints cannot open, and there is no constraint error.
+/// The exact 3D motion of trees of bodies on hinges and ball joints, in minimal coordinates, hence
+/// without constraint error.
 ///
 /// A tree hangs from the world, or its heaviest body is free. The coordinates of a body are
 ///   free:  position, orientation; velocity, angular velocity          6 degrees of freedom
@@ -26,16 +26,16 @@ namespace substep {
 /// positions and velocities outwards, inertias inwards, accelerations outwards.
 class JointTree {
  public:
-  /// The trees of the scene, or nothing where the scene is something else: contact, a closed loop,
-  /// joints that are open or that the velocities contradict at the start, compliance or
-  /// regularisation that would be seen, unequal moments of inertia without the gyroscopic effect,
-  /// or bodies so thin or so fast that rounding drowns the tolerance or a frame takes seconds.
+  /// The trees of the scene, or nothing for other scenes: contact, a closed loop, inconsistent
+  /// joints at the start, noticeable compliance or regularisation, unequal moments of inertia
+  /// without the gyroscopic effect, or bodies so thin or so fast that rounding exceeds the
+  /// tolerance or a frame takes seconds.
   static std::optional<JointTree> of(const Scene& scene);
 
   /// @param tolerance of a step of the integrator, relative to 1 + |coordinate| [-]
   void advance(double seconds, double tolerance = kTolerance);
   /// One attempt at a step of the integrator, for callers that must return between steps.
-  /// @param most [s] @return by how much the motion advanced, 0 <= . <= most [s]
+  /// @param most [s] @return time advanced, 0 <= . <= most [s]
   double attempt(double most, double tolerance = kTolerance);
 
   /// Centre of a body of the scene, world [m].
@@ -95,7 +95,7 @@ class JointTree {
     Vec3 a_bias = Vec3::Zero();       // omega_parent x (omega_parent x l) [m/s^2]
     Vec3 alpha = Vec3::Zero();        // [rad/s^2]
     Vec3 a = Vec3::Zero();            // of p, less gravity [m/s^2]
-    ArticulatedInertia inertia = {};  // of the body and all that it carries
+    ArticulatedInertia inertia = {};  // of the body and its subtree
   };
   class Builder;  // joint_tree_build.cpp
 

@@ -1,4 +1,4 @@
-// What trees the joints of a scene form, and whether it starts on them.
+// Builds the trees of a scene's joints, and checks that the scene starts consistently.
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -8,7 +8,8 @@
 namespace substep {
 namespace {
 
-// Ends of a joint this far apart are rounding. By as much may the motion start beside the scene's.
+// Gaps up to this are treated as rounding; the start of the motion may differ from the scene's by
+// as much.
 constexpr double kTreeClosed = 1e-10;     // relative to 1 m + the distance from the origin [-]
 constexpr double kTreeConsistent = 1e-9;  // of velocities, relative to 1 + the largest [-]
 constexpr double kTreeParallel = 1e-9;    // sine between the two axes of a hinge [-]
@@ -24,11 +25,11 @@ bool has_equal_moments(const Body& body) {
   return spread <= kEqualMoments * body.inertia.maxCoeff();
 }
 
-/// What no tree describes, whatever the joints.
+/// Features that no tree can describe, whatever the joints.
 bool is_out_of_scope(const Scene& scene) {
   if (scene.effects.contact || scene.regularisation != 0.0) return true;
   if (!scene.joints.empty() && !scene.effects.joints) return true;
-  // Without the gyroscopic torque the motion that is simulated is not that of rigid bodies.
+  // Without the gyroscopic torque the simulated motion is not that of rigid bodies.
   return !scene.effects.gyroscopic &&
          !std::all_of(scene.bodies.begin(), scene.bodies.end(),
                       [](const Body& body) { return body.is_static || has_equal_moments(body); });
@@ -68,7 +69,7 @@ class JointTree::Builder {
  private:
   [[nodiscard]] const Body& body(int i) const { return scene_.bodies[index(i)]; }
   [[nodiscard]] bool is_fixed(int i) const { return i == kWorld || body(i).is_static; }
-  /// Indices of the joints of a body; those of the world and of all static bodies together.
+  /// Indices of the joints per body; the world and all static bodies share one list.
   std::vector<std::size_t>& joints_of(int i) {
     return is_fixed(i) ? joints_of_.back() : joints_of_[index(i)];
   }
@@ -84,8 +85,8 @@ class JointTree::Builder {
     return i == kWorld ? axis : tree_.at_start_[index(i)].second * axis;
   }
 
-  /// Reaches all that hangs on a body, or on the world and static bodies, nearest first.
-  /// @return whether that is a tree
+  /// Breadth-first search from a body, or from the world and static bodies. @return true if the
+  /// result is a tree
   bool grow_from(int root) {
     std::vector<int> reached{root};
     for (std::size_t next = 0; next < reached.size(); ++next) {
@@ -154,7 +155,7 @@ class JointTree::Builder {
                       joint);
   }
 
-  // A kind that the tree does not know: the scene has no reference of this sort.
+  // Unsupported joint type: the scene has no reference of this kind.
   template <class J>
   bool set_kind(const J&, bool, int, Node&) {
     return false;
@@ -180,7 +181,7 @@ class JointTree::Builder {
     return apart.norm() <= kTreeParallel;
   }
 
-  /// Positions of all nodes, then velocities, as the bodies have them.
+  /// Initial positions of all nodes, then velocities, from the bodies.
   void start() {
     Eigen::Index size = 0;
     for (Node& node : tree_.nodes_) {
@@ -217,7 +218,7 @@ class JointTree::Builder {
     y.segment<3>(node.u + (is_free ? 3 : 0)) = omega;
   }
 
-  /// Whether coordinates lose nothing of what the bodies have, and all of it is finite.
+  /// True if the coordinates reproduce the state of the bodies, and all values are finite.
   [[nodiscard]] bool starts_as_the_scene() const {
     double fastest = 0.0;
     for (const Body& b : scene_.bodies) {

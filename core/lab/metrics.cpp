@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kWarmUp = 10;  // frames
 
-/// The value that a share of all values does not exceed; the upper one between two.
+/// Quantile: the upper one if between two values.
 template <class T>
 T quantile(std::vector<T> values, double share) {
   if (values.empty()) return T{};
@@ -25,7 +25,7 @@ PeakAndMedian peak_and_median(const std::vector<double>& values) {
   return {*std::max_element(values.begin(), values.end()), quantile(values, 0.5)};
 }
 
-/// Nothing from outside acts on the moving bodies.
+/// True if no external forces act on the moving bodies.
 bool is_isolated(const Scene& scene) {
   if (scene.effects.gravity || scene.effects.external) return false;
   const auto is_fixed = [&](int body) {
@@ -134,7 +134,7 @@ Metrics Measure::metrics(const Scene& scene, const State& state) const {
     m.work.n_median = quantile(n_, 0.5);
     m.work.n_max = *std::max_element(n_.begin(), n_.end());
   }
-  if (!m.holds) {  // the distance from the reference says nothing any more
+  if (!m.holds) {  // the distance from the reference is meaningless
     m.errors.trajectory_peak.reset();
     m.errors.trajectory_final.reset();
   }

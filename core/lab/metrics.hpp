@@ -12,7 +12,7 @@
 
 namespace substep {
 
-/// Over the frames of a run.
+/// Statistics over the frames of a run.
 struct PeakAndMedian {
   double peak = 0.0;
   double median = 0.0;
@@ -20,29 +20,28 @@ struct PeakAndMedian {
   friend bool operator==(const PeakAndMedian&, const PeakAndMedian&) = default;
 };
 
-/// Errors of a run. Those that the scene does not define, or a failed run has not reached, are
-/// empty.
+/// Errors of a run; empty if undefined for the scene or not reached by a failed run.
 struct Errors {
   std::optional<double> trajectory_peak;         // largest distance from the reference [m]
   std::optional<double> trajectory_final;        // at the end of the reference's window [m]
   std::optional<PeakAndMedian> constraint;       // sum over joints of the 1-norm of phi [m, rad]
   std::optional<PeakAndMedian> joint_gap;        // [m]
   std::optional<PeakAndMedian> penetration;      // [m]
-  double energy_drift = 0.0;                     // at the end, against the start [J]
-  double energy_drift_peak = 0.0;                // largest, either way [J]
+  double energy_drift = 0.0;                     // at the end, relative to the start [J]
+  double energy_drift_peak = 0.0;                // largest magnitude [J]
   std::optional<double> energy_drift_percent;    // of the reference's energy scale, at the end
-  std::optional<double> linear_momentum_drift;   // largest, where nothing pulls [kg m/s]
+  std::optional<double> linear_momentum_drift;   // largest, without external forces [kg m/s]
   std::optional<double> angular_momentum_drift;  // about the world's origin [kg m^2/s]
-  double lcp_residual = 0.0;                     // largest of all frames [N s, m/s]
+  double lcp_residual = 0.0;                     // maximum over frames [N s, m/s]
 
   friend bool operator==(const Errors&, const Errors&) = default;
 };
 
-/// What a run costs, counted: the same on every machine.
+/// Counted cost of a run, machine-independent.
 struct Work {
   std::int64_t frames = 0;
   std::int64_t substeps = 0;
-  std::int64_t solves = 0;       // with the probe
+  std::int64_t solves = 0;       // including the probe
   std::int64_t row_updates = 0;  // of PGS and XPBD
   std::int64_t factorisations = 0;
   std::int64_t pivots = 0;
@@ -58,9 +57,9 @@ struct Work {
   friend bool operator==(const Work&, const Work&) = default;
 };
 
-/// What a run costs on this machine. The first frames warm caches and branches up and are left out.
+/// Cost of a run on this machine, excluding the first frames as warm-up.
 struct Timing {
-  double ms_median = 0.0;         // of a frame, physics alone [ms]
+  double ms_median = 0.0;         // per frame, physics only [ms]
   double ms_p95 = 0.0;            // [ms]
   double real_time_factor = 0.0;  // simulated over wall time [-]
   StageTimes stages;              // sums over the run [s]
@@ -76,7 +75,7 @@ struct Metrics {
   std::uint64_t hash = 0;  // of the state at the end
 };
 
-/// Gathers the metrics of one run as it goes.
+/// Accumulates the metrics of a run.
 class Measure {
  public:
   /// @param reference must outlive this
@@ -98,7 +97,7 @@ class Measure {
   StageTimes stages_;
   double energy_at_start_ = 0.0;              // [J]
   double energy_ = 0.0;                       // [J]
-  std::optional<Momenta> momentum_at_start_;  // where nothing pulls
+  std::optional<Momenta> momentum_at_start_;  // if there are no external forces
   std::vector<double> constraint_;
   std::vector<double> joint_gap_;
   std::vector<double> penetration_;

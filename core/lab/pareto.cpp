@@ -29,7 +29,7 @@ std::vector<bool> pareto_front(std::span<const CostAndError> points) {
 
 namespace {
 
-/// Of the points whose `bound` is within the limit the one with the least `aim`, then of `bound`.
+/// The point with the smallest `aim`, then `bound`, among those with `bound` within the limit.
 std::optional<std::size_t> least_within(std::span<const CostAndError> points,
                                         double CostAndError::*bound, double limit,
                                         double CostAndError::*aim) {

@@ -12,8 +12,8 @@ struct CostAndError {
   double error = 0.0;
 };
 
-/// Whether each point is on the Pareto front: no other has less cost at no more error, or less
-/// error at no more cost. Of equal points each is. O(n log n).
+/// Marks the points on the Pareto front: no other has less cost at no more error, or less error at
+/// no more cost. Equal points are all marked. O(n log n).
 std::vector<bool> pareto_front(std::span<const CostAndError> points);
 
 /// The point of least cost whose error is no more than this; of equal costs the more exact one.

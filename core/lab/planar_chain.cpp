@@ -19,7 +19,7 @@ const Body& body_of(const Scene& scene, int index) {
   return scene.bodies[static_cast<std::size_t>(index)];
 }
 
-/// Where a point fixed in a body, or in the world, is at the start.
+/// Initial position of a point fixed in a body or in the world.
 Vec3 at_start(const Scene& scene, int body, const Vec3& point) {
   if (body == kWorld) return point;
   const Body& b = body_of(scene, body);
@@ -64,7 +64,7 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
 }
 
 std::optional<PlanarChain> PlanarChain::of(const Scene& scene) {
-  if (scene.effects.external) return std::nullopt;  // no angle of it knows of these forces
+  if (scene.effects.external) return std::nullopt;  // the equations do not include these forces
   if (scene.effects.contact || !scene.effects.joints || scene.joints.empty()) return std::nullopt;
   std::size_t moving = 0;
   for (const Body& body : scene.bodies) moving += body.is_static ? 0 : 1;

@@ -10,19 +10,20 @@
 namespace substep {
 
 /// The exact motion of links on parallel hinges that hang from one fixed point, in minimal
-/// coordinates: one angle a link, no constraint and so no constraint error.
+/// coordinates: one angle per link, hence no constraint error.
 ///
-/// Link i turns by theta_i from its start, so its centre is at
+/// Link i is rotated by theta_i from its start, so its centre is at
 ///   x_i = anchor + sum_{j<i} R(theta_j) L_j + R(theta_i) e_i,
-/// with e from a link's own hinge to its centre and L to the next hinge, as they lie at the start.
-/// Lagrange's equations of the second kind then read, with P_k = m_k e_k + sum_{i>k} m_i L_k,
+/// with e from a link's own hinge to its centre and L to the next hinge, in their initial
+/// orientation. Lagrange's equations of the second kind then read, with P_k = m_k e_k + sum_{i>k}
+/// m_i L_k,
 ///   sum_j M_kj theta_j'' = Q_k - sum_j C_kj theta_j'^2,   and for j < k:
 ///   M_kj = R(theta_j) L_j . R(theta_k) P_k,   C_kj = R(theta_j) L_j x R(theta_k) P_k = -C_jk,
 ///   M_kk = I_k + m_k e_k^2 + sum_{i>k} m_i L_k^2,   Q_k = g . R'(theta_k) P_k.
 class PlanarChain {
  public:
-  /// The chain of the scene, or nothing where the scene is something else: contact, a fork, a ball
-  /// joint, external forces, hinges that are not parallel, a start that leaves the plane.
+  /// The chain of the scene, or nothing for other scenes: contact, a fork, a ball joint, external
+  /// forces, non-parallel hinges, or a start with motion out of the plane.
   static std::optional<PlanarChain> of(const Scene& scene);
 
   /// @param tolerance of a step of the integrator, relative [-]
@@ -34,7 +35,7 @@ class PlanarChain {
   [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
   /// Weight of all links [N]: how far a compliance can stretch a hinge.
   [[nodiscard]] double weight() const;
-  /// From the fixed point to the last centre, stretched out [m].
+  /// Length from the fixed point to the last centre, fully extended [m].
   [[nodiscard]] double length() const;
   [[nodiscard]] int size() const { return static_cast<int>(links_.size()); }
 

@@ -9,24 +9,24 @@
 
 namespace substep {
 
-/// Settings with a name, to begin with.
+/// Named initial settings.
 struct Preset {
   std::string_view name;  // "recommended"
   std::string about;      // for people, in a sentence or two
   Settings settings;
 };
 
-/// The paper's settings, those that hold most of the hard set at the least work, and those that
-/// hold all of it.
+/// The paper's settings, the cheapest ones that hold most of the hard scenes, and those that hold
+/// all of them.
 std::span<const Preset> presets();
 
-/// The same for a scene: "recommended" is what a sweep over it found, where it has that.
+/// The same for a scene: "recommended" is the scene's own recommendation, if any.
 std::vector<Preset> presets_for(const Scene& scene);
 
 /// By its name, or null.
 const Preset* find_preset(std::string_view name);
 
-/// What a preset is for a scene.
+/// The preset for a scene.
 Settings settings_for(const Preset& preset, const Scene& scene);
 
 /// "paper, recommended or robust"

@@ -92,7 +92,7 @@ std::optional<Recommended> recommended_of(std::span<const Result> results, Error
   return Recommended{.settings = experiment.settings,
                      .of = of,
                      .within = within,
-                     // What is beyond hangs on the compiler's libm.
+                     // Further digits depend on the compiler's libm.
                      .reached = std::min(within, three_digits(best->error)),
                      .operations = three_digits(best->cost),
                      .seconds = experiment.duration,

@@ -1,6 +1,5 @@
 #pragma once
-// What to set, from the runs of a sweep: arithmetic, and nothing that a person could not check in
-// its picture.
+// Recommends settings from the runs of a sweep, by rules that can be checked in its plot.
 
 #include <optional>
 #include <span>
@@ -12,24 +11,24 @@
 
 namespace substep {
 
-/// A run that holds, in a picture of error against cost.
+/// A run that holds, as a point in the plot of error against cost.
 struct RunPoint : CostAndError {
   std::size_t result = 0;  // index into the results
-  bool front = false;      // no other beats it
+  bool front = false;      // on the Pareto front
 };
 
-/// The runs of the scene as it stands that hold, with a positive error and cost.
-/// @param floor errors below it are not measured, and count as this
+/// The runs of the unmodified scene that hold, with positive error and cost. @param floor lower
+/// bound: smaller errors are set to it
 std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost,
                                  double floor = 0.0);
 
-/// The cheapest whose error is no more than this, and the other way around.
+/// The cheapest run within an error, and the most accurate within a cost.
 std::optional<RunPoint> cheapest_within(std::span<const RunPoint> points, double error);
 std::optional<RunPoint> most_exact_within(std::span<const RunPoint> points, double cost);
 
-/// Those of the paper's method: the direct solver, Euler, N decided once a frame, contacts in K as
-/// it has them. The cheapest of them within an error has the largest alpha that does, the most
-/// exact within a cost the smallest.
+/// The runs of the paper's method: the direct solver, Euler, N decided once per frame, the paper's
+/// contact stiffness. The cheapest within an error has the largest sufficient alpha, the most
+/// accurate within a cost the smallest.
 std::vector<RunPoint> of_paper(std::span<const RunPoint> points, std::span<const Result> results);
 
 /// What a scene keeps of its sweep: the run of fewest solver operations within an error, and how it

@@ -19,8 +19,8 @@ namespace {
 constexpr double kChaoticWindow = 2.0;      // [s]
 constexpr double kChainUncertainty = 1e-9;  // of the integrator and of rounding over 10 s [m]
 constexpr int kFinest = 256;                // sub-steps a frame
-// A chain is exact for rigid hinges. Where compliance stretches it by more, the finest run is
-// nearer to what is simulated.
+// A chain is exact for rigid hinges. With a larger stretch by compliance, the finest run is closer
+// to the simulated motion.
 constexpr double kMostStretch = 1e-4;  // [m]
 
 struct Sample {
@@ -37,9 +37,10 @@ class ReferenceRun::Source {
   Source& operator=(const Source&) = delete;
   virtual ~Source() = default;
   [[nodiscard]] virtual std::string name() const = 0;
-  /// The next frame, or nothing where it takes further calls: none may hold a page up for long.
+  /// The next frame, or nothing if it needs more calls: each call is short, to keep a page
+  /// responsive.
   virtual std::optional<Sample> next() = 0;
-  /// Of the positions so far [m].
+  /// Uncertainty of the positions so far [m].
   [[nodiscard]] virtual double uncertainty() const = 0;
 };
 
@@ -94,8 +95,8 @@ class MinimalCoordinates final : public ReferenceRun::Source {
   std::int64_t frames_ = 0;
 };
 
-/// Trees in space can be chaotic: what is left of the integrator's error is measured by a second
-/// tree with a larger tolerance.
+/// Trees in 3D can be chaotic: the integrator's error is estimated by a second tree with a larger
+/// tolerance.
 class TreeCoordinates final : public ReferenceRun::Source {
  public:
   TreeCoordinates(const Scene& scene, const JointTree& tree)
@@ -221,7 +222,8 @@ double predictable_window(const Scene& scene, double duration) {
   return chaotic ? std::min(duration, kChaoticWindow) : duration;
 }
 
-// References read the start in the scene's bodies: it must be the one that runs begin with.
+// References read the start from the scene's bodies, so these must hold the initial state of the
+// runs.
 ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration,
                            const Budget& budget)
     : scene_(with_start_of_run(std::move(scene))), source_(source_of(scene_, budget)) {

@@ -10,30 +10,30 @@
 
 namespace substep {
 
-/// What a reference is worth.
+/// Source and accuracy of a reference.
 struct ReferenceSummary {
   std::string source;         // "exact: ...", or "finest run: ..."
   double uncertainty = 0.0;   // of the positions [m]
-  double window = 0.0;        // how long the motion can be foretold [s]
-  double energy_scale = 0.0;  // 100 % of the energy drift [J], 0 where there is none
+  double window = 0.0;        // predictable time of the motion [s]
+  double energy_scale = 0.0;  // 100 % of the energy drift [J], 0 if undefined
   std::string energy_scale_source;
 };
 
-/// The motion that errors are measured from: where the tracked body is after every frame.
+/// The reference motion for errors: position of the tracked body after every frame.
 struct Reference : ReferenceSummary {
-  // Frame 0 is the start, world [m]; empty where the scene tracks nothing.
+  // Frame 0 is the start, world [m]; empty if the scene tracks no body.
   std::vector<Vec3> track;
 };
 
 /// For runs whose errors are not needed.
 const Reference& no_reference();
 
-/// How long the motion of a scene can be foretold: contact makes it chaotic. [s]
+/// Predictable time of a scene's motion [s]; contact makes it chaotic.
 double predictable_window(const Scene& scene, double duration);
 
-/// Finds the reference of a scene frame by frame, so that a page stays alive meanwhile. In this
-/// order: closed form (free flight; a box on a slope), minimal coordinates (chains on parallel
-/// hinges; trees of hinges and ball joints in space), else the scene itself with the direct solver,
+/// Computes the reference of a scene frame by frame, to keep a page responsive. In this order:
+/// closed form (free flight; a box on a slope), minimal coordinates (chains on parallel hinges;
+/// trees of hinges and ball joints in space), else the scene itself with the direct solver,
 /// leapfrog and 256 sub-steps, its distance from 128 being the uncertainty.
 class ReferenceRun {
  public:
@@ -43,13 +43,13 @@ class ReferenceRun {
   ReferenceRun(ReferenceRun&&) noexcept;
   ReferenceRun& operator=(ReferenceRun&&) noexcept;
 
-  /// One more frame, or a part of it. @return false when all are done
+  /// Computes one frame, or a part of it. @return false when done
   bool advance();
   [[nodiscard]] double progress() const;  ///< 0 to 1
   /// Valid once advance() has returned false.
   [[nodiscard]] const Reference& reference() const;
 
-  /// Where a reference comes from; one class each, in reference.cpp.
+  /// Source of a reference; one class each, in reference.cpp.
   class Source;
 
  private:
@@ -61,7 +61,7 @@ class ReferenceRun {
   double kinetic_ = 0.0;  // largest [J]
 };
 
-/// The whole reference at once.
+/// The complete reference in one call.
 Reference find_reference(const std::shared_ptr<const Scene>& scene, double duration);
 
 }  // namespace substep

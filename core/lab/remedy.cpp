@@ -9,7 +9,7 @@ namespace {
 constexpr int kMostCap = 1024;          // a larger one costs more than it can give
 constexpr double kLeastOffered = 1e-3;  // 10 times the sub-steps of 0.1
 
-/// Of a cap: as much as was asked for, at least twice and at most 16 times as much as now.
+/// A new cap: the requested N, at least 2 and at most 16 times the current cap.
 int larger(int cap, int wanted) {
   return std::min(std::clamp(wanted, 2 * cap, 16 * cap), std::max(cap, kMostCap));
 }
@@ -30,7 +30,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   }
   const bool adaptive = settings.mode == Mode::kAdaptive;
   const bool has_rows = last.joint_rows + last.contact_rows > 0;
-  if (!adaptive && has_rows) {  // where nothing pulls, N is 1
+  if (!adaptive && has_rows) {  // without rows N is 1
     Settings& s = add("adaptive sub-steps");
     s.mode = Mode::kAdaptive;
   }

@@ -4,12 +4,12 @@
 
 namespace substep {
 
-/// Of a frame that is taken in parts where something must answer meanwhile [floating-point
-/// operations]: some hundredths of a second.
+/// Work per part of a frame, to keep the caller responsive [floating-point operations]: some
+/// hundredths of a second.
 inline constexpr double kPartWork = 2e7;
 
-/// Takes steps for about that long, at least one: for work in slices where there are no
-/// threads. @param step one more; returns whether there is another  @return the same of the last
+/// Takes steps for about this long, at least one: for work in slices without threads. @param step
+/// takes one step; returns true if there are more @return the result of the last step
 template <class Step>
 bool advance_for(double seconds, const Step& step) {
   using Clock = std::chrono::steady_clock;

@@ -7,12 +7,12 @@
 
 namespace substep {
 
-/// What was wrong with a start and what became of it, in one line for people: "The start was
-/// inconsistent: joint 'x' open by 9 cm, 'y' moving apart at 1.2 m/s; projected. Energy 194 J
-/// before, 12 J after." Empty where nothing was changed.
+/// Errors of a start and their treatment, as one line of text: "The start was inconsistent: joint
+/// 'x' open by 9 cm, 'y' moving apart at 1.2 m/s; projected. Energy 194 J before, 12 J after."
+/// Empty if nothing was changed.
 std::string start_text(const Scene& scene, const StartReport& report);
 
-/// "open by 9 cm, moving apart at 1.2 m/s": what of one joint is beyond tolerance.
+/// "open by 9 cm, moving apart at 1.2 m/s": the errors of one joint beyond tolerance.
 std::string fault_text(const JointStart& start);
 
 }  // namespace substep

@@ -23,13 +23,13 @@ constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 
 constexpr double kDampingAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr int kFreeCap = 256;  // of adaptive sub-steps
 constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
-// The map has fewer values than the curves: each stands for a run under every load.
+// The map has fewer values than the curves, because each requires a run under every load.
 constexpr int kMapN[] = {1, 2, 4, 6, 8, 12, 16, 24};
 constexpr double kMapAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr double kMapLoads[] = {0.01, 0.1, 0.32, 3.2, 10.0};
 constexpr double kReferenceWork = 0.05;  // share of the progress bar
 
-/// With the direct solver, N decided once a frame.
+/// With the direct solver, N decided once per frame.
 Settings direct(Settings settings, Integrator integrator) {
   settings.solver = SolverKind::kBpp;
   settings.policy = Policy::kFrame;
@@ -68,7 +68,8 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
   }
 }
 
-/// Those that look at the end of a sub-step, by their own N; their sources name no law for it.
+/// Solvers that hold constraints at the end of a sub-step, with constant N: their papers give no
+/// rule for N.
 void append_implicit(Settings settings, const Scene& scene, std::vector<Settings>& all) {
   settings.mode = Mode::kConst;
   settings.policy = Policy::kFrame;
@@ -88,13 +89,13 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
   along(SolverKind::kNewton, iterations, Forces::kEnd);
   for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kMean);
   along(SolverKind::kNewton, iterations, Forces::kMean);
-  if (scene.effects.contact) return;  // what follows is derived for joints alone
+  if (scene.effects.contact) return;  // the following is derived for joints only
   for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kNumerov);
   along(SolverKind::kNewton, iterations, Forces::kNumerov);
 }
 
-/// Small steps (Macklin et al. 2019): the same sweeps a frame, spent on more and more sub-steps,
-/// and contacts found once.
+/// Small steps (Macklin et al. 2019): a fixed number of sweeps per frame over an increasing number
+/// of sub-steps, with contacts detected once.
 void append_small_steps(Settings settings, const Scene& scene, std::vector<Settings>& all) {
   settings.mode = Mode::kConst;
   settings.policy = Policy::kFrame;
@@ -111,14 +112,14 @@ void append_small_steps(Settings settings, const Scene& scene, std::vector<Setti
   }
 }
 
-/// Joints corrected ahead for what a sub-step leaves behind at second order.
+/// Second-order drift correction of joints.
 void append_drift_order_2(const Settings& base, std::vector<Settings>& all) {
   Settings settings = direct(base, Integrator::kLeapfrog);
   settings.drift_order = 2;
   append_curve(settings, Mode::kConst, all);
 }
 
-/// Poses that take in how accelerations change, derived for joints alone.
+/// Poses corrected for the change of acceleration; derived for joints only.
 void append_stormer(const Settings& base, std::vector<Settings>& all) {
   for (const Mode mode : {Mode::kConst, Mode::kAdaptive}) {
     append_curve(direct(base, Integrator::kStormer), mode, all);
@@ -132,7 +133,7 @@ void append_exact_contacts(const Settings& base, std::vector<Settings>& all) {
   append_curve(settings, Mode::kAdaptive, all);
 }
 
-/// Few sub-steps, each refined until little of the regularisation is left.
+/// Few sub-steps, with refinements that remove most of the regularisation.
 void append_refined(const Settings& base, std::vector<Settings>& all) {
   Settings settings = direct(base, Integrator::kEuler);
   settings.mode = Mode::kConst;
@@ -145,14 +146,14 @@ void append_refined(const Settings& base, std::vector<Settings>& all) {
   }
 }
 
-/// With a torque of spinning bodies that is as old as the sub-step.
+/// With the explicit gyroscopic torque.
 void append_explicit_gyroscopic(const Settings& base, std::vector<Settings>& all) {
   Settings settings = direct(base, Integrator::kLeapfrog);
   settings.gyroscopic = Gyroscopic::kExplicit;
   append_curve(settings, Mode::kConst, all);
 }
 
-/// Whether joints leave some moving bodies apart from others.
+/// True if joints do not connect all moving bodies.
 bool can_have_islands(const Scene& scene) {
   const State state = initial_state(scene);
   std::vector<Mat3> R_WB;
@@ -162,7 +163,7 @@ bool can_have_islands(const Scene& scene) {
   return islands.count() > 1;
 }
 
-/// Each island by its own N.
+/// Each island with its own N.
 void append_islands(Settings base, std::vector<Settings>& all) {
   base.islands = true;
   append_curve(direct(base, Integrator::kEuler), Mode::kAdaptive, all);
@@ -188,7 +189,7 @@ void append_map(const Settings& base, std::vector<SweepPoint>& points) {
   }
 }
 
-/// The scene's own settings without those that curves of their own stand for.
+/// The scene's own settings, with those that have their own curves reset.
 Settings base_of(const Scene& scene) {
   Settings base = own_settings(scene);
   base.forces = Forces::kEnd;
@@ -267,7 +268,7 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
     iterations = std::min(3, s.iterations);  // the others find that it has converged
   }
   const double per_substep = solver.work * iterations;  // in solves of the direct solver, about
-  const double per_frame = 0.5;                         // errors and energies, whatever N
+  const double per_frame = 0.5;                         // errors and energies, independent of N
   return static_cast<double>(frames_of(scene, experiment.duration)) * (per_frame + n * per_substep);
 }
 

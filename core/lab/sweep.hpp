@@ -14,37 +14,36 @@ struct SweepPoint {
   double load = 1.0;  // Experiment::load
 };
 
-/// The runs that show what accuracy costs on a scene: every mode with the direct solver and with
+/// The runs that show error against cost for a scene: every mode with the direct solver and with
 /// PGS, with Euler and leapfrog; with the direct solver `adaptive` per sub-step too; XPBD, Newton
-/// and small steps; and where the scene has use for them the drift correction of second order,
-/// Störmer's formula, the exact contact block, refinements, the explicit gyroscopic torque and
-/// islands. Each along its own
-/// parameter; and, for a map of where they hold, constant N and adaptive under other loads where
-/// bodies of different mass meet. Other settings stay as the scene has them of its own.
+/// and small steps; and if applicable to the scene the second-order drift correction, Störmer's
+/// formula, the exact contact block, refinements, the explicit gyroscopic torque and islands. Each
+/// along its own parameter; and, for the map of stability, constant N and adaptive under other
+/// loads if the scene has different masses. Other settings are the scene's own.
 std::vector<SweepPoint> default_sweep(const Scene& scene);
 
-/// Of the curve of the paper's method, but for its alpha: the direct solver, Euler, N decided once
-/// a frame by alpha alone, up to a cap that is out of its way; and what else a sweep sets aside of
-/// a scene's own settings.
+/// Settings of the curve of the paper's method, except alpha: the direct solver, Euler, N decided
+/// once per frame by alpha alone, with a cap too large to matter; other settings of the scene are
+/// reset as in a sweep.
 Settings paper_settings(const Scene& scene);
 
-/// Sub-steps a run is likely to take, weighted by what one costs: for progress bars only.
+/// Estimated sub-steps of a run, weighted by their cost: for progress bars only.
 double expected_work(const Scene& scene, const Experiment& experiment);
 
-/// A sweep in slices, for a page that has no threads and must stay alive.
+/// A sweep in slices, for a responsive page without threads.
 class Sweep {
  public:
   /// @param budget of each frame
   Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experiments,
         const Budget& budget = {});
 
-  /// Goes on for about that long, by a part of a frame of one run at least. @return false when done
+  /// Continues for about this long, at least a part of one frame. @return false when done
   bool advance(double seconds);
   [[nodiscard]] bool done() const { return next_ == experiments_.size() && !run_; }
   [[nodiscard]] double progress() const;  ///< 0 to 1
   [[nodiscard]] const std::vector<Result>& results() const { return results_; }
   [[nodiscard]] const std::vector<Experiment>& experiments() const { return experiments_; }
-  /// Nothing until it is found.
+  /// Nothing until it is known.
   [[nodiscard]] const Reference* reference() const;
 
  private:
@@ -58,8 +57,8 @@ class Sweep {
   std::unique_ptr<ExperimentRun> run_;
   std::size_t next_ = 0;
   std::vector<Result> results_;
-  double work_ = 0.0;       // expected of all
-  double work_done_ = 0.0;  // of the runs that are over
+  double work_ = 0.0;       // estimate for all runs
+  double work_done_ = 0.0;  // of completed runs
 };
 
 }  // namespace substep

@@ -5,7 +5,7 @@
 
 namespace substep {
 
-/// The number of three significant digits next to this, as people read and type it.
+/// The nearest number with three significant digits.
 inline double three_digits(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3g", value);

@@ -29,7 +29,7 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   if (failed_) return;
   const Criteria& criteria = scene.criteria;
   std::string why = stop_text(scene, report);
-  // The first criterion that is passed is the reason; all of them strain.
+  // The first criterion exceeded is the reason; all contribute to the strain.
   const auto judge = [&](const char* what, double value, double limit, const char* unit,
                          const std::string& who) {
     strain_ = std::max(strain_, value / limit);
@@ -42,7 +42,7 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
     const auto joint = static_cast<std::size_t>(report.joint_gap_joint);
     judge("joint gap", report.joint_gap, criteria.joint_gap, "m", base(scene.joints[joint]).name);
   }
-  // Of an invalid scene there is no state.
+  // An invalid scene has no state.
   const bool judged = !disturbed_ && report.status != StepStatus::kInvalid;
   if (judged && criteria.energy_gain) {
     judge("energy gain", report.energy - energy_at_start_, *criteria.energy_gain, "J", {});

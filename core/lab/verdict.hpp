@@ -8,25 +8,26 @@
 
 namespace substep {
 
-/// Watches a run against its scene's criteria: the one judge of browser, command line and tests.
+/// Checks a run against its scene's criteria: the single implementation for browser, command line
+/// and tests.
 class Verdict {
  public:
-  /// @param start report of the state that the run starts from (Simulator::observe)
+  /// @param start report of the initial state of the run (Simulator::observe)
   Verdict(const Scene& scene, const State& state, const FrameReport& start);
 
-  /// Looks at one more frame. After the first failure nothing changes.
+  /// Checks one more frame. The first failure is final.
   void add(const Scene& scene, const State& state, const FrameReport& report);
 
-  /// Somebody took a hand in it: from now on energy and displacement are his doing and are not
-  /// judged; joints that tear and numbers that are not finite are. @param time [s]
+  /// The user has interfered: from now on energy and displacement are not checked; torn joints and
+  /// non-finite numbers still are. @param time [s]
   void disturb(double time);
 
   [[nodiscard]] bool holds() const { return !failed_; }
   [[nodiscard]] bool disturbed() const { return disturbed_; }
-  [[nodiscard]] double failed_at() const { return failed_at_; }  ///< [s], of a failed run
-  /// Whether the simulator can go no further: StepStatus.
+  [[nodiscard]] double failed_at() const { return failed_at_; }  ///< [s], for a failed run
+  /// True if the simulator cannot continue: StepStatus.
   [[nodiscard]] bool stopped() const { return stopped_; }
-  /// The largest share of a criterion's limit that was used so far [-]; 1 is at the limit.
+  /// Largest value so far relative to its criterion's limit [-].
   [[nodiscard]] double strain() const { return strain_; }
   /// "holds", "disturbed at 1.20 s", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
   [[nodiscard]] const std::string& text() const { return text_; }

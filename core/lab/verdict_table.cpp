@@ -13,8 +13,7 @@ bool selects(const Expectation& rule, const Settings& s) {
          (!rule.n || *rule.n == s.n) && (!rule.integrator || *rule.integrator == s.integrator);
 }
 
-/// The scene's own settings, with one N for all of it, in every mode of the table that a solver is
-/// run in.
+/// The scene's own settings, with one N for all islands, in every mode of the table for a solver.
 std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   std::set<int> numbers{4, 16};
   for (const Expectation& rule : scene.verdicts) {
@@ -30,7 +29,7 @@ std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   };
   add(Mode::kNone);
   for (const int n : numbers) add(Mode::kConst).n = n;
-  if (entry_of(solver).at_end) return all;  // their sources know no other modes
+  if (entry_of(solver).at_end) return all;  // their papers define no other modes
   for (const ModeEntry& mode : kModes) {
     if (mode.value != Mode::kNone && mode.value != Mode::kConst) add(mode.value);
   }

@@ -1,7 +1,7 @@
 #pragma once
-// Floating-point operations of the kernels that solvers are made of: additions, multiplications,
-// divisions and roots count one each. They follow from sizes alone, so they are the same on every
-// machine, and cost a few additions where sizes are laid out, nothing where numbers are.
+// Floating-point operations of the solver kernels: additions, multiplications, divisions and roots
+// count one each. They depend only on sizes, so they are machine-independent, and are counted at
+// layout time at negligible cost.
 
 #include <cstdint>
 

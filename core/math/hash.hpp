@@ -1,6 +1,5 @@
 #pragma once
-// FNV-1a over the bits of doubles: the state hash that must be the same natively and in the
-// browser.
+// FNV-1a over the bits of doubles: the state hash, equal natively and in the browser.
 
 #include <cstdint>
 #include <cstring>

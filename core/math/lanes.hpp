@@ -1,6 +1,6 @@
 #pragma once
-// Formulas that are the same for every body: written once, evaluated for one of them or for two
-// side by side. Sums are in the order that Eigen takes them in.
+// Per-body formulas, written once and evaluated for one body or for two in SIMD lanes. Sums use the
+// same order as Eigen.
 
 #include <cmath>
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace substep {
 inline double root(double x) { return std::sqrt(x); }
 inline Pair root(const Pair& x) { return Pair{std::sqrt(x[0]), std::sqrt(x[1])}; }
 
-/// A vector of one body (T = double), or those of two (T = Pair).
+/// A vector of one body (T = double), or of two (T = Pair).
 template <class T>
 struct Lanes3 {
   T x, y, z;
@@ -32,7 +32,7 @@ template <class T>
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Numbers in memory: of one body, or the same ones of two. @tparam Number double or const double
+/// Memory of one body, or the same members of two. @tparam Number double or const double
 template <class T, class Number>
 struct Place;
 template <class Number>
@@ -52,7 +52,7 @@ struct Place<Pair, Number> {
   }
 };
 
-/// A vector, the first of whose numbers is the k-th.
+/// A vector that starts at the k-th number.
 template <class T, class Number>
 [[gnu::always_inline]] inline Lanes3<T> vector_at(const Place<T, Number>& place, int k = 0) {
   return {place[k], place[k + 1], place[k + 2]};
@@ -85,17 +85,17 @@ template <class T>
   set_vector(R, 6, Lanes3<T>{xz + ty * w, yz - tx * w, 1.0 - (xx + yy)});
 }
 
-/// One of many, by its index.
+/// One item, by index.
 struct One {
   using T = double;
   static constexpr int count = 1;
   int first;
-  /// @param address of the numbers of one, from its index
+  /// @param address function from an index to the numbers of that item
   auto at(const auto& address) const {
     return Place<T, std::remove_pointer_t<decltype(address(first))>>{address(first)};
   }
 };
-/// Two of them side by side.
+/// Two items in SIMD lanes.
 struct Two {
   using T = Pair;
   static constexpr int count = 2;
@@ -107,7 +107,7 @@ struct Two {
   }
 };
 
-/// Calls with all of them, two at a time where `match` says that the formula is the same for both.
+/// Calls with all items, two at a time if `match` is true for the pair.
 void in_pairs(std::span<const int> all, const auto& match, const auto& call) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (k + 1 < all.size() && match(all[k], all[k + 1])) {

@@ -1,13 +1,12 @@
 #pragma once
-// Two doubles at a time, which SSE2, NEON and WebAssembly's vectors all have. Each lane computes
-// what a scalar would, bit for bit.
+// Two doubles at a time, as in SSE2, NEON and WebAssembly SIMD. Each lane is bitwise equal to the
+// scalar computation.
 
 namespace substep {
 
 using Pair [[gnu::vector_size(16)]] = double;
 
-/// Two numbers of a row in memory, wherever it begins. Not of what has just been written one by
-/// one: that would have to reach memory first.
+/// Unaligned load of two numbers. Avoid for recent scalar stores: store forwarding would stall.
 inline Pair load_pair(const double* from) {
   Pair pair;
   __builtin_memcpy(&pair, from, sizeof pair);

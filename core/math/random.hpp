@@ -4,7 +4,7 @@
 
 namespace substep {
 
-/// SplitMix64 (Steele, Lea and Flood 2014): a few lines that give the same numbers everywhere.
+/// SplitMix64 (Steele, Lea and Flood 2014): short, and identical on all platforms.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}

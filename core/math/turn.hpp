@@ -1,6 +1,6 @@
 #pragma once
-// Turns by their Cayley vectors c = tan(angle/2) axis: what a sub-step of integrate() turns a body
-// by, c = dt omega/2. The quaternion is (1, c), normalised.
+// Rotations by their Cayley vectors c = tan(angle/2) axis; integrate() uses c = dt omega/2. The
+// quaternion is (1, c), normalised.
 
 #include "core/math/types.hpp"
 
@@ -22,15 +22,14 @@ inline Mat3 turn_matrix(const Vec3& c) {
   return R;
 }
 
-/// tan(x)/x to the third order of x, |x| half the angle of a turn: what its Cayley vector is longer
-/// by. Clamped past one radian, where the expansion no longer holds, so that its numbers stay
-/// finite.
+/// tan(x)/x to the third order of x, |x| half the rotation angle: the factor on the length of the
+/// Cayley vector. Clamped beyond one radian, where the expansion is invalid, to keep values finite.
 inline double half_tangent_factor(const Vec3& half_turn) {
   const double square = half_turn.squaredNorm();
   return 1.0 + (square < 1.0 ? square : 1.0) / 3.0;
 }
 
-/// The turn c followed by the turn d, world axes: (1, d) (1, c) = (1 - d.c, c + d + d x c).
+/// The rotation c followed by d, world axes: (1, d) (1, c) = (1 - d.c, c + d + d x c).
 inline Vec3 turn_after(const Vec3& c, const Vec3& d) {
   return (c + d + d.cross(c)) / (1.0 - d.dot(c));
 }

@@ -17,11 +17,11 @@ using Mat3 = Eigen::Matrix3d;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Quat = Eigen::Quaterniond;
 
-/// An index as containers take it. Elsewhere -1 stands for none.
+/// Container index. Elsewhere -1 means none.
 inline std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-/// Velocities of bodies two numbers at a time. As memory they would be handed out of WebAssembly
-/// and back, which takes longer than the copy.
+/// Copies velocities two numbers at a time. memcpy would call out of WebAssembly, which is slower
+/// than the copy.
 inline void copy(std::span<const Vec6> from, std::span<Vec6> to) {
   for (std::size_t i = 0; i < from.size(); ++i) {
     for (int j = 0; j < 6; j += 2) store_pair(load_pair(from[i].data() + j), to[i].data() + j);

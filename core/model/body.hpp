@@ -27,14 +27,14 @@ struct Body {
   int collision_group =
       -1;                // bodies of one group >= 0 do not collide with each other; -1: no group
   bool collides = true;  // false: never touches anything
-  std::optional<std::uint32_t> color;  // 0xRRGGBB, for views only; none: the view's own choice
+  std::optional<std::uint32_t> color;  // 0xRRGGBB, display only; none: the view's default
 };
 
-/// No less than what the body's force and torque add to the speed of any of its points in a second
-/// [m/s^2]; 0 of a static body. At most 1e9, so that what reckons with it stays finite.
+/// Upper bound on the acceleration of any point due to the body's constant force and torque
+/// [m/s^2]; 0 for a static body. Clamped to 1e9 to keep derived values finite.
 double fastest_gain(const Body& body);
 
-/// No less than the speed of any of its points [m/s]. @param u velocity, angular velocity
+/// Upper bound on the speed of any of its points [m/s]. @param u velocity, angular velocity
 double fastest_point(const Body& body, const Vec6& u);
 
 }  // namespace substep

@@ -1,5 +1,5 @@
 #pragma once
-// What must hold of one body or joint, whether it comes from a file or from code.
+// Checks of one body or joint, from a file or from code.
 
 #include <optional>
 #include <string>
@@ -13,17 +13,18 @@
 
 namespace substep {
 
-// What is wrong with one value, or nothing.
-std::optional<std::string> inertia_fault(const Vec3& inertia);  // moments that no body has
-std::optional<std::string> orientation_fault(const Quat& q);    // length
-std::optional<std::string> axis_fault(const Vec3& axis);        // length
+// The fault of one value, or nothing.
+std::optional<std::string> inertia_fault(
+    const Vec3& inertia);                                     // moments that no rigid body can have
+std::optional<std::string> orientation_fault(const Quat& q);  // length
+std::optional<std::string> axis_fault(const Vec3& axis);      // length
 inline constexpr std::string_view kNoInertia =
     "mass and shape are so small that their inertia is 0";
 inline constexpr std::string_view kMovingPlane =
     "a plane cannot move: its body needs \"static\": true";
 inline constexpr std::string_view kStaticMoves = "a static body never moves";
 
-/// What is wrong with the bodies of a joint.
+/// A fault in the body references of a joint.
 struct SideFault {
   std::string_view side;  // "a" or "b"
   std::string message;
@@ -31,17 +32,17 @@ struct SideFault {
 /// @param a, b indices into bodies, or kWorld; any other number is a fault
 std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b);
 
-/// A direction of a joint that should be across its axis and is not.
+/// A joint direction that is not perpendicular to its axis.
 struct DirectionFault {
   std::string_view key;  // "across_a" or "across_b"
   std::string message;
 };
 std::optional<DirectionFault> across_fault(const Joint& joint);
 
-/// All problems of one body. @param place of the body, such as "/bodies/3"
+/// Adds all problems of one body. @param place of the body, such as "/bodies/3"
 void check_body(const Body& body, const DataPlace& place, Problems& problems);
 
-/// All problems of one joint. @param place of the joint, such as "/joints/3"
+/// Adds all problems of one joint. @param place of the joint, such as "/joints/3"
 void check_joint(const Joint& joint, const std::vector<Body>& bodies, const DataPlace& place,
                  Problems& problems);
 

@@ -6,13 +6,13 @@ namespace substep {
 
 inline constexpr double kMebibyte = 1024.0 * 1024.0;  // [bytes]
 
-/// What a frame may take of the machine. It belongs to the program that runs a scene, so that no
-/// file and no link can raise it. Past it a simulator stops before the sub-step in question.
+/// Resource limits of a frame. Set by the program that runs a scene, so that no file or link can
+/// raise them. A simulator stops before the sub-step that would exceed them.
 struct Budget {
   double memory = 512.0 * kMebibyte;  // for the factor of the direct solver [bytes]
   double work = 2e10;                 // of a frame [floating-point operations]
   double substep = 1e15;              // of the solve of one sub-step [floating-point operations]
-  double contacts = 200'000.0;        // points at once: where bodies all overlap there are billions
+  double contacts = 200'000.0;  // contact points at once; overlapping bodies can have billions
 
   friend bool operator==(const Budget&, const Budget&) = default;
 };

@@ -2,7 +2,7 @@
 
 namespace substep {
 
-/// What a scene calls for. An effect that is false has no stage, no memory, no rows and no time.
+/// The effects that a scene uses. A disabled effect has no stage, memory, rows or run time.
 struct Effects {
   bool gravity = false;
   bool gyroscopic = false;
@@ -15,7 +15,7 @@ struct Effects {
   friend bool operator==(const Effects&, const Effects&) = default;
 };
 
-/// Whether bodies have a potential energy: that of gravity, and of constant forces.
+/// True if bodies have potential energy, from gravity or constant forces.
 inline bool has_potential(const Effects& effects) { return effects.gravity || effects.external; }
 
 }  // namespace substep

@@ -4,7 +4,7 @@
 
 namespace substep {
 
-/// What the content of a scene calls for, where its file does not list its effects.
+/// The effects that the content of a scene requires, for files that do not list them.
 Effects effects_of(const Scene& scene);
 
 }  // namespace substep

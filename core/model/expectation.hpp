@@ -9,14 +9,14 @@
 
 namespace substep {
 
-/// What a run should come to. kDepends: rounding or the start's last digits decide, and `why` tells
-/// what makes it so.
+/// Expected outcome of a run. kDepends: decided by rounding or the last digits of the initial
+/// state; `why` holds the reason.
 enum class Expected : std::uint8_t { kHolds, kFails, kDepends };
 
-/// A rule of a scene's verdict table: what is expected of the runs that it selects. A later rule
-/// overrides an earlier one; runs that no rule selects are not in the table.
+/// A rule of a scene's verdict table: the expected outcome of the runs it selects. Later rules
+/// override earlier ones; runs that no rule selects are not in the table.
 struct Expectation {
-  // What a run is selected by; empty selects all.
+  // Selection of runs; empty selects all.
   std::optional<SolverKind> solver{};
   std::optional<Mode> mode{};
   std::optional<int>
@@ -24,7 +24,7 @@ struct Expectation {
   std::optional<Integrator> integrator{};
 
   Expected verdict = Expected::kHolds;
-  std::optional<double> before{};  // of kFails: no later than this, else the scene's duration [s]
+  std::optional<double> before{};  // kFails: latest failure time, else the duration [s]
   std::string why{};               // in one sentence
 
   friend bool operator==(const Expectation&, const Expectation&) = default;

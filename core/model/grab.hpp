@@ -6,23 +6,23 @@ namespace substep {
 
 struct Scene;
 
-/// A hand that pulls a point of a body towards a point in the world: a damped spring that reaches
-/// no farther than kReach, so that the force stays within what the mass behind it bears.
+/// Pulls a point of a body towards a point in the world by a damped spring (mouse joint). Its
+/// length is limited to kReach, which bounds the force relative to the mass.
 struct Grab {
   static constexpr double kRate = 7.0;     // undamped, sqrt(stiffness/mass) [rad/s]
-  static constexpr double kDamping = 0.6;  // of the critical one [-]
-  static constexpr double kReach = 0.8;    // of the spring [m]
+  static constexpr double kDamping = 0.6;  // fraction of critical damping [-]
+  static constexpr double kReach = 0.8;    // maximum spring length [m]
 
   int body = 0;                // index into Scene::bodies, moving
-  Vec3 anchor = Vec3::Zero();  // where it is held, body frame [m]
-  Vec3 target = Vec3::Zero();  // where it is pulled to, world [m]
-  double mass = 1.0;           // that stiffness and damping are made for [kg]
+  Vec3 anchor = Vec3::Zero();  // grabbed point, body frame [m]
+  Vec3 target = Vec3::Zero();  // target point, world [m]
+  double mass = 1.0;           // mass for stiffness and damping [kg]
 
   [[nodiscard]] double stiffness() const { return mass * kRate * kRate; }         ///< [N/m]
   [[nodiscard]] double damping() const { return 2.0 * kDamping * kRate * mass; }  ///< [N s/m]
 };
 
-/// Mass that moves with a body: its own and that of all it is joined to [kg].
+/// Mass of a body and all bodies joined to it [kg].
 double joined_mass(const Scene& scene, int body);
 
 }  // namespace substep

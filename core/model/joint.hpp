@@ -8,9 +8,9 @@
 
 namespace substep {
 
-inline constexpr int kWorld = -1;  ///< as a joint's body b: fixed in the world
+inline constexpr int kWorld = -1;  ///< body b of a joint fixed in the world
 
-/// What every joint has. Body a moves; body b may be moving, static, or kWorld.
+/// Members common to all joints. Body a moves; body b may be moving, static, or kWorld.
 struct JointBase {
   std::string name;
   int a = 0;                     // index into Scene::bodies
@@ -19,11 +19,11 @@ struct JointBase {
   Vec3 anchor_b = Vec3::Zero();  // in the frame of b, or in the world for kWorld [m]
   double compliance = 0.0;       // C of the positional rows [m/N], >= 0
 
-  static constexpr bool kSlides = false;  // whether the anchors may be apart along the axis
+  static constexpr bool kSlides = false;  // true if the anchors may separate along the axis
 };
 
-// Each kind has kType, its name in files, and own_fields(), which names what it has beside
-// JointBase for what reads, writes and checks it: field(key, direction) for each unit vector and
+// Each type has kType, its name in files, and own_fields(), which lists its members beyond
+// JointBase for reading, writing and checking: field(key, direction) for each unit vector and
 // field(key, number, range) for each number.
 
 /// The two anchors coincide: 3 rows.
@@ -49,15 +49,15 @@ struct HingeJoint : JointBase {
   }
 };
 
-/// The anchor on a slides along the axis through the anchor on b, and the bodies keep their
-/// attitude to each other: the axes stay parallel, and so do the directions across them. 5 rows.
+/// The anchor on a slides along the axis through the anchor on b, and the relative orientation is
+/// fixed: the axes and the directions perpendicular to them stay parallel. 5 rows.
 struct PrismaticJoint : JointBase {
   static constexpr const char* kType = "prismatic";
   static constexpr bool kSlides = true;
   Vec3 axis_a = Vec3::UnitX();      // unit, in the frame of a [-]
   Vec3 axis_b = Vec3::UnitX();      // unit, in the frame of b, or in the world for kWorld [-]
-  Vec3 across_a = Vec3::UnitY();    // unit, across axis_a [-]
-  Vec3 across_b = Vec3::UnitY();    // unit, across axis_b [-]
+  Vec3 across_a = Vec3::UnitY();    // unit, perpendicular to axis_a [-]
+  Vec3 across_b = Vec3::UnitY();    // unit, perpendicular to axis_b [-]
   double angular_compliance = 0.0;  // C of the three angular rows [rad/(N m)], >= 0
 
   template <class J, class Field>

@@ -1,5 +1,5 @@
 #pragma once
-// What joints have beside JointBase, by name: for what reads, writes and checks them.
+// Members of joints beyond JointBase, by name, for reading, writing and checking.
 
 #include <array>
 #include <optional>
@@ -18,13 +18,13 @@ void own_fields(J& joint, Field&& field) {
   std::remove_const_t<J>::own_fields(joint, field);
 }
 
-/// What files call the kinds of joints, in the order of Joint's alternatives.
+/// Names of the joint types in files, in the order of the Joint variant.
 inline constexpr auto kJointTypes = []<std::size_t... I>(std::index_sequence<I...>) {
   return std::array{std::string_view(std::variant_alternative_t<I, Joint>::kType)...};
 }
 (std::make_index_sequence<std::variant_size_v<Joint>>{});
 
-/// A joint of the kind that files call so; nothing where there is none.
+/// A joint of the type with this name in files, or nothing.
 inline std::optional<Joint> make_joint(std::string_view type) {
   std::optional<Joint> joint;
   [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -38,10 +38,10 @@ inline std::optional<Joint> make_joint(std::string_view type) {
 struct JointAxes {
   Vec3 a = Vec3::UnitZ();
   Vec3 b = Vec3::UnitZ();
-  bool slides = false;  // the anchors may be apart along them
+  bool slides = false;  // true if the anchors may separate along them
 };
 
-/// The directions across its axes that a joint keeps parallel; nothing for others.
+/// The directions perpendicular to its axes that a joint keeps parallel, or nothing.
 inline std::optional<JointAxes> across_of(const Joint& joint) {
   return std::visit(
       [](const auto& j) -> std::optional<JointAxes> {
@@ -61,9 +61,9 @@ inline std::optional<JointAxes> axes_of(const Joint& joint) {
       joint);
 }
 
-/// What of the way between a joint's anchors is an error: all of it, or what is across the axis
-/// along which the joint slides.
-/// @param apart from the anchor on b to that on a, world [m]  @param q_b attitude of b
+/// The error part of the vector between a joint's anchors: all of it, or for a sliding joint the
+/// component perpendicular to the axis. @param apart from the anchor on b to that on a, world [m]
+/// @param q_b orientation of b
 inline Vec3 gap_of(const Joint& joint, const Vec3& apart, const Quat& q_b) {
   const std::optional<JointAxes> axes = axes_of(joint);
   if (!axes || !axes->slides) return apart;
@@ -71,7 +71,7 @@ inline Vec3 gap_of(const Joint& joint, const Vec3& apart, const Quat& q_b) {
   return apart - axis * axis.dot(apart);
 }
 
-/// C of a joint's angular rows [rad/(N m)]; nothing where it has none.
+/// C of a joint's angular rows [rad/(N m)]; nothing if it has none.
 inline std::optional<double> angular_compliance_of(const Joint& joint) {
   return std::visit(
       [](const auto& j) -> std::optional<double> {

@@ -1,7 +1,6 @@
 #pragma once
-// Every solver, mode and integrator with what people read about it: the one table for files,
-// window, command line, sweep and report. It has the size and the order of the enum, so that an
-// entry that is missing does not compile.
+// Every solver, mode and integrator with its texts: the one table for files, window, command line,
+// sweep and report. Size and order are those of the enum; a missing entry is a compile error.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +15,7 @@ namespace substep {
 /// Colour of a curve, by its name in themes.
 enum class Tint : std::uint8_t { kBlue, kOrange, kTeal, kAmber, kPurple, kText, kDim };
 
-/// Names of the settings that a method reads, of those that not all of them read.
+/// Names of the settings that a method reads, excluding those that all methods read.
 using SettingNames = std::array<std::string_view, 9>;
 
 struct SolverEntry {
@@ -26,11 +25,11 @@ struct SolverEntry {
   const char* full_name;
   const char* reference;
   const char* about;
-  bool sweeps = false;  // goes over the rows again and again; its curves are dashed
-  bool at_end = false;  // holds constraints at the end of the sub-step
-  double work = 1.0;    // of a sub-step, or of an iteration where it has some, that of BPP being 1
-  Tint tint = Tint::kBlue;  // of its curves, where it is at_end; of the others the mode decides
-  int iterations = 0;       // as many as the window offers; 0: it has none
+  bool sweeps = false;      // iterates over the rows; its curves are dashed
+  bool at_end = false;      // holds constraints at the end of the sub-step
+  double work = 1.0;        // per sub-step, or per iteration if it iterates, relative to BPP
+  Tint tint = Tint::kBlue;  // of its curves, if at_end; otherwise the mode's colour is used
+  int iterations = 0;       // maximum offered in the window; 0: not iterative
   const char* about_iterations = "";
   SettingNames reads{};
 };
@@ -41,13 +40,13 @@ struct ModeEntry {
   const char* line;   // in a few words
   const char* about;  // in a sentence or two
   const char* reference = "";
-  const char* caption;          // of a picture; {n} stands for the setting n
-  const char* takes = nullptr;  // what it does in place of the N of Eq. 11; null: it takes that
-  const char* then = nullptr;   // what it does beyond its cap; null: nothing
+  const char* caption;          // of a picture; {n} is replaced by the setting n
+  const char* takes = nullptr;  // its choice instead of N by Eq. 11; null: N by Eq. 11
+  const char* then = nullptr;   // its action beyond its cap; null: none
   const char* curve;            // name of its curves
   Tint tint;
-  int corners;                // of the points of its curves, 0: discs
-  bool beyond_paper = false;  // a mode that the paper does not have
+  int corners;                // of its curve markers, 0: discs
+  bool beyond_paper = false;  // not one of the paper's modes
   SettingNames reads{};
 };
 
@@ -239,7 +238,7 @@ constexpr const IntegratorEntry& entry_of(Integrator integrator) {
   return kIntegrators[static_cast<std::size_t>(integrator)];
 }
 
-/// All solvers as tables list them: first those of Eq. 3, each group from exact to approximate.
+/// All solvers in table order: first those of Eq. 3, each group from exact to approximate.
 consteval std::array<SolverKind, kSolvers.size()> listed_solvers() {
   std::array<SolverKind, kSolvers.size()> list{};
   std::size_t count = 0;
@@ -251,7 +250,7 @@ consteval std::array<SolverKind, kSolvers.size()> listed_solvers() {
   return list;
 }
 
-/// Whether the solver or the mode of these settings reads this one.
+/// True if the solver or the mode of these settings reads the given setting.
 constexpr bool reads(const Settings& s, std::string_view setting) {
   const auto lists = [setting](const SettingNames& names) {
     return std::find(names.begin(), names.end(), setting) != names.end();

@@ -21,9 +21,9 @@ struct Named {
 };
 
 template <class Enum>
-struct NameTable;  // specialised below for every enum that people see
+struct NameTable;  // specialised below for every enum with names
 
-/// The names of a table of methods.
+/// The names in a table of methods.
 template <class Enum, class Entry, std::size_t N>
 consteval std::array<Named<Enum>, N> names_in(const std::array<Entry, N>& table) {
   std::array<Named<Enum>, N> names{};

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers against their ranges, in the words of the scene reader.
+// Range checks of numbers, with the messages of the scene reader.
 
 #include <cstddef>
 
@@ -10,7 +10,7 @@
 
 namespace substep {
 
-/// Notes a number outside its range; NaN is outside of every range.
+/// Adds a problem if a number is outside its range; NaN is outside every range.
 inline void check_number(double value, const Range& range, const DataPlace& place,
                          Problems& problems) {
   if (range.contains(value)) return;
@@ -18,7 +18,7 @@ inline void check_number(double value, const Range& range, const DataPlace& plac
       {place.pointer(), "must be " + range.violated_by(value) + ", not " + number_text(value)});
 }
 
-/// Each of the numbers of a vector.
+/// The same for each component of a vector.
 template <class Vector>
 void check_numbers(const Vector& values, const Range& range, const DataPlace& place,
                    Problems& problems) {

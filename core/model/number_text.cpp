@@ -38,7 +38,7 @@ std::string number_text(double value) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  // strtod also takes leading spaces, hexadecimal, "inf" and "nan": none of them is wanted here.
+  // strtod also accepts leading spaces, hexadecimal, "inf" and "nan"; these are rejected here.
   if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
     return {};
   const std::string copy(text);

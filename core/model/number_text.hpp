@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as text, without loss: what is written is read back to the same bits.
+// Lossless number formatting: text reads back to the same bits.
 
 #include <cstdint>
 #include <optional>

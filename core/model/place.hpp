@@ -9,10 +9,10 @@
 
 namespace substep {
 
-/// A place in data that is checked, such as /joints/3/b. It is spelt out only where something is
-/// wrong: a simulator checks all of its scene, and pointers would take most of that time.
+/// A location in checked data, such as /joints/3/b. The pointer text is built only for problems:
+/// building it for every value would dominate the cost of checking a scene.
 ///
-/// It refers to the place that it is in: keep none that was made from a temporary.
+/// Refers to its parent location: do not keep one made from a temporary.
 class DataPlace {
  public:
   /// @param pointer JSON pointer, "" for the whole document

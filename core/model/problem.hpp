@@ -1,5 +1,5 @@
 #pragma once
-// What is wrong with data that was given, place by place.
+// Problems in input data, by location.
 
 #include <cstddef>
 #include <string>
@@ -8,20 +8,20 @@
 
 namespace substep {
 
-/// One thing wrong with data from a file or from a program.
+/// One problem in data from a file or from a program.
 struct Problem {
   std::string pointer;  // JSON pointer to the place, "" for the whole document
   std::string message;  // value and allowed range: "must be above 0 (kg), not -1"
 };
 using Problems = std::vector<Problem>;
 
-/// Told of one document. Readers stop at more, so that a hostile one does not use up memory.
+/// Limit per document. Readers stop there, so that hostile input cannot exhaust memory.
 inline constexpr std::size_t kMaxProblems = 1000;
 
 /// "/bodies/3/mass: must be above 0 (kg), not -1"
 std::string to_string(const Problem& problem);
 
-/// The same with the place as C++ spells it: "bodies[3].mass: must be above 0 (kg), not -1"
+/// The same with the location in C++ syntax: "bodies[3].mass: must be above 0 (kg), not -1"
 std::string to_code(const Problem& problem);
 
 /// The pointer of a member: "/bodies" and "a/b" give "/bodies/a~1b" (RFC 6901).

@@ -1,5 +1,5 @@
 #pragma once
-// Allowed ranges of numbers, and how to say that one is left.
+// Allowed ranges of numbers, and the messages for violations.
 
 #include <limits>
 #include <string>
@@ -20,11 +20,11 @@ struct Range {
   [[nodiscard]] bool below_most(double x) const { return open_above ? x < most : x <= most; }
   [[nodiscard]] bool contains(double x) const { return above_least(x) && below_most(x); }
 
-  /// "above 0 (kg)" or "at most 1e12 (kg)": the bound that x is on the wrong side of.
+  /// "above 0 (kg)" or "at most 1e12 (kg)": the bound that x violates.
   [[nodiscard]] std::string violated_by(double x) const {
     return (above_least(x) ? upper() : lower()) + unit_text();
   }
-  /// "from 1e-6 to 10 (s)", or "above 0 and at most 1" where an end is open: what a number must be.
+  /// "from 1e-6 to 10 (s)", or "above 0 and at most 1" if an end is open: the allowed range.
   [[nodiscard]] std::string text() const {
     const bool closed = !open_below && !open_above;
     return (closed ? "from " + number_text(least) + " to " + number_text(most)

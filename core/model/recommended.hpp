@@ -7,18 +7,18 @@
 
 namespace substep {
 
-/// Which error of a run is looked at.
+/// The error of a run that is considered.
 enum class ErrorAxis : std::uint8_t { kTrajectory, kEnergy, kGap, kPenetration, kCount };
 
-/// The setting that a sweep over a scene found cheapest within a wanted error.
+/// The cheapest settings within an error limit, found by a sweep over a scene.
 struct Recommended {
   Settings settings;
   ErrorAxis of = ErrorAxis::kTrajectory;
-  double within = 1e-3;     // wanted at most [m, J]
-  double reached = 0.0;     // by its own run, no more than that [m, J]
-  double operations = 0.0;  // of the solver, in a frame [-]
-  double seconds = 10.0;    // simulated by every run of the sweep [s]
-  std::string why;          // how it stands beside the others, for people
+  double within = 1e-3;     // error limit [m, J]
+  double reached = 0.0;     // error of its run, at most `within` [m, J]
+  double operations = 0.0;  // of the solver, per frame [-]
+  double seconds = 10.0;    // simulated time of every run of the sweep [s]
+  std::string why;          // comparison with the other runs, for display
 
   friend bool operator==(const Recommended&, const Recommended&) = default;
 };

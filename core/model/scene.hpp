@@ -16,30 +16,30 @@
 
 namespace substep {
 
-/// One law for all contacts of a scene.
+/// The contact law of a scene.
 struct ContactModel {
   double compliance = 1e-10;           // C of the normal row [m/N]
   double friction_compliance = 1e-10;  // C of the friction rows [m/N]
-  double margin = 0.02;                // rows are made for gaps up to this [m]
+  double margin = 0.02;                // rows are created for gaps up to this [m]
   double restitution_speed = 0.1;      // slower approaches do not bounce [m/s]
 };
 
-/// When a run counts as failed, and what it is measured by.
+/// Failure criteria of a run, and the scale of its errors.
 struct Criteria {
-  double duration = 10.0;              // how long `check` runs [s]
+  double duration = 10.0;              // simulated by `check` [s]
   double joint_gap = 0.1;              // a larger gap of any joint fails [m]
   std::optional<double> energy_gain;   // more energy than at the start by this fails [J]
-  std::optional<double> energy_scale;  // energy that can be exchanged: 100 % of the drift [J]
+  std::optional<double> energy_scale;  // energy that the motion exchanges: 100 % of the drift [J]
   struct Displacement {
     int body = 0;           // index into Scene::bodies
     double distance = 0.1;  // [m]
   };
   std::optional<Displacement> displacement;  // this body moved farther than this fails
-  std::optional<int> track;                  // the body whose path counts as the motion
+  std::optional<int> track;                  // the body whose path is compared
   bool holds = true;                         // the verdict expected with the scene's own settings
 };
 
-/// Where a view starts looking from.
+/// Initial camera of a view.
 struct Camera {
   Vec3 eye{0.0, 5.0, 20.0};    // world [m]
   Vec3 target{0.0, 3.0, 0.0};  // world [m]
@@ -59,27 +59,26 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Joint> joints;
   ContactModel contact;
-  double regularisation = 0.0;  // added to the diagonal of J M^-1 J^T whatever the step [1/kg]
-  StartPolicy start = StartPolicy::kProject;  // what becomes of one that the joints contradict
-  Settings settings;                          // to start with
-  std::optional<Recommended> recommended;     // by a sweep over this scene
+  double regularisation = 0.0;  // added to the diagonal of J M^-1 J^T, independent of dt [1/kg]
+  StartPolicy start = StartPolicy::kProject;  // treatment of a start inconsistent with the joints
+  Settings settings;                          // initial settings
+  std::optional<Recommended> recommended;     // from a sweep over this scene
   Criteria criteria;
-  Expectations verdicts;  // the verdict table by its rules, or empty
+  Expectations verdicts;  // rules of the verdict table, or empty
   Camera camera;
-  std::optional<Carried> carried;  // of the run that this scene was saved from
+  std::optional<Carried> carried;  // state of the run that this scene was saved from
 };
 
-/// The settings that a scene has of its own: the defaults where it starts with what is recommended
-/// for it. What tries settings out goes by these, whatever was recommended before.
+/// The scene's own settings: the defaults if it starts with its recommendation. Sweeps start from
+/// these, independent of earlier recommendations.
 inline Settings own_settings(const Scene& scene) {
   if (!scene.recommended) return scene.settings;
   Settings recommended = scene.recommended->settings;
-  recommended.watch_stiffness = scene.settings.watch_stiffness;  // is only looked at
+  recommended.watch_stiffness = scene.settings.watch_stiffness;  // display only
   return scene.settings == recommended ? Settings{} : scene.settings;
 }
 
-/// The scene with what is recommended for it. It starts with that, unless it has settings of its
-/// own that are not the defaults.
+/// The scene with a recommendation, which replaces its initial settings if they are the defaults.
 inline Scene with_recommended(Scene scene, Recommended recommended) {
   if (own_settings(scene) == Settings{}) scene.settings = recommended.settings;
   scene.recommended = std::move(recommended);

@@ -40,7 +40,7 @@ std::pair<int, int> sides(const Scene& scene, const JointBase& joint) {
   return std::minmax(joint.a, b);
 }
 
-/// What is wrong with two directions that a joint keeps parallel; nothing where they nearly are.
+/// The fault of two directions that a joint keeps parallel; nothing if they nearly are.
 std::optional<std::string> parallel_fault(const Vec3& u, const Vec3& v) {
   const double sine = u.cross(v).norm();
   if (u.dot(v) < 0.0) return "start in opposite directions";
@@ -75,7 +75,7 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
 }
 
 void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems& problems) {
-  if (scene.regularisation > 0.0) return;                    // it does what compliance does
+  if (scene.regularisation > 0.0) return;                    // acts like compliance
   using First = std::map<std::pair<int, int>, std::size_t>;  // the first stiff joint of two bodies
   First stiff;
   First stiff_turning;

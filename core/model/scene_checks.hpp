@@ -1,5 +1,5 @@
 #pragma once
-// What must hold between the parts of a scene, each part being right by itself.
+// Consistency checks between the parts of a scene that are valid individually.
 
 #include <vector>
 
@@ -8,20 +8,21 @@
 
 namespace substep {
 
-/// Which parts are right by themselves: what hangs on a broken part is not looked at.
+/// Parts that are valid individually; checks that depend on an invalid part are skipped.
 struct SoundParts {
   std::vector<bool> bodies;
   std::vector<bool> joints;
 };
 
-/// The two sides of every joint coincide at the start, to the gap that counts as a failure.
+/// Checks that the two sides of every joint coincide at the start, within the failure gap.
 void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& problems);
 
-/// Rows that say the same twice have no unique forces: without compliance the answer is NaN.
+/// Checks for redundant rows: their forces are not unique, and without compliance the result is
+/// NaN.
 void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems& problems);
 
-/// Joints, constant forces and coefficients of contacts have no effect unless Scene::effects says
-/// so: an effect that the content asks for is on.
+/// Checks that every effect the content requires is enabled: otherwise joints, constant forces and
+/// contact coefficients would be ignored.
 void check_effects(const Scene& scene, Problems& problems);
 
 }  // namespace substep

@@ -1,6 +1,6 @@
 #pragma once
-// What a scene file may hold. The bounds are far beyond any sensible scene: they catch slips of the
-// keyboard and keep squares and quotients within the range of numbers.
+// Limits of a scene file, far beyond any sensible scene: they catch typing errors and keep squares
+// and quotients in range.
 
 #include <cstddef>
 
@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaxTitle = 200;     // [bytes]
 inline constexpr std::size_t kMaxProse = 2000;    // [bytes]
 inline constexpr int kMaxCollisionGroup = 1'000'000;
 
-inline constexpr double kUnitTolerance = 1e-6;  // of the length of axes and quaternions [-]
+inline constexpr double kUnitTolerance = 1e-6;  // on the length of axes and quaternions [-]
 inline constexpr Range kUnitLength{1.0 - kUnitTolerance, 1.0 + kUnitTolerance};
 
 inline constexpr Range kSizeRange = positive(1e6, "m");

@@ -1,6 +1,6 @@
 #pragma once
-// Every setting with its name, what it means and its allowed range: the one table that scene files,
-// the command line, links and the app's controls read.
+// Every setting with its name, meaning and allowed range: the one table for scene files, the
+// command line, links and the app's controls.
 
 #include <optional>
 #include <span>
@@ -33,7 +33,7 @@ struct ChoiceSetting {
 /// One field of Settings.
 struct SettingField {
   std::string_view name;  // in scene files and links; as a flag with '-' for '_'
-  std::string_view help;  // one line, with its equation where it has one
+  std::string_view help;  // one line, with its equation if any
   std::variant<FlagSetting, CountSetting, NumberSetting, ChoiceSetting<SolverKind>,
                ChoiceSetting<Forces>, ChoiceSetting<Mode>, ChoiceSetting<Policy>,
                ChoiceSetting<Integrator>, ChoiceSetting<Gyroscopic>, ChoiceSetting<Drift>,
@@ -48,25 +48,26 @@ std::span<const SettingField> setting_fields();
 /// The field of that name, or null.
 const SettingField* find_setting(std::string_view name);
 
-/// What is allowed, for people: "pgs or bpp", "a whole number from 1 to 100000",
+/// The allowed values, for messages: "pgs or bpp", "a whole number from 1 to 100000",
 /// "above 0 and at most 1".
 std::string allowed_values(const SettingField& field);
 
-/// What is wrong with a value: "must be above 0 and at most 1, not 3", "admm is not pgs or bpp".
+/// The message for an invalid value: "must be above 0 and at most 1, not 3", "admm is not pgs or
+/// bpp".
 std::string refusal(const SettingField& field, const std::string& value);
 
-/// Whether its values are names, not numbers or true and false.
+/// True if its values are names, not numbers or booleans.
 bool is_choice(const SettingField& field);
 
-/// The field's value as text: what set_setting takes. Numbers lose nothing.
+/// The field's value as text: the input of set_setting. Numbers are lossless.
 std::string setting_text(const SettingField& field, const Settings& settings);
 
-/// Sets a field from text. @return what is wrong, then nothing is changed
+/// Sets a field from text. @return the problem, if any; then nothing is changed
 std::optional<std::string> set_setting(const SettingField& field, std::string_view text,
                                        Settings& settings);
 
-/// " --mode const --n 12": the command-line flags that make `settings` out of `base`. What is only
-/// looked at, watch_stiffness, is left out.
+/// " --mode const --n 12": the command-line flags that turn `base` into `settings`.
+/// watch_stiffness, which affects only the display, is omitted.
 std::string setting_flags(const Settings& settings, const Settings& base);
 
 }  // namespace substep

@@ -7,9 +7,9 @@
 
 namespace substep {
 
-// A shape gives, as members: the radius of the ball around its centre that holds it [m]; its least
-// half width [m]; the half extents of its bounding box when turned by R [m]; the principal moments
-// of it as a solid of that mass [kg m^2]. Planes are endless: they have none of these.
+// Members of a shape: radius of the enclosing sphere about its centre [m]; smallest half width [m];
+// half extents of its bounding box under the rotation R [m]; principal moments as a solid of a
+// given mass [kg m^2]. Planes are infinite and have none of these.
 
 /// Centred at the body's centre of mass.
 struct Sphere {
@@ -47,18 +47,18 @@ struct Plane {
 
 using Shape = std::variant<Sphere, Box, Plane>;
 
-/// Of the sphere around a shape [m]. A plane has none: 0.
+/// Radius of the enclosing sphere of a shape [m]; 0 for a plane.
 inline double radius_around(const Shape& shape) {
   return std::visit([](const auto& s) { return s.radius_around(); }, shape);
 }
 
-/// Half of the least width of a shape [m].
+/// Half of the smallest width of a shape [m].
 inline double half_width(const Shape& shape) {
   return std::visit([](const auto& s) { return s.half_width(); }, shape);
 }
 
-/// Principal moments of a solid shape about its centre [kg m^2], in the body's axes. A plane has
-/// none.
+/// Principal moments of a solid shape about its centre [kg m^2], in the body's axes. Zero
+/// for planes.
 inline Vec3 solid_inertia(const Shape& shape, double mass) {
   return std::visit([mass](const auto& s) { return s.inertia(mass); }, shape);
 }

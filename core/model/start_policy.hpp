@@ -4,11 +4,11 @@
 
 namespace substep {
 
-/// What becomes of a start whose poses or velocities contradict the joints.
+/// Treatment of a start with poses or velocities inconsistent with the joints.
 enum class StartPolicy : std::uint8_t {
-  kProject,  // bodies are moved by the least change that closes the joints, velocities likewise
-  kKeep,     // it is simulated as it stands; the drift correction takes the errors back
-  kRefuse,   // it is an error of the scene file
+  kProject,  // the smallest change of poses and velocities that satisfies the joints
+  kKeep,     // unchanged; the drift correction removes the errors
+  kRefuse,   // an error of the scene file
 };
 
 }  // namespace substep

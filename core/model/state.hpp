@@ -10,8 +10,8 @@ namespace substep {
 
 struct Scene;
 
-/// Everything that changes while a scene runs. A copy is a snapshot: the motion continues from it
-/// bit for bit.
+/// All variables of a running scene. A copy is a snapshot, from which the motion continues bit for
+/// bit.
 struct State : Carried {
   std::vector<Vec3> x;  // centre of mass, world [m]
   std::vector<Quat> q;  // q_WB, unit [-]
@@ -20,7 +20,7 @@ struct State : Carried {
   std::vector<Vec6> u_synchronised;  // u at the time of x, for energies
 };
 
-/// The start: bodies as the scene has them, and what an earlier run left them with.
+/// The initial state: the scene's bodies, and the carried state of an earlier run.
 State initial_state(const Scene& scene);
 
 /// Hash of the bits of time, poses and velocities.

@@ -1,5 +1,5 @@
 #pragma once
-// What must hold of all that refers to the bodies of a scene by their index.
+// Checks of data that refers to the bodies of a scene by index.
 
 #include <optional>
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace substep {
 
-/// What is wrong with an index into Scene::bodies, or nothing.
+/// The fault of an index into Scene::bodies, or nothing.
 std::optional<std::string> body_fault(int body, const Scene& scene);
 
-/// What a saved run takes with it. @param pointer of it, such as "/carried"
+/// Checks the carried state of a saved run. @param pointer its location, such as "/carried"
 void check_carried(const Carried& carried, const Scene& scene, const std::string& pointer,
                    Problems& problems);
 void check_state(const State& state, const Scene& scene, Problems& problems);

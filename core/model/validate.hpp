@@ -1,7 +1,7 @@
 #pragma once
-// What is wrong with data that a program hands over, before anything reads it. Each problem names
-// its place and the allowed range, in the words of the scene reader; ranges are those of
-// scene_limits.hpp and setting_fields.hpp. Reports at most kMaxProblems.
+// Validates data passed by a program before use. Each problem gives the location and the allowed
+// range, with the messages of the scene reader; ranges are those of scene_limits.hpp and
+// setting_fields.hpp. Reports at most kMaxProblems.
 
 #include "core/model/budget.hpp"
 #include "core/model/grab.hpp"
@@ -11,29 +11,28 @@
 
 namespace substep {
 
-/// All that is wrong with a scene: what check_values() finds, and where its parts contradict each
-/// other: no body moves, joints that start open, joints and contacts that hold the same twice,
-/// effects that are off although the content asks for them. Names and other texts are not looked
-/// at: only files refer to them.
+/// All problems of a scene: those of check_values(), and contradictions between its parts: no
+/// moving body, joints that start open, redundant joints and contacts, disabled effects that the
+/// content requires. Names and other texts are not checked: only files refer to them.
 Problems validate(const Scene& scene);
 
 /// Settings outside their ranges, and enumerators that do not exist. Pointers begin with
 /// "/settings".
 Problems validate(const Settings& settings);
 
-/// A state of that scene: lists with one item for every body, or left out where that is allowed;
-/// numbers that are finite; orientations of length 1. Pointers begin with "/state".
+/// Checks a state of that scene: lists have one item per body, or are empty if allowed; numbers are
+/// finite; orientations have length 1. Pointers begin with "/state".
 Problems validate(const State& state, const Scene& scene);
 
-/// A hand on a moving body of that scene, with finite numbers. Pointers begin with "/grab".
+/// Checks a grab: a moving body of that scene, and finite numbers. Pointers begin with "/grab".
 Problems validate(const Grab& grab, const Scene& scene);
 
-/// A budget within kMemoryBudgetRange and kWorkBudgetRange. Pointers begin with "/budget".
+/// Checks a budget against kMemoryBudgetRange and kWorkBudgetRange. Pointers begin with "/budget".
 Problems validate(const Budget& budget);
 
-/// Only what a run must not be given: numbers outside their ranges, indices that no body has,
-/// joints of a body with itself, lists of the wrong length. A start that contradicts its joints can
-/// be run, and so can a scene in which nothing moves.
+/// Only problems that prevent a run: numbers outside their ranges, invalid body indices, joints of
+/// a body with itself, lists of the wrong length. A start inconsistent with its joints can run, and
+/// so can a scene without moving bodies.
 Problems check_values(const Scene& scene);
 
 }  // namespace substep

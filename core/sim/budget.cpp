@@ -5,8 +5,8 @@
 namespace substep {
 namespace {
 
-constexpr double kBodyWork = 200.0;    // to move a body: external forces, masses, pose
-constexpr double kBlockWork = 1000.0;  // to find, make, store and report a joint or contact point
+constexpr double kBodyWork = 200.0;    // per body: external forces, masses, pose
+constexpr double kBlockWork = 1000.0;  // per joint or contact: detection, rows, storage, report
 constexpr int kTypical = 16;           // sub-steps whose mean predicts the others
 
 double work_of_bodies(const FrameProgress& at) {

@@ -1,5 +1,5 @@
 #pragma once
-// Predicts what a frame will take, before each of its sub-steps.
+// Predicts the cost of a frame before each of its sub-steps.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,29 +10,27 @@
 
 namespace substep {
 
-/// Where a frame stands.
+/// Progress of a frame.
 struct FrameProgress {
   int taken = 0;           // sub-steps
-  int left = 1;            // sub-steps, the one to come included
-  std::int64_t flops = 0;  // of the solver, so far
-  std::size_t bodies = 0;  // that the one to come moves
-  std::size_t blocks = 0;  // of rows, in it
+  int left = 1;            // sub-steps, including the next one
+  std::int64_t flops = 0;  // spent in the solver so far
+  std::size_t bodies = 0;  // moved by the next sub-step
+  std::size_t blocks = 0;  // blocks of rows in it
 };
 
-/// What a sub-step takes beside the solver: bodies that move, rows that are made and read
-/// [operations].
+/// Work of a sub-step outside the solver: moving bodies, building and reading rows [operations].
 double work_beside_solver(const FrameProgress& at);
 
-/// The work of the whole frame, as far as it is known before the next sub-step: of bodies that
-/// move, and of the direct solver as much in each sub-step as in the mean of those taken. Sweeps
-/// are left to the solver, which knows their work exactly [operations].
+/// Estimated work of the whole frame [operations]: moving bodies, plus the direct solver at its
+/// mean cost per sub-step so far. Sweeps are excluded: the solver counts their work exactly.
 double forecast_work(const FrameProgress& at, const Settings& settings);
 
-/// Whether every sub-step takes as much again: sweeps are a fixed number.
+/// True if every sub-step costs the same, because the number of sweeps is fixed.
 bool is_shared(const Settings& settings);
 
-/// What the solver may take in the next sub-step. Sweeps come again in every sub-step: they share
-/// what is left of the budget. A direct solve may take all of it.
+/// Limits of the next solve. Sweeps recur in every sub-step, so the remaining budget is shared
+/// among them. A direct solve may use all of it.
 SolveLimits limits_of_solve(const FrameProgress& at, const Settings& settings,
                             const Budget& budget);
 

@@ -1,5 +1,5 @@
-// What a sub-step takes from the one before and leaves to the next (Carried): forces, and how
-// forces and velocities change where a method goes by that.
+// Data passed between sub-steps (Carried): forces, and the rates of forces and velocities for
+// methods that use them.
 
 #include <algorithm>
 
@@ -32,10 +32,10 @@ SubstepTimes Simulator::Impl::times_of(const Block& block, double dt) const {
 void Simulator::Impl::set_joint_springs(double dt) {
   const double rate = drift_rate(drift_law(settings), settings.drift_tau, dt);
   const bool stored = springs_are_stored();
-  if (!stored && !averages_springs(settings)) return;  // Eq. 3 as it stands
+  if (!stored && !averages_springs(settings)) return;  // plain Eq. 3
   for (Block& block : rows()) {
     if (block.is_contact() || is_grab(block)) continue;
-    // At the start, and after the probe, all of phi is the spring's own.
+    // At the start and after the probe, all of phi is elastic.
     const bool known = stored && block.seeded && dt_previous_of(block) > 0.0;
     if (!known) std::copy_n(block.phi, kMaxRows, block.elastic);
     set_springs(settings, times_of(block, dt), rate, inverse_mass, u_start, scene->regularisation,
@@ -57,7 +57,7 @@ void Simulator::Impl::set_contact_springs(double dt) {
 }
 
 void Simulator::Impl::seed_forces() {
-  std::size_t next = 0;  // blocks mostly come in the order of the last sub-step
+  std::size_t next = 0;  // blocks are mostly in the order of the last sub-step
   const bool goes_on = open && !schedule.first_of_part();
   const std::span<const StoredForce> of_last =
       goes_on ? std::span<const StoredForce>(forces).subspan(first_force) : state.forces;
@@ -140,8 +140,8 @@ void Simulator::Impl::store_accelerations(double dt) {
   }
 }
 
-// correct_velocity_for_step_change() has the change of the sub-step before last; now that this one
-// is known, what it was short by follows. Poses go without it: they are where the constraints hold.
+// correct_velocity_for_step_change() used the change of the sub-step before last; the current one
+// is now known, so the difference is added. Poses are not corrected: they satisfy the constraints.
 void Simulator::Impl::store_changes(std::size_t body, const Vec6& a, double dt) {
   const bool known = smooth && !state.acceleration[body].isZero(0.0);
   const double growth = known ? stormer_growth(dt, impulse_time[body]) : 0.0;
@@ -164,8 +164,8 @@ void Simulator::Impl::store_changes(std::size_t body, const Vec6& a, double dt) 
   if (late != 0.0 && correction.allFinite()) state.u[body] += correction;
 }
 
-// Joints are to hold where the poses go, from where accelerations that go on changing as they did
-// would lead.
+// Joints must hold at the end poses; rows are linearised about poses extrapolated with the last
+// change of acceleration.
 void Simulator::Impl::aim_at_poses(double dt) {
   for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &u_guess}) {
     of_bodies->resize(state.u.size(), Vec6::Zero());
@@ -188,7 +188,7 @@ void Simulator::Impl::aim_at_poses(double dt) {
   aim_at_stormer_poses(rows(), state.acceleration, u_guess, motions, impulse_time, dt);
 }
 
-// An impact is no acceleration: poses go with the velocities then.
+// After an impact, poses move by the velocities.
 std::span<const Vec6> Simulator::Impl::pose_velocities(double dt) {
   if (extrapolates(settings)) {
     w.resize(state.u.size());
@@ -224,11 +224,11 @@ void Simulator::Impl::extrapolate(const StoredForce& force, Block& block) const 
 }
 
 void Simulator::Impl::find_rates(const Block& block, StoredForce& force) const {
-  const double dt = dt_previous_of(block);  // between the poses of both forces
+  const double dt = dt_previous_of(block);  // time between the poses of the two forces
   const double bent = numerov_weights(schedule.dt(), dt).bent(schedule.dt());
   for (int row = 0; row < block.rows; ++row) force.lambda[row] -= bent * block.rate_change[row];
   for (int row = 0; row < block.rows; ++row) {
-    if (dt == 0.0) {  // those that the run begins with
+    if (dt == 0.0) {  // initial forces of the run
       force.rate[row] = block.rate[row];
       force.rate_change[row] = block.rate_change[row];
       continue;

@@ -6,14 +6,15 @@
 
 namespace substep {
 
-/// What a joint exerts on its body a, world axes. Body b gets the opposite, at the same point.
+/// Force of a joint on its body a, world axes. Body b receives the opposite force at the same
+/// point.
 struct JointForce {
   Vec3 force = Vec3::Zero();   // acts at the anchor on a [N]
-  Vec3 torque = Vec3::Zero();  // about that anchor: of a hinge's angular rows [N m]
-  bool known = false;          // false where the last sub-step did not solve for it: bodies asleep
+  Vec3 torque = Vec3::Zero();  // about that anchor, from a hinge's angular rows [N m]
+  bool known = false;          // false if the last sub-step did not solve for it (sleeping bodies)
 };
 
-/// A contact point and the force in it, world axes.
+/// A contact point and its force, world axes.
 struct ContactForce {
   int a = -1;                  // index into Scene::bodies
   int b = -1;                  // index into Scene::bodies
@@ -23,7 +24,7 @@ struct ContactForce {
   double gap = 0.0;            // [m]
 };
 
-/// What the constraints did in the last sub-step: the mean over it, of rows at its start.
+/// Constraint forces of the last sub-step: means over it, along the rows at its start.
 struct ConstraintForces {
   std::vector<JointForce> joints;  // as in Scene::joints; empty before the first sub-step
   std::vector<ContactForce> contacts;

@@ -1,6 +1,5 @@
-// Störmer's method goes by how accelerations change, Numerov's by how forces do. Before the first
-// sub-step there is none to go by: they are found at trial poses, a sub-step before the start and
-// one after it.
+// Störmer's method needs the change of accelerations, Numerov's the change of forces. Before the
+// first sub-step they are computed from trial poses one sub-step before and after the start.
 
 #include <algorithm>
 
@@ -13,7 +12,7 @@
 namespace substep {
 
 namespace {
-constexpr int kSolves = 5;  // at poses beside the start, which a sub-step begins with
+constexpr int kSolves = 5;  // at trial poses around the start
 }
 
 bool Simulator::Impl::needs_first_changes() const {
@@ -23,8 +22,8 @@ bool Simulator::Impl::needs_first_changes() const {
                       [&](int i) { return state.dt_previous_of(index(i)) > 0.0; });
 }
 
-// What is even in time of the trial velocities' errors drops out of the difference, but not of the
-// second one; a second pass with the first one's changes is of third order.
+// Errors of the trial velocities that are even in time cancel in the first difference, but not in
+// the second; a second pass with the changes of the first is third order.
 void Simulator::Impl::find_first_changes(double dt) {
   const std::size_t n = state.u.size();
   const Accelerations none{std::vector<Vec6>(n, Vec6::Zero()), {}, {}};
@@ -57,7 +56,7 @@ void Simulator::Impl::find_first_changes(double dt) {
   }
 }
 
-// Forces of a joint as a sub-step before the first would have left them.
+// Forces of a joint as if stored by a sub-step before the first.
 void Simulator::Impl::store_first_rates(double dt, const Accelerations& before,
                                         const Accelerations& at_start, const Accelerations& after) {
   state.acceleration.resize(state.u.size(), Vec6::Zero());
@@ -86,8 +85,8 @@ void Simulator::Impl::store_first_rates(double dt, const Accelerations& before,
   blocks.keep(first_block);
 }
 
-// J a = -phi'' at the poses and velocities that accelerations `a` and their rate of change lead to
-// in the time s.
+// Solves J a = -phi'' at the poses and velocities extrapolated by time s with accelerations `a` and
+// their rate.
 void Simulator::Impl::find_accelerations(double dt, double s, std::span<const Vec6> a,
                                          std::span<const Vec6> rate, Solver& linear,
                                          Accelerations& out) {
@@ -127,7 +126,7 @@ void Simulator::Impl::find_accelerations(double dt, double s, std::span<const Ve
   for (const Block& block : rows()) apply_impulse(block, block.given, inverse_mass, out.a);
   System system{rows(), inverse_mass, out.a, free, 1.0, R_WB, scene->regularisation, {}};
   system.limits = limits_of_solve(progress(*open), settings, budget);
-  system.limits.work /= kSolves;  // where that is too little so is it for the sub-step
+  system.limits.work /= kSolves;  // if this is too little, it is for the sub-step too
   if (linear.solve(system, settings).status == SolveStatus::kOverLimits) out.a = free;
   out.lambda.clear();
   for (const Block& block : rows()) {

@@ -1,4 +1,4 @@
-// Everything around the sub-steps of a frame.
+// The start and end of a frame, and the probe.
 
 #include <algorithm>
 #include <limits>
@@ -43,17 +43,17 @@ RowCounts Simulator::Impl::count_rows(std::span<const Block> of) {
 
 bool Simulator::Impl::probe_due() const {
   const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
-  // Mode stiffness reads more of K than other modes leave behind.
+  // Mode stiffness needs K_resisting, which other modes do not store.
   const bool known = state.stiffness_known && (rules_of(settings.mode).mass != StiffMass::kFull ||
                                                !state.K_resisting.empty());
   return settings.probe && reads_stiffness && !known;
 }
 
-// One solve of a whole frame with the errors zeroed: its forces, not its motion, are kept.
+// One solve over a whole frame with zeroed errors: only the forces are kept.
 void Simulator::Impl::probe(FrameReport& report) {
   const double h = scene->frame;
   const Settings chosen = settings;
-  settings.mode = Mode::kNone;               // Mt = M: there is no k to damp by yet
+  settings.mode = Mode::kNone;               // Mt = M: k is not known yet
   settings.integrator = Integrator::kEuler;  // forces act for the whole of h
   begin_substep(report);
   bool solved = append_rows(report);
@@ -138,7 +138,7 @@ void Simulator::Impl::schedule_islands(FrameReport& report) {
       report.asleep += static_cast<int>(bodies.size());
       return 0;
     }
-    // Those that have no number of their own move together.
+    // Islands without their own number of sub-steps form one part.
     if (!has_islands(settings)) return 1;
     return SubstepClock(settings, scene->frame, r_of(bodies), rotation_bound(bodies).r).left();
   });
@@ -188,8 +188,9 @@ void Simulator::Impl::close(FrameReport& report) {
     report.n_mean =
         static_cast<double>(substeps_of_bodies) / static_cast<double>(all.moving.size());
   }
-  if (report.status != StepStatus::kOk) copy(state.u, state.u_synchronised);  // as near as is known
-  if (report.status == StepStatus::kOk && report.n_substeps == 0) {           // all sleep
+  if (report.status != StepStatus::kOk)
+    copy(state.u, state.u_synchronised);                             // best available approximation
+  if (report.status == StepStatus::kOk && report.n_substeps == 0) {  // all bodies sleep
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;
   } else if (report.status == StepStatus::kOk) {
@@ -198,13 +199,13 @@ void Simulator::Impl::close(FrameReport& report) {
     std::swap(state.forces, forces);
     state.r = schedule.r();
     state.stiffness_known = report.stages.stiffness;
-    if (!state.stiffness_known) {  // an old K must not be taken for this frame's
+    if (!state.stiffness_known) {  // discard an outdated K
       state.k.clear();
       state.K_resisting.clear();
       state.r = 0.0;
     }
     ++state.frame;
-    state.time = static_cast<double>(state.frame) * scene->frame;  // no sum of rounded sub-steps
+    state.time = static_cast<double>(state.frame) * scene->frame;  // avoids accumulated rounding
   }
   report.stages.joints = joints != nullptr;
   report.stages.contact = contact != nullptr;

@@ -1,4 +1,4 @@
-// Impacts that pass from body to body within a sub-step.
+// Propagation of impacts between bodies within a sub-step.
 
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
@@ -8,8 +8,8 @@ namespace substep {
 
 namespace {
 
-// Impacts among many bodies can go on for ever, ever more slowly. What is left after these rebounds
-// at once, as an impact alone does.
+// Impacts among many bodies can continue indefinitely at decreasing speed. After this many passes
+// the rest is resolved at once, as a single impact.
 constexpr int kMostImpacts = 200;
 
 SolverKind impact_solver(SolverKind chosen) {
@@ -18,18 +18,18 @@ SolverKind impact_solver(SolverKind chosen) {
 
 }  // namespace
 
-// Newton's law of restitution looks at speeds before the impact. Where an impact sets a body
-// against another one that it touches, nothing of that is known before: a ball that strikes a row
-// of balls would carry the whole row away, and lose most of its energy. So impacts follow one
-// another in the sub-step, all that are due at once, without forces, until none is left: that loses
-// nothing where e = 1, and keeps what is symmetric so (Smith et al., Reflections on simultaneous
-// impact, 2012).
+// Newton's restitution law uses speeds before the impact. It cannot propagate an impact through
+// touching bodies: a ball striking a row of balls would carry the whole row along and lose most of
+// its energy. Impacts are therefore resolved in passes within the sub-step, all pending ones
+// simultaneously and without forces, until none is left. This conserves energy for e = 1 and
+// preserves symmetry (Smith et al., Reflections on simultaneous impact, 2012).
 bool Simulator::Impl::propagate_impacts(double dt, FrameReport& report) {
   const std::span<Block> own = rows();
   if (!restitution->spreads(*scene, u_before, dt, own)) return true;
   if (!impacts) impacts = make_solver(impact_solver(settings.solver));
   std::span<const InverseMass> masses = inverse_mass;
-  if (changes_mass(settings.mode)) {  // no time passes: nothing is damped or resists turning
+  if (changes_mass(
+          settings.mode)) {  // an impact is instantaneous: no damping or geometric stiffness
     rigid_mass.resize(inverse_mass.size());
     substep::inverse_mass(inertia_inverse, part(), R_WB, rigid_mass);
     masses = rigid_mass;

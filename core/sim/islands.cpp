@@ -8,7 +8,7 @@ namespace substep {
 
 namespace {
 
-constexpr std::size_t kUsualParts = 8;  // more are made when they are needed
+constexpr std::size_t kUsualParts = 8;  // more are added on demand
 
 }  // namespace
 
@@ -36,7 +36,7 @@ void Islands::add_part(const Scene& scene) {
 int Islands::root(int body) {
   while (parent_[index(body)] != body) {
     int& parent = parent_[index(body)];
-    parent = parent_[index(parent)];  // half the way for the next one
+    parent = parent_[index(parent)];  // path halving
     body = parent;
   }
   return body;
@@ -91,7 +91,7 @@ void Islands::list(const Scene& scene) {
   for (int i = 0; i < static_cast<int>(parent_.size()); ++i) {
     const bool moves = !scene.bodies[index(i)].is_static;
     if (moves && root(i) == i) first_.push_back(0);
-    // The first body of an island comes before its others.
+    // The root precedes all other bodies of its island.
     island_[index(i)] = !moves ? -1 : root(i) == i ? count() - 1 : island_[index(root(i))];
     if (moves) ++first_[index(island_[index(i)]) + 1];
   }
@@ -100,7 +100,7 @@ void Islands::list(const Scene& scene) {
   for (int i = static_cast<int>(parent_.size()); i-- > 0;) {
     if (island_[index(i)] >= 0) bodies_[index(--first_[index(island_[index(i)]) + 1])] = i;
   }
-  // Each end has become a beginning, one place too far on.
+  // Offsets are now shifted by one place.
   std::rotate(first_.begin(), first_.begin() + 1, first_.end());
   first_.back() = static_cast<int>(bodies_.size());
 }
@@ -114,7 +114,7 @@ void Islands::make_parts(const Scene& scene) {
   levels_.assign(n_.begin(), n_.end());
   std::sort(levels_.begin(), levels_.end(), std::greater<>());
   levels_.erase(std::unique(levels_.begin(), levels_.end()), levels_.end());
-  if (!levels_.empty() && levels_.back() == 0) levels_.pop_back();  // these stand still
+  if (!levels_.empty() && levels_.back() == 0) levels_.pop_back();  // islands at rest
   while (parts_.size() < levels_.size()) add_part(scene);
   const auto n_of = [&](int body) { return n_[index(island_[index(body)])]; };
   const auto part_of = [&](int body) -> Part& {

@@ -10,57 +10,55 @@
 
 namespace substep {
 
-/// Moving bodies that joints connect, or contacts that may come within a frame. Static bodies
-/// connect nothing. Islands cannot interact within a frame, so each may take
-/// sub-steps of its own.
+/// Groups of moving bodies connected by joints, or by contacts that may form within a frame. Static
+/// bodies connect nothing. Islands cannot interact within a frame, so each may have its own
+/// sub-steps.
 ///
-/// A body may go as far in the frame as the fastest of its island, which is where an impact can
-/// pass its speed on to it. What strikes harder (light bodies, thrown ahead by heavy ones, and
-/// whips) is found a frame late.
+/// The travel bound of a body is that of the fastest body in its island, since impacts can transfer
+/// that speed. Faster motion (light bodies struck by heavy ones, whips) is detected one frame late.
 class Islands {
  public:
   explicit Islands(const Scene& scene);
 
-  /// @param all of the scene  @param ahead length of the frame [s]
-  /// @param detector null where the scene has no contacts
+  /// @param all part with the whole scene  @param ahead length of the frame [s]
+  /// @param detector null if the scene has no contacts
   void find(const Scene& scene, const Part& all, const State& state, std::span<const Mat3> R_WB,
             double ahead, Detector* detector);
 
   [[nodiscard]] int count() const { return static_cast<int>(first_.size()) - 1; }
-  /// The moving bodies of an island, ascending. Islands are numbered by their first bodies.
+  /// The moving bodies of an island, ascending. Islands are ordered by their first bodies.
   [[nodiscard]] std::span<const int> bodies(int island) const;
 
-  /// Puts islands of the same number of sub-steps into one part: what is done once a sub-step is
-  /// then done once for all of them. Where the number is decided again within the frame, it is
-  /// for all of a part.
-  /// @param substeps of an island, from its bodies; 0 where it stands still
+  /// Merges islands with equal numbers of sub-steps into one part, to share the fixed cost of a
+  /// sub-step. If N is re-evaluated within the frame, it applies to the whole part.
+  /// @param substeps number for an island, given its bodies; 0 for an island at rest
   template <class Substeps>
   void split(const Scene& scene, const Substeps& substeps) {
     n_.clear();
     for (int i = 0; i < count(); ++i) n_.push_back(substeps(bodies(i)));
     make_parts(scene);
   }
-  /// Those of split(), of most sub-steps first; as they are until the next one.
+  /// Parts made by split(), most sub-steps first; valid until the next split().
   [[nodiscard]] std::span<const Part> parts() const { return {parts_.data(), levels_.size()}; }
 
  private:
   int root(int body);
-  bool connect(int a, int b);  // whether they were apart
+  bool connect(int a, int b);  // true if they were separate
   void set_ways(const Scene& scene, const State& state, double ahead);
   void list(const Scene& scene);
   void make_parts(const Scene& scene);
   void add_part(const Scene& scene);
 
-  std::vector<int> parent_;    // per body: towards the root of its island, which is its first body
-  std::vector<double> speed_;  // per root: of the fastest point of its bodies [m/s]
-  std::vector<double> way_;    // per body: that its points may go in the frame [m]
-  std::vector<int> island_;    // per body, -1 of a static one
+  std::vector<int> parent_;    // per body: parent towards the root, its island's first body
+  std::vector<double> speed_;  // per root: speed of the fastest point of its bodies [m/s]
+  std::vector<double> way_;    // per body: bound on the travel of its points in the frame [m]
+  std::vector<int> island_;    // per body, -1 if static
   std::vector<int> bodies_;    // island by island
-  std::vector<int> first_;     // per island, into bodies_, and the end
+  std::vector<int> first_;     // per island: offset into bodies_; then the end
 
   std::vector<int> n_;       // per island: sub-steps
-  std::vector<int> levels_;  // the different ones of them, descending
-  std::vector<Part> parts_;  // per level; more, to be used again
+  std::vector<int> levels_;  // distinct values of n_, descending
+  std::vector<Part> parts_;  // one per level; surplus entries are kept for reuse
 };
 
 }  // namespace substep

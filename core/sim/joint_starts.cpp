@@ -37,7 +37,7 @@ double norm(const double* rows, int first, int last) {
   return std::sqrt(square);
 }
 
-/// What the bodies at a joint's two sides have.
+/// Position and speeds of the bodies of a joint.
 struct SideSizes {
   double distance = 0.0;  // of the centres from the origin [m]
   double speed = 0.0;     // of the centres and of the anchors about them [m/s]
@@ -97,7 +97,7 @@ void keep_larger(double& most, int& whose, double value, std::size_t joint) {
 }  // namespace
 
 double size_of_joint(const Scene& scene, const JointBase& joint) {
-  // An anchor in the world is a place, not an arm.
+  // A world anchor is a position, not an arm.
   const double arm_b = joint.b == kWorld ? 0.0 : joint.anchor_b.norm();
   return joint.anchor_a.norm() + arm_b + radius_around(scene.bodies[index(joint.a)].shape);
 }

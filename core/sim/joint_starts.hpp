@@ -1,5 +1,5 @@
 #pragma once
-// How well the joints of a scene agree with poses and velocities.
+// Consistency of a scene's joints with its poses and velocities.
 
 #include <span>
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace substep {
 
-/// Which errors of a start are beyond tolerance.
+/// Initial-state errors that exceed the tolerance.
 struct StartFaults {
   bool gap = false;
   bool tilt = false;
@@ -23,7 +23,7 @@ struct StartFaults {
   [[nodiscard]] bool any() const { return poses() || velocities(); }
 };
 
-/// By how much one joint contradicts a state. Only rows that hold count: see holding_rows().
+/// Errors of one joint in a state. Only rigid rows count: see holding_rows().
 struct JointStart {
   double gap = 0.0;      // distance of the anchors [m]
   double tilt = 0.0;     // angle between the two axes of a hinge [rad]
@@ -32,15 +32,16 @@ struct JointStart {
   StartFaults beyond;    // tolerance
 };
 
-/// All joints of a scene at a state, as in Scene::joints; empty without the effect `joints`.
+/// Errors of all joints of a scene, in the order of Scene::joints; empty without the effect
+/// `joints`.
 ///
 /// Tolerances: a gap of 1e-9 of the joint's size (its arms and the radius of body a), a tilt of
-/// 1e-9 rad, and what rounding leaves far from the origin. Relative velocities of 1e-8 m/s and
-/// 1e-8 rad/s, and 1e-9 of the velocities there: runs that are to differ a little start up to
-/// 1e-9 m/s apart in each component (`--seed`), and must stay apart.
+/// 1e-9 rad, and the rounding error far from the origin. Relative velocities of 1e-8 m/s and 1e-8
+/// rad/s, plus 1e-9 of the local velocities: `--seed` perturbs each velocity component by up to
+/// 1e-9 m/s, and that perturbation must not be projected away.
 std::vector<JointStart> joint_starts(const Scene& scene, const State& state);
 
-/// The largest errors over all joints, and whose they are (index into Scene::joints, -1: none).
+/// The largest errors over all joints, with the joint's index into Scene::joints (-1: none).
 struct StartErrors {
   double gap = 0.0;  // [m]
   int gap_joint = -1;
@@ -56,18 +57,18 @@ struct StartErrors {
 };
 StartErrors start_errors(const Scene& scene, const State& state);
 
-/// Rows of one joint that hold: not those of a spring.
+/// Rows of one joint that act as rigid constraints, not as springs.
 struct HoldingRows {
-  bool anchors = true;  // the three that keep the anchors together
-  bool axes = true;     // the two that keep the axes of a hinge parallel; false of a ball joint
+  bool anchors = true;  // the three rows of the anchors
+  bool axes = true;     // the two rows of a hinge's axes; false for a ball joint
 };
 
-/// Rows with a compliance C that lets their bodies swing more slowly than a frame h resolves,
-/// C >= h^2 J M^-1 J^T in the mean of the rows, are a spring: its stretch belongs to the motion
-/// and is no error of the start. Stiffer ones stand for an exact joint.
+/// Rows act as a spring if a frame h resolves their oscillation, C >= h^2 J M^-1 J^T in the mean of
+/// the rows: the stretch is then part of the motion, not an initial error. Stiffer rows model an
+/// exact joint.
 HoldingRows holding_rows(const Block& block, std::span<const InverseMass> inverse_mass, double h);
 
-/// The length that a joint's gap is compared with: both arms and the radius of body a [m].
+/// Reference length for a joint's gap: both arms plus the radius of body a [m].
 double size_of_joint(const Scene& scene, const JointBase& joint);
 
 }  // namespace substep

@@ -10,7 +10,7 @@ struct Momenta {
   Vec3 angular = Vec3::Zero();  // about the world's origin, world axes [kg m^2/s]
 };
 
-/// Of all moving bodies, from the velocities that belong to the time of the poses.
+/// Momenta of all moving bodies, with velocities synchronised to the poses.
 Momenta momenta_of(const Scene& scene, const State& state);
 
 }  // namespace substep

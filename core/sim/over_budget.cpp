@@ -1,4 +1,4 @@
-// A sub-step that is not taken, since it or its frame would take more than the budget.
+// Rejects a sub-step if it or its frame would exceed the budget.
 
 #include "core/sim/budget.hpp"
 #include "core/sim/simulator_impl.hpp"

@@ -4,10 +4,10 @@
 
 namespace substep {
 
-/// What a simulator was given and did not take, by where it came from: each is cleared when
-/// something valid is given in its place.
+/// Invalid inputs that a simulator rejected, by source. Each list is cleared when a valid input of
+/// the same kind is set.
 struct Refused {
-  Problems scene;  // stays: there is no other
+  Problems scene;  // permanent: the scene cannot be replaced
   Problems state;
   Problems settings;
   Problems grab;

@@ -1,4 +1,4 @@
-// Islands that stand still (setting `sleep`).
+// Sleeping islands (setting `sleep`).
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@ namespace substep {
 
 namespace {
 
-// A body whose points have been slower than this for so long is at rest.
+// A body is at rest if all its points were slower than kRestSpeed for kRestTime.
 constexpr double kRestSpeed = 0.01;  // [m/s]
 constexpr double kRestTime = 0.5;    // [s]
 
@@ -36,7 +36,7 @@ void Simulator::Impl::put_to_rest(std::span<const int> island) {
   }
 }
 
-// What sleeps wakes with the forces that held it.
+// Sleeping bodies keep their forces for waking.
 void Simulator::Impl::keep_forces_at_rest() {
   const auto sleeps = [&](int body) {
     return !scene->bodies[static_cast<std::size_t>(body)].is_static && !schedule.moves(body);

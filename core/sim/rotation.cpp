@@ -1,5 +1,5 @@
-// Bodies whose moments of inertia differ, as they tumble: their angular momentum is what torques
-// change, and how they turn follows from it (math/gyroscopic.hpp, free_turn.hpp).
+// Tumbling of bodies with unequal moments of inertia: torques change their angular momentum, which
+// determines their rotation (math/gyroscopic.hpp, free_turn.hpp).
 
 #include <algorithm>
 
@@ -14,9 +14,9 @@ namespace substep {
 
 namespace {
 
-// Largest turn of a sub-step for which the torque is predicted [rad]. The error of a prediction
-// feeds back into the next torque, in proportion to the turn. For larger turns the torque is taken
-// as zero, which is stable and of first order.
+// Largest rotation per sub-step for which the torque is predicted [rad]. The prediction error feeds
+// back into the next torque, in proportion to the rotation. For larger rotations the torque is
+// taken as zero, which is stable and first order.
 constexpr double kMaxPredictedTurn = 0.2;
 
 bool is_zero(const Vec3& v) { return v.isZero(0.0); }
@@ -52,11 +52,10 @@ void Simulator::Impl::resize_torques() {
 
 // The solver assumes M u+ = M u* + J^T impulse, while the angular momentum p at the start of the
 // sub-step obeys p + J^T impulse = I u+ - dt/2 (I u+) x u+. The gyroscopic term on the right is
-// predicted with the torque of the sub-step before; settle_gyroscopic() then solves for u+ with the
-// exact momentum. The correction is O(dt^3) and violates the joints by as much, which the drift
-// correction removes. No torque is predicted where a mode replaces the mass, where Newton takes its
-// forces at the end of the sub-step, or where the turn is large: these cases are of first order
-// anyway.
+// predicted with the torque of the previous sub-step; settle_gyroscopic() then solves for u+ with
+// the exact momentum. The correction is O(dt^3); the joint error of the same order is removed by
+// the drift correction. No torque is predicted if a mode replaces the mass, if Newton uses forces
+// at the end of the sub-step, or if the rotation is large: these cases are first order anyway.
 void Simulator::Impl::predict_gyroscopic(double dt) {
   resize_torques();
   const bool damps = settings.solver == SolverKind::kNewton && settings.forces == Forces::kEnd;
@@ -87,13 +86,13 @@ void Simulator::Impl::predict_gyroscopic(double dt) {
   }
 }
 
-// A sub-step is solved with the gradients at its start, which leaves dt^2/2 phi'' as an error for
-// the next one. In a plane that is a steady lag along the joint's arm. In space the force acts off
-// the joint by as much, and angular momentum and energy drift. The rows therefore hold at the
-// predicted poses:
+// A sub-step is solved with the gradients at its start, which leaves an error dt^2/2 phi''. In
+// planar motion this is a constant offset along the joint's arm. In 3D the force acts at that
+// offset from the joint, and angular momentum and energy drift. The rows are therefore set up at
+// the predicted poses:
 //   phi + (r_a^ - r_a) - (r_b^ - r_b) + dt (J u+ - J_omega omega^) = 0,
-// and likewise for a hinge. The centres move in straight lines, so they drop out. Impacts cannot be
-// predicted: in scenes with contacts joints keep to Eq. 3.
+// and likewise for a hinge. Centres move linearly and drop out. Impacts cannot be predicted: in
+// scenes with contacts joints use plain Eq. 3.
 bool Simulator::Impl::bends_rows() const {
   const bool looks_ahead = settings.solver == SolverKind::kNewton ||
                            settings.solver == SolverKind::kXpbd || follows_accelerations(settings);
@@ -101,9 +100,9 @@ bool Simulator::Impl::bends_rows() const {
          !contact && settings.drift_order == 1 && !looks_ahead;
 }
 
-// Around a loop either all rows are bent or none: rows of a mechanism that has more of them than it
-// needs contradict each other where some see the turn and some do not, by dt/2 phi''. Then bodies
-// about a principal axis are predicted like the others.
+// In a loop either all rows are bent or none: in an overconstrained mechanism, bent and unbent rows
+// contradict each other by dt/2 phi''. Bodies rotating about a principal axis are then predicted
+// like the others.
 bool Simulator::Impl::closes_loops() {
   const auto joined = std::count_if(rows().begin(), rows().end(), [](const Block& block) {
     return !block.is_contact() && !is_grab(block);
@@ -145,8 +144,8 @@ void Simulator::Impl::bend_rows(double dt) {
   }
 }
 
-// Both bodies feel the force at one point, that of what stands still or the one halfway, however
-// far the anchors are apart: then angular momentum is conserved to rounding.
+// The force acts on both bodies at one point, the static anchor or the midpoint, whatever the gap:
+// angular momentum is then conserved to rounding.
 void Simulator::Impl::meet(Block& block) {
   const Vec3 gap{block.phi[0], block.phi[1], block.phi[2]};
   if (block.a >= 0) block.r_a -= (block.b >= 0 ? 0.5 : 1.0) * gap;
@@ -167,18 +166,18 @@ void Simulator::Impl::settle_gyroscopic(double dt) {
     if (spin.damped) continue;
     const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.predicted);
     if (turns_freely && !loops_bend) continue;
-    // From the momentum that it had: turned to and fro it would lose a digit every thousand steps.
+    // From the stored momentum: rotating it back and forth would lose a digit every thousand steps.
     const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - u_before[i].tail<3>()));
     if (smooth) {
       state.torque[i] = R * (1.0 / impulse_time[i] * pushed);
     }
     const Vec3 settled = R * velocity_of_momentum(I, spin.momentum + pushed, dt, omega_B);
-    u_before[i].tail<3>() += settled - omega;  // what it gained stays what pushed it
+    u_before[i].tail<3>() += settled - omega;  // keeps the impulse unchanged
     omega = settled;
   }
 }
 
-// Sub-steps of fourth order solve for the momentum l: of what tumbles u is I^-1 l until
+// Fourth-order sub-steps solve for the momentum l: u of tumbling bodies is I^-1 l until
 // settle_momentum().
 void Simulator::Impl::carry_momentum(double dt) {
   resize_torques();
@@ -223,15 +222,15 @@ Vec3 Simulator::Impl::momentum_of(std::size_t body, const Vec6& u) const {
   return R * scene->bodies[body].inertia.cwiseProduct(R.transpose() * u.tail<3>());
 }
 
-// By the momentum l, and torques that change from the one before on, by way of this one.
-// @return angular velocity that integrate() turns by [rad/s]
+// Rotation from the momentum l and the linearly changing torque. @return angular velocity for
+// integrate() [rad/s]
 Vec3 Simulator::Impl::turn_velocity(std::size_t body, const Vec3& l, const Vec3& torque,
                                     double dt) const {
   const Vec3& I = scene->bodies[body].inertia;
   const Mat3& R = R_WB[body];
-  Vec3 change = Vec3::Zero();  // in a sub-step of dt
+  Vec3 change = Vec3::Zero();  // per sub-step dt
   Vec3 bent = Vec3::Zero();
-  if (!state.acceleration[body].isZero(0.0)) {  // else changes are not known
+  if (!state.acceleration[body].isZero(0.0)) {  // else the change is unknown
     const double growth = stormer_growth(dt, impulse_time[body]);
     const Vec3 now = growth * (torque - state.torque[body]);
     const Vec3 before = growth * state.torque_change[body];

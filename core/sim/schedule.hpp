@@ -7,27 +7,27 @@
 
 namespace substep {
 
-/// The sub-steps of a frame: one part of the scene after the other, each by a clock of its own.
+/// The sub-steps of a frame: the parts of the scene in turn, each with its own clock.
 class Schedule {
  public:
   Schedule() { turns_.reserve(16); }
   void clear();
-  /// @param part outlives the frame
+  /// @param part must outlive the frame
   void add(const Part& part, const SubstepClock& clock);
 
   [[nodiscard]] bool running() const { return at_ < turns_.size(); }
-  // Of the sub-step to come, while running.
+  // Properties of the next sub-step; valid while running().
   [[nodiscard]] const Part& part() const { return *turns_[at_].part; }
   [[nodiscard]] double dt() const { return turns_[at_].clock.dt(); }  ///< [s]
   [[nodiscard]] bool first_of_part() const { return turns_[at_].clock.taken() == 0; }
   [[nodiscard]] int number() const { return turns_[at_].clock.taken() + 1; }  ///< 1 is the first
   [[nodiscard]] bool last_of_part() const { return turns_[at_].clock.left() == 1; }
   [[nodiscard]] bool needs_stiffness() const { return turns_[at_].clock.needs_stiffness(); }
-  /// Advances to the next sub-step. @param r, r_rotation of this one, where they are needed [1/s^2]
+  /// Advances to the next sub-step. @param r, r_rotation of the current one, if needed [1/s^2]
   void advance(double r, double r_rotation);
 
-  [[nodiscard]] int left() const;  ///< sub-steps of the frame to come, as decided so far
-  // Of all parts.
+  [[nodiscard]] int left() const;  ///< remaining sub-steps of the frame, as currently planned
+  // Over all parts.
   [[nodiscard]] bool moves(int body) const;
   [[nodiscard]] double r() const;  ///< the largest [1/s^2]
   [[nodiscard]] int n_wanted() const;

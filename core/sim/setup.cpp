@@ -1,4 +1,4 @@
-// Building a simulator, and what others may ask of it.
+// Construction and queries of a simulator.
 
 #include <algorithm>
 #include <utility>
@@ -39,7 +39,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
     if (!body.is_static) heaviest = std::max({heaviest, body.mass, body.inertia.maxCoeff()});
   }
 
-  // Room for the contacts to come, and a hand: a sub-step must not allocate when bodies touch.
+  // Reserves memory for contacts and a grab: a sub-step must not allocate when bodies touch.
   const std::size_t n = scene->bodies.size();
   const std::size_t n_blocks = (joints ? scene->joints.size() : 0) + (contact ? 4 * n + 16 : 0) + 1;
   blocks.reserve(n_blocks);
@@ -73,7 +73,7 @@ FrameReport Simulator::observe() const {
   report.failed_body = impl_->stopped.failed_body;
   report.overrun = impl_->stopped.overrun;
   if (impl_->refused.any()) report.status = StepStatus::kInvalid;
-  // With memory of its own: others may ask at the same time.
+  // With its own scratch memory: concurrent const calls are safe.
   std::vector<Mat3> axes;
   for (const Quat& q : impl_->state.q) axes.push_back(q.toRotationMatrix());
   std::optional<Detector> detector;
@@ -96,7 +96,7 @@ void Simulator::set_state(State state) {
   if (!impl_->refused.state.empty()) return;
   impl_->refused.grab.clear();
   impl_->state = std::move(state);
-  impl_->state.forces.reserve(impl_->blocks.capacity());  // a frame to come must not allocate
+  impl_->state.forces.reserve(impl_->blocks.capacity());  // later frames must not allocate
   impl_->state.k.reserve(impl_->state.x.size());
   impl_->grab.reset();
   impl_->blocks.clear();
@@ -120,7 +120,7 @@ ConstraintForces Simulator::constraint_forces() const {
       Vec3 force = lambda[0] * block.n;
       if (block.rows == 3) force += lambda[1] * block.t1 + lambda[2] * block.t2;
       out.contacts.push_back({block.body_a, block.body_b, block.r_a, block.n, force, block.phi[0]});
-    } else if (block.id < impl_->scene->joints.size()) {  // and not the hand
+    } else if (block.id < impl_->scene->joints.size()) {  // not the grab
       out.joints.resize(impl_->scene->joints.size());
       JointForce& force = out.joints[static_cast<std::size_t>(block.id)];
       force.known = true;
@@ -154,7 +154,8 @@ void Simulator::set_settings(const Settings& settings) {
   const bool other_solver = settings.solver != impl_->settings.solver;
   Settings only_watched = impl_->settings;
   only_watched.watch_stiffness = settings.watch_stiffness;
-  if (settings != only_watched) impl_->state.rest.clear();  // what rests may not rest with them
+  if (settings != only_watched)
+    impl_->state.rest.clear();  // bodies at rest may move under new settings
   impl_->settings = settings;
   if (!other_solver) return;
   impl_->solver = make_solver(settings.solver);

@@ -4,7 +4,7 @@
 
 namespace substep {
 
-// Giles and Andrews 2024, Algorithm 1: a whole frame, or as much of one as is asked for.
+// Giles and Andrews 2024, Algorithm 1: a whole frame, or the requested share.
 FrameReport Simulator::Impl::advance(Share share) {
   if (refused.any()) return refusal();
   if (stopped.status != StepStatus::kOk) return stopped;
@@ -21,11 +21,11 @@ FrameReport Simulator::Impl::advance(Share share) {
     external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
     if (!solve(dt, report)) break;    // dt lambda, u+                                    Eq. 3
     if (!finite(report)) break;
-    // K, k, r, with the arms that lambda belongs to                                  Eqs. 1, 4, 9
+    // K, k, r, with the arms matching lambda                                  Eqs. 1, 4, 9
     if (schedule.needs_stiffness() && !evaluate_stiffness(report)) break;
     advance_poses(dt, report);
     spent += static_cast<double>(report.work.flops - before) + work_beside_solver(progress(report));
-    schedule.advance(bound.r, r_rotation_again());  // per sub-step: decide again
+    schedule.advance(bound.r, r_rotation_again());  // re-evaluates N with policy substep
   }
   return end(wall, share.whole());
 }

@@ -14,63 +14,62 @@
 
 namespace substep {
 
-/// Steps one scene. Scene is const, State is a value, Settings may change between any two frames.
+/// Steps one scene. Scene is const, State is a value, Settings may change between frames.
 ///
-/// What it is given is checked (model/validate.hpp). What is invalid is not taken: the simulator
-/// stays as it was, step() and substep() do nothing and return kInvalid, and problems() says why,
-/// until something valid is given in its place.
+/// All inputs are checked (model/validate.hpp). Invalid input is rejected and leaves the simulator
+/// unchanged: step() and substep() do nothing and return kInvalid, and problems() holds the reason,
+/// until a valid input replaces it.
 class Simulator {
  public:
-  /// @param scene where it is null or fails check_values(), scene() is an empty one
+  /// @param scene if it is null or fails check_values(), scene() is empty
   explicit Simulator(std::shared_ptr<const Scene> scene);
   ~Simulator();
   Simulator(Simulator&&) noexcept;
   Simulator& operator=(Simulator&&) noexcept;
 
-  /// One displayed frame of length scene().frame: Algorithm 1 of the paper; what is left of it
-  /// where substep() began one. Never throws. After a status other than kOk the state is that of
-  /// the last finite sub-step and further calls do nothing.
+  /// One displayed frame of length scene().frame: Algorithm 1 of the paper. Completes a frame begun
+  /// by substep(). Never throws. After a status other than kOk the state is that of the last finite
+  /// sub-step and further calls do nothing.
   FrameReport step();
-  /// One sub-step. The state between two sub-steps of a frame is to look at, not to keep: only from
-  /// frame to frame is it a snapshot. @return of the frame so far; complete where none is left
+  /// One sub-step. The state between two sub-steps of a frame is for display only: snapshots are
+  /// valid only between frames. @return report of the frame so far; complete after the last
+  /// sub-step
   FrameReport substep();
-  /// A part of a frame, for callers that must stay responsive: sub-steps until they have taken so
-  /// much, at least one. The bits are those of step(). The report of an incomplete frame has its
-  /// work and status alone, and its state is not one to look at. @param work [operations]
+  /// Part of a frame, for callers that must stay responsive: takes at least one sub-step, and stops
+  /// once `work` is spent. The result is bitwise equal to step(). The report of an incomplete frame
+  /// holds only work and status, and its state must not be displayed. @param work [operations]
   FrameReport step_some(double work);
-  /// Sub-steps that the frame begun by either still has, as decided so far; 0 between frames.
+  /// Remaining sub-steps of a frame begun by either, as currently planned; 0 between frames.
   [[nodiscard]] int substeps_left() const;
 
-  /// What was given and refused; empty where all is well.
+  /// Problems of all rejected inputs; empty if there are none.
   [[nodiscard]] Problems problems() const;
 
-  /// What a frame may take. Past it a frame stops with kOverBudget, before the sub-step that would
-  /// take more: FrameReport::overrun names the cause.
+  /// Limits of a frame. A frame stops with kOverBudget before the sub-step that would exceed them;
+  /// FrameReport::overrun holds the cause.
   void set_budget(const Budget& budget);
   [[nodiscard]] const Budget& budget() const;
 
-  /// What the reports of frames measure: everything by default. Nothing of it changes
-  /// the motion.
+  /// Selects the measurements in frame reports (default: all). They do not affect the motion.
   void set_measures(const Measures& measures);
 
-  /// Energies and errors of the current state, without stepping. Rows and work are a frame's: 0
-  /// here.
+  /// Energies and errors of the current state, without stepping. Rows and work are 0.
   [[nodiscard]] FrameReport observe() const;
 
-  /// Back to the start. Settings stay.
+  /// Restores the initial state. Settings are kept.
   void reset();
-  /// What was found at the scene's start, and done about it by Scene::start.
+  /// Errors found in the initial state, and their treatment by Scene::start.
   [[nodiscard]] const StartReport& start() const;
 
   [[nodiscard]] const Scene& scene() const;
   [[nodiscard]] const State& state() const;
-  /// Goes on from a snapshot of the same scene; lets go of what was grabbed.
+  /// Continues from a snapshot of the same scene; releases any grab.
   void set_state(State state);
-  /// A hand on a body that moves, or none. Acts from the next sub-step on, and is in K as any joint
-  /// is.
+  /// Sets or clears a grab on a moving body. It acts from the next sub-step and contributes to K
+  /// like any joint.
   void set_grab(const std::optional<Grab>& grab);
   [[nodiscard]] const std::optional<Grab>& grab() const;
-  /// Of the last sub-step; empty where the state was set and none has been taken since.
+  /// Forces of the last sub-step; empty if no sub-step was taken since set_state().
   [[nodiscard]] ConstraintForces constraint_forces() const;
 
   [[nodiscard]] const Settings& settings() const;

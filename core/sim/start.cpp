@@ -9,8 +9,8 @@
 namespace substep {
 namespace {
 
-/// @param poses whether they are to be moved as well
-/// The state is spoilt where it fails.
+/// @param poses true to correct poses as well
+/// On failure the state is invalid.
 Projection project(const Scene& scene, bool poses, State& state) {
   const Projection closed = poses ? close_joints(scene, state) : Projection::kDone;
   return closed == Projection::kDone ? match_velocities(scene, state) : closed;
@@ -58,7 +58,7 @@ std::shared_ptr<const Scene> with_start_of_run(std::shared_ptr<const Scene> scen
     body.velocity = start.state.u[i].head<3>();
     body.angular_velocity = start.state.u[i].tail<3>();
   }
-  if (!check_values(begun).empty()) return scene;  // velocities past what a scene may have
+  if (!check_values(begun).empty()) return scene;  // velocities beyond the scene's limits
   return std::make_shared<const Scene>(std::move(begun));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a run begins with: the scene's start, or the nearest one that its joints allow.
+// The initial state of a run: the scene's own, or the nearest one consistent with its joints.
 
 #include <memory>
 
@@ -9,16 +9,16 @@
 
 namespace substep {
 
-/// What was found at a scene's start, and done about it.
+/// Errors of a scene's initial state, and their treatment.
 struct StartReport {
-  StartErrors found;          // of the scene as it stands
-  StartErrors left;           // of the state that the run begins with
+  StartErrors found;          // in the initial state of the scene
+  StartErrors left;           // in the initial state of the run
   bool continued = false;     // the scene continues a saved run: its errors are not corrected
   bool projected = false;     // poses or velocities were changed
-  bool failed = false;        // no near start agrees with the joints: kept as it stands
-  bool too_large = false;     // and that is since finding one would take too much memory or work
-  double energy_found = 0.0;  // kinetic and potential, of the scene as it stands [J]
-  double energy_begun = 0.0;  // of the state that the run begins with [J]
+  bool failed = false;        // no consistent state was found nearby: left unchanged
+  bool too_large = false;     // failed because the projection would need too much memory or work
+  double energy_found = 0.0;  // kinetic and potential, of the scene's own initial state [J]
+  double energy_begun = 0.0;  // of the initial state of the run [J]
 };
 
 struct Start {
@@ -26,13 +26,13 @@ struct Start {
   StartReport report;
 };
 
-/// The state that a run of the scene begins with, by Scene::start. A start within tolerance
-/// (joint_starts.hpp), and a scene that continues a saved run, is initial_state() bit for bit.
-/// A scene in memory that is to be refused is kept: refusing is the reader's.
+/// The initial state of a run of the scene, by Scene::start. If the errors are within tolerance
+/// (joint_starts.hpp), or the scene continues a saved run, it equals initial_state() bit for bit.
+/// StartPolicy::kRefuse acts as kKeep here: only the scene reader refuses.
 Start start_of_run(const Scene& scene);
 
-/// The scene with the poses and velocities of start_of_run(), for what reads them in its bodies:
-/// itself where nothing is projected.
+/// The scene with its bodies at the poses and velocities of start_of_run(); the same scene if
+/// nothing is projected.
 std::shared_ptr<const Scene> with_start_of_run(std::shared_ptr<const Scene> scene);
 
 }  // namespace substep

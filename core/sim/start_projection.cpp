@@ -16,8 +16,8 @@ namespace substep {
 namespace {
 
 constexpr double kClosed = 1e-13;  // error, of the joint's size or in rad, that ends an iteration
-// Softness of a joint's anchors where only its axes hold, of 1/m: next to no impulse, and no digits
-// lost [-].
+// Softness of a joint's anchors if only its axes are rigid, relative to 1/m: negligible impulse
+// without loss of precision [-].
 constexpr double kFree = 1e8;
 constexpr double kMostMemory = 64.0 * kMebibyte;  // of a factor [bytes]
 constexpr double kMostWork = 5e8;                 // of a start [floating-point operations]
@@ -40,7 +40,7 @@ class StartRows {
     solver_.reserve(scene.bodies.size(), scene.joints.size());
   }
 
-  /// At the poses of the state. What is a spring there stays one.
+  /// Recomputes the rows at the current poses. The first call classifies spring rows.
   void update() {
     for (std::size_t i = 0; i < R_WB_.size(); ++i) R_WB_[i] = state_.q[i].toRotationMatrix();
     inverse_mass(own_, all_, R_WB_, inverse_mass_);
@@ -52,7 +52,7 @@ class StartRows {
     }
   }
 
-  /// Largest error of a row that holds: a gap as a share of the joint's size, or a tilt [-, rad].
+  /// Largest error of a rigid row: a gap relative to the joint's size, or a tilt [-, rad].
   [[nodiscard]] double error() const {
     double most = 0.0;
     for_holding([&](const Block& block, int row, double size) {
@@ -62,7 +62,7 @@ class StartRows {
     return most;
   }
 
-  /// Largest J u of a row that holds, of velocities u [m/s, rad/s].
+  /// Largest J u of a rigid row [m/s, rad/s].
   [[nodiscard]] double error_of(std::span<const Vec6> u) const {
     double most = 0.0;
     double speeds[kMaxRows];
@@ -74,8 +74,8 @@ class StartRows {
     return most;
   }
 
-  /// u := the nearest to u, in the norm of the masses, with J u = -share * phi.
-  /// @return false where that would take more than a start may; then u is of no use
+  /// Projects u in the mass norm onto J u = -share * phi. @return false if that would exceed the
+  /// limits of a start; then u is invalid
   bool solve(double share, std::vector<Vec6>& u) {
     held_.clear();
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -101,10 +101,11 @@ class StartRows {
     return !over_limits_;
   }
 
-  /// Whether a solve was refused.
+  /// True if a solve was rejected.
   [[nodiscard]] bool over_limits() const { return over_limits_; }
 
-  /// Moves the bodies: along, then about the world's axes by the Cayley map, as sub-steps do.
+  /// Moves the bodies: translation, and rotation about world axes by the Cayley map, as in
+  /// sub-steps.
   void move(std::span<const Vec6> by) {
     for (const int body : all_.moving) {
       const std::size_t i = index(body);
@@ -137,12 +138,12 @@ class StartRows {
   std::vector<HoldingRows> holds_;
   Blocks blocks_;
   std::vector<Block> held_;  // without the rows of springs
-  double work_ = 0.0;        // of all solves so far [floating-point operations]
+  double work_ = 0.0;        // total of all solves [floating-point operations]
   bool over_limits_ = false;
   Bpp solver_;
 };
 
-/// Largest entry; NaN where one is.
+/// Largest entry; NaN if any entry is NaN.
 double largest(std::span<const Vec6> moves) {
   double most = 0.0;
   for (const Vec6& move : moves) {
@@ -152,8 +153,8 @@ double largest(std::span<const Vec6> moves) {
   return most;
 }
 
-/// Newton's method onto the joints, each step the least one. A step that makes matters worse is
-/// taken in part. @return whether they are closed as far as rounding lets them
+/// Newton's method on the joint errors with minimum-norm steps. Steps that increase the error are
+/// shortened. @return true if the joints are closed to rounding
 bool onto_joints(StartRows& rows, State& state) {
   std::vector<Vec6> step(state.x.size());
   rows.update();
@@ -172,7 +173,7 @@ bool onto_joints(StartRows& rows, State& state) {
       next = rows.error();
       share *= 0.5;
     } while (!(next < error) && share > 0.02);
-    if (!(next < error)) {  // rounding is all that is left, or there is no way down
+    if (!(next < error)) {  // at rounding level, or no descent
       state = before;
       rows.update();
       break;
@@ -182,8 +183,8 @@ bool onto_joints(StartRows& rows, State& state) {
   return std::isfinite(error);
 }
 
-/// How far each body is from where it started: along, and its rotation by twice the Cayley vector,
-/// as move() takes it: no function beyond sqrt, so that every build finds the same start [m, rad].
+/// Displacement of each body from its start: translation, and rotation as twice the Cayley vector,
+/// as in move(). It needs only sqrt, so every build computes the same start [m, rad].
 void moves_from(const State& start, const State& state, std::span<Vec6> moved) {
   for (std::size_t i = 0; i < moved.size(); ++i) {
     const Quat turn = state.q[i] * start.q[i].conjugate();
@@ -192,8 +193,8 @@ void moves_from(const State& start, const State& state, std::span<Vec6> moved) {
   }
 }
 
-/// Slides along the joints to where what is left of the move is all along J^T: the least change.
-/// Each step goes to the nearest point, to the start, of the joints as they are linear here.
+/// Slides along the constraint manifold until the displacement is along J^T: the smallest change.
+/// Each step goes to the point of the linearised constraints nearest to the start.
 void to_least_change(StartRows& rows, const State& start, State& state) {
   std::vector<Vec6> moved(state.x.size());
   std::vector<Vec6> step(state.x.size());
@@ -203,7 +204,7 @@ void to_least_change(StartRows& rows, const State& start, State& state) {
     for (std::size_t k = 0; k < step.size(); ++k) step[k] = -moved[k];
     if (!rows.solve(1.0, step)) return;
     const double size = largest(step);
-    // Where the joints curve too much for it the steps do not shrink: what is there will do.
+    // With strongly curved constraints the steps do not shrink; the current state is accepted.
     if (!(size < 0.9 * last)) return;
     const State before = state;
     rows.move(step);

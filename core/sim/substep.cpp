@@ -114,8 +114,8 @@ void Simulator::Impl::external_forces(double dt, FrameReport& report) {
   clock.lap(report.times.mass);
 }
 
-// An impact is not an acceleration that continues. A spring that is resolved gives none; but how
-// accelerations change is not known across the time when it begins or ends to push.
+// Accelerations are not extrapolated across an impact. A resolved spring causes no impact, but the
+// change of acceleration is unknown when its contact opens or closes.
 bool Simulator::Impl::breaks_motion(const Block& touching) const {
   const bool closed = touching.impulse[0] > 0.0;
   if (follows_accelerations(settings) && touching.spring_ahead[0] > 0.0) {
@@ -208,13 +208,13 @@ void Simulator::Impl::count_work(const SolveReport& solved, FrameReport& report)
   if (solved.status == SolveStatus::kUnsettled) ++work.unsettled;
 }
 
-// Velocities have their kinetic energy within the range of numbers, which ends long before theirs.
+// Checks the kinetic energy, which overflows long before the velocities.
 bool Simulator::Impl::finite(FrameReport& report) {
   const Part& moved = part();
   double squares = 0.0;
   for (const int body : moved.bodies)  // static bodies are checked too
     squares += state.u[static_cast<std::size_t>(body)].squaredNorm();
-  if (!std::isfinite(heaviest * squares)) {  // then it may be one that is too fast
+  if (!std::isfinite(heaviest * squares)) {  // then look for a body that is too fast
     double sum = 0.0;
     for (const int body : moved.bodies) {
       const auto i = static_cast<std::size_t>(body);
@@ -243,7 +243,7 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
                                  ? ContactTerms::kExact
                                  : ContactTerms::kPaper;
   stiffness->evaluate(rows(), terms, part(), R_WB, state.k);
-  if (full) {  // bodies that do not move keep theirs, as in k
+  if (full) {  // bodies outside the part keep their values, as in k
     state.K_resisting.resize(state.k.size(), Mat3::Zero());
     for (const int body : part().bodies) {
       state.K_resisting[static_cast<std::size_t>(body)] =
@@ -253,7 +253,7 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
     state.K_resisting.clear();
   }
   bound = StiffnessStage::bound(*scene, part().bodies, state.k);
-  // Forces of a run that diverges can have a K past the range of numbers before velocities are.
+  // In a diverging run K can overflow before the velocities.
   for (const int body : part().bodies) {
     const auto i = static_cast<std::size_t>(body);
     if (state.k[i].allFinite() && (!full || state.K_resisting[i].allFinite())) continue;
@@ -270,7 +270,7 @@ bool Simulator::Impl::evaluate_stiffness(FrameReport& report) {
   return true;
 }
 
-// What each body of an island asks for by itself: islands meet and part.
+// r per body, because islands merge and split.
 void Simulator::Impl::remember_stiffness() {
   if (state.own.empty()) return;
   for (const int body : part().bodies) {
@@ -289,7 +289,7 @@ void Simulator::Impl::advance_poses(double dt, FrameReport& report) {
   state.dt_previous = dt;
   if (!state.own.empty()) {
     for (const int body : part().bodies) state.own[static_cast<std::size_t>(body)].dt_previous = dt;
-    if (!looks_for_islands(settings)) state.own.clear();  // all bodies have met
+    if (!looks_for_islands(settings)) state.own.clear();  // all bodies share one clock
   }
   substeps_of_bodies += static_cast<std::int64_t>(part().moving.size());
   report.dt_min = report.dt_min == 0.0 ? dt : std::min(report.dt_min, dt);
@@ -302,7 +302,7 @@ void Simulator::Impl::find_lambda(const Block& block, double* lambda) const {
   for (int row = 0; row < block.rows; ++row) lambda[row] = block.impulse[row] / time;
 }
 
-// Bodies that have just met may differ in it; the force between them then is one in name only.
+// Bodies that have just made contact may differ in it; the force between them is then nominal.
 double Simulator::Impl::impulse_time_of(const Block& block) const {
   const double a = block.a < 0 ? 0.0 : impulse_time[static_cast<std::size_t>(block.a)];
   const double b = block.b < 0 ? 0.0 : impulse_time[static_cast<std::size_t>(block.b)];

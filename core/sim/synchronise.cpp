@@ -1,4 +1,4 @@
-// Velocities at the time of the poses; those of a sub-step are half a sub-step older.
+// Synchronises velocities to the poses; stored velocities are half a sub-step older.
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace substep {
 
-// In a sub-step with an impact, marks the bodies that constraints act on: the impact may be in what
-// they carry. Bodies in free flight are extrapolated.
+// In a sub-step with an impact, marks the bodies with constraint forces, which may include the
+// impact. Bodies in free flight are extrapolated.
 void Simulator::Impl::find_struck() {
   hit.assign(state.u.size(), 0);
   if (smooth) return;
@@ -26,9 +26,9 @@ void Simulator::Impl::find_struck() {
   }
 }
 
-// Applies the forces of the sub-step for half of its length; to what may have been struck nothing
-// is added. Joint forces are applied along the rows at the new poses: there they do no work, and
-// the angular momentum about a fixed anchor is conserved.
+// Applies the forces of the sub-step for half of its length; marked bodies are skipped. Joint
+// forces are applied along the rows at the new poses, where they do no work and conserve the
+// angular momentum about a fixed anchor.
 void Simulator::Impl::synchronise(double dt) {
   if (extends_changes()) return extend_changes(dt);
   if (extrapolates(settings) && smooth) return extend_courses(dt);
@@ -38,7 +38,7 @@ void Simulator::Impl::synchronise(double dt) {
     return dt / (before + dt);
   };
   const double ahead_of_all = ahead_after(state.dt_previous);
-  // Newton and XPBD apply forces along rows at later poses already.
+  // Newton and XPBD already apply forces along rows at later poses.
   const bool turns_forces =
       joints && settings.solver != SolverKind::kNewton && settings.solver != SolverKind::kXpbd;
   if (turns_forces) turn_joint_forces(dt);
@@ -66,7 +66,7 @@ void Simulator::Impl::turn_joint_forces(double dt) {
   const auto motion_of = [&](int body) {
     return body < 0 ? Motion{} : motion(state.u[index(body)], dt);
   };
-  Vec6 unmoved = Vec6::Zero();  // of the world and static bodies
+  Vec6 unmoved = Vec6::Zero();  // for the world and static bodies
   for (const Block& block : rows()) {
     if (block.is_contact()) continue;
     Vec6& on_a = block.a < 0 ? unmoved : bent_push[index(block.a)];
@@ -88,14 +88,14 @@ void Simulator::Impl::synchronise_spin(std::size_t body, double ahead, const Vec
         q.conjugate() * Vec3(ahead * impulse_time[body] * state.torque[body] + bent);
     omega = q * (momentum_after(I, omega_B, dt) + pushed).cwiseQuotient(I);
   } else {
-    // u_before has this torque up to the middle of the sub-step: half a sub-step is left.
+    // u_before includes this torque up to the middle of the sub-step; the other half is added here.
     omega += q * Vec3(gyroscopic_explicit(I, omega_B, 0.5 * dt) - omega_B) +
              inverse_mass[body].angular * bent;
   }
   keep_finite(body);
 }
 
-// A torque goes with the square of a speed, and may be past the range of numbers before that is.
+// Gyroscopic torques are quadratic in speed and may overflow first.
 void Simulator::Impl::keep_finite(std::size_t body) {
   if (std::isfinite(most_kinetic(scene->bodies[body], state.u_synchronised[body]))) return;
   state.u_synchronised[body] = state.u[body];
@@ -105,7 +105,7 @@ bool Simulator::Impl::extends_changes() const { return follows_accelerations(set
 
 // Störmer's velocities are q' - dt^2/24 a' in the middle of a sub-step; from there on
 //   q'+ = q' + dt (a/2 + 3/8 D + (D - D-)/3),
-// with the accelerations' parabola. Of what tumbles, the same is said of momentum and torque.
+// with parabolic accelerations. For tumbling bodies likewise with momentum and torque.
 void Simulator::Impl::extend_changes(double dt) {
   for (const int body : part().moving) {
     const std::size_t i = index(body);
@@ -123,7 +123,7 @@ void Simulator::Impl::extend_changes(double dt) {
   }
 }
 
-// From a mean over the sub-step to its end, with the accelerations' parabola:
+// From the mean over the sub-step to its end, with parabolic accelerations:
 //   q'+ = v + dt (a/6 + a+/3 - dt^2 a''/24).
 void Simulator::Impl::extend_courses(double dt) {
   for (const int body : part().moving) {

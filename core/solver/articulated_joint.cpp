@@ -5,8 +5,8 @@
 namespace substep {
 
 // Everything at the pivot, world axes. The child moves with v = v_parent + E y + F q: y are the
-// speeds that the joint's rows are about, q those that it leaves free. R is the momentum that the
-// joint hands to the child:
+// relative speeds constrained by the joint's rows, q the free ones. R is the momentum transferred
+// by the joint to the child:
 //   R = A v - g,   F^T R = 0,   x = E^T R,   y_r = -w_r - s_r x_r,
 // E dual to the rows of J, so that R = J^T x. First q (Featherstone's articulated inertia):
 //   A1 = A - A F (F^T A F)^-1 F^T A,   g1 = g - A F (F^T A F)^-1 F^T g,
@@ -14,7 +14,7 @@ namespace substep {
 // Then y, with Sigma = E diag(s) E^T:
 //   R = P v_parent - g_parent,   P = (1 + A1 Sigma)^-1 A1,   g_parent = g1 + P (E w - Sigma g1).
 // P is A1 in series with a spring of compliance Sigma; the linear rows and the two angular ones are
-// softened one after the other. Backwards come R, x, y, and then
+// softened in sequence. Back substitution gives R, x, y, and then
 //   q = (F^T A F)^-1 F^T (g - A (v_parent + E y)).
 
 namespace {
@@ -30,7 +30,7 @@ double along(const double (&f)[3], const Pairs6& column) {
   return f[0] * column[3] + f[1] * column[4] + f[2] * column[5];
 }
 
-/// What a body carries and its own inertia about a point at r from its centre, Mt given by its
+/// Carried inertia plus a body's own, about a point at r from its centre, with Mt given by its
 /// inverse.
 [[gnu::always_inline]] inline Symmetric6 add_inertia(const InverseMass& inverse, const double* r,
                                                      const Square6& A) {
@@ -57,8 +57,8 @@ double along(const double (&f)[3], const Pairs6& column) {
   return sum;
 }
 
-/// The two angular rows of a hinge on the child minus the parent: on b they are those on a,
-/// negative.
+/// The two angular rows of a hinge on the child minus the parent: on b they are the negatives of
+/// those on a.
 struct AngularRows {
   explicit AngularRows(const Block& joint) {
     for (int k = 0; k < 2; ++k) {
@@ -114,7 +114,7 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, const Vec6* u_s
   }
   rows_ = joint.rows;
   sign_ = sign;
-  double softness = 0.0;  // of all rows together: none is negative
+  double softness = 0.0;  // sum over rows; none is negative
   for (int row = 0; row < joint.rows; ++row) softness += joint.softness[row];
   exact_ = softness == 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -128,7 +128,7 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, const Vec6* u_s
       for (int i = 0; i < 3; ++i) free_[k].f[i] = i == k ? 1.0 : 0.0;
     }
   } else {
-    // The free direction is across both angular rows, their dual vectors within their plane.
+    // The free axis is perpendicular to both angular rows; the dual vectors lie in their plane.
     const AngularRows rows(joint);
     const double w0 = dot(rows.J[0], speed + 3) + sign * joint.bias[3];
     const double w1 = dot(rows.J[1], speed + 3) + sign * joint.bias[4];
@@ -189,9 +189,9 @@ void ArticulatedJoint::eliminate(const InverseMass& W, const ArticulatedJoint& c
   eliminate_from(W, left);
 }
 
-// Vectors of a body stay in registers from the first line of a function to its last.
+// A body's vectors stay in registers throughout each function.
 
-// Exact rows take what they are about from w alone: nothing of it waits for what came before.
+// For exact rows y follows from w alone, without dependence on earlier results.
 template <int rows, bool exact>
 void ArticulatedJoint::forward_rows(const double* g_centre, double* g_parent) {
   double torque[3];

@@ -8,45 +8,41 @@
 
 namespace substep {
 
-/// Elimination of a body together with the one joint with point rows that ties it to what is left:
-/// its parent, or the world. In closed form, without inverting the body's inertia; see the
-/// derivation in articulated_joint.cpp. The body's quantities are about the pivot, the parent's
-/// about the reference point that the parent has: its own pivot if it is articulated, else its
-/// centre.
+/// Eliminates a body together with its single joint with point rows to its parent or the world, in
+/// closed form and without inverting the body's inertia; see the derivation in
+/// articulated_joint.cpp. The body's quantities are about the pivot, the parent's about the
+/// parent's reference point: its own pivot if it is articulated, else its centre.
 class ArticulatedJoint {
  public:
-  /// What a sub-step knows of the joint. @param child_is_a which side of the block is eliminated
+  /// Reads the joint's data for a sub-step. @param child_is_a which side of the block is eliminated
   /// @param reference the parent's pivot from its centre [m], nullptr for the centre
-  /// @param u_star of the first body; a pointer, as WebAssembly hands spans over in memory
+  /// @param u_star array of all bodies; a pointer, because WebAssembly passes spans through memory
   void read(const Block& joint, bool child_is_a, const Vec6* u_star, const double* reference);
 
-  /// @param W Mt^-1 of the child  @param carried what the child carries of others, about its pivot;
-  /// only the upper half is read
+  /// @param W Mt^-1 of the child  @param carried contribution of the child's own children, about
+  /// its pivot; only the upper half is read
   void eliminate(const InverseMass& W, const Square6& carried);
-  /// The same for what the child carries of one articulated joint.
+  /// The same for the contribution of a single articulated joint.
   void eliminate(const InverseMass& W, const ArticulatedJoint& carried);
-  /// What the parent gains, about its reference point. @param out its upper half
+  /// Contribution to the parent, about its reference point. @param out upper half
   void left(Square6& out) const { shift(P_, to_parent_, out); }
 
-  /// Forgets the momentum that it was handed.
+  /// Clears the accumulated momentum.
   void rest() {
     for (double& g : handed_) g = 0.0;
   }
-  /// @param g_centre momentum that the child is given about its centre [N s, N m s], nullptr for
-  /// none
-  /// @param g_parent momentum of the parent, added to; nullptr for the world
+  /// @param g_centre momentum of the child about its centre [N s, N m s], nullptr for none
+  /// @param g_parent momentum of the parent, accumulated; nullptr for the world
   void forward(const double* g_centre, double* g_parent);
 
   /// @param v_parent change of the parent's velocity, nullptr for the world
   /// @param v_centre out: the child's
   void backward(const double* v_parent, double* v_centre);
-  /// @param v_parent as it was handed to backward()  @param joint as it was read; its impulse is
-  /// set
+  /// @param v_parent as passed to backward()  @param joint as passed to read(); its impulse is set
   void find_impulse(const double* v_parent, Block& joint) const;
 
   [[nodiscard]] const double* pivot() const { return r_; }
-  /// Momentum that articulated children hand over, about the pivot: added to until forward() takes
-  /// it.
+  /// Momentum accumulated from articulated children, about the pivot, until forward() uses it.
   [[nodiscard]] double* momentum() { return handed_; }
   /// Change of the child's velocity at the pivot.
   [[nodiscard]] const double* velocity() const { return v_; }
@@ -60,9 +56,9 @@ class ArticulatedJoint {
   }
 
  private:
-  /// A ball joint leaves three directions of rotation, a hinge one.
+  /// A ball joint leaves three rotations free, a hinge one.
   static constexpr int n_free(int rows) { return rows == 5 ? 1 : 3; }
-  // Inline, so that the inertia is not stored on its way in and out.
+  // Inlined, to keep the inertia in registers.
   [[gnu::always_inline]] inline void eliminate_from(const InverseMass& W, const Square6& carried);
   template <int rows>
   [[gnu::always_inline]] inline void eliminate_rows(Symmetric6& A);
@@ -73,26 +69,26 @@ class ArticulatedJoint {
   void at_pivot(const double* v_parent, double (&v)[6]) const;
   void pass_velocity(const double* v_parent, const double (&v)[6], double (&R)[6]) const;
 
-  /// A direction of rotation that the joint leaves free.
+  /// A free rotation axis of the joint.
   struct Free {
     double f[3];
-    Pairs6 column;    // A f when it is eliminated
+    Pairs6 column;    // A f at its elimination
     double inverse;   // 1/(f A f)
     double momentum;  // f g
   };
 
   int rows_;
   bool exact_;           // no row has softness
-  double sign_;          // child minus parent against the block's a minus b
+  double sign_;          // +1 if the child is the block's a, else -1
   double r_[3];          // pivot from the child's centre [m]
   double to_parent_[3];  // the parent's reference point from the pivot [m]
   double d_[6];  // exact: E w, with w = J u* + bias of the child minus the parent [m/s, rad/s]
   Free free_[3];
-  Rows6 P_;  // what the parent sees of the child, at the pivot
+  Rows6 P_;  // the child's contribution to the parent, at the pivot
   double handed_[6];
-  double g_[6];  // momentum at the pivot, as the parent sees it
+  double g_[6];  // momentum passed to the parent, at the pivot
   double v_[6];
-  // Where there is softness:
+  // Only with softness:
   double e_[2][3];      // hinge: across the axis, dual to the two angular rows
   double w_[kMaxRows];  // [m/s, rad/s]
   double softness_[kMaxRows];

@@ -1,18 +1,18 @@
 #pragma once
-// Products of the six numbers of a body: linear part first, then angular.
+// Products of the 6-vectors of a body: linear part first, then angular.
 
 #include "core/solver/system.hpp"
 
 namespace substep {
 
-/// J of one row on one side, where it is. @param of_pin holds it where it is nowhere else
+/// Pointer to J of one row on one side. @param of_pin storage for a point row, whose J is implicit
 inline const double* gradient(const Block& block, int row, bool of_a, Vec6& of_pin) {
   if (!block.has_point_rows) return of_a ? block.J_a[row] : block.J_b[row];
   of_pin = gradient(block, row, of_a);
   return of_pin.data();
 }
 
-/// Number by number: pairs of them would wait for each other where they have just been written.
+/// Scalar copies: vector loads would stall on recent scalar stores.
 inline void copy6(const double* from, double* to) {
   for (int j = 0; j < 6; ++j) to[j] = from[j];
 }

@@ -10,15 +10,15 @@ namespace {
 constexpr double kTolerance = 1e-10;     // on bounds and complementarity, times 1 + |impulse|
 constexpr double kConeTolerance = 1e-4;  // on the direction of friction [rad]
 constexpr int kPasses = 4;               // refreshes of the friction bounds, the first included
-constexpr int kSinglePivots = 50;        // per solve: Murty's rule is finite; this bounds its time
-constexpr int kSweeps = 100;  // in place of a direct solve: 25 do not carry a house of cards
+constexpr int kSinglePivots = 50;        // per solve: Murty's rule terminates; this bounds its time
+constexpr int kSweeps = 100;             // sweeps of the fallback: 25 do not hold a house of cards
 
 bool any_tight(const Block& block) {
   return std::any_of(block.active_set, block.active_set + block.rows,
                      [](std::int8_t t) { return t != 0; });
 }
 
-/// Whether an earlier sub-step knows of the contact: what it says may come from a file.
+/// True if the contact has a valid set from an earlier sub-step; it may come from a file.
 bool has_known_set(const Block& block) {
   if (block.active_set[0] != 0 && block.active_set[0] != -1)
     return false;  // a normal has no upper bound
@@ -111,8 +111,8 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
 
 // With the w of System, linear in the impulses z, the solution is where
 //   1/2 z (w(z) + w(0))   [J]
-// is least within the bounds; z = 0 gives 0. The impulses of an active set that is far off raise
-// it, by orders of magnitude.
+// is minimal within the bounds; it is 0 at z = 0. A badly wrong active set increases it by orders
+// of magnitude.
 bool Bpp::better_than_none(const System& system) const {
   double energy = 0.0;
   double speed[kMaxRows];
@@ -182,8 +182,8 @@ void Bpp::go_on_with_gauss_seidel(const System& system, const Settings& settings
   }
 }
 
-// A row that was active in the last sub-step starts active. A new contact starts free if the bodies
-// would reach each other within the step.
+// A row active in the last sub-step starts active. A new contact starts free if the bodies would
+// touch within the step.
 void Bpp::start_active_set(const System& system) {
   friction_bound_.assign(system.blocks.size(), 0.0);
   for (Block& block : system.blocks) {
@@ -198,9 +198,9 @@ void Bpp::start_active_set(const System& system) {
   }
 }
 
-// Where a contact slides, half way between its force and what is against the sliding: that halves
-// the angle between them with each pass. Where it sticks, its force. Before the first solve, what
-// forces from outside would make it slide by.
+// Sliding contact: the bisector of its force and the direction opposing the sliding, which halves
+// their angle per pass. Sticking contact: its force. Before the first solve: the sliding due to
+// external forces.
 void Bpp::turn_cone(const System& system, bool first, Block& block) const {
   double speed[kMaxRows];
   row_speeds(block, system.u, speed);
@@ -226,7 +226,7 @@ void Bpp::set_friction_bounds(const System& system, bool cone, bool first) {
     if (block.rows != 3 || !block.is_contact()) continue;
     if (cone) turn_cone(system, first, block);
     friction_bound_[i] = block.mu * std::max(0.0, block.impulse[0]);
-    for (int row = 1; row < 3; ++row) {  // no room to be free in
+    for (int row = 1; row < 3; ++row) {  // zero bound: never free
       if (friction_bound_[i] * block.share[row - 1] > 0.0 || block.active_set[row] != 0) continue;
       block.active_set[row] = -1;
       change_factor(i);
@@ -283,7 +283,7 @@ void Bpp::change_factor(std::size_t block) {
 
 void Bpp::move(std::span<Block> blocks, const Move& move) {
   std::int8_t& set = blocks[move.block].active_set[move.row];
-  // From one bound to the other the same rows stay free.
+  // A move from one bound to the other does not change the free rows.
   if (set == 0 || move.set == 0) change_factor(move.block);
   set = move.set;
 }

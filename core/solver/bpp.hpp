@@ -8,19 +8,17 @@
 
 namespace substep {
 
-/// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. The impulses of
-/// active rows sit at their bounds, the others solve the linear system; every row on the wrong side
-/// changes its set at once, for Settings::pivots steps; after that one row at a time (the last one,
-/// Murty's rule), which cannot cycle but can take long: past a bound Gauss-Seidel takes over.
-/// Friction bounds are fixed while it pivots, seeded with the impulses given, and refreshed
-/// outside, at most four times.
+/// Block principal pivoting (Judice and Pires 1994) on a direct factorisation. Active rows have
+/// their impulses at a bound; free rows solve the linear system. All infeasible rows change sets at
+/// once for Settings::pivots steps, then one at a time (the last, Murty's rule), which cannot cycle
+/// but can be slow: beyond a limit Gauss-Seidel takes over. Friction bounds are fixed during
+/// pivoting, initialised from the seed impulses, and refreshed at most four times in an outer loop.
 ///
-/// A regularisation r that stands in for finite precision lets heavy loads sink: with
-/// Settings::refinements it resists only how far impulses go from a centre, x0 = those of the last
-/// sub-step, then those of the last solve,
+/// A numerical regularisation r lets heavy loads sink. With Settings::refinements it acts only on
+/// the deviation from a centre x0, the impulses of the last sub-step, then of the last solve,
 ///   w = J u+ + (softness - r) x + r (x - x0) + bias,
 /// which is the proximal point method (Rockafellar 1976; for constrained bodies Carpentier et al.
-/// 2021). Each is a solve with the factor as it is, unless rows change their sets.
+/// 2021). Each refinement reuses the factor, unless rows change sets.
 class Bpp final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
@@ -28,7 +26,7 @@ class Bpp final : public Solver {
   void find_impulses(std::span<Block> blocks) override;
 
  private:
-  /// From the active set and the factor as they stand.
+  /// Starts from the current active set and factor.
   void find_active_set(const System& system, const Settings& settings, SolveReport& report);
   void centre(const System& system);
   /// A row's new set.
@@ -39,35 +37,35 @@ class Bpp final : public Solver {
   };
   void start_active_set(const System& system);
   void set_friction_bounds(const System& system, bool cone, bool first);
-  /// Turns a contact's box towards what is against its sliding. @param first of the passes
+  /// Rotates a contact's friction box to oppose its sliding. @param first true in the first pass
   void turn_cone(const System& system, bool first, Block& block) const;
-  /// True if the friction bounds that follow from the solution leave it a solution.
+  /// True if the solution stays valid under the friction bounds it implies.
   [[nodiscard]] bool bounds_settled(const System& system, bool cone) const;
   void solve_active_set(const System& system, SolveReport& report);
-  void solve_free(const System& system, SolveReport& report);  // whatever rows are free
-  /// Moves rows on the wrong side to their right set. @param one_only only the last such row
-  /// @return how many rows there were
+  void solve_free(const System& system, SolveReport& report);  // for the current free rows
+  /// Moves infeasible rows to the correct set. @param one_only only the last such row @return
+  /// number of infeasible rows
   int pivot(const System& system, bool one_only);
   void move(std::span<Block> blocks, const Move& move);
   void change_factor(std::size_t block);
-  /// Whether the impulses are a better start than none are.
+  /// True if the current impulses are a better initial guess than zero.
   /// @param system u* on entry; overwritten
   [[nodiscard]] bool better_than_none(const System& system) const;
-  /// Whether more work is done than allowed; the report says so.
+  /// True if the work limit is exceeded; sets the report's status.
   bool over_limits(const System& system, SolveReport& report) const;
-  /// From the impulses as they stand, clamped to their bounds, or from none.
+  /// Starts from the current impulses clamped to their bounds, or from zero.
   void go_on_with_gauss_seidel(const System& system, const Settings& settings, SolveReport& report);
 
   SaddleLdlt ldlt_;
   Pgs gauss_seidel_;
   bool any_contact_ = false;
-  bool factor_valid_ = false;           // the factor belongs to the present active set
-  bool has_impulses_ = false;           // all: of Gauss-Seidel, or refined
+  bool factor_valid_ = false;           // the factor matches the current active set
+  bool has_impulses_ = false;           // all impulses are known, from Gauss-Seidel or refinement
   std::vector<double> friction_bound_;  // per block [N s]
   struct Centre {
     double row[kMaxRows];
   };
-  std::vector<Centre> centre_;  // per block: of the regularisation [N s or N m s]
+  std::vector<Centre> centre_;  // per block: centre of the regularisation [N s or N m s]
 };
 
 }  // namespace substep

@@ -1,6 +1,6 @@
 #pragma once
 // L D L^T of small dense matrices in row-major order. Innermost loops run along a row, so that
-// compilers can take two columns at a time without touching the order of a sum.
+// compilers can vectorise over columns without reordering sums.
 
 #include <cstddef>
 #include <limits>
@@ -27,19 +27,18 @@ template <class Matrix>
   }
 }
 
-/// A size that the compiler knows: kernels given one are unrolled. Sizes that it does not are ints.
+/// A compile-time size: kernels with one are unrolled. Run-time sizes are ints.
 template <int N>
 using Known = std::integral_constant<int, N>;
 
-/// Calls with each of first .. last - 1 as a Known: a loop that is none.
+/// Unrolled loop: calls with each of first .. last - 1 as a Known.
 template <int first, int last>
 [[gnu::always_inline]] inline void unrolled(const auto& call) {
   [&]<int... i>(std::integer_sequence<int, i...>) { (call(Known<first + i>{}), ...); }
   (std::make_integer_sequence<int, (last > first ? last - first : 0)>{});
 }
 
-/// Calls with a number of rows: as one that the compiler knows where there are few, as of a body
-/// between two contact points.
+/// Calls with the number of rows, as a compile-time size if it is 1 or 2.
 void with_known(int rows, const auto& call) {
   switch (rows) {
     case 1:
@@ -56,7 +55,7 @@ inline void subtract_row(const double* __restrict x, double f, auto n, double* _
   for (int j = 0; j < n; ++j) y[j] -= f * x[j];
 }
 
-/// 1/D of a pivot. One of zero makes what follows no number, which is caught.
+/// 1/D of a pivot. A zero pivot yields NaN, which is detected later.
 inline double inverse_of_pivot(double d, double least) {
   if (d < least) d = least;
   return d != 0.0 ? 1.0 / d : std::numeric_limits<double>::quiet_NaN();
@@ -64,7 +63,7 @@ inline double inverse_of_pivot(double d, double least) {
 
 /// A = L D L^T in place: L below the diagonal, 1/D apart.
 /// @param A only on and below the diagonal  @param inverse in: least pivots; out: 1/D
-/// @return whether a pivot was less and is held
+/// @return true if a pivot was raised to its minimum
 inline bool factor_ldlt(double* A, int n, double* inverse) {
   bool held = false;
   for (int j = 0; j < n; ++j) {
@@ -79,7 +78,7 @@ inline bool factor_ldlt(double* A, int n, double* inverse) {
   return held;
 }
 
-/// The same in registers, and in the same order.
+/// The same in registers, with the same order of operations.
 template <int N>
 bool factor_ldlt(double* A, Known<N> /*n*/, double* inverse) {
   bool held = false;
@@ -105,7 +104,7 @@ inline void solve_lower(const double* L, auto n, auto width, double* X) {
     for (int m = 0; m < i; ++m) subtract_row(X + m * width, L[i * n + m], width, X + i * width);
   }
 }
-/// The same, six columns in registers: for widths of some bodies.
+/// The same, six columns in registers, for widths that are multiples of 6.
 template <int N, int Width>
 requires(Width % 6 == 0) void solve_lower(const double* L, Known<N> /*n*/, Known<Width> /*width*/,
                                           double* X) {
@@ -139,8 +138,8 @@ inline void solve_upper(const double* L, auto n, double* x) {
   }
 }
 
-/// Two rows of a 6 x 6 block of sign * sum over k of Z_k^T d_k Z_k, with Z_k rows of `width`, as
-/// many pairs of their elements as are asked for.
+/// Two rows of a 6 x 6 block of sign * sum over k of Z_k^T d_k Z_k, with Z_k rows of `width`; the
+/// first `pairs` pairs of their elements.
 template <std::size_t pairs>
 [[gnu::always_inline]] inline void add_gram_rows(const double* Z_i, const double* Z_j,
                                                  const double* d, auto rows, double sign,
@@ -162,7 +161,7 @@ template <std::size_t pairs>
   }
 }
 
-/// Such a block. One on the diagonal is symmetric, and is made on and below its diagonal.
+/// One 6 x 6 block. A diagonal block is symmetric; only its lower half is complete.
 /// @param Z_i, Z_j the columns of the block in the first row  @param to the block, added to
 template <bool on_diagonal>
 void add_gram_block(const double* Z_i, const double* Z_j, const double* d, auto rows, double sign,
@@ -172,7 +171,7 @@ void add_gram_block(const double* Z_i, const double* Z_j, const double* d, auto 
   add_gram_rows<3>(Z_i + 4, Z_j, d, rows, sign, width, to + 4 * stride, stride);
 }
 
-/// All blocks of such a sum on and above the diagonal. @param U width x width, added to
+/// All blocks of the sum on and above the diagonal. @param U width x width, accumulated
 template <int K, int Width>
 void add_gram(const double* Z, const double* d, Known<K> rows, double sign, Known<Width> width,
               double* U) {
@@ -185,7 +184,7 @@ void add_gram(const double* Z, const double* d, Known<K> rows, double sign, Know
   }
 }
 
-/// The same where rows are wide: the innermost loop runs along all of a row.
+/// The same for wide rows: the innermost loop runs along the whole row.
 template <int K>
 void add_gram(const double* __restrict Z, const double* d, Known<K> /*rows*/, double sign,
               int width, double* __restrict U) {

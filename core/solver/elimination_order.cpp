@@ -10,9 +10,9 @@ namespace {
 constexpr std::size_t kTypicalDegree = 32;
 constexpr std::size_t kTypicalJoints = 4;
 constexpr int kNone = -1;
-constexpr int kUnordered = -2;  // a position to come
+constexpr int kUnordered = -2;  // not yet ordered
 
-constexpr std::size_t kMostBare = 8;  // neighbours of a body that may leave no matrix on them
+constexpr std::size_t kMostBare = 8;  // limit of neighbours for a body without stored contribution
 constexpr double kCountedOn = 64.0;   // times the limit, to report by how much it is exceeded
 
 /// Of the symmetric matrix that a body leaves on its neighbours [bytes].
@@ -57,7 +57,7 @@ bool EliminationOrder::update(std::span<const Block> blocks, std::size_t bodies,
   world_ = world;
   build_graph(world);
   eliminate(world, most_memory);
-  if (needed_memory_ > most_memory) world_ = -1;  // so that the order is found again
+  if (needed_memory_ > most_memory) world_ = -1;  // forces recomputation of the order
   return true;
 }
 
@@ -70,7 +70,7 @@ void EliminationOrder::read_edges(std::span<const Block> blocks, int world) {
       edge.low = edge.high;
       if (!block.is_contact()) edge.high = world;
     }
-    // The points of a contact follow each other.
+    // Points of the same contact are adjacent.
     if (edge.rows == 0 && !found_.empty() && found_.back() == edge) continue;
     found_.push_back(edge);
   }
@@ -108,8 +108,8 @@ std::size_t EliminationOrder::priority(int body) const {
   std::size_t degree = neighbours.size();
   bool anchored = false;
   if (joint_rows_[index(body)] > kMaxRows) {
-    // Past the closed form of one joint the world costs nothing: a bridge starts at its ends. Of
-    // two ends a free one goes first: an anchored one has twice the rows.
+    // Beyond the closed form of one joint the world is free: a bridge starts at its ends. A free
+    // end comes before an anchored one, which has twice the rows.
     anchored = !neighbours.empty() && neighbours.back() == world_;
     degree += index(world_) + (anchored ? 0 : 1);
   }
@@ -145,7 +145,7 @@ void EliminationOrder::eliminate(int world, double most_memory) {
   order_.clear();
   needed_memory_ = 0.0;
   std::size_t left = 0;
-  for (int body = world; body-- > 0;) {  // of equal priority, the first is eliminated first
+  for (int body = world; body-- > 0;) {  // ties: lowest index first
     if (position(body) == kNone) continue;
     enqueue(body);
     ++left;

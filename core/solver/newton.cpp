@@ -18,12 +18,13 @@ constexpr double kConverged = 1e-9;  // largest change of a velocity in a step, 
 /// Of the mean, average acceleration.
 constexpr PoseWeights kMean{0.25, 0.5, 0.25, 0.0};
 
-/// Of a step but for the linear system's own: rows at other poses, their averages, and the Hessian.
+/// Operations of a step without the linear solve: rows at other poses, their averages, and the
+/// Hessian.
 std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies, Forces forces) {
   constexpr std::int64_t kBody = 2 * product_flops(3, 3, 3) + 30 +  // D
                                  2 * product_flops(3, 3, 3) + 40 +  // Mt^-1
                                  2 * product_flops(3, 3, 1) + 30;   // u, its change
-  constexpr std::int64_t kCourse = 2 * 400;  // both turns, of three iterations each
+  constexpr std::int64_t kCourse = 2 * 400;  // two rotations of three iterations each
   std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
   for (const Block& block : blocks) {
     const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
@@ -39,14 +40,14 @@ std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies
   return flops;
 }
 
-/// What of -K resists a turn about each of a body's principal axes, its columns those of R_WB.
+/// The resisting diagonal of -K about a body's principal axes, the columns of R_WB.
 Mat3 resisting_diagonal(const Mat3& K, const Mat3& R_WB) {
   const Vec3 k = -R_WB.cwiseProduct(K * R_WB).colwise().sum().transpose();
   return R_WB * k.cwiseMax(0.0).asDiagonal() * R_WB.transpose();
 }
 
-/// A block as a step finds it. Of a pin that it knows only what a sub-step changes: move_rows()
-/// and the steps write the rest.
+/// Copies a block for a step. For known point rows only what changes in a sub-step: move_rows() and
+/// the steps write the rest.
 void copy_start(const Block& start, Block& row) {
   if (!start.has_point_rows || !row.has_point_rows || row.id != start.id || row.a != start.a ||
       row.b != start.b) {
@@ -99,7 +100,8 @@ void Newton::read_rows(const System& system, Forces forces) {
 
 // Linearised about the iterate u:
 //   phi + dt J (u+ - u) + dt softness * impulse = 0
-// so the linear system has the bias phi/dt - J u. phi is that of the end; J' stands for its J.
+// so the linear system has the bias phi/dt - J u. phi is evaluated at the end, with J' in place of
+// its J.
 void Newton::relinearise(const System& system, Forces forces) {
   aim_ = u_star_;
   if (forces == Forces::kNumerov) {
@@ -154,9 +156,9 @@ void Newton::average(const Block& start, const Block& back, const PoseWeights& w
   end.r_b = (w.behind * back.r_b + w.ahead * end.r_b) + w.here * start.r_b;
 }
 
-// Numerov's method has the forces of the other poses with their own impulses. With those behind,
-// p - b p', and ahead, p + dt p', the sum is J'^T p + (w+ dt J+ - w- b J-)^T p'. What is bent about
-// p acts along J and only changes the multiplier.
+// In Numerov's method the other poses have their own impulses. With those behind,
+// p - b p', and ahead, p + dt p', the sum is J'^T p + (w+ dt J+ - w- b J-)^T p'. The second-order
+// part of p acts along J and only changes the multiplier.
 void Newton::add_gained(const System& system, std::size_t index, const PoseWeights& w) {
   const Block& start = system.blocks[index];
   if (!start.seeded) return;
@@ -174,8 +176,8 @@ void Newton::add_gained(const System& system, std::size_t index, const PoseWeigh
   apply_impulse(back_[index], behind, system.inverse_mass, aim_);
 }
 
-// The forces turn with q+, so the Hessian is -w dt K(impulse), and D, what of its diagonal resists,
-// joins M. With A = (E + M^-1 D)^-1, Mt^-1 = A M^-1 and Mt^-1 M = A:
+// The forces rotate with q+, so the Hessian is -w dt K(impulse); D, the resisting part of its
+// diagonal, is added to M. With A = (E + M^-1 D)^-1, Mt^-1 = A M^-1 and Mt^-1 M = A:
 //   Mt (u+ - u) = -M (u - u*) + J'^T impulse
 // is the linear system that starts from u - A (u - u*).
 void Newton::stiffen(const System& system, Forces forces) {
@@ -221,12 +223,12 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());
   read_rows(system, settings.forces);
-  // The guess: nothing changes, or rates stay as they were.
+  // Initial guess: constant forces, or constant rates.
   copy(system.u_guess.empty() ? system.u_before : system.u_guess, system.u);
   if (settings.forces == Forces::kNumerov) move_along_courses(system);  // by no torques
 
   SolveReport report;
-  for (double change = 1.0; change > kConverged;) {  // false for what is not a number
+  for (double change = 1.0; change > kConverged;) {  // false for NaN
     if (report.iterations == settings.iterations) {
       report.status = SolveStatus::kUnsolved;
       break;

@@ -12,12 +12,12 @@ constexpr double kLeastAhead = -0.25;
 
 double previous(double dt, double time) { return std::max(0.0, 2.0 * time - dt); }
 
-/// A body's momentum of turning from I^-1 of it, and back. @param I principal moments
+/// Angular momentum of a body from I^-1 times it, and back. @param I principal moments
 Vec3 times_inertia(const Mat3& R, const Vec3& I, const Vec3& w) {
   return R * I.cwiseProduct(R.transpose() * w);
 }
 
-/// Turn of a body in dt, world axes [rad].
+/// Rotation of a body in dt, world axes [rad].
 /// @param I principal moments, 0 where `w` itself is extrapolated  @param w mean of I^-1
 /// times the momentum [rad/s]  @param start, end torque at both ends, or angular acceleration
 /// @param bend dt^2 times its second derivative
@@ -31,7 +31,7 @@ Vec3 turn_in(const Vec3& I, const Mat3& R, const Vec3& w, const Vec3& start, con
   return R * free_turn(I, l, to_body(middle), change, dt);
 }
 
-/// Angular velocity by which integrate() makes a turn.
+/// Angular velocity for which integrate() yields a given rotation.
 Vec3 velocity_of_turn(const Vec3& turn, double dt) {
   return half_tangent_factor(0.5 * turn) / dt * turn;
 }
@@ -83,7 +83,7 @@ PoseWeights NumerovCourses::weights_of(const System& system, const Block& block)
   return numerov_weights(system.dt, before);
 }
 
-// A contact that has just closed is an impact, not a force that continues.
+// A newly closed contact is an impact; its force is not extrapolated.
 void NumerovCourses::add_forces(const System& system, const Block& here, const Block& behind,
                                 const Block& ahead) {
   if (here.is_contact() && !here.was_closed) return;
@@ -143,8 +143,8 @@ BodyCourse NumerovCourses::course_of(const System& system, std::size_t i) const 
   return of;
 }
 
-// The mean over the time `reach` behind is that of the sub-step before, and half of what the
-// acceleration makes of their difference in length.
+// The mean over the time `reach` behind: that of the previous sub-step, plus half the acceleration
+// times the difference in length.
 void NumerovCourses::find_turns(const System& system) {
   for (std::size_t i = 0; i < courses_.size(); ++i) {
     Course& course = courses_[i];

@@ -8,43 +8,43 @@
 
 namespace substep {
 
-// Numerov's method as sub-steps that carry mean velocities v, of what tumbles I^-1 of the mean of
-// its angular momentum over the sub-step. In the world the momentum changes by torques alone, so
-// that with sub-steps dt- and dt on both sides of a pose, and t = (dt- + dt)/2,
+// Numerov's method in terms of mean velocities v over the sub-step; for tumbling bodies, I^-1 of
+// the mean angular momentum. In world axes only torques change the momentum. With sub-steps dt- and
+// dt on either side of a pose, and t = (dt- + dt)/2,
 //   M (v+ - v) = t F + (dt^2 - dt-^2)/6 F' + (dt^3 + dt-^3)/24 F'' + O(dt^5).
 // The right-hand side is t times a weighted mean of the forces at three poses: the one b behind,
 // that of the start and that of the end, with b = max(dt, dt-). For equal sub-steps the weights are
-// Numerov's, (1, 10, 1)/12. Without a sub-step before, dt- = 0, they are those of a start.
+// Numerov's, (1, 10, 1)/12. In the first sub-step dt- = 0.
 
 /// Weights of the poses behind, here and ahead; their sum is 1.
 struct PoseWeights {
   double behind = 0.0;
   double here = 0.0;
   double ahead = 1.0;
-  double reach = 0.0;  // b, how far the pose behind is [s]
+  double reach = 0.0;  // b, time back to the pose behind [s]
 
-  /// What the mean of a force has beside the one here, as a share of its second derivative:
+  /// Coefficient of a force's second derivative in its weighted mean:
   ///   impulse/t = lambda + bent lambda'' [s^2]. (The first derivative is given: Block::rate.)
   [[nodiscard]] double bent(double dt) const {
     return 0.5 * (behind * reach * reach + ahead * dt * dt);
   }
 };
 
-/// Where a sub-step is more than 3.2 times shorter than the one before, `ahead` stays at -1/4 and
-/// F'' is not met: an error of third order in such a change.
+/// If a sub-step is more than 3.2 times shorter than the previous one, `ahead` is limited to -1/4
+/// and F'' is not matched: a third-order error at that change.
 PoseWeights numerov_weights(double dt, double dt_previous);
 
-/// Where bodies go in a Newton iterate, and by which forces.
+/// Motions and forces of the bodies in a Newton iterate.
 class NumerovCourses {
  public:
   void reserve(std::size_t bodies);
 
-  /// Forces of no constraint yet. @param u_star per body: v before any impulse
+  /// Initialises without constraint forces. @param u_star per body: v before any impulse
   void begin(const System& system, std::span<const Vec6> u_star);
-  /// How bodies move by the forces found so far: a turn follows from the torques at both ends of
-  /// the sub-step (free_turn.hpp). Velocities are those that integrate() moves by.
+  /// Motions under the current forces: rotations follow from the torques at both ends of the
+  /// sub-step (free_turn.hpp). Velocities are those passed to integrate().
   void find_turns(const System& system);
-  /// Clears the forces; add_forces() of every block adds them up again.
+  /// Clears the forces; add_forces() accumulates them block by block.
   void clear_forces();
   /// @param here its rows at the start, with the impulse of the iterate  @param behind, ahead the
   /// same rows moved by motion_behind() and motion_ahead()

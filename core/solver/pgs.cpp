@@ -18,7 +18,7 @@ using Numbers = double[static_cast<std::size_t>(N)];
 template <int N, int M>
 using Table = double[static_cast<std::size_t>(N)][static_cast<std::size_t>(M)];
 
-/// Of every record, at its beginning.
+/// Header of every record.
 struct Head {
   int a;
   int b;
@@ -29,9 +29,9 @@ struct Head {
   bool cone;
 };
 
-/// What an iteration reads of a block. J is kept by component, so that the speeds of all rows are
-/// found side by side: two rows at a time, a last one has zeros beside it. The linear part of a
-/// block with point rows is +-E: only the angular components are there.
+/// Data of a block for an iteration. J is stored by component, so that speeds are computed for two
+/// rows at a time, padded with zeros. The linear part of point rows is +-E: only the angular
+/// components are stored.
 template <int R, bool HasPointRows>
 struct Visit {
   static constexpr int Rows = R;
@@ -54,10 +54,10 @@ struct Visit {
   Table<Rows, kComponents> W_b;
 };
 
-/// The longest record there is.
+/// The longest record type.
 constexpr std::size_t kLongest = sizeof(Visit<kMaxRows, false>);
 
-/// Calls f with a null pointer to the type of record that a block of so many rows has.
+/// Calls f with a null pointer to the record type for this number of rows.
 template <class F>
 void with_type(int rows, bool has_point_rows, F&& f) {
   static_assert(kMaxRows == 5);
@@ -73,7 +73,7 @@ void with_type(int rows, bool has_point_rows, F&& f) {
   }
 }
 
-/// Calls f with the record that begins at `at`, then moves `at` to the next one.
+/// Calls f with the record at `at`, then advances `at`.
 template <class F>
 void take(std::byte*& at, F&& f) {
   const Head& head = *std::launder(reinterpret_cast<const Head*>(at));
@@ -83,7 +83,7 @@ void take(std::byte*& at, F&& f) {
   });
 }
 
-/// Rows go two at a time where there is more than one.
+/// Rows are processed in pairs if there is more than one.
 template <int Rows>
 using Lane = std::conditional_t<Rows == 1, double, Pair>;
 template <int Rows>
@@ -116,7 +116,7 @@ void kick(const Table<V::Rows, V::kComponents>& W, double signed_mass,
           const Numbers<V::Rows>& change, Vec6& u) {
   if constexpr (V::PointRows) {
     for (int j = 0; j < 3; ++j) u[j] += signed_mass * change[j];
-    double sum[3];  // not in u itself: a compiler cannot know that u and W are apart
+    double sum[3];  // a local, because u and W may alias for the compiler
     for (int j = 0; j < 3; ++j) sum[j] = u[3 + j];
     for (int row = 0; row < V::Rows; ++row) {
       for (int j = 0; j < 3; ++j) sum[j] += W[row][j] * change[row];
@@ -131,18 +131,18 @@ void kick(const Table<V::Rows, V::kComponents>& W, double signed_mass,
   }
 }
 
-/// Of one visit to a block: J u and Mt^-1 J^T change on each body, the coupling of its rows, and
-/// per row the softness, the step and the bounds.
+/// Operations per visit of a block: J u and Mt^-1 J^T change on each body, row coupling, and per
+/// row softness, step and bounds.
 std::int64_t visit_flops(const Block& block) {
   const std::int64_t n = block.rows;
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
   const std::int64_t multiplied =
-      block.has_point_rows ? 3 : 6;  // the rest of a J of point rows is +-E
+      block.has_point_rows ? 3 : 6;  // the linear part of point rows is +-E
   return bodies * (2 * product_flops(n, multiplied, 1) + (block.has_point_rows ? 9 : 0)) +
          unit_triangle_flops(n) + 5 * n;
 }
 
-/// Of packing a block: Mt^-1 J^T and the products of its rows on each body.
+/// Operations of packing a block: Mt^-1 J^T and the products of its rows on each body.
 std::int64_t pack_flops(const Block& block) {
   const std::int64_t n = block.rows;
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
@@ -150,7 +150,7 @@ std::int64_t pack_flops(const Block& block) {
   return bodies * (18 * n + n * (n + 1) * multiplied + (block.has_point_rows ? 3 : 0)) + 2 * n;
 }
 
-/// J, Mt^-1 J^T and the block's own couplings by way of one of its bodies.
+/// J, Mt^-1 J^T and the coupling within the block through one of its bodies.
 template <class V>
 void pack_side(const Block& block, bool is_a, const InverseMass& inverse, V& visit) {
   auto& by_component = is_a ? visit.J_a : visit.J_b;
@@ -177,8 +177,8 @@ void pack_side(const Block& block, bool is_a, const InverseMass& inverse, V& vis
   (is_a ? visit.mass_a : visit.mass_b) = inverse.linear;
 }
 
-/// Both tangents take one step, short enough for both together: then what is left at last is along
-/// the sliding.
+/// Both tangents use one common step size, so that the residual converges along the sliding
+/// direction.
 template <class V>
 void pack_cone(V& visit) {
   const double most = std::max(visit.coupling[1][1], visit.coupling[2][2]) +
@@ -218,7 +218,7 @@ void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, b
   }
 }
 
-/// The impulse of friction no longer than mu times the normal one.
+/// Clamps the length of the friction impulse to mu times the normal impulse.
 template <class V>
 void keep_in_cone(V& block, Numbers<V::Rows>& change) {
   const double bound = block.head.mu * block.impulse[0];
@@ -232,9 +232,9 @@ void keep_in_cone(V& block, Numbers<V::Rows>& change) {
   }
 }
 
-// Row by row, but u is read and written once per block: what the rows before it in the block have
-// changed reaches a row through `coupling`. The same numbers as one row after the other, up to
-// rounding, and without waiting for u after every row.
+// Row by row, but u is read and written once per block: changes by earlier rows of the block enter
+// through `coupling`. Equal to updating u after every row, up to rounding, with shorter dependency
+// chains.
 template <class V>
 void update(V& block, std::span<Vec6> u) {
   constexpr int Rows = V::Rows;
@@ -249,7 +249,7 @@ void update(V& block, std::span<Vec6> u) {
   Numbers<V::kPadded> w;
   if constexpr (Rows == 1) {
     w[0] = lanes[0];
-  } else {  // lane by lane: as a loop over rows it would be a copy in memory
+  } else {  // per lane, to avoid a memory copy
     for (int p = 0; p < (Rows + 1) / 2; ++p) {
       w[2 * p] = lanes[p][0];
       w[2 * p + 1] = lanes[p][1];
@@ -280,7 +280,7 @@ void update(V& block, std::span<Vec6> u) {
 void Pgs::reserve(std::size_t /*bodies*/, std::size_t blocks) {
   if (blocks * kLongest <= capacity_) return;
   capacity_ = blocks * kLongest;
-  records_.reset(new std::byte[capacity_]);  // unlike make_unique, without writing zeros
+  records_.reset(new std::byte[capacity_]);  // unlike make_unique, uninitialised
 }
 
 void Pgs::pack(const System& system, bool warm_start, bool cone) {

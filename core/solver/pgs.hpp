@@ -9,8 +9,8 @@ namespace substep {
 
 /// Projected Gauss-Seidel (Erleben 2013, "Numerical methods for linear complementarity problems in
 /// physics-based animation"), matrix-free: sequential impulses on u, row by row in the order of the
-/// blocks, friction bounds live. A fixed number of iterations; impulses start from zero or, with
-/// Settings::warm_start, from the seeds.
+/// blocks, friction bounds updated continuously. A fixed number of iterations; impulses start from
+/// zero or, with Settings::warm_start, from the seeds.
 class Pgs final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
@@ -19,9 +19,8 @@ class Pgs final : public Solver {
  private:
   void pack(const System& system, bool warm_start, bool cone);
 
-  /// What an iteration reads of the blocks, one record after the other in the order of the visits,
-  /// each as long as its rows ask for (pgs.cpp: Visit). Never copied: every sub-step packs them
-  /// again.
+  /// Packed variable-length records of the blocks in visiting order (pgs.cpp: Visit), rebuilt in
+  /// every sub-step.
   std::unique_ptr<std::byte[]> records_;
   std::size_t capacity_ = 0;  // [bytes]
 };

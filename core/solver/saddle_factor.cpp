@@ -1,4 +1,4 @@
-// The factor of a node.
+// Factorisation of a node.
 
 #include <algorithm>
 #include <utility>
@@ -12,12 +12,13 @@ namespace substep {
 
 namespace {
 
-// Exact rows that are redundant on the body of their node, as in closed loops of exact joints, need
-// not be redundant in the whole. They are softened by this much of J A^-1 J^T: as much is wrong
-// with the answer, and rounding makes as much again. refine() takes both back.
+// Exact rows that are redundant on their node's body, as in closed loops of exact joints, may be
+// independent in the whole system. They are softened by this fraction of J A^-1 J^T, which causes a
+// relative error of the same size, and rounding errors of the same size again. refine() removes
+// both.
 constexpr double kLeastPivot = 1e-8;
 
-// An even number of them, two at a time: as memory WebAssembly would call for it.
+// Copies an even number of values in pairs; memcpy would be a call in WebAssembly.
 void set_zero(double* to, int n) {
   for (int i = 0; i < n; i += 2) store_pair(Pair{0.0, 0.0}, to + i);
 }
@@ -36,8 +37,8 @@ void SaddleLdlt::count(Node& node) const {
     node.solve_flops = ArticulatedJoint::solve_flops(n_rows, attached.exact);
     return;
   }
-  // Zero blocks of a leaf node are counted as if they were filled: sizes alone are looked at.
-  const std::int64_t gram = n * (n + 6);  // of one row of Y or Z: two flops on half a square
+  // Zero blocks of a leaf node are counted as dense: the count depends only on sizes.
+  const std::int64_t gram = n * (n + 6);  // per row of Y or Z: two flops on half a square
   const std::int64_t to_general = node.kind == NodeKind::kGeneral ? 1 : 0;
   node.factor_flops += to_general * (ldlt_flops(6) + unit_triangle_flops(6, n + rows) + 6 * gram +
                                      product_flops(rows, 6, n) + node.springs.factor) +
@@ -60,10 +61,10 @@ void SaddleLdlt::add_inertia(const Node& node, Square6& A) const {
   }
 }
 
-// What a node leaves on its coupled bodies, the first of which is its parent. A leaf node keeps
-// only its rows: what they leave is of so low a rank that it is cheaper made where it goes.
+// Adds a node's contribution to its coupled bodies, the first of which is its parent. A leaf node
+// stores only its rows: the contribution has low rank and is cheaper to form at the destination.
 void SaddleLdlt::add_left(const Node& child, Square6& A, double* B, double* U, int n) {
-  if (child.kind == NodeKind::kArticulated) {  // the upper half alone
+  if (child.kind == NodeKind::kArticulated) {  // upper half only
     Square6 left;
     child.joint->left(left);
     for (int i = 0; i < 6; ++i) {
@@ -108,7 +109,7 @@ void SaddleLdlt::add_left(const Node& child, Square6& A, double* B, double* U, i
   });
 }
 
-// What an articulated node carries of its children, about its pivot.
+// Sum of the children's contributions to an articulated node, about its pivot.
 void SaddleLdlt::sum_carried(const Node& node, Square6& sum) {
   std::fill(&sum[0][0], &sum[0][0] + 36, 0.0);
   for (std::size_t c = 0; c < node.n_children; ++c) {
@@ -151,10 +152,10 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
   if (node.folds || node.n_rows != node.counted_rows) count(node);
 }
 
-// A small pivot above larger ones makes large multipliers, and those a held pivot below makes
-// larger still: of 1e4 and 1e-8 come 1e16 on the later bodies, and all digits are lost. So where a
-// pivot is held they go from large to small, each beside what it would be held at. Rows of joints
-// keep that order; contact rows are gathered for each factorisation and keep their order.
+// A small pivot before larger ones causes large multipliers, amplified by a clamped pivot after it:
+// 1e4 and 1e-8 give 1e16 on later bodies, a total loss of precision. If a pivot is clamped, pivots
+// are therefore sorted from large to small, each relative to its minimum. Joint rows keep that
+// order; contact rows are gathered for each factorisation and keep theirs.
 void SaddleLdlt::hold_last(const Node& node, const auto& form) {
   held_ = true;
   if (!node.gathered) return;
@@ -166,7 +167,7 @@ void SaddleLdlt::hold_last(const Node& node, const auto& form) {
 }
 
 void SaddleLdlt::order_by_pivots(double* S, double* least, int n, Row* rows) {
-  constexpr double kWorse = 1e-3;  // than another, and it waits
+  constexpr double kWorse = 1e-3;  // ratio of pivots below which a row is postponed
   const auto at = [&](int i, int j) -> double& { return S[std::max(i, j) * n + std::min(i, j)]; };
   for (int j = 0; j < n; ++j) {
     int best = j;

@@ -1,5 +1,5 @@
-// Which nodes there are, what each is coupled to, and how it is factored. Found again only
-// where constraints come or go.
+// Layout of the factor: nodes, couplings and kinds. Recomputed only when constraints are added or
+// removed.
 
 #include <algorithm>
 
@@ -9,12 +9,12 @@ namespace substep {
 
 namespace {
 
-// A row is folded if 1/s exceeds what the row sees of its bodies' inertia by at most this: as many
-// digits of the inertia are lost.
+// A row is folded if 1/s exceeds its effective mass by at most this factor, which is the loss of
+// precision in the inertia.
 constexpr double kFold = 1e7;
-constexpr int kLeafRows = 8;  // more rows are cheaper when folded
+constexpr int kLeafRows = 8;  // with more rows folding is cheaper
 
-/// Largest J Mt^-1 J^T that a row can have on one body.
+/// Upper bound on J Mt^-1 J^T of a row on one body.
 double mobility(const double (&J)[6], const InverseMass& mass) {
   return mass.linear * (J[0] * J[0] + J[1] * J[1] + J[2] * J[2]) +
          mass.angular.trace() * (J[3] * J[3] + J[4] * J[4] + J[5] * J[5]);
@@ -27,7 +27,7 @@ void SaddleLdlt::reserve(std::size_t bodies, std::size_t blocks) {
   constexpr std::size_t kRows = 8;
   constexpr std::size_t kWidth = 6 * kCoupled;
   order_.reserve(bodies, blocks);
-  bodies_ = 0;  // nodes point into memory that may move now: they are laid out again
+  bodies_ = 0;  // nodes point into memory that may move: forces a new layout
   keys_.reserve(blocks);
   nodes_.reserve(bodies);
   node_of_block_.reserve(blocks);
@@ -56,7 +56,7 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
     return mass.linear + mass.angular.trace() * r.squaredNorm();
   };
   int row = 0;
-  if (block.has_point_rows) {  // the arms bound what its first rows see
+  if (block.has_point_rows) {  // bound for the first rows from the arms
     const double* s = block.softness;
     const double least = std::min(s[0], std::min(s[1], s[2]));
     if (!(most_of(block.a, block.r_a) + most_of(block.b, block.r_b) <= kFold * least)) return false;
@@ -81,7 +81,7 @@ bool SaddleLdlt::begin(const System& system) {
   u_star_.resize(system.u.size());
   copy(system.u, u_star_);
   if (!layout_is_the_same(system) && !lay_out(system)) {
-    bodies_ = 0;  // so that they are laid out again
+    bodies_ = 0;  // forces a new layout
     nodes_.clear();
     pushed_.clear();
     return false;
@@ -92,7 +92,7 @@ bool SaddleLdlt::begin(const System& system) {
   return true;
 }
 
-// From the root on: a joint refers to the pivot of its parent.
+// Starts at the root: a joint refers to its parent's pivot.
 void SaddleLdlt::read(std::span<const Block> blocks) {
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
@@ -164,7 +164,7 @@ bool SaddleLdlt::lay_out(const System& system) {
 }
 
 void SaddleLdlt::link_nodes() {
-  // What a node leaves goes to the first of its coupled bodies, and with it to its coupled bodies.
+  // A node's contribution goes to its first coupled body, whose coupled bodies include the others.
   place_.resize(coupled_.size());
   first_filled_.assign(coupled_.size(), 0);
   for (const Node& node : nodes_) {
@@ -196,8 +196,8 @@ void SaddleLdlt::link_nodes() {
   }
 }
 
-// Capacity grows in doubles, so that contacts that come one by one rarely allocate; what was there
-// is let go first, as nothing of it is read again.
+// Capacity doubles, so that contacts added one by one rarely allocate; old values are freed first,
+// since they are not read again.
 bool SaddleLdlt::make_room(const System& system) {
   std::size_t articulated = 0;
   std::size_t values = 0;
@@ -230,8 +230,8 @@ bool SaddleLdlt::make_room(const System& system) {
   return true;
 }
 
-// What articulated nodes and their neighbours hand each other: among each other at the pivots, to
-// and from others at the centre.
+// Links for momentum and velocity: between articulated nodes at the pivots, to and from other nodes
+// at the centre.
 void SaddleLdlt::link_articulated() {
   auto next = joints_.begin();
   for (Node& node : nodes_) {

@@ -5,14 +5,14 @@
 
 namespace substep {
 
-// One node. Its body has the velocity v, the rows at it the impulses x, the later bodies that it is
-// coupled to the velocities p:
+// One node. v is the velocity of its body, x the impulses of its rows, p the velocities of the
+// coupled later bodies:
 //   A v - J^T x + B p = g
 //   J v + s x + N p   = -w          (N: the rows' gradients on p)
 //   B^T v - N^T x + C p = ...
-// With A = L D L^T and S = s + J A^-1 J^T, what is left on p is
+// With A = L D L^T and S = s + J A^-1 J^T, the Schur complement on p is
 //   C - B^T A^-1 B + (N - J A^-1 B)^T S^-1 (N - J A^-1 B)
-// and on its right-hand side
+// with the right-hand side
 //   - B^T A^-1 g - (N - J A^-1 B)^T S^-1 (w + J A^-1 g).
 // Backwards  x = -S^-1 (w + J A^-1 g + (N - J A^-1 B) p),   v = A^-1 (g + J^T x - B p).
 
@@ -27,8 +27,7 @@ void subtract6(const double* x, double f, double* y) {
 
 void SaddleLdlt::touch(std::size_t block) { nodes_[index(node_of_block_[block])].dirty = true; }
 
-// What acts on the bodies besides the rows that are unknowns: active rows give J^T x, folded ones
-// -J^T w/s.
+// Momenta from rows that are not unknowns: J^T x of active rows, -J^T w/s of folded ones.
 void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
   for (const int i : pushed_) v_[index(i)].setZero();
   for (const int i : pushed_) {
@@ -188,7 +187,7 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, aut
   }
 }
 
-// A node is factored just before it is solved forward: neither waits for the other.
+// Each node is factored just before its forward solve, so that the two overlap in the pipeline.
 bool SaddleLdlt::solve(const System& system) {
   set_momenta(system.blocks);
   for (Node& node : nodes_) {

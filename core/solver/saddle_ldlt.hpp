@@ -12,25 +12,24 @@
 
 namespace substep {
 
-/// Eq. 3 in the change of velocity v = u+ - u*, eliminated body by body; J Mt^-1 J^T is never
-/// formed.
+/// Solves Eq. 3 for the change of velocity v = u+ - u*, eliminating body by body; J Mt^-1 J^T is
+/// never formed.
 ///
-///   [ Mt  -J^T ] [v]   [ J^T x_tight    ]       over the rows that are free;
+///   [ Mt  -J^T ] [v]   [ J^T x_tight    ]       over the free rows;
 ///   [ J     s  ] [x] = [ -(J u* + bias) ]       the impulses of active rows are given
 ///
-/// A node of the elimination is a body with all constraints to bodies that come later. It is handed
-/// what earlier nodes leave on its body, and leaves a symmetric matrix on the later bodies that it
-/// is coupled to. A node is factored by one of three ways:
+/// A node of the elimination is a body with all constraints to later bodies. It receives the
+/// contributions of earlier nodes, and contributes a symmetric matrix (Schur complement) to the
+/// later bodies it is coupled to. There are three kinds of nodes:
 ///  - articulated: one joint with point rows to one later body or the world, in closed form;
-///  - leaf: nothing came before, so Mt^-1 is at hand and only the rows remain, S = s + J Mt^-1 J^T;
+///  - leaf: no contributions, so Mt^-1 is known and only the rows remain, S = s + J Mt^-1 J^T;
 ///  - general: LDL^T of the 6 x 6 inertia, then of S.
-/// In a general node rows with enough softness are folded into the bodies as springs of stiffness
+/// In a general node, rows with enough softness are folded into the bodies as springs of stiffness
 /// 1/s, and x = -(J u + bias)/s follows from the velocities: any number of contact points costs no
-/// more than one 6 x 6 block. Rows without, such as exact joints, stay rows and are pivots after
-/// their body, so that nothing is divided by a small s.
+/// more than one 6 x 6 block. Other rows, such as exact joints, are kept as pivots after their
+/// body, to avoid dividing by a small s.
 ///
-/// When rows become active or free, only their nodes and those on the way to the root are factored
-/// again.
+/// When rows become active or free, only their nodes and the ancestors of these are refactored.
 class SaddleLdlt {
  public:
   SaddleLdlt() = default;
@@ -38,29 +37,29 @@ class SaddleLdlt {
   SaddleLdlt& operator=(const SaddleLdlt&) = delete;
 
   void reserve(std::size_t bodies, std::size_t blocks);
-  /// Takes a new system, its u as u*. @return false where the factor would take more memory than
-  /// System::limits allow; then there is nothing to solve, and needed_memory() is how much
+  /// Starts a new system, with its u as u*. @return false if the factor would exceed the memory in
+  /// System::limits; then solve() must not be called, and needed_memory() is the amount
   bool begin(const System& system);
-  /// For the numbers of the factor [bytes].
+  /// Memory of the factor's values [bytes].
   [[nodiscard]] double needed_memory() const { return needed_memory_; }
-  /// Reads the bias of the same rows again; factors are kept.
+  /// Reads a new bias for the same rows; factors are kept.
   void read(std::span<const Block> blocks);
-  /// Says that rows of a block have become active or free.
+  /// Marks a block whose rows have become active or free.
   void touch(std::size_t block);
-  /// Impulses of free rows from those of active rows, and u+. Factors what has changed.
-  /// @return false where that would take more work than System::limits allow; then needed_work()
-  /// tells how much, as far as it is known, and nothing else is of use
+  /// Computes u+ and the impulses of free rows from those of active rows; refactors changed nodes.
+  /// @return false if that would exceed the work in System::limits; then only needed_work(), a
+  /// lower bound, is valid
   bool solve(const System& system);
   /// Since `begin` [floating-point operations].
   [[nodiscard]] double needed_work() const { return static_cast<double>(flops_); }
-  /// What solve() leaves out, as no velocity follows from it: impulses of joints that are
-  /// articulated or folded.
+  /// Computes the impulses that solve() skips because no velocity depends on them: those of
+  /// articulated or folded joints.
   void find_impulses(std::span<Block> blocks);
 
-  /// Whether a pivot was held since `begin`: then the solution is one of softer rows.
+  /// True if a pivot was clamped since `begin`: then the solution is that of softer rows.
   [[nodiscard]] bool held() const { return held_; }
-  /// Takes that softness back, with the factor as it is; all rows are free. Leaves all impulses,
-  /// and ends what `begin` began.
+  /// Removes that softness by iterative refinement with the existing factor; all rows are free.
+  /// Computes all impulses and ends the system started by `begin`.
   void refine(const System& system);
 
   /// Floating-point operations since `begin`.
@@ -69,12 +68,12 @@ class SaddleLdlt {
 
  private:
   enum class NodeKind : std::uint8_t { kArticulated, kLeaf, kGeneral };
-  /// A constraint at the node of the body that is eliminated first.
+  /// A constraint, stored at the node of its first-eliminated body.
   struct Attached {
     int block = 0;
-    int other = -1;  // of the node's coupled bodies, -1: static
+    int other = -1;  // index among the node's coupled bodies, -1: static
     bool is_a = false;
-    bool exact = false;  // of an articulated node, when it was laid out
+    bool exact = false;  // articulated nodes: value at layout time
     bool foldable = false;
     bool folded = false;
   };
@@ -82,7 +81,7 @@ class SaddleLdlt {
     int body = 0;
     NodeKind kind = NodeKind::kGeneral;
     bool dirty = true;
-    int parent = -1;                // the node that is handed what this one leaves
+    int parent = -1;                // the node that receives this one's contribution
     int coupled = 0;                // later bodies
     std::size_t first_coupled = 0;  // into coupled_
     std::size_t first_child = 0;    // into children_
@@ -92,23 +91,23 @@ class SaddleLdlt {
     std::size_t first_row = 0;  // into rows_ and c_
     int n_rows = 0;             // free and not folded
     int most_rows = 0;
-    bool folds = false;  // some of its rows
+    bool folds = false;  // some rows are folded
     bool has_contacts = false;
-    bool gathered = false;  // its rows, and they stay: none can become active
+    bool gathered = false;  // its rows are gathered and fixed: none can become active
     SpringFlops springs;
-    int counted_rows = -1;  // what follows is for so many; with folded rows it changes with them
-    std::int64_t handed_flops = 0;  // to add what the children leave
+    int counted_rows = -1;          // number of rows for which the counts below are valid
+    std::int64_t handed_flops = 0;  // to add the children's contributions
     std::int64_t factor_flops = 0;
     std::int64_t solve_flops = 0;
     std::size_t values = 0;  // into values_, unless articulated
-    std::size_t update = 0;  // into values_: what it leaves on the coupled bodies, where general
+    std::size_t update = 0;  // into values_: contribution to the coupled bodies, general nodes only
     // Of an articulated node:
     ArticulatedJoint* joint = nullptr;          // one of joints_
-    const ArticulatedJoint* carried = nullptr;  // of its one child, where that is articulated
+    const ArticulatedJoint* carried = nullptr;  // joint of its single child, if that is articulated
     const double* reference = nullptr;          // of the parent: its pivot, nullptr for its centre
     double* handed_to = nullptr;                // momentum of the parent, nullptr for the world
-    const double* parent_velocity = nullptr;    // there
-    bool pushed = false;  // at its centre, by nodes of another kind; of any node
+    const double* parent_velocity = nullptr;    // at that reference point
+    bool pushed = false;  // any node: receives momentum at its centre from non-articulated nodes
   };
   struct Row {
     int attached = 0;
@@ -116,7 +115,7 @@ class SaddleLdlt {
   };
   struct Key {  // what the layout depends on
     int a, b;
-    int kind;  // of number of rows, contact and pin: one number to compare
+    int kind;  // number of rows, contact and pin encoded in one number
     [[nodiscard]] int rows() const { return kind / 4; }
     friend bool operator==(const Key&, const Key&) = default;
   };
@@ -158,13 +157,13 @@ class SaddleLdlt {
   void link_articulated();
   void choose_kind(Node& node, const System& system);
 
-  /// @return false where it would take too much work
+  /// @return false if it would exceed the work limit
   bool factor_node(Node& node, const System& system);
-  void count(Node& node) const;  // its operations
+  void count(Node& node) const;  // counts its operations
   void factor_articulated(Node& node);
   void sum_carried(const Node& node, Square6& sum);
-  /// Calls with the width of a node: as one that the compiler knows for what chains, bridges and
-  /// stacks are made of.
+  /// Calls with the width of a node, as a compile-time size for the common cases in chains, bridges
+  /// and stacks.
   static void with_known_width(const Node& node, const auto& call) {
     switch (node.coupled) {
       case 0:
@@ -183,10 +182,10 @@ class SaddleLdlt {
   void factor_general(Node& node, std::span<const Block> blocks, auto n);
   void gather_rows(Node& node, std::span<const Block> blocks);
   void add_inertia(const Node& node, Square6& A) const;
-  /// @param B, U of the parent, n wide: where there are more coupled bodies than the parent
+  /// @param B, U of the parent, n wide; used if there are coupled bodies besides the parent
   void add_left(const Node& child, Square6& A, double* B, double* U, int n);
   void eliminate_rows(Node& node, std::span<const Block> blocks);
-  /// Factors the rows of a node again where a pivot was held. @param form makes S, Z and least
+  /// Refactors the rows of a node after a pivot was clamped. @param form computes S, Z and minimum
   /// pivots
   void hold_last(const Node& node, const auto& form);
   /// @param S, least n rows, not yet factored; overwritten  @param rows in: as in S;
@@ -200,12 +199,12 @@ class SaddleLdlt {
   /// @param weighted D^-1 L^-1 g, leaf: g
   void forward_rows(const Node& node, const Factor& f, auto rows, auto n, const double* weighted);
   void backward(const Node& node, std::span<Block> blocks);
-  /// @param change in: L^-1 g, leaf: Mt^-1 g; out: with the pushes of the rows
+  /// @param change in: L^-1 g, leaf: Mt^-1 g; out: including the impulses of the rows
   void backward_rows(const Node& node, const Factor& f, auto rows, auto n, std::span<Block> blocks,
                      double* change);
 
-  /// Takes the velocity that the impulses found so far lead to as u*, and leaves a system for what
-  /// is to be added to them. @return its largest |w| without any of it [m/s, rad/s]
+  /// Sets u* to the velocity under the current impulses, and sets up the system for their
+  /// correction. @return its largest |w| at zero correction [m/s, rad/s]
   double start_correction(const System& system);
 
   EliminationOrder order_;
@@ -215,11 +214,10 @@ class SaddleLdlt {
   std::vector<int> node_of_block_;
   std::vector<Attached> attached_;
   std::vector<int> coupled_;  // nodes
-  std::vector<int> place_;    // beside coupled_: where the parent has it among its own, -1: itself
-  std::vector<int> first_filled_;  // beside coupled_: the first row of Z with such a part that is
-                                   // not zero, as far as is known: of leaf nodes
+  std::vector<int> place_;    // parallel to coupled_: index in the parent's, -1: the parent itself
+  std::vector<int> first_filled_;  // parallel to coupled_, leaf nodes: first non-zero row of Z
   std::vector<int> children_;      // nodes
-  std::vector<int> pushed_;        // nodes that are handed momentum at their centre
+  std::vector<int> pushed_;        // nodes that receive momentum at their centre
   std::vector<Row> rows_;
   std::vector<ArticulatedJoint> joints_;  // nodes point to them
   bool any_folded_ = false;
@@ -228,18 +226,18 @@ class SaddleLdlt {
   std::int64_t flops_ = 0;
   double needed_memory_ = 0.0;
 
-  std::span<const InverseMass> inverse_mass_;  // of the system that was begun with
+  std::span<const InverseMass> inverse_mass_;  // of the system passed to begin()
   std::vector<Vec6> u_star_;
   std::vector<double> w_;  // J u* + bias, kMaxRows per block
-  std::vector<Vec6> v_;    // per node: momentum, then what is left of it, then the velocity; of an
-                           // articulated node without pushes only the velocity
+  std::vector<Vec6> v_;    // per node: momentum, then its remainder, then the velocity; only the
+                           // velocity for articulated nodes that are not `pushed`
   std::vector<double> c_;  // per row of a node, from forward to backward
 
   // Of refine():
   struct RowValues {
     double bias[kMaxRows];
-    double impulse[kMaxRows];  // before the correction that is being made
-    double earlier[kMaxRows];  // before the last one
+    double impulse[kMaxRows];  // before the current correction
+    double earlier[kMaxRows];  // before the previous correction
   };
   std::vector<RowValues> found_;  // per block
   std::vector<Vec6> u_begun_;     // u* of the system

@@ -1,4 +1,4 @@
-// Iterative refinement, where pivots were held.
+// Iterative refinement after clamped pivots.
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@ namespace substep {
 namespace {
 
 constexpr int kMost = 3;             // corrections
-constexpr double kFalls = 0.5;       // what |w| falls to, or the correction before was none
-constexpr double kChange = 1e-2;     // most that a correction changes of the velocities
-constexpr double kRounding = 1e-15;  // of the velocities: all that can be asked for
+constexpr double kFalls = 0.5;       // required reduction of |w| per correction
+constexpr double kChange = 1e-2;     // largest relative change of velocities by a correction
+constexpr double kRounding = 1e-15;  // relative to the velocities: attainable accuracy
 
 double largest_of(std::span<const Vec6> u) {
   double largest = 0.0;
@@ -22,7 +22,7 @@ double largest_of(std::span<const Vec6> u) {
   return largest;
 }
 
-/// Whether two sets of velocities differ by little. False where one is no number.
+/// True if two sets of velocities are close. False with NaN.
 bool is_near(std::span<const Vec6> u, std::span<const Vec6> v) {
   const double most = kChange * largest_of(v);
   for (std::size_t i = 0; i < u.size(); ++i) {
@@ -53,13 +53,13 @@ double SaddleLdlt::start_correction(const System& system) {
   return largest;
 }
 
-// A held pivot makes its row a spring, w = J u+ + s x + bias = -e x with e of 1e-8 of J Mt^-1 J^T,
-// and what it is divided by costs the later bodies as many digits. The impulses found are a start,
-// though: with x = x0 + d and u0 = u* + Mt^-1 J^T x0, the d that is left to be found is that of
+// A clamped pivot makes its row a spring, w = J u+ + s x + bias = -e x with e = 1e-8 J Mt^-1 J^T,
+// and dividing by it costs the later bodies the same precision. The impulses are a starting point:
+// with x = x0 + d and u0 = u* + Mt^-1 J^T x0, the remaining d solves
 //   J (u0 + Mt^-1 J^T d) + s d + (bias + s x0) = 0,
-// a solve with the factor at hand. What it is wrong by falls by e over what the whole system sees
-// of the row. Where rows contradict each other it does not fall, or what they nearly agree on would
-// be thrown about: then the bodies go where the held pivots let them, and nothing is corrected.
+// with the same factor. The error falls by the ratio of e to the row's effective J Mt^-1 J^T in the
+// whole system. With contradictory rows it does not fall, or the solution would change strongly;
+// then the softened solution is kept.
 void SaddleLdlt::refine(const System& system) {
   const std::span<Block> blocks = system.blocks;
   find_impulses(blocks);

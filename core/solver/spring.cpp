@@ -9,10 +9,10 @@ namespace substep {
 
 namespace {
 
-// The first rows of a pin are J = +-[E, -[r]] on the body and -+[E, -[r']] on the other, with a
-// stiffness each: the products of both sides have signs that do not depend on which is which.
-// Row i of [r] is zero at i, -r_l at j and r_j at l. What is added to more than once stays in a
-// register meanwhile; what is multiplied is handed over by value, since it might be part of M.
+// The first rows of a pin are J = +-[E, -[r]] on the body and -+[E, -[r']] on the other, each with
+// a stiffness: the signs of the products do not depend on the side.
+// Row i of [r] is zero at i, -r_l at j and r_j at l. Repeated sums stay in registers; factors are
+// passed by value, because they might alias M.
 
 struct Three {
   double of[3];
@@ -60,7 +60,7 @@ void add_pin_between(Three k, Three r, Three r_other, double* B, std::size_t n) 
   unrolled<0, 3>([&](auto i) { B[(3 + i) * n + 3 + i] = diagonal[i]; });
 }
 
-/// A further row of a pin, with J of either side: the other's is the opposite.
+/// A further row of a pin, with J of either side; the other side's is the opposite.
 void add_turn(double k, const double (&J)[6], const SpringTarget& to) {
   for (std::size_t i = 3; i < 6; ++i) {
     const double f = k * J[i];
@@ -114,7 +114,7 @@ void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
   }
 }
 
-// As add_pin(), add_turn() and add_row() add, push() and row_speeds() multiply.
+// Matches add_pin(), add_turn(), add_row(), push() and row_speeds().
 SpringFlops spring_flops(const Block& block, int rows, int bodies) {
   const std::int64_t other = bodies - 1;
   const auto of_row = [&](std::int64_t n) {  // n gradients of each body

@@ -9,25 +9,25 @@
 
 namespace substep {
 
-/// Where springs between a body and another add to a matrix of 6 x 6 blocks, row-major: mass by
-/// dt^2 times stiffness [kg, kg m; kg m, kg m^2].
+/// Destination of springs between two bodies in a matrix of 6 x 6 blocks, row-major, as dt^2 times
+/// stiffness [kg, kg m; kg m, kg m^2].
 struct SpringTarget {
   Square6& A;           // of the body, on and below the diagonal
-  double* B = nullptr;  // between both; nullptr where there is no other moving body
-  double* U = nullptr;  // of the other, on and below the diagonal
+  double* B = nullptr;  // coupling block; nullptr without another moving body
+  double* U = nullptr;  // of the other body, on and below the diagonal
   std::size_t stride = 0;
 };
 
 /// Free rows as springs of stiffness 1/s: J^T s^-1 J. Rows of joints are always free.
-/// @param is_a which side of the block the body is
+/// @param is_a true if the body is side a of the block
 void add_springs(const Block& block, bool is_a, const SpringTarget& to);
 
-/// Floating-point operations of springs: to add them, and of one solve.
+/// Floating-point operations of springs: adding them, and one solve.
 struct SpringFlops {
   std::int64_t factor = 0;
   std::int64_t solve = 0;
 };
-/// @param rows of the block that are free  @param bodies that move, 1 or 2
+/// @param rows free rows of the block  @param bodies moving bodies, 1 or 2
 SpringFlops spring_flops(const Block& block, int rows, int bodies);
 
 /// The impulses of free rows, x = -(w + J v)/s.

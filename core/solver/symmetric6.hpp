@@ -1,6 +1,6 @@
 #pragma once
-// A symmetric 6 x 6 matrix in registers, two doubles at a time. Numbers do not go through memory
-// between scalar and vector operations: that would stall each of them.
+// A symmetric 6 x 6 matrix in registers, two doubles at a time. Avoids round trips through memory
+// between scalar and vector operations, which would stall.
 
 #include "core/math/pair.hpp"
 
@@ -59,14 +59,14 @@ class Symmetric6 {
     return {{Pair{linear(0), linear(1)}, Pair{linear(2), x}, Pair{y, z}}};
   }
 
-  /// A -= a b^T, which has to be symmetric.
+  /// A -= a b^T, which must be symmetric.
   void subtract(const Pairs6& a, const Pairs6& b) {
     for (int i = 0; i < 6; ++i) {
       for (int p = i / 2; p < 3; ++p) row_[i].p[p] -= a[i] * b.p[p];
     }
   }
 
-  /// A -= a b^T + c d^T, of which the sum has to be symmetric.
+  /// A -= a b^T + c d^T; the sum must be symmetric.
   void subtract(const Pairs6& a, const Pairs6& b, const Pairs6& c, const Pairs6& d) {
     for (int i = 0; i < 6; ++i) {
       for (int p = i / 2; p < 3; ++p) row_[i].p[p] -= a[i] * b.p[p] + c[i] * d.p[p];
@@ -76,7 +76,7 @@ class Symmetric6 {
   // In series with a spring of compliance D = diag(s) in the linear directions. With L, C, Omega
   // the blocks of A and G = (1 + L D)^-1:
   //   L' = G L,   C' = G C,   Omega' = Omega - C^T D C',
-  // without loss of digits for any s. G by its cofactors.
+  // without cancellation for any s. G is computed from its cofactors.
   void soften_linear(const double* s) {
     const Symmetric6& A = *this;
     const double n00 = 1.0 + A(0, 0) * s[0], n01 = A(0, 1) * s[1], n02 = A(0, 2) * s[2];
@@ -106,7 +106,7 @@ class Symmetric6 {
   }
 
   void rows(Rows6& out) const {
-    for (int p = 0; p < 3; ++p) {  // down the columns: along the rows these would be calls to copy
+    for (int p = 0; p < 3; ++p) {  // column order: in row order compilers emit calls to memcpy
       for (int i = 0; i < 2 * p + 2; ++i) out.row[i].p[p] = row_[i].p[p];
       for (int q = p + 1; q < 3; ++q) {
         const Pair& upper = row_[2 * p].p[q];

@@ -9,9 +9,8 @@ namespace substep {
 
 namespace {
 
-/// J^T x of one side, added to a momentum: of a pin x and r x x, row by row.
-/// @param sign of the side of a block with point rows: +1 for a, -1 for b  @param J of any other
-/// block
+/// Adds J^T x of one side to a momentum; for a pin x and r x x, row by row. @param sign side of a
+/// block with point rows: +1 for a, -1 for b  @param J of any other block
 [[gnu::always_inline]] inline void add_push(const Block& block, const double (&J)[kMaxRows][6],
                                             double sign, const Vec3& r, const double* x, Vec6& g) {
   if (!block.has_point_rows) {
@@ -38,7 +37,7 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
   }
 }
 
-/// J u of one side, added to the speeds of the rows.
+/// Adds J u of one side to the speeds of the rows.
 [[gnu::always_inline]] inline void add_speeds(const Block& block, const double (&J)[kMaxRows][6],
                                               double sign, const Vec3& r, const Vec6& u,
                                               double* speed) {
@@ -59,7 +58,7 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
 
 }  // namespace
 
-// What is summed stays in registers: `speed` may be anywhere.
+// Sums stay in registers: `speed` may alias.
 void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed) {
   if (block.rows == 1) {  // most contacts
     double sum = 0.0;
@@ -124,7 +123,7 @@ double lcp_residual(const System& system) {
       }
       const double x = block.impulse[row];
       const double w = speed[row] + block.softness[row] * x + block.bias[row];
-      // The natural residual: zero just where w and x are complementary.
+      // The natural residual: zero if and only if w and x are complementary.
       const double projected = std::min(hi, std::max(lo, x - w));
       worst = std::max(worst, std::abs(x - projected));
     }

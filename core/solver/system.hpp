@@ -15,16 +15,16 @@ struct InverseMass {
   Mat3 angular = Mat3::Zero();  // world axes [1/(kg m^2)], symmetric
 };
 
-/// What a solve may take.
+/// Resource limits of a solve.
 struct SolveLimits {
   double memory = std::numeric_limits<double>::infinity();  // for a factor [bytes]
   double work = std::numeric_limits<double>::infinity();    // [floating-point operations]
 };
 
-/// How a body goes through a sub-step, of a solver that finds more of it than a velocity: what
-/// integrate() moves it by, its acceleration at both ends and dt^2 times the second derivative of
-/// that. Of what keeps to its angular momentum, the torque stands in place of the angular
-/// acceleration. [m/s, rad/s; m/s^2, rad/s^2 or N m]
+/// Motion of a body in a sub-step, for solvers that compute more than a velocity: the velocity for
+/// integrate(), the acceleration at both ends and dt^2 times its second derivative. For bodies that
+/// conserve angular momentum, the torque replaces the angular acceleration. [m/s, rad/s; m/s^2,
+/// rad/s^2 or N m]
 struct BodyCourse {
   Vec6 move_by = Vec6::Zero();
   Vec6 start = Vec6::Zero();
@@ -32,7 +32,7 @@ struct BodyCourse {
   Vec6 bend = Vec6::Zero();
 };
 
-/// What a solver is given: find impulses and u+ = u* + Mt^-1 J^T impulse with
+/// Input and output of a solver: find impulses and u+ = u* + Mt^-1 J^T impulse with
 ///   w = J u+ + softness * impulse + bias,
 ///   w = 0 where lo < impulse < hi,  w >= 0 at lo,  w <= 0 at hi.
 /// Joint rows are unbounded; a contact's normal has [0, inf); its friction rows +-mu * normal
@@ -42,20 +42,20 @@ struct System {
   std::span<const InverseMass> inverse_mass;  // per body
   std::span<Vec6> u;                          // per body: u* in, u+ out [m/s, rad/s]
 
-  // For solvers that look at other poses than those at the start of the sub-step.
+  // For solvers that use poses other than those at the start of the sub-step.
   std::span<const Vec6> u_before{};  // per body: of the last sub-step [m/s, rad/s]
-  double dt = 0.0;                   // of this one [s]
+  double dt = 0.0;                   // of this sub-step [s]
   std::span<const Mat3> R_WB{};      // per body: principal axes, columns in the world
 
-  // The part of every softness that is no compliance, and that refinements take back [1/kg].
+  // The part of every softness that is not compliance; refinements remove it [1/kg].
   double regularisation = 0.0;
 
-  // Per body: where Newton may begin, or empty: at u_before [m/s, rad/s].
+  // Per body: initial guess of Newton [m/s, rad/s]; if empty, u_before.
   std::span<const Vec6> u_guess{};
 
-  // For Newton with forces numerov, per body: for how long forces act [s]; principal moments of
-  // what keeps to its angular momentum, of which u is I^-1 of the mean over a sub-step, else 0
-  // [kg m^2]; and, out, where it goes.
+  // For Newton with forces numerov, per body: duration of forces [s]; principal moments of bodies
+  // that conserve angular momentum, whose u is I^-1 of its mean over a sub-step, else 0 [kg m^2];
+  // out: the motion.
   std::span<const double> force_time{};
   std::span<const Vec3> inertia{};
   std::span<BodyCourse> courses{};
@@ -64,12 +64,11 @@ struct System {
 };
 
 enum class SolveStatus : std::uint8_t {
-  kSolved,      // BPP, Newton: complementary to their tolerance. PGS, XPBD: the sweeps are done
-  kUnsettled,   // BPP: complementary for friction bounds that still move; the next sub-step
-                // continues
-  kUnsolved,    // BPP: the bound of pivots was reached; Gauss-Seidel took over. Newton: its steps
-                // ran out before it had converged
-  kOverLimits,  // more than System::limits; impulses and velocities are of no use
+  kSolved,     // BPP, Newton: complementary within tolerance. PGS, XPBD: all sweeps done
+  kUnsettled,  // BPP: complementary, but friction bounds not converged; the next sub-step continues
+  kUnsolved,   // BPP: pivot limit reached; Gauss-Seidel took over. Newton: not converged within its
+               // steps
+  kOverLimits,  // System::limits exceeded; impulses and velocities are invalid
 };
 
 struct SolveReport {
@@ -80,11 +79,11 @@ struct SolveReport {
   int passes = 0;                // the same: refreshes of the friction bounds, the first included
   int factorisations = 0;        // BPP, also in Newton
   std::int64_t flops = 0;        // to form, factor and solve, and of row updates: flops.hpp
-  double memory_needed = 0.0;    // of kOverLimits [bytes], 0 where it was the work
-  double work_needed = 0.0;      // of kOverLimits [operations], 0 where it was the memory
+  double memory_needed = 0.0;    // for kOverLimits [bytes], 0 if the work was exceeded
+  double work_needed = 0.0;      // for kOverLimits [operations], 0 if the memory was exceeded
 };
 
-/// J u of all rows of a block: the relative speeds that it is about.
+/// J u of all rows of a block: relative speeds.
 /// @param speed out, one per row [m/s or rad/s]
 void row_speeds(const Block& block, std::span<const Vec6> u, double* speed);
 
@@ -101,7 +100,7 @@ void apply_impulse(const Block& block, const double* impulse,
 /// The bound of a contact's row, given its normal impulse [N s].
 double friction_bound(const Block& block, int row, double normal);
 
-/// Block::share of the cone whose force points along an impulse of friction; even where it is none.
+/// Sets Block::share of the cone for a friction impulse; equal shares if it is zero.
 void point_cone(Block& block, double along_t1, double along_t2);
 
 /// Largest violation of bounds [N s] and complementarity [m/s] of a solved system.

@@ -10,7 +10,7 @@ namespace substep {
 
 namespace {
 
-/// A direction in the space of a block's rows, seen by one body: how its pose changes the error.
+/// Gradient of the error along a direction in row space, for one body.
 Vec6 gradient(const Block& block, RowRange rows, bool of_a, const double* direction) {
   Vec6 g = Vec6::Zero();
   for (int i = 0; i < rows.count; ++i) g += direction[i] * gradient(block, rows.first + i, of_a);
@@ -23,14 +23,14 @@ Vec6 response(const InverseMass& mass, const Vec6& g) {
   return out;
 }
 
-/// The way of a body, lengthened by du dt and turned by it: u is what integrate() will move it by.
+/// Advances the motion of a body by du dt; u is the resulting velocity for integrate().
 void push(const Vec6& du, double dt, Vec6& u) {
   u.head<3>() += du.head<3>();
   u.tail<3>() = (2.0 / dt) * turn_after(0.5 * dt * u.tail<3>(), 0.5 * dt * du.tail<3>());
 }
 
-/// Of one correction of some rows: the rows at the present poses, the direction, and per body the
-/// gradient, its response and the push.
+/// Operations per correction: rows at the current poses, the direction, and per body the gradient,
+/// its response and the impulse.
 std::int64_t correction_flops(const Block& block, int count) {
   const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
   constexpr std::int64_t kPush = 50;
@@ -55,12 +55,11 @@ bool Xpbd::stays_open(const System& system, const Block& block) const {
              0.0;
 }
 
-// What is left of the rows, e = bias + phi/dt + softness * impulse, its length c and direction d;
-// the impulse p along d changes it along d by
+// The residual of the rows, e = bias + phi/dt + softness * impulse, has length c and direction d;
+// an impulse p along d changes it along d by
 //   (w + softness) p,   w = g M^-1 g^T,   g = d^T J,
-// so p = -c/(w + softness). The source goes along the error without the softness, which is the same
-// in the first sweep, and in further ones of soft joints may stop where its two parts are only
-// across each other.
+// so p = -c/(w + softness). The authors use the error without softness: identical in the first
+// sweep, but for soft joints further sweeps may stall where the two parts are perpendicular.
 void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double bound) {
   Block& block = system.blocks[at];
   Block& moved = moved_[at];
@@ -105,7 +104,7 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
     p = std::min(bound, std::max(lowest, before + p)) - before;
   }
   if (p == 0.0) return;
-  if (block.is_contact() && rows.count == 2) {  // the cone's: the sum, no longer than its bound
+  if (block.is_contact() && rows.count == 2) {  // cone: the length of the sum is bounded
     double sum[2];
     for (int i = 0; i < 2; ++i) sum[i] = block.impulse[rows.first + i] + p * direction[i];
     const double length = std::sqrt(sum[0] * sum[0] + sum[1] * sum[1]);
@@ -136,7 +135,7 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
   const bool cone = settings.friction_cone == FrictionCone::kCone;
   SolveReport report;
   report.iterations = settings.iterations;
-  double most = 0.0;  // where every row is corrected in every sweep
+  double most = 0.0;  // upper bound: every row in every sweep
   for (const Block& block : system.blocks) {
     std::int64_t sweep = block.rows * correction_flops(block, 1);
     if (!block.is_contact()) {

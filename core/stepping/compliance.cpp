@@ -6,7 +6,7 @@ namespace substep {
 
 namespace {
 
-/// w+ = w- of a spring that is resolved, or nothing where all of its force is the end's.
+/// w+ = w- of a resolved spring, or nothing if only the force at the end is used.
 double resolved_weight(const Settings& settings) {
   if (settings.solver == SolverKind::kNewton) {
     switch (settings.forces) {
@@ -77,7 +77,7 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
                  double regularisation, Block& joint) {
   double speed[kMaxRows] = {};
   if (averages_springs(settings)) row_speeds(joint, u_before, speed);
-  const auto set_rows = [&](int first, int end) {  // those that share a compliance
+  const auto set_rows = [&](int first, int end) {  // rows with a common compliance
     const double C = joint.C[first];
     for (int row = first; row < end; ++row) joint.spring_ahead[row] = joint.given[row] = 0.0;
     if (!(C > 0.0)) return;
@@ -102,9 +102,9 @@ void set_springs(const Settings& settings, const SubstepTimes& times, double dri
   set_rows(joint.position_rows, joint.rows);
 }
 
-// The solver has to find whether the contact pushes, so none is given its force. Where it was open
-// it did not pull: without that an impact would gain energy. Where it opens ahead the mean is cut
-// short, and loses a little.
+// The solver determines whether the contact pushes, so forces are never prescribed. An open contact
+// at the pose behind exerts no tension: otherwise an impact would gain energy. If the contact opens
+// ahead, the mean is truncated and slightly dissipative.
 void set_contact_spring(const Settings& settings, const SubstepTimes& times,
                         std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
                         double regularisation, Block& contact) {

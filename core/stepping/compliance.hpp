@@ -8,24 +8,23 @@
 
 namespace substep {
 
-// A compliant joint or contact is a spring: its force is -phi/C at the poses that the integrator
-// takes forces from, not an error that is taken back. Of the poses before, at and after the
+// A compliant joint or contact is a spring: its force is -phi/C at the poses at which the
+// integrator evaluates forces, not a drift correction. With the poses before, at and after the
 // sub-step,
 //   C lambda = -(w+ phi+ + w0 phi + w- phi-),   w+ + w0 + w- = 1,
-// so that at rest it gives way by C lambda whatever the weights, dt and N. With phi+ = phi + dt J
-// u+, phi- = phi - dt- J u- and the impulse p = t lambda, t the time that forces act for, a row is
+// so that the static deflection is C lambda for any weights, dt and N. With phi+ = phi + dt J u+,
+// phi- = phi - dt- J u- and the impulse p = t lambda, t the duration of the force, a row is
 //   J u+ + C/(w+ dt t) p = -(phi - w- dt- J u-)/(w+ dt).
 // On one degree of freedom with kappa = dt t/(C m) the recurrence is
 //   (1 + w+ kappa) phi+ - (2 - w0 kappa) phi + (1 + w- kappa) phi- = 0,
-// stable while w+ >= w- and 2 (w+ + w-) >= 1 - 4/kappa, and it loses kappa (w+ - w-)/2 of its
-// amplitude a sub-step. The weights are therefore
+// stable while w+ >= w- and 2 (w+ + w-) >= 1 - 4/kappa, and the amplitude decays by kappa (w+ -
+// w-)/2 per sub-step. The weights are therefore
 //   Euler, Newton's forces at the end   w+ = 1: implicit Euler, the paper's;
 //   leapfrog, Newton's Numerov          w+ = w- = 1/12, Numerov's: of fourth order for one spring;
 //   Newton's forces at the mean         w+ = w- = 1/4, average acceleration;
 //   Störmer                             w+ = w- = 0: the force of the poses, given to the rows;
-// and where a spring is too stiff to be resolved, they go over into implicit Euler, by
-// sigma = kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a spring that is resolved by the
-// fourth order of dt.
+// and for springs too stiff to be resolved they blend into implicit Euler with sigma =
+// kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a resolved spring at fourth order in dt.
 
 /// Weights of the poses ahead and behind, w+ and w-.
 struct SpringWeights {
@@ -34,49 +33,49 @@ struct SpringWeights {
 };
 SpringWeights spring_weights(const Settings& settings, double kappa);
 
-/// Whether compliant rows are other than implicit Euler's.
+/// True if compliant rows do not use implicit Euler.
 bool averages_springs(const Settings& settings);
 
-/// What a sub-step knows besides its rows.
+/// Step lengths for a row.
 struct SubstepTimes {
   double dt = 0.0;           // [s]
-  double dt_previous = 0.0;  // of the sub-step before [s]
-  double force_time = 0.0;   // t, that forces act for [s]
+  double dt_previous = 0.0;  // of the previous sub-step [s]
+  double force_time = 0.0;   // t, the duration of forces [s]
 };
 
-/// Softness of a row that is given its impulse: past all that J u could add to it [1/kg].
+/// Softness of a row with a prescribed impulse: so large that J u is negligible [1/kg].
 inline constexpr double kGivenForce = 1e12;
-/// A row whose impulse is known before the solve, Block::given, which adds nothing to it. As
-/// softness and bias alone it would be a small difference of large numbers. @param impulse [N s, N
+/// Prescribes the impulse of a row, Block::given; the solve adds nothing to it. Expressed by
+/// softness and bias alone, it would be a small difference of large numbers. @param impulse [N s, N
 /// m s]
 void give_force(Block& joint, int row, double impulse);
 
-/// kappa of the rows that share a compliance, by the softest way that they can move.
+/// kappa of rows with a common compliance, for their softest direction.
 double spring_kappa(const SubstepTimes& times, std::span<const InverseMass> inverse_mass,
                     const Block& joint, int first, int end);
-inline constexpr double kResolved = 0.25;  ///< kappa up to which Störmer's springs are given forces
+inline constexpr double kResolved = 0.25;  ///< Störmer prescribes spring forces up to this kappa
 
-/// Bias and softness of the compliant rows of a joint. Of phi, Block::elastic is the spring's own;
-/// the rest is drift.
-/// @param drift_rate at which drift is taken back [1/s]  @param inverse_mass, u_before per body of
-/// the scene  @param regularisation that joins C in the softness [1/kg]
+/// Sets bias and softness of the compliant rows of a joint. Block::elastic is the elastic part of
+/// phi; the rest is drift.
+/// @param drift_rate of the drift correction [1/s]  @param inverse_mass, u_before per body of the
+/// scene  @param regularisation added to C in the softness [1/kg]
 void set_springs(const Settings& settings, const SubstepTimes& times, double drift_rate,
                  std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
                  double regularisation, Block& joint);
 
-/// The least compliance of a contact that is meant as a spring. Stiffer ones stand for rigid
-/// bodies, which land without a rebound: their implicit Euler takes the energy of the impact [m/N].
+/// Smallest compliance of a contact treated as a spring [m/N]. Stiffer ones model rigid bodies,
+/// which land without rebound: implicit Euler dissipates the energy of the impact.
 inline constexpr double kSoftContact = 1e-6;
-/// kappa up to which a contact's spring is averaged: its weights are implicit Euler's to 1e-3
-/// there.
+/// Largest kappa for which a contact spring is averaged: there its weights equal implicit Euler's
+/// to 1e-3.
 inline constexpr double kResolvedContact = 100.0;
 /// Bias and softness of the normal of a compliant contact under the full drift law, where all of
-/// phi is the spring's own: the mean force of the three poses, and never a pull.
+/// phi is elastic: the mean force of the three poses, never tensile.
 void set_contact_spring(const Settings& settings, const SubstepTimes& times,
                         std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
                         double regularisation, Block& contact);
 
-/// What is the spring's own of phi after the sub-step, by its law and the force found: into
+/// Stores the elastic part of phi after the sub-step, from its law and the computed force, in
 /// Block::elastic. @param lambda per row [N, N m]
 void store_elastic(const double* lambda, Block& joint);
 

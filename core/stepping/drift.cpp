@@ -14,7 +14,7 @@ double drift_rate(Drift law, double tau, double dt) {
 void set_drift_bias(std::span<Block> blocks, Drift law, double tau, double dt) {
   const double full = 1.0 / dt;
   const double rate = drift_rate(law, tau, dt);
-  for (Block& block : blocks) {  // all that there is room for: a number that the compiler knows
+  for (Block& block : blocks) {  // all kMaxRows: a compile-time loop bound
     for (int row = 0; row < kMaxRows; ++row) block.bias[row] = block.phi[row] * rate;
     if (!block.is_contact()) continue;
     if (block.phi[0] > 0.0) {

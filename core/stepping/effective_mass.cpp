@@ -77,7 +77,7 @@ bool changes_mass(Mode mode) { return rules_of(mode).mass != StiffMass::kOwn; }
 
 namespace {
 
-/// Mt about the principal axes of a body [kg m^2]. @return whether it is another than I
+/// Mt about the principal axes of a body [kg m^2]. @return true if it differs from I
 bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6& k, double dt,
                     Vec3& Mt) {
   for (int j = 0; j < 3; ++j) {
@@ -113,7 +113,7 @@ bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& setti
          principal_mass(settings, mass, scene.bodies[body].inertia, state.k[body], dt, Mt);
 }
 
-// S = Mt^-1 M turns what M made of u and the forces into what Mt makes of them:
+// S = Mt^-1 M converts u* computed with M to u* computed with Mt:
 //   u* = beta u + (1 - beta) S u + Mt^-1 dt f = S (u_M - beta u) + beta u.
 void effective_mass(const Scene& scene, const Part& part, const Settings& settings,
                     std::span<const InertiaInverse> own, std::span<const Mat3> R_WB,

@@ -4,15 +4,14 @@
 
 namespace substep {
 
-// With Mt in the place of M on both sides, Mt (u+ - u) = -dt k x, a step is that of a body of mass
-// Mt: it turns more slowly and loses nothing, and it is stable while dt^2 k/Mt < 4 (see
-// damping.hpp). Between the two, a share beta of the velocity term taken with Mt and the rest with
-// M,
+// With Mt replacing M on both sides, Mt (u+ - u) = -dt k x, a step is that of a body of mass Mt:
+// slower rotation, no energy loss, stable while dt^2 k/Mt < 4 (see damping.hpp). In between, a
+// share beta of the velocity term is taken with Mt and the rest with M,
 //   Mt u+ = (beta Mt + (1 - beta) M) u - dt k x,
 //   z^2 - (1 + kept - dt^2 k/Mt) z + kept = 0,   kept = beta + (1 - beta) M/Mt,
 // its roots are within the unit circle (for kept = 1 on it) while the value at z = -1,
-// 2 (1 + kept) - dt^2 k/Mt, is positive: dt^2 k < 2 (1 + kept) Mt. Their product is kept, so a step
-// loses the factor sqrt(kept).
+// 2 (1 + kept) - dt^2 k/Mt, is positive: dt^2 k < 2 (1 + kept) Mt. Their product is kept, so the
+// decay factor per step is sqrt(kept).
 // beta = 1 is `inertia`, beta = 0 the mass of damping.hpp. With the least Mt below, dt^2 k/Mt <=
 // 4 alpha_m, the blend is stable for every k where alpha_m < (1 + beta)/2.
 

@@ -6,37 +6,37 @@
 
 namespace substep {
 
-/// How many sub-steps a frame takes.
+/// Number of sub-steps per frame.
 enum class SubstepCount : std::uint8_t {
   kOne,
   kGiven,         // Settings::n
-  kStable,        // N by Eq. 11, at most n_max
-  kStableCapped,  // the same, at most n_cap
+  kStable,        // N by Eq. 11, up to n_max
+  kStableCapped,  // N by Eq. 11, up to n_cap
 };
 
 /// The mass Mt of rotations that are too stiff for a sub-step.
 enum class StiffMass : std::uint8_t {
   kOwn,        // M
   kDamped,     // damping.hpp
-  kFull,       // M - dt^2 K, what of it resists: full_stiffness.hpp
+  kFull,       // M - dt^2 K with the resisting part of K: full_stiffness.hpp
   kGeometric,  // geometric_inertia.hpp
 };
 
-/// The share beta of the velocity term that is taken with Mt; geometric_inertia.hpp.
+/// The share beta of the velocity term taken with Mt; geometric_inertia.hpp.
 enum class KeptVelocity : std::uint8_t {
   kNothing,
   kShare,  // Settings::beta
   kAll,
 };
 
-/// What a mode is made of.
+/// Components of a mode.
 struct ModeRules {
   SubstepCount count = SubstepCount::kOne;
   StiffMass mass = StiffMass::kOwn;
   KeptVelocity kept = KeptVelocity::kNothing;
 };
 
-/// The one place that knows: all of stepping and the sweep go by it.
+/// The single definition of the modes, used by stepping and the sweep.
 constexpr ModeRules rules_of(Mode mode) {
   switch (mode) {
     case Mode::kNone:

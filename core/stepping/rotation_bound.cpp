@@ -22,7 +22,7 @@ bool differ(const Vec3& I) { return !(I[0] == I[1] && I[1] == I[2]); }
 
 constexpr double square(double x) { return x * x; }
 
-/// By the turn and the gyroscopic rate [1/s^2].
+/// From the rotation and the gyroscopic rate [1/s^2].
 double rate_squared(const Vec3& I, const Vec3& omega_B) {
   const double turn = square(kTurnShare) * omega_B.squaredNorm();
   return differ(I) && turn > 0.0 ? std::max(turn, gyroscopic_rate_squared(I, omega_B)) : turn;

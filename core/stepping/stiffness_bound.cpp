@@ -40,7 +40,7 @@ StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const int> bo
     if (body.is_static) continue;
     for (int dof = 0; dof < 6; ++dof) {
       const double mass = dof < 3 ? body.mass : body.inertia[dof - 3];
-      if (k[i][dof] < 0.999 * best.r * mass) continue;  // a division less
+      if (k[i][dof] < 0.999 * best.r * mass) continue;  // avoids the division
       const double r = k[i][dof] / mass;
       if (r > best.r) best = {r, index, dof, k[i][dof], mass};
     }

@@ -15,25 +15,25 @@ namespace substep {
 /// The degree of freedom with the largest k_i / M_ii.
 struct StiffnessBound {
   double r = 0.0;     // k / mass, Eq. 9 [1/s^2]
-  int body = -1;      // -1 where K is zero
-  int dof = 0;        // 0..2 along, 3..5 about the principal axes
+  int body = -1;      // -1 if K is zero
+  int dof = 0;        // 0..2 linear, 3..5 about the principal axes
   double k = 0.0;     // [N/m or N m/rad]
   double mass = 0.0;  // M_ii [kg or kg m^2]
 };
 
-/// K from the forces and arms of a sub-step (Eq. 1), and its diagonal (Eq. 4).
+/// Evaluates K from the forces and arms of a sub-step (Eq. 1), and its diagonal (Eq. 4).
 class StiffnessStage {
  public:
   explicit StiffnessStage(const Scene& scene);
-  /// @param blocks of the part, with lambda and the geometry it belongs to
-  /// @param k out, per body, those of the part: linear [N/m], then angular about the principal axes
-  /// [N m/rad]
+  /// @param blocks of the part, with lambda and the matching geometry
+  /// @param k out, per body of the part: linear [N/m], then angular about the principal axes [N
+  /// m/rad]
   void evaluate(std::span<const Block> blocks, ContactTerms terms, const Part& part,
                 std::span<const Mat3> R_WB, std::vector<Vec6>& k);
-  /// r = max k_i / M_ii over those of the bodies that move (Eq. 9).
+  /// r = max k_i / M_ii over the moving ones of these bodies (Eq. 9).
   [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const int> bodies,
                                             std::span<const Vec6> k);
-  /// Floating-point operations of the last evaluate(), which had these blocks.
+  /// Floating-point operations of the last evaluate(), for the same blocks.
   [[nodiscard]] std::int64_t flops(std::span<const Block> blocks, ContactTerms terms) const;
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
 

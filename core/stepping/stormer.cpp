@@ -8,7 +8,7 @@ namespace substep {
 
 namespace {
 
-// The first sub-steps, and the first after an impact, know of no change.
+// In the first sub-steps, and the first after an impact, the change is unknown.
 bool changes_are_known(const Vec6& acceleration) { return !acceleration.isZero(0.0); }
 
 }  // namespace
@@ -53,7 +53,7 @@ void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceler
     }
     for (int row = 0; row < block.rows; ++row) {
       if (block.softness[row] >= kGivenForce) continue;
-      // Of a spring the bias is that of a mean over the sub-step.
+      // The bias of a spring belongs to a mean over the sub-step.
       const double aimed = block.C[row] > 0.0 ? per_g * (block.bias[row] + gained[row] / dt)
                                               : per_g / dt * (block.phi[row] + gained[row]);
       block.bias[row] = aimed - speed[row];
@@ -63,7 +63,7 @@ void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceler
 }
 
 std::int64_t stormer_flops(std::span<const Block> blocks, std::size_t bodies) {
-  constexpr std::int64_t kBody = 2 * 50 + 60;  // w, w^ and the turn by it
+  constexpr std::int64_t kBody = 2 * 50 + 60;  // w, w^ and its rotation
   std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
   for (const Block& block : blocks) {
     if (block.is_contact()) continue;

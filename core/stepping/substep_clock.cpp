@@ -25,7 +25,7 @@ bool has_islands(const Settings& settings) {
 bool looks_for_islands(const Settings& settings) { return has_islands(settings) || settings.sleep; }
 
 int wanted_substeps(double h, double dt_max) {
-  constexpr double kMost = 1e9;  // an impulsive force can ask for more than an int holds
+  constexpr double kMost = 1e9;  // an impulsive force can require more than fits in an int
   const double n = std::ceil(h / dt_max);
   return n >= 1.0 ? static_cast<int>(std::min(n, kMost)) : 1;
 }
@@ -60,7 +60,7 @@ void SubstepClock::decide() {
       const int wanted = wanted_substeps(h_, dt_max);
       n_wanted_ = std::max(n_wanted_, wanted);
       capped_ = capped_ || wanted > limit_;
-      // Rounding must not take the quotient of the cap one too high.
+      // Rounding must not push the quotient above the cap.
       left_ = std::min(wanted_substeps(rest_, dt_max), limit_ - taken_);
       break;
     }

@@ -154,8 +154,7 @@ void Simulator::set_settings(const Settings& settings) {
   const bool other_solver = settings.solver != impl_->settings.solver;
   Settings only_watched = impl_->settings;
   only_watched.watch_stiffness = settings.watch_stiffness;
-  if (settings != only_watched)
-    impl_->state.rest.clear();  // bodies at rest may move under new settings
+  if (settings != only_watched) impl_->state.rest.clear();  // may move under new settings
   impl_->settings = settings;
   if (!other_solver) return;
   impl_->solver = make_solver(settings.solver);

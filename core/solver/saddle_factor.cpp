@@ -18,7 +18,7 @@ namespace {
 // both.
 constexpr double kLeastPivot = 1e-8;
 
-// Copies an even number of values in pairs; memcpy would be a call in WebAssembly.
+// Clears an even number of values in pairs; memset would be a call in WebAssembly.
 void set_zero(double* to, int n) {
   for (int i = 0; i < n; i += 2) store_pair(Pair{0.0, 0.0}, to + i);
 }

@@ -188,9 +188,8 @@ void Simulator::Impl::close(FrameReport& report) {
     report.n_mean =
         static_cast<double>(substeps_of_bodies) / static_cast<double>(all.moving.size());
   }
-  if (report.status != StepStatus::kOk)
-    copy(state.u, state.u_synchronised);                             // best available approximation
-  if (report.status == StepStatus::kOk && report.n_substeps == 0) {  // all bodies sleep
+  if (report.status != StepStatus::kOk) copy(state.u, state.u_synchronised);  // an approximation
+  if (report.status == StepStatus::kOk && report.n_substeps == 0) {           // all bodies sleep
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;
   } else if (report.status == StepStatus::kOk) {

@@ -68,7 +68,7 @@ void add_output(HostileInput& input, const std::string& flag, Dice& dice) {
   input.arguments.push_back(dice.one_in(30) ? std::string(300, 'n') : dice.pick(kPlaces));
 }
 
-/// A file size limit below the size of a result.
+/// Limits the output: a full disk, a closed stream, or a small file size.
 void hamper(HostileInput& input, Dice& dice) {
   switch (dice.below(3)) {
     case 0:

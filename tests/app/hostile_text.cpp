@@ -84,7 +84,7 @@ void insert_piece(std::string& text, Dice& dice) {
   text.insert(dice.below(text.size()), dice.pick(kPieces));
 }
 
-/// The position after a brace or a comma, where a key may be inserted.
+/// Inserts a random piece after a brace or a comma, where a key may occur.
 void insert_key(std::string& text, Dice& dice) {
   const std::size_t at = text.find_first_of("{,", dice.below(text.size()));
   if (at != std::string::npos) text.insert(at + 1, dice.pick(kPieces));

@@ -168,7 +168,7 @@ TEST(SavedScene, AStateBeyondWhatFilesHoldIsToldAndNotSaved) {
   h.app->run(std::make_shared<Scene>(far));
   for (int i = 0; i < 60; ++i) h.app->session.step();
   h.app->save_scene();
-  if (h.app->trouble.title.empty()) {  // the cost estimate may hold it back: the file is then valid
+  if (h.app->trouble.title.empty()) {  // the joint may restrain it: then the file is valid
     ASSERT_EQ(kept.files.size(), 1U);
     EXPECT_TRUE(read_scene(kept.files.begin()->second).scene);
   } else {

@@ -38,7 +38,7 @@ TEST(MotionCsv, JointForceAndTorqueAreThoseOnBodyAAboutItsAnchor) {
   const JointForce on_a = simulator.constraint_forces().joints.at(0);
   EXPECT_TRUE(on_a.known);
   // Weight m g down at the centre: the hinge pushes up by m g, and its torque about the anchor is
-  // minus that of the weight, r x F = (0.5 m g, 0, 0). Rounding of a solve is all that is left.
+  // minus that of the weight, r x F = (0.5 m g, 0, 0). Only rounding of a solve remains.
   EXPECT_LT((on_a.force - Vec3(0.0, 2.0 * 9.81, 0.0)).norm(), 1e-10);
   EXPECT_LT((on_a.torque - Vec3(-0.5 * 2.0 * 9.81, 0.0, 0.0)).norm(), 1e-10);
 }

@@ -60,7 +60,7 @@ TEST(VerdictTable, WhatNoRuleSelectsIsNotInIt) {
   EXPECT_EQ(expected(scene, "pgs adaptive euler"), std::nullopt);
 }
 
-/// Runs the pendulum for the expected time, with `limit` as the bound on its displacement [m].
+/// Judges a run of the pendulum with `limit` as the bound on its displacement [m].
 Judgement judged(const Expectation& expectation, double limit) {
   Scene scene = scenes::pendulum();
   scene.criteria.duration = 1.0;

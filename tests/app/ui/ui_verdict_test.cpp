@@ -84,7 +84,7 @@ TEST(FailedRun, WhatIsLoadedAfterThePastWasLookedAtPlays) {
   EXPECT_FALSE(session.playing());
   session.load(shipped("bridge"));
   EXPECT_TRUE(session.playing());
-  session.pause();  // somebody asked for it
+  session.pause();  // on request
   session.go_to(0);
   session.load(shipped("pendulum"));
   EXPECT_FALSE(session.playing());

@@ -61,7 +61,7 @@ std::string places(const std::regex& pattern, Keep keep) {
   return out.str();
 }
 
-/// What each module of core/ may include besides itself.
+/// Allowed includes of each module of core/, besides itself.
 const std::map<std::string, std::set<std::string>>& allowed_modules() {
   static const auto allowed = [] {
     const std::vector<std::string> order{"math",   "model",    "collision", "constraints",

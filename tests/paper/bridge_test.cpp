@@ -156,7 +156,7 @@ double stored(const Simulator& simulator) {
 
 struct Loss {
   double energy = 0.0;     // from the start until the ball has left [J]
-  double exchanged = 0.0;  // range of the kinetic energy meanwhile [J]
+  double exchanged = 0.0;  // range of the kinetic energy in that time [J]
 };
 
 /// @param moved offset of the ball's start along the bridge [m]

@@ -132,7 +132,7 @@ std::vector<Method> methods() {
   return methods;
 }
 
-/// The start, where it goes, and what that is worth.
+/// The start, and the exact state at the end.
 struct Exact {
   Case start;
   BallChain end;

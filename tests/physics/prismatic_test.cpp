@@ -97,7 +97,7 @@ TEST_P(Prismatic, SlidesDownAnInclinedRail) {
     const Vec3 exact = start + 0.5 * 9.81 * 0.6 * t * t * rail;
     return (state.x[0] - exact).norm() + state.q[0].angularDistance(attitude);
   };
-  // Nothing bends: what is not first order is exact.
+  // There is no curvature: methods that are not of first order are exact.
   const Method& method = GetParam();
   if (method.order > 1) {
     EXPECT_LT(error_after(scene, method.settings, 1.0, error), 1e-11);

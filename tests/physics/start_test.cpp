@@ -141,7 +141,8 @@ TEST(Start, OfAnOpenJointAddsNoEnergyOnceProjected) {
   EXPECT_EQ(start_of_run(scene).report.energy_begun, begun);
   // With `keep` the drift correction pulls the chain together violently.
   EXPECT_GT(kept, 30.0);
-  // 64 leapfrog sub-steps swing this chain to within a thousandth of what it exchanges, 100 J.
+  // 64 leapfrog sub-steps keep this chain's energy within a thousandth of the exchanged energy, 100
+  // J.
   EXPECT_LT(projected, 0.2);
 }
 
@@ -171,8 +172,9 @@ TEST(Start, IsProjectedByTheLeastChange) {
   EXPECT_LT(start.report.left.gap, 1e-12);
   EXPECT_LT(start.report.left.tilt, 1e-12);
   EXPECT_LT((centre_of_mass(scene, start.state) - centre_of_mass(scene, before)).norm(), 1e-14);
-  // Every other closed start nearby is farther away. A move along the joints costs its square: with
-  // 1e-3 that is 1e-6 of the masses; what first order was left would show as 1e-3 of the distance.
+  // Every other closed start nearby is farther away. A move along the joints changes the squared
+  // distance to second order: a move of 1e-3 adds 1e-6 of the masses; a remaining first-order term
+  // would show as 1e-3 of the distance.
   const double least = distance(scene, before, start.state);
   for (int body = 0; body < 3; ++body) {
     for (int dof = 0; dof < 6; ++dof) {

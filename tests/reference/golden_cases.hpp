@@ -87,7 +87,7 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
       with(small, "pgs_small_steps");
     }
     if (!read.scene->effects.joints) continue;
-    if (!read.scene->effects.contact) {  // nor is this made for it
+    if (!read.scene->effects.contact) {  // not applicable to contacts
       Settings stormer = settings;
       stormer.mode = Mode::kAdaptive;
       stormer.integrator = Integrator::kStormer;

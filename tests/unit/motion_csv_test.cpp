@@ -15,7 +15,8 @@
 namespace substep::test {
 namespace {
 
-/// A box on a hinge about z, held 0.5 m beside the anchor along the axis: gravity bends the hinge.
+/// A box on a hinge about z, held with an offset of 0.5 m from the anchor along the axis: gravity
+/// bends the hinge.
 Scene cantilever() {
   Scene scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};

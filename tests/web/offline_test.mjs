@@ -9,7 +9,7 @@ import { call, drawn, open, openPage, quiet, save } from "./browser.mjs";
 
 const mostBytes = 1.5e6; // of all files, packed with gzip
 
-let folder; // what the server serves, a copy that tests may change
+let folder; // served by the server; a copy that tests may change
 let session;
 before(async () => {
   session = await open();

@@ -1,4 +1,4 @@
-// What results can be drawn against: a label with its unit, and how to read it from a result.
+// The axes of the charts: a label with its unit, and a function that reads the value from a result.
 
 const perFrame = key => r => r.work[key] / r.work.frames;
 
@@ -26,6 +26,6 @@ export const errors = [
 
 export const positive = x => Number.isFinite(x) && x > 0;
 
-// Those that at least two runs have a positive value of.
+// The axes for which at least two runs have a positive value.
 export const available = (axes, results) =>
   axes.filter(axis => results.filter(r => r.holds && positive(axis.of(r))).length > 1);

@@ -11,7 +11,7 @@ const bundle = async (entry, options) => {
     bundle: true,
     minify: true,
     write: false,
-    legalComments: "inline", // the library's licence travels with it
+    legalComments: "inline", // keep the library's licence
     ...options,
   });
   return outputFiles[0].text;
@@ -31,7 +31,7 @@ const head = `<!doctype html>
 <main id="report"></main>
 <noscript>This report draws its pictures with JavaScript; the numbers are in results.jsonl.</noscript>
 <script type="application/json" id="data">`;
-// Where the data end, the bundle begins; "</script" within it would end it early.
+// The bundle follows the data; a "</script" inside it would end it early.
 const tail = `</script>
 <script>${script.replaceAll("</script", "<\\/script")}</script>
 </body>

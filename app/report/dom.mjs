@@ -1,4 +1,4 @@
-// Small helpers for the page: elements, number texts, files to save.
+// Small helpers for the page: elements, number formatting, file downloads.
 
 export function el(tag, attributes = {}, ...children) {
   const node = document.createElement(tag);
@@ -10,7 +10,7 @@ export function el(tag, attributes = {}, ...children) {
   return node;
 }
 
-// Three digits, with SI's powers where they help.
+// Three digits, with an SI prefix if it shortens the text.
 export function number(x) {
   if (x === undefined || x === null || Number.isNaN(x)) return "–";
   if (x === 0) return "0";
@@ -31,7 +31,7 @@ export function save(name, type, content) {
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }
 
-// The picture as a file of its own: colours are resolved, the ground is painted.
+// The picture as a standalone file: colours are resolved, the background is filled.
 export function svgText(svg) {
   const copy = svg.cloneNode(true);
   copy.setAttribute("xmlns", "http://www.w3.org/2000/svg");

@@ -1,6 +1,6 @@
 // The order of a method: how steeply its error falls with its cost.
 
-// A straight line through the logarithms, of what the errors have above a floor.
+// A straight line through the logarithms of the errors minus a floor.
 function line(runs, floor) {
   const x = runs.map(p => Math.log(p.cost)), y = runs.map(p => Math.log(p.error - floor));
   const mean = v => v.reduce((a, b) => a + b) / v.length;
@@ -12,11 +12,11 @@ function line(runs, floor) {
 }
 
 /**
- * Errors are measured from a reference that is itself off by up to its uncertainty: the rigid chain that
- * the swinging box is measured from knows nothing of the give of its hinges. That is a floor under all
- * errors of a curve, and bends it long before it gets there. So the floor that leaves the straightest
- * curve is taken off, at most the uncertainty; what bends it more is the method's own.
- * @returns {order, floor}; order is NaN where too few errors stand clear of the uncertainty
+ * The reference itself is uncertain: the rigid chain used for the swinging box ignores the compliance
+ * of its hinges. The uncertainty adds a floor to all errors of a curve and bends the curve well above
+ * that floor. We subtract the floor, at most the uncertainty, that gives the straightest curve; the
+ * remaining curvature belongs to the method.
+ * @returns {order, floor}; order is NaN if too few errors are well above the uncertainty
  */
 export function observedOrder(runs, uncertainty) {
   const clear = runs.filter(p => p.error > 3 * uncertainty);
@@ -27,5 +27,5 @@ export function observedOrder(runs, uncertainty) {
   return { order, floor };
 }
 
-// Errors that rounding or chaos decides fall at no method's order.
+// Errors dominated by rounding or chaos show no order.
 export const isOrder = order => order > 0.5 && order < 4;

@@ -1,4 +1,4 @@
-// Which points no other beats: less cost at no more error, or less error at no more cost.
+// The Pareto front: no other point has less cost at no more error, or less error at no more cost.
 export function paretoFront(points) {
   const sorted = [...points].sort((a, b) => a.cost - b.cost || a.error - b.error);
   const front = [];

@@ -1,4 +1,4 @@
-// Pictures 2 to 4: curves over time, the stability map, and where the time goes.
+// Pictures 2 to 4: curves over time, the stability map, and the cost breakdown.
 import * as Plot from "@observablehq/plot";
 import { choice, el, figure, number } from "./dom.mjs";
 import { colour, styleOf } from "./style.mjs";
@@ -9,9 +9,9 @@ const tones = ["blue", "orange", "teal", "purple", "amber", "grey"];
 export function timeChart(chart, index) {
   const rows = chart.curves.flatMap(c => c.points.map(([x, y]) => ({ curve: c.name, x, y })));
   const tone = i => colour(tones[i % tones.length]);
-  const dashed = (c, i) => c.dashed || i >= tones.length; // a tone that comes again
+  const dashed = (c, i) => c.dashed || i >= tones.length; // a repeated colour
   const ys = rows.map(r => r.y);
-  const fromZero = Math.min(...ys) < 0.5 * Math.max(...ys); // else what happens would lie on a line
+  const fromZero = Math.min(...ys) < 0.5 * Math.max(...ys); // otherwise the curves would look flat
   const draw = width => [
     Plot.plot({
       width, height: Math.min(360, 0.45 * width + 60), marginLeft: 64, marginBottom: 44, marginTop: 28, marginRight: 20,
@@ -98,7 +98,7 @@ export function timeByStage(results) {
     { name: "stages", draw, data: () => bars.map(({ method, stage, us, share }) => ({ method, stage, us, share })) });
 }
 
-// What each effect adds to a frame, and what choosing the sub-steps costs, with each solver.
+// The cost of each effect in a frame, and of choosing the sub-steps, for each solver.
 const units = [
   { key: "flops", label: "solver operations per frame" },
   { key: "ms", label: "median time per frame [ms], this machine" },
@@ -134,7 +134,7 @@ export function effectCosts(costs) {
   return fig;
 }
 
-// Rows of a solve by kind, and how often Gauss-Seidel visited them.
+// Rows of a solve by kind, and how often Gauss-Seidel updated them.
 function rowTable(costs, solver) {
   const kinds = [["joint", "joint rows"], ["contact", "contact normals"], ["friction", "friction rows"]]
     .filter(([key]) => costs.some(c => c.work.rows[key] > 0));

@@ -8,7 +8,7 @@ import { colour, styleOf, swatchText } from "./style.mjs";
 
 const swatch = style => document.createRange().createContextualFragment(swatchText(style));
 
-// Where an error of this order would go from the first run of a series that holds.
+// A reference slope of this order through the first run of a series that holds.
 function orderGuide(points, order, low) {
   const first = points.reduce((a, p) => (p.cost < a.cost ? p : a), points[0]);
   const error = 0.6 * first.error;
@@ -45,14 +45,14 @@ export function workPrecision(results, reference, select) {
     const faded = p => hovered && (p.series ?? p.r.series) !== hovered;
     const decades = { ticks: 6, strokeOpacity: 0.12 };
     const marks = [Plot.gridX(decades), Plot.gridY(decades)];
-    const losers = series.filter(s => failed.some(r => r.series === s)); // a line of the rail each
+    const losers = series.filter(s => failed.some(r => r.series === s)); // one line of the rail each
     const height = Math.max(380, Math.min(600, 0.6 * width)) + 10 * losers.length;
     const marginTop = 40 + 10 * losers.length, marginBottom = 48;
     const limit = reference?.uncertainty ?? 0;
     const showLimit = y.key === "trajectory" && limit > 0 && held.some(p => p.error < 30 * limit);
     const values = held.map(p => p.error).concat(showLimit ? [limit] : []);
     const [low, high] = [Math.min(...values) / 1.4, Math.max(...values) * 1.4];
-    // The rail lies above the frame: errors that its scale would reach there.
+    // The rail is above the frame, at errors beyond the scale.
     const rail = r => high * (high / low) ** ((16 + 10 * losers.indexOf(r.series)) / (height - marginTop - marginBottom));
     if (front.length > 1) {
       marks.push(Plot.line(front, { x: "cost", y: "error", stroke: colour("front"), strokeWidth: 9, strokeLinecap: "round", strokeLinejoin: "round", curve: "step-after" }));
@@ -67,7 +67,7 @@ export function workPrecision(results, reference, select) {
         if (own.length < 3) continue;
         const guide = orderGuide(own, order, 1.25 * low);
         marks.push(Plot.line(guide, { x: "cost", y: "error", stroke: colour("dim"), strokeDasharray: "1 4", clip: true }),
-          // Under the line, or beside its end where it leaves at the bottom.
+          // Below the line, or beside its end if it leaves the frame at the bottom.
           Plot.text([guide[1]], { x: "cost", y: "error", text: () => `order ${order}`, fill: colour("dim"), ...(guide[1].error < 2 * low ? { dx: 6, dy: -5, textAnchor: "start" } : { dx: -8, dy: 12, textAnchor: "end" }), clip: true }));
       }
     }
@@ -128,7 +128,7 @@ export function workPrecision(results, reference, select) {
       ],
     });
   const redraw = () => fig.redraw();
-  // Only the drawing: a key under the pointer must not be replaced.
+  // Redraw only the chart: a legend entry under the pointer must not be replaced.
   const redrawPlot = () => {
     const body = fig.node.querySelector(".picture");
     const [, plot] = draw(Math.max(320, Math.min(1100, body.clientWidth)));

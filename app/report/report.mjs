@@ -1,4 +1,4 @@
-// The report of a sweep or of the reproduction: reads the data that stand in the page, draws them.
+// The report of a sweep or of the reproduction: reads the data embedded in the page and draws them.
 import { el, number, save } from "./dom.mjs";
 import { effectCosts, stabilityMap, timeByStage, timeChart } from "./pictures.mjs";
 import { priceTable, workPrecision } from "./precision.mjs";
@@ -14,7 +14,7 @@ const add = fig => {
 };
 const redrawAll = () => figures.forEach(fig => fig.redraw());
 
-// One run in full: what makes it, what came out, how to run it again.
+// One run in detail: its settings, its results, and the command that repeats it.
 const details = el("aside", { class: "details", hidden: true, "aria-live": "polite" });
 function select(r) {
   const rows = Object.entries({

@@ -1,6 +1,6 @@
-// What a curve looks like follows from what its method is: colour from the mode, or from the solver
-// where that looks at the end of a sub-step; filled or hollow from the integrator; solid where a
-// sub-step is solved to the end, dashed where sweeps go at it.
+// The style of a curve follows from its method: colour from the mode, or from the solver if it solves
+// at the end of a sub-step; filled or hollow from the integrator; solid for exact solvers, dashed for
+// sweeps.
 
 const modes = [
   [/newton( \d+)? numerov, const/, "teal", "triangle", "Newton, Numerov"],
@@ -32,7 +32,7 @@ const shapes = {
   star: '<path d="M17 1.5L18.6 5.2L22.4 5.5L19.5 8L20.4 12L17 9.8L13.6 12L14.5 8L11.6 5.5L15.4 5.2Z"/>',
 };
 
-// The piece of a curve that stands before its name.
+// The line sample before a curve's name.
 export function swatchText({ token, symbol, hollow, dashed }) {
   const c = `var(--${token})`;
   return `<svg class="swatch" width="34" height="14" viewBox="0 0 34 14" aria-hidden="true" stroke="${c}" stroke-width="1.6">` +

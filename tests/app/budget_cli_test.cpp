@@ -1,4 +1,4 @@
-// What a scene may take of the machine, as people meet it on the command line.
+// Memory and work budgets of scenes on the command line.
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 namespace substep {
 namespace {
 
-constexpr int kStopped = 3;  // the exit code of a run that can go no further
+constexpr int kStopped = 3;  // the exit code of a run that cannot continue
 
-/// A file with so many spheres at one point.
+/// A file with that many spheres at one point.
 std::string spheres_at_one_point(int count) {
   SceneBuilder builder("spheres");
   for (int i = 0; i < count; ++i) builder.add_body(Sphere{0.1}, 1.0, {0, 0, 0});

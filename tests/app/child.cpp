@@ -32,7 +32,7 @@ std::string head_of(const fs::path& path) {
   return text;
 }
 
-/// In the child: a stream is a file, or closed where the path is empty.
+/// In the child: redirects a stream to a file, or closes it if the path is empty.
 void place(int stream, const std::string& path, int flags) {
   ::close(stream);
   if (path.empty()) return;
@@ -48,7 +48,7 @@ void limit(int resource, rlim_t most) {
   ::setrlimit(static_cast<__rlimit_resource>(resource), &both);
 }
 
-/// In the child, which has one thread: becomes the program.
+/// In the child, which has one thread: replaces it with the program.
 [[noreturn]] void become(const std::string& program, const HostileInput& input,
                          const fs::path& folder, const std::string& out, const std::string& err) {
   if (::chdir(folder.c_str()) != 0) std::_Exit(126);
@@ -61,7 +61,7 @@ void limit(int resource, rlim_t most) {
   place(STDERR_FILENO, err, O_WRONLY | O_CREAT | O_TRUNC);
   if (input.most_file > 0) limit(RLIMIT_FSIZE, input.most_file);
   limit(RLIMIT_CORE, 0);
-#if !defined(__SANITIZE_ADDRESS__)  // which maps all memory there is
+#if !defined(__SANITIZE_ADDRESS__)  // AddressSanitizer maps all of the address space
   limit(RLIMIT_AS, rlim_t{4} << 30U);
 #endif
   std::vector<char*> words{const_cast<char*>(program.c_str())};
@@ -77,7 +77,7 @@ void limit(int resource, rlim_t most) {
 
 Ending run_child(const std::string& program, const HostileInput& input, const fs::path& folder,
                  double patience) {
-  // Beside the folder: in it there is only what the program puts there.
+  // Beside the folder: the folder itself holds only the program's files.
   const std::string out = folder.string() + ".out";
   const std::string err = folder.string() + ".err";
   std::ofstream(out, std::ios::trunc);

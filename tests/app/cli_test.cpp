@@ -239,7 +239,7 @@ TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
   EXPECT_LE(scene->recommended->reached, 1e-3);
   EXPECT_EQ(scene->recommended->seconds, 1.0);
 
-  // A run starts with it, and --preset comes back to it.
+  // A run starts with it, and --preset selects it again.
   const auto json_of = [&](const std::string& flags) {
     return Json::parse(substep("run " + rope + " --seconds 1 --json - " + flags).out, nullptr,
                        false);
@@ -259,10 +259,10 @@ TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
   EXPECT_EQ(json_of("--preset recommended")["hash"], plain["hash"]);
   EXPECT_NE(json_of("--preset paper")["hash"], plain["hash"]);
 
-  // What is recommended does not hang on what was recommended before.
+  // A recommendation does not depend on an earlier one.
   const std::string before = text_of(folder() / "rope.json");
   EXPECT_EQ(substep("recommend " + rope + " --error 1e-3 --seconds 1 --out -").out, before);
-  // Settings of its own stay the start.
+  // The scene's own settings remain the start.
   Scene own = *scene;
   own.settings = {.mode = Mode::kConst, .n = 5};
   own.recommended.reset();
@@ -274,7 +274,7 @@ TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
   EXPECT_EQ(with_own->settings, own.settings);
   EXPECT_TRUE(with_own->recommended.has_value());
 
-  // Where nothing is within the error nothing is written, and a cost is no error.
+  // If nothing is within the error, nothing is written; a cost is not an error.
   const std::string none = "\"" + (folder() / "none.json").string() + "\"";
   EXPECT_EQ(substep("recommend " + rope + " --error 1e-15 --seconds 0.2 --out " + none).exit_code,
             1);
@@ -495,7 +495,7 @@ TEST(CommandLine, GeneratesTheShippedFiles) {
         read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/" + std::string(name) + ".json").scene;
     ASSERT_NE(shipped, nullptr);
     Scene plain = *shipped;
-    plain.verdicts.clear();  // they are of the shipped start; a variant has others
+    plain.verdicts.clear();  // they apply to the shipped start; a variant has others
     plain.settings = own_settings(plain);
     plain.recommended.reset();
     EXPECT_TRUE(substep("generate " + std::string(name)).out == write_scene(plain)) << name;
@@ -521,7 +521,8 @@ TEST(CommandLine, GeneratesRopesOfOtherSizesMassesAndPlaces) {
   const Vec3 down(0.5, -std::sqrt(0.75), 0.0);
   EXPECT_LT((scene->bodies[3].position - anchor - 1.9 * down).norm(), 1e-14);
   EXPECT_LT(Simulator(scene).observe().joint_gap, 1e-14);
-  // What falling to straight down sets free, and a tenth of it: the anchor's height must not count.
+  // The energy released by falling straight down, and a tenth of it, independent of the anchor's
+  // height.
   EXPECT_NEAR(*scene->criteria.energy_gain,
               0.1 * 9.81 * (40.0 * 1.9 + 0.2 * (0.25 + 0.75 + 1.25)) * (1.0 - std::sqrt(0.75)),
               1e-12);

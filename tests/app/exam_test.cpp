@@ -1,4 +1,4 @@
-// `substep exam`, run as a program, on cases that take a moment.
+// `substep exam`, run as a program, on quick cases.
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 
 namespace substep {
 
-/// Chance that gives the same with the same seed everywhere, which the distributions of the
-/// standard library do not promise.
+/// Random numbers that are the same for the same seed on every platform; the distributions of the
+/// standard library are not.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -26,7 +26,7 @@ class Dice {
   std::mt19937_64 engine_;
 };
 
-/// A few changes of a text that was good: bytes, lines, numbers and words.
+/// Makes a few changes to a valid text: bytes, lines, numbers and words.
 std::string mutated(std::string text, Dice& dice);
 
 /// N spheres of one size with gravity and contact, all at one point or in a row, as a scene file.

@@ -29,7 +29,7 @@ constexpr const char* kSettings[] = {
     "--preset", "--integrator", "--gyroscopic", "--refinements",   "--pivots",  "--probe",
     "--forces", "--detection",  "--seed",       "--load",          "--seconds", "--quiet"};
 
-// Where a result may be asked for: nothing outside of the folder that a file could replace.
+// Output paths: none outside of the folder names a file that could be overwritten.
 constexpr const char* kPlaces[] = {"new",         "old",       "scene.json",  "./scene.json",
                                    "link.json",   "/dev/null", "-",           "/dev/full",
                                    "no/such/new", ".",         "/",           "",
@@ -68,7 +68,7 @@ void add_output(HostileInput& input, const std::string& flag, Dice& dice) {
   input.arguments.push_back(dice.one_in(30) ? std::string(300, 'n') : dice.pick(kPlaces));
 }
 
-/// Less room than a result takes.
+/// Limits the output: a full disk, a closed stream, or a small file size.
 void hamper(HostileInput& input, Dice& dice) {
   switch (dice.below(3)) {
     case 0:
@@ -82,7 +82,7 @@ void hamper(HostileInput& input, Dice& dice) {
   }
 }
 
-/// A scene file, changed or crowded, run, measured, hashed or swept.
+/// A scene file, mutated or crowded, that is run, measured, hashed or swept.
 void hostile_scene(HostileInput& input, Dice& dice) {
   input.files.emplace_back("scene.json", dice.one_in(12)
                                              ? crowd(10 + dice.below(700), dice.one_in(2))
@@ -101,7 +101,7 @@ void hostile_scene(HostileInput& input, Dice& dice) {
   if (command == "cost" && dice.one_in(2)) add_output(input, "--json", dice);
 }
 
-/// Flags with values that they do not take, and places where no result can go.
+/// Flags with invalid values, and paths that cannot be written.
 void hostile_flags(HostileInput& input, Dice& dice) {
   input.files.emplace_back("scene.json", shipped(dice));
   input.files.emplace_back("old", "kept\n");
@@ -136,7 +136,7 @@ void hostile_flags(HostileInput& input, Dice& dice) {
   }
 }
 
-/// Lists of experiments and files of results that are wrong, endless or no files.
+/// Lists of experiments and result files that are invalid, endless or not files.
 void hostile_list(HostileInput& input, Dice& dice) {
   std::string list;
   for (std::size_t left = dice.below(4); left > 0; --left) {
@@ -169,7 +169,7 @@ void hostile_list(HostileInput& input, Dice& dice) {
   }
 }
 
-/// A run that is told to end before it is done.
+/// A run that is interrupted before it is finished.
 void interruption(HostileInput& input, Dice& dice) {
   input.files.emplace_back("old", "kept\n");
   const char* const long_runs[] = {"bridge", "heavy_stack", "ragdoll_drop"};
@@ -187,7 +187,7 @@ void interruption(HostileInput& input, Dice& dice) {
     default:
       input.arguments = {"cost", scene, "--seconds", "80000", "--json", "old"};
   }
-  // Before its main() nobody can answer.
+  // The program cannot handle signals before main().
   input.interrupted_after = 100 + static_cast<int>(dice.below(400));
 }
 

@@ -1,4 +1,4 @@
-// What is given by mistake or in malice: a message and an exit code, within memory and time.
+// Invalid and malicious input gives a message and an exit code, within memory and time.
 
 #include <gtest/gtest.h>
 
@@ -64,7 +64,7 @@ TEST(Hostile, WithoutMemoryItSaysSo) {
   EXPECT_NE(run.err.find("not enough memory"), std::string::npos) << run.err;
 }
 
-// The address space that it may take is the bound: without a limit while reading it would not do.
+// The test limits the address space: unbounded reading would exceed it.
 TEST(Hostile, WhatNeverEndsIsNotReadToItsEnd) {
   const std::string bound = "ulimit -v 1000000;";
   const fs::path at = fresh();
@@ -166,8 +166,8 @@ TEST(Hostile, NoMessageSteersTheTerminal) {
   }
 }
 
-/// Runs a command and sends it a signal so much later. @return its outcome, and how long it still
-/// took [s]
+/// Runs a command and sends it a signal after a delay. @return its outcome, and the time from the
+/// signal to its end [s]
 std::pair<Outcome, double> interrupted_once(const std::string& command, const char* signal) {
   const fs::path took = folder() / "took";
   const Outcome run = substep(
@@ -178,9 +178,9 @@ std::pair<Outcome, double> interrupted_once(const std::string& command, const ch
   return {run, 1e-9 * std::stod(text_of(took))};
 }
 
-constexpr double kSoon = 0.3;  // [s], with the start of the shell's own programs
+constexpr double kSoon = 0.3;  // [s], including the start of the shell's own programs
 
-/// The soonest of three, because the machine may have other work; one that waits always takes long.
+/// The shortest of three, because the machine may be busy; a program that waits is always slow.
 std::pair<Outcome, double> interrupted(const std::string& command, const char* signal) {
   auto soonest = interrupted_once(command, signal);
   for (int i = 0; i < 2 && soonest.second > kSoon; ++i) {

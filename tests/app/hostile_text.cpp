@@ -1,4 +1,4 @@
-// Scene files and lists of experiments that were good, and are no more.
+// Mutations of valid scene files and lists of experiments.
 
 #include <algorithm>
 #include <string>
@@ -51,7 +51,7 @@ constexpr std::string_view kPieces[] = {"\x1b[2J",
                                         "\"settings\": {\"mode\": \"adaptive\"},",
                                         "\"gravity\": [0, -9.81, 0],"};
 
-/// Begin of some number of the text, or npos; `end` is where it ends.
+/// Start of a random number in the text, or npos; `end` is its end.
 std::size_t some_number(const std::string& text, Dice& dice, std::size_t& end) {
   constexpr std::string_view kOf = "0123456789+-.eE";
   const std::size_t from = text.find_first_of("0123456789", dice.below(text.size()));
@@ -60,7 +60,7 @@ std::size_t some_number(const std::string& text, Dice& dice, std::size_t& end) {
   return from;
 }
 
-/// Begin of some value after a key of the text, or npos; `end` is where it ends.
+/// Start of a random value after a key of the text, or npos; `end` is its end.
 std::size_t some_value(const std::string& text, Dice& dice, std::size_t& end) {
   const std::size_t colon = text.find(": ", dice.below(text.size()));
   if (colon == std::string::npos) return colon;
@@ -84,7 +84,7 @@ void insert_piece(std::string& text, Dice& dice) {
   text.insert(dice.below(text.size()), dice.pick(kPieces));
 }
 
-/// Behind a brace or a comma, where a key may stand.
+/// Inserts a random piece after a brace or a comma, where a key may occur.
 void insert_key(std::string& text, Dice& dice) {
   const std::size_t at = text.find_first_of("{,", dice.below(text.size()));
   if (at != std::string::npos) text.insert(at + 1, dice.pick(kPieces));
@@ -119,7 +119,7 @@ void nest_deep(std::string& text, Dice& dice) {
 
 std::string mutated(std::string text, Dice& dice) {
   using Change = void (*)(std::string&, Dice&);
-  // Numbers and values stay JSON most of the time, and get furthest.
+  // Changed numbers and values usually remain valid JSON and reach the furthest into the reader.
   static constexpr Change kChanges[] = {
       change_numbers, change_numbers, change_numbers, change_numbers, change_value, change_value,
       insert_piece,   insert_key,     insert_key,     change_byte,    cut,          remove_some,

@@ -1,5 +1,5 @@
-// What the command line writes: never over what it reads, whole or not at all, and never lost
-// without a word.
+// Output of the command line: it never overwrites an input, is written completely or not at all,
+// and failures are reported.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace substep {
 namespace {
 
-/// A folder of the test's own with a copy of a scene in it, and nothing else.
+/// A folder of the test with a copy of a scene and nothing else.
 fs::path with_scene() {
   const fs::path at = folder() / "files";
   fs::remove_all(at);
@@ -88,7 +88,7 @@ TEST(Output, TwoOfOneCommandDoNotShareAFile) {
   }
 }
 
-/// Runs `substep ARGUMENTS` as a part of a bash script, where it is RUN; its stderr is kept.
+/// Runs `substep ARGUMENTS` in place of RUN in a bash script; keeps its stderr.
 Outcome scripted(const std::string& arguments, const std::string& script) {
   const fs::path err = folder() / "err";
   const std::string command = "bash -c 'RUN() { \"" SUBSTEP_PROGRAM "\" " + arguments + " 2>" +
@@ -136,7 +136,7 @@ TEST(Output, StandardOutputThatTakesNothingIsAnError) {
 }
 
 TEST(Output, APipeThatIsClosedIsAnErrorToTell) {
-  // The reader has gone before anything is written.
+  // The reader exits before anything is written.
   const Outcome run = scripted("run pendulum --seconds 1000 --csv -",
                                "{ sleep 0.3; RUN; } | true; exit ${PIPESTATUS[0]}");
   EXPECT_EQ(run.exit_code, 2);

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the command line as people do.
+// Runs the command line as a separate program.
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -16,7 +16,7 @@ namespace substep {
 
 namespace fs = std::filesystem;
 
-/// What a program printed and how it ended.
+/// The output of a program and its exit code.
 struct Outcome {
   int exit_code = -1;
   std::string out;
@@ -28,7 +28,7 @@ inline std::string text_of(const fs::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A folder of the running test's own.
+/// A folder for the running test.
 inline fs::path folder() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   fs::path path = fs::path(testing::TempDir()) / "substep_cli" / test->name();

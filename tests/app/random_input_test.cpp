@@ -1,10 +1,10 @@
-// Two thousand inputs that mean no good, some of them every day: scene files that are wrong, flags
-// that contradict each other, lists without an end, disks that are full, and Ctrl-C. Whatever
-// comes, the program ends by itself, soon and within its memory; it says what is wrong, on a
-// terminal that still obeys; and where it says that all went well, nothing is lost.
+// Two thousand hostile inputs, some of them each day: invalid scene files, contradictory flags,
+// endless lists, full disks, and Ctrl-C. For every input the program ends by itself, within its
+// time and memory; it reports the error without control characters; and if it reports success, no
+// output is lost.
 //
-// SUBSTEP_HOSTILE_INPUTS says how many, SUBSTEP_HOSTILE_SEED the first seed. A failure tells its
-// own seed: with it and one input it comes back.
+// SUBSTEP_HOSTILE_INPUTS sets the number of inputs, SUBSTEP_HOSTILE_SEED the first seed. A failure
+// prints its seed, which reproduces it with one input.
 
 #include <gtest/gtest.h>
 
@@ -25,11 +25,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// How long a call may take that is not interrupted, and how long one that is [s].
+// Time limits of a call without and with an interruption [s].
 constexpr double kPatience = 10.0;
 #if defined(__SANITIZE_ADDRESS__)
 constexpr std::size_t kMostMemory = std::size_t{3}
-                                    << 30U;  // freed memory is kept back to find uses
+                                    << 30U;  // the sanitizer keeps freed memory to detect uses
 #else
 constexpr std::size_t kMostMemory = std::size_t{1} << 30U;
 #endif
@@ -91,7 +91,7 @@ void expect_an_orderly_end(const HostileInput& input, const Call& call) {
     EXPECT_FALSE(end.interrupted) << "not done after " << kPatience << " s";
   } else if (end.interrupted) {
     EXPECT_EQ(end.exit_code, 130) << end.err;
-    EXPECT_LT(end.seconds, 1.0);  // 0.2 s where nothing else runs, as Hostile.Interrupted* see
+    EXPECT_LT(end.seconds, 1.0);  // 0.2 s on an idle machine, checked by Hostile.Interrupted*
   }
   EXPECT_LT(end.memory, kMostMemory);
   EXPECT_FALSE(has(end.err, "Sanitizer") || has(end.err, "runtime error:")) << end.err;
@@ -100,23 +100,23 @@ void expect_an_orderly_end(const HostileInput& input, const Call& call) {
   if (end.exit_code == 2) {
     EXPECT_FALSE(end.err.empty()) << "it failed without a word";
   }
-  // Thousands of complaints help nobody.
+  // Stop after many failures.
   EXPECT_LE(std::count(end.err.begin(), end.err.end(), '\n'), 1000);
 }
 
-/// Whether one result may fail when another is in its place already.
+/// Whether one result may fail when another has already been written.
 bool may_fail_late(const HostileInput& input) {
   const auto& arguments = input.arguments;
   return input.output_is_full || input.output_is_closed ||
          std::count(arguments.begin(), arguments.end(), "/dev/full") > 0;
 }
 
-/// What was there before: an input stays as it is, and so does the old file of a call that failed.
+/// Earlier files: an input is unchanged, and so is the old file of a failed call.
 void expect_nothing_is_spoilt(const HostileInput& input, const Call& call) {
   for (const auto& [name, text] : call.before) {
     const auto now = call.after.find(name);
     ASSERT_NE(now, call.after.end()) << name << " has gone";
-    // An output. `generate` reads no scene.
+    // An output: `generate` reads no scene.
     const bool read = name != "old" && input.arguments[0] != "generate";
     if (!read && (call.ending.exit_code != 2 || may_fail_late(input))) continue;
     EXPECT_TRUE(now->second == text) << name << " is overwritten";
@@ -162,7 +162,7 @@ void expect_all_is_there(const HostileInput& input, const Call& call) {
     }
   }
   if (!input.hampered()) return;
-  // With room for everything it does not give more.
+  // Without limits the program must not fail.
   HostileInput free = input;
   free.output_is_full = free.output_is_closed = false;
   free.most_file = 0;
@@ -189,7 +189,7 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
 TEST(RandomInput, EndsInAWordAndLosesNothing) {
   const std::uint64_t first = number_from("SUBSTEP_HOSTILE_SEED", 1);
   const std::uint64_t count = number_from("SUBSTEP_HOSTILE_INPUTS", 100);
-  std::map<int, int> endings;  // how many of each exit code
+  std::map<int, int> endings;  // count of each exit code
   for (std::uint64_t seed = first; seed < first + count; ++seed) {
     const HostileInput input = hostile_input(seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + in_words(input));
@@ -199,7 +199,7 @@ TEST(RandomInput, EndsInAWordAndLosesNothing) {
     expect_nothing_is_spoilt(input, made);
     if (made.ending.exit_code == 0) expect_all_is_there(input, made);
   }
-  // The inputs are worth it: many get past the readers, and many do not.
+  // Coverage: many inputs pass the readers, and many do not.
   if (count >= 100) {
     EXPECT_GE(endings[0], static_cast<int>(count / 10));
     EXPECT_GE(endings[2], static_cast<int>(count / 10));

@@ -1,4 +1,4 @@
-// Sweeps on the command line: killed, parted, merged, and with files that are not theirs.
+// Sweeps on the command line: killed, split, merged, and with foreign files.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 namespace substep {
 namespace {
 
-/// A scene that is exact and quick: a sweep of it takes about a second.
+/// An exact and quick scene: a sweep of it takes about a second.
 constexpr const char* kSweep = "sweep pendulum --seconds 0.5 --quiet --jobs 2 ";
 
 /// An empty folder of the running test's own.
@@ -25,7 +25,7 @@ fs::path fresh(const std::string& name) {
   return path;
 }
 
-/// Results without their times: what must not depend on how a sweep went.
+/// Results without their times: independent of how a sweep was run.
 std::vector<std::string> figures(const fs::path& file) {
   std::vector<std::string> lines;
   for (const std::string& line : lines_of(text_of(file))) {
@@ -46,7 +46,7 @@ const std::vector<std::string>& whole_sweep() {
   return lines;
 }
 
-/// Somebody's machine may lack what a test needs; where everything is tested it may not.
+/// A developer's machine may lack the tools that a test needs; a full test run must have them.
 void skip_without(const char* what) {
   ASSERT_EQ(std::getenv("CI"), nullptr) << "missing: " << what;
   GTEST_SKIP() << "missing: " << what;
@@ -55,7 +55,7 @@ void skip_without(const char* what) {
 constexpr const char* kCharts = "the chart library: npm ci --prefix app/report, then build";
 constexpr const char* kParallel = "GNU Parallel";
 
-// The whole of one: of the others a sample is computed where they are shown.
+// One complete sweep; of the others a sample is recomputed by the tests of the panel.
 TEST(SweepCommand, ShipsWhatIsInTheFolderOfScenes) {
   const fs::path out = fresh("free_fall.txt");
   ASSERT_EQ(substep("sweep free_fall --ship " + out.string()).exit_code, 0);
@@ -87,8 +87,8 @@ TEST(SweepCommand, WritesOneResultALineAndAReport) {
   EXPECT_EQ(report.find("src=\"http"), std::string::npos) << "it opens without a network";
 }
 
-/// What goes before a program to send it a signal so long after a file has so many lines, however
-/// fast the machine is.
+/// Command prefix that sends a signal to the program after a delay once a file has a given number
+/// of lines, independent of the speed of the machine.
 std::string signalled(const std::string& signal, const fs::path& file, std::size_t lines,
                       int later_ms = 0) {
   return "bash -c '\"$@\" & pid=$!; while kill -0 $pid 2>/dev/null && "
@@ -107,12 +107,12 @@ TEST(SweepCommand, KilledAtAnyMomentItEndsTheSame) {
   const fs::path out = fresh("killed");
   const fs::path file = out / "results.jsonl";
   std::mt19937 random(11);
-  std::uniform_int_distribution<std::size_t> more(1, 25);  // runs that it may still finish
-  std::uniform_int_distribution<int> later_ms(0, 30);      // in the middle of a run, or of a line
+  std::uniform_int_distribution<std::size_t> more(1, 25);  // further runs before the signal
+  std::uniform_int_distribution<int> later_ms(0, 30);      // in the middle of a run or of a line
   int killed = 0;
   std::size_t before = 0;
   for (int round = 0; round < 60 && killed < 20; ++round) {
-    if (before + 30 > whole.size()) {  // nearly done: it ends as the others do, a new one begins
+    if (before + 30 > whole.size()) {  // nearly done: it ends normally, and a new sweep begins
       ASSERT_EQ(substep(sweep + out.string()).exit_code, 0);
       EXPECT_EQ(figures(file), whole);
       fs::remove_all(out);
@@ -186,7 +186,7 @@ TEST(SweepCommand, WhereNothingCanBeWrittenItSaysSo) {
   EXPECT_NE(sweep.err.find("a_file"), std::string::npos) << sweep.err;
 }
 
-// Reading it would never end: /dev/full gives zeros for ever, and takes nothing.
+// Reading /dev/full never ends: it returns zeros for ever and rejects writes.
 TEST(SweepCommand, WhatIsNoFileIsRefused) {
   const fs::path out = fresh("device");
   fs::create_directories(out);
@@ -197,7 +197,7 @@ TEST(SweepCommand, WhatIsNoFileIsRefused) {
   EXPECT_TRUE(fs::is_symlink(out / "results.jsonl"));
 }
 
-// A limit on the file's size stands for a full disk: the write fails in the middle of a line.
+// A limit on the file size models a full disk: the write fails in the middle of a line.
 TEST(SweepCommand, AFullDiskLosesNothingThatIsFinished) {
   const fs::path out = fresh("full");
   const Outcome full = substep(kSweep + ("--out " + out.string()), "ulimit -f 30;");
@@ -210,10 +210,10 @@ TEST(SweepCommand, AFullDiskLosesNothingThatIsFinished) {
   EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
 }
 
-/// GNU Parallel, which ./dev installs for the tests; there is another program of the name.
+/// GNU Parallel, which ./dev installs for the tests; another program has the same name.
 bool has_parallel() { return std::system("parallel --version 2>/dev/null | grep -q GNU") == 0; }
 
-/// A recipe of core/lab/README.md as it stands there, with this program and folder in its place.
+/// A recipe of core/lab/README.md, unchanged except for the program and the folder.
 void follow(std::string recipe, const fs::path& out) {
   const auto replace = [&](const std::string& word, const std::string& by) {
     for (std::size_t at = 0; (at = recipe.find(word, at)) != std::string::npos; at += by.size()) {
@@ -242,7 +242,7 @@ TEST(SweepCommand, PartsRunSideBySideWithXargsMergeToTheWhole) {
   EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
 }
 
-// One experiment a line in, one result a line out, in whatever order.
+// One experiment a line in, one result a line out, in any order.
 TEST(SweepCommand, AListSpreadWithParallelMergesToTheWhole) {
   if (!has_parallel()) return skip_without(kParallel);
   const fs::path out = fresh("list_parallel");
@@ -276,7 +276,8 @@ TEST(SweepCommand, WrongExperimentsAreToldByLineAndTheOthersRun) {
   EXPECT_NE(run.err.find(":3: /settings/alpha"), std::string::npos) << run.err;
 }
 
-// A clicked point must give its figures again: the command is what the report shows.
+// The command of a clicked point must reproduce its values: it is the command that the report
+// shows.
 TEST(SweepCommand, TheCommandOfAResultGivesItsHash) {
   const fs::path out = fresh("commands");
   ASSERT_EQ(substep("sweep swinging_box --seconds 0.25 --quiet --out " + out.string()).exit_code,
@@ -292,7 +293,7 @@ TEST(SweepCommand, TheCommandOfAResultGivesItsHash) {
   for (std::size_t i = 0; i < data["results"].size(); i += 17) {
     const Json& result = data["results"][i];
     const std::string command = result["command"];
-    if (!result["holds"]) continue;  // a run that fails is followed to its end by `run`
+    if (!result["holds"]) continue;  // `run` continues a failed run to its end
     const Outcome run = substep(command.substr(std::string("substep ").size()));
     ASSERT_EQ(run.exit_code, 0) << command;
     EXPECT_NE(run.out.find(result["hash"].get<std::string>()), std::string::npos) << command;

@@ -1,4 +1,4 @@
-// Counting is exact, so what the benchmarks show as 0 allocations is a test.
+// Counting is exact, so a test can check that the benchmarks show 0 allocations.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ TEST_P(Stepping, AllocatesNothingAfterTheFirstFrame) {
   EXPECT_EQ(loop.allocated() - before, 0) << "the first one in frame " << first_frame;
 }
 
-/// Blocks of memory that 90 frames after the first ask for.
+/// Allocations in the 90 frames after the first.
 std::int64_t allocated(const Scene& scene, const Settings& settings) {
   Simulator simulator(std::make_shared<const Scene>(scene));
   simulator.set_settings(settings);
@@ -69,7 +69,7 @@ TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
   }
 }
 
-// Contacts that are predicted, sweeps that are shared out, regularisation that is taken back.
+// Predicted contacts, shared sweeps, refinements.
 TEST(SmallStepsAndRefinements, AllocateNothingAfterTheFirstFrame) {
   for (const auto& [name, solver] :
        {std::pair{"bridge", SolverKind::kPgs}, std::pair{"bridge", SolverKind::kBpp},

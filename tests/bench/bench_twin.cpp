@@ -14,7 +14,7 @@ namespace {
 
 using namespace substep;
 
-constexpr int kRounds = 2;      // after one in which scratch gets its size
+constexpr int kRounds = 2;      // after one that sizes the scratch memory
 constexpr double kLeast = 0.5;  // of a round [s]
 
 struct Cost {
@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::printf("%-28s %23s %12s\n", "Benchmark", "Time", "allocations");
-  // Once for nothing: WebAssembly is optimised beside its running, for more than a second.
+  // A warm-up run: WebAssembly is optimised in the background for more than a second.
   cost_of(argv[1], bench::kCases.front(), Mode::kConst);
   for (const bench::Case& c : bench::kCases) {
     const Cost cost = cost_of(argv[1], c, Mode::kConst);

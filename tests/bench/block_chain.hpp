@@ -1,7 +1,6 @@
 #pragma once
-// What a sub-step of a chain is measured against: factor and solve of a block tridiagonal matrix of
-// 5 x 5 blocks, J M^-1 J^T of a chain of hinges, and nothing else. Plain code with sizes known to
-// the compiler.
+// Baseline for a sub-step of a chain: only factor and solve of a block tridiagonal matrix of 5 x 5
+// blocks, J M^-1 J^T of a chain of hinges. Plain code with sizes known at compile time.
 
 #include <array>
 #include <cstddef>
@@ -77,7 +76,7 @@ class BlockChain {
     }
   }
 
-  // What the block before takes from this one.
+  // The contribution that the previous block subtracts from this one.
   static void subtract(const Block& before, const Column& x_before, Block& block, Column& x) {
     Square weighted;
     for (std::size_t i = 0; i < kRows; ++i) {

@@ -1,6 +1,6 @@
 #pragma once
-// What is timed, the same natively and in WebAssembly: a scene and a solver at 16 sub-steps a
-// frame, or at as many as alpha = 0.1 asks for, going round the scene's first seconds.
+// The timed cases, the same natively and in WebAssembly: a scene and a solver at 16 sub-steps a
+// frame, or at the number for alpha = 0.1, repeating the scene's first seconds.
 
 #include <array>
 #include <cstdint>
@@ -33,7 +33,7 @@ class Loop {
   /// A scene that cannot be read ends the program, with its problems on stderr.
   Loop(const std::string& folder, const Case& c, Mode mode);
 
-  /// From now on reports have no energies, errors or times of stages: what the motion alone costs.
+  /// Disables energies, errors and stage times in reports: the cost of the motion alone.
   void leave_out_measures();
 
   /// One frame.

@@ -1,7 +1,8 @@
 // Runs a scene with one effect switched off, for a counter of instructions to look at.
 //   effect_cost SCENE EFFECT off|absent
-// off: the scene does not call for the effect, but still has what only it reads (joints, friction
-// coefficients, ...). absent: the scene has none of that either, as if the effect did not exist.
+// off: the scene does not need the effect, but still has the data that only the effect reads
+// (joints, friction coefficients, ...). absent: the scene has none of that data either, as if the
+// effect did not exist.
 
 #include <cstdio>
 #include <functional>

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes that grow: how the cost of a sub-step goes with the number of links, layers and contacts.
+// Growing scenes: the cost of a sub-step as a function of the number of links, layers and contacts.
 
 #include <memory>
 #include <string>

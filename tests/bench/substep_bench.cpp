@@ -11,7 +11,7 @@ namespace {
 
 using namespace substep;
 
-constexpr int kWarmUp = 60;  // frames: scratch has its size, caches are warm
+constexpr int kWarmUp = 60;  // frames: scratch memory is sized, caches are warm
 constexpr int kTurn =
     20;  // frames of a growing scene: the same for every size, before a wall falls
 
@@ -54,7 +54,7 @@ void growing(benchmark::State& state, const bench::Growing& g) {
   state.counters["rows"] = report.joint_rows + report.contact_rows + report.friction_rows;
 }
 
-// What a sub-step of the swinging box is held against.
+// The baseline for a sub-step of the swinging box.
 void chain_of_26_blocks(benchmark::State& state) {
   bench::BlockChain chain(26);
   for (auto _ : state) benchmark::DoNotOptimize(chain.factor_and_solve());

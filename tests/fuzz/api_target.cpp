@@ -1,6 +1,6 @@
-// Lines of text as calls of the page's API, one a line: a word that names the call, a space, its
-// argument. The application goes on after any of them, with a report, settings, a link and a saved
-// scene that can be read.
+// Lines of text as calls of the page's API, one a line: the name of the call, a space, its
+// argument. After any of them the application still works and has a readable report, settings, link
+// and saved scene.
 
 #include <imgui.h>
 
@@ -37,7 +37,7 @@ App& app() { return *web::instance->app; }
 
 Library shipped() { return Library(SUBSTEP_SOURCE_DIR "/scenes"); }
 
-/// A page that was just opened. Fonts take most of a second: they are those of the first.
+/// A newly opened page. Fonts take most of a second, so those of the first page are reused.
 void open_page() {
   static const Library library = shipped();
   if (!web::instance) {
@@ -56,7 +56,7 @@ void open_page() {
 
 bool small() { return app().session.scene().bodies.size() <= kMostBodies; }
 
-/// Runs stay short; which method runs does not change.
+/// Keeps runs short; the method does not change.
 void limit_work() { app().change(test::shortened(app().session.settings(), kSubsteps)); }
 
 void draw() {
@@ -111,7 +111,7 @@ void call(const std::string& line) {
   }
 }
 
-/// What people may ask after anything that was done.
+/// Queries that a user may make after any action.
 void look() {
   require(imgui::complaints() == 0, "Dear ImGui is called as it asks to be");
   require(is_json(substep_report()), "report is JSON");
@@ -124,12 +124,12 @@ void look() {
   const std::string what = test::not_finite(app().session.state());
   require(what.empty(), "the state is finite, not its " + what);
   const SceneResult saved = read_scene(substep_saved_scene());
-  // A torn chain is no start; what holds can be saved.
+  // A torn chain is not a valid start; a run that holds can be saved.
   require(saved.scene || !app().session.verdict().holds(),
           "a run that holds can be saved and read");
   const std::string link = substep_link();
   const std::string own = substep_own_scene();
-  // The page packs a person's own scene into the link; then the engine is given both apart.
+  // The page packs a user's scene into the link; the engine receives the two separately.
   if (own.empty()) {
     substep_open_link(link.c_str());
     require(app().trouble.problems.empty(), "a link that was made can be read");

@@ -1,5 +1,5 @@
-// A text as the fragment of an address: the experiment that is read is written as a link that is
-// read to the same experiment, and so are the events of its run.
+// A text as the fragment of an address: the experiment is written as a link and read back to the
+// same experiment, and so are the events of its run.
 
 #include <memory>
 

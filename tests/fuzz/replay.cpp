@@ -23,7 +23,8 @@ int main(int argc, char** argv) {
   }
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
-    std::fprintf(stderr, "%s\n", file.c_str());  // the last one told is the one that ended it
+    std::fprintf(stderr, "%s\n",
+                 file.c_str());  // the last name printed is the input that ended the program
     std::ifstream stream(file, std::ios::binary);
     if (!stream) return 1;
     const std::string text(std::istreambuf_iterator<char>(stream), {});

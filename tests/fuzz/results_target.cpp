@@ -1,4 +1,4 @@
-// A text as a results file, and each of its lines as an experiment to be run again.
+// A text as a results file, and each of its lines as an experiment to repeat.
 
 #include <map>
 #include <memory>
@@ -20,7 +20,7 @@ void read_file(const std::string& text) {
   std::vector<std::string> order;
   if (!cli::read_results("input", text, lines, order)) return;
   require(lines.size() == order.size(), "every result has its place");
-  // What was read is written as `sweep` does and read again.
+  // The results are written as `sweep` does and read again.
   std::string file = results_header();
   for (const std::string& id : order) file += lines.at(id) + '\n';
   std::map<std::string, std::string> lines_again;

@@ -1,6 +1,6 @@
 #pragma once
-// What all fuzz targets share. A target is one function that takes any bytes and must come back: it
-// ends the program where a law is broken, and libFuzzer (or replay.cpp) tells with which bytes.
+// Shared by all fuzz targets. A target is one function that takes any bytes and must return: it
+// aborts the program if a law is broken, and libFuzzer (or replay.cpp) reports the input.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +17,7 @@ inline std::string text_of(const std::uint8_t* data, std::size_t size) {
   return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Ends the program with the law that does not hold.
+/// Aborts the program and prints the law that was broken.
 inline void require(bool holds, std::string_view law) {
   if (holds) return;
   std::fprintf(stderr, "broken: %.*s\n", static_cast<int>(law.size()), law.data());

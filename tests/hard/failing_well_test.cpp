@@ -1,4 +1,4 @@
-// A run that fails stops in order, and what is said to help helps.
+// A failing run stops cleanly, and the suggested remedy works.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ bool all_finite(const State& state) {
 TEST(Divergence, StopsAtTheLastFiniteState) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   State thrown = simulator.state();
-  thrown.u.back().head<3>() = Vec3{1e200, 0.0, 0.0};  // a speed whose square is no number
+  thrown.u.back().head<3>() = Vec3{1e200, 0.0, 0.0};  // a speed whose square overflows
   simulator.set_state(thrown);
   FrameReport report;
   for (int frame = 0; frame < 100 && report.status == StepStatus::kOk; ++frame) {
@@ -42,7 +42,7 @@ TEST(Divergence, WithinAFrameTellsTheTimeOfItsPoses) {
   Grab grab;
   grab.body = 1;
   ASSERT_FALSE(scene->bodies[1].is_static);
-  grab.anchor = {1e200, 0.0, 0.0};  // an arm whose square is no number
+  grab.anchor = {1e200, 0.0, 0.0};  // an arm whose square overflows
   grab.mass = 1e10;
   simulator.set_grab(grab);
   const FrameReport report = simulator.step();
@@ -61,7 +61,7 @@ TEST(TooManyContacts, StopTheRunBeforeTheyTakeMemory) {
   tie.a = 0;
   tie.b = 1;
   scene.joints.emplace_back(tie);
-  for (int i = 0; i < 700; ++i) {  // all in one place: 244,650 pairs
+  for (int i = 0; i < 700; ++i) {  // all at one point: 244,650 pairs
     Body body;
     body.name = "ball_" + std::to_string(i);
     body.inertia = solid_inertia(body.shape, body.mass);
@@ -83,7 +83,7 @@ TEST(TooManyContacts, StopTheRunBeforeTheyTakeMemory) {
       "fails at 0.000 s: more than 200000 contacts or 1000000 pairs of bodies near each other");
 }
 
-/// What comes of the first remedy for a run that fails.
+/// The result of the first remedy for a failed run.
 void expect_helped(const Scene& scene, const Settings& settings) {
   FrameReport failed;
   const Outcome before = run(scene, settings, scene.criteria.duration,
@@ -95,7 +95,7 @@ void expect_helped(const Scene& scene, const Settings& settings) {
   EXPECT_TRUE(after.holds) << scene.name << ": " << all.front().text << ": " << after.verdict;
 }
 
-// The first solve of a long step has no active set to begin with, and its pivots run out.
+// The first solve of a long step has no initial active set, and its pivots run out.
 TEST(PivotsThatRunOut, LeaveAHouseOfCardsStanding) {
   Simulator simulator = simulator_of(scenes::card_house(), {.mode = Mode::kNone});
   const double start = simulator.observe().energy;

@@ -1,4 +1,4 @@
-// What is foretold of N before a scene moves.
+// The forecast of N before a scene moves.
 
 #include "core/lab/forecast.hpp"
 

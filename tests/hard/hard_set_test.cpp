@@ -1,5 +1,5 @@
-// The recommended setting on scenes far past the paper's. The whole set, with its work, is in
-// scenes/README.md and comes from `substep check --hard`; here are the ones that are cheap to run.
+// The recommended setting on scenes far beyond the paper's. The whole set, with its work, is in
+// scenes/README.md and printed by `substep check --hard`; these are the cheap ones.
 
 #include "scenes/generator/hard_set.hpp"
 
@@ -35,19 +35,20 @@ TEST(HardSet, EveryCaseIsASceneThatTheLoaderTakes) {
 TEST(HardSet, TheRecommendedSettingHoldsAllJointedCasesButTheLongSlackChain) {
   int cases = 0;
   for (const scenes::HardCase& hard : scenes::hard_set()) {
-    // Those without contact, small enough for seconds.
+    // Those without contact that take only seconds.
     if (hard.scene.effects.contact || hard.scene.bodies.size() > 60) continue;
     ++cases;
     const Outcome r = run(hard.scene, recommended(), hard.scene.criteria.duration);
-    // A chain that snaps taut pulls for one sub-step, which the K of the sub-step before does not
-    // foretell.
+    // A chain that snaps taut pulls for one sub-step, which the K of the previous sub-step does not
+    // predict.
     EXPECT_EQ(r.holds, hard.scene.name != "slack_of_24") << hard.scene.name << ": " << r.verdict;
     EXPECT_LE(r.n_max(), recommended().n_cap) << hard.scene.name;
   }
   EXPECT_GT(cases, 20);
 }
 
-// Implicit at the end of the sub-step: it needs no K that foretells, and slack chains hold too.
+// Implicit at the end of the sub-step: it does not need K to predict the force, and slack chains
+// hold too.
 TEST(HardSet, TheRobustSettingHoldsAllJointedCases) {
   const Settings& robust = find_preset("robust")->settings;
   for (const scenes::HardCase& hard : scenes::hard_set()) {
@@ -58,10 +59,10 @@ TEST(HardSet, TheRobustSettingHoldsAllJointedCases) {
   }
 }
 
-// A chain that starts near the horizontal goes slack on its way up and snaps taut: the K of the
-// sub-step before does not foretell it. These hold a minute of it, at a bounded cost; the paper's
-// setting holds most of the starts for some seconds only (they gain a tenth of the energy of the
-// start at 60 degrees and more).
+// A chain that starts near the horizontal becomes slack on its way up and snaps taut, which the K
+// of the previous sub-step does not predict. These settings hold it for a minute at a bounded cost;
+// the paper's setting holds most of the starts for only some seconds (they gain a tenth of the
+// energy of the start at 60 degrees and more).
 TEST(SlackStarts, HoldAMinuteWithBoundedN) {
   Settings soft;
   soft.drift = Drift::kSoft;

@@ -1,5 +1,5 @@
-// Long runs: nothing drifts past its bound, and memory does not grow. 50,000 frames by default;
-// SUBSTEP_LONG_FRAMES=1000000 is the form for a night.
+// Long runs: nothing drifts beyond its bound, and memory does not grow. 50,000 frames by default;
+// SUBSTEP_LONG_FRAMES=1000000 for a run overnight.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -18,7 +18,7 @@ std::int64_t frames() {
   return text ? std::atoll(text) : 50000;
 }
 
-/// The most memory that the program had so far [KiB].
+/// Peak memory of the program so far [KiB].
 long peak_memory() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -34,7 +34,7 @@ struct LongRun {
   StepStatus status = StepStatus::kOk;
 };
 
-/// @param warm_up frames that are not judged
+/// @param warm_up frames that are not checked
 LongRun run_long(const Scene& scene, const Settings& settings, std::int64_t warm_up) {
   Simulator simulator = simulator_of(scene, settings);
   LongRun out;
@@ -60,13 +60,14 @@ LongRun run_long(const Scene& scene, const Settings& settings, std::int64_t warm
   return out;
 }
 
-constexpr long kMemoryRoom = 1024;  // what the test's own output and the allocator may take [KiB]
+constexpr long kMemoryRoom = 1024;  // allowance for the test's own output and the allocator [KiB]
 
 TEST(LongRun, TheSwingingBoxKeepsItsEnergyWithLeapfrog) {
   const Scene scene = scenes::swinging_box();
   const LongRun r = run_long(scene, {.integrator = Integrator::kLeapfrog}, 60);
   ASSERT_EQ(r.status, StepStatus::kOk);
-  // 200 s keep it within 0.001 % of the exchanged energy; this is as much each 200 s, twice over.
+  // In 200 s the energy stays within 0.001 % of the exchanged energy; the bound is twice that for
+  // each 200 s.
   const double bound = 2.0 * 1e-5 * *scene.criteria.energy_scale *
                        (1.0 + static_cast<double>(frames()) * scene.frame / 200.0);
   EXPECT_LT(r.energy_highest - r.energy_after_warm_up, bound);
@@ -84,9 +85,9 @@ TEST(LongRun, TheBridgeComesToRestWithCappedDamping) {
   EXPECT_LT(r.memory_growth, kMemoryRoom);
 }
 
-// The paper's scheme does not let the empty bridge come to rest: the full drift law pays an error
-// of a long sub-step back in a short one, and with N changing from frame to frame the planks keep
-// shaking at some hundred joules. They stay whole, and it stays bounded.
+// With the paper's scheme the empty bridge does not come to rest: the full drift law corrects the
+// error of a long sub-step in a short one, and with N changing from frame to frame the planks keep
+// shaking at some hundred joules. They stay intact, and the energy stays bounded.
 TEST(LongRun, TheEmptyBridgeShakesOnWithThePapersScheme) {
   const Scene scene = scenes::bridge();
   const LongRun r = run_long(scene, scene.settings, 600);

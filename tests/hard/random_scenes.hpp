@@ -1,5 +1,5 @@
 #pragma once
-// Valid scenes at random: chains, trees and rings of joints, and heaps of bodies that touch or
+// Random valid scenes: chains, trees and rings of joints, and heaps of bodies that touch or
 // overlap, with extreme masses, moments, friction, compliance and speeds, under any settings.
 
 #include <rapidcheck.h>
@@ -20,12 +20,12 @@ namespace substep::test {
 inline int whole(int least, int most) { return *rc::gen::inRange(least, most + 1); }
 inline bool one_in(int n) { return whole(1, n) == 1; }
 
-/// Evenly from `least` to `most`; shrinks towards `least`.
+/// Uniform from `least` to `most`; shrinks towards `least`.
 inline double number(double least, double most) {
   constexpr int kSteps = 1 << 20;
   return least + (most - least) * whole(0, kSteps) / kSteps;
 }
-/// Evenly in its logarithm.
+/// Uniform in the logarithm.
 inline double magnitude(double least, double most) {
   return std::exp(number(std::log(least), std::log(most)));
 }
@@ -58,7 +58,7 @@ inline Shape any_shape() {
   }
 }
 
-/// Moments that a body can have: from a needle to a plate.
+/// Physically possible moments: from a needle to a plate.
 inline Vec3 any_inertia(double mass) {
   const Vec3 extents{magnitude(1e-4, 1.0), magnitude(1e-4, 1.0), magnitude(1e-4, 1.0)};
   return solid_inertia(Box{extents}, mass);
@@ -121,7 +121,7 @@ inline Vec3 between(const Scene& scene, int a, int b) {
                 scene.bodies[static_cast<std::size_t>(b)].position);
 }
 
-/// Bodies on joints: a chain, a tree, or a ring, that hangs from the world or flies.
+/// Bodies on joints: a chain, a tree, or a ring, hanging from the world or free.
 inline void add_mechanism(Scene& scene, int bodies) {
   const int first = static_cast<int>(scene.bodies.size());
   const int kind = whole(0, 2);
@@ -140,7 +140,7 @@ inline void add_mechanism(Scene& scene, int bodies) {
   if (kind == 2 && bodies > 2) join(scene, last, first, between(scene, last, first));
 }
 
-/// Bodies that lie, fall, touch and overlap, some of them exactly.
+/// Bodies that rest, fall, touch and overlap, some of them exactly.
 inline void add_heap(Scene& scene, int bodies) {
   Vec3 at = Vec3::Zero();
   for (int i = 0; i < bodies; ++i) {

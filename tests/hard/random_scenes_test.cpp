@@ -1,6 +1,6 @@
-// Any valid scene runs finite or stops with a status, within its bounds of work. A few hundred
-// scenes by default, always the same; RC_PARAMS="max_success=100000 seed=1" is the form for a
-// night, and the seed that a failure tells brings it back.
+// Any valid scene stays finite or stops with a status, within its bounds of work. A few hundred
+// scenes by default, always the same; RC_PARAMS="max_success=100000 seed=1" for a run overnight. A
+// failure prints the seed that reproduces it.
 
 #include "tests/hard/random_scenes.hpp"
 
@@ -40,7 +40,7 @@ void run_by_the_laws(const std::shared_ptr<const Scene>& scene) {
     }
     if (report.status != StepStatus::kOk) return;
   }
-  // What came of it can be kept, unless it flew or spins beyond what a scene may hold.
+  // The result can be saved, unless positions or velocities exceed the limits of a scene.
   const Scene saved = saved_scene(*scene, simulator.state(), scene->settings);
   const SceneResult again = read_scene(write_scene(saved));
   RC_ASSERT(again.scene != nullptr || !again.problems.empty());

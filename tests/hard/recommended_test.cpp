@@ -1,4 +1,4 @@
-// What is recommended for the shipped scenes keeps its word.
+// The recommendations of the shipped scenes keep their stated error and cost.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ Result run_for(const Scene& scene, double seconds, const Reference& reference) {
 
 TEST(RecommendedOfScenes, KeepsItsErrorAtItsCost) {
   for (const Scene& scene : scenes::shipped()) {
-    if (!scene.recommended) continue;  // where nothing is solved
+    if (!scene.recommended) continue;  // nothing is solved there
     SCOPED_TRACE(scene.name);
     const Recommended& kept = *scene.recommended;
     const Reference reference =
@@ -34,13 +34,13 @@ TEST(RecommendedOfScenes, KeepsItsErrorAtItsCost) {
     const auto error = error_of(result, kept.of);
     ASSERT_TRUE(error.has_value()) << result.metrics.verdict;
     EXPECT_LE(*error, kept.within);
-    EXPECT_NEAR(*error, kept.reached, 0.01 * kept.reached);  // which has three digits
+    EXPECT_NEAR(*error, kept.reached, 0.01 * kept.reached);  // it has three digits
     const double operations = cost_of(result, CostAxis::kOperations);
     EXPECT_NEAR(operations, kept.operations, 0.01 * kept.operations);
   }
 }
 
-// The runs that it was chosen from may have been shorter.
+// The runs of the recommending sweep may have been shorter.
 TEST(RecommendedOfScenes, HoldsForAsLongAsTheSceneIsJudged) {
   for (const Scene& scene : scenes::shipped()) {
     if (!scene.recommended || !scene.criteria.holds) continue;

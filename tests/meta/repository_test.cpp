@@ -1,5 +1,5 @@
-// The repository's own rules, read from its sources: which way the modules point, where platform
-// conditionals may stand, how tests are named, and that nothing speaks of one machine.
+// Rules of the repository, checked in its sources: module dependencies, platform conditionals,
+// names of tests, and no references to one machine.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path kRoot = SUBSTEP_SOURCE_DIR;
 
-/// Text files of the repository, relative to its root; what git ignores is left out.
+/// Text files of the repository, relative to its root, without those that git ignores.
 std::vector<std::string> files() {
   static const std::set<std::string> skipped{".git", ".cache", "build", "node_modules"};
   static const std::set<std::string> binary{".png", ".jpg", ".ttf", ".ico", ".woff2"};
@@ -61,7 +61,7 @@ std::string places(const std::regex& pattern, Keep keep) {
   return out.str();
 }
 
-/// What each module of core/ may include besides itself.
+/// Allowed includes of each module of core/, besides itself.
 const std::map<std::string, std::set<std::string>>& allowed_modules() {
   static const auto allowed = [] {
     const std::vector<std::string> order{"math",   "model",    "collision", "constraints",

@@ -1,6 +1,6 @@
 // Section 4.1.2: a ball of 1000 kg rolls over planks of 1 kg. Eight starts; a run survives if no
-// joint gap passes 0.1 m in 6 s. The motion is chaotic, so single runs differ and counts are what
-// is tested.
+// joint gap exceeds 0.1 m in 6 s. The motion is chaotic, so single runs differ and the tests check
+// counts.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace substep::test {
 namespace {
 
 constexpr double kSeconds = 6.0;
-constexpr double kEnd = 4.9;  // the ball has left where its x is greater [m]
+constexpr double kEnd = 4.9;  // the ball has left when its x exceeds this [m]
 
 struct Crossing {
   Outcome run;
@@ -61,8 +61,8 @@ TEST(Bridge, DampingAndCappedSurviveAllStarts) {
   EXPECT_EQ(survivors(with(SolverKind::kBpp, Mode::kCapped)), 8);
 }
 
-// At 8 the gaps come near the threshold (up to 0.09 m): start positions moved by a nanometre give 5
-// to 8 survivors. At 6 it is over, at 10 there is room.
+// At 8 the gaps approach the threshold (up to 0.09 m): start positions moved by a nanometre give 5
+// to 8 survivors. At 6 the gaps exceed it, at 10 there is a margin.
 TEST(Bridge, ConstantStepsNeedAboutTen) {
   EXPECT_LE(survivors(with(SolverKind::kBpp, Mode::kConst, 6)), 3);
   EXPECT_GE(survivors(with(SolverKind::kBpp, Mode::kConst, 8)), 5);
@@ -124,9 +124,9 @@ TEST(BridgePgs, OnlySubstepsWithTheSoftDriftLawSurvive) {
   EXPECT_EQ(survivors(with(SolverKind::kPgs, Mode::kAdaptive)), 8);
 }
 
-// The prototype lost all eight starts with the full law. Here they survive, but the law feeds
-// energy in: after the ball has left the planks shake at the cap of 64 sub-steps where the soft law
-// needs 5.
+// The prototype lost all eight starts with the full law. Here they survive, but the law adds
+// energy: after the ball has left, the planks shake at the cap of 64 sub-steps, whereas the soft
+// law needs 5.
 TEST(BridgePgs, TheFullDriftLawKeepsShakingAfterTheBallHasLeft) {
   Settings settings = with(SolverKind::kPgs, Mode::kAdaptive);
   std::int64_t soft = 0;
@@ -156,10 +156,10 @@ double stored(const Simulator& simulator) {
 
 struct Loss {
   double energy = 0.0;     // from the start until the ball has left [J]
-  double exchanged = 0.0;  // range of the kinetic energy meanwhile [J]
+  double exchanged = 0.0;  // range of the kinetic energy in that time [J]
 };
 
-/// @param moved the ball's start, along the bridge [m]
+/// @param moved offset of the ball's start along the bridge [m]
 Loss loss(const scenes::BridgeOptions& start, const Settings& settings, double moved = 0.0) {
   Scene scene = scenes::bridge(start);
   const auto ball = static_cast<std::size_t>(*scene.criteria.track);
@@ -182,10 +182,10 @@ Settings leapfrog(Settings settings) {
   return settings;
 }
 
-// Where the ball, which hops, lands next hangs on micrometres, and in a sub-step of 256 a frame it
-// goes 200 of them. So no method stays within half a per cent of the exchanged energy of such a
-// run, start by start: not a finer one, nor the exact motion. Digits are another matter: a
-// nanometre changes next to nothing, so the runs are what they are and not noise.
+// The ball hops, and its next landing point depends on micrometres; in a sub-step of 256 a frame it
+// moves 200 of them. So no method stays within half a per cent of the exchanged energy of such a
+// run, start by start: neither a finer one nor the exact motion. Rounding is a different matter: a
+// nanometre changes next to nothing, so the runs are reproducible and not noise.
 TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
   const Settings fine = leapfrog(with(SolverKind::kBpp, Mode::kConst, 256));
   const Settings finer = leapfrog(with(SolverKind::kBpp, Mode::kConst, 1024));
@@ -205,8 +205,8 @@ TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
   EXPECT_GT(micrometre, 0.1);
 }
 
-// What the ball loses where it lands, beside leapfrog with 128 sub-steps, in the mean of the starts
-// and as a share of the exchanged energy.
+// The energy that the ball loses on landing, relative to leapfrog with 128 sub-steps, as the mean
+// over the starts and as a share of the exchanged energy.
 TEST(BridgeEnergy, FewSubstepsArePaidForWhereTheBallLands) {
   const auto up_to = [](Mode mode, int n_cap) {
     Settings settings = with(SolverKind::kBpp, mode);

@@ -1,5 +1,5 @@
 #pragma once
-// What runs of the swinging box are held against.
+// The reference for runs of the swinging box.
 
 #include <algorithm>
 #include <fstream>
@@ -11,8 +11,7 @@
 
 namespace substep::test {
 
-inline constexpr double kExchanged =
-    51500.0;  // energy that goes back and forth: 100 % of the drift [J]
+inline constexpr double kExchanged = 51500.0;  // exchanged energy: 100 % of the drift [J]
 
 /// Centre of the heavy box in the exact motion, 60 Hz, 10 s.
 inline const std::vector<Vec3>& reference() {

@@ -22,7 +22,7 @@ Settings with(Mode mode, double alpha = 0.1, int n = 16) {
   return settings;
 }
 
-/// Start jitter of the balls alone, without the regularisation of the stress scenes.
+/// Only the start jitter of the balls, without the regularisation of the stress scenes.
 Scene jittered(const scenes::HeavyStackOptions& options) {
   scenes::HeavyStackOptions stress = options;
   stress.stress = true;
@@ -31,7 +31,7 @@ Scene jittered(const scenes::HeavyStackOptions& options) {
   return scene;
 }
 
-// In exact arithmetic the true constrained stiffness of the symmetric stack is zero: nothing to
+// In exact arithmetic the true constrained stiffness of the symmetric stack is zero, so it does not
 // fall.
 TEST(HeavyStack, InDoublePrecisionEveryDirectModeStands) {
   for (const Mode mode :
@@ -52,8 +52,8 @@ TEST(HeavyStack, GaussSeidelFallsWithinASecondAtAnySetting) {
   }
 }
 
-// Softness makes the broken symmetry a real instability, whatever the step: ten times stiffer buys
-// about three times as long.
+// With broken symmetry, compliance causes a real instability at any step: ten times the stiffness
+// lasts about three times as long.
 TEST(HeavyStack, ContactComplianceFallsWhateverTheSteps) {
   for (const auto& [compliance, falls_at] :
        {std::pair{1e-8, 1.2}, std::pair{1e-9, 3.2}, std::pair{1e-10, 9.7}}) {
@@ -79,7 +79,7 @@ TEST(HeavyStackTall, JitteredItFallsAtAboutFortySecondsUnlessTheContactsAreStiff
   EXPECT_TRUE(r.holds) << r.verdict;
 }
 
-// The paper's pattern, in double precision: jitter, and a regularisation that no step shrinks.
+// The paper's pattern in double precision: jitter, and a regularisation independent of the step.
 TEST(HeavyStackStress, NoneAndDampingFallFirstThenFewSubsteps) {
   const Scene scene = scenes::heavy_stack_stress();
   const Outcome none = run(scene, with(Mode::kNone), 10.0);
@@ -110,7 +110,7 @@ TEST(HeavyStackStress, PastTenSecondsItFallsToo) {
   EXPECT_LT(r.failed_at, 32.0 * 1.1);
 }
 
-// How long it stands goes with N, at N times the work: 0.74 s a sub-step.
+// The time that it stands is proportional to N, and so is the work: 0.74 s per sub-step.
 TEST(HeavyStackStress, StandsAsLongAsItHasSubsteps) {
   for (const int n : {4, 8, 12, 14, 20}) {
     const Outcome r = run(scenes::heavy_stack_stress(), with(Mode::kConst, 0.1, n), 40.0);
@@ -118,7 +118,7 @@ TEST(HeavyStackStress, StandsAsLongAsItHasSubsteps) {
   }
 }
 
-// Refined, a single step a frame stands longer than the paper's 26 sub-steps: 11 s with one
+// With refinements a single step a frame stands longer than the paper's 26 sub-steps: 11 s with one
 // refinement, 27 s with two, for a tenth of the work of 14 sub-steps.
 TEST(HeavyStackStress, RefinedASingleStepStands) {
   std::int64_t work = 0;
@@ -140,8 +140,8 @@ TEST(HeavyStackStress, RefinedASingleStepStands) {
   EXPECT_TRUE(run(scenes::heavy_stack_stress_tall(), refined, 12.0).holds);
 }
 
-// The exact block of a contact has no share that the paper's takes for a ball joint's: a stack asks
-// for fewer sub-steps. Bodies that tumble on edges ask for more.
+// The exact block of a contact lacks the term that the paper's takes from a ball joint: a stack
+// needs fewer sub-steps. Bodies that tumble on edges need more.
 TEST(ContactStiffness, TheExactBlockChangesN) {
   const auto substeps = [](const Scene& scene, ContactStiffness form) {
     Settings settings = with(Mode::kAdaptive);
@@ -158,7 +158,7 @@ TEST(ContactStiffness, TheExactBlockChangesN) {
   EXPECT_GT(exact_by_paper(scenes::ragdoll_drop()), 1.5);
 }
 
-// Survival per unit of work has an optimum: six refinements of a single step, twelve for ten
+// Survival per unit of work has an optimum: six refinements of a single step; twelve for ten
 // layers.
 TEST(HeavyStackStress, StandsLongestForItsWorkWithSixRefinements) {
   double failed_at = 0.0;  // of the last run
@@ -188,7 +188,7 @@ TEST(HeavyStackStress, StandsLongestForItsWorkWithSixRefinements) {
   for (const int other : {6, 8, 16, 24}) EXPECT_GT(best_tall, refined(tall, other)) << other;
 }
 
-/// The start with the balls moved to and fro by up to so much [m].
+/// The start with the balls displaced at random by up to this distance [m].
 Scene moved(const scenes::HeavyStackOptions& options, double by, std::uint64_t seed) {
   Scene scene = scenes::heavy_stack(options);
   std::mt19937_64 random(seed);
@@ -201,7 +201,7 @@ Scene moved(const scenes::HeavyStackOptions& options, double by, std::uint64_t s
   return scene;
 }
 
-/// Of the solver, a frame [kflop].
+/// Work of the solver per frame [kflop].
 double work_of(const Scene& scene, const Settings& settings) {
   double work = 0.0;
   const Outcome r = run(scene, settings, 10.0, [&](const Simulator&, const FrameReport& report) {
@@ -210,7 +210,7 @@ double work_of(const Scene& scene, const Settings& settings) {
   return 1e-3 * work / static_cast<double>(r.n.size());
 }
 
-// Rigid contacts, balls up to 5 mm off: one sub-step a frame stands, two for ten layers.
+// Rigid contacts, balls displaced by up to 5 mm: one sub-step a frame holds; ten layers need two.
 TEST(HeavyStackMoved, OneSubstepStandsAMinute) {
   for (const double compliance : {0.0, 1e-13}) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -239,8 +239,8 @@ TEST(HeavyStackTallMoved, TwoSubstepsStandAMinute) {
   }
 }
 
-// Every direction but the vertical comes from rounding alone in a symmetric stack. A plate that is
-// eliminated while a ball still stands between it and the next one leaves that ball's rows nearly
+// In a symmetric stack all motion but the vertical comes from rounding. If a plate is eliminated
+// while a ball between it and the next plate remains, the rows of that ball become nearly
 // redundant: they are softened, and the noise is 6e-6 m/s.
 TEST(HeavyStack, StaysSymmetric) {
   for (const Scene& scene : {scenes::heavy_stack(), scenes::heavy_stack_tall()}) {
@@ -262,9 +262,9 @@ TEST(HeavyStackStress, WithoutTheProbeItFallsAtOnce) {
   EXPECT_NEAR(r.failed_at, 0.18, 0.018);
 }
 
-// A force that dips for one sub-step lets the next one grow, and what that one gets wrong the full
-// drift law pays back in a shorter one. A slowly fading r prevents it: 0.9 does, 0.7 (the
-// prototype's) falls at 0.2 s; from 0.8 on it stands, with either integrator.
+// A force that dips for one sub-step makes the next one longer, and the full drift law corrects the
+// resulting error in a shorter one. A slowly decaying r prevents this: 0.9 holds, 0.7 (the
+// prototype's) falls at 0.2 s; from 0.8 on it holds, with either integrator.
 TEST(HeavyStackStress, DecidingEverySubstepNeedsALongMemory) {
   Settings settings = with(Mode::kAdaptive);
   settings.policy = Policy::kSubstep;

@@ -1,5 +1,6 @@
-// The systems that look at the end of a sub-step: non-smooth Newton with forces at its end, at the
-// mean of the poses around it and by Numerov's weights, and extended position-based dynamics.
+// Solvers that are implicit at the end of a sub-step: non-smooth Newton with forces at its end,
+// with the mean of the poses around it and with Numerov's weights, and extended position-based
+// dynamics.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ Outcome swing(const Settings& settings, double seconds = 10.0, double compliance
   return run(scenes::swinging_box(options), settings, seconds);
 }
 
-// One step a frame is seven times the stable one of an explicit sub-step: BPP tears at once.
+// One step a frame is seven times the stable step of an explicit sub-step: BPP fails at once.
 TEST(NewtonAtTheEnd, StandsAtOneSubstepAndDamps) {
   double before = -100.0;
   for (const int n : {1, 2, 4, 8}) {
@@ -52,7 +53,7 @@ TEST(NewtonAtTheEnd, CrossesTheBridgeFromEveryStartAtOneSubstep) {
   }
 }
 
-// 600 sub-steps of two solves each: geometric inertia with as many is ten times further off, the
+// 600 sub-steps of two solves each: geometric inertia with as many has ten times the error, the
 // paper's 9,476 sub-steps fifteen times.
 TEST(NewtonAtTheMean, IsMoreExactThanGeometricInertia) {
   const std::pair<int, double> most[] = {{1, 9e-4}, {2, 2.4e-4}, {4, 7.5e-5}};  // [m]
@@ -73,14 +74,15 @@ TEST(NewtonAtTheMean, TakesOneSolveFromTwoSubstepsOn) {
   EXPECT_LT(tip_error(hundredth), 1e-5);
 }
 
-/// Goes 60 frames, turns the last velocity around and goes back. @return how far off the start [m]
+/// Runs 60 frames, reverses the last velocity and runs back. @return the distance from the start
+/// [m]
 double off_after_return(const Settings& settings) {
   constexpr int kThere = 60;
   const auto scene = std::make_shared<const Scene>(scenes::rope_of_n({5, 0.4, 10.0, 0.0}));
   Simulator simulator = simulator_of(scene, settings);
   const State start = simulator.state();
   for (int i = 0; i < kThere; ++i) simulator.step();
-  State back = simulator.state();  // its poses, and the velocity of the sub-step that follows
+  State back = simulator.state();  // its poses, and the velocity of the next sub-step
   simulator.step();
   for (std::size_t i = 0; i < back.u.size(); ++i) back.u[i] = -simulator.state().u[i];
   simulator.set_state(back);
@@ -105,8 +107,8 @@ TEST(NewtonAtTheMean, KeepsEnergyFor200Seconds) {
   }
 }
 
-/// A rod that hangs under so much gravity that dt^2 k/M = kappa, pushed by a thousandth of a
-/// radian: its largest swing in the last tenth of 400 sub-steps over that in the first of them.
+/// A rod that hangs under such gravity that dt^2 k/M = kappa, displaced by a thousandth of a
+/// radian: the ratio of its largest swing in the last tenth of 400 sub-steps to that in the first.
 double growth_of_rod(Forces forces, double kappa, int steps = 100, int first_steps = 40) {
   Scene scene = scenes::pendulum();
   Body& rod = scene.bodies[0];
@@ -114,7 +116,7 @@ double growth_of_rod(Forces forces, double kappa, int steps = 100, int first_ste
   const double arm = hinge.anchor_a.norm();
   const double inertia = rod.inertia.z() + rod.mass * arm * arm;  // about the hinge
   const double dt = scene.frame;
-  scene.effects.gravity = false;  // no gravity is so large
+  scene.effects.gravity = false;  // the gravity exceeds the allowed range
   scene.effects.external = true;
   rod.force = {0.0, -kappa * inertia / (dt * dt * arm), 0.0};
   rod.orientation = Quat(Eigen::AngleAxisd(1e-3 - 0.5 * std::numbers::pi, Vec3::UnitZ()));
@@ -133,7 +135,7 @@ double growth_of_rod(Forces forces, double kappa, int steps = 100, int first_ste
   return last / first;
 }
 
-// The arguments in newton.hpp, on one body: predicted limits against measured ones.
+// The derivations in newton.hpp, on one body: predicted limits against measured ones.
 TEST(NewtonOnOneBody, IsStableJustAsFarAsItsArgumentSays) {
   for (const double kappa : {0.5, 5.9, 50.0, 500.0}) {
     EXPECT_NEAR(growth_of_rod(Forces::kMean, kappa), 1.0, 0.05) << kappa;
@@ -141,14 +143,14 @@ TEST(NewtonOnOneBody, IsStableJustAsFarAsItsArgumentSays) {
   }
   EXPECT_NEAR(growth_of_rod(Forces::kNumerov, 5.9), 1.0, 0.1);
   EXPECT_GT(growth_of_rod(Forces::kNumerov, 6.1, 100, 1), 10.0);  // full swings within 40
-  // Two steps are as good as all, and one stands almost as far.
+  // Two steps are as good as convergence, and one holds almost as far.
   EXPECT_NEAR(growth_of_rod(Forces::kNumerov, 5.8, 2), 1.0, 0.01);
   EXPECT_NEAR(growth_of_rod(Forces::kNumerov, 3.0, 1), 1.0, 0.005);
   EXPECT_NEAR(growth_of_rod(Forces::kNumerov, 5.4, 1), 1.0, 0.05);
   EXPECT_GT(growth_of_rod(Forces::kNumerov, 6.1, 1, 1), 10.0);
 }
 
-/// Largest distance of any body of a chain of three, which bends, from the exact motion [m].
+/// Largest distance of any body of a bending chain of three from the exact motion [m].
 double chain_error(Forces forces, int n, int steps = 25) {
   const Scene scene = scenes::rope_of_n({2, 0.4, 1.0, 0.0});
   auto exact = PlanarChain::of(scene);
@@ -167,7 +169,7 @@ TEST(NewtonAtTheMean, IsOfSecondOrder) {
   EXPECT_NEAR(std::log2(chain_error(Forces::kMean, 8) / chain_error(Forces::kMean, 16)), 2.0, 0.05);
 }
 
-// Already with a single step, a linear solve a sub-step.
+// Even with a single step, i.e. one linear solve a sub-step.
 TEST(Numerov, IsOfFourthOrder) {
   for (const auto& [steps, order] : {std::pair{1, 4.0}, std::pair{2, 4.0}, std::pair{25, 4.0}}) {
     const double error = chain_error(Forces::kNumerov, 8, steps);
@@ -176,22 +178,22 @@ TEST(Numerov, IsOfFourthOrder) {
   }
 }
 
-// Exact joints, so that nothing gives way; leapfrog's sub-steps with BPP, as many of them and as
-// many solves, leave a tenth of a millimetre.
+// Exact joints without compliance; leapfrog with BPP at as many sub-steps and solves leaves a tenth
+// of a millimetre.
 TEST(Numerov, FollowsTheSwingingBoxToAMicrometreWithOneSolveASubstep) {
   const Outcome r = swing(newton(Forces::kNumerov, 8, 1), 10.0, 0.0);
   EXPECT_TRUE(r.holds) << r.verdict;
   EXPECT_LT(tip_error(r), 1e-6);
 }
 
-// The weight of a neighbour is 1/12: stable while dt^2 k < 6 M, N = 6 here, and not below.
+// The weight of a neighbour is 1/12: stable while dt^2 k < 6 M, i.e. from N = 6 on here.
 TEST(Numerov, StandsAsFarAsItsArgumentSays) {
   EXPECT_TRUE(swing(newton(Forces::kNumerov, 6)).holds);
   EXPECT_FALSE(swing(newton(Forces::kNumerov, 4)).holds);
 }
 
-// What is not iterated is explicit: a single solve a sub-step stands from N = 8 on, and with 6 it
-// tears after a minute and a half.
+// Without iteration the method is explicit: a single solve a sub-step holds from N = 8 on, and with
+// 6 it fails after a minute and a half.
 TEST(Numerov, KeepsEnergyFor200Seconds) {
   for (const auto& [n, steps] : {std::pair{6, 2}, std::pair{8, 1}}) {
     const Outcome r = swing(newton(Forces::kNumerov, n, steps), 200.0);
@@ -210,8 +212,8 @@ Settings xpbd(int n, int sweeps) {
   return settings;
 }
 
-// Macklin et al. 2019, "Small steps in physics simulation": the same sweeps are better spent on
-// sub-steps than on iterations.
+// Macklin et al. 2019, "Small steps in physics simulation": sub-steps are a better use of sweeps
+// than iterations.
 TEST(Xpbd, SubstepsBeatSweeps) {
   const Scene scene = scenes::rope_of_n({10, 0.4, 1.0});
   const Outcome sweeps = run(scene, xpbd(1, 16), 2.0, {}, false);
@@ -219,7 +221,7 @@ TEST(Xpbd, SubstepsBeatSweeps) {
   EXPECT_LT(substeps.joint_gap, 0.3 * sweeps.joint_gap);
 }
 
-// Its first claim: a compliant joint stretches by C F, whatever the step and the sweeps.
+// Its first claim: a compliant joint stretches by C F, for any step and number of sweeps.
 TEST(Xpbd, StretchesByTheCompliance) {
   Scene scene = scenes::rope_of_n({1, 0.4, 1.0, 1e-4, {0.0, 1.0}});  // hangs straight down
   for (Body& body : scene.bodies) body.velocity.setZero();
@@ -227,7 +229,7 @@ TEST(Xpbd, StretchesByTheCompliance) {
     double mean = 0.0;
     int frames = 0;
     run(scene, xpbd(n, sweeps), 10.0, [&](const Simulator& simulator, const FrameReport& report) {
-      if (report.time < 5.0) return;  // implicit in time: the bounce has died down
+      if (report.time < 5.0) return;  // implicit in time: the bounce has decayed
       mean += simulator.state().x[0].y();
       ++frames;
     });
@@ -236,8 +238,8 @@ TEST(Xpbd, StretchesByTheCompliance) {
   }
 }
 
-// Where the masses are a thousand to one, one sweep a sub-step leaves links that are thrown to and
-// fro between their joints; 25 hold from N = 4 on, and stretch.
+// At a mass ratio of a thousand to one, one sweep a sub-step lets the links swing wildly between
+// their joints; 25 hold from N = 4 on, but stretch.
 TEST(Xpbd, NeedsManySweepsForTheHeavyBox) {
   EXPECT_FALSE(swing(xpbd(28, 1)).holds);
   EXPECT_FALSE(swing(xpbd(1, 25)).holds);

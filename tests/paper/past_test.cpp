@@ -1,5 +1,5 @@
-// Past the paper: geometric inertia, the blend, full geometric stiffness, joints corrected to
-// second order, and poses that follow accelerations.
+// Beyond the paper: geometric inertia, the blend, full geometric stiffness, second-order drift
+// correction, and the Störmer integrator.
 
 #include <gtest/gtest.h>
 
@@ -27,12 +27,12 @@ Outcome swing(const Settings& settings, double seconds = 10.0) {
   return run(scenes::swinging_box(), settings, seconds);
 }
 
-// The paper's scheme takes 9,476 sub-steps for 12 mm; one a frame are 600.
+// The paper's scheme takes 9,476 sub-steps for 12 mm; one sub-step a frame is 600.
 TEST(GeometricInertia, IsMoreExactThanThePaperWithASixteenthOfTheSubsteps) {
   const std::pair<int, double> most[] = {{1, 8.5e-3}, {2, 2.1e-3}, {4, 4.2e-4}};  // [m]
   for (const auto& [n, error] : most) {
     Settings settings = leapfrog(Mode::kInertia, n);
-    settings.alpha_m = 0.75;  // nearer to the limit is more exact; 0.95 fails at 18 s
+    settings.alpha_m = 0.75;  // closer to the limit is more accurate; 0.95 fails at 18 s
     const Outcome r = swing(settings);
     EXPECT_TRUE(r.holds) << r.verdict;
     EXPECT_EQ(r.substeps(), 600 * n);
@@ -51,8 +51,8 @@ TEST(GeometricInertia, KeepsEnergyFor200Seconds) {
   }
 }
 
-// dt^2/2 phi'' is what bends the chain; where it is predicted, less is left than half (0.46 of it).
-// Joints that give way lengthen the chain by more of what is left: 1e-12 m/N by 2.6 um.
+// dt^2/2 phi'' bends the chain; with its prediction less than half of the error remains (0.46 of
+// it). Compliant joints lengthen the chain by an additional error: 2.6 um at 1e-12 m/N.
 TEST(SecondOrderDrift, LeavesLessThanHalfTheError) {
   for (const int n : {7, 14, 28}) {
     Settings settings = leapfrog(Mode::kConst, n);
@@ -72,9 +72,9 @@ TEST(SecondOrderDrift, KeepsEnergyFor200Seconds) {
   EXPECT_NEAR(energy_drift_percent(r), 0.0, 0.01);
 }
 
-// It feeds on velocities. Nothing damps them under geometric inertia, which lags one sub-step
+// The correction depends on velocities. Geometric inertia does not damp them and lags one sub-step
 // behind the forces: the chain's vibrations grow slowly and end the run. A blend with half a
-// percent of damping stands.
+// percent of damping holds.
 TEST(SecondOrderDrift, NeedsABlendWhereStepsAreLong) {
   Settings settings = leapfrog(Mode::kInertia, 1);
   settings.drift_order = 2;
@@ -89,7 +89,7 @@ TEST(SecondOrderDrift, NeedsABlendWhereStepsAreLong) {
 }
 
 // Sub-steps for 10 s. The paper's scheme is of first order: 12 mm with 9,476, so 1 mm with 12 times
-// and 0.01 mm with 1,200 times as many, far past its cap of 64 a frame.
+// and 0.01 mm with 1,200 times as many, far beyond its cap of 64 a frame.
 TEST(WorkToAnError, IsSixtyAndAThousandTimesLessThanThePapers) {
   constexpr double kPaper = 9476.0;
   constexpr double kPaperError = 1.2e-2;  // [m]
@@ -108,9 +108,9 @@ TEST(WorkToAnError, IsSixtyAndAThousandTimesLessThanThePapers) {
   EXPECT_GE(times_less(hundredth, 1e-5), 1000.0);
 }
 
-// What Tournier et al. 2015 claim of geometric stiffness in the mass, and Andrews et al. 2017 of
-// its diagonal as damping: the chain stands in one step a frame under any load, where steps without
-// it tear, and motion across the chain is damped for it.
+// The claim of Tournier et al. 2015 for geometric stiffness in the mass, and of Andrews et al. 2017
+// for its diagonal as damping: the chain holds with one step a frame under any load, where undamped
+// steps fail, at the cost of damped motion across the chain.
 TEST(FullStiffnessMode, StandsInOneStepUnderAnyLoadAsDampingDoes) {
   for (const double load : {1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3}) {  // 10 kg to 1000 t on links of 1 kg
     const Scene scene = start_of(scenes::swinging_box(), load, 0);
@@ -128,14 +128,14 @@ TEST(FullStiffnessMode, StandsInOneStepUnderAnyLoadAsDampingDoes) {
   }
 }
 
-// It costs K, and no more: the mass is a matrix per body as before, so a solve takes what it took.
+// Its only extra cost is K: the mass is a matrix per body as before, so a solve takes as long.
 TEST(FullStiffnessMode, CostsHalfOfASolve) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   const auto frame = [&](Mode mode) {
     Settings settings;
     settings.mode = mode;
     simulator.set_settings(settings);
-    simulator.step();  // the probe is solved in it
+    simulator.step();  // includes the probe
     return simulator.step();
   };
   const std::int64_t solve = frame(Mode::kNone).work.flops;
@@ -144,7 +144,8 @@ TEST(FullStiffnessMode, CostsHalfOfASolve) {
   EXPECT_NEAR(static_cast<double>(report.criterion.flops) / static_cast<double>(solve), 0.52, 0.02);
 }
 
-// What other modes leave behind is not the K that this one reads: it is looked for first.
+// The K that other modes leave behind is not the one that this mode reads, so a probe is solved
+// first.
 TEST(FullStiffnessMode, TakesOverInMidSwing) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   for (int i = 0; i < 60; ++i) simulator.step();
@@ -164,7 +165,7 @@ struct Crossings {
   double mean_n = 0.0;
 };
 
-/// @param compliance of all joints in the place of the scene's [m/N]
+/// @param compliance of all joints, instead of the scene's [m/N]
 Crossings cross_the_bridge(const Settings& settings, std::optional<double> compliance = {}) {
   Crossings all;
   for (const auto& start : scenes::bridge_starts()) {
@@ -195,7 +196,7 @@ TEST(BridgePastThePaper, BlendCappedAndFullStiffnessCross) {
   EXPECT_EQ(stiffness.mean_n, 1.0);
 }
 
-// The damping of `capped` does without the give of soft joints, the little of `blend` does not.
+// The damping of `capped` does not need compliant joints; the small damping of `blend` does.
 TEST(BridgePastThePaper, CappedCrossesWithRigidJointsToo) {
   Settings settings;
   settings.mode = Mode::kCapped;
@@ -221,7 +222,7 @@ Settings stormer(int n) {
   return settings;
 }
 
-// One solve a sub-step, as leapfrog, which is fifty times further off with as many.
+// One solve a sub-step, like leapfrog, which has fifty times the error with as many sub-steps.
 TEST(Stormer, IsOfFourthOrder) {
   const std::pair<int, double> most[] = {{9, 3.0e-7}, {10, 2.4e-7}, {16, 7.1e-8}};  // [m]
   for (const auto& [n, error] : most) {
@@ -245,14 +246,14 @@ TEST(Stormer, KeepsEnergyFor200Seconds) {
   }
 }
 
-// It stands where dt^2 k < 2 M, leapfrog where it is below 4: seven sub-steps.
+// It is stable while dt^2 k < 2 M, leapfrog while it is below 4 M: seven sub-steps.
 TEST(Stormer, NeedsNineSubsteps) {
   EXPECT_FALSE(swing(stormer(8)).holds);
   EXPECT_TRUE(swing(leapfrog(Mode::kConst, 7)).holds);
 }
 
-// What velocities leave out goes with dt^2 and is handed over: the paper's own choice of N, at
-// which its scheme is 12 mm off, leaves 60 nm.
+// The error of the velocities is of order dt^2 and is corrected when the step changes: with the
+// paper's own choice of N, at which its scheme has an error of 12 mm, 60 nm remain.
 TEST(Stormer, KeepsItsOrderWhereNChanges) {
   for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
     const auto adaptive = [&](double alpha) {
@@ -277,7 +278,7 @@ TEST(Stormer, KeepsItsOrderWhereNChanges) {
   }
 }
 
-// A file may tell accelerations and no sub-step that they are of.
+// A file may contain accelerations without the sub-step that they belong to.
 TEST(Stormer, StartsWithoutASubstepBefore) {
   auto scene = scenes::swinging_box();
   Simulator simulator(std::make_shared<const Scene>(scene));
@@ -290,7 +291,7 @@ TEST(Stormer, StartsWithoutASubstepBefore) {
   EXPECT_EQ(simulator.step().status, StepStatus::kOk);
 }
 
-// Softness is not in its way: a chain gives way by C F, as with leapfrog.
+// It supports compliance: a chain stretches by C F, as with leapfrog.
 TEST(Stormer, KeepsTheCompliance) {
   scenes::SwingingBoxOptions options;
   options.compliance = 1e-10;

@@ -1,5 +1,5 @@
 // Small steps (Macklin et al. 2019, "Small steps in physics simulation"): contacts are predicted
-// once a frame, and the sweeps of a frame are shared out over its sub-steps.
+// once a frame, and the sweeps of a frame are distributed over its sub-steps.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace substep::test {
 namespace {
 
-/// Sweeps are those of a frame, 64 of them.
+/// 64 sweeps a frame.
 Settings small_steps(SolverKind solver, int n) {
   Settings settings;
   settings.solver = solver;
@@ -21,7 +21,7 @@ Settings small_steps(SolverKind solver, int n) {
   return settings;
 }
 
-/// Ten links of 1 kg with 1000 kg at the end, let go at 60 degrees.
+/// Ten links of 1 kg with 1000 kg at the end, released at 60 degrees.
 Outcome swing(const Settings& settings) {
   return run(scenes::rope_of_n({.n = 10}), settings, 2.0, {}, false);
 }
@@ -43,7 +43,7 @@ TEST(SmallSteps, ShareOutTheSameSweeps) {
   }
 }
 
-// The claim: where sweeps move the bodies, joints stretch the less the more sub-steps share them.
+// The claim: when sweeps move bodies, joints stretch less the more sub-steps share the sweeps.
 TEST(SmallSteps, SpendTheSameSweepsBetter) {
   double before = 1.0;
   for (const int n : {1, 2, 4, 8, 16, 32}) {
@@ -54,8 +54,8 @@ TEST(SmallSteps, SpendTheSameSweepsBetter) {
   EXPECT_LT(before, 0.02);
 }
 
-// Where they find forces from none, as Gauss-Seidel does here, a few sweeps no longer reach the end
-// of the chain: the best is in between.
+// When sweeps compute forces from zero, as Gauss-Seidel does here, a few sweeps no longer reach the
+// end of the chain: the optimum is in between.
 TEST(SmallSteps, OfForcesHaveTheirBestInBetween) {
   const double gap_8 = swing(small_steps(SolverKind::kPgs, 8)).joint_gap;
   EXPECT_GT(swing(small_steps(SolverKind::kPgs, 4)).joint_gap, 10.0 * gap_8);
@@ -63,7 +63,8 @@ TEST(SmallSteps, OfForcesHaveTheirBestInBetween) {
   EXPECT_LT(gap_8, 0.05);
 }
 
-/// A ball of 2 cm thrown at a plate of 4 mm. @return how deep below its middle it comes [m]
+/// A ball of 2 cm thrown at a plate of 4 mm. @return its greatest depth below the plate's middle
+/// [m]
 double below_the_plate(Detection detection, double speed) {
   Scene scene;
   scene.effects.contact = true;
@@ -110,7 +111,7 @@ double deepest_overlap(const Scene& scene, const Settings& settings, double seco
   return deepest;
 }
 
-// A ball at rest is struck, and flies on into a third one that it could not have reached by itself.
+// A ball at rest is struck, and hits a third one that it could not have reached by itself.
 TEST(SmallSteps, WhatIsStruckIsFollowedWithinTheFrame) {
   Scene scene;
   scene.effects.contact = true;
@@ -134,8 +135,8 @@ TEST(SmallSteps, WhatIsStruckIsFollowedWithinTheFrame) {
   EXPECT_GT(r.end.x[2].x() - r.end.x[1].x(), 0.0399) << "it would fly through the third";
 }
 
-// A row of the edge that came first says nothing of the next one. Carried on alone it let boxes
-// turn about it into each other, and the chain's light links were thrown out at 60 rad/s.
+// The row of one edge does not predict the next edge. When only that row was moved along, boxes
+// rotated about it into each other, and the chain's light links were ejected at 60 rad/s.
 TEST(SmallSteps, BoxesAreLookedAtAgainAsTheyTurn) {
   Settings settings;
   EXPECT_GT(deepest_overlap(scenes::ragdoll_drop(), settings, 3.0), 0.02) << "found too late";
@@ -153,8 +154,8 @@ TEST(SmallSteps, BoxesAreLookedAtAgainAsTheyTurn) {
   EXPECT_LT(fastest, 20.0);
 }
 
-// The bridge from all starts, a stack and two of the playground, where each sub-step looks at
-// contacts that were found up to a frame ago.
+// The bridge from all starts, a stack and two playground scenes, with contacts that were detected
+// up to a frame ago.
 TEST(SmallSteps, CarriedContactsHoldWhatFreshOnesHold) {
   Settings settings;
   settings.detection = Detection::kFrame;

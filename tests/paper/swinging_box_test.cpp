@@ -24,8 +24,8 @@ Outcome swing(const Settings& settings, double seconds, double compliance = 1e-1
 
 TEST(SwingingBox, TheReferenceIsThere) { ASSERT_EQ(reference().size(), 601U); }
 
-// Which link lets go first, and when exactly, rounding decides; that they do, and in this order,
-// not.
+// Rounding determines which link fails first, and the exact time; that the runs fail, and their
+// order, does not depend on it.
 TEST(SwingingBox, FewerThanSevenSubstepsFailTheFewerTheSooner) {
   double before = 0.0;
   for (const int n : {1, 2, 4, 5, 6}) {
@@ -63,12 +63,12 @@ TEST(SwingingBox, AdaptiveTakesTenToTwentySubstepsMostAtTheBottom) {
     lowest = std::min(lowest, r.track[i].y());
     if (r.n[i] == r.n_max()) height_at_most = std::max(height_at_most, r.track[i].y());
   }
-  const double rise = 10.5 * 0.5;  // 10.5 m of rope let go at 60 degrees [m]
+  const double rise = 10.5 * 0.5;  // 10.5 m of rope released at 60 degrees [m]
   EXPECT_LT(height_at_most - lowest, 0.15 * rise) << "the forces are greatest at the bottom";
 }
 
-// N = ceil(h/2 sqrt(r/alpha)): the paper's text says that halving alpha doubles N, its Eq. 10 that
-// it takes sqrt 2 as many.
+// N = ceil(h/2 sqrt(r/alpha)): the paper's text says that halving alpha doubles N; by its Eq. 10
+// the factor is sqrt 2.
 TEST(SwingingBox, HalvingAlphaMultipliesSubstepsBySqrt2) {
   Settings settings;
   double before = 0.0;
@@ -184,7 +184,8 @@ TEST(SwingingBoxPgs, FailsWithoutSubstepsAndHoldsFromSix) {
   EXPECT_TRUE(swing(settings, 10.0).holds);
 }
 
-// The prototype saw 1.17 s: how far 25 iterations get in one sub-step decides when 0.1 m is passed.
+// The prototype failed at 1.17 s: the convergence of 25 iterations in one sub-step determines when
+// the gap exceeds 0.1 m.
 TEST(SwingingBoxPgs, DampingAtOneSubstepIsNotEnough) {
   Settings settings = pgs();
   settings.mode = Mode::kDamping;
@@ -215,7 +216,7 @@ TEST(SwingingBoxPgs, AdaptiveLosesEightPercentIn200Seconds) {
   EXPECT_NEAR(energy_drift_percent(r), -7.9, 0.4);
 }
 
-// An error made in a long sub-step is paid back in a short one: energy.
+// Correcting the error of a long sub-step within a short one adds energy.
 TEST(SwingingBoxPgs, AdaptiveFailsWithTheFullDriftLawAtEveryAlpha) {
   Settings settings = pgs();
   settings.drift = Drift::kFull;

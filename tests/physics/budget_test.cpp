@@ -1,5 +1,5 @@
-// A frame stops before it takes more memory or work than its budget, says what asked for it, and
-// leaves the last good state.
+// A frame stops before it exceeds its budget of memory or work, reports the cause, and leaves the
+// last good state.
 
 #include "core/model/budget.hpp"
 
@@ -16,7 +16,7 @@
 namespace substep {
 namespace {
 
-/// Spheres that fall, all of them at one point, or in a row.
+/// Falling spheres, all at one point or in a row.
 Scene spheres(int count, double spacing) {
   SceneBuilder builder("spheres");
   for (int i = 0; i < count; ++i) builder.add_body(Sphere{0.1}, 1.0, {spacing * i, 0, 0});
@@ -32,7 +32,7 @@ FrameReport first_frame(const Scene& scene, const Settings& settings, const Budg
   const FrameReport report = simulator.step();
   if (report.status != StepStatus::kOk) {
     EXPECT_EQ(state_hash(simulator.state()), before);
-    EXPECT_EQ(simulator.step().status, report.status);  // it stays so
+    EXPECT_EQ(simulator.step().status, report.status);  // the status persists
     EXPECT_EQ(simulator.observe().overrun.bodies, report.overrun.bodies);
   }
   return report;
@@ -47,7 +47,7 @@ TEST_P(AtOnePoint, SpheresAreRefusedByTheFactorThatTheyWouldNeed) {
   EXPECT_EQ(report.overrun.contacts, n * (n - 1) / 2);
   EXPECT_EQ(report.overrun.bodies, n);
   EXPECT_EQ(report.overrun.budget, Budget{}.memory);
-  // All are coupled with all: what each leaves on the k later ones has 36 k^2 numbers.
+  // All bodies are coupled: the fill of each on the k later ones has 36 k^2 numbers.
   double expected = 0.0;
   for (double k = 0; k < n; ++k) expected += 8.0 * 36.0 * k * k;
   EXPECT_GT(report.overrun.memory, 0.99 * expected);
@@ -79,7 +79,7 @@ TEST(Budget, ALargerOneIsTakenAndASmallerOneRefuses) {
   EXPECT_EQ(first_frame(scene, settings, {16.0 * kMebibyte, 2e10}).status, StepStatus::kOk);
 }
 
-/// A ball on a floor whose frame is cut short and swept long.
+/// A ball on a floor whose frame has a small budget and many sweeps.
 Settings long_sweeps(SolverKind solver) {
   Settings settings;
   settings.solver = solver;
@@ -89,7 +89,7 @@ Settings long_sweeps(SolverKind solver) {
   return settings;
 }
 
-// The work of moving bodies alone uses up the budget: what is said to be needed is more than it.
+// The work of moving bodies alone uses up the budget: the reported requirement exceeds it.
 TEST(Budget, TheWorkOfBodiesCountsInWhatIsNeeded) {
   SceneBuilder builder("chain");
   for (int i = 0; i < 10000; ++i) {
@@ -112,11 +112,11 @@ TEST(Budget, TheProductOfSubstepsIterationsAndRowsIsBounded) {
   for (const SolverKind solver : {SolverKind::kPgs, SolverKind::kXpbd}) {
     const FrameReport report = first_frame(*builder.build(), long_sweeps(solver));
     ASSERT_EQ(report.status, StepStatus::kOverBudget);
-    EXPECT_EQ(report.n_substeps, 1);  // that is not taken
+    EXPECT_EQ(report.n_substeps, 1);  // not taken
     EXPECT_EQ(report.overrun.substeps, 10000);
     EXPECT_EQ(report.overrun.iterations, 100000);
     EXPECT_EQ(report.overrun.rows, 3);
-    EXPECT_GT(report.overrun.work, 1e9 * 3);  // a billion visits of three rows
+    EXPECT_GT(report.overrun.work, 1e9 * 3);  // a billion updates of three rows
     const std::string text = overrun_text(report.overrun);
     EXPECT_TRUE(
         text.starts_with("10000 sub-steps of 100000 iterations on 3 rows of 1 body would "

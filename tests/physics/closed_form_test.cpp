@@ -1,4 +1,4 @@
-// Small scenes against their answers in closed form.
+// Small scenes against closed forms.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ Settings constant(int n, Integrator integrator) {
   return settings;
 }
 
-/// Period of a pendulum of length l, let go from rest: 2 pi sqrt(l/g) / agm(1, cos(angle/2)).
+/// Period of a pendulum of length l, released from rest: 2 pi sqrt(l/g) / agm(1, cos(angle/2)).
 double pendulum_period(double length, double cos_angle) {
   double a = 1.0;
   double b = std::sqrt(0.5 * (1.0 + cos_angle));
@@ -59,7 +59,7 @@ TEST(Pendulum, SwingsWithThePeriodOfTheEllipticIntegral) {
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     EXPECT_NEAR(measured_period(integrator, 16), exact, interpolation);
   }
-  // Of second order in both: Euler is leapfrog with the start half a sub-step off.
+  // Second order in both: Euler is leapfrog with the start shifted by half a sub-step.
   const double coarse = std::abs(measured_period(Integrator::kLeapfrog, 1) - exact);
   EXPECT_LT(coarse, 2e-3);
 }
@@ -82,7 +82,7 @@ TEST(FreeFall, NothingAsksForSubsteps) {
   EXPECT_EQ(r.n_max(), 1);
 }
 
-/// Highest points between bounces of a body of the bouncing balls, above its rest [m].
+/// Highest points between bounces of a body of the bouncing balls, above its rest position [m].
 std::vector<double> apexes(std::size_t body, const Settings& settings, double seconds) {
   std::vector<double> heights;
   double before = 2.0;
@@ -96,13 +96,14 @@ std::vector<double> apexes(std::size_t body, const Settings& settings, double se
   return heights;
 }
 
-// A bounce that loses nothing turns u around at the same x: the steps up retrace the steps down.
+// A lossless bounce reverses u at the same x: the upward steps retrace the downward ones.
 TEST(Restitution, ABallThatLosesNothingComesBackToItsHeightForEver) {
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     for (const int n : {1, 4}) {
       const auto heights = apexes(1, constant(n, integrator), 30.0);
       ASSERT_GT(heights.size(), 20U);
-      // Seen at the ends of frames only: with N = 4 the turn can lie half a frame beside one.
+      // Sampled only at the ends of frames: with N = 4 the apex can be half a frame away from a
+      // sample.
       const double unseen = n == 1 ? 1e-8 : 0.5 * kGravity / (120.0 * 120.0);
       for (const double height : heights) EXPECT_NEAR(height, heights.front(), unseen) << "n " << n;
       EXPECT_NEAR(heights.front(), 2.0, 0.5 * kGravity / (60.0 * 60.0) + unseen) << "n " << n;
@@ -115,7 +116,7 @@ TEST(Restitution, HeightsShrinkByItsSquare) {
   for (std::size_t i = 0; i < 4; ++i) {
     const auto heights = apexes(i + 1, constant(64, Integrator::kLeapfrog), 4.0);
     ASSERT_GT(heights.size(), 1U);
-    // The impact falls somewhere in a sub-step of 0.26 ms, at up to 6.3 m/s.
+    // The impact occurs within a sub-step of 0.26 ms, at up to 6.3 m/s.
     EXPECT_NEAR(heights[0], e[i] * e[i] * 2.0, 0.004);
     EXPECT_NEAR(heights[1] / heights[0], e[i] * e[i], 0.004);
   }
@@ -129,8 +130,8 @@ TEST(Restitution, SlowApproachesEndAtRest) {
   }
 }
 
-/// The greatest heights that the first and the last ball of the cradle reach in every swing, above
-/// where they hang [m].
+/// The greatest heights of the first and the last ball of the cradle in every swing, above their
+/// rest position [m].
 struct Cradle {
   std::vector<double> first;
   std::vector<double> last;
@@ -159,17 +160,17 @@ Cradle swing(const Settings& settings, double seconds) {
   return cradle;
 }
 
-// Equal bodies exchange their speeds: what the first had the last has, blow for blow.
+// Equal bodies exchange their velocities: each blow passes the first ball's velocity to the last.
 TEST(NewtonsCradle, OneBallInIsOneBallOut) {
   const Scene scene = scenes::newtons_cradle();
   struct Row {
     SolverKind solver;
     Forces forces;
-    double loss;  // at most, of 1.96 J
+    double loss;  // upper bound, of 1.96 J
   };
-  // At twice the sub-steps bpp is 2e-5 off. What 25 sweeps leave of a blow stays behind. Implicit
-  // Euler (`xpbd` and forces at the end) damps the swing itself: by half as much with twice the
-  // sub-steps, as below.
+  // With twice the sub-steps the error of bpp is 2e-5. The residual of 25 sweeps remains in the
+  // other balls. Implicit Euler (`xpbd` and forces at the end) damps the swing itself: by half as
+  // much with twice the sub-steps, as below.
   for (const auto& [solver, forces, loss] :
        {Row{SolverKind::kBpp, Forces::kEnd, 2e-4}, Row{SolverKind::kPgs, Forces::kEnd, 0.1},
         Row{SolverKind::kXpbd, Forces::kEnd, 0.15}, Row{SolverKind::kNewton, Forces::kEnd, 0.15},
@@ -199,7 +200,7 @@ TEST(NewtonsCradle, ImplicitEulerDampsItsSwingAtFirstOrder) {
   EXPECT_NEAR(coarse / fine, 2.0, 0.1);
 }
 
-// Impacts follow one another within the sub-step, however long it is.
+// Impacts propagate within the sub-step, whatever its length.
 TEST(NewtonsCradle, InOneStepAFrameTheBlowPassesThroughTheRowToo) {
   const Cradle cradle = swing({.mode = Mode::kNone}, 2.0);
   ASSERT_FALSE(cradle.last.empty());
@@ -207,7 +208,7 @@ TEST(NewtonsCradle, InOneStepAFrameTheBlowPassesThroughTheRowToo) {
   EXPECT_NEAR(cradle.energy_change, 0.0, 0.02);
 }
 
-// Two balls head on: momentum stays, and they part with e times the speed of their approach.
+// Two balls head on: momentum is conserved, and they separate with e times their approach speed.
 TEST(Restitution, PartsAtETimesTheSpeedOfApproach) {
   for (const SolverKind solver :
        {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd, SolverKind::kNewton}) {
@@ -221,7 +222,7 @@ TEST(Restitution, PartsAtETimesTheSpeedOfApproach) {
       b.position = {1.0, 5.0, 0.0};
       a.velocity = {2.0, 0.0, 0.0};
       b.velocity = {-1.0, 0.0, 0.0};
-      a.restitution = 0.0;  // the bouncier one counts
+      a.restitution = 0.0;  // the larger restitution applies
       b.restitution = e;
       b.mass = 3.0;
       b.inertia = solid_inertia(b.shape, b.mass);
@@ -236,7 +237,7 @@ TEST(Restitution, PartsAtETimesTheSpeedOfApproach) {
   }
 }
 
-// u stands at the middle of the last sub-step: angular momentum and energy are those of the
+// u belongs to the middle of the last sub-step: angular momentum and energy are those of the
 // momentum at its end, p = I w + dt/2 (I w) x w.
 TEST(SpinningTop, KeepsEnergyAndAngularMomentumFor60SecondsAtOneSubstep) {
   const Scene scene = scenes::spinning_top();
@@ -268,7 +269,7 @@ TEST(SpinningTop, TheExplicitTorqueGainsEnergy) {
   EXPECT_GT(r.energy_end, 1.2 * r.energy_start);
 }
 
-/// How far the box has gone down the slope after a time, with friction mu. [m]
+/// Distance that the box slides down the slope in a given time, with friction mu. [m]
 double slid(double mu, double seconds, SolverKind solver) {
   scenes::SlopeOptions slope;
   slope.friction = mu;
@@ -298,7 +299,7 @@ TEST(SlidingBox, SlipsWithTheAccelerationOfCoulomb) {
   }
 }
 
-// At rest the normal row carries the weight: gap = -C lambda, exactly, whatever the step.
+// At rest the normal row carries the weight: gap = -C lambda, exactly, for any step.
 TEST(RestingBall, SinksByComplianceTimesWeight) {
   Scene scene;
   scene.effects = {.gravity = true, .contact = true};

@@ -1,5 +1,4 @@
-// A compliant joint obeys its own law, C lambda = -phi, whatever N, dt, the solver and the drift
-// law.
+// A compliant joint obeys its own law, C lambda = -phi, for any N, dt, solver and drift law.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +14,7 @@ namespace {
 constexpr double kMass = 100.0;    // [kg]
 constexpr double kGravity = 9.81;  // [m/s^2]
 
-/// A weight on a ball joint that gives way, at the joint's own point.
+/// A weight on a compliant ball joint, at the joint's own point.
 Scene weight_on_a_spring(double compliance) {
   Scene scene;
   scene.gravity = {0.0, -kGravity, 0.0};
@@ -50,8 +49,8 @@ constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, Solver
 
 }  // namespace
 
-// Let go where it hangs: it stays there. The soft law once multiplied the compliance by
-// (tau/dt)^2: 603 mm at 64 sub-steps a frame.
+// Released at its equilibrium, the weight stays there. The soft law once multiplied the compliance
+// by (tau/dt)^2: 603 mm at 64 sub-steps a frame.
 TEST(Compliance, SagsByWhatItIsWhateverTheSubsteps) {
   const double C = 1e-5;
   const double sag = C * kMass * kGravity;
@@ -108,7 +107,7 @@ TEST(Compliance, SwingsWithTheOrderOfTheIntegrator) {
   }
 }
 
-// From springs that are resolved to those that are not, nothing grows.
+// Nothing grows, from resolved springs to unresolved ones.
 TEST(Compliance, IsStableForEverySpring) {
   for (const Integrator integrator :
        {Integrator::kEuler, Integrator::kLeapfrog, Integrator::kStormer}) {
@@ -124,7 +123,7 @@ TEST(Compliance, IsStableForEverySpring) {
                   });
         const double sag = C * kMass * kGravity;
         const double dt = scene.frame / n;
-        const double fall = 0.5 * kGravity * dt * dt;  // before a spring that is not resolved acts
+        const double fall = 0.5 * kGravity * dt * dt;  // before an unresolved spring acts
         EXPECT_GT(lowest, -2.3 * sag - fall) << name_of(integrator) << " C " << C << " n " << n;
         EXPECT_LT(highest, 0.3 * sag + fall) << name_of(integrator) << " C " << C << " n " << n;
       }
@@ -134,7 +133,7 @@ TEST(Compliance, IsStableForEverySpring) {
 
 namespace {
 
-/// A ball of 0.1 kg that falls 1 m on a ground of 1 mm/N, without loss.
+/// A ball of 0.1 kg that falls 1 m onto a ground of compliance 1 mm/N, without loss.
 Scene ball_on_a_spring() {
   Scene scene;
   scene.frame = 0.02;
@@ -156,7 +155,7 @@ Scene ball_on_a_spring() {
   return scene;
 }
 
-/// Energy in flight, of that at the start: the most and the least of it in 10 s.
+/// Energy in flight relative to the start: its maximum and minimum in 10 s.
 struct EnergyRange {
   double least = 1.0;
   double most = 1.0;
@@ -178,8 +177,8 @@ EnergyRange energy_in_flight(const Settings& settings) {
 
 }  // namespace
 
-// Implicit Euler takes three quarters of the energy away in eleven bounces. A mean force that
-// pulled before the ball touched the ground would bring some in.
+// Implicit Euler removes three quarters of the energy in eleven bounces. A mean force that acted
+// before the ball touched the ground would add some.
 TEST(Compliance, AContactGivesBackWhatItTakes) {
   const auto lost = [](Settings settings) {
     double shares[2];

@@ -1,6 +1,6 @@
-// Two threads that ask one simulation at the same time, for a detector of data races to watch:
-// const_calls reads, const_calls steps. Const calls may overlap; a step may not, and with it the
-// detector shows that it sees inside.
+// Two threads use one simulation at the same time, under a data-race detector: const_calls reads,
+// const_calls steps. Const calls may overlap; a step may not, so `steps` shows that the detector
+// works.
 
 #include <cstdio>
 #include <memory>
@@ -13,7 +13,7 @@
 namespace substep {
 namespace {
 
-/// Two links and a slider that hang and swing into a floor: joints of every kind, contact and
+/// Two links and a slider that hang and swing into a floor: all kinds of joints, contact and
 /// friction.
 std::shared_ptr<const Scene> swing() {
   SceneBuilder builder;

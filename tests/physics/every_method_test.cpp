@@ -1,5 +1,5 @@
-// What every method must do that the sweep of a scene has, whatever its source: the laws that small
-// scenes have in closed form. A method that joins the sweep is in these tests.
+// Laws that every method in the sweep of a scene must satisfy, whatever its source: closed forms of
+// small scenes. A method added to the sweep is tested here automatically.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@
 namespace substep::test {
 namespace {
 
-/// The curves of a scene's sweep by their names, each with the settings along its parameter.
+/// The curves of a scene's sweep by name, each with the settings along its parameter.
 std::map<std::string, std::vector<Settings>> methods_of(const Scene& scene) {
   std::map<std::string, std::vector<Settings>> methods;
   for (const SweepPoint& point : default_sweep(scene)) {
@@ -26,9 +26,9 @@ std::map<std::string, std::vector<Settings>> methods_of(const Scene& scene) {
   return methods;
 }
 
-/// What a curve reaches at its best.
+/// The best result of a curve.
 struct Best {
-  Settings method;  // but for its parameter
+  Settings method;  // without its parameter
   double error = std::numeric_limits<double>::infinity();
   int holds = 0;
   int runs = 0;
@@ -65,8 +65,8 @@ TEST(EveryMethod, SwingsAsAPendulum) {
   const Scene scene = scenes::pendulum();
   for (const auto& [name, best] : best_of(scene, ErrorAxis::kTrajectory, 3.0)) {
     EXPECT_EQ(best.holds, best.runs) << name;
-    // All of K in the mass is inertia that the rod does not have. All else is first, second or
-    // fourth order, of one sub-step a frame where N follows K: there is nothing stiff here.
+    // All of K in the mass is inertia that the rod does not have. The other methods are of first,
+    // second or fourth order, with one sub-step a frame if N follows K: nothing is stiff here.
     const double of_fourth_order = best.method.mode == Mode::kAdaptive ? 1e-5 : 1e-9;
     const double most = best.method.mode == Mode::kStiffness             ? 0.1
                         : best.method.integrator == Integrator::kStormer ? of_fourth_order
@@ -82,8 +82,8 @@ TEST(EveryMethod, CarriesALoad) {
   options.end_mass = 100.0;
   const Scene scene = scenes::rope_of_n(options);
   for (const auto& [name, best] : best_of(scene, ErrorAxis::kTrajectory, 1.0)) {
-    // One sub-step a frame is too few for what is explicit, two for Störmer, who stands half as
-    // far.
+    // One sub-step a frame is too few for explicit methods, two for Störmer, whose stability limit
+    // is half as large.
     const int too_few = best.method.integrator == Integrator::kStormer ? 2 : 1;
     EXPECT_GE(best.holds, sweeps(best.method) ? 1 : best.runs - too_few) << name;
     const double most = damps(best.method)                               ? 0.25
@@ -123,7 +123,7 @@ TEST(EveryMethod, KeepsTheEnergyOfASpinningTop) {
   for (const auto& [name, best] : best_of(scenes::spinning_top(), ErrorAxis::kEnergy, 3.0)) {
     EXPECT_EQ(best.holds, best.runs) << name;
     if (best.method.gyroscopic == Gyroscopic::kImplicit) {
-      // Turns of fourth order keep the momentum exactly, and the energy to their error.
+      // Fourth-order rotations conserve the momentum exactly, and the energy up to their error.
       const bool fourth_order =
           best.method.integrator == Integrator::kStormer || best.method.forces == Forces::kNumerov;
       EXPECT_LT(best.error, fourth_order ? 1e-11 : 1e-12) << name;
@@ -144,8 +144,8 @@ TEST(EveryMethod, KeepsTheMomentumOfAFreeChain) {
     }
     const Errors& errors = run.result().metrics.errors;
     EXPECT_LT(*errors.linear_momentum_drift, 1e-12) << name;
-    // Damping, full stiffness and whatever ends a sub-step with all of its force are dampers, and a
-    // damper against the world brakes a turn.
+    // Damping, full stiffness and fully implicit forces are dampers, and a damper against the world
+    // slows rotation.
     const bool brakes = damps(finest) || finest.solver == SolverKind::kXpbd ||
                         (finest.solver == SolverKind::kNewton && finest.forces == Forces::kEnd);
     if (brakes) {

@@ -113,7 +113,7 @@ TEST(ExternalForce, TorqueIsWhatAngularMomentumGains) {
 }
 
 TEST(ExternalForce, OfAllSolversHoldsAPendulumAside) {
-  // Pulled by F = (3, 0, 4) beside its weight, a rod on a ball joint stands along F + m g.
+  // Pulled by F = (3, 0, 4) in addition to its weight, a rod on a ball joint rests along F + m g.
   for (const SolverKind solver :
        {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton, SolverKind::kXpbd}) {
     Scene scene;

@@ -1,6 +1,6 @@
-// Friction must not hang on which body a file names first, nor on how a shape is turned about the
-// normal; the cone is the same in every direction, the box is not, and both do what is said of
-// them.
+// Friction must not depend on the order of bodies in a file, nor on the rotation of a shape about
+// the normal; the cone is the same in every direction, the box is not, and both match their
+// description.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ constexpr double kSlope = std::numbers::pi / 6.0;  // [rad]
 constexpr double kMu = 0.4;
 constexpr double kSeconds = 1.5;
 
-/// A flat block on a slope that falls along -x, turned about the normal by `yaw`.
+/// A flat block on a slope that falls along -x, rotated about the normal by `yaw`.
 Scene block_on_a_slope(double yaw, bool ground_first, const Vec3& velocity = Vec3::Zero()) {
   Scene scene;
   scene.gravity = kGravity * Vec3(-std::sin(kSlope), -std::cos(kSlope), 0.0);
@@ -68,8 +68,8 @@ constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, Solver
 
 }  // namespace
 
-// Before, the tangents were those of the body that came second: a block yawed by 45 degrees slid
-// 0.11 m where it was listed after the ground, 1.695 m where it was before.
+// Formerly the tangents were those of the second body: a block yawed by 45 degrees slid 0.11 m if
+// it was listed after the ground, 1.695 m if before.
 TEST(Friction, IsTheSameForEveryOrderOfBodiesAndEveryYaw) {
   const double a = kGravity * (std::sin(kSlope) - kMu * std::cos(kSlope));
   const double way = 0.5 * a * kSeconds * kSeconds;  // 1.695 m
@@ -82,7 +82,7 @@ TEST(Friction, IsTheSameForEveryOrderOfBodiesAndEveryYaw) {
         const Vec3 last = way_of(block_on_a_slope(yaw, false), settings);
         const std::string name = std::string(name_of(solver)) + ", " + std::string(name_of(cone)) +
                                  ", yaw " + std::to_string(yaw);
-        // Sweeps leave what the order of their rows leaves.
+        // The residual of sweeps depends on the order of their rows.
         const double sweeps = solver == SolverKind::kPgs    ? 1e-6
                               : solver == SolverKind::kXpbd ? 1e-3
                                                             : 1e-9;
@@ -94,8 +94,8 @@ TEST(Friction, IsTheSameForEveryOrderOfBodiesAndEveryYaw) {
   }
 }
 
-// Pushed across the slope it turns downhill, as a point does for which friction is against the
-// sliding:
+// Pushed across the slope, it curves downhill like a point with friction opposite to its sliding
+// velocity:
 //   v' = g_t - mu g_n v/|v|.
 TEST(Friction, OfTheConeIsAgainstTheSliding) {
   const Vec3 start{0.0, 0.0, 2.0};

@@ -1,4 +1,4 @@
-// A run that stops and goes on, from a snapshot or a scene file, is the one that never stopped.
+// A run continued from a snapshot or a scene file is identical to an uninterrupted run.
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ TEST(GoingOn, FromASnapshotIsTheSameBitForBit) {
   }
 }
 
-/// The scene as it is now, written to a file and read again.
+/// The current state as a scene, written to a file and read again.
 std::shared_ptr<const Scene> through_a_file(const Simulator& simulator) {
   const Scene saved = saved_scene(simulator.scene(), simulator.state(), simulator.settings());
   SceneResult read = read_scene(write_scene(saved));
@@ -55,8 +55,8 @@ void expect_same_motion(const State& a, const State& b) {
   }
 }
 
-// With forces, stiffness and the last sub-step: what N, the bounds of friction, warm starts and the
-// kicks of leapfrog go by.
+// With forces, stiffness and the last sub-step, which determine N, the bounds of friction, warm
+// starts and the kicks of leapfrog.
 TEST(GoingOn, FromASceneFileIsTheSameBitForBit) {
   for (const Scene& scene : scenes::shipped()) {
     const auto shared = std::make_shared<const Scene>(scene);
@@ -83,7 +83,8 @@ TEST(GoingOn, FromASceneFileIsTheSameBitForBit) {
           FrameReport last;
           for (int i = 0; i < 30; ++i) last = whole.step();
           if (last.status != StepStatus::kOk) continue;  // within a frame, and not between two
-          if (last.joint_gap > 0.09) continue;  // torn: no file may start with joints that far open
+          if (last.joint_gap > 0.09)
+            continue;  // torn: a file may not start with joints this far open
           const auto saved = through_a_file(whole);
           ASSERT_NE(saved, nullptr);
           Simulator rest(saved);
@@ -100,15 +101,15 @@ TEST(GoingOn, FromASceneFileIsTheSameBitForBit) {
   }
 }
 
-/// A method that goes on from more than forces and velocities.
+/// A method that continues from more than forces and velocities.
 struct Carrying {
   std::string name;
   Scene scene;
   void (*choose)(Settings&);
-  bool (*carries)(const State&);  // whether what it goes on with is there
+  bool (*carries)(const State&);  // whether its data is present
 };
 
-// Numerov's forces go on with their rates, and its velocities with the accelerations.
+// Numerov's method continues from the rates of its forces, its velocities from the accelerations.
 Carrying by_numerov(Scene scene) {
   return {"Numerov", std::move(scene),
           [](Settings& settings) {

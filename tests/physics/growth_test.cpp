@@ -1,5 +1,5 @@
-// How the work of a sub-step grows with a scene: counted operations, the same on every machine.
-// Their times are for ./dev bench.
+// Growth of the work of a sub-step with the size of a scene: counted operations, the same on every
+// machine. `./dev bench` measures the times.
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ struct Work {
   double contacts = 0.0;    // in the last frame
 };
 
-/// @param settled frames that do not count
+/// @param settled frames that are not counted
 Work work_of(const Scene& scene, SolverKind solver, int settled = 0) {
   Settings settings = scene.settings;
   settings.solver = solver;
@@ -37,7 +37,7 @@ Work work_of(const Scene& scene, SolverKind solver, int settled = 0) {
   return work;
 }
 
-/// The power of its size that the work of a scene goes with.
+/// The exponent of the growth of the work with the size of a scene.
 double exponent(double size, double work, double larger_size, double larger_work) {
   return std::log(larger_work / work) / std::log(larger_size / size);
 }
@@ -56,7 +56,8 @@ TEST_P(Growth, RopesAreLinear) {
   EXPECT_LT(exponent(25, work(25), 400, work(400)), 1.01);
 }
 
-// Once the contacts carry: while they close one by one, every pivot goes down to the floor.
+// After the contacts carry load: while they close one by one, every pivot refactors down to the
+// floor.
 TEST_P(Growth, StacksAreNearlyLinear) {
   const auto work = [&](int layers) {
     return work_of(scenes::heavy_stack({.layers = layers}), GetParam(), 1).operations;
@@ -65,7 +66,7 @@ TEST_P(Growth, StacksAreNearlyLinear) {
 }
 
 // The bricks of a wall are a planar graph. With n contacts its elimination takes n^1.5 in the best
-// of orders, and n^2 course by course; Gauss-Seidel looks at contacts alone.
+// order, and n^2 course by course; the work of Gauss-Seidel is proportional to the contacts.
 TEST_P(Growth, WallsAreAsAPlanarGraphIs) {
   const auto work = [&](int courses) {
     return work_of(scenes::wall({.courses = courses, .bricks = 2 * courses}), GetParam());

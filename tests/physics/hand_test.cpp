@@ -1,4 +1,4 @@
-// What a person does to a run: stop within a frame, pull at a body.
+// Manual interactions with a run: stopping within a frame, pulling a body.
 
 #include <gtest/gtest.h>
 
@@ -70,7 +70,7 @@ int heaviest(const Scene& scene) {
   return best;
 }
 
-// A single ball without gravity is pulled as the closed form of a damped oscillator says.
+// A single ball without gravity follows the closed form of a damped oscillator.
 TEST(Grab, PullsAsADampedSpring) {
   Scene scene;
   Body ball;
@@ -79,7 +79,7 @@ TEST(Grab, PullsAsADampedSpring) {
   scene.bodies.push_back(ball);
   Settings settings;
   settings.mode = Mode::kConst;
-  settings.n = 400;  // implicit Euler damps by itself: the error goes with dt
+  settings.n = 400;  // implicit Euler adds damping: the error is proportional to dt
   Simulator simulator = simulator_of(scene, settings);
   Grab grab;
   grab.mass = ball.mass;
@@ -119,7 +119,7 @@ TEST(Grab, AsksForSubsteps) {
   grab.body = heaviest(scene);
   grab.mass = joined_mass(scene, grab.body);
   EXPECT_NEAR(grab.mass, 1025.0, 1e-9);
-  // Away from the anchor, along the chain: the force in it grows.
+  // Away from the anchor, along the chain: its force grows.
   grab.target = 3.0 * pulled.state().x[static_cast<std::size_t>(grab.body)] -
                 2.0 * base(scene.joints.front()).anchor_b;
   pulled.set_grab(grab);
@@ -132,7 +132,7 @@ TEST(Grab, AsksForSubsteps) {
   EXPECT_GT(b.n_substeps, a.n_substeps);
 }
 
-// What is read only now and then is found only then: anybody may look after any sub-step.
+// Outputs that are computed on demand can be read after any sub-step.
 TEST(InterruptedFrame, ShowsForcesAndVelocitiesOfItsLastSubstep) {
   const Scene scene = scenes::swinging_box();
   const int last = static_cast<int>(scene.joints.size()) - 1;

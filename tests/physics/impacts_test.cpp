@@ -1,4 +1,4 @@
-// Impacts that pass from body to body within a sub-step.
+// Impacts that propagate between bodies within a sub-step.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace substep {
 namespace {
 
 constexpr double kRadius = 0.1;  // [m]
-constexpr double kSpeed = 2.0;   // of what strikes [m/s]
+constexpr double kSpeed = 2.0;   // of the striking ball [m/s]
 
 /// Balls without gravity, of 1 kg.
 class Balls {
@@ -51,7 +51,7 @@ class Balls {
 constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton,
                                       SolverKind::kXpbd};
 
-// Huygens: of a row of equal balls that touch, the last one leaves with the speed of the first.
+// Huygens: in a row of equal touching balls, the last one leaves with the speed of the first.
 TEST(Impacts, PassThroughARowOfBallsThatTouch) {
   for (const SolverKind solver : kAllSolvers) {
     Balls balls(1.0);
@@ -63,7 +63,7 @@ TEST(Impacts, PassThroughARowOfBallsThatTouch) {
   }
 }
 
-// The same with a heavy last ball: the row returns what it does not take, and nothing is lost.
+// The same with a heavy last ball: the row returns the remaining momentum, and no energy is lost.
 TEST(Impacts, KeepMomentumAndEnergyOfUnequalBalls) {
   for (const SolverKind solver : kAllSolvers) {
     Balls balls(1.0);
@@ -83,7 +83,7 @@ TEST(Impacts, KeepMomentumAndEnergyOfUnequalBalls) {
 }
 
 // With e < 1 a ball keeps (1 - e)/2 of its speed, strikes the next one again, and so on until all
-// approach slower than what rebounds; two by two, as in closed form.
+// approach speeds are below the threshold; pair by pair, as in closed form.
 TEST(Impacts, LoseWithEveryBlowWhatItsRestitutionSays) {
   constexpr double e = 0.8;
   constexpr double kSlow = 1e-3;  // [m/s]
@@ -110,7 +110,7 @@ TEST(Impacts, LoseWithEveryBlowWhatItsRestitutionSays) {
   }
 }
 
-// Two balls side by side that are struck between them part alike, whichever comes first.
+// Two balls side by side, struck midway, separate symmetrically, whichever is listed first.
 TEST(Impacts, KeepWhatIsSymmetricSo) {
   const double side = 2.0 * kRadius * std::sqrt(0.75);
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kNewton}) {
@@ -129,7 +129,7 @@ TEST(Impacts, KeepWhatIsSymmetricSo) {
   }
 }
 
-// A ball on a hinged arm passes a blow on: the joint takes its part in every impact.
+// A ball on a hinged arm transmits an impulse: the joint takes part in every impact.
 TEST(Impacts, PassThroughBodiesOnJoints) {
   Balls balls(1.0);
   balls.add({-0.5, 0.0, 0.0}).velocity.x() = kSpeed;
@@ -140,8 +140,8 @@ TEST(Impacts, PassThroughBodiesOnJoints) {
   }
   balls.add({6.0 * kRadius, 0.0, 0.0});
   const State end = balls.after(20, SolverKind::kBpp);
-  // An arm of 1 m about its joint weighs what the ball does and 0.4 r^2 more, and the blow meets
-  // bodies that are heavier by that in between.
+  // An arm of 1 m about its joint has an effective mass larger than the ball's by 0.4 r^2, and the
+  // impulse passes through bodies that are heavier by that amount.
   double energy = 0.0;
   for (const Vec6& u : end.u) {
     energy +=
@@ -151,7 +151,7 @@ TEST(Impacts, PassThroughBodiesOnJoints) {
   EXPECT_GT(end.u[4][0], 0.99 * kSpeed);
 }
 
-// A column that lands loses nothing, however many of its balls strike at once.
+// A landing column loses no energy, however many of its balls strike at once.
 TEST(Impacts, AColumnThatLandsLosesNothing) {
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
     Balls balls(1.0);

@@ -1,4 +1,4 @@
-// What must not change the motion: place, direction, hand, units and order.
+// Invariance of the motion: translation, rotation, reflection, units and order.
 
 #include <gtest/gtest.h>
 
@@ -208,7 +208,8 @@ TEST(Invariance, TheOrderOfBodiesAndJointsDoesNotMatterToTheDirectSolver) {
   }
 }
 
-// Gauss-Seidel goes by the order of the rows: with the joints' order the last bit stays as well.
+// Gauss-Seidel depends on the order of the rows: with the joints in the same order the result is
+// bit-identical.
 TEST(Invariance, TheOrderOfBodiesDoesNotMatterToGaussSeidel) {
   Case c = cases()[0];
   c.tolerance = 0.0;
@@ -220,8 +221,8 @@ TEST(Invariance, TheOrderOfBodiesDoesNotMatterToGaussSeidel) {
   }
 }
 
-// The tangents of friction are built from the body's axes: whatever mu is, a box that is pushed
-// slides the same way in a scene that is turned, moved, mirrored or in other units.
+// The tangents of friction are built from the body's axes: for any mu, a pushed box slides the same
+// way in a scene that is rotated, moved, mirrored or in other units.
 TEST(Invariance, FrictionFromNoneToTwoHasNoPreferredDirectionHandOrUnit) {
   const Quat R(Eigen::AngleAxisd(0.7, Vec3(0.2, 1.0, -0.4).normalized()));
   const Vec3 by{10.0, -20.0, 30.0};
@@ -240,7 +241,7 @@ TEST(Invariance, FrictionFromNoneToTwoHasNoPreferredDirectionHandOrUnit) {
       };
       const Outcome here = seen(c.scene);
       expect_same(c, here, seen(transformed(c.scene, R, by)), R, by);
-      // A mirrored box has its corners in another order, which Gauss-Seidel goes by.
+      // A mirrored box has its corners in another order, on which Gauss-Seidel depends.
       if (solver == SolverKind::kBpp) {
         expect_same(c, here, seen(mirrored(c.scene)), [](const Vec3& x) { return mirrored(x); });
       }
@@ -292,7 +293,7 @@ TEST(Invariance, AFreeChainKeepsItsMomentum) {
     EXPECT_LT(worst(solver, 8).linear.norm(), 1e-12);
   }
   // The forces of a joint act at two points phi apart (second order), and the gyroscopic torque of
-  // a sub-step does not yet know the joint impulses of that sub-step (first order, and small).
+  // a sub-step does not include the joint impulses of that sub-step (first order, and small).
   const double eight = worst(SolverKind::kBpp, 8).angular.norm();
   const double sixteen = worst(SolverKind::kBpp, 16).angular.norm();
   EXPECT_LT(eight, 2e-5);

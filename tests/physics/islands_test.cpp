@@ -1,4 +1,4 @@
-// Sub-steps of their own for bodies that nothing connects.
+// Separate sub-steps for unconnected bodies.
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,8 @@ TEST(Islands, AConnectedSceneMovesAsWithoutThem) {
   }
 }
 
-/// Equal to the bit; with Newton to its own tolerance: what is solved together, by the probe or
-/// because it takes as many sub-steps, takes steps until the last of it has converged.
+/// Bit-identical; with Newton within its tolerance: islands solved together, by the probe or with
+/// the same number of sub-steps, iterate until the last of them has converged.
 void expect_same(const Vec6& alone, const Vec6& together, SolverKind solver) {
   if (solver != SolverKind::kNewton) {
     ASSERT_EQ(alone, together);
@@ -142,8 +142,8 @@ TEST(Islands, ATowerTakesFewUntilTheBallOnItsChainIsNear) {
   EXPECT_LT(static_cast<double>(flops_with), 0.5 * static_cast<double>(flops));
 }
 
-// The second ball may be struck within the frame, and the third by it: at the start of the frame
-// only the first is fast.
+// The second ball may be struck within the frame, and then the third by the second: at the start of
+// the frame only the first is fast.
 TEST(Islands, AStruckBodyMayStrikeTheNextWithinTheFrame) {
   for (const double speed : {5.0, 30.0, 100.0}) {
     const double way = speed * kFrame;
@@ -169,8 +169,8 @@ TEST(Islands, AStruckBodyMayStrikeTheNextWithinTheFrame) {
   }
 }
 
-// What flies freely is exact with leapfrog, whatever the sub-steps: they follow a chain's until
-// islands are asked for, and again after.
+// Free flight is exact with leapfrog for any sub-steps: they follow a chain's until islands are
+// switched on, and again afterwards.
 TEST(Islands, LeapfrogKeepsItsOrderWhereTheyComeAndGo) {
   Scene flying = scenes::free_fall();
   flying.bodies.resize(1);
@@ -239,8 +239,8 @@ TEST(Islands, AHandHoldsOnlyItsOwn) {
   }
 }
 
-// What holds without islands holds with them, but for a doll that another's sub-steps had carried:
-// alone, it tears where it lands too.
+// Everything that holds without islands holds with them, except for a ragdoll that needed another's
+// sub-steps: alone, it tears on landing too.
 TEST(Islands, TheHardSetHoldsAsWithoutThem) {
   int fewer = 0;
   for (const scenes::HardCase& hard : scenes::hard_set()) {

@@ -1,6 +1,7 @@
-// Closed loops of hinges, whose rows are redundant: on a body of the loop, where pivots are held
-// (solver/saddle_factor.cpp), and in the whole. What is held is taken back (saddle_refine.cpp), so
-// loops keep the order of their integrator and hold to its truncation.
+// Closed loops of hinges, whose rows are redundant: on a body of the loop, where pivots are bounded
+// (solver/saddle_factor.cpp), and in the whole system. Refinement corrects the effect
+// (saddle_refine.cpp), so loops keep the order of their integrator and hold to its truncation
+// error.
 
 #include <gtest/gtest.h>
 
@@ -62,7 +63,7 @@ Scene swing() {
   return scene;
 }
 
-/// Angle of its rods after each frame, by Runge and Kutta's classical step [rad].
+/// Angle of its rods after each frame, by the classical Runge-Kutta method [rad].
 std::vector<double> swing_angles(double frame, int frames) {
   constexpr double kSquare = (1.0 + kCoupler) * kGravity / (2.0 / 3.0 + kCoupler);  // [1/s^2]
   constexpr int kSteps = 64;
@@ -129,7 +130,7 @@ double order(const Found& coarse, const Found& fine, double ratio) {
   return std::log(coarse.errors[0] / fine.errors[0]) / std::log(ratio);
 }
 
-// Before: 2e-11 m at any N, of the pivots' softness.
+// Formerly 2e-11 m at any N, from the softness of the pivots.
 TEST(Loops, AFourBarWithAHeavyCouplerIsExactToRounding) {
   constexpr int kFrames = 300;
   const Scene scene = swing();
@@ -149,7 +150,7 @@ TEST(Loops, AFourBarWithAHeavyCouplerIsExactToRounding) {
   }
 }
 
-// Before: 3e-6 m at 16, 2e-7 at 64, with hinges of 1e-16 m/N; millimetres with exact ones.
+// Formerly 3e-6 m at 16, 2e-7 at 64, with hinges of 1e-16 m/N; millimetres with exact ones.
 TEST(Loops, BricardsMechanismIsOfFourthOrder) {
   const ExamCase exam = exact(scenes::exam_bricard());
   const Found coarse = run_case(exam, 16);
@@ -163,7 +164,7 @@ TEST(Loops, BricardsMechanismIsOfFourthOrder) {
   EXPECT_LT(finest.errors[1], 1e-10) << "energy";
 }
 
-// The singular pose is passed ten times; the errors of 64 and more stopped at some 1e-6 before.
+// It passes the singular pose ten times; the errors of 64 and more formerly stopped at some 1e-6.
 TEST(Loops, TheDoubleFourBarKeepsItsOrderThroughTheSingularPose) {
   const ExamCase exam = exact(scenes::exam_four_bar());
   const Found coarse = run_case(exam, 32);
@@ -186,11 +187,11 @@ TEST(Loops, JointsStayClosed) {
   }
 }
 
-// Rows that contradict each other: a coupler 1 mm too long for the pins that it hangs between. What
-// no impulse can mend is left to the held pivots, and no correction pushes harder.
+// Contradictory rows: a coupler 1 mm too long for its pins. The error that no impulse can correct
+// remains in the bounded pivots, and no correction increases the force.
 TEST(Loops, RowsThatContradictEachOtherDoNotRunAway) {
   Scene scene = swing();
-  base(scene.joints[3]).anchor_a.z() = 1e-3;  // out of the plane, where nothing gives way
+  base(scene.joints[3]).anchor_a.z() = 1e-3;  // out of the plane, where there is no compliance
   scene.start = StartPolicy::kKeep;
   Simulator simulator = test::simulator_of(scene, stormer(scene, 16));
   for (int i = 0; i < 300; ++i) {

@@ -1,5 +1,5 @@
-// How fast every integrator converges in three dimensions: joints, spin and three unequal moments
-// of inertia, against exact motions in minimal coordinates (tests/support/ball_chain.hpp).
+// Observed order of every integrator in three dimensions: joints, spin and three unequal moments of
+// inertia, against exact motions in minimal coordinates (tests/support/ball_chain.hpp).
 
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ BallChain double_pendulum() {
           kGravity};
 }
 
-/// Nothing holds it: what hangs on its centre turns freely.
+/// Without support: a body on a joint at its centre rotates freely.
 BallChain dzhanibekov() {
   BallChain::Link body = box(2.0, {0.4, 0.2, 0.1}, Quat(1.0, 0.1, 0.2, 0.3), {0.1, 0.2, 6.0});
   body.to_centre = body.to_next = Vec3::Zero();
@@ -76,7 +76,7 @@ BallChain dzhanibekov() {
   return {{body}, Vec3::Zero()};
 }
 
-/// Equal moments: no torque of its own, and yet its turns do not commute.
+/// Equal moments: there is no gyroscopic torque, but its rotations do not commute.
 BallChain cube() {
   return {{box(2.0, {0.3, 0.3, 0.3}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})}, kGravity};
 }
@@ -96,7 +96,7 @@ Scene scene_of(const Case& of) {
   return scene;
 }
 
-/// Largest distance of a centre, and a tenth of a metre's lever of a turn [m].
+/// Largest distance of a centre, and of a point at a lever of a tenth of a metre [m].
 double error_at(const State& state, const BallChain& end) {
   double error = 0.0;
   for (std::size_t i = 0; i < end.links().size(); ++i) {
@@ -132,7 +132,7 @@ std::vector<Method> methods() {
   return methods;
 }
 
-/// The start, where it goes, and what that is worth.
+/// The start, and the exact state at the end.
 struct Exact {
   Case start;
   BallChain end;
@@ -165,7 +165,7 @@ TEST(OrderInSpace, ReferencesAgreeWithThemselves) {
   }
 }
 
-// Two doublings, above the limit of stability and where the reference has digits left.
+// Two doublings, within the stability limit and above the precision of the reference.
 TEST(OrderInSpace, IsKeptWithAFixedNumberOfSubsteps) {
   for (const auto& [start, end] : exact_motions()) {
     const Scene scene = scene_of(start);
@@ -228,9 +228,9 @@ TEST(OrderInSpace, IsKeptByAdaptiveSubsteps) {
   }
 }
 
-// A thin box on a ball joint for two minutes: no torque acts about the vertical, and none of its
-// energy goes. Before the torque of turning was one of the momentum at the poses, adaptive
-// sub-steps lost 2.2 J of it and turned its angular momentum round.
+// A thin box on a ball joint for two minutes: no torque acts about the vertical, and no energy is
+// lost. Before the gyroscopic torque used the momentum at the poses, adaptive sub-steps lost 2.2 J
+// and reversed its angular momentum.
 TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
   const BallChain start({box(2.0, {0.8, 0.3, 0.02}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})},
                         kGravity);
@@ -264,17 +264,18 @@ TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
       drift = std::max(drift, std::abs(momentum(simulator) / momentum_start - 1.0));
       energy_drift = std::max(energy_drift, std::abs(report.energy - energy_start));
     }
-    // It swings through at 10 rad/s. N goes from one to two at the first time and stays: with N
-    // that follows each swing Euler loses 70 %, leapfrog 1.3 %. The one change costs Euler 1 %.
+    // It swings through at 10 rad/s. N changes from one to two at the first time and stays: if N
+    // follows each swing, Euler loses 70 %, leapfrog 1.3 %. The one change costs Euler 1 %.
     EXPECT_LT(drift, integrator == Integrator::kStormer ? 1e-4 : 1e-6);
     EXPECT_LT(energy_drift / most_kinetic, integrator == Integrator::kEuler ? 2e-2 : 1e-3);
     EXPECT_EQ(changes, 1);
   }
 }
 
-// It has no stiffness to speak of, so that the paper's rule gives it one sub-step a frame: a whole
-// radian. The rotation criterion asks for turns of 2 sqrt(alpha)/3.2 = 0.2 rad, six a frame.
-/// A disc that spins fast enough to stand: (I_3 w)^2 > 4 I_1 m g l.
+// It has almost no stiffness, so that the paper's rule gives it one sub-step a frame: a rotation of
+// a whole radian. The rotation criterion requires rotations of 2 sqrt(alpha)/3.2 = 0.2 rad, six a
+// frame.
+/// A disc that spins fast enough to stay upright: (I_3 w)^2 > 4 I_1 m g l.
 BallChain standing_top() {
   BallChain::Link top;
   top.inertia = {0.012, 0.02, 0.012};
@@ -315,10 +316,9 @@ TEST(RotationCriterion, KeepsATopUpThatTheStiffnessKnowsNothingOf) {
   EXPECT_LT(lowest(settings, n), y_exact - 0.003) << "the paper's own rule, with N = " << n;
 }
 
-// The shapes differ in how much of a joint's force turns them: of plates and needles, near their
-// joint and far from it, none may gain energy with the default settings. A prediction that
-// extrapolated the torque linearly was unstable for a plate far from its joint, from turns of 0.1
-// rad on.
+// Shapes differ in how strongly a joint's force rotates them: plates and needles, near their joint
+// and far from it, must not gain energy with the default settings. A prediction that extrapolated
+// the torque linearly was unstable for a plate far from its joint, from rotations of 0.1 rad on.
 TEST(RotationCriterion, TopsOfEveryShapeGainNoEnergy) {
   for (const double axial : {0.1, 0.5, 1.0, 1.9}) {  // I_3 / I_1
     for (const double arm : {0.02, 0.1, 0.5, 2.0}) {

@@ -1,4 +1,4 @@
-// The playground's scenes: jointed and loose bodies, edges and faces, many contacts at once.
+// The playground scenes: jointed and loose bodies, edges and faces, many simultaneous contacts.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ double lowest(const State& state, std::size_t first) {
   return y;
 }
 
-// Nothing but friction and balance: no card may creep, however long one looks.
+// Only friction and balance: no card may creep, even in a long run.
 TEST(CardHouse, StandsStillWithTheDirectSolver) {
   const Scene scene = scenes::card_house();
   const Outcome r = run(scene, scene.settings, 10.0);

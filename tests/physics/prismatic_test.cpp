@@ -1,4 +1,4 @@
-// Prismatic joints, by every solver and integrator: what slides obeys the closed forms.
+// Prismatic joints with every solver and integrator, against closed forms.
 
 #include <gtest/gtest.h>
 
@@ -38,8 +38,8 @@ Settings settings_of(SolverKind solver, Integrator integrator, int n,
   settings.integrator = integrator;
   settings.forces = forces;
   settings.n = n;
-  settings.iterations = 400;      // of those that iterate
-  settings.drift = Drift::kFull;  // PGS by itself takes errors back at a rate of its own
+  settings.iterations = 400;      // for the iterative solvers
+  settings.drift = Drift::kFull;  // the default of PGS corrects errors at its own rate
   return settings;
 }
 
@@ -71,8 +71,8 @@ double error_after(const Scene& scene, const Settings& settings, double seconds,
   return most;
 }
 
-/// What doubling the sub-steps leaves of an error: at least as much less as the order says, or
-/// nothing but what an iteration or rounding leaves.
+/// The error after doubling the sub-steps: reduced at least by the method's order, or at the level
+/// of the iteration's or rounding's residual.
 void expect_order(const Scene& scene, const Method& method, double seconds, double floor,
                   const std::function<double(const State&, double)>& error) {
   Settings finer = method.settings;
@@ -83,7 +83,7 @@ void expect_order(const Scene& scene, const Method& method, double seconds, doub
   EXPECT_LT(fine, std::max(floor, 1.15 * coarse / shrinks)) << coarse;
 }
 
-// s = g sin(theta) t^2/2 down a rail, of a body that hangs off it with its centre aside.
+// s = g sin(theta) t^2/2 down a rail, for a body that hangs off it with an offset centre.
 TEST_P(Prismatic, SlidesDownAnInclinedRail) {
   const Vec3 rail = Vec3(4.0, -3.0, 0.0) / 5.0;
   SceneBuilder builder;
@@ -97,7 +97,7 @@ TEST_P(Prismatic, SlidesDownAnInclinedRail) {
     const Vec3 exact = start + 0.5 * 9.81 * 0.6 * t * t * rail;
     return (state.x[0] - exact).norm() + state.q[0].angularDistance(attitude);
   };
-  // Nothing bends: what is not first order is exact.
+  // There is no curvature: methods that are not of first order are exact.
   const Method& method = GetParam();
   if (method.order > 1) {
     EXPECT_LT(error_after(scene, method.settings, 1.0, error), 1e-11);
@@ -106,7 +106,7 @@ TEST_P(Prismatic, SlidesDownAnInclinedRail) {
   }
 }
 
-// A bead on a rod that turns at a constant rate, since it is very heavy: r = r_0 cosh(w t).
+// A bead on a very heavy rod that rotates at a constant rate: r = r_0 cosh(w t).
 TEST_P(Prismatic, SlidesOutwardOnATurningRod) {
   constexpr double kRate = 2.0;   // [rad/s]
   constexpr double kStart = 0.2;  // [m]
@@ -128,8 +128,8 @@ TEST_P(Prismatic, SlidesOutwardOnATurningRod) {
   expect_order(scene, GetParam(), 0.5, 2e-8, error);
 }
 
-// Two free bodies of unequal inertia that slide on each other off their centres: nothing acts from
-// outside, so both momenta stay, and the energy does to the order of the method.
+// Two free bodies of unequal inertia that slide on each other off their centres: no external force
+// acts, so both momenta are conserved, and the energy is conserved to the order of the method.
 TEST_P(Prismatic, KeepsTheMomentaOfTwoFreeBodies) {
   SceneBuilder builder;
   const int a = builder.add_body(Box{{0.4, 0.1, 0.2}}, 2.0, {0.5, 0.4, -0.2});
@@ -216,7 +216,8 @@ TEST(PrismaticLoop, ASliderFollowsItsCrank) {
   }
 }
 
-// A static force across the axis moves a compliant joint by C F, a torque turns it by C_angular T.
+// A static force across the axis moves a compliant joint by C F; a torque rotates it by C_angular
+// T.
 TEST(PrismaticCompliance, YieldsByItsCompliance) {
   SceneBuilder builder;
   const int box = builder.add_body(Box{{0.2, 0.2, 0.2}}, 1.0, Vec3::Zero());
@@ -256,7 +257,7 @@ Scene sliders_on_a_swing() {
   return *builder.build();
 }
 
-// Gaps along the axis are no error; those across it and tilts are taken back.
+// Gaps along the axis are not errors; gaps across it and tilts are corrected.
 TEST(PrismaticStart, OffItsRailIsProjectedOntoIt) {
   Scene scene = sliders_on_a_swing();
   scene.bodies[1].position += Vec3(0.3, 0.02, -0.03);
@@ -292,7 +293,7 @@ TEST_P(Prismatic, ContinuesFromASceneFileBitForBit) {
   }
 }
 
-// The order in which bodies and joints are listed changes rounding alone.
+// The order in which bodies and joints are listed changes only rounding.
 TEST_P(Prismatic, IsTheSameInAnotherOrderOfTheFile) {
   const Scene scene = sliders_on_a_swing();
   Scene other = scene;
@@ -309,7 +310,7 @@ TEST_P(Prismatic, IsTheSameInAnotherOrderOfTheFile) {
     ASSERT_EQ(first.step().status, StepStatus::kOk);
     ASSERT_EQ(second.step().status, StepStatus::kOk);
   }
-  // Sweeps take the joints in their order, and end before they have converged.
+  // Sweeps process the joints in their order and stop before convergence.
   const SolverKind solver = GetParam().settings.solver;
   const bool sweeps = solver == SolverKind::kPgs || solver == SolverKind::kXpbd;
   for (std::size_t body = 0; body < 3; ++body) {

@@ -1,4 +1,4 @@
-// What rests stands still and costs nothing, until something comes near.
+// Bodies at rest do not move and cost nothing until something comes near.
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST(Sleep, WhatMovesDoesNot) {
   EXPECT_EQ(state_hash(asked.state()), state_hash(plain.state()));
 }
 
-// The ball and its chain move on as if the tower were awake; the tower wakes before it is touched.
+// The ball and its chain move as if the tower were awake; the tower wakes before it is touched.
 TEST(Sleep, ATowerWakesBeforeTheBallTouchesIt) {
   const Scene scene = scenes::wrecking_ball();
   const Settings by_island{.islands = true, .integrator = Integrator::kLeapfrog};
@@ -125,7 +125,7 @@ TEST(Sleep, AHandOrOtherSettingsWake) {
   EXPECT_EQ(simulator.step().asleep, 0);
 }
 
-// Islands are one by one: what rests sleeps beside what swings.
+// Islands are independent: one at rest sleeps beside one that swings.
 TEST(Sleep, OneIslandSleepsWhileAnotherSwings) {
   const Scene scene = beside({transformed(scenes::swinging_box(), Quat::Identity(), {0, 0, -30.0}),
                               transformed(scenes::heavy_stack(), Quat::Identity(), {0, 0, 30.0})});
@@ -146,8 +146,8 @@ TEST(Sleep, OneIslandSleepsWhileAnotherSwings) {
   }
 }
 
-// What sleeps keeps the forces that held it, whatever moves beside it, and wakes with them: its
-// first solve knows friction and finds nothing to pivot.
+// A sleeping island keeps its forces, whatever moves beside it, and wakes with them: its first
+// solve has the friction bounds and needs no pivots.
 TEST(Sleep, WakesWithTheForcesThatHeldIt) {
   const Scene scene = beside({transformed(scenes::swinging_box(), Quat::Identity(), {0, 0, -30.0}),
                               transformed(scenes::heavy_stack(), Quat::Identity(), {0, 0, 30.0})});
@@ -177,7 +177,7 @@ TEST(Sleep, WakesWithTheForcesThatHeldIt) {
   EXPECT_EQ(report.work.passes, 1);
 }
 
-// What sleeps keeps what is known of its K as well, in every mode that reads it.
+// A sleeping island also keeps its K, in every mode that reads it.
 TEST(Sleep, KeepsTheStiffnessThatItHad) {
   const Scene scene = beside({transformed(scenes::swinging_box(), Quat::Identity(), {0, 0, -30.0}),
                               transformed(scenes::heavy_stack(), Quat::Identity(), {0, 0, 30.0})});
@@ -197,7 +197,7 @@ TEST(Sleep, KeepsTheStiffnessThatItHad) {
   EXPECT_GT(known, 0.0);
 }
 
-// A pile that has fallen costs less and less.
+// The cost of a fallen pile decreases.
 TEST(Sleep, BallsThatHaveStoppedBouncingSleep) {
   Simulator simulator = simulator_of(scenes::bouncing_balls(), sleeping({.mode = Mode::kConst}));
   FrameReport report;

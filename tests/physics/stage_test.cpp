@@ -1,4 +1,4 @@
-// Only the effects that a scene calls for; what a frame reports; how a run fails.
+// Only the effects that a scene needs; the report of a frame; failures of a run.
 
 #include <gtest/gtest.h>
 
@@ -150,7 +150,7 @@ TEST(Report, TheProbeRunsAgainWhenAModeThatReadsStiffnessIsSwitchedOn) {
   EXPECT_GE(first.n_substeps, 10);
 }
 
-// A rigid joint given twice is a singular system, but a redundant one: as good as given once.
+// A rigid joint given twice is a singular but redundant system: equivalent to one joint.
 TEST(Failure, ARigidJointGivenTwiceIsNone) {
   Scene scene = scenes::swinging_box({scenes::kSixtyDegrees, 0.0});
   scene.joints.push_back(scene.joints[3]);
@@ -159,7 +159,7 @@ TEST(Failure, ARigidJointGivenTwiceIsNone) {
   EXPECT_LT(r.joint_gap, 1e-3);
 }
 
-// A speed whose square is no number.
+// A speed whose square overflows.
 TEST(Failure, StopsAtTheLastFiniteStateAndSaysWho) {
   const Scene scene = scenes::swinging_box({scenes::kSixtyDegrees, 0.0});
   Simulator simulator(std::make_shared<const Scene>(scene));
@@ -181,8 +181,8 @@ TEST(Failure, StopsAtTheLastFiniteStateAndSaysWho) {
   EXPECT_EQ(simulator.observe().status, StepStatus::kOk);
 }
 
-// An explicit gyroscopic torque at this speed gains energy without bound. Velocities are numbers
-// for some time after their squares are none.
+// An explicit gyroscopic torque at this speed gains energy without bound. Velocities stay finite
+// for some time after their squares overflow.
 TEST(Failure, EndsWhileItsEnergyIsANumber) {
   Scene scene = scenes::spinning_top();
   for (Body& body : scene.bodies) body.angular_velocity = {300.0, 2000.0, 100.0};
@@ -213,7 +213,8 @@ TEST(Solves, AreAllComplementary) {
     EXPECT_LT(r.residual, 1e-9) << scene.name;
     EXPECT_EQ(r.unsolved, 0) << scene.name;
   }
-  // Friction bounds are refreshed four times a sub-step at most and go on settling in the next one.
+  // Friction bounds are updated at most four times a sub-step and continue to settle in the next
+  // one.
   const Scene bridge = with_short_frames(scenes::bridge());
   int solves = 0;
   std::vector<double> unsettled;  // their residuals
@@ -230,8 +231,8 @@ TEST(Solves, AreAllComplementary) {
   EXPECT_LT(Outcome::median(unsettled), 1e-4);
 }
 
-// A wall of bricks has many more points than it needs: pivoting one row at a time could take for
-// ever.
+// A wall of bricks has far more contact points than it needs: pivoting one row at a time could take
+// very long.
 TEST(Solves, TakeBoundedWorkOnAWallThatIsHit) {
   Scene scene;
   scene.effects = {.gravity = true, .contact = true, .friction = true};

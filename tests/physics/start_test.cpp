@@ -1,4 +1,4 @@
-// Starts that contradict their joints: measured, projected by the least change, kept or refused.
+// Starts that contradict their joints: measured, projected by the smallest change, kept or refused.
 
 #include "core/sim/start.hpp"
 
@@ -40,8 +40,8 @@ JointType between(int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
   return joint;
 }
 
-/// Three free boxes of unequal moments, turned anyhow, on a ball joint and a hinge that are open,
-/// tilted and moving apart.
+/// Three free boxes of unequal moments, arbitrarily rotated, on a ball joint and a hinge that are
+/// open, tilted and moving apart.
 Scene scattered() {
   Scene scene;
   scene.effects = {.gyroscopic = true, .joints = true};
@@ -139,9 +139,10 @@ TEST(Start, OfAnOpenJointAddsNoEnergyOnceProjected) {
   scene.start = StartPolicy::kKeep;
   const double kept = greatest_change(begun);
   EXPECT_EQ(start_of_run(scene).report.energy_begun, begun);
-  // Kept, the drift correction throws the chain together.
+  // With `keep` the drift correction pulls the chain together violently.
   EXPECT_GT(kept, 30.0);
-  // 64 leapfrog sub-steps swing this chain to within a thousandth of what it exchanges, 100 J.
+  // 64 leapfrog sub-steps keep this chain's energy within a thousandth of the exchanged energy, 100
+  // J.
   EXPECT_LT(projected, 0.2);
 }
 
@@ -171,8 +172,9 @@ TEST(Start, IsProjectedByTheLeastChange) {
   EXPECT_LT(start.report.left.gap, 1e-12);
   EXPECT_LT(start.report.left.tilt, 1e-12);
   EXPECT_LT((centre_of_mass(scene, start.state) - centre_of_mass(scene, before)).norm(), 1e-14);
-  // Every other closed start nearby is farther away. A move along the joints costs its square: with
-  // 1e-3 that is 1e-6 of the masses; what first order was left would show as 1e-3 of the distance.
+  // Every other closed start nearby is farther away. A move along the joints changes the squared
+  // distance to second order: a move of 1e-3 adds 1e-6 of the masses; a remaining first-order term
+  // would show as 1e-3 of the distance.
   const double least = distance(scene, before, start.state);
   for (int body = 0; body < 3; ++body) {
     for (int dof = 0; dof < 6; ++dof) {
@@ -186,7 +188,8 @@ TEST(Start, IsProjectedByTheLeastChange) {
         }
         ASSERT_EQ(close_joints(scene, other), Projection::kDone);
         EXPECT_GT(distance(scene, before, other), least * (1.0 - 1e-3)) << body << ' ' << dof;
-        // close_joints() from there goes to the nearest to there, not back: it has moved.
+        // close_joints() from there goes to its own nearest closed start, not back: that one
+        // differs.
         EXPECT_GT(distance(scene, start.state, other), 1e-10);
       }
     }
@@ -204,7 +207,7 @@ TEST(Start, ProjectedVelocitiesKeepMomentaAndLoseTheLeastEnergy) {
   const Momenta after = momenta_of(scene, matched);
   EXPECT_LT((after.linear - before.linear).norm(), 1e-13);
   EXPECT_LT((after.angular - before.angular).norm(), 1e-13);
-  // u = u0 + M^-1 J^T p with J u = 0 splits the energy by Pythagoras: what is lost is that of the
+  // u = u0 + M^-1 J^T p with J u = 0 splits the energy by Pythagoras: the loss is the energy of the
   // change itself.
   State change = matched;
   for (std::size_t i = 0; i < change.u.size(); ++i) {
@@ -215,7 +218,7 @@ TEST(Start, ProjectedVelocitiesKeepMomentaAndLoseTheLeastEnergy) {
   EXPECT_GT(energies_of(scene, change).kinetic, 0.1);
 }
 
-/// Four rods on hinges about z, a square with side 1: three of its twenty rows say the same again.
+/// Four rods on hinges about z, a square with side 1: three of its twenty rows are redundant.
 Scene four_bar(double open) {
   Scene scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
@@ -239,7 +242,7 @@ TEST(Start, OfALoopIsClosedThoughItsRowsAreRedundant) {
   EXPECT_LT(start.report.left.tilt, 1e-11);
   EXPECT_LT(start.report.left.speed, 1e-11);
   EXPECT_LT(start.report.left.turning, 1e-11);
-  // All that is left of the coupler's velocity is along its circle.
+  // The coupler's remaining velocity is along its circle.
   EXPECT_LT(std::abs(start.state.u[1].y()), 0.2);
   EXPECT_LT(std::abs(start.state.u[1].z()), 1e-11);
 }
@@ -271,8 +274,8 @@ TEST(Start, LeavesTheStretchOfASpring) {
 }
 
 TEST(Start, AgreesWithExactJointsBesideASpring) {
-  // A heavy box on a hinge to a light one that hangs on a spring: the spring's rows are left out,
-  // and take no digits from the hinge's.
+  // A heavy box on a hinge to a light one that hangs on a spring: the spring's rows are omitted and
+  // do not reduce the accuracy of the hinge's.
   Scene scene;
   scene.effects = {.gyroscopic = true, .joints = true};
   scene.bodies = {box_at({0.0, 0.0, 0.0}, {0.3, 0.2, 0.1}, 4.5),
@@ -318,7 +321,7 @@ TEST(Start, OfASimulatorIsProjectedAndComesBackByReset) {
   EXPECT_EQ(state_hash(initial_state(closed)), begun);
 }
 
-// Every two of 80 bodies joined: the first factor alone would take 5e8 operations.
+// 80 bodies, each pair joined: the first factorisation alone would take 5e8 operations.
 TEST(Start, ThatIsTooLargeToProjectIsKept) {
   Scene scene;
   scene.effects = {.joints = true};

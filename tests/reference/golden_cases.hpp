@@ -1,5 +1,5 @@
 #pragma once
-// The runs whose bits and work all builds must share.
+// The runs whose bits and work must be the same in all builds.
 
 #include <cstdio>
 #include <functional>
@@ -28,10 +28,10 @@ inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
                                           "newtons_cradle",     "spherical_pendulum",
                                           "heavy_top",          "whirling_chain"};
 
-/// A program that is given the folder of the scenes, and goes through every shipped scene: adaptive
-/// and with 16 sub-steps, with BPP and with PGS; through the heaps with islands, through the stress
-/// stacks with refinements, through the paper's scenes of contacts with small steps, and through
-/// those of joints by Störmer's formula and with 6 sub-steps of the other solvers.
+/// A program that takes the folder of the scenes and runs every shipped scene: adaptive and with 16
+/// sub-steps, with BPP and with PGS; the heaps with islands, the stress stacks with refinements,
+/// the paper's contact scenes with small steps, and the joint scenes with Störmer and with 6
+/// sub-steps of the other solvers.
 /// @return main()'s
 inline int for_every_case(int argc, char** argv, const std::function<void(Case&)>& what) {
   if (argc != 2) {
@@ -87,7 +87,7 @@ inline int for_every_case(int argc, char** argv, const std::function<void(Case&)
       with(small, "pgs_small_steps");
     }
     if (!read.scene->effects.joints) continue;
-    if (!read.scene->effects.contact) {  // nor is this made for it
+    if (!read.scene->effects.contact) {  // not applicable to contacts
       Settings stormer = settings;
       stormer.mode = Mode::kAdaptive;
       stormer.integrator = Integrator::kStormer;

@@ -1,6 +1,6 @@
 #pragma once
-// The exact motion of boxes on ball joints, each hanging from the one before, in minimal
-// coordinates: a reference of the tests' own, which shares no code with the lab's.
+// The exact motion of boxes on ball joints, each hanging from the previous one, in minimal
+// coordinates: an independent reference for the tests, which shares no code with the lab's.
 
 #include <Eigen/Dense>
 #include <vector>
@@ -42,7 +42,7 @@ class BallChain {
   }
   [[nodiscard]] const std::vector<Link>& links() const { return links_; }
 
-  /// The same as a scene on the origin, no link touching another.
+  /// The same chain as a scene on the origin; links do not touch.
   [[nodiscard]] Scene scene() const {
     Scene scene;
     scene.gravity = gravity_;
@@ -83,7 +83,7 @@ class BallChain {
     const auto n = static_cast<Eigen::Index>(links.size());
     Eigen::MatrixXd M = Eigen::MatrixXd::Zero(3 * n, 3 * n);
     Vector Q = Vector::Zero(3 * n);
-    std::vector<Vec3> rho(links.size());  // of the links before
+    std::vector<Vec3> rho(links.size());  // of the previous links
     Vec3 carried = Vec3::Zero();          // centripetal, of the joint [m/s^2]
     for (std::size_t i = 0; i < links.size(); ++i) {
       const Link& link = links[i];

@@ -1,6 +1,6 @@
 #pragma once
-// What every frame of every scene must keep to: numbers stay finite or the run stops with a status,
-// and the work is within the bounds that the settings give it.
+// Invariants of every frame of every scene: numbers stay finite or the run stops with a status, and
+// the work is within the bounds of the settings.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,8 @@
 
 namespace substep::test {
 
-/// Fewer sub-steps, sweeps and pivots, so that a run of any settings is short. All else stays.
+/// Fewer sub-steps, sweeps and pivots, so that a run with any settings is short. The rest is
+/// unchanged.
 inline Settings shortened(Settings settings, int most_substeps) {
   settings.n = std::min(settings.n, most_substeps);
   settings.n_max = std::min(settings.n_max, most_substeps);
@@ -20,7 +21,7 @@ inline Settings shortened(Settings settings, int most_substeps) {
   return settings;
 }
 
-/// What of a state is not finite, or "".
+/// The first part of a state that is not finite, or "".
 inline std::string not_finite(const State& state) {
   const auto finite = [](const auto& m) { return m.allFinite(); };
   const auto all = [&](const auto& list) { return std::all_of(list.begin(), list.end(), finite); };
@@ -65,7 +66,7 @@ inline int most_substeps(const Settings& settings) {
   return 0;
 }
 
-/// The law that a frame broke, or "".
+/// The law that a frame violates, or "".
 inline std::string broken_law(const Scene& scene, const Settings& settings, const State& state,
                               const FrameReport& report) {
   if (const std::string what = not_finite(state); !what.empty()) {
@@ -83,7 +84,7 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
     return "1 <= N <= its cap";
   }
   const SolverWork& work = report.work;
-  // Islands take their sub-steps by themselves, those of the same number together.
+  // Islands take separate sub-steps; islands with the same number are stepped together.
   const std::int64_t substeps = std::int64_t{report.n_substeps} * std::max(1, report.islands);
   if (work.solves - work.impacts > substeps + 1) return "a solve a sub-step, and the probe";
   if (work.impacts > 200 * substeps) return "impacts are bounded";

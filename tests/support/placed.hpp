@@ -1,5 +1,5 @@
 #pragma once
-// Scenes moved, turned and put beside each other.
+// Scenes moved, rotated and combined.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace substep::test {
 
-/// The whole scene turned about the origin and moved, gravity too.
+/// The whole scene rotated about the origin and moved, including gravity.
 inline Scene transformed(Scene scene, const Quat& R, const Vec3& by) {
   scene.gravity = R * scene.gravity;
   for (Body& body : scene.bodies) {
@@ -24,8 +24,8 @@ inline Scene transformed(Scene scene, const Quat& R, const Vec3& by) {
   return scene;
 }
 
-/// The bodies and joints of all of them in one scene, with the laws of the first. What comes from a
-/// scene without contacts touches nothing.
+/// The bodies and joints of all scenes in one, with the laws of the first. Bodies from a scene
+/// without contacts do not collide.
 inline Scene beside(const std::vector<Scene>& scenes) {
   Scene all = scenes.front();
   all.bodies.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a scene and gathers what the tests of physics and of the paper's claims ask about.
+// Runs a scene and records the quantities that the tests of physics and of the paper's claims need.
 
 #include <algorithm>
 #include <functional>
@@ -54,7 +54,7 @@ struct Outcome {
 
 using EveryFrame = std::function<void(const Simulator&, const FrameReport&)>;
 
-/// Runs until the time is over or, unless told to go on, until the verdict falls.
+/// Runs to the end time, or stops at the verdict unless told to continue.
 inline Outcome run(const Scene& scene, const Settings& settings, double seconds,
                    const EveryFrame& every_frame = {}, bool stop_when_failed = true) {
   const auto shared = std::make_shared<const Scene>(scene);

@@ -4,14 +4,14 @@
 
 namespace substep::test {
 
-/// A chain that tumbles freely: hinges and ball joints, no gravity.
+/// A freely tumbling chain: hinges and ball joints, no gravity.
 inline Scene tumbling_chain() {
   scenes::RopeOptions options;
   options.n = 6;
   options.end_mass = 3.0;
   Scene scene = scenes::rope_of_n(options);
   scene.effects = {.gyroscopic = true, .joints = true};
-  scene.joints.erase(scene.joints.begin());  // let go of the world
+  scene.joints.erase(scene.joints.begin());  // detach from the world
   scene.joints[2] = [&] {
     BallJoint ball;
     static_cast<JointBase&>(ball) = base(scene.joints[2]);

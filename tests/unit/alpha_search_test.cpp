@@ -1,4 +1,4 @@
-// The alpha that is chosen by an error or by a cost.
+// The alpha selected by an error or by a cost.
 
 #include "core/lab/alpha_search.hpp"
 
@@ -79,7 +79,7 @@ TEST(AlphaSearch, IsNothingWhereNothingServes) {
   EXPECT_FALSE(found(capped.within(1e-6))) << "the whole way down";
 }
 
-// With so few sub-steps the chain tears; cheap as that is, it is nothing that anybody wants.
+// With so few sub-steps the chain tears; a failing run is not a valid result, however cheap.
 TEST(AlphaSearch, IsNothingWhereTheRunFails) {
   Chain chain;
   chain.experiment.settings.n_max = 1;
@@ -101,7 +101,7 @@ TEST(AlphaSearch, GoesByTheSettingsOfTheSweepsCurve) {
   own.settings.refinements = 3;
   own.settings.sleep = true;
   own.settings.contact_stiffness = ContactStiffness::kExact;
-  own.settings.memory = 0.5;  // nothing that a curve stands for
+  own.settings.memory = 0.5;  // not one of the curves
   Settings paper = paper_settings(own);
   EXPECT_EQ(paper.memory, 0.5);
   bool found_curve = false;

@@ -32,7 +32,7 @@ TEST(SpherePlane, GradientAndStiffnessMatchFiniteDifferences) {
   }
 }
 
-// Over a face, an edge and a corner of a box that turns: three different distance fields.
+// Over a face, an edge and a corner of a rotating box: three different distance fields.
 TEST(SphereBox, GradientAndStiffnessMatchFiniteDifferences) {
   Random random(3);
   for (int outside = 1; outside <= 3; ++outside) {
@@ -74,7 +74,7 @@ TEST(BoxPlane, GradientAndStiffnessMatchFiniteDifferences) {
   }
 }
 
-// A small box whose corners all lie over the face of a large one: corner points, not cut ones.
+// A small box with all corners above the face of a large one: corner points, no clipped ones.
 TEST(BoxBox, GradientAndStiffnessMatchFiniteDifferencesOnAFace) {
   Random random(5);
   for (int trial = 0; trial < 20; ++trial) {
@@ -122,7 +122,7 @@ TEST(BoxBox, FeaturesKeepTheirIdsWhileABoxSlides) {
   const Rows rows = contact_rows(scene);
   std::vector<std::uint64_t> before;
   for (int step = 0; step <= 40; ++step) {
-    scene.bodies[0].position = {0.55 + 0.01 * step, 1.0, 0.2};  // half of it stands out
+    scene.bodies[0].position = {0.55 + 0.01 * step, 1.0, 0.2};  // half of it overhangs
     Blocks blocks;
     rows(initial_state(scene), blocks);
     std::vector<std::uint64_t> ids;
@@ -138,7 +138,7 @@ TEST(BoxBox, FeaturesKeepTheirIdsWhileABoxSlides) {
   }
 }
 
-// Equal boxes exactly above each other: rounding must not add corners nor rename them.
+// Equal boxes exactly above each other: rounding must neither add nor rename corners.
 TEST(BoxBox, FlushFacesHaveTheSameFourPointsWhateverTheLastBit) {
   std::vector<std::uint64_t> first;
   for (const double yaw : {0.0, 1e-15, -1e-15}) {
@@ -158,7 +158,7 @@ TEST(BoxBox, FlushFacesHaveTheSameFourPointsWhateverTheLastBit) {
   }
 }
 
-/// Two long boxes that cross like an X, turned by 45 degrees about themselves: edge over edge.
+/// Two long boxes that cross like an X, rotated by 45 degrees about their axes: edge over edge.
 /// @param gap between the edges [m]
 Scene crossed_boxes(double gap) {
   Scene scene =
@@ -207,8 +207,8 @@ TEST(BoxBox, GradientMatchesFiniteDifferencesOnCrossedEdges) {
   }
 }
 
-/// Largest gap over the fifteen axes, by brute force on the corners: an oracle for the depth of
-/// overlapping boxes.
+/// Largest gap over the fifteen axes, by brute force on the corners: an oracle for the penetration
+/// depth of boxes.
 double separation(const Scene& scene) {
   std::vector<Vec3> axes;
   std::vector<Vec3> corners[2];
@@ -253,7 +253,7 @@ TEST(BoxBox, OverlappingBoxesAlwaysTouchAndAsDeepAsTheyOverlap) {
     scene.contact.margin = 0.02;
     scene.bodies[0].orientation = random_rotation(random);
     scene.bodies[1].orientation = random_rotation(random);
-    // Along a line until they overlap a little.
+    // Move along a line until they overlap slightly.
     const Vec3 away = random_vector(random).normalized();
     const double depth = uniform(random, 0.002, 0.02);
     double lo = 0.0;
@@ -268,7 +268,7 @@ TEST(BoxBox, OverlappingBoxesAlwaysTouchAndAsDeepAsTheyOverlap) {
     ASSERT_GT(blocks.size(), 0U) << "trial " << trial;
     double deepest = kUnbounded;
     for (const Block& block : blocks.all()) deepest = std::min(deepest, block.phi[0]);
-    // Faces are taken where edges are better by less than a millimetre.
+    // Faces are preferred if edges are better by less than a millimetre.
     EXPECT_GT(deepest, -depth - 1.2e-3) << "trial " << trial;
     EXPECT_LT(deepest, 0.0) << "trial " << trial;
     if (blocks.size() == 1) ++edges;
@@ -304,7 +304,7 @@ TEST(Contact, TheSphereTurnsNothingInTheExactFormButInThePapersItDoes) {
   EXPECT_LT((k[0] - expected).norm(), 1e-14);
 }
 
-/// J^T lambda of one block on a body after both have moved: linear, then torque about its centre.
+/// J^T lambda of one block on a body after both have moved: force, then torque about its centre.
 Vec6 force_after(const Block& start, const Motion& a, const Motion& b, int body) {
   Blocks moved;
   moved.append() = start;
@@ -312,8 +312,8 @@ Vec6 force_after(const Block& start, const Motion& a, const Motion& b, int body)
   return force_on(moved, body);
 }
 
-// K of contacts that hold by friction, against central differences of the force that moved rows
-// have at the same multipliers: on a face, an edge and a corner of a box, on a sphere, of a corner.
+// K of contacts with friction, against central differences of the force of moved rows at the same
+// multipliers: on a face, an edge and a corner of a box, on a sphere, and with a corner.
 TEST(Friction, TheExactBlockIsTheDerivativeOfItsForce) {
   Random random(9);
   for (int trial = 0; trial < 60; ++trial) {

@@ -1,4 +1,4 @@
-// Which bodies are looked at, whatever shapes they have.
+// Pairs of bodies found by the detector, for all shapes.
 
 #include "tests/unit/support.hpp"
 
@@ -59,7 +59,7 @@ TEST(Detector, FindsWhatEveryPairTestedAloneFinds) {
   }
 }
 
-// What is kept from sub-step to sub-step must not show: as bodies drift, turn, jump or stay.
+// Data cached between sub-steps must not change the result: bodies drift, rotate, jump or stay.
 TEST(Detector, FindsWhatOneWithoutAMemoryFinds) {
   Random random(9);
   for (int trial = 0; trial < 20; ++trial) {

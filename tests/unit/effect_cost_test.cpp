@@ -1,4 +1,4 @@
-// What each effect of a scene costs.
+// The cost of each effect of a scene.
 
 #include <gtest/gtest.h>
 
@@ -49,12 +49,13 @@ TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
   EXPECT_EQ(costs.effects[0].effect, "gravity");
   EXPECT_EQ(costs.effects[0].row_updates, 0.0);
   EXPECT_EQ(costs.effects[1].effect, "joints");
-  EXPECT_DOUBLE_EQ(costs.effects[1].row_updates * frames,
-                   25.0 * 130.0 * static_cast<double>(work.substeps));  // the probe is no frame's
+  EXPECT_DOUBLE_EQ(
+      costs.effects[1].row_updates * frames,
+      25.0 * 130.0 * static_cast<double>(work.substeps));  // the probe belongs to no frame
 }
 
-// Each of them keeps what it has taken: the run, the scene as it is, and without gravity and
-// contact.
+// Each simulator keeps its own totals: the run, the unchanged scene, and the scenes without gravity
+// and contact.
 TEST(EffectCost, ItsSimulatorsTogetherTakeNoMoreMemoryThanOneMay) {
   SceneBuilder builder("spheres");
   for (int i = 0; i < 130; ++i) builder.add_body(Sphere{0.1}, 1.0, {0, 0, 0});
@@ -70,7 +71,7 @@ TEST(EffectCost, ItsSimulatorsTogetherTakeNoMoreMemoryThanOneMay) {
       << costs.run.verdict;
 }
 
-// Until the ball hits the tower its chain takes 12 sub-steps a frame and the tower one.
+// Until the ball hits the tower, its chain takes 12 sub-steps a frame and the tower one.
 TEST(EffectCost, OfIslandsIsPartOfWhatTheyCost) {
   const Scene scene = scenes::wrecking_ball();
   Experiment experiment = experiment_of(scene, scene.settings);

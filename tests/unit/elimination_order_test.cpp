@@ -1,4 +1,4 @@
-// The order in which bodies are eliminated, and how much it fills.
+// The elimination order of bodies, and its fill.
 
 #include "core/solver/elimination_order.hpp"
 
@@ -36,7 +36,7 @@ TEST(EliminationOrder, AChainGoesFromItsFreeEndToTheWorldWithoutFill) {
   EXPECT_EQ(order.position(29), -1);
 }
 
-// A bridge of pairs of ball joints, with a ball on it that goes first.
+// A bridge of pairs of ball joints, with a ball on it that is eliminated first.
 TEST(EliminationOrder, AChainBetweenTwoAnchorsGoesFromItsEndsWithoutFill) {
   constexpr int kPlanks = 20;
   constexpr int kBall = kPlanks;
@@ -51,7 +51,7 @@ TEST(EliminationOrder, AChainBetweenTwoAnchorsGoesFromItsEndsWithoutFill) {
   for (int i = 0; i < kPlanks; ++i) EXPECT_LE(order.coupled(i).size(), 1U) << i;
 }
 
-// The anchored end has the rows of two gaps, more than its body can move.
+// The anchored end has the rows of two gaps, more than the degrees of freedom of its body.
 TEST(EliminationOrder, APlankThatSticksOutGoesFromItsFreeEnd) {
   constexpr int kPlanks = 20;
   std::vector<Block> blocks;

@@ -1,4 +1,4 @@
-// The exam's closed forms against known values and against each other, and how cases are judged.
+// The exam's closed forms against known values and against each other, and the verdicts of cases.
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(FreeBody, ClosedFormsAgreeWithRungeKutta) {
     t = until;
     const Attitude exact = tumbling.at(t);
     const Attitude own = pivoted_body_after(block, resting, t, static_cast<int>(10000 * t));
-    // Every tumble passes close to the middle axis again and magnifies rounding a hundredfold.
+    // Every tumble passes close to the intermediate axis and magnifies rounding a hundredfold.
     const double tolerance = t < tumbling.half_period() ? 1e-9 : 1e-7;
     EXPECT_LT(scenes::angle_between(exact.q_WB, own.q_WB), tolerance) << t;
     EXPECT_LT((exact.w - own.w).norm(), tolerance) << t;
@@ -164,7 +164,7 @@ TEST(Rolling, AccelerationsSatisfyNewtonsLaws) {
   EXPECT_LT(on_ball, 0.8 * 9.8) << "within the cone";
 }
 
-/// A ball in free fall, measured by an error that the test makes up from the number of sub-steps.
+/// A ball in free fall with a synthetic error computed from the number of sub-steps.
 ExamCase made_up(double power, std::optional<double> order) {
   ExamCase exam = scenes::exam_case("made_up", "", "", "", 0.1, 0.05);
   exam.scene.effects.gravity = true;

@@ -1,4 +1,4 @@
-// Experiments: their text forms, their ids, the starts they name.
+// Experiments: text forms, ids and starts.
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ TEST(Experiment, IdDependsOnAllThatMakesTheRunAndOnNothingElse) {
   EXPECT_EQ(experiment_id(experiment_of(reworded, Settings{})), id);
 }
 
-// Results of years are keyed by it.
+// Stored results of years use it as their key.
 TEST(Experiment, IdOfTheScenesFileStaysWhatItIs) {
   const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/free_fall.json").scene;
   ASSERT_TRUE(scene);

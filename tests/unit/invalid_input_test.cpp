@@ -1,6 +1,5 @@
-// Random invalid scenes and states, made from a seed: whatever a program hands over, the simulator
-// answers with a status and reads nothing out of bounds, which the sanitizers of the preset dev
-// watch.
+// Random invalid scenes and states, generated from a seed: for any input the simulator returns a
+// status and reads nothing out of bounds, which the sanitizers of the preset dev check.
 
 #include <gtest/gtest.h>
 
@@ -37,7 +36,7 @@ Vec3 any_vector(test::Random& random) {
   return {any_number(random), any_number(random), any_number(random)};
 }
 
-/// A row of bodies, each joined to the one before, some of them static; in half of the scenes.
+/// A row of bodies, each joined to the previous one, some of them static; in half of the scenes.
 Scene some_scene(test::Random& random) {
   Scene scene;
   scene.effects = {
@@ -190,7 +189,7 @@ void spoil(test::Random& random, State& state) {
   }
 }
 
-/// Everything that may be asked of a simulator. @return its last status
+/// Calls every query of a simulator. @return its last status
 StepStatus ask_all(test::Random& random, Simulator& simulator) {
   FrameReport report = simulator.step();
   report = simulator.observe();
@@ -230,7 +229,7 @@ TEST(InvalidInput, OfAThousandRandomScenesAndStatesNothingIsReadOutOfBounds) {
       EXPECT_EQ(status, StepStatus::kInvalid) << i;
     }
   }
-  EXPECT_GT(refused, 300);  // or it would try too little of one of the two
+  EXPECT_GT(refused, 300);  // otherwise one of the two would be under-tested
   EXPECT_GT(stepped, 300);
 }
 

@@ -8,7 +8,8 @@
 namespace substep::test {
 namespace {
 
-/// Two boxes anywhere, joined anywhere, with an error: the formulas hold off the constraint too.
+/// Two boxes at random poses with a random joint that has an error: the formulas also hold off the
+/// constraint.
 template <class JointType>
 Scene joined(Random& random, bool to_world) {
   Scene scene;
@@ -49,8 +50,8 @@ void gradient_and_stiffness() {
   }
 }
 
-// A kind of joint that leaves out an operation is no entry of JointTable: the table asserts the
-// concept for each, so that such an entry does not compile.
+// A joint type without one of the operations is not a valid entry of JointTable: the table asserts
+// the concept for each entry, so that it does not compile.
 struct WithoutCurvature : BallRows {
   static void curvature() = delete;
 };
@@ -121,7 +122,7 @@ TEST(BallJoint, CurvatureMatchesFiniteDifferences) { curvature<BallJoint>(); }
 TEST(HingeJoint, CurvatureMatchesFiniteDifferences) { curvature<HingeJoint>(); }
 TEST(PrismaticJoint, CurvatureMatchesFiniteDifferences) { curvature<PrismaticJoint>(); }
 
-/// What a kind says the push of its rows gains as bodies move, and the couple and force it has,
+/// The stated change of a joint type's row forces as bodies move, and their couple and force,
 /// against the gradients before and after.
 template <class JointType>
 void pushes() {

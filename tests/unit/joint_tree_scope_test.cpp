@@ -1,4 +1,4 @@
-// Which scenes are trees, and that errors are measured from their exact motion.
+// Which scenes are trees, and that their errors are measured against the exact motion.
 
 #include <gtest/gtest.h>
 

@@ -108,7 +108,7 @@ TEST(JointTree, PendulumHasThePeriodOfTheEllipticIntegral) {
 
 TEST(JointTree, AgreesWithThePlanarChainOnTheSwingingBox) {
   Scene scene = scenes::swinging_box();
-  scene.effects.gyroscopic = true;  // in a plane it does nothing
+  scene.effects.gyroscopic = true;  // no effect in planar motion
   JointTree tree = tree_of(scene);
   auto chain = PlanarChain::of(scene);
   ASSERT_TRUE(chain.has_value());
@@ -146,7 +146,7 @@ TEST_P(Trees, EnergyAndVerticalAngularMomentumStayForTenSeconds) {
   }
 }
 
-// Ten times the tolerance is nowhere a better answer, and each is as good as it says.
+// Ten times the tolerance never gives a better answer, and each run is as accurate as stated.
 TEST_P(Trees, ErrorFollowsTheTolerance) {
   const JointTree start = tree_of(GetParam());
   const int body = start.bodies() - 1;
@@ -161,8 +161,8 @@ TEST_P(Trees, ErrorFollowsTheTolerance) {
   EXPECT_LT((centre_at(1e-12) - finest).norm(), 1e-11);
 }
 
-// Newton's and Euler's equations of every body, from velocities alone: what its own joint and
-// those of its children exert is what changes its momentum.
+// Newton's and Euler's equations of every body, from velocities alone: the forces of its own joint
+// and of its children's joints change its momentum.
 TEST_P(Trees, ReactionsAreWhatChangesTheMomenta) {
   const Scene& scene = GetParam();
   constexpr double kStep = 1e-4;  // [s]
@@ -197,7 +197,7 @@ TEST_P(Trees, ReactionsAreWhatChangesTheMomenta) {
   }
 }
 
-// A ball joint bears no torque, a hinge none along its axis: seen at the joint's own point.
+// A ball joint transmits no torque, a hinge none along its axis, about the joint's own point.
 TEST(JointTree, FreeDirectionsOfJointsBearNoTorque) {
   const Scene scene = branching_tree();
   JointTree tree = tree_of(scene);
@@ -213,7 +213,7 @@ TEST(JointTree, FreeDirectionsOfJointsBearNoTorque) {
   }
 }
 
-// Nothing holds it: the centre of mass falls, and the angular momentum about it stays.
+// Without support the centre of mass falls, and the angular momentum about it is conserved.
 TEST(JointTree, FreeTreeKeepsItsMomenta) {
   const Scene scene = free_tree();
   JointTree tree = tree_of(scene);
@@ -231,7 +231,7 @@ TEST(JointTree, FreeTreeKeepsItsMomenta) {
     }
     const Vec3 expected = at + t * velocity + 0.5 * t * t * scene.gravity;
     EXPECT_LT((now - expected).norm(), 1e-10) << t;
-    // About the moving centre: what is at rest there carries the rest.
+    // The angular momentum about the moving centre is the total minus the orbital part.
     const Vec3 orbital = mass * (now - at).cross(velocity + t * scene.gravity);
     const Vec3 own = tree.angular_momentum(at) - orbital;
     EXPECT_LT((own - spin).norm(), 1e-9 * spin.norm()) << t;
@@ -282,7 +282,7 @@ TEST(JointTree, StaticBodiesAreWorld) {
   EXPECT_EQ(b.velocity(joint.b), Vec6(Vec6::Zero()));
 }
 
-// Nothing beyond sqrt is used. A change of the integrator changes the numbers on purpose.
+// The code uses nothing beyond sqrt. A change of the integrator changes the numbers on purpose.
 TEST(JointTree, BitsAreTheSameWithEveryCompiler) {
   JointTree tree = tree_of(scenes::whirling_chain());
   tree.advance(1.0);
@@ -294,7 +294,7 @@ TEST(JointTree, BitsAreTheSameWithEveryCompiler) {
   EXPECT_EQ(hash.value(), 0x9fef1ba41b621348ULL);
 }
 
-// The steps that one call makes end where the caller says; the motion goes the same way.
+// The steps of one call end at the requested time; the motion is the same.
 TEST(JointTree, AttemptsAddUpToAnAdvance) {
   JointTree whole = tree_of(scenes::whirling_chain());
   JointTree sliced = whole;

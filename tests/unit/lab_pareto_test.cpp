@@ -1,4 +1,4 @@
-// Which runs no other beats, and the cheapest within an error.
+// The Pareto front of runs, and the cheapest run within an error.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// The exact motions that errors are measured from.
+// The exact motions used as references for errors.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,8 @@ TEST(Extrapolation, OscillatorOverAThousandPeriods) {
   EXPECT_NEAR(y[1], 0.0, 1e-9);
 }
 
-// The error of a step is held to the tolerance: the smaller it is, the nearer the answer.
+// The error of a step is bounded by the tolerance: a smaller tolerance gives a more accurate
+// answer.
 TEST(Extrapolation, ErrorFollowsTheTolerance) {
   const auto error = [](double tolerance) {
     Extrapolation integrator(tolerance);
@@ -45,7 +46,7 @@ TEST(Extrapolation, ErrorFollowsTheTolerance) {
   EXPECT_GT(error(1e-3), error(1e-13));
 }
 
-/// The data of a fourth-order Runge-Kutta program of its own: t, x, y, six angles, E, KE.
+/// The data of an independent fourth-order Runge-Kutta program: t, x, y, six angles, E, KE.
 std::vector<std::array<double, 11>> independent_rows() {
   std::ifstream file(SUBSTEP_SOURCE_DIR "/tests/reference/reference_swinging_box.csv");
   std::vector<std::array<double, 11>> rows;
@@ -115,7 +116,8 @@ TEST(PlanarChain, AnyLengthAndStartAngleKeepTheirEnergy) {
   }
 }
 
-// The way the world is turned must not matter: same chain, hinges along x, gravity along z.
+// The orientation of the world must not matter: the same chain with hinges along x, gravity along
+// z.
 TEST(PlanarChain, ATurnedSceneMovesTheSame) {
   const Scene straight = scenes::rope_of_n({.n = 3});
   Scene turned = straight;
@@ -176,7 +178,7 @@ TEST(ClosedForm, WhatHasNoneIsRefused) {
   EXPECT_FALSE(closed_form(tips));
 }
 
-// Both ways round: the simulation stands against the reference, and the reference against it.
+// Both directions: the simulation validates the reference, and the reference the simulation.
 TEST(Reference, EveryExactSceneConvergesToIt) {
   Settings fine;
   fine.mode = Mode::kConst;

@@ -1,4 +1,4 @@
-// Which runs a sweep is made of, and that slices give them as they are.
+// The runs of a sweep, and that slicing does not change them.
 
 #include <gtest/gtest.h>
 
@@ -67,7 +67,7 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
     EXPECT_EQ(islands, 11 + 11 + 7) << apart.name;
     EXPECT_EQ(explicit_torques, apart.effects.gyroscopic ? 18 : 0) << apart.name;
   }
-  // The same on the other main scenes; what is for joints alone is not there where contacts are.
+  // The same on the other main scenes; curves for joints alone are absent with contacts.
   for (const Scene& other : {scenes::bridge(), scenes::heavy_stack(), scenes::heavy_stack_stress(),
                              scenes::heavy_stack_stress_tall()}) {
     std::set<std::string> there;

@@ -1,4 +1,4 @@
-// The table of methods: what it says must exist.
+// The table of methods: every entry must exist.
 
 #include "core/model/methods.hpp"
 

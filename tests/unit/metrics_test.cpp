@@ -1,4 +1,4 @@
-// What is measured of a run, and what it is counted to cost.
+// Measured quantities of a run, and its counted cost.
 
 #include <gtest/gtest.h>
 

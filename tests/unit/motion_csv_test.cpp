@@ -15,7 +15,8 @@
 namespace substep::test {
 namespace {
 
-/// A box on a hinge about z, held 0.5 m beside the anchor along the axis: gravity bends the hinge.
+/// A box on a hinge about z, held with an offset of 0.5 m from the anchor along the axis: gravity
+/// bends the hinge.
 Scene cantilever() {
   Scene scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
@@ -38,7 +39,7 @@ TEST(MotionCsv, JointForceAndTorqueAreThoseOnBodyAAboutItsAnchor) {
   const JointForce on_a = simulator.constraint_forces().joints.at(0);
   EXPECT_TRUE(on_a.known);
   // Weight m g down at the centre: the hinge pushes up by m g, and its torque about the anchor is
-  // minus that of the weight, r x F = (0.5 m g, 0, 0). Rounding of a solve is all that is left.
+  // minus that of the weight, r x F = (0.5 m g, 0, 0). Only rounding of a solve remains.
   EXPECT_LT((on_a.force - Vec3(0.0, 2.0 * 9.81, 0.0)).norm(), 1e-10);
   EXPECT_LT((on_a.torque - Vec3(-0.5 * 2.0 * 9.81, 0.0, 0.0)).norm(), 1e-10);
 }

@@ -1,4 +1,4 @@
-// Rows carried along with a sub-step against the same rows made anew at its end.
+// Rows moved along with a sub-step against the same rows recomputed at its end.
 
 #include "core/constraints/moved_rows.hpp"
 
@@ -25,7 +25,7 @@ TEST(Turn, IsTheOneOfTheQuaternion) {
   }
 }
 
-/// Largest differences between rows that were moved and rows made anew.
+/// Largest differences between moved rows and recomputed rows.
 struct Difference {
   double phi = 0.0;
   double J = 0.0;
@@ -136,7 +136,7 @@ TEST(MovedRows, SomeRowsAreThoseOfAll) {
                                         : kind == 2 ? std::vector<RowRange>{{0, 2}, {2, 3}}
                                                     : std::vector<RowRange>{{0, 1}, {1, 1}, {2, 1}};
     Block some = start;
-    move_rows(start, b, a, some);  // somewhere else, before
+    move_rows(start, b, a, some);  // first move to another pose
     for (const RowRange& rows : parts) {
       move_rows(start, a, b, some, rows);
       for (int row = rows.first; row < rows.first + rows.count; ++row) {
@@ -171,7 +171,7 @@ TEST(MovedRows, OfPointsOnFacesAreThoseOfTheEnd) {
   }
 }
 
-// Halving the time makes what the second order leaves out eight times smaller, in J four times.
+// Halving the time reduces the neglected terms by a factor of eight, in J by four.
 TEST(MovedRows, OfSpheresAreOfSecondOrder) {
   Random random(34);
   for (int trial = 0; trial < 20; ++trial) {
@@ -188,7 +188,7 @@ TEST(MovedRows, OfSpheresAreOfSecondOrder) {
   }
 }
 
-// Friction counts how far the material points have slid since the start.
+// Friction measures the sliding distance of the material points since the start.
 TEST(MovedRows, OfFrictionCountTheWaySlid) {
   Random random(35);
   for (int trial = 0; trial < 20; ++trial) {

@@ -1,4 +1,4 @@
-// Solvers that look at the end of a sub-step, against the equations that they are to solve.
+// Solvers that are implicit at the end of a sub-step, against the equations that they solve.
 
 #include "core/constraints/moved_rows.hpp"
 #include "core/model/names.hpp"
@@ -10,7 +10,7 @@
 namespace substep::test {
 namespace {
 
-/// A chain of boxes on balls and hinges under a pull.
+/// A chain of boxes on ball joints and hinges under tension.
 struct Chain {
   Scene scene;
   State state;
@@ -68,7 +68,7 @@ struct Chain {
   System system() { return {blocks.all(), inverse_mass, state.u, u_before, dt, R_WB}; }
 };
 
-/// What is left of phi(q+)/dt + softness * impulse, largest row [m/s].
+/// Residual of phi(q+)/dt + softness * impulse, largest row [m/s].
 double error_at_end(Chain& chain) {
   double worst = 0.0;
   const auto move = [&](int body) {
@@ -85,7 +85,7 @@ double error_at_end(Chain& chain) {
   return worst;
 }
 
-/// What is left of u+ - u* - M^-1 J'^T impulse, largest body, relative.
+/// Residual of u+ - u* - M^-1 J'^T impulse, largest body, relative.
 double error_of_impulses(Chain& chain, const std::vector<Vec6>& u_star, Forces forces) {
   std::vector<Vec6> u = u_star;
   const auto move = [&](int body, std::span<const Vec6> velocities, double dt) {
@@ -135,8 +135,8 @@ TEST(Newton, SolvesTheImplicitSubstep) {
   }
 }
 
-// What of the Hessian does not resist, and what couples the two bodies of a hinge, is left out: ten
-// times less error a step, not twice the digits.
+// The part of the Hessian that does not resist, and the coupling of the two bodies of a hinge, are
+// omitted: the error falls by a factor of ten per step, not quadratically.
 TEST(Newton, ConvergesInAFewSteps) {
   Random random(42);
   for (int trial = 0; trial < 20; ++trial) {
@@ -159,7 +159,7 @@ TEST(Newton, OnBodiesThatDoNotTurnIsTheLinearSolve) {
   Chain chain(random, 1, 1.0);
   BallJoint ball;
   ball.a = 0;
-  ball.b = kWorld;  // at the centre: nothing turns, phi is linear
+  ball.b = kWorld;  // at the centre: no rotation, phi is linear
   ball.anchor_b = chain.state.x[0];
   chain.scene.joints = {ball};
   for (Vec6* u : {&chain.state.u[0], &chain.u_before[0]}) u->tail<3>().setZero();
@@ -178,8 +178,8 @@ TEST(Newton, OnBodiesThatDoNotTurnIsTheLinearSolve) {
   EXPECT_LT((chain.state.u[0] - linear.state.u[0]).norm(), 1e-14);
 }
 
-// The directions of XPBD's impulses are those of the poses on the way, Newton's those of the end:
-// they differ by the turn of a sub-step, and the velocities by its square.
+// The directions of XPBD's impulses are those of the intermediate poses, Newton's those of the end:
+// they differ by the rotation of a sub-step, and the velocities by its square.
 TEST(Xpbd, ConvergesToTheEndOfTheSubstepAndNearlyToNewton) {
   Random random(44);
   double whole = 0.0;

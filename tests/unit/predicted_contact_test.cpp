@@ -1,4 +1,4 @@
-// Contacts that are found once and carried along with their bodies.
+// Contacts that are detected once and moved along with their bodies.
 
 #include <set>
 
@@ -8,7 +8,7 @@
 namespace substep::test {
 namespace {
 
-/// Free flight as one sub-step of integrate() would make it, gravity first.
+/// Free flight of one sub-step as in integrate(), gravity first.
 State flown(const Scene& scene, const State& state, double time) {
   State out = state;
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -66,7 +66,7 @@ TEST(PredictedContacts, HaveEveryPairThatWillTouch) {
   EXPECT_GT(new_pairs, 100U) << "and some of them are new";
 }
 
-/// Largest difference of the row of a contact that was carried from one found anew.
+/// Largest difference between a moved contact row and a newly detected one.
 struct Difference {
   double phi = 0.0;  // [m]
   double J = 0.0;
@@ -119,7 +119,8 @@ TEST(CarriedContacts, OnPlanesAreWhereFreshOnesAre) {
   }
 }
 
-// To second order: phi with the cube of the way, n with its square, the curvature in proportion.
+// To second order: the error of phi with the cube of the distance, of n with its square, the
+// curvature in proportion.
 TEST(CarriedContacts, OfSpheresAreOfSecondOrder) {
   for (const double by : {1e-2, 1e-3}) {
     Random random(13);
@@ -142,7 +143,7 @@ TEST(CarriedContacts, TurnTheirCurvatureWithTheBody) {
   box.mass = 1.0;
   box.inertia = Vec3::Ones();
   Body ball = moving(Sphere{0.3});
-  ball.position = {0.5, 0.5, 0.1};  // off an edge
+  ball.position = {0.5, 0.5, 0.1};  // beyond an edge
   for (int trial = 0; trial < 20; ++trial) {
     EXPECT_LT(after_a_motion(ball, box, 1e-3, random).H, 0.05);
   }

@@ -1,4 +1,4 @@
-// The setting that is recommended for a scene: kept in its file, started with, and found again.
+// The recommended setting of a scene: stored in its file, used at the start, and reproducible.
 
 #include "core/model/recommended.hpp"
 
@@ -62,7 +62,7 @@ TEST(Recommended, LeavesASceneWithSettingsItsOwn) {
   EXPECT_EQ(scene->settings, Settings{.solver = SolverKind::kPgs})
       << "what they leave out is the default, not the recommended";
   EXPECT_EQ(own_settings(*scene), scene->settings);
-  // Settings that are given but are the defaults are a choice too: the paper's.
+  // Explicit settings equal to the defaults are a choice too: the paper's.
   EXPECT_EQ(scene_of(with(kSettings, R"("settings": {}, )" + kRecommended))->settings, Settings{});
 }
 
@@ -115,7 +115,7 @@ TEST(Recommended, IsNotInTheHashOfWhatTheSceneHolds) {
 TEST(Recommended, TakesTheStartOfASceneThatHasNoSettingsOfItsOwn) {
   Scene scene = with_recommended(scenes::pendulum(), some_recommended());
   EXPECT_EQ(scene.settings, some_recommended().settings);
-  // What was recommended before is no setting of its own.
+  // An earlier recommendation does not count as the scene's own settings.
   Recommended other = some_recommended();
   other.settings.n = 9;
   scene = with_recommended(std::move(scene), other);
@@ -124,7 +124,7 @@ TEST(Recommended, TakesTheStartOfASceneThatHasNoSettingsOfItsOwn) {
   EXPECT_EQ(cradle.settings, scenes::newtons_cradle().settings);
 }
 
-// Else what is recommended would change what is tried out, and with it what is recommended.
+// Otherwise a recommendation would change the sweep, and thereby the next recommendation.
 TEST(Recommended, ChangesNothingOfWhatIsTriedOut) {
   Scene plain = scenes::bridge();
   plain.verdicts = {Expectation{}};
@@ -138,7 +138,7 @@ TEST(Recommended, ChangesNothingOfWhatIsTriedOut) {
                           .detection = Detection::kFrame};
   Scene scene = with_recommended(plain, recommended);
   ASSERT_EQ(scene.settings, recommended.settings);
-  scene.settings.watch_stiffness = true;  // is only looked at
+  scene.settings.watch_stiffness = true;  // display only
   const auto runs = default_sweep(scene);
   const auto before = default_sweep(plain);
   ASSERT_EQ(runs.size(), before.size());
@@ -227,8 +227,8 @@ TEST(Recommended, IsThereForEveryShippedSceneInWhichSomethingIsSolved) {
   EXPECT_EQ(without, (std::set<std::string>{"free_fall", "spinning_top"}));
 }
 
-// The scenes of the paper are there to show it; the small and the playful ones start with what is
-// recommended, but for the two whose own setting is what they show.
+// The scenes of the paper show its settings; the small and the playground scenes start with their
+// recommendation, except for the two that demonstrate a setting of their own.
 TEST(Recommended, IsWhatTheSmallAndThePlayfulScenesStartWith) {
   std::set<std::string> own;
   for (const Scene& scene : scenes::shipped()) {

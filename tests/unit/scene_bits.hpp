@@ -1,5 +1,5 @@
 #pragma once
-// All that a scene holds as two flat lists, to compare scenes bit for bit.
+// All values of a scene as two flat lists, to compare scenes bit for bit.
 
 #include <bit>
 #include <cstdint>
@@ -87,7 +87,7 @@ class SceneBitsWriter {
   SceneBits bits_;
 };
 
-/// Settings are left out: they compare by ==.
+/// Settings are omitted: they compare by ==.
 inline SceneBits bits_of(const Scene& s) {
   SceneBitsWriter out;
   for (const std::string* word : {&s.name, &s.title, &s.group, &s.description, &s.look_for}) {

@@ -1,4 +1,4 @@
-// A scene in code of a few lines is right: what follows from the rest is filled in.
+// A scene built in a few lines of code is complete: derived values are filled in.
 
 #include "core/model/scene_builder.hpp"
 

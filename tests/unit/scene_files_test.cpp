@@ -26,7 +26,7 @@ std::string file_text(const std::string& name) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Reads a scene that has no fault.
+/// Reads a valid scene.
 Scene read_back(const std::string& text) {
   const SceneResult result = read_scene(text);
   for (const Problem& problem : result.problems) ADD_FAILURE() << to_string(problem);
@@ -151,8 +151,7 @@ TEST(NumberText, TakesNothingButFiniteDecimals) {
   }
 }
 
-/// Sum of the forces' moments about each plank's centre is what must vanish; the chain's own
-/// equation.
+/// The sum of the moments about each plank's centre vanishes: the equation of the chain.
 TEST(Bridge, HangsInEquilibrium) {
   for (const auto& start : scenes::bridge_starts()) {
     const Scene scene = scenes::bridge(start);
@@ -204,7 +203,7 @@ TEST(Bridge, BallTouchesAndRolls) {
       if (body.name.starts_with("plank")) least = std::min(least, distance_to(body, ball.position));
     }
     EXPECT_NEAR(least, 0.5, 1e-14);
-    // The lowest point along the normal stands still.
+    // The lowest point along the normal is at rest.
     const Vec3 normal{-ball.velocity.y(), ball.velocity.x(), 0.0};
     const Vec3 arm = -0.5 / start.ball_speed * normal;
     EXPECT_NEAR(ball.velocity.norm(), start.ball_speed, 1e-14);

@@ -1,4 +1,4 @@
-// Bad scene files: every problem is named with its pointer, the value and what is allowed.
+// Invalid scene files: every problem is reported with its pointer, the value and the allowed range.
 
 #include <gtest/gtest.h>
 

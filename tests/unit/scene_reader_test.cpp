@@ -1,4 +1,4 @@
-// What the reader of scene files takes, refuses and derives, beyond single faults.
+// Values that the reader of scene files accepts, rejects and derives, beyond single faults.
 
 #include <gtest/gtest.h>
 
@@ -102,7 +102,7 @@ TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
   EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
 }
 
-// With a search through all keys for each of them this takes minutes.
+// A linear search through all keys for each of them would take minutes.
 TEST(SceneReader, RefusesAnObjectOfVeryManyKeys) {
   constexpr int kKeys = 300'000;
   std::string text = R"({"format": "substep-scene")";
@@ -138,7 +138,7 @@ TEST(SceneReader, ReadsInPartsWhatItReadsAtOnce) {
             List{"/bodies/2499/mass: must be above 0 (kg), not -1"});
 }
 
-/// The good scene with a slider for its hinge.
+/// The valid scene with a slider instead of its hinge.
 std::string with_slider(const std::string& across, const std::string& anchor_b) {
   const std::size_t begin = kGood.find(R"({"name": "hinge")");
   const std::size_t end = kGood.find("},", begin);
@@ -188,7 +188,7 @@ TEST(SceneReader, TellsThatAFileCannotBeRead) {
 }
 
 TEST(SceneReader, NeverCrashesOnADamagedFile) {
-  // Every byte in turn is lost, and every byte is turned into a few that mean something in JSON.
+  // Each byte in turn is removed, and replaced with a few characters that have a meaning in JSON.
   for (std::size_t i = 0; i < kGood.size(); ++i) {
     read_scene(kGood.substr(0, i));
     std::string text = kGood;
@@ -238,7 +238,8 @@ TEST(SceneReader, InfersExternalForcesFromBodies) {
 }
 
 TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
-  // The ball 5 cm too far, and at 2 m/s; the arm turns at 3 rad/s across its hinge's axis.
+  // The ball is 5 cm too far and moves at 2 m/s; the arm rotates at 3 rad/s across its hinge's
+  // axis.
   const std::string apart =
       with(R"("position": [1, 3, 0])", R"("position": [1.05, 3, 0], "velocity": [0, 2, 0])");
   const std::string turning =

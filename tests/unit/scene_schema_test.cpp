@@ -1,4 +1,4 @@
-// The schema beside the scenes tells the same as the reader, key for key.
+// The schema of the scenes agrees with the reader, key for key.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ std::set<std::string> keys(const Json& object) {
   return result;
 }
 
-/// The keys that the reader knows where the pointer is, from what it says of an unknown one.
+/// The keys that the reader accepts at the pointer, from its message about an unknown key.
 std::set<std::string> known_to_reader(const Json& scene, const std::string& pointer) {
   const std::string key = "no such key";
   Json edited = scene;
@@ -91,14 +91,14 @@ TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
   scene.criteria.displacement = Criteria::Displacement{1, 0.1};
   scene.verdicts = {Expectation{}};
   scene.recommended.emplace();
-  scene.settings.n = 3;  // else they are the recommended ones, and left out
+  scene.settings.n = 3;  // otherwise they are the recommended ones, and omitted
   scene.carried.emplace().forces.emplace_back();
   scene.joints.emplace_back(std::get<HingeJoint>(scenes::pendulum().joints[0]));
   scene.joints.emplace_back(PrismaticJoint{});
   const Json json = Json::parse(write_scene(scene), nullptr, false);
   const std::string hinge = "/joints/" + std::to_string(scene.joints.size() - 2);
   const std::string prismatic = "/joints/" + std::to_string(scene.joints.size() - 1);
-  // Where in the scene stands what the schema describes there.
+  // The place in the scene that the schema describes.
   const std::map<std::string, std::string> places{
       {"", ""},
       {"/properties/camera", "/camera"},

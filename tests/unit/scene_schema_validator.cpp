@@ -15,7 +15,7 @@ bool has_type(const Json& value, const std::string& type) {
   return type == "integer" && value.is_number_integer();
 }
 
-/// Whether a value keeps to one keyword of its schema, the ones that go into the value aside.
+/// Whether a value satisfies one keyword of its schema, except for keywords that descend into it.
 bool keeps(const std::string& keyword, const Json& rule, const Json& value) {
   if (keyword == "type") return has_type(value, rule.get<std::string>());
   if (keyword == "const") return value == rule;

@@ -1,5 +1,5 @@
 #pragma once
-// As much of JSON Schema 2020-12 as scene.schema.json uses, to check scene files against it.
+// The subset of JSON Schema 2020-12 that scene.schema.json uses, to validate scene files.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace substep::test {
 
-/// What of a value breaks a schema, as "pointer: keyword"; empty where it conforms. A keyword that
-/// is not understood is an error as well.
+/// The violation of a schema by a value, as "pointer: keyword"; empty if it conforms. An unknown
+/// keyword is an error as well.
 std::vector<std::string> schema_errors(const Json& root, const Json& schema, const Json& value,
                                        const std::string& pointer = "");
 

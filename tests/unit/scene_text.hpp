@@ -1,5 +1,5 @@
 #pragma once
-// A small scene file to break in every way.
+// A small scene file for mutation tests.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace substep::test {
 
 using List = std::vector<std::string>;
 
-/// A small scene without a fault.
+/// A small valid scene.
 inline const std::string kGood = R"json({
   "format": "substep-scene",
   "version": 1,
@@ -39,7 +39,7 @@ inline const std::string kGood = R"json({
   ]
 })json";
 
-/// The good scene with one passage replaced.
+/// The valid scene with one passage replaced.
 inline std::string with(const std::string& passage, const std::string& replacement,
                         std::string text = kGood) {
   const std::size_t at = text.find(passage);

@@ -1,6 +1,6 @@
-// Every solver on joints and contacts of real bodies. In a sub-step so short that nothing turns,
-// the implicit ones have the same boxed problem as the linear ones; in a long one Newton's answer
-// is complementary at its end.
+// Every solver on joints and contacts of rigid bodies. In a sub-step so short that nothing rotates,
+// the implicit solvers have the same boxed problem as the linear ones; in a long one Newton's
+// solution is complementary at its end.
 
 #include "core/constraints/moved_rows.hpp"
 #include "core/model/names.hpp"
@@ -10,8 +10,8 @@
 namespace substep::test {
 namespace {
 
-/// Balls over a floor, of which some hang on each other or on the world. The distance at which they
-/// touch is given by the bias.
+/// Balls over a floor, some of them joined to each other or to the world. The bias sets the
+/// distance at which they touch.
 struct Pile {
   Scene scene;
   State state;
@@ -76,7 +76,7 @@ Settings until_done(Forces forces) {
   return settings;
 }
 
-/// Bounds of friction move with the solution; BPP refreshes them a few times a call.
+/// Bounds of friction change with the solution; BPP updates them a few times a call.
 SolveReport settle(Solver& solver, Pile& pile, Forces forces = Forces::kEnd) {
   const std::vector<Vec6> u = pile.state.u;
   SolveReport report;
@@ -105,8 +105,8 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolverOfRigidBodies,
                            return of.param.forces == Forces::kEnd ? solver : solver + "_mean";
                          });
 
-constexpr double kShort = 3e-7;   // rows turn by as much [s]
-constexpr double kTurned = 1e-4;  // what that does to velocities and impulses, at most
+constexpr double kShort = 3e-7;   // rows rotate by about this angle [s]
+constexpr double kTurned = 1e-4;  // upper bound of its effect on velocities and impulses
 
 TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {
   Random random(51);
@@ -133,7 +133,7 @@ TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {
   EXPECT_GT(sliding, 5);
 }
 
-// With so much softness there is one answer.
+// With this much softness the solution is unique.
 TEST_P(EverySolverOfRigidBodies, InAShortStepAllHaveTheSameAnswer) {
   Random random(52);
   const auto solver = make_solver(GetParam().solver);
@@ -158,7 +158,7 @@ TEST_P(EverySolverOfRigidBodies, NoBlocksLeaveTheVelocitiesAlone) {
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_EQ(u[i], pile.state.u[i]);
 }
 
-// Long steps: what opens and what carries is decided where the bodies will be.
+// Long steps: the poses at the end determine which contacts open and which carry load.
 TEST(Newton, IsComplementaryAtTheEndOfALongStep) {
   Random random(54);
   const auto newton = make_solver(SolverKind::kNewton);

@@ -1,5 +1,5 @@
-// What the sources of the two linear solvers claim of them, on a row of balls that press on each
-// other: Erleben 2013 of projected Gauss-Seidel, Judice and Pires 1994 of block principal pivoting.
+// Claims about the two linear solvers by their sources, on a row of balls that press on each other:
+// Erleben 2013 for projected Gauss-Seidel, Judice and Pires 1994 for block principal pivoting.
 
 #include <cmath>
 
@@ -9,9 +9,8 @@
 namespace substep::test {
 namespace {
 
-/// Unit masses on a line, each with one row to the one before, the first to the world: a contact,
-/// or a link that pulls as well. Balls fly at random, so that about half of the contacts end
-/// closed.
+/// Unit masses on a line, each with one row to the previous one, the first to the world: a contact,
+/// or a link that also pulls. Velocities are random, so that about half of the contacts end closed.
 struct RowOfBalls {
   std::vector<Block> blocks;
   std::vector<InverseMass> inverse_mass;
@@ -43,7 +42,7 @@ struct RowOfBalls {
   System system() { return {blocks, inverse_mass, u}; }
 };
 
-/// How far PGS still is from the answer after so many sweeps, over all bodies [m/s].
+/// Distance of PGS from the solution after a number of sweeps, over all bodies [m/s].
 double error_after(int sweeps, BlockKind kind) {
   Random random(61);
   RowOfBalls row(random, 12, kind);
@@ -58,8 +57,8 @@ double error_after(int sweeps, BlockKind kind) {
   return std::sqrt(sum);
 }
 
-// Convergence is linear: what is left falls by the same factor with as many sweeps, also once the
-// closed contacts are known.
+// Convergence is linear: equal numbers of sweeps reduce the residual by the same factor, also once
+// the closed contacts are known.
 TEST(PgsClaims, ConvergesLinearly) {
   for (const BlockKind kind : {kind_of<BallJoint>(), BlockKind::kContact}) {
     const double e[] = {error_after(100, kind), error_after(150, kind), error_after(200, kind)};
@@ -68,7 +67,7 @@ TEST(PgsClaims, ConvergesLinearly) {
   }
 }
 
-/// Systems that a cold BPP factors until it is done, mean of 40 rows of balls.
+/// Number of systems that a cold-started BPP factors, mean of 40 rows of balls.
 double factorisations(int balls) {
   double sum = 0.0;
   constexpr int kRows = 40;
@@ -84,8 +83,8 @@ double factorisations(int balls) {
   return sum / kRows;
 }
 
-// Whole blocks of rows change sides at once, so their number hardly grows with the problem: 2.9 for
-// ten rows, 4.7 for a hundred, 5.5 for 500, where one row at a time would take hundreds.
+// Whole blocks of rows change sets at once, so the number of systems hardly grows with the problem:
+// 2.9 for ten rows, 4.7 for a hundred, 5.5 for 500; one row at a time would take hundreds.
 TEST(BppClaims, TakesFewPivotsWhateverTheSize) {
   const double ten = factorisations(10);
   const double many = factorisations(500);

@@ -29,7 +29,7 @@ struct ProblemSize {
   double softness = 0.01;  // rows have up to twenty times as much [1/kg]
 };
 
-/// A joint of rigid bodies, at random arms and axes. What its arms tell is not there to be read.
+/// A joint of rigid bodies, at random arms and axes. Data that follows from the arms is poisoned.
 void pin(Random& random, Block& block) {
   for (int row = 0; row < kMaxRows; ++row) {
     for (int j = 0; j < 6; ++j) {
@@ -137,8 +137,8 @@ Dense dense(const Problem& problem) {
   return out;
 }
 
-/// Every solution of the boxed problem, found by trying all active sets. With friction a active row
-/// is the equation x_t = +-mu x_n.
+/// Every solution of the boxed problem, found by enumerating all active sets. With friction, an
+/// active row is the equation x_t = +-mu x_n.
 std::vector<Eigen::VectorXd> enumerate(const Problem& problem) {
   const Dense d = dense(problem);
   const auto n = d.q.size();
@@ -175,7 +175,7 @@ std::vector<Eigen::VectorXd> enumerate(const Problem& problem) {
       const double hi =
           row.row == 0 ? kUnbounded : problem.blocks[row.block].mu * std::max(0.0, x[i - row.row]);
       const double lo = row.row == 0 ? 0.0 : -hi;
-      if (row.row == 0 && state > 0) valid = false;  // no upper bound to sit at
+      if (row.row == 0 && state > 0) valid = false;  // there is no upper bound
       if (state == 0 && (x[i] < lo - kSlack || x[i] > hi + kSlack)) valid = false;
       if (hi > lo && state < 0 && w[i] < -kSlack) valid = false;
       if (hi > lo && state > 0 && w[i] > kSlack) valid = false;
@@ -229,8 +229,8 @@ TEST_P(EverySolver, MatchesAnEnumeratedSolutionWithFriction) {
   for (int trial = 0; trial < kTrials; ++trial) {
     Problem problem = random_problem(random, {3, trial % 3, 1 + trial % 2, 0.4});
     const auto solutions = enumerate(problem);
-    // The bounds move with the solution: BPP refreshes them four times a call, so it is called
-    // until they have settled, as it is from one sub-step to the next.
+    // The bounds change with the solution: BPP updates them four times a call, so it is called
+    // until they have settled, as over successive sub-steps.
     const std::vector<Vec6> u = problem.u;
     double residual = kUnbounded;
     for (int call = 0; call < 20 && residual > 1e-10; ++call) {
@@ -238,7 +238,7 @@ TEST_P(EverySolver, MatchesAnEnumeratedSolutionWithFriction) {
       solver->solve(problem.system(), settings_for(GetParam()));
       residual = lcp_residual(problem.system());
     }
-    if (residual > 1e-7) continue;  // box friction need not have a solution, nor only one
+    if (residual > 1e-7) continue;  // box friction may have no solution or several
     ++settled;
     double nearest = kUnbounded;
     for (const auto& x : solutions) nearest = std::min(nearest, (impulses(problem) - x).norm());
@@ -258,7 +258,7 @@ TEST_P(EverySolver, JointsAloneAreALinearSystem) {
   }
 }
 
-/// A tree of joints, so that no row is redundant, and loops of one more row each.
+/// A tree of joints, so that no row is redundant, and loops with one more row each.
 Problem random_tree(Random& random, int bodies, int loops, double softness) {
   Problem problem = random_problem(random, {bodies, bodies, loops, 0.0, softness});
   for (int i = 0; i < bodies; ++i) {
@@ -275,7 +275,7 @@ Problem random_tree(Random& random, int bodies, int loops, double softness) {
   return problem;
 }
 
-/// What a solution leaves of J u + s x + bias and of u - u* - Mt^-1 J^T x, relative to x.
+/// Residuals of J u + s x + bias and of u - u* - Mt^-1 J^T x, relative to x.
 double error_of_linear_solve(Problem problem) {
   const Dense d = dense(problem);
   std::vector<Vec6> u = problem.u;
@@ -290,7 +290,7 @@ double error_of_linear_solve(Problem problem) {
 }
 
 // Exact joints and stiff springs: a small softness costs no more digits than the eight that folded
-// springs and pivots of redundant rows may.
+// springs and pivots of redundant rows may lose.
 TEST(Bpp, IsExactForAnySoftness) {
   Random random(21);
   for (const double softness : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-12, 0.0}) {
@@ -305,7 +305,7 @@ TEST(Bpp, IsExactForAnySoftness) {
   }
 }
 
-/// Largest difference of velocities from those without a regularisation, after so many refinements.
+/// Largest difference from the velocities without a regularisation, after a number of refinements.
 double left_of_regularisation(const Problem& problem, double regularisation, int refinements) {
   Problem plain = problem;
   Bpp().solve(plain.system(), Settings{});
@@ -332,14 +332,14 @@ TEST(Bpp, RefinementsTakeTheRegularisationBack) {
     for (int trial = 0; trial < 50; ++trial) {
       const Problem problem = random_problem(random, size);
       const double none = left_of_regularisation(problem, 0.3, 0);
-      if (none == 0.0) continue;  // nothing that carries a force
+      if (none == 0.0) continue;  // carries no force
       EXPECT_LT(left_of_regularisation(problem, 0.3, 5), 0.7 * none);
       EXPECT_LT(left_of_regularisation(problem, 0.3, 1000), 1e-8);
     }
   }
 }
 
-// The last forces are where it starts from: at rest one solve is enough.
+// It starts from the last forces: at rest one solve is enough.
 TEST(Bpp, RefinementsStartFromTheLastForces) {
   Random random(24);
   for (int trial = 0; trial < 50; ++trial) {
@@ -444,14 +444,14 @@ TEST(Solvers, AgreeWithEachOtherOnLargerProblems) {
   }
 }
 
-// Where the active set starts from must not change what comes out, to the last bit.
+// The initial active set must not change the result, to the last bit.
 TEST(Bpp, ForgetsWhereItStarted) {
   Random random(18);
   Bpp solver;
   for (int trial = 0; trial < 300; ++trial) {
     const Problem problem = random_problem(random, {4, 2, 6, 0.0});
     std::optional<Eigen::VectorXd> first;
-    // 1 is none that a normal can have: as good as unknown.
+    // 1 is not a valid state of a normal row and is treated as unknown.
     for (const std::int8_t start : {kUnknownSet, std::int8_t{0}, std::int8_t{-1}, std::int8_t{1}}) {
       Problem copy = problem;
       for (Block& block : copy.blocks) {
@@ -464,7 +464,7 @@ TEST(Bpp, ForgetsWhereItStarted) {
   }
 }
 
-// Room for more may be asked for at any time.
+// reserve() may be called with a larger size at any time.
 TEST(Bpp, GoesOnAfterRoomIsMade) {
   Random random(22);
   Bpp solver;
@@ -495,7 +495,7 @@ TEST(Bpp, OneRowAtATimeAlsoArrives) {
 TEST(Bpp, EveryRowTightIsAnAnswer) {
   Random random(20);
   Problem problem = random_problem(random, {3, 0, 3, 0.5});
-  for (Block& block : problem.blocks) block.bias[0] = 100.0;  // all fly apart
+  for (Block& block : problem.blocks) block.bias[0] = 100.0;  // all separate
   const std::vector<Vec6> u = problem.u;
   Bpp solver;
   solver.solve(problem.system(), settings_for(SolverKind::kBpp));

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60.0;
 
-/// Sub-steps of one frame, with the same r after each. @param sum out, of their lengths [s]
+/// Sub-steps of one frame, with the same r after each. @param sum out, total of their lengths [s]
 int deal(const Settings& settings, double r, double* sum = nullptr) {
   SubstepClock clock(settings, kFrame, r);
   int n = 0;
@@ -95,17 +95,17 @@ TEST(SubstepClock, PerSubstepTheMemoryFades) {
   EXPECT_DOUBLE_EQ(clock.r(), 8e5);
 }
 
-/// One body that K holds back, as effective_mass() is given it.
+/// One body with a stiffness, as input of effective_mass().
 struct StiffBody {
   StiffBody(const Settings& chosen, const Vec3& k_angular) : settings(chosen) {
     scene.bodies = {moving(Box{Vec3{0.3, 0.2, 0.5}}, 2.0)};
     scene.bodies[0].orientation = Quat(0.5, 0.5, 0.5, 0.5);
     state = initial_state(scene);
     Vec6 k;
-    k << 1e9, 1e9, 1e9, k_angular;  // what holds the body's place is the solver's
+    k << 1e9, 1e9, 1e9, k_angular;  // the translational part is left to the solver
     state.k = {k};
     R = rotations(state);
-    // A torque against the angle, about the principal axes.
+    // A restoring torque about the principal axes.
     const Mat3 K = -R[0] * k_angular.asDiagonal() * R[0].transpose();
     if (settings.mode == Mode::kStiffness) state.K_resisting = {resisting(K)};
   }
@@ -124,7 +124,7 @@ TEST(Damping, IsEq6OnTheAngularDegreesOfFreedomOnly) {
   const double dt = 0.01;
   StiffBody body(settings, {1e5, 2e5, 0.0});  // the last is below the threshold
   body.state.u[0] << 1.0, 2.0, 3.0, 4.0, 5.0, 6.0;
-  const std::vector<Vec6> before{Vec6::Constant(7.0)};  // damping keeps nothing of it
+  const std::vector<Vec6> before{Vec6::Constant(7.0)};  // damping does not keep it
   const Vec3 omega_B = body.R[0].transpose() * Vec3(4.0, 5.0, 6.0);
   effective_mass(body.scene, whole(body.scene), settings, inertia_inverses(body.scene), body.R,
                  before, dt, body.state, body.inverse);
@@ -141,8 +141,8 @@ TEST(Damping, IsEq6OnTheAngularDegreesOfFreedomOnly) {
   }
 }
 
-/// An oscillator of one body about a principal axis: torque -growth k angle, while the mode knows
-/// only of k. @return largest |angle| of the last tenth of the steps over that of the first
+/// An oscillator of one body about a principal axis: torque -growth k angle, while the mode uses k.
+/// @return the ratio of the largest |angle| in the last tenth of the steps to that in the first
 double growth_of_swing(const Settings& settings, double kappa, double growth) {
   constexpr double kDt = 0.01;
   constexpr int kSteps = 4000;
@@ -172,7 +172,7 @@ double growth_of_swing(const Settings& settings, double kappa, double growth) {
   return last / first;
 }
 
-/// By how much the force may grow past the k that a mode knows before the swing grows.
+/// The factor by which the force may exceed the mode's k before the swing grows.
 double largest_growth(const Settings& settings, double kappa) {
   double holds = 0.0;
   double fails = 1e4;
@@ -183,7 +183,8 @@ double largest_growth(const Settings& settings, double kappa) {
   return holds;
 }
 
-// Eq. 5's model and the arguments of damping.hpp and geometric_inertia.hpp: predicted and measured.
+// The model of Eq. 5 and the derivations in damping.hpp and geometric_inertia.hpp: predicted and
+// measured limits.
 TEST(Oscillator, EveryModeIsStableJustAsFarAsItsArgumentSays) {
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     for (const double kappa : {0.5, 5.0, 300.0}) {  // dt^2 k/M; without a mode 4 is the limit
@@ -210,8 +211,8 @@ TEST(Oscillator, EveryModeIsStableJustAsFarAsItsArgumentSays) {
   }
 }
 
-// Eqs. 10 and 11: the step that the clock takes leaves room for a force 1/alpha times as large,
-// none at alpha 1. Past its cap the damped mass stands for what is left.
+// Eqs. 10 and 11: the clock's step leaves a margin for a force 1/alpha times as large, none at
+// alpha 1. Beyond its cap the damped mass covers the rest.
 TEST(Oscillator, TheClocksStepLeavesTheRoomThatAlphaSays) {
   constexpr double kRate = 1e8;  // r = k/M [1/s^2], of hundreds of sub-steps
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
@@ -245,7 +246,7 @@ TEST(FullStiffness, KeepsWhatResistsARotation) {
     for (int i = 0; i < 9; ++i) K(i % 3, i / 3) = uniform(random);
     const Mat3 P = resisting(K);
     EXPECT_LT((P - P.transpose()).norm(), 1e-14);
-    // P >= 0, P + K_sym >= 0, and nothing more than is needed: P (P + K_sym) = 0.
+    // P >= 0, P + K_sym >= 0, and P is minimal: P (P + K_sym) = 0.
     const Mat3 S = 0.5 * (K + K.transpose());
     for (int probe = 0; probe < 20; ++probe) {
       const Vec3 x = random_vector(random);

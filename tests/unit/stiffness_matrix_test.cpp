@@ -6,7 +6,7 @@
 namespace substep::test {
 namespace {
 
-// Blocks of a joint are angular, those of an exact contact are not; one pair has both.
+// Blocks of a joint are angular, those of an exact contact are full; one pair has both.
 TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
   Random random(10);
   const std::vector<Mat3> R{random_rotation(random).toRotationMatrix(),
@@ -46,7 +46,7 @@ TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
   }
 }
 
-// What Newton takes of K, without the rest.
+// The part of K that Newton uses.
 TEST(TurningStiffness, IsTheDiagonalOfTheWhole) {
   Random random(11);
   for (int trial = 0; trial < 60; ++trial) {

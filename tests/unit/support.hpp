@@ -54,7 +54,7 @@ inline BallJoint ball_of(const HingeJoint& hinge) {
 inline Scene pair_of(const Body& a, const Body& b) {
   Scene scene;
   scene.effects.contact = true;
-  scene.contact.margin = 1.0;  // the formulas do not care how far the surfaces are apart
+  scene.contact.margin = 1.0;  // the formulas do not depend on the gap of the surfaces
   scene.bodies = {a, b};
   return scene;
 }
@@ -72,7 +72,7 @@ inline std::vector<InverseMass> inverse_masses(const Scene& scene, const State& 
   return out;
 }
 
-/// Moves one degree of freedom of a body: 0..2 along, 3..5 about the world axes.
+/// Moves one degree of freedom of a body: 0..2 translation, 3..5 rotation about the world axes.
 inline State moved(const State& state, int body, int dof, double by) {
   State out = state;
   const auto i = static_cast<std::size_t>(body);
@@ -86,7 +86,7 @@ inline State moved(const State& state, int body, int dof, double by) {
   return out;
 }
 
-/// Rows of a scene at a state.
+/// Rows of a scene in a given state.
 using Rows = std::function<void(const State&, Blocks&)>;
 
 inline Rows joint_rows(const Scene& scene) {
@@ -103,7 +103,7 @@ inline Rows contact_rows(const Scene& scene) {
   };
 }
 
-/// Forces on a body: J^T lambda, linear then torque about its centre.
+/// Forces on a body: J^T lambda, force then torque about its centre.
 inline Vec6 force_on(const Blocks& blocks, int body) {
   Vec6 force = Vec6::Zero();
   for (const Block& block : blocks.all()) {
@@ -156,7 +156,7 @@ inline void expect_gradient(const Scene& scene, const State& state, const Rows& 
   }
 }
 
-/// K against central differences of J^T lambda with lambda held.
+/// K against central differences of J^T lambda at constant lambda.
 inline void expect_stiffness(const Scene& scene, const State& state, const Rows& rows,
                              Random& random) {
   Blocks at;

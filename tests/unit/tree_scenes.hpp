@@ -1,6 +1,6 @@
 #pragma once
-// Trees of hinges and ball joints to try the exact motion on, with velocities that their joints
-// allow.
+// Trees of hinges and ball joints to test the exact motion, with velocities consistent with their
+// joints.
 
 #include <gtest/gtest.h>
 
@@ -17,14 +17,14 @@
 
 namespace substep::test {
 
-/// The trees of a scene that has them.
+/// The trees of a scene, which must have some.
 inline JointTree tree_of(const Scene& scene) {
   auto tree = JointTree::of(scene);
   EXPECT_TRUE(tree.has_value()) << scene.name;
   return tree ? *tree : *JointTree::of(scenes::heavy_top());
 }
 
-/// Adds bodies to a scene one by one, each on a joint of one that is there.
+/// Adds bodies to a scene one by one, each on a joint to an existing one.
 class TreeMaker {
  public:
   explicit TreeMaker(std::string name) {
@@ -94,7 +94,7 @@ inline Quat some_rotation(double angle, double x, double y, double z) {
   return Quat(Eigen::AngleAxisd(angle, Vec3(x, y, z).normalized()));
 }
 
-/// Six boxes on ball joints, let go out of a plane.
+/// Six boxes on ball joints, released at rest from a non-planar pose.
 inline Scene six_boxes() {
   TreeMaker maker("six_boxes");
   int last = kWorld;
@@ -109,7 +109,7 @@ inline Scene six_boxes() {
   return maker.scene();
 }
 
-/// Seven bodies on four ball joints and three hinges, with two forks, all of them moving.
+/// Seven bodies on four ball joints and three hinges, with two branches, all of them moving.
 inline Scene branching_tree() {
   TreeMaker maker("branching_tree");
   const int trunk = maker.add({0.8, 0.3, 0.2}, 4.0,
@@ -160,7 +160,7 @@ inline Scene branching_tree() {
 }
 constexpr int branching_degrees() { return 4 * 3 + 3; }
 
-/// The branching tree, let go of.
+/// The branching tree, detached from the world.
 inline Scene free_tree() {
   Scene scene = branching_tree();
   scene.name = "free_tree";
@@ -181,8 +181,8 @@ inline std::tuple<double, Vec3, Vec3> centre_of_mass(const Scene& scene) {
   return {mass, at / mass, velocity / mass};
 }
 
-/// The same scene with its bodies and joints in another order, and every second joint the other way
-/// round. @param place of each body of the scene in the other
+/// The same scene with its bodies and joints in another order, and every second joint reversed.
+/// @param place index in the new scene of each body
 inline Scene shuffled(const Scene& scene, unsigned seed, std::vector<int>& place) {
   std::mt19937 random(seed);
   std::vector<int> from(scene.bodies.size());

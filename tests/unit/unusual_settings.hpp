@@ -4,7 +4,7 @@
 
 namespace substep::test {
 
-/// Settings none of which stands at its default.
+/// Settings that all differ from their defaults.
 inline Settings unusual() {
   Settings s;
   s.solver = SolverKind::kPgs;

@@ -1,4 +1,4 @@
-// What is handed over in code is checked before it is read, in the words of the scene reader.
+// Input from code is validated before use, with the messages of the scene reader.
 
 #include "core/model/validate.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// A crate on a floor, and a chain of two balls that hangs in the world.
+/// A crate on a floor, and a chain of two balls that hangs from the world.
 Scene sound_scene() {
   Scene scene;
   scene.name = "sound";
@@ -61,7 +61,7 @@ struct Break {
 
 HingeJoint& link_of(Scene& scene) { return std::get<HingeJoint>(scene.joints[1]); }
 
-/// One broken value each, that a file can have too.
+/// One invalid value each, which a file can have too.
 std::vector<Break> breaks_of_files() {
   return {
       {"/bodies/1/mass", [](Scene& s) { s.bodies[1].mass = 0.0; }},
@@ -128,7 +128,7 @@ TEST(Validate, SaysWhatTheReaderSaysOfTheSameScene) {
   }
 }
 
-/// One broken value each, that only code can have.
+/// One invalid value each, which only code can have.
 std::vector<Break> breaks_of_code() {
   return {
       {"/joints/1/b", [](Scene& s) { link_of(s).b = -5; }},

@@ -1,4 +1,4 @@
-// What the rules of a verdict table select, and what counts as expected.
+// The runs selected by the rules of a verdict table, and the results that count as expected.
 
 #include "core/lab/verdict_table.hpp"
 
@@ -13,7 +13,7 @@
 namespace substep {
 namespace {
 
-/// The verdict that the table expects of a run, by the run's name.
+/// The verdict that the table expects for a run, by the run's name.
 std::optional<Expected> expected(const Scene& scene, const std::string& name) {
   for (const VerdictCell& cell : verdict_table(scene)) {
     if (cell_name(cell.settings) == name) return cell.expected.verdict;
@@ -40,7 +40,7 @@ TEST(VerdictTable, ALaterRuleOverridesAnEarlierOne) {
                      .integrator = Integrator::kLeapfrog,
                      .verdict = Expected::kDepends,
                      .why = "Chance."}};
-  // Const 7 is PGS's alone. Newton and XPBD: one sub-step, const 4 and 16.
+  // Const 7 is for PGS only. Newton and XPBD: one sub-step, const 4 and 16.
   EXPECT_EQ(verdict_table(scene).size(), 2U * (9U + 10U) + 2U * 3U);
   EXPECT_EQ(expected(scene, "bpp none euler"), Expected::kHolds);
   EXPECT_EQ(expected(scene, "pgs const 7 euler"), Expected::kFails);
@@ -60,7 +60,7 @@ TEST(VerdictTable, WhatNoRuleSelectsIsNotInIt) {
   EXPECT_EQ(expected(scene, "pgs adaptive euler"), std::nullopt);
 }
 
-/// Runs the pendulum for as long as it is asked, with a criterion that it must fail by `limit`.
+/// Judges a run of the pendulum with `limit` as the bound on its displacement [m].
 Judgement judged(const Expectation& expectation, double limit) {
   Scene scene = scenes::pendulum();
   scene.criteria.duration = 1.0;
@@ -76,7 +76,7 @@ TEST(VerdictTable, ARunMustFailInTimeAndForNoLongerThanTold) {
   const Expectation fails{.verdict = Expected::kFails};
   Expectation at_once = fails;
   at_once.before = 0.1;
-  // The rod's centre swings 0.6 m to and fro.
+  // The rod's centre swings by 0.6 m.
   EXPECT_TRUE(judged(holds, 10.0).as_expected);
   EXPECT_GT(judged(holds, 10.0).margin, 0.9);
   EXPECT_FALSE(judged(fails, 10.0).as_expected);
@@ -101,8 +101,8 @@ TEST(VerdictTable, EveryShippedSceneHasOneAndAlmostNothingDepends) {
       ++depends;
       EXPECT_FALSE(cell.expected.why.empty()) << scene.name;
     }
-    // The settings it starts with are one of the cells, unless they are those recommended for it,
-    // or have islands.
+    // The scene's own start settings are one of the cells, unless they are its recommendation or
+    // have islands.
     if (scene.settings != own_settings(scene) || scene.settings.islands) {
       EXPECT_TRUE(scene.criteria.holds) << scene.name;
       continue;

@@ -1,4 +1,4 @@
-// For people who see, point or move otherwise: node tests/web/access_test.mjs [BUILT PAGE]
+// Accessibility: node tests/web/access_test.mjs [BUILT PAGE]
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -15,7 +15,7 @@ after(() => session?.close());
 const focused = (page) => page.evaluate(() =>
   document.activeElement.name || document.activeElement.className || document.activeElement.tagName);
 
-/** Axe's serious and critical findings in a page as it is now, as text. */
+/** Axe's serious and critical findings in the current page, as text. */
 async function findings(page) {
   const { violations } = await page.evaluate(() => window.axe.run());
   return violations.filter((v) => ["serious", "critical"].includes(v.impact))
@@ -29,7 +29,7 @@ for (const light of [false, true]) {
       await page.waitForFunction(() => window.substep ?? window.laboratories, null, { timeout: 60000 });
       await page.evaluate(axe);
       assert.deepEqual(await findings(page), []);
-      await page.locator("select").first().focus(); // the controls come into sight
+      await page.locator("select").first().focus(); // shows the controls
       assert.deepEqual(await findings(page), []);
       quiet(page);
       await page.context().close();
@@ -37,7 +37,7 @@ for (const light of [false, true]) {
   }
 }
 
-// What a person may have before them: the HTML tells more in some, and covers the canvas in others.
+// States of the page: in some the HTML has more content, in others it covers the canvas.
 const states = {
   "a run": (page) => call(page, "set", { mode: "adaptive" }),
   "a failure": async (page) => {
@@ -54,7 +54,7 @@ const states = {
   "a lost context": (page) => page.evaluate(() => document.querySelector(".substep-view")
     .getContext("webgl2").getExtension("WEBGL_lose_context").loseContext()),
 };
-// At once: they mostly wait for what is drawn to be told in HTML.
+// Concurrently: they mostly wait until the HTML follows the canvas.
 describe("axe finds nothing serious in any state", { concurrency: true }, () => {
   for (const [width, height] of [[1280, 720], [390, 844]]) {
     for (const light of [false, true]) {
@@ -64,7 +64,7 @@ describe("axe finds nothing serious in any state", { concurrency: true }, () => 
         await page.evaluate(axe);
         for (const [state, reach] of Object.entries(states)) {
           await reach(page);
-          await page.waitForTimeout(1100); // the twin has followed
+          await page.waitForTimeout(1100); // until the HTML twin is updated
           assert.deepEqual(await findings(page), [], state);
         }
         await page.context().close();
@@ -173,7 +173,7 @@ test("who asked for less motion gets it", async () => {
   const page = await openPage(session, { calm: true });
   await call(page, "pause");
   await page.waitForTimeout(1700);
-  await page.keyboard.press("f"); // without a flight of the camera: there with the next picture
+  await page.keyboard.press("f"); // the camera is not animated: it is in place in the next picture
   await drawn(page);
   const there = await picture(page, { x: 300, y: 100, width: 600, height: 500 });
   await page.waitForTimeout(1000);

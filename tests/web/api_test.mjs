@@ -98,7 +98,7 @@ test("the run goes on from its past, bit for bit", async () => {
   const past = await call(page, "goTo", 20 / 60);
   assert.deepEqual([past.frame, await call(page, "hash")], [20, middle]);
   assert.ok(past.latest > past.time);
-  await call(page, "set", { alpha: 0.1 }); // as it was: the future is computed anew
+  await call(page, "set", { alpha: 0.1 }); // unchanged: later frames are recomputed
   await call(page, "step", 20);
   assert.equal(await call(page, "hash"), end);
   const begun = await call(page, "substep");
@@ -153,7 +153,7 @@ test("an article holds two, which do not disturb each other", async () => {
   assert.equal((await report("none")).mode, "none");
   assert.equal((await report("adaptive")).mode, "adaptive");
   assert.ok(!article.url().includes("#"), "the address is the article's");
-  // The second is below the window: it waits until it is seen.
+  // The second is below the viewport: it does not run until it is visible.
   assert.equal((await report("adaptive")).time, 0);
   await article.evaluate(() => document.querySelector("#adaptive").scrollIntoView());
   await article.waitForFunction(() => window.laboratories.adaptive.report().time > 0.2, null,
@@ -175,7 +175,7 @@ test("an article holds two, which do not disturb each other", async () => {
     assert.ok(variance(await picture(article, box)) > 20, id);
     await save(article, `article-${id}`);
   }
-  // The page scrolls over a laboratory until it was clicked.
+  // The wheel scrolls the page until the laboratory is clicked.
   await article.evaluate(() => window.scrollTo(0, 0));
   const box = await article.locator("#none").boundingBox();
   await article.mouse.move(box.x + 200, box.y + 200);

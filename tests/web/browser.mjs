@@ -1,5 +1,5 @@
-// What the browser tests and the screenshots share: a server, a browser, a page that must not
-// complain, and its pictures.
+// Shared by the browser tests and the screenshots: a server, a browser, a page that must not log
+// warnings, and its pictures.
 import assert from "node:assert/strict";
 import { existsSync } from "node:fs";
 import { cp, mkdir, mkdtemp, rm, writeFile } from "node:fs/promises";
@@ -12,7 +12,7 @@ import { serve } from "../../web/serve.mjs";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 
-/** The folder of the built page: the first argument, SUBSTEP_WEB_DIST, or where ./dev builds it. */
+/** The folder of the built page: the first argument, SUBSTEP_WEB_DIST, or the build folder of ./dev. */
 export function distFolder() {
   const folder = resolve(process.argv[2] ?? process.env.SUBSTEP_WEB_DIST ?? join(root, "build/web/dist"));
   if (!existsSync(join(folder, "engine.wasm"))) {
@@ -32,14 +32,14 @@ export function chromiumPath() {
   return found;
 }
 
-/** Flags of a browser that draws in software and asks nobody for anything. */
+/** Flags of a browser that renders in software and makes no network requests. */
 export const renderer = ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync"];
 
 /**
  * A browser with a software renderer, and a server of a copy of the page below a sub-path.
- * @param options {flags}: more flags of the browser
+ * @param options {flags}: additional browser flags
  * @returns {browser, server, folder, address, close}; folder is the copy, which a test may change
  */
 export async function open({ flags = [] } = {}) {
@@ -65,21 +65,21 @@ export async function open({ flags = [] } = {}) {
   };
 }
 
-/** What the page remembers of a visit in which the first screen was left for the Lab. */
+/** The state that the page stores after a visit that went from the first screen to the Lab. */
 function leftFirstScreen() {
   try {
     localStorage.setItem("substep.introduction", "seen");
     if (localStorage.getItem("substep.arrangement") === null) {
       localStorage.setItem("substep.arrangement", "level=lab");
     }
-  } catch { /* about:blank keeps nothing */ }
+  } catch { /* about:blank has no storage */ }
 }
 
 /**
  * A page with the application running in it.
  * @param options {width, height, ratio, fragment, light, touch, calm, context, path, before, first};
- *   before is a script that runs ahead of the page's own, and then nothing is waited for; first is a
- *   first visit: otherwise the person has left the first screen for the Lab at an earlier one
+ *   before is a script that runs ahead of the page's own, and disables waiting; first simulates a
+ *   first visit: otherwise an earlier visit went from the first screen to the Lab
  * @returns the page; page.complaints lists what it logged as warning or error
  */
 export async function openPage(session, options = {}) {
@@ -94,7 +94,7 @@ export async function openPage(session, options = {}) {
   const page = await context.newPage();
   page.complaints = [];
   page.on("console", (message) => {
-    // SwiftShader talks about its own speed, and Playwright about what it was told to block.
+    // SwiftShader logs its own speed, and Playwright the requests that it blocks.
     const theirs = /GPU stall|GL Driver|blocked by Playwright/.test(message.text());
     if (["warning", "error"].includes(message.type()) && !theirs) {
       page.complaints.push(`${message.type()}: ${message.text()}`);
@@ -117,14 +117,14 @@ export async function openPage(session, options = {}) {
 export const call = (page, name, ...args) =>
   page.evaluate(([n, a]) => window.substep[n](...a), [name, args]);
 
-/** Nothing was logged as a warning or an error. */
+/** Asserts that no warning or error was logged. */
 export const quiet = (page) => assert.deepEqual(page.complaints, []);
 
-/** Waits until a part of the report has a value. */
+/** Waits until a field of the report has a value. */
 export const reports = (page, name, value) => page.waitForFunction(
   ([n, v]) => window.substep.report()[n] === v, [name, value], { timeout: 20000 });
 
-/** A file in a hand over the page. @param bytes a text or an array of bytes */
+/** A file dragged over the page. @param bytes a text or an array of bytes */
 export const pickUp = (page, name, bytes) => page.evaluateHandle(([n, b]) => {
   const data = new DataTransfer();
   data.items.add(new File([typeof b === "string" ? b : new Uint8Array(b)], n));
@@ -134,7 +134,7 @@ export const pickUp = (page, name, bytes) => page.evaluateHandle(([n, b]) => {
 /** Drops a file on the laboratory. @param bytes a text or an array of bytes */
 export const drop = async (page, name, bytes) => dropPicked(page, await pickUp(page, name, bytes));
 
-/** @param transfer what pickUp() gave */
+/** @param transfer the result of pickUp() */
 export async function dropPicked(page, transfer) {
   await page.dispatchEvent(".substep-view", "drop", { dataTransfer: transfer });
   await page.waitForTimeout(200);
@@ -142,9 +142,9 @@ export async function dropPicked(page, transfer) {
 }
 
 /**
- * Where a control is, in CSS pixels of a canvas that fills the page.
- * @param label what is written on it, or the name of a body
- * @param group of a row of choices: "tabs", "Method"; "body" for a body
+ * The position of a control, in CSS pixels of a canvas that fills the page.
+ * @param label its text, or the name of a body
+ * @param group the row of choices: "tabs", "Method"; "body" for a body
  */
 export async function find(page, label, group) {
   const all = await call(page, "widgets");
@@ -156,7 +156,7 @@ export async function find(page, label, group) {
 /** A place on a control. @param along 0 at its left end to 1 at its right one */
 export const place = ({ x, y, width, height }, along = 0.5) => [x + along * width, y + height / 2];
 
-/** Clicks a control by what is written on it, and waits for what it does. */
+/** Clicks a control by its text, and waits for the effect. */
 export async function click(page, label, group) {
   await page.mouse.click(...place(await find(page, label, group)));
   await drawn(page);
@@ -168,13 +168,13 @@ export async function openMenu(page) {
   await drawn(page); // it fades in
 }
 
-/** Picks an entry of that menu: "Copy link", ... */
+/** Clicks an entry of that menu: "Copy link", ... */
 export async function pick(page, entry) {
   await openMenu(page);
   await page.mouse.click(...place(await find(page, entry)));
 }
 
-/** Waits until the page has drawn what it was told: a panel that opens takes a few frames. */
+/** Waits until the page has drawn its new state: opening a panel takes a few frames. */
 export const drawn = (page) => page.evaluate(async () => {
   const next = () => new Promise((done) => { requestAnimationFrame(done); });
   const pictures = () => [...document.querySelectorAll("canvas")].flatMap((c) => c.pictures ?? []);
@@ -190,7 +190,7 @@ export async function picture(page, clip) {
   return PNG.sync.read(await page.screenshot(clip ? { clip } : {}));
 }
 
-/** Keeps a picture of the page, a new one or one taken already, among the build's artefacts. */
+/** Saves a picture of the page, new or already taken, with the build artefacts. */
 export async function save(page, name, png) {
   await mkdir(screenshots, { recursive: true });
   await writeFile(join(screenshots, `${name}.png`), png ? PNG.sync.write(png) : await page.screenshot());

@@ -8,7 +8,7 @@ import { variance } from "./pixels.mjs";
 
 let session;
 let page;
-let mine; // a scene of one's own, as text
+let mine; // a user's scene, as text
 
 before(async () => {
   session = await open();
@@ -73,7 +73,7 @@ test("a huge file is refused without being read", async () => {
   await page.waitForFunction(() => window.substep.report().trouble === "huge.json was not loaded");
   await drawn(page);
   assert.equal(await call(page, "hash"), hash);
-  // One that may be read, just so, goes through the heap and not the stack.
+  // A file just below the size limit goes through the heap, not the stack.
   await drop(page, "large.json", `${" ".repeat(8e6)}{`);
   assert.equal((await call(page, "report")).trouble, "large.json was not loaded");
   assert.equal(await call(page, "hash"), hash);

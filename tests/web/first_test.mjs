@@ -9,11 +9,11 @@ let session;
 before(async () => { session = await open(); });
 after(() => session?.close());
 
-/** Waits until the first screen is there, or was left. */
+/** Waits until the first screen is shown or hidden. */
 const introduced = (page, shown) => page.waitForFunction(
   (s) => (window.substep.report().introduction !== null) === s, shown, { timeout: 20000 });
 
-/** Waits until the first screen says that the left chain has torn. */
+/** Waits until the first screen reports that the left chain has torn. */
 const torn = (page) => page.waitForFunction(
   () => /Torn at 0.35 s/.test(window.substep.report().introduction?.torn), null, { timeout: 60000 });
 

@@ -1,4 +1,4 @@
-// Nothing that a program gives to window.substep, and no order of calls, makes it throw:
+// window.substep does not throw for any argument or order of calls:
 // node tests/web/hostile_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -8,7 +8,7 @@ let session;
 before(async () => { session = await open(); });
 after(() => session?.close());
 
-/** In the page: values that do what they can when they are read. */
+/** In the page: values that misbehave when they are read. */
 function hostileValues() {
   const thrower = () => { throw null; }; // no Error
   const traps = {};
@@ -37,7 +37,7 @@ function hostileValues() {
   };
 }
 
-/** In the page: what is tried with one of them: [what, () => answer]. */
+/** In the page: the calls tried with one value: [description, () => result]. */
 function attemptsWith(name, value) {
   const lab = window.substep;
   const list = [];
@@ -45,7 +45,7 @@ function attemptsWith(name, value) {
   for (const method of ["load", "set", "goTo", "openLink"]) {
     add(`${method}(${name})`, () => lab[method](value));
   }
-  add(`step(${name})`, () => lab.step(value ?? null)); // a call without frames is one of a frame
+  add(`step(${name})`, () => lab.step(value ?? null)); // without an argument it is one frame
   add(`load({}, ${name})`, () => lab.load({}, value));
   add(`load("bridges", ${name})`, () => lab.load("bridges", value));
   add(`set({ alpha: ${name} })`, () => lab.set({ alpha: value }));
@@ -62,7 +62,7 @@ function attemptsWith(name, value) {
   return list;
 }
 
-/** In the page: does it all. @returns {tried, threw, accepted, unclear} */
+/** In the page: makes all calls. @returns {tried, threw, accepted, unclear} */
 async function tryAll() {
   const found = { tried: 0, threw: [], accepted: [], unclear: [] };
   const judge = (what, answer) => {
@@ -101,7 +101,7 @@ test("no call throws, whatever its argument does", async () => {
   const { tried, threw, accepted, unclear } = await page.evaluate(tryAll);
   assert.deepEqual({ threw, unclear }, { threw: [], unclear: [] });
   assert.ok(tried > 350, `${tried} calls`);
-  // An object in which there is no setting changes none, and a link of no known part is none.
+  // An object without settings changes none, and a link without a known key is not a link.
   const empty = ["bare", "date", "evil", "toString", "json", "primitive", "element"];
   assert.deepEqual(accepted.filter((what) => !empty.some((name) => what === `set(${name})`)), []);
   assert.deepEqual([await call(page, "hash"), await call(page, "settings")], before);

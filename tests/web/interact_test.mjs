@@ -1,10 +1,11 @@
-// Hands on the picture and the past: node tests/web/interact_test.mjs [FOLDER OF THE BUILT PAGE]
+// Mouse and touch on the picture and the timeline:
+// node tests/web/interact_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { call, click, drawn, find, open, openPage, picture, place, quiet, save } from "./browser.mjs";
 import { difference, part } from "./pixels.mjs";
 
-// Where things are at 1280 x 720.
+// Positions at 1280 x 720.
 const side = { x: 980, y: 60, width: 280, height: 560 };
 
 let session;
@@ -111,7 +112,7 @@ test("fingers turn, zoom and scroll", async () => {
   await call(phone, "set", { scene: "heavy_stack" });
   await phone.waitForTimeout(1000);
   const touch = await phone.context().newCDPSession(phone);
-  /** Fingers that move in a few steps. @param ways [[from, to], ...] in CSS pixels */
+  /** Touches that move in a few steps. @param ways [[from, to], ...] in CSS pixels */
   const gesture = async (...ways) => {
     const at = (share) => ways.map(([from, to], id) => ({ id,
       x: from[0] + share * (to[0] - from[0]), y: from[1] + share * (to[1] - from[1]) }));

@@ -9,7 +9,7 @@ before(async () => { session = await open(); });
 after(() => session?.close());
 
 const fragmentOf = (page) => page.evaluate(() => location.hash);
-/** A person's own scene: the pendulum with another frame length. */
+/** A user's scene: the pendulum with another frame length. */
 async function ownScene(name = "mine") {
   const scene = JSON.parse(await readFile(new URL("../../scenes/pendulum.json", import.meta.url), "utf8"));
   return JSON.stringify({ ...scene, name, title: `My ${name}`, frame: 0.0125 });
@@ -50,7 +50,7 @@ test("leads back and forward from scene to scene", async () => {
   const page = await openPage(session, { fragment: "scene=swinging_box&mode=none" });
   await call(page, "set", { scene: "bridge" });
   await page.waitForURL(/scene=bridge/);
-  await call(page, "set", { alpha: 0.3 }); // no step of its own on the way back
+  await call(page, "set", { alpha: 0.3 }); // adds no entry to the browser history
   await page.waitForURL(/alpha=0\.3/);
   await call(page, "set", { scene: "heavy_stack" });
   await page.waitForURL(/scene=heavy_stack/);

@@ -1,7 +1,7 @@
-// How the page looks: node tests/web/look_test.mjs [FOLDER OF THE BUILT PAGE]
-// Pictures of the window at the sizes that people have are kept with the build's artefacts. The
-// picture itself is compared with those in tests/web/reference, as far as an eye would see; with
-// SUBSTEP_NEW_REFERENCE=1 they are made anew.
+// The appearance of the page: node tests/web/look_test.mjs [FOLDER OF THE BUILT PAGE]
+// Pictures of the window at common sizes are saved with the build artefacts. The 3D picture is
+// compared with those in tests/web/reference, within a visible difference; SUBSTEP_NEW_REFERENCE=1
+// rewrites them.
 import assert from "node:assert/strict";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
@@ -13,20 +13,20 @@ import { variance } from "./pixels.mjs";
 
 const anew = process.env.SUBSTEP_NEW_REFERENCE === "1";
 const reference = (name) => fileURLToPath(new URL(`reference/${name}.png`, import.meta.url));
-// Another version of the browser's software renderer smooths edges in another way.
-const allowed = 0.02; // share of pixels that an eye tells apart
+// Other versions of the browser's software renderer antialias edges differently.
+const allowed = 0.02; // share of visibly different pixels
 
 let session;
 before(async () => { session = await open(); });
 after(() => session?.close());
 
-/** The same moment on every machine, the camera at rest. */
+/** The same state on every machine, with the camera at rest. */
 async function still(page, settings, frames) {
   await call(page, "pause");
   await call(page, "set", settings);
   await call(page, "reset");
   await call(page, "step", frames);
-  await page.waitForTimeout(2000); // the camera and what fades
+  await page.waitForTimeout(2000); // the camera and fades
   await drawn(page);
 }
 

@@ -1,6 +1,6 @@
-// Links and scene files that are made to harm: the page answers while it has them, and leads back
-// to the run before: node tests/web/malice_test.mjs [FOLDER OF THE BUILT PAGE] [all]
-// Every third of them is taken, or all where that is asked for.
+// Hostile links and scene files: the page stays responsive, and returns to the previous run:
+// node tests/web/malice_test.mjs [FOLDER OF THE BUILT PAGE] [all]
+// Tests every third case, or all on request.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
@@ -14,7 +14,7 @@ after(() => session?.close());
 const shipped = async (name) =>
   JSON.parse(await readFile(new URL(`../../scenes/${name}.json`, import.meta.url), "utf8"));
 
-/** Spheres in one place, all of which touch. */
+/** Spheres in one place, so that all pairs touch. */
 function heap(count, extra = {}) {
   const bodies = Array.from({ length: count }, (_, i) => (
     { name: `s${i}`, shape: { type: "sphere", radius: 0.5 }, mass: 1, position: [0, 0, 1e-3 * i] }));
@@ -22,7 +22,7 @@ function heap(count, extra = {}) {
     frame: 0.01, bodies, ...extra };
 }
 
-/** A chain of so many balls. */
+/** A chain of that many balls. */
 function chain(count, settings = {}) {
   const bodies = Array.from({ length: count }, (_, i) => (
     { name: `b${i}`, shape: { type: "sphere", radius: 0.1 }, mass: 1 + 1e5 * (i === count - 1),
@@ -49,7 +49,7 @@ const heavySettings = [
   "mode=inertia&n_cap=10000&alpha=1e-9",
 ];
 
-/** One that may run, and takes long. */
+/** A valid scene that takes long. */
 const heavyRun = "solver=pgs&iterations=400&mode=const&n=10000";
 
 /** @returns pairs of a description and a fragment */
@@ -118,7 +118,7 @@ async function files() {
 const all = process.argv[3] === "all";
 const some = (list) => list.filter((_, i) => all || i % 3 === 0);
 
-/** In the page: notes the longest time in which it did not answer [ms]. */
+/** In the page: records the longest time without a response [ms]. */
 function beat() {
   let last = performance.now();
   window.longest = 0;
@@ -131,7 +131,7 @@ function beat() {
   next();
 }
 
-/** Forgets how long the page did not answer so far: the protocol of this test takes its time too. */
+/** Resets the recorded time: the protocol of this test also blocks the page. */
 const listenAgain = (page) => page.evaluate(() => new Promise((done) => {
   setTimeout(() => {
     window.longest = 0;
@@ -142,10 +142,10 @@ const listenAgain = (page) => page.evaluate(() => new Promise((done) => {
 const silence = (page) => page.evaluate(() => Math.round(window.longest));
 
 /**
- * Takes one of them, lets it run, and goes back.
- * @param bring into the page, which costs what the protocol of this test costs
- * @param take what was brought
- * @returns {what, silent, end}: how long the page did not answer at most [ms], and what came of it
+ * Opens one case, lets it run, and goes back.
+ * @param bring transfers it to the page; includes the overhead of the test's protocol
+ * @param take opens what was transferred
+ * @returns {what, silent, end}: the longest time without a response [ms], and the outcome
  */
 async function suffer(page, what, bring, take) {
   const before = await call(page, "link");
@@ -153,7 +153,7 @@ async function suffer(page, what, bring, take) {
   const brought = await bring();
   await listenAgain(page);
   await take(brought);
-  await page.waitForFunction((last) => { // it was read, or refused
+  await page.waitForFunction((last) => { // it was read or rejected
     const now = window.substep.report();
     return now.run !== last || now.trouble !== "";
   }, run, { polling: 100, timeout: 20000 });
@@ -252,7 +252,7 @@ test("a program that ends in a trap says so, and the page starts again with the 
   await page.waitForURL(/scene=bridge.*alpha=0\.2/);
   await call(page, "set", { scene: "swinging_box" });
   await page.waitForURL(/scene=swinging_box/);
-  // The next growth of the memory fails, and so does what needed it.
+  // The next growth of the memory fails, and so does the call that needed it.
   await page.evaluate(() => {
     const { Memory } = WebAssembly;
     Memory.prototype.grow = () => { throw new RangeError("no more memory"); };
@@ -267,7 +267,7 @@ test("a program that ends in a trap says so, and the page starts again with the 
   await save(page, "stopped");
   const answer = await call(page, "step", 1);
   assert.match(answer.problems[0].message, /the laboratory stopped/);
-  page.complaints.length = 0; // it said why
+  page.complaints.length = 0; // it logged the reason
   await page.getByRole("button", { name: "Start again" }).click();
   await page.waitForFunction(() => window.substep?.report().scene === "bridge", null, { timeout: 60000 });
   assert.equal((await call(page, "report")).alpha, 0.2);

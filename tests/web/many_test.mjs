@@ -10,7 +10,7 @@ let session;
 before(async () => { session = await open(); });
 after(() => session?.close());
 
-/** A page with laboratories below each other, of which two are in sight. */
+/** A page with laboratories below each other, two of them in view. */
 async function openMany() {
   const page = await openPage(session, { path: "files.json", before: "1", width: 640 });
   await page.evaluate(async (n) => {
@@ -21,7 +21,7 @@ async function openMany() {
       document.body.append(place);
       return createSubstep(place, { scene: "bridge", settings: { panels: "off" }, play: false });
     };
-    const half = n / 2; // some one after the other, the others at once
+    const half = n / 2; // half one after the other, the rest at once
     window.laboratories = [];
     for (let i = 0; i < half; ++i) window.laboratories.push(await openOne(i));
     const others = Array.from({ length: n - half }, (_, i) => openOne(half + i));
@@ -30,7 +30,7 @@ async function openMany() {
   return page;
 }
 
-/** Brings one into sight and waits until it draws. @returns its picture */
+/** Scrolls one into view and waits until it draws. @returns its picture */
 async function look(page, i) {
   await page.evaluate((n) => document.getElementById(`place${n}`).scrollIntoView(), i);
   const heard = await page.evaluate((n) => new Promise((done) => {
@@ -53,11 +53,11 @@ async function look(page, i) {
 test("each of twenty laboratories draws whenever it is seen", async () => {
   const page = await openMany();
   const order = Array.from({ length: count }, (_, i) => i);
-  // All of them, back again, and here and there.
+  // All in order, back to the first one, then some in arbitrary order.
   for (const i of [...order, 0, 19, 7, 3, 12, 0]) {
     assert.ok(variance(await look(page, i)) > 20, `laboratory ${i} is blank`);
   }
-  // This page has no icon. A browser that took a context may refuse it at first: it is asked again.
+  // This page has no icon. A browser that took a context may first refuse it: the request is repeated.
   page.complaints = page.complaints.filter(
     (text) => !/404|context restoration not allowed/.test(text));
   const frames = await page.evaluate(() => window.laboratories.map((lab) => lab.report().frame));

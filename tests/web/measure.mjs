@@ -1,4 +1,4 @@
-// What the page costs here: node tests/web/measure.mjs [FOLDER] [minutes of memory, 0]
+// Measures the cost of the page: node tests/web/measure.mjs [FOLDER] [minutes of memory, 0]
 // Frames a second of an empty page and pictures a second of this one, the main thread's time of a
 // picture without physics with 200 s of plots, a sweep beside the run, and memory over time.
 import { call, drawn, open, openPage } from "./browser.mjs";
@@ -6,7 +6,7 @@ import { call, drawn, open, openPage } from "./browser.mjs";
 const minutes = Number(process.argv[3] ?? 0);
 const session = await open();
 
-/** Pictures a second, or frames where the page has no laboratory. */
+/** Pictures a second, or frames if the page has no laboratory. */
 const frames = (page, seconds) => page.evaluate(async (s) => {
   const pictures = document.querySelector("canvas")?.pictures;
   const start = performance.now();
@@ -27,11 +27,11 @@ async function empty() {
   return rate;
 }
 
-/** Times of the callbacks in which a picture is begun, with the panels of its frame [ms]. */
+/** Times of the callbacks that start a picture, including the panels of its frame [ms]. */
 const patch = `
 window.frameTimes = [];
 let begun = false;
-const { fenceSync } = WebGL2RenderingContext.prototype; // the last call of those
+const { fenceSync } = WebGL2RenderingContext.prototype; // the last call of such a callback
 WebGL2RenderingContext.prototype.fenceSync = function (...given) {
   begun = true;
   return fenceSync.apply(this, given);

@@ -1,4 +1,4 @@
-// Nothing grows: node tests/web/memory_test.mjs [FOLDER OF THE BUILT PAGE]
+// Memory does not grow: node tests/web/memory_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { call, drawn, open, openPage, quiet } from "./browser.mjs";
@@ -11,7 +11,7 @@ after(() => session?.close());
 
 const used = async (page) => (await call(page, "memory")).used;
 
-/** All panels, scenes, comparisons and sweeps once, and back to where it began. */
+/** All panels, scenes, comparisons and sweeps once, then back to the start. */
 async function round(page, scenes) {
   for (const scene of scenes) {
     await call(page, "set", { scene });
@@ -65,7 +65,7 @@ test("a long run keeps what fits, and no more", async () => {
 });
 
 test("laboratories that are removed are gone", async () => {
-  const page = await openPage(session, { path: "files.json", before: "1" }); // without one of its own
+  const page = await openPage(session, { path: "files.json", before: "1" }); // without a laboratory
   const count = 10;
   const devtools = await page.context().newCDPSession(page);
   /** Memories of WebAssembly that are alive. */
@@ -93,7 +93,7 @@ test("laboratories that are removed are gone", async () => {
   }
   await page.waitForTimeout(500);
   const left = await alive() - first;
-  // The last ones may be held by a frame or a promise that is still to come.
+  // A pending frame or promise may still hold the last ones.
   assert.ok(left <= 3, `${left} of ${count} are still there`);
   await page.context().close();
 });

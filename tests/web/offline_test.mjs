@@ -1,4 +1,4 @@
-// Hosting, loading and living without a network:
+// Hosting, loading and offline use:
 // node tests/web/offline_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { readFile, writeFile } from "node:fs/promises";
@@ -9,7 +9,7 @@ import { call, drawn, open, openPage, quiet, save } from "./browser.mjs";
 
 const mostBytes = 1.5e6; // of all files, packed with gzip
 
-let folder; // what the server serves, a copy that tests may change
+let folder; // served by the server; a copy that tests may change
 let session;
 before(async () => {
   session = await open();
@@ -79,14 +79,14 @@ test("a new version takes the place of the one that was kept", async () => {
   const index = join(folder, "index.html");
   await writeFile(index, (await readFile(index, "utf8")).replace("<head>", '<head data-version="new">'));
 
-  // The next start is the old version's, which finds the new one. Nobody has touched the page.
+  // The next start loads the old version, which finds the new one. The page has not been used yet.
   await page.goto("about:blank");
   await page.goto(session.address);
   await page.waitForFunction(() => document.head.dataset.version === "new", null, { timeout: 30000 });
   await running(page);
   assert.match(await kept(page), /^substep .*some\/path\/ 0123456789abcdef$/);
 
-  // A page in somebody's hands goes on: what came meanwhile is there at the start after it.
+  // A page in use is not replaced: the new version is used at the next start.
   await writeFile(list, old);
   await writeFile(index, (await readFile(index, "utf8")).replace('"new"', '"newer"'));
   await page.goto("about:blank");
@@ -123,7 +123,7 @@ test("a version that cannot be fetched whole leaves the one that was kept", asyn
   await page.context().close();
 });
 
-// Last: it ends the server.
+// Must be last: it stops the server.
 test("what was loaded once works without a network", async () => {
   const page = await openPage(session, { offline: true });
   await page.evaluate(() => navigator.serviceWorker.ready);

@@ -8,14 +8,14 @@ import { openTab } from "./tabs.mjs";
 const scenes = ["swinging_box", "bridge", "heavy_stack"];
 const modes = ["none", "const", "damping", "adaptive", "capped"];
 
-// Brightness variance of a picture that shows something; a plain gradient has below 60.
+// Minimum brightness variance of a picture with content; a plain gradient has below 60.
 const somethingSeen = 120;
-// Where things are at 1280 x 720.
+// Positions at 1280 x 720.
 const view = { x: 300, y: 80, width: 650, height: 520 };
 const plots = { x: 980, y: 50, width: 280, height: 330 };
 
 let session;
-let page; // the one that most tests share
+let page; // shared by most tests
 let last; // its picture at the end of a test
 let tab; // another one, behind a second tab for a minute while the rest is tested
 let minute;
@@ -85,7 +85,7 @@ for (const scene of scenes) {
       const now = await picture(page);
       assert.equal(report.scene, scene);
       assert.equal(report.mode, mode);
-      // Some fail, as the paper says; what has not failed has come to 5 s.
+      // Some fail, as the paper says; the others have reached 5 s.
       assert.ok(report.stopped || Math.abs(report.time - 5) < 1e-9, `${report.time} s`);
       if (mode === "adaptive") assert.equal(report.verdict, "holds");
       assert.ok(report.substeps >= 1);
@@ -133,7 +133,7 @@ for (const solver of ["PGS", "BPP"]) {
   test(`runs every scene of the paper in every mode by clicks, with ${solver}`, async () => {
     for (const scene of scenes) {
       await api("set", { scene });
-      await drawn(page); // its effects move what is below them
+      await drawn(page); // its effects move the controls below them
       await click(page, solver, "Method");
       for (const mode of modes) {
         await click(page, mode, "mode");
@@ -163,7 +163,7 @@ test("alpha follows the drag of its slider", async () => {
 test("a sweep goes on beside a run that is paused", async () => {
   await api("set", { scene: "pendulum", panel: "accuracy", accuracy: "run" });
   await api("pause");
-  await page.waitForTimeout(2500); // with nobody at it, the page would fall asleep
+  await page.waitForTimeout(2500); // without input the page would stop drawing
   const points = () => window.substep.widgets().filter((w) => w.group === "accuracy picture").length;
   const before = await page.evaluate(points);
   await page.waitForFunction((seen) =>
@@ -273,7 +273,7 @@ test("a slow machine gets a coarser picture while it moves, and the best when it
   await tools.send("Emulation.setCPUThrottlingRate", { rate: 12 });
   await slow.waitForTimeout(8000);
   await tools.send("Emulation.setCPUThrottlingRate", { rate: 1 });
-  await call(slow, "set", { speed: 0.01 }); // between two pictures little moves
+  await call(slow, "set", { speed: 0.01 }); // little motion between two pictures
   await drawn(slow);
   const moving = await picture(slow, view);
   await save(slow, "software");
@@ -302,7 +302,7 @@ for (const [what, script] of [
   });
 }
 
-// Last: its minute began before the first of them.
+// Must be last: its minute starts before the first test.
 test("a minute behind another tab costs nothing and leaves no backlog", async () => {
   await minute;
   await tab.comeBack();

@@ -1,4 +1,4 @@
-// Pictures as numbers.
+// Measurements on pictures.
 import { PNG } from "pngjs";
 
 /** A part of a picture. @param box {x, y, width, height} */
@@ -28,7 +28,7 @@ export function difference(a, b) {
   for (let i = 0; i < 4 * count; i += 4) {
     const d = Math.max(Math.abs(a.data[i] - b.data[i]), Math.abs(a.data[i + 1] - b.data[i + 1]),
       Math.abs(a.data[i + 2] - b.data[i + 2]));
-    if (d > 5) ++changed; // dark panels on a dark ground differ by little
+    if (d > 5) ++changed; // dark panels on a dark background differ only slightly
   }
   return changed / count;
 }

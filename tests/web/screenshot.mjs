@@ -1,5 +1,5 @@
-// Makes the README's picture: node tests/web/screenshot.mjs [FOLDER OF THE BUILT PAGE]
-// The swinging box with adaptive sub-steps, a moment after its lowest point, at 1.5 pixels to one.
+// Renders the README's picture: node tests/web/screenshot.mjs [FOLDER OF THE BUILT PAGE]
+// The swinging box with adaptive sub-steps, a moment after its lowest point, at a pixel ratio of 1.5.
 import { writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { drawn, open, openPage } from "./browser.mjs";

@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { serve } from "../../web/serve.mjs";
 
-let base; // holds the folder that is served, and what must stay unseen beside it
+let base; // contains the served folder and files beside it that must not be served
 let server;
 before(async () => {
   base = await mkdtemp(join(tmpdir(), "substep-serve-"));
@@ -35,7 +35,7 @@ after(async () => {
   await rm(base, { recursive: true });
 });
 
-/** An answer to a path that is sent as it is: fetch would tidy it. */
+/** The response to a path that is sent unchanged: fetch would normalise it. */
 function ask(path, method = "GET", port = server.address().port) {
   return new Promise((done, fail) => {
     request({ host: "127.0.0.1", port, path, method }, (answer) => {

@@ -1,4 +1,4 @@
-// What a visitor does, by clicks alone: node tests/web/story_test.mjs [FOLDER OF THE BUILT PAGE]
+// Typical visits, by clicks only: node tests/web/story_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { call, click, drawn, open, openPage, pick, quiet, reports, save } from "./browser.mjs";
@@ -7,11 +7,11 @@ let session;
 before(async () => { session = await open(); });
 after(() => session?.close());
 
-/** Waits until a control is there. */
+/** Waits until a control is present. */
 const offered = (page, label) => page.waitForFunction(
   (l) => window.substep.widgets().some((w) => w.label === l), label, { timeout: 20000 });
 
-/** Plays until the run was judged to have failed. */
+/** Plays until the verdict is a failure. */
 const fails = (page) => page.waitForFunction(
   () => /^fails/.test(window.substep.report().verdict), null, { timeout: 60000 });
 
@@ -29,7 +29,7 @@ test("none tears, adaptive holds, alpha changes N, the link is copied", async ()
   assert.deepEqual([report.mode, report.verdict], ["adaptive", "holds"]);
   assert.ok(report.playing, "it goes on");
   await click(page, "What does accuracy cost?");
-  await offered(page, "Run again"); // the picture is there at once
+  await offered(page, "Run again"); // the picture appears immediately
   await pick(page, "Copy link");
   await drawn(page);
   const link = await page.evaluate(() => navigator.clipboard.readText());
@@ -60,7 +60,7 @@ test("a run that diverges pauses, explains, and goes back to its last good state
   assert.equal(good.stopped, false);
   assert.ok(good.time <= time);
   assert.ok(Number.isFinite(good.kinetic) && Number.isFinite(good.energy), `${good.kinetic}`);
-  await call(page, "set", { scene: "bridge" }); // nothing else broke
+  await call(page, "set", { scene: "bridge" }); // nothing else failed
   await call(page, "step", 10);
   assert.equal((await call(page, "report")).verdict, "holds");
   quiet(page);

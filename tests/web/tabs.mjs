@@ -1,5 +1,5 @@
-// A browser whose tabs are hidden as a person's are: Playwright's never are. It is spoken to through a
-// pipe, in the DevTools protocol.
+// A browser whose background tabs are hidden, as in normal use; Playwright's tabs never are. It is
+// controlled through a pipe with the DevTools protocol.
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdtemp, rm } from "node:fs/promises";
@@ -8,8 +8,8 @@ import { join } from "node:path";
 import { chromiumPath, renderer } from "./browser.mjs";
 
 /**
- * @returns {evaluate, leave, comeBack, close}: of a tab that shows the address; leave opens
- *   another one in front of it
+ * @returns {evaluate, leave, comeBack, close} for a tab that shows the address; leave opens
+ *   another tab in front of it
  */
 export async function openTab(address) {
   const profile = await mkdtemp(join(tmpdir(), "substep-tabs-"));

@@ -1,4 +1,4 @@
-// The guided tour: HTML beside the canvas, with numbers to drag, tasks, and words that point at
+// The guided tour: HTML beside the canvas, with numbers to drag, tasks, and words that highlight
 // plots: node tests/web/tour_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -18,14 +18,14 @@ const button = (page, name) => tour(page).getByRole("button", { name, exact: tru
 const number = (page, name) => tour(page).getByRole("slider", { name, exact: true });
 const canvasBox = (page) => page.locator(".substep-view").boundingBox();
 
-/** Goes to a step, and waits until its text is there. */
+/** Goes to a step, and waits until its text is shown. */
 async function goTo(page, step) {
   await call(page, "set", { tour: step });
   await page.getByText(`Tour, ${step} of ${steps}`).waitFor();
   await drawn(page);
 }
 
-/** Waits for the answer of the run. */
+/** Waits for the answer from the run. */
 const reply = async (page, words) => {
   const said = tour(page).getByRole("status");
   await page.waitForFunction(
@@ -50,7 +50,7 @@ async function findings(page) {
     .map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`);
 }
 
-/** Nothing is cut off, and at least half of the height or width is left to the canvas. */
+/** Checks that nothing is cut off, and that the canvas keeps at least half of the height or width. */
 async function assertFits(page, width, height) {
   const box = await tour(page).boundingBox();
   const canvas = await canvasBox(page);
@@ -164,7 +164,7 @@ test("a number that is set elsewhere is shown in the sentence", async () => {
   await drawn(page);
   assert.equal(await number(page, "Alpha").textContent(), "0.07");
   await number(page, "Alpha").focus();
-  await page.keyboard.press("ArrowRight"); // to the next stop from between two of them
+  await page.keyboard.press("ArrowRight"); // from between two stops to the next
   assert.equal((await call(page, "report")).alpha, 0.08);
   await page.context().close();
 });

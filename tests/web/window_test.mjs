@@ -13,7 +13,7 @@ const program = resolve(process.argv[2] ?? join(root, "build/release/bin/substep
 const folder = process.env.SUBSTEP_SCREENSHOTS ?? join(root, "build/artefacts/screenshots");
 mkdirSync(folder, { recursive: true });
 
-/** Runs the window for some frames and gives its last picture. */
+/** Runs the window for some frames and returns its last picture. */
 function shot(name, ...args) {
   const path = join(folder, `native-${name}.png`);
   const result = spawnSync("xvfb-run", ["-a", "-s", "-screen 0 2600x1500x24", program,

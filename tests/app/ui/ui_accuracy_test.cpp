@@ -1,4 +1,4 @@
-// "What does accuracy cost?" in the window: a sweep in slices, and points that run.
+// The panel "What does accuracy cost?": a sweep in slices, and points that run.
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
@@ -108,7 +108,7 @@ TEST(Accuracy, TheMostExactWithinACostIsLookedForAtAPress) {
   EXPECT_FALSE(accuracy.best(accuracy.points()).has_value());
 }
 
-// Frames at 60 Hz wait for the screen. One that came late must not make the next ones late.
+// Frames wait for the 60 Hz display. A late frame must not delay the next ones.
 TEST(Accuracy, TakesAShareOfSlowFramesAndLetsOthersRecover) {
   for (const bool plays : {false, true}) {
     const double least = Accuracy::slice(plays, 1.0 / 60.0);
@@ -188,7 +188,7 @@ TEST(Accuracy, WhatIsFoundIsKeptForTheScene) {
   ASSERT_EQ(again.scenes().size(), 1U);
   EXPECT_EQ(again.scenes()[0]->recommended, found);
   EXPECT_EQ(again.scenes()[0]->settings, found->settings);
-  // A saved run has it too, and its preset.
+  // A saved run has the recommendation too, and its preset.
   EXPECT_EQ(h.app->session.as_scene().recommended, found);
   ASSERT_EQ(h.app->set("preset", "paper"), "");
   h.frames(2);
@@ -225,7 +225,7 @@ TEST(Accuracy, AChosenPointGivesItsFiguresAgain) {
   h.app->set("accuracy", "run");
   finish(h);
   const std::vector<Result> results = h.app->accuracy.results();
-  h.app->open("free_fall");  // the point brings its scene along
+  h.app->open("free_fall");  // the point also loads its scene
   for (std::size_t i = 0; i < results.size(); i += 20) {
     h.app->run_result(results[i]);
     EXPECT_TRUE(h.app->session.playing());
@@ -237,7 +237,7 @@ TEST(Accuracy, AChosenPointGivesItsFiguresAgain) {
   }
 }
 
-// A click on the picture where a point lies runs that point.
+// A click on a point of the chart runs it.
 TEST(Accuracy, PointsAreFoundUnderThePointer) {
   Headless h;
   h.app->open("pendulum");
@@ -278,7 +278,7 @@ TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
   }
 }
 
-// The top is where it was and nothing is solved: its energy over sub-steps is what there is.
+// The top does not move and nothing is solved: energy over sub-steps is the only available chart.
 TEST(Accuracy, WhereNothingIsSolvedThePictureIsOfWhatThereIs) {
   Headless h;
   Scene scene = *shipped("spinning_top");
@@ -293,7 +293,7 @@ TEST(Accuracy, WhereNothingIsSolvedThePictureIsOfWhatThereIs) {
   EXPECT_GT(h.app->accuracy.points().size(), 30U);
 }
 
-// The legend tells them apart, and so must the picture.
+// The legend distinguishes them, and so must the chart.
 TEST(Accuracy, NoTwoCurvesOfASceneLookTheSame) {
   const Library library = shipped();
   for (const auto& scene : library.scenes()) {

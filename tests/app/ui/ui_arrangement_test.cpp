@@ -70,7 +70,7 @@ TEST(Arrangement, ComesBackOnTheNextVisit) {
   {
     Headless h;
     keeps(h);
-    EXPECT_TRUE(h.app->desk.tour_hint);  // nobody has been here
+    EXPECT_TRUE(h.app->desk.tour_hint);  // a first visit
     h.app->desk.right.width = 333.0F;
     h.app->desk.left.open = false;
     h.app->desk.plot(Plot::kTime).shown = true;
@@ -101,7 +101,8 @@ TEST(Arrangement, AScaledInterfaceIsHitWhereItIsSeen) {
   Headless h;
   ASSERT_EQ(h.app->set("scale", "1.25"), "");
   h.frames(3);
-  EXPECT_FLOAT_EQ(ImGui::GetIO().DisplaySize.x, 1280.0F);  // the shell's own is as it was
+  EXPECT_FLOAT_EQ(ImGui::GetIO().DisplaySize.x,
+                  1280.0F);  // the shell's own display size is unchanged
   EXPECT_NEAR(window("##transport").GetWidth(), 1280.0F / 1.25F - 24.0F, 1.0F);
   EXPECT_FLOAT_EQ(h.app->look.fonts.regular->FontSize, 20.0F);
   // The play button, 1.25 times as far from the corner as it is in the interface.

@@ -1,4 +1,4 @@
-// Time of a frame of the interface without physics: 200 s of history in view, nothing drawn.
+// Time of a frame of the interface without physics: 200 s of history visible, no rendering.
 
 #include <benchmark/benchmark.h>
 

@@ -115,8 +115,8 @@ TEST(Compare, SolversAreCalledByTheirNames) {
   EXPECT_EQ(overrides_title({{"solver", "xpbd"}}), "XPBD");
 }
 
-// The compared run has the session's own method: whatever is done to both, they must agree bit for
-// bit, and do so after going back and forth as well.
+// The compared run has the session's own method: after every action on both they must agree bit for
+// bit, also after going back and forth in time.
 TEST(Compare, AHandAndABallReachAllOfThem) {
   Headless h;
   Session& session = h.app->session;
@@ -146,7 +146,7 @@ TEST(Compare, AHandAndABallReachAllOfThem) {
   EXPECT_FALSE(same.divergence);
   h.frames(2);
 
-  // Back before the ball and before the hand, and forward through both again.
+  // Back to before the ball and the grab, and forward through both again.
   const std::uint64_t thrown = session.hash();
   const std::uint64_t damped_thrown = hash_of(damped);
   for (const std::size_t moment : {std::size_t{30}, std::size_t{12}, std::size_t{75}}) {
@@ -157,7 +157,7 @@ TEST(Compare, AHandAndABallReachAllOfThem) {
   EXPECT_EQ(session.hash(), thrown);
   EXPECT_EQ(hash_of(damped), damped_thrown);
 
-  // Another future from the same moment: the ball of the old one is not in it.
+  // A different future from the same moment: the earlier ball is not in it.
   session.go_to(30);
   EXPECT_EQ(session.hash(), pulled);
   session.pause();
@@ -209,7 +209,7 @@ TEST(CompareSplit, EachRunHasAPaneOfItsOwn) {
         EXPECT_LE(r.x + r.width, v.x + v.width + 0.5F);
         EXPECT_LE(r.y + r.height, v.y + v.height + 0.5F);
         area += r.width * r.height;
-        // The camera's target is in the middle of each: it is the same camera.
+        // The camera's target is at the centre of each pane: the camera is shared.
         const ImVec2 middle = seen_at(h.renderer->pictures[i], h.app->view.camera.target());
         EXPECT_NEAR(middle.x * display.x, r.x + 0.5F * r.width, 1.0F);
         EXPECT_NEAR(middle.y * display.y, r.y + 0.5F * r.height, 1.0F);
@@ -251,7 +251,7 @@ TEST(CompareSplit, ABodyIsPulledInThePaneThatShowsIt) {
     io.AddMousePosEvent(p.x, p.y - 4.0F * static_cast<float>(i));
     h.frames(1);
   }
-  h.frames(1);  // the frame that is taken with the hand where it is now
+  h.frames(1);  // the frame computed with the pointer at its current position
   ASSERT_TRUE(h.app->session.held());
   EXPECT_EQ(h.app->session.held()->body, box);
   ASSERT_TRUE(other.simulator->grab());

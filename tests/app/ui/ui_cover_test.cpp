@@ -1,4 +1,4 @@
-// What panels hide of the picture.
+// The parts of the picture that panels hide.
 
 #include <gtest/gtest.h>
 

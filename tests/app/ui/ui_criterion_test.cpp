@@ -11,7 +11,7 @@
 namespace substep {
 namespace {
 
-// A scene with a force that stiffens a body, and the same body spinning as a report may tell.
+// A scene with a force that adds stiffness to a body, and a report in which the same body spins.
 class TwoTerms : public testing::Test {
  protected:
   TwoTerms() {
@@ -27,7 +27,7 @@ class TwoTerms : public testing::Test {
 
   const Scene& scene() { return h.app->session.scene(); }
   Criterion criterion() { return criterion_of(scene(), settings, state, report); }
-  // The body of the stiffness term spins, and asks for `times` its k/M.
+  // The body of the stiffness term spins, and its rotation term is `times` its k/M.
   void spin(double times) {
     report.rotation_body = report.leader.body;
     report.r_rotation = times * report.leader.r;
@@ -71,7 +71,7 @@ TEST_F(TwoTerms, ItIsSaidWhichBodyAndHowFast) {
   EXPECT_EQ(rotation_text(scene(), c), "Rotation of " + name + ", 60 rad/s now");
   EXPECT_EQ(rotation_meaning(scene(), c),
             "Now 57.3° in a frame; the fastest of the last 8 s counts");
-  state.rotation.clear();  // as where bodies may touch
+  state.rotation.clear();  // as in scenes in which bodies may touch
   EXPECT_EQ(setter_text(scene(), criterion()), name + ", spinning at 60 rad/s");
   EXPECT_EQ(rotation_meaning(scene(), criterion()), "It turns 57.3° in a frame");
   EXPECT_EQ(both_terms_text(c), "stiffness alone N = " + std::to_string(c.n_stiffness) +

@@ -1,4 +1,4 @@
-// How finely bodies are drawn: by their size on the screen, and by how many there are.
+// Level of detail of bodies: by their size on the screen and by their number.
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -40,7 +40,7 @@ std::size_t level_of(const DetailedBodies& bodies) {
   return level;
 }
 
-// The farthest that a triangle of a ball's mesh lies within the ball.
+// The largest distance of a triangle of a ball's mesh from the sphere's surface, inside.
 double depth_of(const RoundedBoxMesh& mesh) {
   double deepest = 0.0;
   const auto at = [&](std::size_t i) {
@@ -91,7 +91,8 @@ TEST(Detail, ManyBodiesAreCoarserThanOne) {
   const std::vector<Instance> many(600, ball(1.0));
   bodies.choose({}, many, {&picture, 1280, 720, 0.5, 100000});
   EXPECT_LE(bodies.vertices(), 100000U);
-  // As few as there can be, where that is still too many; and a large ball is no cube.
+  // The minimum number of triangles, even if that is still too many; and a large ball is not a
+  // cube.
   const std::vector<Instance> more(20000, ball(1.0));
   bodies.choose({}, more, {&picture, 1280, 720, 0.5, 100000});
   EXPECT_EQ(bodies.balls[1].size(), more.size());

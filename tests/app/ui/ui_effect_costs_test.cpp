@@ -1,4 +1,4 @@
-// What each effect costs, measured in the window.
+// The cost of each effect, measured in the window.
 
 #include <gtest/gtest.h>
 
@@ -40,10 +40,10 @@ TEST(EffectCosts, SlicesGiveWhatOneGoGives) {
   EXPECT_NE(find_handle("criterion"), nullptr);
 }
 
-// As the search for alpha does: what runs is seen, and can be ended, whatever the panel shows.
+// As for the alpha search: a running measurement is visible and can be cancelled from any panel.
 TEST(EffectCosts, TheSweepThatRunsIsSeenBesideThem) {
   Headless h;
-  h.app->open("swinging_box");  // its sweep takes a minute: it is not over meanwhile
+  h.app->open("swinging_box");  // its sweep takes a minute, so it is still running
   h.app->session.pause();
   h.app->set("panel", "accuracy");
   h.app->set("accuracy", "stages");

@@ -1,4 +1,4 @@
-// The plots of energy add up, and no percentage is of nothing.
+// The energy plots add up, and no percentage is relative to zero.
 
 #include <gtest/gtest.h>
 
@@ -16,9 +16,9 @@
 namespace substep {
 namespace {
 
-constexpr int kFrames = 90;  // some fall, some swing, some collide
+constexpr int kFrames = 90;  // enough for some to fall, swing or collide
 
-// What a curve of the plot shows at a sample.
+// The value of a curve of the plot at a sample.
 double plotted(const ui::Series& series, std::size_t i) {
   return static_cast<double>((*series.history)[series.channel][i]) + series.offset;
 }
@@ -73,7 +73,7 @@ TEST(EnergyPlot, TheTotalIsTheReportedEnergyButForTheZeroOfThePotential) {
         static_cast<double>(history[Channel::kTotal].back()) + history.potential_at_start();
     EXPECT_NEAR(total, report.energy, rounding(report.kinetic, report.potential, start) + 1e-9)
         << scene->name;
-    // The drift keeps digits that the total has lost.
+    // The drift keeps digits that the total loses.
     const double drift = report.energy - start;
     EXPECT_NEAR(static_cast<double>(history[Channel::kDrift].back()), drift,
                 1e-7 * std::abs(drift) + 1e-12)
@@ -108,7 +108,7 @@ TEST(EnergyDrift, NoSceneShowsMoreThanAHundredPerCent) {
   Headless h;
   for (const auto& scene : h.app->library.scenes()) {
     h.app->run(scene);
-    ASSERT_EQ(h.app->set("mode", "none"), "");  // where it explodes, it explodes
+    ASSERT_EQ(h.app->set("mode", "none"), "");  // failing runs are included
     for (int i = 0; i < kFrames; ++i) {
       h.app->session.step();
       const History& history = h.app->session.history();
@@ -125,12 +125,12 @@ TEST(EnergyDrift, NoSceneShowsMoreThanAHundredPerCent) {
 }
 
 TEST(EnergyDrift, PercentagesAreOfAnEnergyThatIsThere) {
-  // 1 mJ of a card house that stands: its kinetic energy is noise.
+  // 1 mJ in a card house at rest: its kinetic energy is noise.
   EXPECT_EQ(energy_change(-1e-3, energy_scale(std::nullopt, 2e-5, 1e-3)), "−1.00 mJ");
-  // A kinetic energy that is not much more than the drift is itself drift.
+  // A kinetic energy hardly larger than the drift is itself drift.
   EXPECT_EQ(energy_change(3.0, energy_scale(std::nullopt, 20.0, 3.0)), "+3.00 J");
   EXPECT_EQ(energy_change(3.0, energy_scale(std::nullopt, 300.0, 3.0)), "+3.00 J (+1.00 %)");
-  // What the scene states counts, until more is gone than there was.
+  // The exchanged energy that the scene states is used until more than that is lost.
   EXPECT_EQ(energy_change(-10.3e3, energy_scale(51.5e3, 0.0, 10.3e3)), "−10.3 kJ (−20.0 %)");
   EXPECT_EQ(energy_change(1e6, energy_scale(51.5e3, 0.0, 1e6)), "+1.00 MJ");
   EXPECT_EQ(energy_change(1e-9, energy_scale(1e-6, 0.0, 0.0)), "+1.00 nJ");

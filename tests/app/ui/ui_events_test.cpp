@@ -1,4 +1,4 @@
-// What a person does to a run, kept in its link and done again, bit for bit.
+// Manual interactions with a run, stored in its link and repeated bit for bit.
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 namespace substep {
 namespace {
 
-constexpr std::size_t kShort = 2000;  // [characters] what messengers take
+constexpr std::size_t kShort = 2000;  // [characters] accepted by messengers
 
-/// Balls that differ in every digit of every number.
+/// Balls that differ in all digits of all numbers.
 Ball odd_ball(int i) {
   const double a = std::sin(1.0 + i);
   const double b = std::cos(3.0 + i);
@@ -26,7 +26,7 @@ void step(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.step();
 }
 
-/// Opens the link elsewhere and takes it to the same frame.
+/// Opens the link in another application and runs it to the same frame.
 void expect_same_run(Headless& h, const char* what) {
   const std::string link = h.app->link();
   EXPECT_EQ(h.app->trouble.title, "") << what;
@@ -78,7 +78,7 @@ TEST(Events, APullIsDoneAgain) {
   step(session, 10);
   const auto body = static_cast<int>(session.scene().bodies.size()) - 1;
   session.grab(body, Vec3(0.1, 0.2, 0.3), session.state().x.back());
-  for (int i = 0; i < 120; ++i) {  // a hand that moves for two seconds
+  for (int i = 0; i < 120; ++i) {  // the pointer moves for two seconds
     session.pull_to(Vec3(2.0 * std::sin(0.05 * i), 3.0 + 0.01 * i, 1.0 / (3.0 + i)));
     step(session, 1);
   }
@@ -109,7 +109,7 @@ TEST(Events, EffectsSettingsAndASeedAreDoneAgain) {
   expect_same_run(h, "effects, settings, a seed");
 }
 
-// Without a hand in it, a link is of the settings as they are: what people tune before they share.
+// Without interactions a link has the current settings: people tune them before they share.
 TEST(Events, SettingsAloneAreNoEvents) {
   Headless h;
   h.app->session.pause();
@@ -179,7 +179,7 @@ TEST(Events, AScriptIsFollowedFromThePastToo) {
   session.play();
   session.pause();
   ASSERT_EQ(session.state().frame, 10);
-  session.grab(0, Vec3::Zero(), Vec3::Zero());  // a person acts: the rest is dropped
+  session.grab(0, Vec3::Zero(), Vec3::Zero());  // a manual action drops the remaining events
   session.let_go();
   step(session, 40);
   EXPECT_EQ(session.balls(), 0U);
@@ -265,7 +265,7 @@ TEST(Events, ALinkWithBadEventsRunsTheRest) {
   EXPECT_EQ(h.app->trouble.problems.front().pointer, "events");
 }
 
-// The most events that a link may hold before one frame are applied at once; the run continues.
+// The maximum number of events before one frame is applied at once; the run continues.
 TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
   const auto scene = shipped("wall");
   std::vector<RunEvent> events;
@@ -286,7 +286,7 @@ TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
   EXPECT_EQ(h.app->session.state().frame, 2);
 }
 
-// Each ball makes a copy of the scene: a scene of many bodies can have few.
+// Each ball copies the scene, so a scene of many bodies allows only a few.
 TEST(Events, AreFewInALargeScene) {
   Scene large = *shipped("pendulum");
   large.bodies.resize(2000, large.bodies.back());

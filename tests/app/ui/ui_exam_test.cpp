@@ -28,7 +28,8 @@ TEST(ExamGhost, MovesAsTheSceneShould) {
   EXPECT_GT(h.app->session.state().time, 0.8);
   const Poses* exact = h.app->exam.at(h.app->session);
   ASSERT_NE(exact, nullptr);
-  // The run's poses are put in between two frames along a line: a millimetre at 6 m/s.
+  // The run's poses between two frames are interpolated linearly: an error of a millimetre at 6
+  // m/s.
   EXPECT_LT((exact->x[0] - h.app->session.poses().x[0]).norm(), 5e-3);
   EXPECT_GT((exact->x[0] - h.app->session.scene().bodies[0].position).norm(), 1.0);
 

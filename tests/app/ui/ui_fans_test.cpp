@@ -1,4 +1,4 @@
-// How the areas of panels are cut into triangles for a processor that draws.
+// Tessellation of panel areas into triangles for the software renderer.
 
 #include <gtest/gtest.h>
 #include <imgui.h>
@@ -60,7 +60,7 @@ double sum(const std::vector<Triangle>& triangles, double (*of)(const Triangle&)
   return total;
 }
 
-// Draws one area and cuts it. @param draw into the list it is given
+// Draws one area and tessellates it. @param draw draws into the given list
 template <class Draw>
 std::pair<std::vector<Triangle>, std::vector<Triangle>> cut(const Draw& draw) {
   ImDrawList list(ImGui::GetDrawListSharedData());

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder with scenes good and bad, of the running test alone and gone after it.
+// A folder with valid and invalid scenes for the running test, removed afterwards.
 class Folder {
  public:
   Folder()
@@ -72,7 +72,7 @@ TEST(FileBrowser, FollowsWhatIsTyped) {
   EXPECT_EQ(browser.problem(), "");
 }
 
-// The entry's place: rows of a menu below the field of the path.
+// The position of the entry: rows of a menu below the path field.
 void click_entry(Headless& h, const char* name) {
   for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
     if (!w->WasActive || std::string(w->Name).find("##open_file/entries") == std::string::npos) {

@@ -28,7 +28,7 @@ inline std::shared_ptr<const Scene> shipped(const std::string& name) {
   return scene;
 }
 
-/// The control of the last frame with this written on it, or null.
+/// The control of the last frame with this label, or null.
 inline const ui::Handle* find_handle(std::string_view label) {
   const auto& all = ui::handles();
   const auto found =
@@ -72,7 +72,7 @@ class Headless {
     io.AddMouseButtonEvent(0, false);
     frames(2);
   }
-  /// A click on the control with this written on it.
+  /// Clicks the control with this label.
   void press(std::string_view label) {
     const ui::Handle* handle = find_handle(label);
     ASSERT_NE(handle, nullptr) << label;
@@ -90,7 +90,8 @@ class Headless {
  public:
   NullRenderer* renderer = nullptr;
   std::unique_ptr<App> app;
-  int complaints = imgui::complaints();  // of Dear ImGui, before and that a test brings about
+  int complaints =
+      imgui::complaints();  // Dear ImGui's errors, including those that a test causes on purpose
 };
 
 }  // namespace substep

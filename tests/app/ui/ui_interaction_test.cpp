@@ -1,4 +1,4 @@
-// The picture under the pointer, and the past under the scrubber.
+// The pointer in the picture, and the timeline scrubber.
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
@@ -216,7 +216,7 @@ TEST(Scrubber, DragLooksBackAndPausesTheRun) {
     h.app->session.play();
     h.frames(2);
     const auto end = h.app->session.state().frame;
-    // The track's middle: found where a hover is on it, as a person would.
+    // The middle of the track: found by hovering, as a user would.
     const ImGuiWindow* bar = ImGui::FindWindowByName(display.x > 900 ? "##transport" : "##phone");
     ASSERT_NE(bar, nullptr);
     const float y = display.x > 900 ? bar->Pos.y + 28.0F : bar->Pos.y + 66.0F;

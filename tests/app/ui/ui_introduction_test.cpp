@@ -10,7 +10,7 @@
 namespace substep {
 namespace {
 
-// A window whose shell remembers, at a person's first visit.
+// A window with persistent storage, on a first visit.
 class Visit {
  public:
   explicit Visit(float width = 1280.0F, float height = 720.0F) : h(width, height) {
@@ -33,7 +33,7 @@ class Visit {
   Headless h;
 };
 
-// The laboratory as it opens today: the opening scene from its start, with adaptive sub-steps.
+// The laboratory as it opens by default: the opening scene from its start, with adaptive sub-steps.
 void expect_laboratory(const Headless& h) {
   EXPECT_FALSE(h.app->introduction.open());
   EXPECT_EQ(h.app->session.scene().name, "swinging_box");

@@ -1,4 +1,4 @@
-// The keyboard: every key of the list does what it says, and panels are reached without a mouse.
+// The keyboard: every listed key has its effect, and panels can be reached without a mouse.
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
@@ -17,7 +17,7 @@
 namespace substep {
 namespace {
 
-// What a key may change, as text: a key that changes none of it does nothing.
+// The state that a key may change, as text: a key that changes none of it has no effect.
 std::string look_of(App& app) {
   const Desk& d = app.desk;
   const Session& s = app.session;
@@ -149,7 +149,7 @@ TEST(Keys, F6GoesFromPanelToPanelAndBack) {
     EXPECT_EQ(panels, expected);
     press(h, ImGuiKey_F6, true);
     EXPECT_EQ(focused(), way[way.size() - 2]);
-    // From there the arrows and the space bar work its controls.
+    // From there the arrow keys and the space bar operate its controls.
     EXPECT_NE(ImGui::GetCurrentContext()->NavId, 0U);
     EXPECT_FALSE(ImGui::GetCurrentContext()->NavDisableHighlight);
   }

@@ -14,7 +14,7 @@
 namespace substep {
 namespace {
 
-// Places that can be pressed; a control that is marked twice counts once, and plots are read.
+// Controls that can be pressed; a control marked twice counts once, and plots do not count.
 std::size_t controls_shown() {
   std::set<std::tuple<float, float, float, float>> places;
   for (const ui::Handle& h : ui::handles()) {

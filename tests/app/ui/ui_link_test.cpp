@@ -28,13 +28,14 @@ TEST(Link, RoundTripKeepsTheExperiment) {
   EXPECT_TRUE(h.app->trouble.title.empty());
 }
 
-// `forces` are a switch of the view and a setting.
+// `forces` is both a switch of the view and a setting.
 TEST(Link, OpensEverySetting) {
   Headless h;
   h.app->open_link(make_link(*shipped("bridge"), test::unusual()));
   EXPECT_TRUE(h.app->trouble.title.empty());
   Settings wanted = test::unusual();
-  wanted.watch_stiffness = h.app->session.settings().watch_stiffness;  // by what the window shows
+  wanted.watch_stiffness =
+      h.app->session.settings().watch_stiffness;  // depends on the visible panels
   EXPECT_EQ(h.app->session.settings(), wanted);
   EXPECT_EQ(h.app->set("forces", "on"), "");
   EXPECT_TRUE(h.app->desk.view.forces);
@@ -62,7 +63,7 @@ TEST(Link, WhatCannotBeReadIsToldAndTheRestHolds) {
   EXPECT_EQ(h.app->session.scene().name, "swinging_box");
 }
 
-// The card says what became of the rest, and every part at fault is named.
+// The card states what was applied, and lists every invalid part.
 TEST(Link, WhatBecameOfTheSceneAndTheRestIsTold) {
   const std::string rest = "The rest of the link was followed.";
   Headless h;
@@ -154,8 +155,8 @@ TEST(Link, TheWindowRunsTheExperimentOfALink) {
   EXPECT_NE(h.app->link().find("load=2&seed=3"), std::string::npos) << h.app->link();
 }
 
-// The edited scene is what a command names, and what a link starts from that has too many events.
-// Links of this kind were made before there were events, and are opened still.
+// A command names the edited scene, and so does a link with too many events. Links of this kind
+// predate events and are still supported.
 TEST(Link, OfAnEditedSceneIsOpened) {
   for (const char* name : {"swinging_box", "bridge", "heavy_stack", "ragdoll_drop"}) {
     for (const char* edit : {"ball", "joints", "contact", "friction", "gravity"}) {

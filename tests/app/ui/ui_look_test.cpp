@@ -1,4 +1,4 @@
-// Colours that everybody can read, by the contrast ratios of WCAG 2.1.
+// Readable colours, by the contrast ratios of WCAG 2.1.
 
 #include "app/ui/look.hpp"
 
@@ -36,7 +36,7 @@ double contrast(const ImVec4& a, const ImVec4& b) {
   return (light + 0.05) / (dark + 0.05);
 }
 
-// What panels look like over the brightest and the darkest of the picture's ground.
+// The colours of panels over the brightest and the darkest background of the picture.
 std::vector<ImVec4> seen(const Theme& t, ImU32 surface) {
   std::vector<ImVec4> all;
   for (const Color& c : {t.view.background_top, t.view.background_bottom}) {
@@ -98,8 +98,8 @@ TEST_P(Contrast, CurvesStandOutFromTheirGround) {
   for (const ImU32 surface : {t.panel, t.well}) expect(t.accent, surface, kGraphic, "what is on");
 }
 
-// Colours of runs that are compared, as people without one of the three kinds of cones see them
-// (Viénot, Brettel and Mollon 1999, on linear RGB).
+// Colours of compared runs as seen by people without one of the three kinds of cones (Viénot,
+// Brettel and Mollon 1999, on linear RGB).
 TEST_P(Contrast, ComparedRunsDifferForColourBlindEyes) {
   struct Matrix {
     double m[3][3];
@@ -113,7 +113,7 @@ TEST_P(Contrast, ComparedRunsDifferForColourBlindEyes) {
       std::vector<double> out;
       for (const auto& row : eye.m) {
         const double v = row[0] * rgb[0] + row[1] * rgb[1] + row[2] * rgb[2];
-        out.push_back(std::sqrt(std::max(0.0, v)));  // near to how bright it looks
+        out.push_back(std::sqrt(std::max(0.0, v)));  // close to the perceived brightness
       }
       return out;
     };

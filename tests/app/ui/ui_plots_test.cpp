@@ -155,7 +155,7 @@ TEST(TimeAxis, PanningToTheNewestFollowsAgain) {
   TimeAxis axis;
   axis.pan(-4.0, 60.0);
   EXPECT_FALSE(axis.follow);
-  EXPECT_NEAR(axis.window(61.0).second, 56.0, 1e-12);  // it holds while the run goes on
+  EXPECT_NEAR(axis.window(61.0).second, 56.0, 1e-12);  // it stays fixed while the run continues
   axis.pan(10.0, 61.0);
   EXPECT_TRUE(axis.follow);
 }
@@ -196,7 +196,7 @@ TEST(Plots, ADragShowsItsRangeAndADoubleClickFollowsAgain) {
   EXPECT_GT(h.app->desk.time.span, 1.0);
   EXPECT_LT(h.app->desk.time.span, 5.0);
   EXPECT_TRUE(h.app->desk.time.hover.has_value());
-  h.frames(60);  // or the click before would count
+  h.frames(60);  // so that the previous click does not count
   for (int i = 0; i < 2; ++i) {
     io.AddMouseButtonEvent(0, true);
     h.frames(1);
@@ -243,7 +243,7 @@ TEST(Export, TableHoldsTheChannelsOfTheShownPlots) {
       "frame,time,substeps,substeps_mean,substeps_least,kinetic,potential,energy,energy_drift,"
       "constraint_error,joint_gap");
   EXPECT_TRUE(lines[30].starts_with("30,0.5,")) << lines[30];
-  // The energy is the whole one, not its change.
+  // The energy is the total, not its change.
   const FrameReport& r = h.app->session.report();
   std::istringstream last(lines[30]);
   std::vector<double> values;

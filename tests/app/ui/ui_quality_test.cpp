@@ -1,4 +1,4 @@
-// How finely a picture that moves is drawn, and where the controls lie.
+// The resolution of a moving picture, and the positions of the controls.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@ void observe(QualityGovernor& governor, double dt, double seconds, double own = 
   for (double t = 0.0; t < seconds; t += dt) governor.observe(dt, own);
 }
 
-// A machine whose drawing takes so long at each quality, for a while.
-// @return how often the quality changed
+// A machine with a given drawing time at each quality, for a while.
+// @return the number of quality changes
 int live_with(QualityGovernor& governor, double coarse, double plain, double fine, double seconds) {
   int changes = 0;
   for (double t = 0.0; t < seconds;) {
@@ -50,8 +50,8 @@ TEST(Quality, GoesDownStepByStepWhereDrawingIsSlow) {
   EXPECT_EQ(governor.quality(), Quality::kSketch);
 }
 
-// Two seconds at five frames a second would be what a page without a graphics processor begins
-// with.
+// Otherwise a page without a graphics processor would start with two seconds at five frames a
+// second.
 TEST(Quality, FourVerySlowFramesAreEnough) {
   QualityGovernor governor;
   observe(governor, 0.2, 0.5);
@@ -60,7 +60,7 @@ TEST(Quality, FourVerySlowFramesAreEnough) {
   EXPECT_EQ(governor.quality(), Quality::kPlain);
 }
 
-// A page that begins compiles shaders and sends pictures to the graphics processor.
+// At its start a page compiles shaders and uploads textures to the graphics processor.
 TEST(Quality, AStutterAtTheStartSaysNothing) {
   QualityGovernor governor;
   observe(governor, 0.5, 1.5);

@@ -183,7 +183,7 @@ TEST(Past, KeepsToItsShareOfMemoryAndToTheStart) {
   for (std::size_t i = 1; i < past.size(); ++i) {
     EXPECT_GT(past[i].state.frame, past[i - 1].state.frame);
   }
-  // Any kept moment goes on exactly, however sparse its neighbours are.
+  // A run continues exactly from any stored moment, however sparse its neighbours are.
   Session straight(shipped("swinging_box"));
   take(straight, 600);
   session.go_to(past.size() / 4);
@@ -297,7 +297,7 @@ TEST(Slices, OfAFrameThatIsLeftChangeNothing) {
   session.pause();
   session.go_to(3);
   begin();
-  session.set_settings(Settings{});  // the frame begins anew with them
+  session.set_settings(Settings{});  // the frame restarts with them
   EXPECT_FALSE(session.slices().open());
   EXPECT_EQ(session.hash(), before);
   session.step();
@@ -445,7 +445,7 @@ TEST(Hand, ABallIsThrownInEverySceneWithEveryIntegrator) {
   }
 }
 
-// What the state holds of each body, it holds of the ball.
+// Every per-body array of the state also has an entry for the ball.
 TEST(Hand, ABallIsThrownInEveryMode) {
   for (const auto& mode : NameTable<Mode>::entries) {
     Session session(shipped("bridge"));

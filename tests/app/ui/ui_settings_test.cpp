@@ -1,4 +1,4 @@
-// Settings that are chosen in the window.
+// Settings selected in the window.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(Settings, WhatActsAtAStartAloneSaysSo) {
   EXPECT_NE(h.app->notice.text.find("reset"), std::string::npos);
 }
 
-// The controls say it below the box; the picture's caption names what acts.
+// The controls show it below the box; the caption of the picture names the active effects.
 TEST(Settings, StormerIsToldToBeLeapfrogWhereItIs) {
   Headless h;
   h.app->open("pendulum");
@@ -82,7 +82,7 @@ TEST(Presets, AButtonSetsAllOfTheMethodAndTheLinkKeepsIt) {
   h.press("recommended");
   ASSERT_TRUE(h.app->session.scene().recommended.has_value());
   Settings recommended = h.app->session.scene().recommended->settings;
-  recommended.watch_stiffness = true;  // what is looked at stays
+  recommended.watch_stiffness = true;  // display settings are kept
   EXPECT_EQ(h.app->session.settings(), recommended);
   const std::string link = h.app->link();
   h.press("paper");

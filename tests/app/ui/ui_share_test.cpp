@@ -1,4 +1,4 @@
-// Links apart (ui_link_test): commands, scene files saved, a person's own scenes kept.
+// Commands, saved scene files and stored scenes of the user (links: ui_link_test).
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace substep {
 namespace {
 
-// What the host of a test was given.
+// Calls that the test's host received.
 struct Kept {
   std::map<std::string, std::string> files;
   std::map<std::string, std::string> memory;
@@ -90,7 +90,8 @@ TEST(Command, HoldsLoadAndSeed) {
   EXPECT_EQ(h.app->command(), "./dev cli run pendulum --load 2 --seed 3");
 }
 
-// An own scene goes into the link as a whole: its load stands beside it and must not be in it too.
+// A user's scene is in the link as a whole: its load is a separate key and must not be applied
+// twice.
 TEST(Command, TheLoadOfAnOwnSceneIsNotInItsFileToo) {
   Headless h;
   ASSERT_TRUE(h.app->open_text(renamed(*shipped("pendulum"), "mine"), "mine.json"));
@@ -167,7 +168,7 @@ TEST(SavedScene, AStateBeyondWhatFilesHoldIsToldAndNotSaved) {
   h.app->run(std::make_shared<Scene>(far));
   for (int i = 0; i < 60; ++i) h.app->session.step();
   h.app->save_scene();
-  if (h.app->trouble.title.empty()) {  // the pivot may hold it back: then the file is sound
+  if (h.app->trouble.title.empty()) {  // the joint may restrain it: then the file is valid
     ASSERT_EQ(kept.files.size(), 1U);
     EXPECT_TRUE(read_scene(kept.files.begin()->second).scene);
   } else {
@@ -247,7 +248,7 @@ TEST(ShareMenu, OpensAndOffersOnlyWhatTheHostCanDo) {
   bool copied = false;
   h.app->host.copy_link = [&] { copied = true; };
   h.frames(2);
-  // The button beside the last of the bar; the entries above it, whatever their heights.
+  // The button next to the last of the bar; the entries above it, at any height.
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const ImVec2 button(display.x - 72.0F, display.y - 40.0F);
   for (float y = button.y - 32.0F; y > button.y - 280.0F && !copied; y -= 12.0F) {

@@ -1,4 +1,4 @@
-// The sweeps that are shipped with the scenes, and the chart that is there at once.
+// The sweeps shipped with the scenes, and the chart that is available immediately.
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
@@ -19,7 +19,7 @@
 namespace substep {
 namespace {
 
-/// The file of a scene's sweep, hashes included; "" where there is none.
+/// The file of a scene's sweep, including hashes; "" if there is none.
 std::string sweep_file(const Scene& scene) {
   std::ifstream file(std::string(SUBSTEP_SOURCE_DIR) + "/scenes/sweeps/" + scene.name + ".txt");
   return {std::istreambuf_iterator<char>(file), {}};
@@ -35,7 +35,7 @@ std::vector<std::string> sweep_lines(const std::string& text) {
   return lines;
 }
 
-/// A line without its path error, which is compared by itself.
+/// A line without its path error, which is compared separately.
 std::string without_path(const std::string& line) {
   if (line.starts_with("! ")) return line;
   const std::size_t second = line.find(' ', line.find(' ') + 1);
@@ -44,8 +44,8 @@ std::string without_path(const std::string& line) {
 
 constexpr std::size_t kHeadLines = 4;
 
-// A sample of the experiments of each scene, another one each day, comes to the bits in its file.
-// References that are runs of 256 sub-steps take longest: each day one scene has its own.
+// A daily sample of the experiments of each scene reproduces the bits in its file. References of
+// 256 sub-steps take longest: each day one scene computes its own.
 TEST(ShippedSweep, ASampleComesToTheSameBits) {
   const auto day = std::chrono::duration_cast<std::chrono::hours>(
                        std::chrono::system_clock::now().time_since_epoch())
@@ -77,7 +77,7 @@ TEST(ShippedSweep, ASampleComesToTheSameBits) {
       const auto& path = read->results[chosen].metrics.errors.trajectory_peak;
       if (!path || !measured) continue;
       ASSERT_TRUE(result.metrics.errors.trajectory_peak) << scene->name;
-      // Of four digits, and no more certain than the reference.
+      // Four digits, and no more accurate than the reference.
       EXPECT_NEAR(*path, *result.metrics.errors.trajectory_peak,
                   1e-3 * *path + reference.uncertainty)
           << scene->name;
@@ -144,7 +144,7 @@ TEST(ShippedSweep, WhatRanStaysUntilTheShippedOneIsAskedFor) {
   EXPECT_EQ(find_handle("Show this scene"), nullptr);
 }
 
-// The conclusion, read off the points by hand.
+// The conclusion, derived from the points by hand.
 TEST(ShippedSweep, TheConclusionIsTrue) {
   Headless h;
   for (const char* name : {"swinging_box", "bridge", "heavy_stack"}) {
@@ -210,8 +210,7 @@ TEST(ShippedSweep, FiveCurvesAreNamedAndAllAtAPress) {
   EXPECT_FALSE(accuracy.all_methods);
 }
 
-// Wherever a point lies, what is read off it is whole: no lines of two characters, nothing beyond
-// the display.
+// Tooltips are complete at every point: no lines of two characters, nothing outside the display.
 TEST(ShippedSweep, WhatIsReadOffAPointIsWhole) {
   for (const bool large : {false, true}) {
     Headless h;

@@ -1,4 +1,4 @@
-// The map of what holds under which load, in the window.
+// The map of stable settings by load, in the window.
 
 #include <gtest/gtest.h>
 

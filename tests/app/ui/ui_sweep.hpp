@@ -1,5 +1,5 @@
 #pragma once
-// What goes on in slices, taken to its end.
+// Runs sliced computations to their end.
 
 #include "scenes/generator/scenes.hpp"
 #include "tests/app/ui/ui_fixture.hpp"

@@ -14,7 +14,7 @@
 namespace substep {
 namespace {
 
-// The session and what runs beside it, ten seconds into a step of the tour.
+// The session and the compared runs, ten seconds into a step of the tour.
 class Step {
  public:
   explicit Step(int number, int frames = 600) {
@@ -23,7 +23,7 @@ class Step {
   }
   Session& session() { return h.app->session; }
   const Compare::Run& ghost() { return h.app->compare.runs().at(0); }
-  // Share of the exchanged energy that is gone since the start.
+  // Share of the exchanged energy lost since the start.
   double lost(const History& history) {
     return -static_cast<double>(history[Channel::kDrift].back()) /
            *session().scene().criteria.energy_scale;
@@ -35,7 +35,7 @@ class Step {
   Headless h;
 };
 
-// A step as a person goes through it: set a number, and wait for what the run answers.
+// A step as a user performs it: set a number, and wait for the answer from the run.
 class Task {
  public:
   explicit Task(int number) { EXPECT_EQ(h.app->set("tour", std::to_string(number)), ""); }

@@ -1,4 +1,4 @@
-// What the window says of a run before it is judged and when it fails.
+// The window's text about a run before its verdict and after a failure.
 
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
@@ -84,13 +84,13 @@ TEST(FailedRun, WhatIsLoadedAfterThePastWasLookedAtPlays) {
   EXPECT_FALSE(session.playing());
   session.load(shipped("bridge"));
   EXPECT_TRUE(session.playing());
-  session.pause();  // somebody asked for it
+  session.pause();  // on request
   session.go_to(0);
   session.load(shipped("pendulum"));
   EXPECT_FALSE(session.playing());
 }
 
-// The middles and corners of moving bodies, as they are seen, that lie under a window.
+// The visible centres and corners of moving bodies that lie under a window.
 int covered_by(const Headless& h, const char* window) {
   const ImGuiWindow* card = ImGui::FindWindowByName(window);
   const Poses& poses = h.app->session.poses();

@@ -26,7 +26,7 @@ constexpr std::array<Display, 7> kDisplays{{{1280, 720, 1.0F},
                                             {844, 390, 2.0F},
                                             {320, 568, 1.0F}}};
 
-// Windows that are open now, the picture's own and what belongs to another window left out.
+// Open windows, without the picture's own and child windows.
 std::vector<const ImGuiWindow*> open_windows() {
   std::vector<const ImGuiWindow*> windows;
   for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
@@ -47,7 +47,7 @@ TEST(Window, EverySceneInEveryModeDrawsItsPicture) {
     h.app->run(scene);
     for (const char* mode : {"none", "const", "damping", "adaptive", "capped"}) {
       ASSERT_EQ(h.app->set("mode", mode), "");
-      h.app->session.play();  // a run that failed has paused
+      h.app->session.play();  // a failed run is paused
       h.frames(8);
       const Picture& p = h.renderer->picture;
       EXPECT_GT(p.boxes.size() + p.balls.size(), 0U) << scene->name;
@@ -95,12 +95,12 @@ TEST(Window, PanelsOfTheDesktopNeedNoScrolling) {
   }
 }
 
-// The camera knows the start alone: the scene's own must leave room for what is to fall.
+// The camera uses only the start: the scene's own camera must leave room for falling bodies.
 TEST(Window, CratesFallWhereNoPanelIsOverThem) {
   Headless h;
   h.app->open("wrecking_ball");
   h.app->session.pause();
-  h.frames(1);  // sees the start
+  h.frames(1);  // records the start
   for (int i = 0; i < 360; ++i) h.app->session.step();
   h.frames(3);
   const ViewRect& view = h.app->view_rect;
@@ -273,12 +273,12 @@ TEST(ReadOut, IsWholeOnTheDisplayAndAsWideAsItsLines) {
   }
 }
 
-// What Dear ImGui asserts is told in every build, and ends nobody's run.
+// Dear ImGui's assertions are reported in every build and end no run.
 TEST(Window, AWrongCallOfDearImguiIsToldAndEndsNothing) {
   Headless h;
   ImGui::NewFrame();
   ImGui::Begin("wrong");
-  ImGui::SetCursorPosY(1000.0F);  // room that no item takes
+  ImGui::SetCursorPosY(1000.0F);  // space outside of any item
   testing::internal::CaptureStderr();
   ImGui::End();
   EXPECT_NE(testing::internal::GetCapturedStderr().find("SetCursorPos"), std::string::npos);

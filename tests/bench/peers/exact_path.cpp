@@ -1,5 +1,5 @@
-// Where the tracked body of a scene is after every frame, exactly: exact_path SCENE.json prints
-// x y z [m], a line a frame. A scene whose exact motion is not known is refused.
+// The exact position of the tracked body of a scene after every frame: exact_path SCENE.json prints
+// x y z [m], a line a frame. A scene without a known exact motion is rejected.
 
 #include <cstdio>
 

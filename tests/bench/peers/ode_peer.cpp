@@ -1,8 +1,8 @@
 // One run of a scene by ODE, natively: its direct solver (Lemke's method on the dense matrix of all
 // constraints) or its Gauss-Seidel one, in double precision.
 //
-// Settings: substeps, solver (direct or quick), iterations (of quick), erp (the part of an error
-// that a step takes back), cfm (what constraints give way, per step).
+// Settings: substeps, solver (direct or quick), iterations (of quick), erp (the share of an error
+// corrected in a step), cfm (softness of constraints, per step).
 
 #include <ode/ode.h>
 

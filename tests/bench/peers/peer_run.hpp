@@ -1,5 +1,5 @@
 #pragma once
-// What the programs of the peer bench share: their command line, and how a run is told.
+// Shared by the programs of the peer bench: their command line and the output format of a run.
 
 #include <memory>
 #include <string>
@@ -14,16 +14,16 @@ namespace substep::bench {
 struct PeerArguments {
   std::shared_ptr<const Scene> scene;
   int frames = 0;
-  int warm_up = 0;  // frames that come before, of a run that is thrown away
+  int warm_up = 0;  // warm-up frames of a separate run that is discarded
   std::vector<std::pair<std::string, std::string>> settings;
 };
 
-/// Where something is wrong the program ends, with the reason on stderr.
+/// On an error the program ends, with the reason on stderr.
 std::shared_ptr<const Scene> load(const char* path);
 PeerArguments read_peer_arguments(int argc, char** argv);
 [[noreturn]] void refuse(const std::string& why);
 
-/// [ms], from any fixed moment
+/// [ms], from an arbitrary fixed moment
 double now_ms();
 
 /// A frame of a run.

@@ -40,7 +40,7 @@ class World {
 int main(int argc, char** argv) {
   const bench::PeerArguments arguments = bench::read_peer_arguments(argc, argv);
   World world(arguments);
-  // Under Node.js code gets faster for a while; and scratch memory gets its size.
+  // Warm-up: Node.js optimises the code, and scratch memory is sized.
   bench::simulate(world, arguments.warm_up);
   world.reset();
   bench::print(bench::simulate(world, arguments.frames));

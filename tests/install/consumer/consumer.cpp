@@ -1,4 +1,4 @@
-// Loads a scene, runs it, measures it: what a program of somebody else does with substep::core.
+// Loads a scene, runs it and measures it: a typical program that uses substep::core.
 
 #include <cstdio>
 

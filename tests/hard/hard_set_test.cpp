@@ -1,5 +1,5 @@
 // The recommended setting on scenes far beyond the paper's. The whole set, with its work, is in
-// scenes/README.md and printed by `substep check --hard`; these are the cheap ones.
+// scenes/hard_set.md and printed by `substep check --hard`; these are the cheap ones.
 
 #include "scenes/generator/hard_set.hpp"
 

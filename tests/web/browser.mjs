@@ -156,6 +156,11 @@ export async function find(page, label, group) {
 /** A place on a control. @param along 0 at its left end to 1 at its right one */
 export const place = ({ x, y, width, height }, along = 0.5) => [x + along * width, y + height / 2];
 
+/** Waits until a control is drawn. */
+export const appears = (page, label) => page.waitForFunction(
+  (name) => window.substep.widgets().some((w) => w.label === name), label,
+  { polling: 100, timeout: 20000 });
+
 /** Clicks a control by its text, and waits for the effect. */
 export async function click(page, label, group) {
   await page.mouse.click(...place(await find(page, label, group)));

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { call, click, dropPicked, drawn, find, open, openPage, pickUp, place, quiet, save } from "./browser.mjs";
+import { appears, call, click, dropPicked, drawn, find, open, openPage, pickUp, place, quiet, save } from "./browser.mjs";
 import { pack } from "../../web/inline_scene.mjs";
 
 let session;
@@ -162,6 +162,7 @@ async function suffer(page, what, bring, take) {
   const held = report.held !== "";
   let silent = await silence(page);
   if (held) {
+    await appears(page, "Run it");
     const button = await find(page, "Run it"); // in spite of the forecast
     await listenAgain(page);
     await page.mouse.click(...place(button));

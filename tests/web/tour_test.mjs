@@ -294,8 +294,11 @@ test("a laboratory in an article has the card in its window, as before", async (
   const labels = await page.evaluate(async () => {
     const [lab] = Object.values(window.laboratories);
     lab.set({ tour: 2 });
-    for (let i = 0; i < 8; ++i) await new Promise((done) => { requestAnimationFrame(done); });
-    return lab.widgets().map((w) => w.label);
+    const drawn = () => lab.widgets().map((w) => w.label);
+    for (let i = 0; i < 600 && !drawn().includes("Next"); ++i) {
+      await new Promise((done) => { requestAnimationFrame(done); });
+    }
+    return drawn();
   });
   assert.ok(labels.includes("Next"), labels.join());
   assert.equal(await tour(page).count(), 0);

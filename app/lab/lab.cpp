@@ -87,7 +87,11 @@ void Lab::run(const RunStart& start) {
   run(copy.scene);
   if (copy.load != 1.0 || copy.seed != 0) vary(copy.load, copy.seed);
   change(copy.settings);
-  copy.playing ? session.play() : session.pause();
+  if (copy.playing) {
+    session.play();
+  } else {
+    session.pause();
+  }
 }
 
 void Lab::start_opened() {

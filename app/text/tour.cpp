@@ -11,7 +11,7 @@ std::span<const TourStep> tour_steps() {
       {{.title = "A heavy box on a thin chain",
         .text = "A box of {load} hangs on 25 links of 1 kg each. The solver is exact and takes one "
                 "step per frame. The pull of the chain turns with every link and acts like a "
-                "spring. For so long a step this spring is too stiff.",
+                "spring. This spring is too stiff for so long a step.",
         .watch = "Watch the links in slow motion, and [the joint error](error) as it climbs.",
         .task = "Does a lighter box help? Set its mass to 10 kg.",
         .link = "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots&plots=error"
@@ -28,9 +28,10 @@ std::span<const TourStep> tour_steps() {
         .loop = {.end = 4.0},
         .reply = reply_break_it},
        {.title = "Damping holds it too, and slows it",
-        .text = "A frame takes at most {n_cap}. What is too stiff for that is damped. The chain "
-                "holds even with one sub-step, but after ten seconds a fifth of the energy is "
-                "gone.",
+        .text =
+            "A frame takes at most {n_cap}. Bodies that are too stiff for that are damped. The "
+            "chain holds even with one sub-step, but after ten seconds a fifth of the energy is "
+            "gone.",
         .watch = "Watch the box fall behind the orange ghost, which swings undamped, and "
                  "[the kinetic energy](energy).",
         .task = "Lose less than a tenth: allow more sub-steps.",
@@ -60,9 +61,10 @@ std::span<const TourStep> tour_steps() {
         .loop = {.end = 5.0},
         .reply = reply_double_n},
        {.title = "The load changes, and N follows",
-        .text = "The box has a mass of {load}. At 1,000 kg seven constant sub-steps hold as well: "
-                "the orange ghost has them. A heavier box makes the chain stiffer. Seven are then "
-                "too few, and adaptive sub-steps become more.",
+        .text =
+            "The box has a mass of {load}. At 1,000 kg seven constant sub-steps hold as well "
+            "(orange ghost). A heavier box makes the chain stiffer. Seven are then too few, and "
+            "adaptive sub-steps become more.",
         .watch = "Watch the ghost, and [the plot of N](substeps).",
         .task = "Make the box four times as heavy.",
         .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler"
@@ -70,9 +72,10 @@ std::span<const TourStep> tour_steps() {
         .loop = {.end = 4.0},
         .reply = reply_heavier_box},
        {.title = "What does accuracy cost?",
-        .text = "Sometimes nothing. Leapfrog lets gravity act over the middles of two sub-steps. "
-                "At alpha = 0.1 it keeps the energy to a millionth, with as many sub-steps as the "
-                "orange ghost, which is Euler. This run has alpha = {alpha}.",
+        .text =
+            "Sometimes nothing. Leapfrog applies gravity from the middle of one sub-step to the "
+            "middle of the next. At alpha = 0.1 its energy error is below a millionth, with as "
+            "many sub-steps as the orange ghost, which is Euler. This run has alpha = {alpha}.",
         .watch = "Watch [the energy drift](drift). [Error against cost](accuracy) shows all "
                  "methods.",
         .task = "Save half the sub-steps: raise alpha to 0.4.",

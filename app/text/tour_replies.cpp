@@ -94,8 +94,10 @@ TourReply reply_heavier_box(const Lab& lab, const RunLoop::Outcome& outcome) {
   if (outcome.failed()) return failed(outcome);
   if (outcome.open() || outcome.beside.empty()) return {};
   const RunLoop::Pass& ghost = outcome.beside[0];
-  const std::string beside = ghost.stable ? "Seven constant sub-steps hold as well."
-                                          : "With seven constant sub-steps " + failure(ghost) + ".";
+  const std::string n = std::to_string(ghost.most_n);
+  const std::string beside = ghost.stable
+                                 ? n + " constant sub-steps hold as well."
+                                 : "With " + n + " constant sub-steps " + failure(ghost) + ".";
   return {"With " + mass(lab) + " N is up to " + std::to_string(outcome.run.most_n) +
               " and the chain holds. " + beside,
           !ghost.stable};

@@ -87,7 +87,7 @@ Part part_of_window(const Viewport& viewport, std::size_t pane);
 void compare_legend(const Look& look, const Session& session, const Compare& compare,
                     const Viewport& viewport);
 /// The guided tour's card, or the button that opens it.
-/// @param words of the current step, null outside the tour
+/// @param words of the current step; null outside the tour, and if the page shows them
 void tour(const Look& look, Desk& desk, const Viewport& viewport, const TourWords* words);
 inline constexpr const char* kTourTip = "The paper's story in seven steps";
 /// Title of this run in a comparison.

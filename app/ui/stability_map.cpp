@@ -10,6 +10,7 @@
 #include "app/text/format.hpp"
 #include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
+#include "app/ui/handles.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/stepping/mode_rules.hpp"
 
@@ -118,13 +119,12 @@ bool runs_now(const Lab& lab, const Result& result) {
          series_parameter(now).value == series_parameter(of).value;
 }
 
-/// Position of N among the rows of constant N, on a logarithmic scale [rows].
+/// Position of N among the rows of constant N, on a logarithmic scale; outside the map for N below
+/// the first row or above the last [rows]. @param values at least two, ascending
 double row_of(const std::vector<double>& values, double n) {
   std::size_t i = 0;
   while (i + 2 < values.size() && n > values[i + 1]) ++i;
-  const double row =
-      static_cast<double>(i) + std::log(n / values[i]) / std::log(values[i + 1] / values[i]);
-  return std::clamp(row, -0.5, static_cast<double>(values.size()) - 0.5);
+  return static_cast<double>(i) + std::log(n / values[i]) / std::log(values[i + 1] / values[i]);
 }
 
 /// The mean N of a row of adaptive sub-stepping for each load.
@@ -156,8 +156,10 @@ Path path_of(const Accuracy& accuracy, const std::vector<Grid>& grids) {
   return path;
 }
 
-/// A line over the cells of constant N: the mean N of adaptive sub-stepping.
+/// A line over the cells of constant N: the mean N of adaptive sub-stepping. It leaves the map
+/// where that exceeds the largest constant N.
 void draw_path(const Look& look, const Grid& grid, const Path& path, const Layout& layout) {
+  if (grid.values.size() < 2) return;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 color = look.theme->teal;
   std::vector<ImVec2> points;
@@ -167,12 +169,18 @@ void draw_path(const Look& look, const Grid& grid, const Path& path, const Layou
                       layout.origin.y + layout.cell.y * static_cast<float>(
                                                             row_of(grid.values, path.n[i]) + 0.5)});
   }
+  const auto columns = static_cast<float>(grid.loads.size());
+  const auto rows = static_cast<float>(grid.values.size());
+  draw.PushClipRect(
+      layout.origin,
+      {layout.origin.x + layout.cell.x * columns, layout.origin.y + layout.cell.y * rows}, true);
   draw.AddPolyline(points.data(), static_cast<int>(points.size()), look.theme->panel, 0, 5.0F);
   draw.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, 2.0F);
   for (const ImVec2& at : points) {
     draw.AddCircleFilled(at, 4.5F, look.theme->panel);
     draw.AddCircleFilled(at, 3.0F, color);
   }
+  draw.PopClipRect();
 }
 
 /// Centred text in a cell.
@@ -254,6 +262,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
       }
       const Result& result = accuracy.results()[known->second];
       draw_cell(look, result, min, max);
+      mark(std::to_string(known->second).c_str(), min, max, "map");
       const bool live = runs_now(lab, result);
       if (live) draw.AddRect({min.x - 1, min.y - 1}, {max.x + 1, max.y + 1}, t.text, 4.0F, 0, 2);
       if (!pointed || mouse.x < min.x || mouse.x >= max.x || mouse.y < min.y || mouse.y >= max.y) {

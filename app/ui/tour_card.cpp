@@ -155,12 +155,12 @@ void go_on_with_tour(Desk& desk) {
 }
 
 void tour(const Look& look, Desk& desk, const Viewport& viewport, const TourWords* words) {
-  if (words == nullptr || desk.tour_in_page) desk.tour_height = 0.0F;
-  if (words == nullptr) {
-    invitation(look, desk, viewport);
-  } else if (!desk.tour_in_page) {
+  if (words != nullptr) {
     card(look, desk, viewport, *words);
+    return;
   }
+  desk.tour_height = 0.0F;
+  if (desk.tour < 0) invitation(look, desk, viewport);
 }
 
 }  // namespace substep::ui

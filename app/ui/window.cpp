@@ -297,7 +297,7 @@ void draw_window(App& app) {
   app.view_rect.height -= app.desk.tour_height;
   selection_card(app.look, app.session, app.desk, app, small);
   std::optional<TourWords> words;
-  if (app.desk.tour >= 0) {
+  if (app.desk.tour >= 0 && !app.desk.tour_in_page) {
     words = tour_words(app, static_cast<std::size_t>(app.desk.tour), app.tour.loop());
   }
   tour(app.look, app.desk, app, words ? &*words : nullptr);

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "tests/app/ui/ui_sweep.hpp"
 
@@ -51,6 +53,54 @@ TEST(Accuracy, CellsOfTheMapAreFoundUnderThePointer) {
   for (const auto& [load, value] : chosen) loads.insert(load);
   EXPECT_EQ(loads.size(), 6U);
   EXPECT_GT(chosen.size(), 40U);
+}
+
+// Centres of the cells, by the index of their result.
+std::vector<std::pair<std::size_t, ImVec2>> cells_of(const Headless& h) {
+  std::vector<std::pair<std::size_t, ImVec2>> cells;
+  const auto s = static_cast<float>(h.app->desk.scale);
+  for (const ui::Handle& handle : ui::handles()) {
+    if (handle.group != "map") continue;
+    cells.emplace_back(std::stoul(handle.label), ImVec2(0.5F * s * (handle.min.x + handle.max.x),
+                                                        0.5F * s * (handle.min.y + handle.max.y)));
+  }
+  return cells;
+}
+
+TEST(Accuracy, DraggingOverTheMapRunsEachCellOnce) {
+  Headless h;
+  sweep_a_rope(h);
+  h.app->accuracy.picture = AccuracyPicture::kStabilityMap;
+  h.frames(2);
+  const auto cells = cells_of(h);
+  ASSERT_GT(cells.size(), 12U);
+  ImGuiIO& io = ImGui::GetIO();
+  const auto shows = [&](std::size_t index) {
+    const Experiment& e = h.app->accuracy.results()[index].experiment;
+    return h.app->load == e.load &&
+           series_parameter(h.app->session.settings()).value == series_parameter(e.settings).value;
+  };
+  io.AddMousePosEvent(cells[0].second.x, cells[0].second.y);
+  h.frames(1);
+  const int before = h.app->run_count;
+  h.frames(3);
+  EXPECT_EQ(h.app->run_count, before) << "hovering starts a run";
+  io.AddMouseButtonEvent(0, true);
+  h.frames(1);
+  for (const std::size_t i : {0U, 1U, 7U, 8U}) {
+    io.AddMousePosEvent(cells[i].second.x, cells[i].second.y);
+    h.frames(1);
+    EXPECT_TRUE(shows(cells[i].first)) << i;
+    const int runs = h.app->run_count;
+    h.frames(4);
+    EXPECT_EQ(h.app->run_count, runs) << "a resting pointer restarts the run";
+  }
+  io.AddMouseButtonEvent(0, false);
+  h.frames(2);
+  const int after = h.app->run_count;
+  io.AddMousePosEvent(cells[3].second.x, cells[3].second.y);
+  h.frames(2);
+  EXPECT_EQ(h.app->run_count, after) << "the drag continues after the release";
 }
 
 }  // namespace

@@ -228,6 +228,7 @@ TEST(Tour, AtFourTimesTheLoadSevenTearAndAdaptiveHoldsWithTwiceTheSubsteps) {
   EXPECT_TRUE(contains(reply.text, "With 4,000 kg N is up to 39 ") ||
               contains(reply.text, "With 4,000 kg N is up to 40 "))
       << reply.text;
+  EXPECT_TRUE(contains(reply.text, "With 7 constant sub-steps the ")) << reply.text;
   EXPECT_TRUE(task.h.app->compare.open()) << "the ghost is gone";
 }
 

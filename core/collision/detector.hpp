@@ -32,8 +32,8 @@ class Detector {
   /// approach. @param ahead [s]
   std::span<const ContactPoint> predict(const Scene& scene, const Part& part, const State& state,
                                         std::span<const Mat3> R_WB, double ahead);
-  /// Detects contacts of the listed box pairs, with the same look-ahead. @param ahead at most that
-  /// of predict() [s]
+  /// Contacts of the listed box pairs that may form within a time. @param ahead at most that of
+  /// predict() [s]
   std::span<const ContactPoint> detect_listed(const Scene& scene, const Part& part,
                                               const State& state, std::span<const Mat3> R_WB,
                                               double ahead);

@@ -19,7 +19,7 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& bo
   if (squared > reach * reach) return;
 
   ContactPoint& point = out.emplace_back();
-  int axis = 0;  // axis of the nearest face
+  int axis = 0;  // of the nearest face; unused at edges and corners
   int outside = 0;
   for (int i = 0; i < 3; ++i) {
     if (d[i] == 0.0) continue;

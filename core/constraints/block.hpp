@@ -48,7 +48,7 @@ struct Block {
   double softness[kMaxRows] = {};  // C/dt^2 + regularisation [1/kg or 1/(kg m^2)]
   double impulse[kMaxRows] = {};   // dt lambda: seed in, solution out [N s or N m s]
 
-  double lambda[kMaxRows] = {};  // constraint force of this sub-step, computed on demand [N or N m]
+  double lambda[kMaxRows] = {};  // constraint force of this sub-step, set only if read [N or N m]
   double J_a[kMaxRows][6];       // d phi / d q_a: linear [-], angular [m] (angular rows: [-])
   double J_b[kMaxRows][6];       // d phi / d q_b
 

@@ -26,8 +26,8 @@ void contact_stiffness_paper(const Block& block, StiffnessMatrix& K);
 /// The true derivative of the normal force and its torques: lambda_n times the Hessian of phi.
 void contact_stiffness_normal(const Block& block, StiffnessMatrix& K);
 
-/// The true derivative of the contact's force and torques, including friction, with tangents fixed
-/// in body b as in move_rows().
+/// The true derivative of the contact's force and torques, including friction, with tangents that
+/// rotate with body b and stay perpendicular to the normal, as in move_rows().
 void contact_stiffness_exact(const Block& block, StiffnessMatrix& K);
 
 /// Selects the terms that enter K. The first and the last choose N. Only the normal term is added

@@ -48,8 +48,7 @@ bool ContactStage::predict(const Scene& scene, const Part& part, const State& st
                            std::span<const Mat3> R_WB, double ahead) {
   const std::span<const ContactPoint> points = detector_.predict(scene, part, state, R_WB, ahead);
   predicted_.clear();
-  predicted_.reserve(8 * scene.bodies.size() +
-                     32);  // reserved once: new contacts must not allocate
+  predicted_.reserve(8 * scene.bodies.size() + 32);  // once: new contacts must not allocate
   if (detector_.too_many()) return false;
   append(points, scene, state, predicted_);
   x_.assign(state.x.begin(), state.x.end());

@@ -39,7 +39,7 @@ class ContactStage {
   Blocks predicted_;
   std::vector<Vec3> x_;  // per body: position at the prediction, world [m]
   std::vector<Quat> q_;
-  std::vector<double> way_;  // per body: bound on the travel of its points since then [m]
+  std::vector<double> way_;  // per body: travel of its points covered by the prediction [m]
 };
 
 /// Largest overlap at a state, >= 0 [m].

@@ -68,7 +68,7 @@ bool RestitutionStage::spreads(const Scene& scene, std::span<const Vec6> u, doub
   const bool spread = std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
     if (!block.is_contact() || restitution_of(block) == 0.0) return false;
     if (impact_speed(scene, u, dt, block) > 0.0) return false;
-    double change = 0.0;  // no impact changes a speed by more than twice the fastest speed
+    double change = 0.0;  // each body's speed changes by at most twice its fastest impact
     for (const int body : {block.a, block.b}) {
       if (body >= 0) change += 2.0 * impact_[static_cast<std::size_t>(body)];
     }

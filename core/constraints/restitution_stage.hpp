@@ -27,7 +27,7 @@ class RestitutionStage {
   bool spreads(const Scene& scene, std::span<const Vec6> u, double dt,
                std::span<const Block> blocks);
 
-  /// True if impacts were propagated in this sub-step and contact i was among them.
+  /// True if impacts were propagated in this sub-step; with i, if contact i was among them.
   [[nodiscard]] bool struck() const { return !struck_.empty(); }
   [[nodiscard]] bool struck(std::size_t i) const { return struck() && struck_[i] != 0; }
 

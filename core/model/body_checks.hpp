@@ -14,10 +14,9 @@
 namespace substep {
 
 // The fault of one value, or nothing.
-std::optional<std::string> inertia_fault(
-    const Vec3& inertia);                                     // moments that no rigid body can have
-std::optional<std::string> orientation_fault(const Quat& q);  // length
-std::optional<std::string> axis_fault(const Vec3& axis);      // length
+std::optional<std::string> inertia_fault(const Vec3& inertia);  // moments of no rigid body
+std::optional<std::string> orientation_fault(const Quat& q);    // length
+std::optional<std::string> axis_fault(const Vec3& axis);        // length
 inline constexpr std::string_view kNoInertia =
     "mass and shape are so small that their inertia is 0";
 inline constexpr std::string_view kMovingPlane =

@@ -78,7 +78,8 @@ inline Settings own_settings(const Scene& scene) {
   return scene.settings == recommended ? Settings{} : scene.settings;
 }
 
-/// The scene with a recommendation, which replaces its initial settings if they are the defaults.
+/// The scene with a recommendation. It replaces the initial settings, unless the scene has its own
+/// (own_settings()) and they are not the defaults.
 inline Scene with_recommended(Scene scene, Recommended recommended) {
   if (own_settings(scene) == Settings{}) scene.settings = recommended.settings;
   scene.recommended = std::move(recommended);

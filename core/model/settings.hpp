@@ -99,7 +99,7 @@ inline bool follows_accelerations(const Settings& s) {
          s.solver != SolverKind::kXpbd;
 }
 
-/// True if bodies conserve angular momentum in a sub-step and rotate by free_turn.hpp.
+/// True if sub-steps carry the angular momentum of tumbling bodies, which rotate by free_turn.hpp.
 inline bool carries_momentum(const Settings& s) {
   return follows_accelerations(s) || extrapolates(s);
 }

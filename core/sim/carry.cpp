@@ -188,7 +188,7 @@ void Simulator::Impl::aim_at_poses(double dt) {
   aim_at_stormer_poses(rows(), state.acceleration, u_guess, motions, impulse_time, dt);
 }
 
-// After an impact, poses move by the velocities.
+// In a sub-step with an impact, which is not an acceleration, poses move by the velocities.
 std::span<const Vec6> Simulator::Impl::pose_velocities(double dt) {
   if (extrapolates(settings)) {
     w.resize(state.u.size());

@@ -12,7 +12,7 @@
 namespace substep {
 
 namespace {
-constexpr int kSolves = 5;  // at trial poses around the start
+constexpr int kSolves = 5;  // at the start, and in two passes at both trial poses
 }
 
 bool Simulator::Impl::needs_first_changes() const {

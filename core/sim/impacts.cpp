@@ -28,8 +28,7 @@ bool Simulator::Impl::propagate_impacts(double dt, FrameReport& report) {
   if (!restitution->spreads(*scene, u_before, dt, own)) return true;
   if (!impacts) impacts = make_solver(impact_solver(settings.solver));
   std::span<const InverseMass> masses = inverse_mass;
-  if (changes_mass(
-          settings.mode)) {  // an impact is instantaneous: no damping or geometric stiffness
+  if (changes_mass(settings.mode)) {  // no time passes: no damping or geometric stiffness
     rigid_mass.resize(inverse_mass.size());
     substep::inverse_mass(inertia_inverse, part(), R_WB, rigid_mass);
     masses = rigid_mass;

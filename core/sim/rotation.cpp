@@ -222,8 +222,8 @@ Vec3 Simulator::Impl::momentum_of(std::size_t body, const Vec6& u) const {
   return R * scene->bodies[body].inertia.cwiseProduct(R.transpose() * u.tail<3>());
 }
 
-// Rotation from the momentum l and the linearly changing torque. @return angular velocity for
-// integrate() [rad/s]
+// Rotation from the carried momentum l and `torque`, extrapolated over the sub-step by its last two
+// changes. @return angular velocity for integrate() [rad/s]
 Vec3 Simulator::Impl::turn_velocity(std::size_t body, const Vec3& l, const Vec3& torque,
                                     double dt) const {
   const Vec3& I = scene->bodies[body].inertia;

@@ -21,7 +21,7 @@ FrameReport Simulator::Impl::advance(Share share) {
     external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
     if (!solve(dt, report)) break;    // dt lambda, u+                                    Eq. 3
     if (!finite(report)) break;
-    // K, k, r, with the arms matching lambda                                  Eqs. 1, 4, 9
+    // K, k, r, with the arms matching lambda                                         Eqs. 1, 4, 9
     if (schedule.needs_stiffness() && !evaluate_stiffness(report)) break;
     advance_poses(dt, report);
     spent += static_cast<double>(report.work.flops - before) + work_beside_solver(progress(report));

@@ -171,7 +171,7 @@ struct Simulator::Impl {
 
   Part all;                          // of the scene
   bool has_springs = false;          // compliant joints
-  double heaviest = 1.0;             // largest mass or moment of inertia, at least 1 [kg, kg m^2]
+  double heaviest = 1.0;             // largest mass or moment of a moving body, >= 1 [kg, kg m^2]
   std::unique_ptr<Islands> islands;  // built on first use
 
   // Stages: null if the scene does not use the effect.
@@ -194,7 +194,7 @@ struct Simulator::Impl {
   std::vector<InertiaInverse> inertia_inverse;  // of the bodies of the scene
 
   // Scratch, valid within a sub-step.
-  std::vector<Mat3> R_WB;  // of resting bodies since the start of the frame
+  std::vector<Mat3> R_WB;  // for bodies at rest: set at the start of the frame
   std::vector<InverseMass> inverse_mass;
   std::vector<InverseMass> rigid_mass;  // for impacts, in modes that replace M
   std::vector<Vec6> u_start;            // at the start of the sub-step

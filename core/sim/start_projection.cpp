@@ -101,7 +101,7 @@ class StartRows {
     return !over_limits_;
   }
 
-  /// True if a solve was rejected.
+  /// True if a solve exceeded the limits.
   [[nodiscard]] bool over_limits() const { return over_limits_; }
 
   /// Moves the bodies: translation, and rotation about world axes by the Cayley map, as in
@@ -154,7 +154,8 @@ double largest(std::span<const Vec6> moves) {
 }
 
 /// Newton's method on the joint errors with minimum-norm steps. Steps that increase the error are
-/// shortened. @return true if the joints are closed to rounding
+/// shortened, until rounding. @return false if a solve exceeds the limits or the error is not
+/// finite
 bool onto_joints(StartRows& rows, State& state) {
   std::vector<Vec6> step(state.x.size());
   rows.update();

@@ -20,8 +20,8 @@ enum class Projection : std::uint8_t {
 /// state is invalid.
 Projection close_joints(const Scene& scene, State& state);
 
-/// Makes the velocities consistent with the joints by the smallest impulses at the state's poses: J
-/// u = 0 with u - u0 = M^-1 J^T impulse. Bodies not joined to a static body keep their momentum.
+/// Makes the velocities consistent with the joints by the smallest impulses at the state's poses:
+/// J u = 0 with u - u0 = M^-1 J^T impulse. Bodies not joined to a static body keep their momentum.
 /// On failure the state is invalid.
 Projection match_velocities(const Scene& scene, State& state);
 

@@ -223,7 +223,7 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
   u_.resize(u_star_.size());
   inverse_mass_.resize(u_star_.size());
   read_rows(system, settings.forces);
-  // Initial guess: constant forces, or constant rates.
+  // Initial guess: velocities and forces of the last sub-step, or extrapolated at constant rates.
   copy(system.u_guess.empty() ? system.u_before : system.u_guess, system.u);
   if (settings.forces == Forces::kNumerov) move_along_courses(system);  // by no torques
 

@@ -177,8 +177,8 @@ void pack_side(const Block& block, bool is_a, const InverseMass& inverse, V& vis
   (is_a ? visit.mass_a : visit.mass_b) = inverse.linear;
 }
 
-/// Both tangents use one common step size, so that the residual converges along the sliding
-/// direction.
+/// Both tangents use one common step size, short enough for both together, so that the residual
+/// converges along the sliding direction.
 template <class V>
 void pack_cone(V& visit) {
   const double most = std::max(visit.coupling[1][1], visit.coupling[2][2]) +

@@ -107,7 +107,9 @@ class SaddleLdlt {
     const double* reference = nullptr;          // of the parent: its pivot, nullptr for its centre
     double* handed_to = nullptr;                // momentum of the parent, nullptr for the world
     const double* parent_velocity = nullptr;    // at that reference point
-    bool pushed = false;  // any node: receives momentum at its centre from non-articulated nodes
+    // Any node: itself, or an earlier node coupled to it, is not articulated: momentum at its
+    // centre.
+    bool pushed = false;
   };
   struct Row {
     int attached = 0;
@@ -215,9 +217,10 @@ class SaddleLdlt {
   std::vector<Attached> attached_;
   std::vector<int> coupled_;  // nodes
   std::vector<int> place_;    // parallel to coupled_: index in the parent's, -1: the parent itself
-  std::vector<int> first_filled_;  // parallel to coupled_, leaf nodes: first non-zero row of Z
-  std::vector<int> children_;      // nodes
-  std::vector<int> pushed_;        // nodes that receive momentum at their centre
+  // Parallel to coupled_, leaf nodes: the rows of Z before this one are zero on that coupled body.
+  std::vector<int> first_filled_;
+  std::vector<int> children_;  // nodes
+  std::vector<int> pushed_;    // nodes that receive momentum at their centre
   std::vector<Row> rows_;
   std::vector<ArticulatedJoint> joints_;  // nodes point to them
   bool any_folded_ = false;

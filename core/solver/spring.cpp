@@ -114,7 +114,7 @@ void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
   }
 }
 
-// Matches add_pin(), add_turn(), add_row(), push() and row_speeds().
+// Counts the operations of add_pin(), add_turn(), add_row(), push() and row_speeds().
 SpringFlops spring_flops(const Block& block, int rows, int bodies) {
   const std::int64_t other = bodies - 1;
   const auto of_row = [&](std::int64_t n) {  // n gradients of each body

@@ -22,9 +22,9 @@ struct SolveLimits {
 };
 
 /// Motion of a body in a sub-step, for solvers that compute more than a velocity: the velocity for
-/// integrate(), the acceleration at both ends and dt^2 times its second derivative. For bodies that
-/// conserve angular momentum, the torque replaces the angular acceleration. [m/s, rad/s; m/s^2,
-/// rad/s^2 or N m]
+/// integrate(), the acceleration at both ends and dt^2 times its second derivative. For bodies
+/// whose angular momentum is carried (System::inertia), the torque replaces the angular
+/// acceleration. [m/s, rad/s; m/s^2, rad/s^2 or N m]
 struct BodyCourse {
   Vec6 move_by = Vec6::Zero();
   Vec6 start = Vec6::Zero();
@@ -53,9 +53,9 @@ struct System {
   // Per body: initial guess of Newton [m/s, rad/s]; if empty, u_before.
   std::span<const Vec6> u_guess{};
 
-  // For Newton with forces numerov, per body: duration of forces [s]; principal moments of bodies
-  // that conserve angular momentum, whose u is I^-1 of its mean over a sub-step, else 0 [kg m^2];
-  // out: the motion.
+  // For Newton with forces numerov, per body: duration of forces [s]; principal moments of tumbling
+  // bodies, whose u is I^-1 of the mean angular momentum over a sub-step, else 0 [kg m^2]; out: the
+  // motion.
   std::span<const double> force_time{};
   std::span<const Vec3> inertia{};
   std::span<BodyCourse> courses{};

@@ -17,14 +17,15 @@ namespace substep {
 //   J u+ + C/(w+ dt t) p = -(phi - w- dt- J u-)/(w+ dt).
 // On one degree of freedom with kappa = dt t/(C m) the recurrence is
 //   (1 + w+ kappa) phi+ - (2 - w0 kappa) phi + (1 + w- kappa) phi- = 0,
-// stable while w+ >= w- and 2 (w+ + w-) >= 1 - 4/kappa, and the amplitude decays by kappa (w+ -
-// w-)/2 per sub-step. The weights are therefore
+// stable while w+ >= w- and 2 (w+ + w-) >= 1 - 4/kappa, and the amplitude decays by the share
+// kappa (w+ - w-)/2 per sub-step. The weights are therefore
 //   Euler, Newton's forces at the end   w+ = 1: implicit Euler, the paper's;
 //   leapfrog, Newton's Numerov          w+ = w- = 1/12, Numerov's: of fourth order for one spring;
 //   Newton's forces at the mean         w+ = w- = 1/4, average acceleration;
 //   Störmer                             w+ = w- = 0: the force of the poses, given to the rows;
-// and for springs too stiff to be resolved they blend into implicit Euler with sigma =
-// kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a resolved spring at fourth order in dt.
+// and for springs too stiff to be resolved they blend into implicit Euler with
+// sigma = kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a resolved spring at fourth order
+// in dt.
 
 /// Weights of the poses ahead and behind, w+ and w-.
 struct SpringWeights {

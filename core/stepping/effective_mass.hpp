@@ -29,9 +29,9 @@ bool changes_mass(Mode mode);
 bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,
                      const State& state, double dt);
 
-/// Replaces M by Mt for rotations that the mode's criterion finds too stiff for dt, and M^-1 (M u +
-/// dt f) by u* = Mt^-1 (beta Mt u + (1 - beta) M u + dt f). beta, the share of the velocity term
-/// taken with Mt, is 0 for damping and 1 for geometric inertia.
+/// Replaces M by Mt for rotations that the mode's criterion finds too stiff for dt, and
+/// M^-1 (M u + dt f) by u* = Mt^-1 (beta Mt u + (1 - beta) M u + dt f). beta, the share of the
+/// velocity term taken with Mt, is 0 for damping and 1 for geometric inertia.
 /// @param own of all bodies  @param state with k (and K of mode stiffness) of the last sub-step; u
 /// computed with M; overwritten
 /// @param u_start velocities at the start of the sub-step  @param dt [s]

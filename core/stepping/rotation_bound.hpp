@@ -8,14 +8,15 @@
 
 namespace substep {
 
-// Eq. 9 accounts for geometric stiffness alone. A freely spinning top has none, so Eq. 11 gives N =
-// 1 however fast it spins. The rotation criterion adds three rates to r, all bounded by the same
-// Eq. 10, dt <= 2 sqrt(alpha/r):
+// Eq. 9 accounts for geometric stiffness alone. A freely spinning top has none, so Eq. 11 gives
+// N = 1 however fast it spins. The rotation criterion adds three rates to r, all bounded by the
+// same Eq. 10, dt <= 2 sqrt(alpha/r):
 //   the rotation, r = (kTurnShare |omega|)^2, so that a sub-step rotates a body by at most
 //   2 sqrt(alpha)/kTurnShare (0.2 rad at alpha = 0.1, the limit of torque prediction);
-//   for pendulums, the rotation of the arm from the joint to the centre, r = (kArmShare |omega x
-//   arm|/|arm|)^2: 0.08 rad at alpha = 0.1. The relative energy error of leapfrog is an eighth of
-//   the square of that angle: 0.8e-3;
+//   for pendulums, the rotation of the arm from the joint to the centre,
+//   r = (kArmShare |omega x arm|/|arm|)^2: 0.08 rad at alpha = 0.1. The energy error of leapfrog,
+//   relative to the energy that a pendulum exchanges, is an eighth of the square of that angle:
+//   0.8e-3;
 //   the gyroscopic rate of Euler's equations linearised about omega,
 //   rate^2 = sum_i omega_i^2 |(I_i - I_j)(I_i - I_k)|/(I_j I_k), at which a disturbance of the axis
 //   swings (or grows), at most |omega| for the moments of any solid.
@@ -24,8 +25,8 @@ namespace substep {
 // first order with Euler and second with leapfrog, and these accumulate: thin boxes swinging for
 // two minutes lose 30 to 70 % of their energy with Euler and 1.1 to 1.3 % with leapfrog. Pendulum
 // rates are therefore the maximum of the last 4 to 8 s (kRotationWindow). A pendulum is a body on a
-// single joint to a static body, in a scene without contacts. In chains N varies with the
-// stiffness, and impacts change the energy, so such a memory would have no benefit.
+// single joint, to the world or a static body, in a scene without contacts. In chains N varies with
+// the stiffness, and impacts change the energy, so such a memory would have no benefit.
 
 inline constexpr double kTurnShare = 3.2;
 inline constexpr double kArmShare = 8.0;

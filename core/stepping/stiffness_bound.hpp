@@ -26,8 +26,8 @@ class StiffnessStage {
  public:
   explicit StiffnessStage(const Scene& scene);
   /// @param blocks of the part, with lambda and the matching geometry
-  /// @param k out, per body of the part: linear [N/m], then angular about the principal axes [N
-  /// m/rad]
+  /// @param k out, per body of the part: linear [N/m], then angular about the principal axes
+  /// [N m/rad]
   void evaluate(std::span<const Block> blocks, ContactTerms terms, const Part& part,
                 std::span<const Mat3> R_WB, std::vector<Vec6>& k);
   /// r = max k_i / M_ii over the moving ones of these bodies (Eq. 9).

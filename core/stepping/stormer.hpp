@@ -10,23 +10,23 @@ namespace substep {
 
 // Störmer's fourth-order method (1907), one solve per sub-step:
 //   q+ - 2 q + q- = dt^2/12 (14 a - 5 a- + 4 a-- - a---).
-// It is leapfrog, u+ = u + dt a, with poses corrected for the change of acceleration: with D = a -
-// a-,
+// It is leapfrog, u+ = u + dt a, with poses corrected for the change of acceleration: with
+// D = a - a-,
 //   q+ = q + dt w,   w = u+ + dt/12 (2 D - D-).
 // On the model of Eq. 5 it is stable while dt^2 k < 2 M, and damps motion near that limit. The
 // constraints must hold at q+. With a = (u+ - u)/t (t: duration of forces, dt) w is linear in u+:
 //   w = g u+ + known terms,   g = 1 + dt/(6 t),
-// and the rows, linearised about the poses q^ extrapolated with the last change of acceleration, w^
-// = w(u^), become
+// and the rows, linearised about the poses q^ extrapolated with the last change of acceleration,
+// w^ = w(u^), become
 //   phi(q^)/dt + J (w - w^) = 0,   or   J u+ - J u^ + phi(q^)/(g dt) = 0.
-// If dt differs from the previous dt-, the changes are scaled (D and D- by dt/dt-, hence g = 1 +
-// dt/dt- dt/(6 t)), and the dt^2 term omitted from the velocities is corrected:
+// If dt differs from the previous dt-, the changes are scaled (D and D- by dt/dt-, hence
+// g = 1 + dt/dt- dt/(6 t)), and the dt^2 term omitted from the velocities is corrected:
 //   u = q' - dt^2/24 a'  in the middle of a sub-step, so that  u += (dt^2 - dt-^2)/12 a'.
 // Rotations do not commute: by Magnus' expansion a body with changing angular velocity rotates by
 // dt w + dt^3/12 w' x w in world axes. (For tumbling bodies see free_turn.hpp.) The Cayley vector
 // of integrate() is dt w/2; that of a rotation by dt |w| is longer by a relative (dt |w|/2)^2/3.
 
-/// dt/dt-. Before the first sub-step, changes refer to a trial sub-step of the same length.
+/// dt/dt-. In the first sub-step, changes refer to a trial sub-step of the same length.
 /// @param time t, that forces act for: (dt- + dt)/2 [s]
 inline double stormer_growth(double dt, double time) {
   if (time == dt) return 1.0;
@@ -43,7 +43,7 @@ inline double stormer_step_change(double dt, double time) {
 }
 
 /// The velocity that moves a body's pose. @param u, u_before after this sub-step's impulses and
-/// before its forces  @param duration of forces [s]  @return w [m/s, rad/s]
+/// before its forces  @param time duration of the forces [s]  @return w [m/s, rad/s]
 Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& acceleration,
                       const Vec6& acceleration_change, double dt, double time);
 

@@ -22,7 +22,7 @@ bool looks_for_islands(const Settings& settings);
 /// N = ceil(h / dt_max), Eq. 11, at least 1.
 int wanted_substeps(double h, double dt_max);
 
-/// r after a sub-step: policy `substep` keeps the decayed previous value.
+/// r after a sub-step: `now`, but with policy `substep` at least Settings::memory times `before`.
 /// @param now, before [1/s^2]
 double remembered(const Settings& settings, double now, double before);
 

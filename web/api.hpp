@@ -84,7 +84,8 @@ SUBSTEP_EXPORTED const char* substep_hash();
 /// The last frame and the verdict.
 SUBSTEP_EXPORTED const char* substep_report();
 
-/// Rectangles of the last picture's controls and bodies, in CSS pixels of the canvas.
+/// Rectangles of the last picture's controls, and the places of its bodies, in CSS pixels of the
+/// canvas.
 SUBSTEP_EXPORTED const char* substep_widgets();
 
 /// The current step of the guided tour with its current numbers; null outside the tour.

@@ -45,7 +45,7 @@ class Output {
 };
 
 /// Ends all open files from another thread, before the program exits. Keeps those with
-/// keep_if_ended() if `keep`, and removes the others. Does not block or allocate.
+/// keep_if_ended() if `keep`, and removes the others. Waits 20 ms at most, and does not allocate.
 void end_outputs(bool keep);
 
 /// Writes a whole file by means of Output.

@@ -42,7 +42,7 @@ struct RunOptions {
   BudgetFlags budget;
 };
 
-/// Prints the forecast of the first frame.
+/// The forecast of N before the scene moves, and the scene's mass ratio.
 std::string forecast_line(const Scene& scene, const Settings& settings) {
   const Forecast told = forecast(scene, settings);
   std::string text = "foretold     " + std::to_string(told.at_start) + " sub-steps at the start";

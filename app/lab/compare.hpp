@@ -121,8 +121,8 @@ class Compare {
   std::vector<Hold> hands_;             // by frame
   std::shared_ptr<const Scene> scene_;  // at the start of the comparison
   double start_ = 0.0;                  // start of the comparison [s]
-  std::int64_t frame_ = 0;              // the session's frame at the last follow()
-  Settings settings_;                   // the session's settings at the last follow()
+  std::int64_t frame_ = 0;              // the session's frame at the last call
+  Settings settings_;                   // the session's at start() or follow()
 };
 
 /// "mode:none;mode:damping,alpha:0.2": the runs of a comparison as links spell them.

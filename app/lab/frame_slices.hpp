@@ -22,7 +22,7 @@ class FrameSlices {
   using Clock = std::chrono::steady_clock;
   static constexpr double kLong = 0.01;  // shorter frames are not sliced [s]
 
-  /// Continues the frame or begins one; stops after the first sub-step past `until`.
+  /// Continues the frame or begins one; past `until` it stops between two sub-steps.
   /// @return the report of the whole frame once it has ended, even if it failed
   std::optional<FrameReport> advance(Simulator& simulator, Clock::time_point until);
   /// Whether a frame is in progress.

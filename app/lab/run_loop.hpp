@@ -69,7 +69,7 @@ class RunLoop {
   Settings settings_;              // of the outcome
   double load_ = 1.0;              // of the outcome [-]
   bool whole_ = false;             // settings and load are unchanged since the start of this pass
-  bool stale_ = false;             // it failed with other settings
+  bool stale_ = false;             // it failed with other settings or load
   Outcome outcome_;
 };
 

@@ -55,7 +55,7 @@ class OrbitCamera {
     double distance = 20.0;
   };
   [[nodiscard]] static Vec3 backward(const Pose& pose);
-  /// Distance; larger if the view is narrower than the required aspect.
+  /// Factor on the distance, above 1 if the view is narrower than the required aspect.
   [[nodiscard]] double fit(const ViewRect& view) const;
   Pose now_;
   Pose goal_;

@@ -22,7 +22,7 @@ enum class Quality : unsigned char {
 struct DrawOptions {
   int width = 0;  // of the window's frame buffer [pixel]
   int height = 0;
-  Quality moving = Quality::kFine;  // while the picture changes; static pictures are fine
+  Quality moving = Quality::kFine;  // while the picture changes; at rest: the finest
 };
 
 /// Draws pictures side by side and the panels over them. The shell owns the window system.

@@ -167,7 +167,7 @@ struct Scatter {
   }
 };
 
-/// The result under the pointer, if any; draws all points.
+/// The result under the pointer if `hovered`; records the handles of all points.
 std::optional<std::size_t> point_at(const Accuracy& accuracy, const Scatter& scatter,
                                     bool hovered) {
   std::optional<std::size_t> nearest;

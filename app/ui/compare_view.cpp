@@ -65,7 +65,7 @@ void pane_label(const Look& look, const Entry& entry, const ViewRect& r) {
   draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
   const std::string n = "N " + std::to_string(entry.report->n_substeps);
   const ImVec2 at(r.x + kPad, r.y + 8.0F);
-  constexpr float kNarrow = 150.0F;  // narrower panes have N below the name
+  constexpr float kNarrow = 150.0F;  // narrower: N or the failure's time is below the name
   const bool narrow = r.width < kNarrow;
   float right = r.x + r.width - kPad;  // right end of the name
   if (!narrow) {

@@ -11,7 +11,7 @@
 
 namespace substep {
 
-/// The open panel on a phone; otherwise controls are always visible beside the picture.
+/// The open panel: of all on a phone, else of the right ones, with the controls on the left.
 enum class Tab : unsigned char { kControls, kPlots, kWhy, kCompare, kAccuracy };
 
 /// Amount of controls shown.

@@ -92,8 +92,8 @@ inline constexpr float kTimeLabelHeight = 18.0F;
 inline constexpr float kNameGutter = 56.0F;  // for the names, right of the curves
 
 /// Draws series over time with at most one vertical line per pixel column, from minimum to maximum:
-/// no sample is missed, and the cost is independent of the span. Wheel zooms, drag selects a range,
-/// right drag or Shift+drag pans, click goes to its time, double click follows the newest again.
+/// no sample is missed, and 200 s cost as much as 2 s. Wheel zooms, drag selects a range, right
+/// drag or Shift+drag pans, click goes to its time, double click follows the newest again.
 /// @param size including the gutters of values and names, and the time labels if shown
 void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeAxis& axis,
           PlotState& state);

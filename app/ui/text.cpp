@@ -107,7 +107,7 @@ void space(float height) {
 
 namespace {
 
-// Not the unit after the comma: kJ and mJ must keep their case.
+// Not the unit after the comma: KJ would be kelvin joules, and MJ for mJ megajoules.
 std::string capitals(const char* title) {
   std::string caps(title);
   for (char& c : caps) {

@@ -135,7 +135,7 @@ std::string taken_note(const Session& session) {
   return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
 }
 
-// N without its current cause.
+// What would set N without its current cause.
 void without_leader(const Look& look, const Session& session, const Criterion& criterion,
                     const std::vector<StiffnessLeader>& list) {
   const Scene& scene = session.scene();

@@ -19,7 +19,7 @@ ImVec2 text_size(ImFont* font, const char* text, float wrap = 0.0F);
 /// Shortened with an ellipsis to fit a width. @return the text drawn
 std::string fitted(ImFont* font, const std::string& text, float width);
 
-/// Broken into lines at spaces only, so that a number stays with its unit.
+/// Broken into lines at spaces only; a number stays whole, and with its unit.
 std::string wrapped(ImFont* font, const char* text, float width);
 
 /// Text as a layout item, wrapped at the panel's width.

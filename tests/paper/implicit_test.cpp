@@ -108,7 +108,8 @@ TEST(NewtonAtTheMean, KeepsEnergyFor200Seconds) {
 }
 
 /// A rod that hangs under such gravity that dt^2 k/M = kappa, displaced by a thousandth of a
-/// radian: the ratio of its largest swing in the last tenth of 400 sub-steps to that in the first.
+/// radian: the ratio of its largest swing in the last tenth of 400 sub-steps to that in the first
+/// `first_steps`.
 double growth_of_rod(Forces forces, double kappa, int steps = 100, int first_steps = 40) {
   Scene scene = scenes::pendulum();
   Body& rod = scene.bodies[0];

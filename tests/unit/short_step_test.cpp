@@ -105,7 +105,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolverOfRigidBodies,
                            return of.param.forces == Forces::kEnd ? solver : solver + "_mean";
                          });
 
-constexpr double kShort = 3e-7;   // rows rotate by about this angle [s]
+constexpr double kShort = 3e-7;   // rows rotate by as many radians [s]
 constexpr double kTurned = 1e-4;  // upper bound of its effect on velocities and impulses
 
 TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {

@@ -32,7 +32,7 @@ export function chromiumPath() {
   return found;
 }
 
-/** Flags of a browser that renders in software and makes no network requests. */
+/** Flags of a browser that renders in software and makes no requests of its own. */
 export const renderer = ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader",
   "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync"];

@@ -91,7 +91,7 @@ TEST(Detail, ManyBodiesAreCoarserThanOne) {
   const std::vector<Instance> many(600, ball(1.0));
   bodies.choose({}, many, {&picture, 1280, 720, 0.5, 100000});
   EXPECT_LE(bodies.vertices(), 100000U);
-  // The minimum number of triangles, even if that is still too many; and a large ball is not a
+  // The minimum number of vertices, even if that is still too many; and a large ball is not a
   // cube.
   const std::vector<Instance> more(20000, ball(1.0));
   bodies.choose({}, more, {&picture, 1280, 720, 0.5, 100000});

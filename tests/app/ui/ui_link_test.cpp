@@ -34,8 +34,7 @@ TEST(Link, OpensEverySetting) {
   h.app->open_link(make_link(*shipped("bridge"), test::unusual()));
   EXPECT_TRUE(h.app->trouble.title.empty());
   Settings wanted = test::unusual();
-  wanted.watch_stiffness =
-      h.app->session.settings().watch_stiffness;  // depends on the visible panels
+  wanted.watch_stiffness = h.app->session.settings().watch_stiffness;  // by the view's tint
   EXPECT_EQ(h.app->session.settings(), wanted);
   EXPECT_EQ(h.app->set("forces", "on"), "");
   EXPECT_TRUE(h.app->desk.view.forces);

@@ -65,8 +65,11 @@ export class Clock {
       else this.timer = setTimeout(showWhenFinished);
     };
     this.timer = setTimeout(() => { // after the browser's own frame
-      if (this.canDraw()) this.wasm.frame(dt);
-      showWhenFinished();
+      try {
+        if (this.canDraw()) this.wasm.frame(dt);
+      } finally {
+        showWhenFinished(); // or no frame would follow
+      }
     });
   }
 

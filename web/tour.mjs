@@ -33,8 +33,9 @@ function makeRing(frame, calls) {
   let until = Infinity; // [ms]
   const follow = () => {
     if (place && performance.now() > until) place = null;
-    const box = place && calls.widgets()
-      .find((w) => w.group === place.group && w.label === place.label);
+    const widgets = place ? calls.widgets() : []; // no list after the program has stopped
+    const box = Array.isArray(widgets)
+      && widgets.find((w) => w.group === place.group && w.label === place.label);
     ring.hidden = !box;
     if (!box) return;
     const { canvas } = frame;

@@ -13,8 +13,12 @@ function indexOf(stops, value) {
   return Math.abs(stops[above] - value) <= 1e-9 * value ? above : above - 0.5;
 }
 
-/** The value a number of stops further. */
+/**
+ * The value a number of stops further.
+ * @returns undefined if the value lies beyond the last stop in that direction
+ */
 function moved(stops, from, by) {
+  if (by > 0 ? from > stops.length - 1 : from < 0) return undefined;
   const index = by > 0 ? Math.floor(from) + by : Math.ceil(from) + by;
   return stops[Math.min(stops.length - 1, Math.max(0, index))];
 }
@@ -33,7 +37,7 @@ export function makeNumber(change, settle) {
   let drag = null; // {x, index, value} at the start; {by}: offset so far
 
   const set = (value) => {
-    if (value !== now.value) change(value);
+    if (value !== undefined && value !== now.value) change(value);
   };
   element.addEventListener("pointerdown", (event) => {
     if (event.button !== 0) return;

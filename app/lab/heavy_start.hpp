@@ -2,7 +2,9 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "app/lab/run_events.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
@@ -13,6 +15,8 @@ struct RunStart {
   Settings settings;
   double load = 1.0;  // of Experiment [-]
   int seed = 0;
+  double pause_at = 0.0;         // end of an experiment, 0 if none [s]
+  std::vector<RunEvent> events;  // user actions, followed as a script
   bool playing = false;
 };
 

@@ -73,8 +73,13 @@ bool Lab::open_paused(SceneResult result, const std::string& from) {
 
 RunStart Lab::run_start() const {
   if (held()) return heavy.before;  // the waiting run never started
-  RunStart start{plain_scene, session.settings(), load, seed, session.playing()};
-  if (session.edition() != nullptr) {  // load and seed are already in its bodies
+  RunStart start{plain_scene, session.settings(), load, seed, pause_at, {}, session.playing()};
+  const EventLog& log = session.log();
+  const auto events = log.empty() ? std::nullopt : log.events();
+  if (events) {
+    start.settings = log.start();
+    start.events = *events;
+  } else if (session.edition() != nullptr) {  // load and seed are already in its bodies
     start.scene = session.edition()->start;
     start.load = 1.0;
     start.seed = 0;
@@ -87,6 +92,11 @@ void Lab::run(const RunStart& start) {
   run(copy.scene);
   if (copy.load != 1.0 || copy.seed != 0) vary(copy.load, copy.seed);
   change(copy.settings);
+  if (!copy.events.empty()) {
+    session.follow(copy.events);
+    reset();
+  }
+  pause_at = copy.pause_at;
   if (copy.playing) {
     session.play();
   } else {
@@ -145,7 +155,8 @@ void Lab::vary(double new_load, int new_seed) {
   const auto plain = plain_scene;
   const double end = pause_at;
   std::vector<Overrides> beside = compare.overrides();
-  run(std::make_shared<const Scene>(start_of(*plain, new_load, new_seed)));
+  const bool varies = new_load != 1.0 || new_seed != 0;
+  run(varies ? std::make_shared<const Scene>(start_of(*plain, new_load, new_seed)) : plain);
   plain_scene = plain;
   load = new_load;
   seed = new_seed;
@@ -155,8 +166,8 @@ void Lab::vary(double new_load, int new_seed) {
 }
 
 void Lab::run_result(const Result& result) {
-  if (session.loaded_scene() != accuracy.scene()) run(accuracy.scene());
-  if (result.experiment.load != 1.0) vary(result.experiment.load, 0);
+  if (plain_scene != accuracy.scene()) run(accuracy.scene());
+  if (load != result.experiment.load || seed != 0) vary(result.experiment.load, 0);
   change(result.experiment.settings);
   reset();
   session.play();

@@ -47,7 +47,9 @@ std::string Tour::go(App& app, std::string_view value) {
   app.desk.time.span = step.loop.end;
   // The page's text replaces the controls.
   if (app.desk.tour_in_page) app.desk.left.open = false;
+  opening_ = true;
   app.open_link(step.link);
+  opening_ = false;
   app.reset();
   loop_.begin(app, step.loop);
   app.session.play();
@@ -57,7 +59,7 @@ std::string Tour::go(App& app, std::string_view value) {
 void Tour::follow(App& app) { loop_.follow(app, !app.desk.reduced_motion); }
 
 void Tour::close(App& app) {
-  if (!before_) return;
+  if (!before_ || opening_) return;
   app.desk.tour = -1;
   loop_.end(app);
   arrange(app.desk, std::exchange(before_, {})->arrangement);

@@ -48,6 +48,7 @@ class Tour {
   static void arrange(Desk& desk, const Arrangement& arrangement);
 
   std::optional<Before> before_;
+  bool opening_ = false;  // the link of a step
   RunLoop loop_;
 };
 

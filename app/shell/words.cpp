@@ -251,11 +251,12 @@ void App::open_link_paused(std::string_view fragment, std::optional<SceneResult>
                         [](const auto& p) { return p.key != "events"; });
   // The level last: other keys may switch to the Lab, but an explicit level overrides that.
   std::stable_partition(parts.begin(), parts.end(), [](const auto& p) { return p.key != "level"; });
+  const auto gives = [&](std::string_view key) {
+    return std::any_of(parts.begin(), parts.end(), [&](const auto& p) { return p.key == key; });
+  };
   // The tour controls the comparison itself, and restores it.
-  if (std::none_of(parts.begin(), parts.end(),
-                   [](const auto& p) { return p.key == "compare" || p.key == "tour"; })) {
-    compare.close();
-  }
+  if (!gives("compare") && !gives("tour")) compare.close();
+  if (!gives("tour") && !gives("introduction")) tour.close(*this);
   std::set<std::string_view> followed;
   for (const LinkPart& part : parts) {
     const bool again = followed.contains(part.key);

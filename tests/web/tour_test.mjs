@@ -166,6 +166,15 @@ test("a number that is set elsewhere is shown in the sentence", async () => {
   await number(page, "Alpha").focus();
   await page.keyboard.press("ArrowRight"); // from between two stops to the next
   assert.equal((await call(page, "report")).alpha, 0.08);
+  await goTo(page, 2);
+  await call(page, "set", { n: 30 });
+  await drawn(page);
+  const n = number(page, "Sub-steps per frame");
+  await n.focus();
+  await page.keyboard.press("ArrowRight"); // beyond the last stop there is no next one
+  assert.equal(await n.getAttribute("aria-valuetext"), "30 sub-steps");
+  await page.keyboard.press("ArrowLeft");
+  assert.equal(await n.getAttribute("aria-valuetext"), "24 sub-steps");
   await page.context().close();
 });
 

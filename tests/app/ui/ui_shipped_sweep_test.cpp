@@ -116,7 +116,8 @@ TEST(ShippedSweep, TheChartIsThereWhenThePanelOpens) {
   h.press("Run again");
   EXPECT_TRUE(h.app->accuracy.running());
   EXPECT_FALSE(h.app->accuracy.shipped());
-  EXPECT_TRUE(h.app->accuracy.results().empty());
+  // The stored results are gone; a few runs of the new sweep may be finished.
+  EXPECT_LT(2 * h.app->accuracy.results().size(), h.app->accuracy.planned());
 }
 
 TEST(ShippedSweep, AnOwnSceneHasNone) {

@@ -103,5 +103,22 @@ TEST(Accuracy, DraggingOverTheMapRunsEachCellOnce) {
   EXPECT_EQ(h.app->run_count, after) << "the drag continues after the release";
 }
 
+TEST(Accuracy, CellsOfTheMapKeepTheComparison) {
+  Headless h;
+  sweep_a_rope(h);
+  h.app->set("compare", "mode:none");
+  std::set<double> loads;
+  for (const Result& result : h.app->accuracy.results()) {
+    if (!loads.insert(result.experiment.load).second) continue;
+    h.app->run_result(result);
+    ASSERT_TRUE(h.app->compare.open()) << result.experiment.load;
+    EXPECT_EQ(h.app->load, result.experiment.load);
+    EXPECT_EQ(h.app->plain_scene, h.app->accuracy.scene());
+  }
+  EXPECT_GT(loads.size(), 3U);
+  h.app->run_result(h.app->accuracy.results().front());
+  EXPECT_EQ(h.app->session.loaded_scene(), h.app->accuracy.scene());
+}
+
 }  // namespace
 }  // namespace substep

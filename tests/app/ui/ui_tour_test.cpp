@@ -315,6 +315,38 @@ TEST(Tour, GivesBackWhatWasThereBefore) {
   }
 }
 
+TEST(Tour, GivesBackEventsAndTheEndOfAnExperiment) {
+  Headless h;
+  h.app->session.pause();
+  ASSERT_EQ(h.app->set("n", "9"), "");
+  for (int i = 0; i < 5; ++i) h.app->session.step();
+  Ball ball;
+  ball.position = {5.0, 1.0, 0.5};
+  ball.velocity = {-8.0, 0.0, 0.0};
+  h.app->session.throw_ball(ball);
+  for (int i = 0; i < 5; ++i) h.app->session.step();
+  ASSERT_EQ(h.app->set("seconds", "2"), "");
+  const std::string link = h.app->link();
+  ASSERT_NE(link.find("events="), std::string::npos);
+  ASSERT_EQ(h.app->set("tour", "2"), "");
+  h.frames(3);
+  ASSERT_EQ(h.app->set("tour", "off"), "");
+  EXPECT_EQ(h.app->link(), link);
+  EXPECT_EQ(h.app->pause_at, 2.0);
+  EXPECT_FALSE(h.app->session.playing());
+}
+
+TEST(Tour, ALinkToItsSceneEndsIt) {
+  Task task(3);
+  task.h.frames(3);
+  task.h.app->open_link("scene=swinging_box&mode=const&n=12");
+  task.h.frames(3);
+  EXPECT_LT(task.h.app->desk.tour, 0);
+  EXPECT_FALSE(task.h.app->tour.loop().open());
+  EXPECT_TRUE(task.h.app->hold_at_failure);
+  EXPECT_EQ(task.h.app->session.settings().n, 12);
+}
+
 TEST(Tour, AnotherSceneEndsIt) {
   Task task(3);
   task.h.frames(3);

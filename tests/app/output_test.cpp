@@ -206,7 +206,7 @@ TEST(Output, WhatIsNoNumberIsWrittenAsTheReadmeSays) {
   EXPECT_NE(csv.find(",inf,"), std::string::npos) << csv;
   EXPECT_NE(json.find("\"dt_stable\": null"), std::string::npos) << json;
   const std::string readme = text_of(SUBSTEP_SOURCE_DIR "/core/lab/README.md");
-  EXPECT_NE(readme.find("`inf` stands for a `dt_stable` that nothing bounds"), std::string::npos);
+  EXPECT_NE(readme.find("`inf` stands for an unbounded `dt_stable`"), std::string::npos);
 }
 
 }  // namespace

@@ -11,9 +11,12 @@
 #include "app/app.hpp"
 #include "app/render/png.hpp"
 #include "app/shell/arrangement.hpp"
+#include "app/text/citation.hpp"
 #include "app/ui/handles.hpp"
 #include "app/ui/keys.hpp"
 #include "app/ui/panels.hpp"
+#include "app/ui/vector_figure.hpp"
+#include "core/io/experiment.hpp"
 
 namespace substep {
 namespace {
@@ -58,6 +61,26 @@ void take_capture(App& app, int width, int height) {
   const std::string png = encode_png(w, h, app.renderer->pixels(x, y, w, h));
   if (app.host.save_file) app.host.save_file(app.desk.capture->name, png);
   app.desk.capture.reset();
+}
+
+// Draws the window once more, without presenting it, and saves a part of it as SVG.
+void take_figure(App& app) {
+  const Capture figure = *std::exchange(app.desk.figure, std::nullopt);
+  if (!app.host.save_file) return;
+  const ui::FigureFrame drawing;
+  ImGui::NewFrame();
+  ui::forget_handles();
+  ui::draw_window(app);
+  ui::draw_over_picture(app);
+  ImGui::Render();
+  Experiment experiment = experiment_of(app.session.scene(), app.session.settings(), app.seed);
+  experiment.load = app.load;
+  Json about = experiment_json(experiment);
+  about["link"] = app.link();
+  about["citation"] = std::string(kPaperAuthors) + ", " + kPaperTitle + ", doi:" + kPaperDoi;
+  app.host.save_file(figure.name,
+                     ui::svg_figure(app.look, *ImGui::GetDrawData(), figure.area,
+                                    {app.session.scene().title, app.command(), about.dump()}));
 }
 
 // Converts from the shell's logical pixels to interface pixels, which are `scale` times as large.
@@ -157,6 +180,7 @@ void frame(App& app, double wall_dt) {
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
   app.renderer->draw(app.pictures, *ImGui::GetDrawData(), {width, height, app.quality.quality()});
   if (app.desk.capture) take_capture(app, width, height);
+  if (app.desk.figure) take_figure(app);
 
   if (!app.desk.follow.empty()) app.open_link(std::exchange(app.desk.follow, ""));
   remember_arrangement(app);

@@ -26,6 +26,8 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
   cancelled_ = false;
   elapsed_ = 0.0;
   last_ = -1.0;
+  trade_alpha = scene_->settings.alpha;
+  trade_policy = scene_->settings.policy;
   if (!scene_->criteria.track) error = first_axis(*scene_);
   if (picture == AccuracyPicture::kStabilityMap && !has_map()) {
     picture = AccuracyPicture::kErrorAgainstCost;
@@ -47,6 +49,8 @@ bool Accuracy::show_shipped(const std::shared_ptr<const Scene>& scene, bool aske
   for (const Result& result : shipped_->results) shipped_plan_.push_back(result.experiment);
   error = first_axis(*scene);
   cost = CostAxis::kOperations;
+  trade_alpha = scene->settings.alpha;
+  trade_policy = scene->settings.policy;
   if (const auto& recommended = scene->recommended) {
     error = recommended->of;
     wanted.at(static_cast<std::size_t>(error)) = recommended->within;

@@ -16,7 +16,12 @@
 namespace substep {
 
 /// Contents of the panel.
-enum class AccuracyPicture : unsigned char { kErrorAgainstCost, kStabilityMap, kEffectCosts };
+enum class AccuracyPicture : unsigned char {
+  kErrorAgainstCost,
+  kFairTrade,
+  kStabilityMap,
+  kEffectCosts
+};
 
 /// "What does accuracy cost?": a sweep of all methods over the running scene, computed in slices
 /// between frames; the points of its picture so far; a cost breakdown of a frame; and a search for
@@ -94,6 +99,9 @@ class Accuracy {
   bool all_methods = false;  // show every curve in its colour, not only the headline ones
   CostAxis cost = CostAxis::kOperations;  // the work per sub-step depends on the method
   ErrorAxis error = ErrorAxis::kTrajectory;
+  // Adaptive sub-stepping in the fair trade; start() and show_shipped() select the scene's own.
+  double trade_alpha = 0.1;
+  Policy trade_policy = Policy::kFrame;
   /// True: the error is limited and the cost minimised. False: the reverse.
   bool error_is_given = true;
   /// Largest error allowed, per axis [m, J].

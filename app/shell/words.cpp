@@ -155,6 +155,8 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
     accuracy.search_alpha();
   } else if (value == "map") {
     accuracy.picture = AccuracyPicture::kStabilityMap;
+  } else if (value == "trade") {
+    accuracy.picture = AccuracyPicture::kFairTrade;
   } else if (value == "error") {
     accuracy.picture = AccuracyPicture::kErrorAgainstCost;
   } else if (value == "stages") {
@@ -162,7 +164,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
   } else if (value == "measure") {
     lab.measure_costs();
   } else {
-    return "'" + std::string(value) + "' is not run, cancel, alpha, measure, error, map or stages";
+    return "'" + std::string(value) + "' is not run, cancel, alpha, measure, error, trade, map or stages";
   }
   return "";
 }

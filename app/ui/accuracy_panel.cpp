@@ -13,6 +13,7 @@
 #include "app/ui/curve_style.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/stability_map.hpp"
+#include "app/ui/trade_chart.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -89,10 +90,16 @@ bool shows_map(const Accuracy& accuracy) {
   return accuracy.picture == AccuracyPicture::kStabilityMap;
 }
 
+bool shows_errors(const Accuracy& accuracy) {
+  return accuracy.picture == AccuracyPicture::kErrorAgainstCost;
+}
+
 /// The choice of picture; the map only for scenes that have one.
 void picture_row(const Look& look, Accuracy& accuracy) {
   std::vector<Choice> names{{"Error", "Error against cost, a curve for every method"}};
   std::vector<AccuracyPicture> pictures{AccuracyPicture::kErrorAgainstCost};
+  names.push_back({"Trade", "Adaptive sub-steps beside the best constant N, chosen in hindsight"});
+  pictures.push_back(AccuracyPicture::kFairTrade);
   if (accuracy.has_map()) {
     names.push_back({"Map", "How long runs survive as the mass of the heaviest body varies"});
     pictures.push_back(AccuracyPicture::kStabilityMap);
@@ -106,10 +113,16 @@ void picture_row(const Look& look, Accuracy& accuracy) {
   }
 }
 
-/// The map, or the picture with its vertical axis title; a click on a run starts it.
+/// The map, the trade, or the errors with their vertical axis title; a click on a run starts it.
 void picture(const Look& look, Lab& lab, ImVec2 size) {
   if (shows_map(lab.accuracy)) {
     if (const auto chosen = stability_map(look, lab, size.x)) {
+      lab.run_result(lab.accuracy.results()[*chosen]);
+    }
+    return;
+  }
+  if (lab.accuracy.picture == AccuracyPicture::kFairTrade) {
+    if (const auto chosen = trade_chart(look, lab.accuracy, size.x)) {
       lab.run_result(lab.accuracy.results()[*chosen]);
     }
     return;
@@ -132,19 +145,33 @@ void other_scene(const Look& look, Lab& lab) {
   space(8.0F);
 }
 
-/// Options of the picture: curves, size, and computing it here.
+/// The area of items from one cursor position to another, with a margin.
+ViewRect around(ImVec2 from, ImVec2 to, float width) {
+  constexpr float kMargin = 8.0F;
+  return {from.x - kMargin, from.y - kMargin, width + 2.0F * kMargin, to.y - from.y + kMargin};
+}
+
+/// Options of the picture: curves, size, saving it, and computing it here.
 void picture_buttons(const Look& look, Lab& lab, Desk& desk) {
   Accuracy& accuracy = lab.accuracy;
-  if (!shows_map(accuracy)) {
+  if (shows_errors(accuracy)) {
     toggle(look, "All methods", accuracy.all_methods, 0, true,
            "Every curve in its colour, with the list of their names");
   }
-  if (ImGui::GetIO().DisplaySize.x >= 900.0F) {
-    if (!shows_map(accuracy)) ImGui::SameLine(0.0F, 6.0F);
+  const bool wide = ImGui::GetIO().DisplaySize.x >= 900.0F;
+  if (wide) {
+    if (shows_errors(accuracy)) ImGui::SameLine(0.0F, 6.0F);
     if (button(look, "larger", desk.accuracy_large ? Icon::kNone : Icon::kFrame,
                desk.accuracy_large ? "Dock" : "Larger", ButtonKind::kGhost, 0.0F, look.m.row,
                "The picture over the view")) {
       desk.accuracy_large = !desk.accuracy_large;
+    }
+  }
+  if (lab.host.save_file) {
+    if (shows_errors(accuracy) || wide) ImGui::SameLine(0.0F, 6.0F);
+    if (button(look, "figure", Icon::kSave, "SVG", ButtonKind::kGhost, 0.0F, look.m.row,
+               "Save the picture as a vector graphic with its settings inside")) {
+      desk.figure = {lab.accuracy.scene()->name + "-accuracy.svg", desk.accuracy_area};
     }
   }
   label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
@@ -248,25 +275,28 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   }
   other_scene(look, lab);
   sweep_progress(look, accuracy);
-  if (!shows_map(accuracy)) {
+  const ImVec2 from = ImGui::GetCursorScreenPos();
+  if (accuracy.picture == AccuracyPicture::kFairTrade) trade_head(look, lab.accuracy);
+  if (shows_errors(accuracy)) {
     label(look.fonts.regular, look.theme->text, conclusion(accuracy, accuracy.points()).c_str());
     space(6.0F);
     axes_row(look, lab.accuracy);
   }
   const float width = ImGui::GetContentRegionAvail().x;
-  if (!desk.accuracy_large) picture(look, lab, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
-  picture_buttons(look, lab, desk);
-  if (shows_map(accuracy)) {
-    map_note(look, accuracy);
-    return;
+  if (!desk.accuracy_large) {
+    picture(look, lab, {width, std::clamp(1.05F * width, 240.0F, 460.0F)});
+    desk.accuracy_area = around(from, ImGui::GetCursorScreenPos(), width);
   }
+  picture_buttons(look, lab, desk);
+  if (shows_map(accuracy)) map_note(look, accuracy);
+  if (!shows_errors(accuracy)) return;
   space(8.0F);
   advice(look, lab);
   error_note(look, accuracy);
   if (accuracy.all_methods) picture_legend(look, lab.accuracy);
 }
 
-void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport& viewport) {
+void accuracy_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   if (!desk.accuracy_large || desk.tab != Tab::kAccuracy || !desk.panels ||
       lab.accuracy.planned() == 0 || lab.accuracy.picture == AccuracyPicture::kEffectCosts) {
     return;
@@ -282,6 +312,7 @@ void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport&
   const float down = shows_map(lab.accuracy) ? room - size.y : 0.0F;
   ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption + down});
   ImGui::SetNextWindowSize(size);
+  desk.accuracy_area = {v.x + kAround, v.y + kCaption + down, size.x, size.y};
   if (ImGui::Begin("##accuracy", nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

@@ -47,7 +47,8 @@ struct Desk {
   bool open_share_menu = false;  // in the next frame
   std::string follow;            // link to open after this frame, or ""
   std::optional<Capture> capture;
-  bool recording = false;  // a video, see Host::record
+  std::optional<Capture> figure;  // likewise, as SVG: see FigureFrame
+  bool recording = false;         // a video, see Host::record
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
   PanelSide left;
@@ -64,6 +65,7 @@ struct Desk {
   std::string unfolded_scene;  // scene whose variants are unfolded in the list
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // last position of the plots
+  ViewRect accuracy_area;       // and of the accuracy picture with its conclusion
   bool accuracy_large = false;  // the accuracy picture is shown over the view
   bool split = false;           // compared runs are drawn side by side, not as ghosts
   int compare_open = -1;        // index of the compared run whose settings are shown

@@ -76,7 +76,7 @@ void advice(const Look& look, Lab& lab);
 /// Progress of the search for the paper's alpha, with a cancel button.
 void search_bar(const Look& look, Accuracy& accuracy);
 /// The accuracy picture over the view, while that is selected.
-void accuracy_card(const Look& look, Lab& lab, const Desk& desk, const Viewport& viewport);
+void accuracy_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 /// Rectangles of the runs: the whole view, or equal parts side by side or stacked, whichever shows
 /// the scene larger.
 std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,

@@ -228,6 +228,9 @@ void save_menu(const Look& look, const Lab& lab, Desk& desk, const Viewport& vie
               if (menu_item(look, "Plots", "PNG", false)) {
                 desk.capture = {name + "-plots.png", desk.plots_area};
               }
+              if (menu_item(look, "Plots, with their settings inside", "SVG", false)) {
+                desk.figure = {name + "-plots.svg", desk.plots_area};
+              }
               if (menu_item(look, "View", "PNG", false)) {
                 desk.capture = {name + "-view.png", viewport.view_rect};
               }

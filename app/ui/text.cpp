@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/ui/vector_figure.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -22,6 +23,7 @@ void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const cha
                const char* end) {
   const float size = font->FontSize * ImGui::GetIO().FontGlobalScale;
   draw.AddText(font, size, snapped(at), color, text, end);
+  note_text(draw, font, size, snapped(at), color, text, end);
 }
 
 ImVec2 text_size(ImFont* font, const char* text, float wrap) {

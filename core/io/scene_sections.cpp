@@ -70,6 +70,7 @@ void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, P
   in.number("joint_gap", kDistanceRange, criteria.joint_gap, kOptional);
   if (in.number("energy_gain", kEnergyRange, value, kOptional)) criteria.energy_gain = value;
   if (in.number("energy_scale", kEnergyRange, value, kOptional)) criteria.energy_scale = value;
+  if (in.number("window", kDurationRange, value, kOptional)) criteria.window = value;
   const auto read_body_name = [&](ObjectReader& reader, std::string_view key, Presence presence) {
     auto body = names.read(reader, key, presence);
     if (body == kWorld) {

@@ -119,6 +119,7 @@ Json criteria_json(const Scene& scene) {
                             {"distance", c.displacement->distance}};
   }
   if (c.track) json["track"] = name_of_body(*c.track);
+  if (c.window) json["window"] = *c.window;
   json["expected"] = c.holds ? "holds" : "fails";
   return json;
 }

@@ -218,6 +218,7 @@ std::unique_ptr<ReferenceRun::Source> source_of(const std::shared_ptr<const Scen
 }  // namespace
 
 double predictable_window(const Scene& scene, double duration) {
+  if (scene.criteria.window) return std::min(duration, *scene.criteria.window);
   const bool chaotic = scene.effects.contact && !closed_form(scene);
   return chaotic ? std::min(duration, kChaoticWindow) : duration;
 }

@@ -28,7 +28,8 @@ struct Reference : ReferenceSummary {
 /// For runs whose errors are not needed.
 const Reference& no_reference();
 
-/// Predictable time of a scene's motion [s]; contact makes it chaotic.
+/// Predictable time of a scene's motion [s]: the scene's own `window`; otherwise contact makes it
+/// chaotic.
 double predictable_window(const Scene& scene, double duration);
 
 /// Computes the reference of a scene frame by frame, to keep a page responsive. In this order:

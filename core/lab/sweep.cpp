@@ -1,6 +1,7 @@
 #include "core/lab/sweep.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/lab/slice.hpp"
@@ -25,7 +26,7 @@ constexpr int kFreeCap = 256;  // of adaptive sub-steps
 constexpr int kCaps[] = {1, 2, 3, 4, 6, 8, 12};
 // The map has fewer values than the curves, because each requires a run under every load.
 constexpr int kMapN[] = {1, 2, 4, 6, 8, 12, 16, 24};
-constexpr double kMapAlpha[] = {1.0, 0.5, 0.25, 0.1, 0.05};
+constexpr std::array kMapAlpha{1.0, 0.5, 0.25, 0.1, 0.05};
 constexpr double kMapLoads[] = {0.01, 0.1, 0.32, 3.2, 10.0};
 constexpr double kReferenceWork = 0.05;  // share of the progress bar
 
@@ -180,8 +181,7 @@ void append_map(const Settings& base, std::vector<SweepPoint>& points) {
   const auto is_on_map = [](const Settings& s) {
     return s.mode == Mode::kConst
                ? std::find(std::begin(kMapN), std::end(kMapN), s.n) != std::end(kMapN)
-               : std::find(std::begin(kMapAlpha), std::end(kMapAlpha), s.alpha) !=
-                     std::end(kMapAlpha);
+               : std::find(kMapAlpha.begin(), kMapAlpha.end(), s.alpha) != kMapAlpha.end();
   };
   for (const Settings& on_map : all) {
     if (!is_on_map(on_map)) continue;
@@ -207,6 +207,8 @@ Settings base_of(const Scene& scene) {
 }
 
 }  // namespace
+
+std::span<const double> map_alphas() { return kMapAlpha; }
 
 Settings paper_settings(const Scene& scene) {
   Settings paper = direct(base_of(scene), Integrator::kEuler);

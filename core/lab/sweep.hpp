@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/lab/experiment_run.hpp"
@@ -26,6 +27,9 @@ std::vector<SweepPoint> default_sweep(const Scene& scene);
 /// once per frame by alpha alone, with a cap too large to matter; other settings of the scene are
 /// reset as in a sweep.
 Settings paper_settings(const Scene& scene);
+
+/// The alphas of the map of stability, descending.
+std::span<const double> map_alphas();
 
 /// Estimated sub-steps of a run, weighted by their cost: for progress bars only.
 double expected_work(const Scene& scene, const Experiment& experiment);

@@ -36,6 +36,7 @@ struct Criteria {
   };
   std::optional<Displacement> displacement;  // this body moved farther than this fails
   std::optional<int> track;                  // the body whose path is compared
+  std::optional<double> window;              // the path is compared for this long [s]
   bool holds = true;                         // the verdict expected with the scene's own settings
 };
 

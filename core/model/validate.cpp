@@ -63,6 +63,9 @@ void check_criteria(const Scene& scene, Problems& problems) {
   if (criteria.energy_scale) {
     check_number(*criteria.energy_scale, kEnergyRange, "/criteria/energy_scale", problems);
   }
+  if (criteria.window) {
+    check_number(*criteria.window, kDurationRange, "/criteria/window", problems);
+  }
   const auto check_index = [&](int body, const char* pointer) {
     if (auto fault = body_fault(body, scene)) problems.push_back({pointer, std::move(*fault)});
   };

@@ -14,9 +14,23 @@ constexpr double kPitch = 0.5;       // distance of a plank's two pivots [m]
 constexpr double kLength = 0.48;     // of a plank along the bridge [m]
 constexpr double kThickness = 0.06;  // [m]
 constexpr double kLeftHeight = 5.5;  // of the left end [m]
+constexpr double kSpan = 9.9;        // of the convoy's bridge [m]
 constexpr double kDrop = -1.0;       // of the right end against the left one [m]
 constexpr double kRadius = 0.5;      // of the ball [m]
 constexpr double kMu = 0.8;          // Coulomb coefficient of every pair [-]
+
+/// A ball that comes along the road of the convoy.
+struct Load {
+  const char* name;
+  double mass;          // [kg]
+  double radius;        // [m]
+  double arrives;       // at the bridge [s]
+  std::uint32_t color;  // 0xrrggbb
+};
+constexpr std::array kConvoy{Load{"light", 10.0, 0.25, 0.4, kTeal},
+                             Load{"middle", 100.0, 0.35, 2.9, kBlue},
+                             Load{"heavy", 1000.0, 0.5, 5.4, kIron}};
+constexpr double kConvoySpeed = 3.0;  // [m/s]
 
 /// Slopes of the planks of the hanging bridge.
 ///
@@ -102,6 +116,28 @@ void add_planks(double span, Scene& scene) {
   join_planks(kPlanks, kPitch, 0.9, left, right, scene);
 }
 
+/// The static road that ends where the bridge begins, and the balls that roll along it.
+void add_convoy(Scene& scene) {
+  const double top = kLeftHeight + 0.5 * kThickness;
+  const double length = kConvoySpeed * kConvoy.back().arrives + 2.0;
+  constexpr double kRoad = 0.3;  // thickness [m]
+  Body road = solid("road", box(length, kRoad, 2.0), 1.0,
+                    {-0.5 * kSpan - 0.5 * length, top - 0.5 * kRoad, 0.0});
+  road.is_static = true;
+  road.friction = kMu;
+  scene.bodies.push_back(std::move(road));
+  for (const Load& load : kConvoy) {
+    Body ball = solid(load.name, Sphere{load.radius}, load.mass,
+                      {-0.5 * kSpan - kConvoySpeed * load.arrives, top + load.radius, 0.0});
+    ball.velocity = {kConvoySpeed, 0.0, 0.0};
+    ball.angular_velocity = {0.0, 0.0, -kConvoySpeed / load.radius};  // rolling
+    ball.friction = kMu;
+    ball.color = load.color;
+    scene.bodies.push_back(std::move(ball));
+  }
+  scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
+}
+
 void add_ball(const BridgeOptions& options, Scene& scene) {
   Rest rest;
   for (const Body& plank : scene.bodies) {
@@ -119,10 +155,21 @@ void add_ball(const BridgeOptions& options, Scene& scene) {
   scene.bodies.push_back(ball);
 }
 
+Scene hanging_bridge(double span) {
+  Scene scene;
+  scene.effects = {.gravity = true, .joints = true, .contact = true, .friction = true};
+  scene.contact.compliance = 1e-7;
+  scene.contact.friction_compliance = 1e-10;
+  scene.bodies.push_back(floor_plane());
+  scene.bodies.back().friction = kMu;
+  add_planks(span, scene);
+  return scene;
+}
+
 }  // namespace
 
 Scene bridge(const BridgeOptions& options) {
-  Scene scene;
+  Scene scene = hanging_bridge(options.span);
   scene.name = "bridge";
   scene.title = "Bridge";
   scene.group = "paper";
@@ -130,16 +177,32 @@ Scene bridge(const BridgeOptions& options) {
   scene.look_for =
       "Sub-steps rise while the ball loads the planks and fall once it has left, a little after "
       "2 s. Without them the bridge tears in half a second.";
-  scene.effects = {.gravity = true, .joints = true, .contact = true, .friction = true};
-  scene.contact.compliance = 1e-7;
-  scene.contact.friction_compliance = 1e-10;
   scene.criteria.duration = 6.0;
   scene.camera.eye = {0.0, 6.5, 14.5};
   scene.camera.target = {0.0, 3.2, 0.0};
-  scene.bodies.push_back(floor_plane());
-  scene.bodies.back().friction = kMu;
-  add_planks(options.span, scene);
   add_ball(options, scene);
+  return scene;
+}
+
+Scene convoy() {
+  Scene scene = hanging_bridge(kSpan);
+  scene.name = "convoy";
+  scene.title = "Convoy";
+  scene.group = "playground";
+  scene.description =
+      "Balls of 10, 100 and 1000 kg roll one after another over a hanging bridge of 20 planks of "
+      "1 kg each.";
+  scene.look_for =
+      "The load changes, and the number of sub-steps follows it: about 4 on the empty bridge, 10 "
+      "under 100 kg, 25 under 1000 kg. A constant number must be chosen for the heaviest ball.";
+  // Per sub-step, because the load comes within a few frames.
+  scene.settings.policy = Policy::kSubstep;
+  scene.settings.alpha = 0.25;
+  scene.criteria.duration = kConvoy.back().arrives + 3.0;
+  scene.criteria.window = scene.criteria.duration;
+  scene.camera.eye = {-1.5, 6.5, 16.0};
+  scene.camera.target = {-1.0, 3.4, 0.0};
+  add_convoy(scene);
   return scene;
 }
 

@@ -46,6 +46,9 @@ Scene bridge(const BridgeOptions& options = {});
 /// The 8 starts of the survival counts.
 std::vector<BridgeOptions> bridge_starts();
 
+/// Three balls of growing mass roll over the bridge one after another.
+Scene convoy();
+
 /// Layers of four light balls and a plate under a very heavy box.
 struct HeavyStackOptions {
   int layers = 5;

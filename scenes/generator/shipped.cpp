@@ -26,6 +26,7 @@ std::vector<Scene> shipped() {
                          bouncing_balls(),
                          newtons_cradle(),
                          wrecking_ball(),
+                         convoy(),
                          card_house(),
                          ragdoll_drop(),
                          wall()};

@@ -87,6 +87,18 @@ Expectations bridge() {
   return rules;
 }
 
+Expectations convoy() {
+  Expectations rules{
+      all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
+      fails(kBpp, Mode::kNone, 2.0, "Ten kilograms are enough to tear the planks."),
+      const_fails(kBpp, 4, 7.0, "Enough for 100 kg, too few for 1000 kg."),
+      fails(kPgs, Mode::kNone, 2.0),
+      const_fails(kPgs, 4, 7.0),
+      fails(kXpbd, Mode::kNone, 7.0, "25 sweeps of a whole frame do not converge.")};
+  add_fails(rules, kPgs, kOneStep, 7.0, "25 sweeps of a whole frame do not converge.");
+  return rules;
+}
+
 Expectations heavy_stack() {
   return {
       all_hold("Symmetric, and exact to double precision: the true constrained stiffness is 0."),
@@ -238,6 +250,7 @@ Expectations whirling_chain() {
 Expectations verdicts_of(const std::string& name) {
   if (name == "swinging_box") return swinging_box();
   if (name == "bridge") return bridge();
+  if (name == "convoy") return convoy();
   if (name == "heavy_stack" || name == "heavy_stack_tall") return heavy_stack();
   if (name == "heavy_stack_stress") return heavy_stack_stress();
   if (name == "heavy_stack_stress_tall") return heavy_stack_stress_tall();

@@ -1,0 +1,234 @@
+#include "app/ui/vector_figure.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "core/model/number_text.hpp"
+
+namespace substep::ui {
+namespace {
+
+struct NotedText {
+  const ImDrawList* draw = nullptr;
+  const ImFont* font = nullptr;
+  float size = 0.0F;
+  ImVec2 at;
+  ImVec4 clip;
+  ImU32 color = 0;
+  std::string text;
+};
+
+std::vector<NotedText> noted;
+bool noting = false;
+
+bool operator==(const ImVec2& a, const ImVec2& b) { return a.x == b.x && a.y == b.y; }
+
+std::string number(float value) {
+  return number_text(std::round(100.0 * static_cast<double>(value)) / 100.0);
+}
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '&') {
+      out += "&amp;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+/// fill="#rrggbb", with fill-opacity if it is translucent.
+std::string fill(ImU32 color) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text = " fill=\"#";
+  for (const int shift : {IM_COL32_R_SHIFT, IM_COL32_G_SHIFT, IM_COL32_B_SHIFT}) {
+    text += kDigits[(color >> (shift + 4)) & 0xfU];
+    text += kDigits[(color >> shift) & 0xfU];
+  }
+  text += '"';
+  const ImU32 alpha = color >> IM_COL32_A_SHIFT;
+  if (alpha < 255U) text += " fill-opacity=\"" + number(static_cast<float>(alpha) / 255.0F) + '"';
+  return text;
+}
+
+class Writer {
+ public:
+  explicit Writer(const ViewRect& area) : area_(area) {}
+
+  void add_list(const ImDrawList& list) {
+    for (const ImDrawCmd& command : list.CmdBuffer) {
+      if (command.UserCallback == nullptr) add_command(list, command);
+    }
+    for (const NotedText& text : noted) {
+      if (text.draw == &list) add_text(text);
+    }
+    close_path();
+  }
+
+  void use_fonts(const Fonts& fonts) { fonts_ = &fonts; }
+
+  std::string finish() {
+    set_clip({0.0F, 0.0F, 0.0F, 0.0F});
+    return std::move(body_);
+  }
+
+ private:
+  void add_command(const ImDrawList& list, const ImDrawCmd& command) {
+    if (!set_clip(command.ClipRect)) return;
+    const ImVec2 white = ImGui::GetIO().Fonts->TexUvWhitePixel;
+    for (unsigned i = 0; i + 2 < command.ElemCount; i += 3) {
+      std::array<ImDrawVert, 3> v;
+      for (unsigned k = 0; k < 3; ++k) {
+        const int index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i + k)];
+        v[k] = list.VtxBuffer[static_cast<int>(command.VtxOffset) + index];
+      }
+      const bool solid =
+          std::all_of(v.begin(), v.end(), [&](const ImDrawVert& one) { return one.uv == white; });
+      if (solid) add_triangle(v);  // glyphs are written as text
+    }
+    close_path();
+  }
+
+  /// One path for neighbours of one colour: no seams between them.
+  void add_triangle(std::array<ImDrawVert, 3> v) {
+    const ImU32 color = v[0].col;
+    if (color >> IM_COL32_A_SHIFT == 0U) return;
+    const ImVec2 a(v[1].pos.x - v[0].pos.x, v[1].pos.y - v[0].pos.y);
+    const ImVec2 b(v[2].pos.x - v[0].pos.x, v[2].pos.y - v[0].pos.y);
+    const float twice_area = a.x * b.y - a.y * b.x;
+    if (twice_area == 0.0F) return;
+    if (twice_area < 0.0F) std::swap(v[1], v[2]);  // one orientation: overlaps do not cancel
+    if (color != path_color_) {
+      close_path();
+      path_color_ = color;
+    }
+    path_ += 'M' + point(v[0].pos) + 'L' + point(v[1].pos) + ' ' + point(v[2].pos) + 'Z';
+  }
+
+  void close_path() {
+    if (!path_.empty()) body_ += "<path" + fill(path_color_) + " d=\"" + path_ + "\"/>\n";
+    path_.clear();
+    path_color_ = 0;
+  }
+
+  void add_text(const NotedText& text) {
+    if (!set_clip(text.clip)) return;
+    const bool bold =
+        fonts_ != nullptr && text.font != fonts_->regular && text.font != fonts_->small;
+    float y = text.at.y + text.font->Ascent * text.size / text.font->FontSize;
+    std::string_view rest = text.text;
+    while (true) {
+      const std::size_t end = rest.find('\n');
+      const std::string_view line = rest.substr(0, end);
+      if (line.find_first_not_of(' ') != std::string_view::npos) {
+        const float width =
+            text.font->CalcTextSizeA(text.size, 1e6F, 0.0F, line.data(), line.data() + line.size())
+                .x;
+        body_ += "<text x=\"" + number(text.at.x - area_x()) + "\" y=\"" + number(y - area_y()) +
+                 "\" font-size=\"" + number(text.size) + "\" textLength=\"" + number(width) +
+                 "\" lengthAdjust=\"spacingAndGlyphs\"" + (bold ? " font-weight=\"600\"" : "") +
+                 fill(text.color) + '>' + escaped(line) + "</text>\n";
+      }
+      if (end == std::string_view::npos) break;
+      rest.remove_prefix(end + 1);
+      y += text.size;
+    }
+  }
+
+  /// Opens a group with this clip rectangle, unless it is open. @return whether it is visible
+  bool set_clip(const ImVec4& rect) {
+    if (rect.x == clip_.x && rect.y == clip_.y && rect.z == clip_.z && rect.w == clip_.w) {
+      return visible_;
+    }
+    close_path();
+    if (visible_) body_ += "</g>\n";
+    clip_ = rect;
+    const float left = std::max(rect.x, area_x());
+    const float top = std::max(rect.y, area_y());
+    const float right = std::min(rect.z, area_x() + area_.width);
+    const float bottom = std::min(rect.w, area_y() + area_.height);
+    visible_ = left < right && top < bottom;
+    if (!visible_) return false;
+    const std::string id = "c" + std::to_string(++clips_);
+    body_ += "<clipPath id=\"" + id + "\"><rect x=\"" + number(left - area_x()) + "\" y=\"" +
+             number(top - area_y()) + "\" width=\"" + number(right - left) + "\" height=\"" +
+             number(bottom - top) + "\"/></clipPath>\n<g clip-path=\"url(#" + id + ")\">\n";
+    return true;
+  }
+
+  [[nodiscard]] float area_x() const { return area_.x; }
+  [[nodiscard]] float area_y() const { return area_.y; }
+  [[nodiscard]] std::string point(ImVec2 p) const {
+    return number(p.x - area_x()) + ' ' + number(p.y - area_y());
+  }
+
+  ViewRect area_;
+  const Fonts* fonts_ = nullptr;
+  std::string body_;
+  std::string path_;
+  ImU32 path_color_ = 0;
+  ImVec4 clip_{0.0F, 0.0F, 0.0F, 0.0F};
+  bool visible_ = false;  // a group is open
+  int clips_ = 0;
+};
+
+}  // namespace
+
+FigureFrame::FigureFrame()
+    : lines_(ImGui::GetStyle().AntiAliasedLines), fills_(ImGui::GetStyle().AntiAliasedFill) {
+  ImGui::GetStyle().AntiAliasedLines = false;
+  ImGui::GetStyle().AntiAliasedFill = false;
+  noted.clear();
+  noting = true;
+}
+
+FigureFrame::~FigureFrame() {
+  ImGui::GetStyle().AntiAliasedLines = lines_;
+  ImGui::GetStyle().AntiAliasedFill = fills_;
+  noted.clear();
+  noting = false;
+}
+
+void note_text(const ImDrawList& draw, const ImFont* font, float size, ImVec2 at, ImU32 color,
+               const char* text, const char* end) {
+  if (!noting) return;
+  const ImVec2 min = draw.GetClipRectMin();
+  const ImVec2 max = draw.GetClipRectMax();
+  noted.push_back({&draw,
+                   font,
+                   size,
+                   at,
+                   {min.x, min.y, max.x, max.y},
+                   color,
+                   end == nullptr ? std::string(text) : std::string(text, end)});
+}
+
+std::string svg_figure(const Look& look, const ImDrawData& panels, const ViewRect& area,
+                       const FigureNote& note) {
+  Writer writer(area);
+  writer.use_fonts(look.fonts);
+  for (int i = 0; i < panels.CmdListsCount; ++i) writer.add_list(*panels.CmdLists[i]);
+  const std::string width = number(area.width);
+  const std::string height = number(area.height);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
+         "\" viewBox=\"0 0 " + width + ' ' + height +
+         "\" font-family=\"Inter, system-ui, sans-serif\">\n<title>" + escaped(note.title) +
+         "</title>\n<desc>" + escaped(note.command) + "</desc>\n<metadata>" +
+         escaped(note.experiment) + "</metadata>\n<rect width=\"" + width + "\" height=\"" +
+         height + "\"" + fill(look.theme->panel | IM_COL32_A_MASK) + "/>\n" + writer.finish() +
+         "</svg>\n";
+}
+
+}  // namespace substep::ui

@@ -1,0 +1,42 @@
+#pragma once
+// A part of the window as SVG: shapes as paths, texts as text, and the experiment inside.
+
+#include <imgui.h>
+
+#include <string>
+
+#include "app/render/scene_view.hpp"
+#include "app/ui/look.hpp"
+
+namespace substep::ui {
+
+/// Keeps the texts of the frame that follows, and has shapes drawn without blended edges: a figure
+/// is built from them. The previous style returns when this is destroyed.
+class FigureFrame {
+ public:
+  FigureFrame();
+  ~FigureFrame();
+  FigureFrame(const FigureFrame&) = delete;
+  FigureFrame& operator=(const FigureFrame&) = delete;
+
+ private:
+  bool lines_;
+  bool fills_;
+};
+
+/// Called for every text; keeps it if a FigureFrame exists.
+void note_text(const ImDrawList& draw, const ImFont* font, float size, ImVec2 at, ImU32 color,
+               const char* text, const char* end);
+
+/// What the figure says about itself, for people and programs.
+struct FigureNote {
+  std::string title;
+  std::string command;     // line of the command line that runs it
+  std::string experiment;  // JSON
+};
+
+/// @param panels of a frame drawn within a FigureFrame  @param area in interface pixels
+std::string svg_figure(const Look& look, const ImDrawData& panels, const ViewRect& area,
+                       const FigureNote& note);
+
+}  // namespace substep::ui

@@ -1,0 +1,115 @@
+// Figures as SVG: texts, shapes, and the experiment inside.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "app/ui/panels.hpp"
+#include "core/io/experiment.hpp"
+#include "tests/app/ui/ui_sweep.hpp"
+
+namespace substep {
+namespace {
+
+struct Saved {
+  std::string name;
+  std::string text;
+};
+
+Saved save(Headless& h, const Capture& figure) {
+  Saved saved;
+  h.app->host.save_file = [&](const std::string& name, const std::string& text) {
+    saved = {name, text};
+  };
+  h.app->desk.figure = figure;
+  h.frames(1);
+  return saved;
+}
+
+std::string between(const std::string& text, const std::string& open, const std::string& close) {
+  const std::size_t from = text.find(open);
+  if (from == std::string::npos) return "";
+  const std::size_t at = from + open.size();
+  return text.substr(at, text.find(close, at) - at);
+}
+
+std::string unescaped(std::string text) {
+  for (const auto& [name, c] :
+       {std::pair{"&quot;", '"'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}}) {
+    for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; ++at) {
+      text.replace(at, std::string(name).size(), 1, c);
+    }
+  }
+  return text;
+}
+
+std::size_t count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
+  return n;
+}
+
+TEST(Figure, PlotsHaveTheirTextsCurvesAndExperiment) {
+  Headless h;
+  ASSERT_EQ(h.app->set("alpha", "0.05"), "");
+  h.app->session.play();
+  h.frames(90);
+  h.app->session.pause();
+  h.frames(2);
+  const Saved figure = save(h, {"plots.svg", h.app->desk.plots_area});
+  EXPECT_EQ(figure.name, "plots.svg");
+  EXPECT_TRUE(figure.text.starts_with("<svg "));
+  EXPECT_TRUE(figure.text.ends_with("</svg>\n"));
+  EXPECT_EQ(count(figure.text, "<g "), count(figure.text, "</g>"));
+  EXPECT_NE(figure.text.find(">SUB-STEPS PER FRAME</text>"), std::string::npos)
+      << figure.text.substr(0, 3000);
+  EXPECT_NE(figure.text.find("total</text>"), std::string::npos);
+  EXPECT_GT(count(figure.text, "<path"), 20U);
+  EXPECT_EQ(figure.text.find("nan"), std::string::npos);
+  EXPECT_FALSE(h.app->desk.figure.has_value());
+
+  // The experiment inside runs again.
+  Problems problems;
+  const Json about = Json::parse(unescaped(between(figure.text, "<metadata>", "</metadata>")));
+  const auto find = [&](const std::string& name) { return h.app->library.find(name); };
+  Json experiment = about;
+  experiment.erase("link");
+  experiment.erase("citation");
+  const ExperimentInput read = read_experiment(experiment, find, problems);
+  ASSERT_TRUE(problems.empty()) << problems.front().text;
+  EXPECT_EQ(read.experiment->settings.alpha, 0.05);
+  EXPECT_EQ(about["link"], h.app->link());
+  EXPECT_NE(between(figure.text, "<desc>", "</desc>").find("substep run"), std::string::npos);
+}
+
+TEST(Figure, TakesTheChartAndLeavesTheWindowAsItWas) {
+  Headless h;
+  h.app->session.pause();
+  h.app->desk.tab = Tab::kAccuracy;
+  h.frames(3);
+  const bool lines = ImGui::GetStyle().AntiAliasedLines;
+  const std::size_t handles = ui::handles().size();
+  const Saved figure = save(h, {"chart.svg", h.app->desk.accuracy_area});
+  EXPECT_NE(figure.text.find("operations"), std::string::npos);
+  EXPECT_EQ(ImGui::GetStyle().AntiAliasedLines, lines);
+  EXPECT_EQ(ui::handles().size(), handles);
+  h.frames(2);
+  EXPECT_EQ(ui::handles().size(), handles);
+  const Saved again = save(h, {"chart.svg", h.app->desk.accuracy_area});
+  EXPECT_EQ(again.text, figure.text);
+}
+
+TEST(Figure, EscapesWhatASceneSays) {
+  Headless h;
+  auto scene = std::make_shared<Scene>(*h.app->library.scenes().front());
+  scene->title = "<script>alert(1)</script> & \"quoted\"";
+  h.app->run(scene);
+  h.app->session.pause();
+  h.frames(2);
+  const Saved figure = save(h, {"plots.svg", h.app->desk.plots_area});
+  EXPECT_EQ(figure.text.find("<script"), std::string::npos);
+  EXPECT_NE(figure.text.find("<title>&lt;script&gt;"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace substep

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "app/text/tour.hpp"
-
 namespace substep {
 
 App::App(Library shipped, std::unique_ptr<Renderer> draws)
@@ -11,7 +9,7 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
   restarted = [this](bool loaded) {
     if (loaded) desk.selected = -1;
     if (loaded) introduction.close(*this);  // another run has replaced it
-    if (loaded && session.scene().name != kTourScene) tour.close(*this);
+    if (loaded && !tour.runs(*this)) tour.close(*this);
     // A restarted run is shown from its start, at the chosen zoom.
     for (ui::PlotState& plot : desk.plots) plot.set = false;
     desk.time.from = 0.0;

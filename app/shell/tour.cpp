@@ -58,6 +58,12 @@ std::string Tour::go(App& app, std::string_view value) {
 
 void Tour::follow(App& app) { loop_.follow(app, !app.desk.reduced_motion); }
 
+bool Tour::runs(const App& app) const {
+  if (!before_ || app.desk.tour < 0) return false;
+  const TourStep& step = tour_steps()[static_cast<std::size_t>(app.desk.tour)];
+  return app.session.scene().name == scene_of(step);
+}
+
 void Tour::close(App& app) {
   if (!before_ || opening_) return;
   app.desk.tour = -1;

@@ -25,6 +25,8 @@ class Tour {
   void follow(App& app);
   /// Ends it, restores the window and restarts the earlier run.
   void leave(App& app);
+  /// Whether the run is of the scene of the current step.
+  [[nodiscard]] bool runs(const App& app) const;
   /// Ends it when another run has already begun.
   void close(App& app);
   [[nodiscard]] const RunLoop& loop() const { return loop_; }

@@ -7,7 +7,7 @@
 namespace substep {
 
 std::span<const TourStep> tour_steps() {
-  static constexpr std::array<TourStep, 7> kSteps{
+  static constexpr std::array<TourStep, 8> kSteps{
       {{.title = "A heavy box on a thin chain",
         .text = "A box of {load} hangs on 25 links of 1 kg each. The solver is exact and takes one "
                 "step per frame. The pull of the chain turns with every link and acts like a "
@@ -71,6 +71,17 @@ std::span<const TourStep> tour_steps() {
                 "&n=7&compare=mode:const&panel=plots&plots=substeps,error&level=explore",
         .loop = {.end = 4.0},
         .reply = reply_heavier_box},
+       {.title = "A load that changes while it runs",
+        .text =
+            "Balls of 10, 100 and 1,000 kg roll over a bridge of light planks, and N follows each "
+            "of them. The orange ghost takes {n} in every frame. That is the best constant "
+            "number, known only after the run: as exact as the adaptive sub-steps, and dearer.",
+        .watch = "Watch [the plot of N](substeps) under each ball, and [the joint error](error).",
+        .task = "Tear the ghost's bridge: set seven sub-steps.",
+        .link = "scene=convoy&mode=adaptive&policy=substep&alpha=0.25&solver=bpp&integrator=euler"
+                "&n=14&compare=mode:const&panel=plots&plots=substeps,error&level=explore",
+        .loop = {.end = 8.4},
+        .reply = reply_changing_load},
        {.title = "What does accuracy cost?",
         .text =
             "Sometimes nothing. Leapfrog applies gravity from the middle of one sub-step to the "
@@ -85,6 +96,13 @@ std::span<const TourStep> tour_steps() {
         .loop = {.end = 5.0},
         .reply = reply_half_the_substeps}}};
   return kSteps;
+}
+
+std::string_view scene_of(const TourStep& step) {
+  constexpr std::string_view kKey = "scene=";
+  std::string_view link = step.link;
+  link.remove_prefix(link.find(kKey) + kKey.size());
+  return link.substr(0, link.find('&'));
 }
 
 std::span<const TourPlace> tour_places() {

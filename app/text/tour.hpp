@@ -28,8 +28,8 @@ struct TourStep {
   TourReply (*reply)(const Lab& lab, const RunLoop::Outcome& outcome);
 };
 
-/// The scene of every step.
-inline constexpr std::string_view kTourScene = "swinging_box";
+/// The scene of a step.
+std::string_view scene_of(const TourStep& step);
 
 /// The steps. Tests verify every number in them by simulation.
 std::span<const TourStep> tour_steps();

@@ -25,10 +25,10 @@ std::string lost(const Lab& lab, const RunLoop::Pass& pass) {
          (share < 0.0 ? "gained" : "lost");
 }
 
-/// "the chain tears at 0.35 s", from the verdict.
-std::string failure(const RunLoop::Pass& pass) {
-  const char* what = "the run fails at ";
-  if (pass.reason.find("joint gap") != std::string::npos) what = "the chain tears at ";
+/// "the chain tears at 0.35 s", from the verdict. @param torn what has the joints
+std::string failure(const RunLoop::Pass& pass, const std::string& torn = "the chain") {
+  std::string what = "the run fails at ";
+  if (pass.reason.find("joint gap") != std::string::npos) what = torn + " tears at ";
   if (pass.reason.find("energy gain") != std::string::npos)
     what = "the run gains energy and fails at ";
   return what + fixed(pass.failed_at, 2) + " s";
@@ -101,6 +101,22 @@ TourReply reply_heavier_box(const Lab& lab, const RunLoop::Outcome& outcome) {
   return {"With " + mass(lab) + " N is up to " + std::to_string(outcome.run.most_n) +
               " and the chain holds. " + beside,
           !ghost.stable};
+}
+
+TourReply reply_changing_load(const Lab&, const RunLoop::Outcome& outcome) {
+  if (outcome.failed()) return failed(outcome);
+  if (outcome.open() || outcome.beside.empty()) return {};
+  const RunLoop::Pass& run = outcome.run;
+  const RunLoop::Pass& ghost = outcome.beside[0];
+  const std::string own = "N from " + std::to_string(run.least_n) + " to " +
+                          std::to_string(run.most_n) + ", " + count(run.substeps) +
+                          " sub-steps in all. With " + std::to_string(ghost.most_n) +
+                          " constant sub-steps ";
+  if (!ghost.stable) return {own + failure(ghost, "the bridge") + ".", true};
+  const double ratio = static_cast<double>(ghost.substeps) / static_cast<double>(run.substeps);
+  return {
+      own + "it takes " + count(ghost.substeps) + ", " + coarse_number(ratio) + " times as many.",
+      false};
 }
 
 TourReply reply_half_the_substeps(const Lab& lab, const RunLoop::Outcome& outcome) {

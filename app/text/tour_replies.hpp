@@ -11,6 +11,7 @@ TourReply reply_lose_less(const Lab& lab, const RunLoop::Outcome& outcome);
 TourReply reply_range_of_n(const Lab& lab, const RunLoop::Outcome& outcome);
 TourReply reply_double_n(const Lab& lab, const RunLoop::Outcome& outcome);
 TourReply reply_heavier_box(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_changing_load(const Lab& lab, const RunLoop::Outcome& outcome);
 TourReply reply_half_the_substeps(const Lab& lab, const RunLoop::Outcome& outcome);
 
 }  // namespace substep

@@ -1,5 +1,7 @@
 #include "app/ui/stability_map.hpp"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -229,7 +231,35 @@ void draw_axes(const Look& look, const Grid& grid, const Layout& layout, double 
                "mass ratio, heaviest to lightest body");
 }
 
-/// @return the result chosen by the pointer
+/// The map is the last item. While it has keyboard focus the arrow keys go from the cell of the
+/// current run to the next, and do not leave the map.
+/// @return the result of that cell
+std::optional<std::size_t> chosen_by_key(const Lab& lab, const Grid& grid) {
+  if (!ImGui::IsItemFocused() || !ImGui::GetIO().NavVisible) return std::nullopt;
+  const ImGuiID id = ImGui::GetItemID();
+  const auto pressed = [&](ImGuiKey key) {
+    ImGui::SetKeyOwner(key, id);
+    return ImGui::IsKeyPressed(key, id, ImGuiInputFlags_Repeat) ? 1 : 0;
+  };
+  const int right = pressed(ImGuiKey_RightArrow) - pressed(ImGuiKey_LeftArrow);
+  const int down = pressed(ImGuiKey_DownArrow) - pressed(ImGuiKey_UpArrow);
+  if (right == 0 && down == 0) return std::nullopt;
+  const auto now = std::find_if(grid.results.begin(), grid.results.end(), [&](const auto& entry) {
+    return runs_now(lab, lab.accuracy.results()[entry.second]);
+  });
+  if (now == grid.results.end()) return grid.results.begin()->second;
+  const auto neighbour = [](const std::vector<double>& of, double value, int by) {
+    const auto at = std::find(of.begin(), of.end(), value) - of.begin();
+    const auto last = static_cast<std::ptrdiff_t>(of.size()) - 1;
+    return of[static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at + by, 0, last))];
+  };
+  const auto next = grid.results.find({neighbour(grid.values, now->first.first, down),
+                                       neighbour(grid.loads, now->first.second, right)});
+  if (next == grid.results.end() || next == now) return std::nullopt;
+  return next->second;
+}
+
+/// @return the result chosen by the pointer or a key
 std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Grid& grid,
                                      const Path& path, float width) {
   const Theme& t = *look.theme;
@@ -246,6 +276,8 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
   const bool pointed = ImGui::IsItemHovered() || ImGui::IsItemActive();
   const bool pressed = ImGui::IsItemActivated();
   const bool dragged = ImGui::IsItemActive();
+  const std::optional<std::size_t> by_key = chosen_by_key(lab, grid);
+  draw_focus(look, draw, corner, {corner.x + size.x, corner.y + size.y});
   const double ratio = mass_ratio(*accuracy.scene());
   draw_axes(look, grid, layout, ratio);
   std::optional<std::size_t> under;
@@ -274,11 +306,11 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
     }
   }
   if (is_constant(grid)) draw_path(look, grid, path, layout);
-  if (!under) return std::nullopt;
+  if (!under) return by_key;
   ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   const Result& result = accuracy.results()[*under];
   read_cell(look, result, result.experiment.load * ratio);
-  return pressed || (dragged && !is_live) ? under : std::nullopt;
+  return pressed || (dragged && !is_live) ? under : by_key;
 }
 
 /// Legend of the line over constant N.

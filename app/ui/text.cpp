@@ -17,18 +17,23 @@ ImVec2 snapped(ImVec2 p) {
   return {std::round(p.x * ratio) / ratio, std::round(p.y * ratio) / ratio};
 }
 
+float size_of(const ImFont* font) { return font->FontSize * ImGui::GetIO().FontGlobalScale; }
+
+void add_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const char* text,
+              const char* end) {
+  draw.AddText(font, size_of(font), snapped(at), color, text, end);
+}
+
 }  // namespace
 
 void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const char* text,
                const char* end) {
-  const float size = font->FontSize * ImGui::GetIO().FontGlobalScale;
-  draw.AddText(font, size, snapped(at), color, text, end);
-  note_text(draw, font, size, snapped(at), color, text, end);
+  add_text(draw, font, at, color, text, end);
+  note_text(draw, font, snapped(at), 0.0F, color, text, end);
 }
 
 ImVec2 text_size(ImFont* font, const char* text, float wrap) {
-  const float size = font->FontSize * ImGui::GetIO().FontGlobalScale;
-  return font->CalcTextSizeA(size, 1e6F, wrap, text);
+  return font->CalcTextSizeA(size_of(font), 1e6F, wrap, text);
 }
 
 std::string fitted(ImFont* font, const std::string& text, float width) {
@@ -94,7 +99,10 @@ void label(ImFont* font, ImU32 color, const char* text) {
   ImGui::PushFont(font);
   ImGui::PushStyleColor(ImGuiCol_Text, color);
   ImGui::PushTextWrapPos(0.0F);  // for a word longer than a line
-  ImGui::TextUnformatted(wrapped(font, text, ImGui::GetContentRegionAvail().x).c_str());
+  const std::string lines = wrapped(font, text, ImGui::GetContentRegionAvail().x);
+  note_text(*ImGui::GetWindowDrawList(), font, ImGui::GetCursorScreenPos(), 0.0F, color,
+            lines.c_str(), nullptr);
+  ImGui::TextUnformatted(lines.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   ImGui::PopFont();
@@ -121,12 +129,17 @@ std::string capitals(const char* title) {
 
 // Capitals are more readable with letter spacing. @param draw null: only measures @return right end
 float draw_capitals(const Look& look, ImVec2 at, const std::string& caps, ImDrawList* draw) {
+  const ImVec2 start = at;
   for (const char* p = caps.c_str(); *p != '\0';) {
     const char* end = p + 1;
     while ((static_cast<unsigned char>(*end) & 0xc0U) == 0x80U) ++end;
-    if (draw != nullptr) draw_text(*draw, look.fonts.caps, at, look.theme->dim, p, end);
+    if (draw != nullptr) add_text(*draw, look.fonts.caps, at, look.theme->dim, p, end);
     at.x += text_size(look.fonts.caps, std::string(p, end).c_str()).x + 0.6F;
     p = end;
+  }
+  if (draw != nullptr) {
+    note_text(*draw, look.fonts.caps, snapped(start), at.x - start.x, look.theme->dim, caps.c_str(),
+              nullptr);
   }
   return at.x;
 }

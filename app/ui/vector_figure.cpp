@@ -15,8 +15,8 @@ namespace {
 struct NotedText {
   const ImDrawList* draw = nullptr;
   const ImFont* font = nullptr;
-  float size = 0.0F;
   ImVec2 at;
+  float width = 0.0F;  // of its only line, 0: that of the font
   ImVec4 clip;
   ImU32 color = 0;
   std::string text;
@@ -65,7 +65,7 @@ std::string fill(ImU32 color) {
 
 class Writer {
  public:
-  explicit Writer(const ViewRect& area) : area_(area) {}
+  Writer(const Look& look, const ViewRect& area) : look_(look), area_(area) {}
 
   void add_list(const ImDrawList& list) {
     for (const ImDrawCmd& command : list.CmdBuffer) {
@@ -76,8 +76,6 @@ class Writer {
     }
     close_path();
   }
-
-  void use_fonts(const Fonts& fonts) { fonts_ = &fonts; }
 
   std::string finish() {
     set_clip({0.0F, 0.0F, 0.0F, 0.0F});
@@ -91,8 +89,8 @@ class Writer {
     for (unsigned i = 0; i + 2 < command.ElemCount; i += 3) {
       std::array<ImDrawVert, 3> v;
       for (unsigned k = 0; k < 3; ++k) {
-        const int index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i + k)];
-        v[k] = list.VtxBuffer[static_cast<int>(command.VtxOffset) + index];
+        const ImDrawIdx index = list.IdxBuffer[static_cast<int>(command.IdxOffset + i + k)];
+        v[k] = list.VtxBuffer[static_cast<int>(command.VtxOffset + index)];
       }
       const bool solid =
           std::all_of(v.begin(), v.end(), [&](const ImDrawVert& one) { return one.uv == white; });
@@ -104,7 +102,7 @@ class Writer {
   /// One path for neighbours of one colour: no seams between them.
   void add_triangle(std::array<ImDrawVert, 3> v) {
     const ImU32 color = v[0].col;
-    if (color >> IM_COL32_A_SHIFT == 0U) return;
+    if (color >> IM_COL32_A_SHIFT == 0U || !touches(v)) return;
     const ImVec2 a(v[1].pos.x - v[0].pos.x, v[1].pos.y - v[0].pos.y);
     const ImVec2 b(v[2].pos.x - v[0].pos.x, v[2].pos.y - v[0].pos.y);
     const float twice_area = a.x * b.y - a.y * b.x;
@@ -117,6 +115,13 @@ class Writer {
     path_ += 'M' + point(v[0].pos) + 'L' + point(v[1].pos) + ' ' + point(v[2].pos) + 'Z';
   }
 
+  [[nodiscard]] bool touches(const std::array<ImDrawVert, 3>& v) const {
+    const auto [left, right] = std::minmax({v[0].pos.x, v[1].pos.x, v[2].pos.x});
+    const auto [top, bottom] = std::minmax({v[0].pos.y, v[1].pos.y, v[2].pos.y});
+    return right > area_.x && left < area_.x + area_.width && bottom > area_.y &&
+           top < area_.y + area_.height;
+  }
+
   void close_path() {
     if (!path_.empty()) body_ += "<path" + fill(path_color_) + " d=\"" + path_ + "\"/>\n";
     path_.clear();
@@ -124,27 +129,32 @@ class Writer {
   }
 
   void add_text(const NotedText& text) {
-    if (!set_clip(text.clip)) return;
-    const bool bold =
-        fonts_ != nullptr && text.font != fonts_->regular && text.font != fonts_->small;
-    float y = text.at.y + text.font->Ascent * text.size / text.font->FontSize;
+    const float size = text.font->FontSize * ImGui::GetIO().FontGlobalScale;
+    const bool inside = text.at.x < area_.x + area_.width && text.at.y < area_.y + area_.height &&
+                        text.at.y + size > area_.y;
+    if (!inside || !set_clip(text.clip)) return;
+    ImVec2 at(text.at.x, text.at.y + text.font->Ascent * ImGui::GetIO().FontGlobalScale);
     std::string_view rest = text.text;
-    while (true) {
-      const std::size_t end = rest.find('\n');
-      const std::string_view line = rest.substr(0, end);
-      if (line.find_first_not_of(' ') != std::string_view::npos) {
-        const float width =
-            text.font->CalcTextSizeA(text.size, 1e6F, 0.0F, line.data(), line.data() + line.size())
-                .x;
-        body_ += "<text x=\"" + number(text.at.x - area_x()) + "\" y=\"" + number(y - area_y()) +
-                 "\" font-size=\"" + number(text.size) + "\" textLength=\"" + number(width) +
-                 "\" lengthAdjust=\"spacingAndGlyphs\"" + (bold ? " font-weight=\"600\"" : "") +
-                 fill(text.color) + '>' + escaped(line) + "</text>\n";
-      }
-      if (end == std::string_view::npos) break;
-      rest.remove_prefix(end + 1);
-      y += text.size;
+    for (std::size_t end = 0; end != std::string_view::npos; at.y += size) {
+      end = rest.find('\n');
+      add_line(text, at, rest.substr(0, end));
+      if (end != std::string_view::npos) rest.remove_prefix(end + 1);
     }
+  }
+
+  /// @param at left end of the base line
+  void add_line(const NotedText& text, ImVec2 at, std::string_view line) {
+    if (line.find_first_not_of(' ') == std::string_view::npos) return;
+    const float size = text.font->FontSize * ImGui::GetIO().FontGlobalScale;
+    const float width =
+        text.width > 0.0F
+            ? text.width
+            : text.font->CalcTextSizeA(size, 1e6F, 0.0F, line.data(), line.data() + line.size()).x;
+    const bool bold = text.font != look_.fonts.regular && text.font != look_.fonts.small;
+    body_ += "<text x=\"" + number(at.x - area_.x) + "\" y=\"" + number(at.y - area_.y) +
+             "\" font-size=\"" + number(size) + "\" textLength=\"" + number(width) + '"' +
+             (bold ? " font-weight=\"600\"" : "") + fill(text.color) + '>' + escaped(line) +
+             "</text>\n";
   }
 
   /// Opens a group with this clip rectangle, unless it is open. @return whether it is visible
@@ -155,27 +165,25 @@ class Writer {
     close_path();
     if (visible_) body_ += "</g>\n";
     clip_ = rect;
-    const float left = std::max(rect.x, area_x());
-    const float top = std::max(rect.y, area_y());
-    const float right = std::min(rect.z, area_x() + area_.width);
-    const float bottom = std::min(rect.w, area_y() + area_.height);
+    const float left = std::max(rect.x, area_.x);
+    const float top = std::max(rect.y, area_.y);
+    const float right = std::min(rect.z, area_.x + area_.width);
+    const float bottom = std::min(rect.w, area_.y + area_.height);
     visible_ = left < right && top < bottom;
     if (!visible_) return false;
     const std::string id = "c" + std::to_string(++clips_);
-    body_ += "<clipPath id=\"" + id + "\"><rect x=\"" + number(left - area_x()) + "\" y=\"" +
-             number(top - area_y()) + "\" width=\"" + number(right - left) + "\" height=\"" +
+    body_ += "<clipPath id=\"" + id + "\"><rect x=\"" + number(left - area_.x) + "\" y=\"" +
+             number(top - area_.y) + "\" width=\"" + number(right - left) + "\" height=\"" +
              number(bottom - top) + "\"/></clipPath>\n<g clip-path=\"url(#" + id + ")\">\n";
     return true;
   }
 
-  [[nodiscard]] float area_x() const { return area_.x; }
-  [[nodiscard]] float area_y() const { return area_.y; }
   [[nodiscard]] std::string point(ImVec2 p) const {
-    return number(p.x - area_x()) + ' ' + number(p.y - area_y());
+    return number(p.x - area_.x) + ' ' + number(p.y - area_.y);
   }
 
-  ViewRect area_;
-  const Fonts* fonts_ = nullptr;
+  const Look& look_;
+  const ViewRect area_;
   std::string body_;
   std::string path_;
   ImU32 path_color_ = 0;
@@ -201,15 +209,15 @@ FigureFrame::~FigureFrame() {
   noting = false;
 }
 
-void note_text(const ImDrawList& draw, const ImFont* font, float size, ImVec2 at, ImU32 color,
+void note_text(const ImDrawList& draw, const ImFont* font, ImVec2 at, float width, ImU32 color,
                const char* text, const char* end) {
   if (!noting) return;
   const ImVec2 min = draw.GetClipRectMin();
   const ImVec2 max = draw.GetClipRectMax();
   noted.push_back({&draw,
                    font,
-                   size,
                    at,
+                   width,
                    {min.x, min.y, max.x, max.y},
                    color,
                    end == nullptr ? std::string(text) : std::string(text, end)});
@@ -217,8 +225,7 @@ void note_text(const ImDrawList& draw, const ImFont* font, float size, ImVec2 at
 
 std::string svg_figure(const Look& look, const ImDrawData& panels, const ViewRect& area,
                        const FigureNote& note) {
-  Writer writer(area);
-  writer.use_fonts(look.fonts);
+  Writer writer(look, area);
   for (int i = 0; i < panels.CmdListsCount; ++i) writer.add_list(*panels.CmdLists[i]);
   const std::string width = number(area.width);
   const std::string height = number(area.height);

@@ -25,7 +25,8 @@ class FigureFrame {
 };
 
 /// Called for every text; keeps it if a FigureFrame exists.
-void note_text(const ImDrawList& draw, const ImFont* font, float size, ImVec2 at, ImU32 color,
+/// @param width of its only line, 0: that of the font  @param end null: up to the end of the string
+void note_text(const ImDrawList& draw, const ImFont* font, ImVec2 at, float width, ImU32 color,
                const char* text, const char* end);
 
 /// What the figure says about itself, for people and programs.

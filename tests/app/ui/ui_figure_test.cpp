@@ -11,13 +11,13 @@
 namespace substep {
 namespace {
 
-struct Saved {
+struct SavedFigure {
   std::string name;
   std::string text;
 };
 
-Saved save(Headless& h, const Capture& figure) {
-  Saved saved;
+SavedFigure save_figure(Headless& h, const Capture& figure) {
+  SavedFigure saved;
   h.app->host.save_file = [&](const std::string& name, const std::string& text) {
     saved = {name, text};
   };
@@ -26,14 +26,15 @@ Saved save(Headless& h, const Capture& figure) {
   return saved;
 }
 
-std::string between(const std::string& text, const std::string& open, const std::string& close) {
+std::string text_between(const std::string& text, const std::string& open,
+                         const std::string& close) {
   const std::size_t from = text.find(open);
   if (from == std::string::npos) return "";
   const std::size_t at = from + open.size();
   return text.substr(at, text.find(close, at) - at);
 }
 
-std::string unescaped(std::string text) {
+std::string unescaped_text(std::string text) {
   for (const auto& [name, c] :
        {std::pair{"&quot;", '"'}, {"&lt;", '<'}, {"&gt;", '>'}, {"&amp;", '&'}}) {
     for (std::size_t at = 0; (at = text.find(name, at)) != std::string::npos; ++at) {
@@ -43,7 +44,7 @@ std::string unescaped(std::string text) {
   return text;
 }
 
-std::size_t count(const std::string& text, const std::string& what) {
+std::size_t occurrences(const std::string& text, const std::string& what) {
   std::size_t n = 0;
   for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += what.size()) ++n;
   return n;
@@ -56,46 +57,49 @@ TEST(Figure, PlotsHaveTheirTextsCurvesAndExperiment) {
   h.frames(90);
   h.app->session.pause();
   h.frames(2);
-  const Saved figure = save(h, {"plots.svg", h.app->desk.plots_area});
+  const SavedFigure figure = save_figure(h, {"plots.svg", h.app->desk.plots_area});
   EXPECT_EQ(figure.name, "plots.svg");
   EXPECT_TRUE(figure.text.starts_with("<svg "));
   EXPECT_TRUE(figure.text.ends_with("</svg>\n"));
-  EXPECT_EQ(count(figure.text, "<g "), count(figure.text, "</g>"));
+  EXPECT_EQ(occurrences(figure.text, "<g "), occurrences(figure.text, "</g>"));
   EXPECT_NE(figure.text.find(">SUB-STEPS PER FRAME</text>"), std::string::npos)
       << figure.text.substr(0, 3000);
   EXPECT_NE(figure.text.find("total</text>"), std::string::npos);
-  EXPECT_GT(count(figure.text, "<path"), 20U);
+  EXPECT_GT(occurrences(figure.text, "<path"), 20U);
   EXPECT_EQ(figure.text.find("nan"), std::string::npos);
   EXPECT_FALSE(h.app->desk.figure.has_value());
 
   // The experiment inside runs again.
   Problems problems;
-  const Json about = Json::parse(unescaped(between(figure.text, "<metadata>", "</metadata>")));
+  const Json about =
+      Json::parse(unescaped_text(text_between(figure.text, "<metadata>", "</metadata>")));
   const auto find = [&](const std::string& name) { return h.app->library.find(name); };
   Json experiment = about;
   experiment.erase("link");
   experiment.erase("citation");
   const ExperimentInput read = read_experiment(experiment, find, problems);
-  ASSERT_TRUE(problems.empty()) << problems.front().text;
+  ASSERT_TRUE(problems.empty()) << problems.front().message;
   EXPECT_EQ(read.experiment->settings.alpha, 0.05);
   EXPECT_EQ(about["link"], h.app->link());
-  EXPECT_NE(between(figure.text, "<desc>", "</desc>").find("substep run"), std::string::npos);
+  EXPECT_NE(text_between(figure.text, "<desc>", "</desc>").find("run swinging_box --alpha 0.05"),
+            std::string::npos);
 }
 
 TEST(Figure, TakesTheChartAndLeavesTheWindowAsItWas) {
   Headless h;
   h.app->session.pause();
   h.app->desk.tab = Tab::kAccuracy;
+  h.app->host.save_file = [](const std::string&, const std::string&) {};
   h.frames(3);
   const bool lines = ImGui::GetStyle().AntiAliasedLines;
   const std::size_t handles = ui::handles().size();
-  const Saved figure = save(h, {"chart.svg", h.app->desk.accuracy_area});
+  const SavedFigure figure = save_figure(h, {"chart.svg", h.app->desk.accuracy_area});
   EXPECT_NE(figure.text.find("operations"), std::string::npos);
   EXPECT_EQ(ImGui::GetStyle().AntiAliasedLines, lines);
   EXPECT_EQ(ui::handles().size(), handles);
   h.frames(2);
   EXPECT_EQ(ui::handles().size(), handles);
-  const Saved again = save(h, {"chart.svg", h.app->desk.accuracy_area});
+  const SavedFigure again = save_figure(h, {"chart.svg", h.app->desk.accuracy_area});
   EXPECT_EQ(again.text, figure.text);
 }
 
@@ -106,7 +110,7 @@ TEST(Figure, EscapesWhatASceneSays) {
   h.app->run(scene);
   h.app->session.pause();
   h.frames(2);
-  const Saved figure = save(h, {"plots.svg", h.app->desk.plots_area});
+  const SavedFigure figure = save_figure(h, {"plots.svg", h.app->desk.plots_area});
   EXPECT_EQ(figure.text.find("<script"), std::string::npos);
   EXPECT_NE(figure.text.find("<title>&lt;script&gt;"), std::string::npos);
 }

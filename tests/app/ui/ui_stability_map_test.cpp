@@ -1,6 +1,7 @@
 // The map of stable settings by load, in the window.
 
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <set>
@@ -101,6 +102,37 @@ TEST(Accuracy, DraggingOverTheMapRunsEachCellOnce) {
   io.AddMousePosEvent(cells[3].second.x, cells[3].second.y);
   h.frames(2);
   EXPECT_EQ(h.app->run_count, after) << "the drag continues after the release";
+}
+
+void press_key(Headless& h, ImGuiKey key) {
+  ImGui::GetIO().AddKeyEvent(key, true);
+  h.frames(1);
+  ImGui::GetIO().AddKeyEvent(key, false);
+  h.frames(1);
+}
+
+TEST(Accuracy, ArrowKeysGoFromCellToCell) {
+  Headless h;
+  sweep_a_rope(h);
+  h.app->accuracy.picture = AccuracyPicture::kStabilityMap;
+  h.frames(2);
+  const auto cells = cells_of(h);
+  h.click(cells[0].second.x, cells[0].second.y);
+  const double load = h.app->load;
+  ImGui::GetCurrentContext()->NavDisableHighlight = false;  // as after the Tab key
+  press_key(h, ImGuiKey_RightArrow);
+  EXPECT_GT(h.app->load, load);
+  EXPECT_EQ(h.app->session.settings().n, 1);
+  press_key(h, ImGuiKey_DownArrow);
+  EXPECT_EQ(h.app->session.settings().n, 2);
+  press_key(h, ImGuiKey_LeftArrow);
+  EXPECT_EQ(h.app->load, load);
+  const int runs = h.app->run_count;
+  press_key(h, ImGuiKey_LeftArrow);
+  EXPECT_EQ(h.app->run_count, runs) << "the edge of the map starts the run again";
+  press_key(h, ImGuiKey_UpArrow);
+  press_key(h, ImGuiKey_UpArrow);
+  EXPECT_EQ(h.app->session.settings().n, 1) << "the keys leave the map";
 }
 
 TEST(Accuracy, CellsOfTheMapKeepTheComparison) {

@@ -232,12 +232,24 @@ TEST(Tour, AtFourTimesTheLoadSevenTearAndAdaptiveHoldsWithTwiceTheSubsteps) {
   EXPECT_TRUE(task.h.app->compare.open()) << "the ghost is gone";
 }
 
+TEST(Tour, NFollowsTheLoadsOfTheConvoyAndSevenTearItsBridge) {
+  Task task(7);
+  TourReply reply = task.answer();
+  EXPECT_FALSE(reply.done) << reply.text;
+  EXPECT_TRUE(contains(reply.text, "N from 2 to ")) << reply.text;
+  EXPECT_TRUE(contains(reply.text, "With 14 constant sub-steps it takes 7,056, 1.7 times as many."))
+      << reply.text;
+  reply = task.answer("n", "7");
+  EXPECT_TRUE(reply.done) << reply.text;
+  EXPECT_TRUE(contains(reply.text, "With 7 constant sub-steps the bridge tears at ")) << reply.text;
+}
+
 TEST(Tour, LeapfrogKeepsTheEnergyToAMillionthAtTheSameCost) {
-  Step step(7);
+  Step step(8);
   EXPECT_LT(std::abs(step.lost(step.session().history())), 1e-6);
   EXPECT_GT(step.lost(step.ghost().history), 1e-3);
   EXPECT_NEAR(static_cast<double>(step.ghost().cost.substeps) / 9475.0, 1.0, 0.01);
-  Task task(7);
+  Task task(8);
   EXPECT_FALSE(task.answer().done);
   const TourReply reply = task.answer("alpha", "0.4");
   EXPECT_TRUE(reply.done) << reply.text;
@@ -295,7 +307,7 @@ TEST(Tour, GivesBackWhatWasThereBefore) {
     h.app->desk.follow = "tour=" + std::to_string(i);
     h.frames(3);
   }
-  EXPECT_EQ(h.app->session.scene().name, kTourScene);
+  EXPECT_EQ(h.app->session.scene().name, scene_of(tour_steps().back()));
   EXPECT_FALSE(h.app->desk.split);
   h.press("Done");
   h.frames(2);
@@ -364,7 +376,7 @@ TEST(Tour, WhatItArrangesIsNotKeptForTheNextVisit) {
   h.app->host.remember = [&](const std::string&, const std::string& value) { kept = value; };
   h.app->desk.level = DeskLevel::kExplore;
   h.frames(2);
-  h.app->set("tour", "7");
+  h.app->set("tour", "8");
   h.app->set("panel", "accuracy");
   h.frames(3);
   EXPECT_TRUE(contains(kept, "level=explore")) << kept;
@@ -400,7 +412,7 @@ TEST(Tour, EveryStepFitsIntoThePictureAndEnds) {
       EXPECT_GE(card->Rect().Min.y, v.y + v.height - 1.0F);  // the picture makes room
       EXPECT_GT(v.height, 120.0F);
     }
-    EXPECT_NE(h.app->set("tour", "8"), "");
+    EXPECT_NE(h.app->set("tour", "9"), "");
     EXPECT_EQ(h.app->set("tour", "off"), "");
     EXPECT_LT(h.app->desk.tour, 0);
   }

@@ -40,7 +40,7 @@ std::vector<BarHandle> bars_of(const Headless& h) {
 }
 
 /// Presses a choice of a row.
-void choose(Headless& h, std::string_view row, std::string_view choice) {
+void choose_in_row(Headless& h, std::string_view row, std::string_view choice) {
   for (const ui::Handle& handle : ui::handles()) {
     if (handle.group != row || handle.label != choice) continue;
     const auto s = static_cast<float>(h.app->desk.scale);
@@ -74,10 +74,10 @@ TEST(FairTrade, AlphaAndPolicyAreChosenInThePanel) {
   show_trade(h, "swinging_box");
   EXPECT_EQ(h.app->accuracy.trade_alpha, 0.1) << "the scene's own";
   const std::size_t all_loads = bars_of(h).size();
-  choose(h, "Alpha", "0.5");
+  choose_in_row(h, "Alpha", "0.5");
   h.frames(2);
   EXPECT_EQ(h.app->accuracy.trade_alpha, 0.5);
-  choose(h, "N decided", "per sub-step");
+  choose_in_row(h, "N decided", "per sub-step");
   h.frames(2);
   EXPECT_EQ(h.app->accuracy.trade_policy, Policy::kSubstep);
   EXPECT_LT(bars_of(h).size(), all_loads) << "the scene's own load only";
@@ -109,7 +109,7 @@ TEST(FairTrade, SaysHowManyAndHowSurely) {
   trade.alpha = 0.1;
   trade.most_n = 24;
   trade.rows = {{1.0, &adaptive, &constant, 9}};
-  EXPECT_NE(trade_text(trade).find("is 10 to 12: at least 2 times as many."), std::string::npos)
+  EXPECT_NE(trade_text(trade).find("is 10 to 12: at least 2.0 times as many."), std::string::npos)
       << trade_text(trade);
   trade.rows[0].too_few = 11;
   EXPECT_NE(trade_text(trade).find("is 12: 2.4 times as many."), std::string::npos)

@@ -4,8 +4,8 @@
 const largest = 8 << 20; // per scene file: the page blocks while it reads one [bytes]
 const prefix = "substep."; // of stored keys
 
-const types = { json: "application/json", csv: "text/csv", png: "image/png", webm: "video/webm",
-  mp4: "video/mp4" };
+const types = { json: "application/json", csv: "text/csv", png: "image/png", svg: "image/svg+xml",
+  webm: "video/webm", mp4: "video/mp4" };
 
 async function textOf(file) {
   if (file.size > largest) {

@@ -104,9 +104,11 @@ Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) 
   return {0.5 * (low + high), std::max(0.05, 0.5 * (high - low).norm())};
 }
 
-// Half width of the bodies around the camera's initial target, projected to its distance. Bodies
+// Half of the width that the scene states, or of the bodies around the camera's initial target,
+// projected to its distance. Bodies
 // may swing to the other side, nearer or farther.
 double width_to_show(const Scene& scene, const Poses& poses) {
+  if (scene.camera.width) return 0.5 * *scene.camera.width;
   const Vec3 right = OrbitCamera::right_of(scene.camera);
   const Vec3 back = scene.camera.eye - scene.camera.target;
   const double distance = std::max(1e-3, back.norm());

@@ -118,9 +118,8 @@ class Chart {
   std::optional<std::size_t> draw() {
     y_ = corner_.y;
     if (shows_line()) y_ += kTop;
-    const float first = y_;
     for (const TradeRow& row : trade_.rows) draw_row(row);
-    if (shows_line()) draw_line(first);
+    if (shows_line()) name_line();
     ImGui::SetCursorScreenPos({corner_.x, y_});
     ImGui::Dummy({width_, 1.0F});
     return chosen_;
@@ -142,8 +141,10 @@ class Chart {
       draw_text(draw, look_.fonts.small, {corner_.x, y_}, t.dim, name.c_str());
       y_ += kLoadLine;
     }
+    const float top = y_;
     draw_bar(adaptive_bar(t, row), row);
     draw_bar(constant_bar(t, row, trade_.most_n), row);
+    if (shows_line()) draw_line(top);
     y_ += kGap;
   }
 
@@ -199,19 +200,18 @@ class Chart {
     read_out(look_, lines);
   }
 
-  /// The constant N that serves all loads.
-  void draw_line(float first) const {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const ImU32 color = look_.theme->text;
+  /// The constant N that serves all loads, beside the bars of one load.
+  void draw_line(float top) const {
     const float x = std::round(x_of(line()));
-    float phase = 0.0F;
-    draw_dashes(draw, {x, first}, {x, y_ - kGap}, color, 1.0F, phase);
-    const std::string text = trade_.for_all
-                                 ? "one N for all loads: " + std::to_string(*trade_.for_all)
-                                 : "one N for all loads: > " + std::to_string(trade_.most_n);
+    ImGui::GetWindowDrawList()->AddLine({x, top}, {x, y_}, look_.theme->text, 1.0F);
+  }
+
+  void name_line() const {
+    const std::string text =
+        "one N for all loads: " + std::string(trade_.for_all ? "" : "> ") + plain_number(line());
     const float w = text_size(look_.fonts.small, text.c_str()).x;
-    draw_text(draw, look_.fonts.small,
-              {std::clamp(x - 0.5F * w, corner_.x, corner_.x + width_ - w), corner_.y}, color,
+    const float x = std::clamp(x_of(line()) - 0.5F * w, corner_.x, corner_.x + width_ - w);
+    draw_text(*ImGui::GetWindowDrawList(), look_.fonts.small, {x, corner_.y}, look_.theme->text,
               text.c_str());
   }
 

@@ -45,6 +45,8 @@ void read_camera(ObjectReader& parent, Scene& scene, Problems& problems) {
   if (eye && target && scene.camera.eye == scene.camera.target) {
     in.problem("target", "the same point as eye");
   }
+  double width = 0.0;
+  if (in.number("width", kDistanceRange, width, kOptional)) scene.camera.width = width;
   in.finish();
 }
 

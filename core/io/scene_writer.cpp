@@ -135,6 +135,7 @@ Json scene_json(const Scene& scene) {
   json["look_for"] = scene.look_for;
   json["camera"] = {{"eye", vector_json(scene.camera.eye)},
                     {"target", vector_json(scene.camera.target)}};
+  if (scene.camera.width) json["camera"]["width"] = *scene.camera.width;
   json["frame"] = scene.frame;
   Json& effects = json["effects"] = Json::array();
   for (const NamedEffect& effect : kEffectNames) {

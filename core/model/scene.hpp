@@ -42,8 +42,9 @@ struct Criteria {
 
 /// Initial camera of a view.
 struct Camera {
-  Vec3 eye{0.0, 5.0, 20.0};    // world [m]
-  Vec3 target{0.0, 3.0, 0.0};  // world [m]
+  Vec3 eye{0.0, 5.0, 20.0};     // world [m]
+  Vec3 target{0.0, 3.0, 0.0};   // world [m]
+  std::optional<double> width;  // visible around the target [m]; if empty, every body is visible
 };
 
 /// Everything that does not change while a scene runs.

@@ -202,6 +202,7 @@ Scene convoy() {
   scene.criteria.window = scene.criteria.duration;
   scene.camera.eye = {-1.5, 6.5, 16.0};
   scene.camera.target = {-1.0, 3.4, 0.0};
+  scene.camera.width = 15.0;  // not all of the road
   add_convoy(scene);
   return scene;
 }

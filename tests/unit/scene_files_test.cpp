@@ -98,6 +98,7 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
                     .energy_scale = 5.0,
                     .displacement = Criteria::Displacement{2, 0.25},
                     .track = 3,
+                    .window = 1.5,
                     .holds = false};
   scene.verdicts = {{.solver = SolverKind::kPgs,
                      .mode = Mode::kConst,
@@ -117,8 +118,11 @@ TEST(SceneWriter, KeepsEveryFieldThatDiffersFromItsDefault) {
   body.collides = false;
   body.collision_group = 9;
   scene.title = "Quotes \" and \\ and \xc3\xa9";
+  scene.camera.width = 12.5;
   const Scene read = read_back(write_scene(scene));
   EXPECT_TRUE(test::bits_of(read) == test::bits_of(scene));
+  EXPECT_EQ(read.criteria.window, 1.5);
+  EXPECT_EQ(read.camera.width, 12.5);
   EXPECT_TRUE(read.settings == scene.settings);
   EXPECT_TRUE(read.verdicts == scene.verdicts);
 }

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { PNG } from "pngjs";
-import { call, drawn, drop, open, openPage, pick, quiet, save } from "./browser.mjs";
+import { appears, call, click, drawn, drop, open, openPage, pick, quiet, save } from "./browser.mjs";
 import { variance } from "./pixels.mjs";
 
 let session;
@@ -117,6 +117,34 @@ test("pictures of window and view are what is seen", async () => {
     assert.ok(entry === "window" ? png.width === 1280 && png.height === 720 : png.width < 1280);
     assert.ok(variance(png) > 60);
   }
+  quiet(page);
+});
+
+test("a figure is an SVG with texts, and with its settings inside", async () => {
+  await call(page, "set", { scene: "swinging_box", panel: "accuracy", level: "lab" });
+  await call(page, "pause");
+  await appears(page, "SVG");
+  const [download] = await Promise.all([page.waitForEvent("download"), click(page, "SVG")]);
+  assert.equal(download.suggestedFilename(), "swinging_box-accuracy.svg");
+  const svg = (await read(download)).toString();
+  const found = await page.evaluate((text) => {
+    const parsed = new DOMParser().parseFromString(text, "image/svg+xml");
+    return {
+      fault: parsed.querySelector("parsererror")?.textContent ?? "",
+      texts: [...parsed.querySelectorAll("text")].map((t) => t.textContent).join("\n"),
+      about: JSON.parse(parsed.querySelector("metadata").textContent),
+    };
+  }, svg);
+  assert.equal(found.fault, "");
+  assert.match(found.texts, /To keep the path within/);
+  assert.equal(found.about.scene, "swinging_box");
+  assert.equal(found.about.settings.alpha, 0.1);
+  assert.match(found.about.link, /scene=swinging_box/);
+  const own = await page.context().newPage();
+  await own.setContent(svg);
+  await save(own, "figure");
+  assert.ok(variance(PNG.sync.read(await own.locator("svg").screenshot())) > 60);
+  await own.close();
   quiet(page);
 });
 

@@ -1,6 +1,7 @@
 // Measures the cost of the page: node tests/web/measure.mjs [FOLDER] [minutes of memory, 0]
 // Frames a second of an empty page and pictures a second of this one, the main thread's time of a
-// picture without physics with 200 s of plots, a sweep beside the run, and memory over time.
+// picture without physics with 200 s of plots, a sweep beside the run, the time until the chart of
+// each shipped scene is on the screen, and memory over time.
 import { call, drawn, open, openPage } from "./browser.mjs";
 
 const minutes = Number(process.argv[3] ?? 0);
@@ -79,6 +80,35 @@ for (const scene of ["swinging_box", "bridge", "heavy_stack"]) {
     console.log(`a sweep beside it: ${beside.toFixed(1)} of ${without.toFixed(1)} pictures/s; ` +
       `cancelled ${waited.toFixed(0)} ms after it was asked to be`);
   }
+  await page.context().close();
+}
+
+/** Time from opening the panel to its first picture, while the scene runs [ms]. */
+const chart = (page) => page.evaluate(async () => {
+  const { pictures } = document.querySelector("canvas");
+  const start = performance.now();
+  window.substep.set({ panel: "accuracy" });
+  const { begun } = pictures;
+  while (pictures.shown <= begun) await new Promise(requestAnimationFrame);
+  return performance.now() - start;
+});
+
+{
+  const page = await openPage(session);
+  const times = [];
+  for (const { name } of await call(page, "scenes")) {
+    if (name.startsWith("exam_")) continue; // not shipped with a sweep
+    await call(page, "set", { scene: name, panel: "plots" });
+    await call(page, "play");
+    await page.waitForTimeout(500);
+    times.push([await chart(page), name]);
+    const labels = (await call(page, "widgets")).map((w) => w.label);
+    if (!labels.includes("Run again")) console.log(`${name}: no chart`);
+  }
+  times.sort((a, b) => b[0] - a[0]);
+  console.log(`the chart of ${times.length} scenes: half of them within ` +
+    `${times[Math.floor(times.length / 2)][0].toFixed(0)} ms, slowest ` +
+    times.slice(0, 3).map(([ms, name]) => `${name} ${ms.toFixed(0)} ms`).join(", "));
   await page.context().close();
 }
 

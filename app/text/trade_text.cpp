@@ -36,7 +36,7 @@ std::string of_one_load(const FairTrade& trade) {
   const bool known = row.constant != nullptr;
   if (!known) {
     return start + trade_number(row, trade.most_n) + ": " +
-           times_as_many(trade.most_n / row.n(), true) + ".";
+           times_as_many((std::max(row.too_few, trade.most_n) + 1) / row.n(), true) + ".";
   }
   const bool exactly = row.too_few + 1 >= n_of(*row.constant);
   return start + trade_number(row, trade.most_n) + ": " +
@@ -63,7 +63,7 @@ std::string trade_text(const FairTrade& trade) {
          " sub-steps per frame, averaged over these loads. A constant N that is as exact under "
          "all of them is " +
          n + ": " +
-         times_as_many((trade.for_all ? *trade.for_all : trade.most_n) / mean, !trade.for_all) +
+         times_as_many((trade.for_all ? *trade.for_all : trade.most_n + 1) / mean, !trade.for_all) +
          ".";
 }
 

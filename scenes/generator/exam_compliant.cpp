@@ -140,7 +140,8 @@ ExamCase clutter(const std::string& name, const std::string& title, double compl
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
   scene.contact.compliance = compliance;
   scene.contact.friction_compliance = compliance;
-  scene.camera = {{1.6, 1.8, 2.2}, {0.0, 0.3, 0.0}};
+  scene.camera.eye = {1.6, 1.8, 2.2};
+  scene.camera.target = {0.0, 0.3, 0.0};
   add_box_without_lid(scene);
   for (int i = 0; i < 4 * kLayers; ++i) {
     const int across = i % 2;
@@ -180,7 +181,8 @@ ExamCase exam_compliant_ball() {
   scene.effects = {.gravity = true, .contact = true};
   scene.gravity = {0.0, -kBounce.gravity, 0.0};
   scene.contact.compliance = 1.0 / kBounce.stiffness;
-  scene.camera = {{0.0, 0.8, 3.4}, {0.0, 0.6, 0.0}};
+  scene.camera.eye = {0.0, 0.8, 3.4};
+  scene.camera.target = {0.0, 0.6, 0.0};
   scene.bodies.push_back(floor_plane());
   scene.bodies.push_back(
       solid("ball", Sphere{kRadius}, kBounce.mass, {0.0, kRadius + kBounce.height, 0.0}));

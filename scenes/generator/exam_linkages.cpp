@@ -117,7 +117,8 @@ ExamCase exam_four_bar() {
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = {0.0, -kGravity, 0.0};
-  scene.camera = {{1.0, 0.5, 6.0}, {1.0, 0.0, 0.0}};
+  scene.camera.eye = {1.0, 0.5, 6.0};
+  scene.camera.target = {1.0, 0.0, 0.0};
   for (int i = 0; i < 3; ++i) {
     Body body = rod("upright_" + std::to_string(i), 1, {static_cast<double>(i), 0.5, 0.0});
     body.velocity = {0.5, 0.0, 0.0};
@@ -163,7 +164,8 @@ ExamCase exam_bricard() {
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = {0.0, -kGravity, 0.0};
-  scene.camera = {{3.0, 1.5, 4.0}, {0.5, -0.5, 0.5}};
+  scene.camera.eye = {3.0, 1.5, 4.0};
+  scene.camera.target = {0.5, -0.5, 0.5};
   for (int i = 0; i < Bricard::kRods; ++i) {
     const Vec3 along = Bricard::point(i + 1) - Bricard::point(i);
     const Vec3 extents = along.cwiseAbs() + 0.1 * (Vec3::Ones() - along.cwiseAbs());

@@ -111,7 +111,8 @@ ExamCase table_case(const std::string& name, const std::string& title,
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = {0.0, 0.0, -kTableGravity};
-  scene.camera = {{1.0, -8.0, 1.0}, {0.0, 0.0, -1.0}};
+  scene.camera.eye = {1.0, -8.0, 1.0};
+  scene.camera.target = {0.0, 0.0, -1.0};
   Body body = solid("body", box(0.6, 0.4, 0.4), 1.0, {kArm, 0.0, 0.0});
   body.inertia = kInertia;
   scene.bodies.push_back(body);
@@ -140,7 +141,8 @@ ExamCase exam_simple_pendulum() {
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = {0.0, -kGravity, 0.0};
-  scene.camera = {{0.0, 0.0, 4.0}, {0.0, -0.5, 0.0}};
+  scene.camera.eye = {0.0, 0.0, 4.0};
+  scene.camera.target = {0.0, -0.5, 0.0};
   Body ball = solid("ball", Sphere{kBallRadius}, 1.0, {-centre_distance(), 0.0, 0.0});
   scene.bodies.push_back(ball);
   HingeJoint hinge;

@@ -74,7 +74,8 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
   scene.gravity = {0.0, -kGravity, 0.0};
   scene.settings.friction_cone = cone;
-  scene.camera = {{14.0, 9.0, 18.0}, {0.0, 0.5, 0.0}};
+  scene.camera.eye = {14.0, 9.0, 18.0};
+  scene.camera.target = {0.0, 0.5, 0.0};
   // A pair has the root of its two coefficients' product.
   scene.bodies.push_back(floor_plane());
   scene.bodies.back().friction = kOnGround * kOnGround / kOnBox;

@@ -67,7 +67,8 @@ ExamCase free_body(const std::string& name, const std::string& title, const std:
                             "the closed form, as in every textbook of mechanics", 20.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gyroscopic = true};
-  scene.camera = {{1.4, 1.0, 2.4}, {0.0, 0.0, 0.0}};
+  scene.camera.eye = {1.4, 1.0, 2.4};
+  scene.camera.target = {0.0, 0.0, 0.0};
   Body body = solid("body", box(extents.x(), extents.y(), extents.z()), 1.0, Vec3::Zero());
   body.inertia = inertia;
   body.angular_velocity = rate;
@@ -100,7 +101,8 @@ ExamCase exam_heavy_top() {
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = top().gravity;
-  scene.camera = {{4.0, 0.5, 1.0}, {0.0, 0.5, 0.0}};
+  scene.camera.eye = {4.0, 0.5, 1.0};
+  scene.camera.target = {0.0, 0.5, 0.0};
   Body body = solid("top", box(0.35, 0.35, 0.35), top().mass, top().centre);
   body.inertia = {0.234375, 0.46875, 0.234375};
   body.angular_velocity = kTopRate;

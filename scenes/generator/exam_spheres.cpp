@@ -49,7 +49,8 @@ Scene& add_spheres(Scene& scene, double restitution) {
     scene.bodies.push_back(ball);
   }
   scene.criteria.track = 1;
-  scene.camera = {{3.0, 2.5, 4.5}, {0.5, 0.8, 0.5}};
+  scene.camera.eye = {3.0, 2.5, 4.5};
+  scene.camera.target = {0.5, 0.8, 0.5};
   return scene;
 }
 
@@ -99,7 +100,8 @@ ExamCase exam_bouncing() {
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
   scene.gravity = {0.0, -kGravity, 0.0};
   scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
-  scene.camera = {{0.0, 2.5, 10.0}, {0.0, 2.5, 0.0}};
+  scene.camera.eye = {0.0, 2.5, 10.0};
+  scene.camera.target = {0.0, 2.5, 0.0};
   scene.bodies.push_back(floor_plane());
   Body ball = solid("ball", Sphere{kRadius}, kMass, {0.0, kHeight, 0.0});
   ball.restitution = 1.0;

@@ -116,7 +116,7 @@ TEST(FairTrade, SaysHowManyAndHowSurely) {
       << trade_text(trade);
   trade.rows[0].constant = nullptr;
   trade.rows[0].too_few = 24;
-  EXPECT_NE(trade_text(trade).find("is more than 24: at least 4.8 times as many."),
+  EXPECT_NE(trade_text(trade).find("is more than 24: at least 5.0 times as many."),
             std::string::npos)
       << trade_text(trade);
   adaptive.metrics.holds = false;

@@ -141,6 +141,10 @@ Bounds SceneView::bounds(const Scene& scene, const Poses& poses) const {
   return ball_around(scene, poses, &home_);
 }
 
+Bounds SceneView::bounds_around(const Vec3& centre, double radius) const {
+  return {centre, std::max(0.5 * home_.radius, 1.5 * radius)};
+}
+
 void SceneView::frame_all(const Session& session) {
   camera.frame(bounds(session.scene(), session.poses()));
 }

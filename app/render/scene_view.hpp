@@ -76,6 +76,8 @@ class SceneView {
   /// Places the camera for a scene. @param poses its start
   void place(const Scene& scene, const Poses& poses);
   void frame_all(const Session& session);
+  /// A sphere around a part of the scene at least this large, with some of what is around it.
+  [[nodiscard]] Bounds bounds_around(const Vec3& centre, double radius) const;
   /// @param view the rectangle of the run in the window
   void build(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
              const ViewRect& view, double window_width, double window_height, Picture& out) const;

@@ -150,7 +150,8 @@ void main() {
 )";
 
 /// A matte floor that fades into the background, shadows on it, and lines one pixel wide at every
-/// cell and stronger ones at every fifth; each kind fades out before it gets denser than the pixels.
+/// cell and stronger ones at every fifth; each kind fades out before it gets denser than the
+/// pixels.
 inline constexpr const char* kGroundFragment = R"(
 in vec2 v_uv;
 in vec4 v_shadow;

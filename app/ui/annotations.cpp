@@ -271,16 +271,18 @@ void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewp
   const auto clip = [&](const ViewRect& r) {
     draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
   };
-  clip(viewport.panes.front());
-  if (desk.selected >= 0) {
-    draw_outline(lab.session, viewport, draw, desk.selected, look.theme->accent_hover);
+  if (!lab.frozen()) {  // else they would be those of a later frame
+    clip(viewport.panes.front());
+    if (desk.selected >= 0) {
+      draw_outline(lab.session, viewport, draw, desk.selected, look.theme->accent_hover);
+    }
+    if (show.axes) draw_body_axes(look, lab.session, viewport, draw);
+    if (show.frames) draw_joint_frames(look, lab.session, viewport, draw);
+    if (show.contacts) draw_contacts(look, lab.session, viewport, draw);
+    if (show.forces) draw_forces(look, lab.session, viewport, draw);
+    if (show.errors) draw_errors(look, lab.session, desk, viewport, draw);
+    draw.PopClipRect();
   }
-  if (show.axes) draw_body_axes(look, lab.session, viewport, draw);
-  if (show.frames) draw_joint_frames(look, lab.session, viewport, draw);
-  if (show.contacts) draw_contacts(look, lab.session, viewport, draw);
-  if (show.forces) draw_forces(look, lab.session, viewport, draw);
-  if (show.errors) draw_errors(look, lab.session, desk, viewport, draw);
-  draw.PopClipRect();
   for (std::size_t pane = 0; pane < viewport.panes.size(); ++pane) {
     clip(viewport.panes[pane]);
     draw_hand(look, lab, viewport, draw, pane);

@@ -293,7 +293,8 @@ void draw_over_picture(App& app) {
   if (app.introduction.open()) return notice(app);
   const bool small = is_small(ImGui::GetIO().DisplaySize);
   annotations(app.look, app, app.desk, app);
-  body_labels(app.look, app.session, app.desk, app);
+  body_labels(app.look, app, app.desk, app);
+  failure_rings(app.look, app, app);
   caption(app.look, app.session, app, small);
   compare_legend(app.look, app.session, app.compare, app);
   if (!small) tint_scale(app.look, app.session, app.compare, app.desk, app);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -119,7 +120,9 @@ void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
   app.pictures.resize(app.panes.size());
   for (std::size_t i = 0; i < app.panes.size(); ++i) {
     Seen seen{&app.scene_in(i), &app.poses_in(i), nullptr, nullptr};
-    if (i == 0) seen = {seen.scene, seen.poses, &app.session.state(), &app.session.trail()};
+    if (i == 0 && !app.frozen()) {
+      seen = {seen.scene, seen.poses, &app.session.state(), &app.session.trail()};
+    }
     app.view.build(seen, options, app.look.theme->view, app.panes[i],
                    static_cast<double>(display.x), static_cast<double>(display.y), app.pictures[i]);
     app.pictures[i].part =
@@ -135,6 +138,16 @@ void draw_pictures(App& app, const ViewOptions& options, ImVec2 display) {
     const ImVec4 c = ui::to_vec4(ui::compare_color(app.look, i));
     SceneView::add_ghost(*run.scene, run.poses, {c.x, c.y, c.z, 0.5F}, app.pictures.front());
   }
+}
+
+// In a comparison all runs share one view, which stays.
+void follow_failure(App& app) {
+  std::optional<Bounds> around;
+  if (const auto failure = app.failure_in(0); failure && !app.compare.open()) {
+    const double gap = (failure->to - failure->from).norm();
+    around = app.view.bounds_around(failure->centre(), std::max(gap, failure->radius));
+  }
+  app.failure_camera.follow(app.view.camera, around, !app.desk.reduced_motion);
 }
 
 }  // namespace
@@ -167,6 +180,7 @@ void frame(App& app, double wall_dt) {
   }
   app.compare.follow(app.session);
   app.view.follow(app.session);
+  follow_failure(app);
   app.view.camera.update(wall_dt, app.desk.reduced_motion);
   ui::draw_window(app);
 

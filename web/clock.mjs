@@ -41,7 +41,8 @@ export class Clock {
     else if (this.timer) return;
     const dt = Math.max(0, (now - this.before) / 1000);
     this.before = now;
-    if (!this.wasm.busy() && now >= this.awakeUntil) return;
+    if (this.wasm.busy()) this.wake(); // what it ends with is drawn too: a failure and its card
+    if (now >= this.awakeUntil) return;
     if (emptied || !this.wasm.deferred()) this.draw(dt);
     else this.begin(dt);
   }

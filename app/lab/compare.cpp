@@ -48,6 +48,10 @@ void add_frame(Cost& cost, const FrameReport& report) {
 
 }  // namespace
 
+bool Compare::goes_on(const Run& run) const {
+  return run.report.status == StepStatus::kOk && (past_failure || run.verdict->holds());
+}
+
 Settings Compare::settings_of(const Overrides& overrides, const Settings& session) {
   Settings s = session;
   s.watch_stiffness = false;  // only the session's bodies are tinted
@@ -215,7 +219,7 @@ bool Compare::take_frame(const Session& session) {
 
 bool Compare::behind(const Session& session) const {
   return std::any_of(runs_.begin(), runs_.end(), [&](const Run& run) {
-    return run.report.status == StepStatus::kOk &&
+    return goes_on(run) &&
            (run.slices.open() || run.simulator->state().frame < session.state().frame);
   });
 }
@@ -270,7 +274,7 @@ void Compare::seek(Run& run, const Session& session, std::int64_t frame,
     run.history.cut(list.back().state.time);
     if (run.divergence && run.divergence->time > session.state().time) run.divergence.reset();
   }
-  while (run.report.status == StepStatus::kOk) {
+  while (goes_on(run)) {
     const SceneEdit* edit = edit_of(run.scene);
     const bool now = edit != nullptr && edit->frame == run.simulator->state().frame;
     if (now) {
@@ -306,8 +310,8 @@ void Compare::follow(const Session& session) {
     seek(run, session, frame_, until);
     watch(run, session);
   }
-  const double t = session.between();
   for (Run& run : runs_) {
+    const double t = goes_on(run) ? session.between() : 1.0;
     const State& now = run.slices.state(*run.simulator);
     run.poses = run.previous;
     for (std::size_t i = 0; i < now.x.size(); ++i) {

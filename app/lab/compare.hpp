@@ -66,6 +66,10 @@ class Compare {
     std::vector<Checkpoint> checkpoints;  // oldest first
   };
 
+  /// Whether a run goes on after its failure. Otherwise it stays at the frame that failed: the
+  /// motion after a failure is not physical.
+  bool past_failure = false;
+
   [[nodiscard]] bool open() const { return !runs_.empty(); }
   [[nodiscard]] const std::vector<Run>& runs() const { return runs_; }
   /// The overrides of all runs.
@@ -106,6 +110,7 @@ class Compare {
     std::optional<Grab> grab;
   };
 
+  [[nodiscard]] bool goes_on(const Run& run) const;
   void begin(Run& run, const Session& session);
   void use_scene(Run& run, const std::shared_ptr<const Scene>& scene) const;
   bool step(Run& run, FrameSlices::Clock::time_point until);

@@ -21,8 +21,7 @@ constexpr const char* kOwnScenes = "own_scenes";  // key of Host::remember
 Lab::Lab(Library shipped) : library(std::move(shipped)), session(library.scenes().front()) {
   session.frame_taken = [this] {
     const bool together = compare.take_frame(session);
-    // The motion after a failure is not physical, but in a comparison it is of interest.
-    if (session.just_failed() && !compare.open() && hold_at_failure) session.hold();
+    if (session.just_failed() && hold_at_failure) note_failure();
     return together;
   };
   session.scene_edited = [this](const SceneEdit& edit) { compare.edit(session, edit); };
@@ -218,12 +217,48 @@ void Lab::watch_stiffness(bool on) {
 
 void Lab::tell(std::string text) { notice = {std::move(text), 5.0}; }
 
+// The motion after a failure is not physical. In a comparison the clock of the others goes on.
+void Lab::note_failure() {
+  if (compare.open()) {
+    const State& state = session.state();
+    failed_frame_ = {session.shared_scene(), {state.x, state.q}, session.report()};
+  } else {
+    session.hold();
+  }
+}
+
+bool Lab::frozen() const {
+  return compare.open() && hold_at_failure && !session.verdict().holds() &&
+         failed_frame_.scene != nullptr &&
+         failed_frame_.report.time == session.verdict().failed_at();
+}
+
 const Scene& Lab::scene_in(std::size_t pane) const {
-  return pane == 0 ? session.scene() : *compare.runs()[pane - 1].scene;
+  if (pane > 0) return *compare.runs()[pane - 1].scene;
+  return frozen() ? *failed_frame_.scene : session.scene();
 }
 
 const Poses& Lab::poses_in(std::size_t pane) const {
-  return pane == 0 ? session.poses() : compare.runs()[pane - 1].poses;
+  if (pane > 0) return compare.runs()[pane - 1].poses;
+  return frozen() ? failed_frame_.poses : session.poses();
+}
+
+std::optional<Failure> Lab::failure_in(std::size_t pane) const {
+  if (pane > 0) {
+    const Compare::Run& run = compare.runs()[pane - 1];
+    if (compare.past_failure) return std::nullopt;
+    return failure_of(*run.scene, run.poses, run.report, *run.verdict);
+  }
+  const Verdict& verdict = session.verdict();
+  if (!hold_at_failure || verdict.holds()) return std::nullopt;
+  if (frozen()) {
+    return failure_of(*failed_frame_.scene, failed_frame_.poses, failed_frame_.report, verdict);
+  }
+  // A person may have let it go on.
+  if (session.playing() || (!session.stopped() && session.report().time != verdict.failed_at())) {
+    return std::nullopt;
+  }
+  return failure_of(session.scene(), session.poses(), session.report(), verdict);
 }
 
 const Scene& Lab::edited_scene() const {

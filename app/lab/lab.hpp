@@ -9,6 +9,7 @@
 #include "app/lab/accuracy.hpp"
 #include "app/lab/compare.hpp"
 #include "app/lab/exam_ghost.hpp"
+#include "app/lab/failure.hpp"
 #include "app/lab/heavy_start.hpp"
 #include "app/lab/host.hpp"
 #include "app/lab/library.hpp"
@@ -83,6 +84,11 @@ struct Lab {
   /// Pane 0 is this run; the others are the runs compared with it.
   [[nodiscard]] const Scene& scene_in(std::size_t pane) const;
   [[nodiscard]] const Poses& poses_in(std::size_t pane) const;
+  /// Whether this run has failed in a comparison: it goes on, because the others share its clock,
+  /// but it is shown at the frame that failed.
+  [[nodiscard]] bool frozen() const;
+  /// What failed in a pane, while it shows the frame that failed.
+  [[nodiscard]] std::optional<Failure> failure_in(std::size_t pane) const;
   /// Shows a notice for a moment.
   void tell(std::string text);
 
@@ -103,14 +109,23 @@ struct Lab {
   int seed = 0;
   double pause_at = 0.0;        // end of an experiment, 0 if none [s]
   int run_count = 0;            // resets and loads
-  bool hold_at_failure = true;  // a failed run pauses, unless it is being compared
+  bool hold_at_failure = true;  // a failed run pauses, or freezes if it is being compared
   /// Called after a restart. @param loaded whether another scene was loaded
   std::function<void(bool loaded)> restarted;
 
  private:
+  /// This run at the frame that failed in a comparison.
+  struct FailedFrame {
+    std::shared_ptr<const Scene> scene;
+    Poses poses;
+    FrameReport report;
+  };
+  void note_failure();
   /// The scene at its last edit (a ball thrown, an effect switched off), or the loaded one.
   [[nodiscard]] const Scene& edited_scene() const;
   [[nodiscard]] std::string events_in_link() const;
+
+  FailedFrame failed_frame_;  // of frozen()
 };
 
 }  // namespace substep

@@ -57,6 +57,7 @@ void RunLoop::begin(Lab& lab, const Plan& plan) {
   whole_ = true;
   outcome_ = {};
   lab.hold_at_failure = false;
+  lab.compare.past_failure = true;
   lab.session.set_speed(speed_);
   set_slow(lab, is_slow_at(lab.session.state().time));
 }
@@ -65,6 +66,7 @@ void RunLoop::end(Lab& lab) {
   if (!open()) return;
   plan_.reset();
   lab.hold_at_failure = true;
+  lab.compare.past_failure = false;
   lab.session.set_speed(speed_);
 }
 

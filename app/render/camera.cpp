@@ -39,20 +39,35 @@ void OrbitCamera::place(const Camera& camera, double half_width) {
   goal_.yaw = std::atan2(back.x(), back.z());
   aspect_ = half_width / (distance * std::tan(0.5 * kFieldOfView));
   now_ = goal_;
+  by_hand_ = false;
+  ++placed_;
 }
 
 void OrbitCamera::frame(const Bounds& bounds) {
-  goal_.target = bounds.centre;
-  goal_.distance = 1.1 * bounds.radius / std::sin(0.5 * kFieldOfView);
+  turn_to(bounds);
   aspect_ = 1.0;
 }
 
+void OrbitCamera::turn_to(const Bounds& bounds) {
+  goal_.target = bounds.centre;
+  goal_.distance = 1.1 * bounds.radius / std::sin(0.5 * kFieldOfView);
+}
+
+bool OrbitCamera::at_rest() const {
+  constexpr double kClose = 2e-3;  // of the distance, and of a radian: about a pixel
+  return (goal_.target - now_.target).norm() < kClose * goal_.distance &&
+         std::abs(goal_.distance / now_.distance - 1.0) < kClose &&
+         std::abs(goal_.yaw - now_.yaw) < kClose && std::abs(goal_.pitch - now_.pitch) < kClose;
+}
+
 void OrbitCamera::orbit(double yaw, double pitch) {
+  by_hand_ = by_hand_ || yaw != 0.0 || pitch != 0.0;
   goal_.yaw += yaw;
   goal_.pitch = std::clamp(goal_.pitch + pitch, -0.05, 1.5);
 }
 
 void OrbitCamera::pan(double right, double up, const ViewRect& view) {
+  by_hand_ = by_hand_ || right != 0.0 || up != 0.0;
   const Vec3 back = backward(goal_);
   const Vec3 x = Vec3::UnitY().cross(back).normalized();
   const Vec3 y = back.cross(x);
@@ -62,6 +77,7 @@ void OrbitCamera::pan(double right, double up, const ViewRect& view) {
 }
 
 void OrbitCamera::zoom(double factor) {
+  by_hand_ = true;
   goal_.distance = std::clamp(goal_.distance / factor, 0.2, 2000.0);
 }
 

@@ -33,12 +33,21 @@ class OrbitCamera {
   [[nodiscard]] static Vec3 right_of(const Camera& camera);
   /// Moves so that the sphere fills the view; keeps the viewing direction.
   void frame(const Bounds& bounds);
+  /// Moves to the sphere like frame(), but keeps the shape of the required region.
+  void turn_to(const Bounds& bounds);
+  /// Moves back to where another one is heading.
+  void return_to(const OrbitCamera& other) { goal_ = other.goal_; }
   void orbit(double yaw, double pitch);                     ///< [rad]
   void pan(double right, double up, const ViewRect& view);  ///< by logical pixels
   void zoom(double factor);                                 ///< > 1 goes closer
   /// @param dt wall time [s]; @param jump arrives at once (reduced motion)
   void update(double dt, bool jump);
 
+  [[nodiscard]] bool at_rest() const;
+  /// Whether a person has moved it since place(): orbited, panned or zoomed.
+  [[nodiscard]] bool by_hand() const { return by_hand_; }
+  /// Number of calls of place().
+  [[nodiscard]] int placed() const { return placed_; }
   [[nodiscard]] Vec3 eye(const ViewRect& view) const;
   /// Apparent size in a view, up to a common factor; used to compare views.
   [[nodiscard]] double magnification(const ViewRect& view) const;
@@ -60,6 +69,8 @@ class OrbitCamera {
   Pose now_;
   Pose goal_;
   double aspect_ = 1.0;  // width over height of the required region
+  bool by_hand_ = false;
+  int placed_ = 0;
 };
 
 }  // namespace substep

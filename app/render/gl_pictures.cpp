@@ -14,10 +14,10 @@ using Eigen::Vector3f;
 
 namespace {
 
-constexpr std::array<Grain, 4> kGrains{{{0.5, 1, 384, 1.0F, 2.0, 6000},
-                                        {2.0 / 3.0, 1, 640, 1.0F, 2.0, 15000},
-                                        {1.0, 1, 1536, 1.0F, 1.0, 60000},
-                                        {1.0, 4, 1536, 4.0F, 0.5, 100000}}};
+constexpr std::array<Grain, 4> kGrains{{{0.5, 1, 384, 1.0F, 2.0, 6000, false},
+                                        {2.0 / 3.0, 1, 640, 1.0F, 2.0, 15000, true},
+                                        {1.0, 1, 1536, 1.0F, 1.0, 60000, true},
+                                        {1.0, 4, 1536, 4.0F, 0.5, 100000, true}}};
 
 Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
 
@@ -48,6 +48,7 @@ Grain grain_of(Quality quality) { return kGrains.at(static_cast<std::size_t>(qua
 
 PicturePainter::~PicturePainter() {
   glDeleteVertexArrays(1, &empty_array_);
+  glDeleteVertexArrays(1, &contact_array_);
   glDeleteVertexArrays(1, &ribbon_array_);
 }
 
@@ -59,6 +60,7 @@ bool PicturePainter::build(std::string& error) {
   ok &= body_.build(header + glsl::kBodyVertex, receiving + glsl::kBodyFragment, error);
   ok &= shadow_.build(header + glsl::kBodyVertex, header + glsl::kShadowFragment, error);
   ok &= ground_.build(header + glsl::kGroundVertex, receiving + glsl::kGroundFragment, error);
+  ok &= contact_.build(header + glsl::kContactVertex, header + glsl::kContactFragment, error);
   ok &= ribbon_.build(header + glsl::kRibbonVertex, header + glsl::kRibbonFragment, error);
   if (!shadow_map_.complete()) {
     error += "the frame buffer for shadows is not complete";
@@ -73,6 +75,16 @@ bool PicturePainter::build(std::string& error) {
                         gl::at(offsetof(RibbonVertex, color)));
   glEnableVertexAttribArray(0);
   glEnableVertexAttribArray(1);
+  glGenVertexArrays(1, &contact_array_);
+  glBindVertexArray(contact_array_);
+  contact_instances_.bind();
+  constexpr std::array<std::size_t, 3> kFields{
+      offsetof(SoftShadow, centre), offsetof(SoftShadow, along), offsetof(SoftShadow, half_u)};
+  for (GLuint i = 0; i < kFields.size(); ++i) {
+    glVertexAttribPointer(i, 4, GL_FLOAT, GL_FALSE, sizeof(SoftShadow), gl::at(kFields[i]));
+    glEnableVertexAttribArray(i);
+    glVertexAttribDivisor(i, 1);
+  }
   glBindVertexArray(0);
   return ok;
 }
@@ -144,6 +156,12 @@ void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) 
   body_.set("ambient", picture.ambient);
   body_.set3("sky", sky.data());
   body_.set3("floor_light", below.data());
+  const Vector3f normal = vector(picture.ground.normal).normalized();
+  const std::array<float, 4> plane{normal.x(), normal.y(), normal.z(),
+                                   -normal.dot(vector(picture.ground.origin))};
+  body_.set4("floor_plane", plane.data());
+  body_.set("floor_reach", picture.ground.reach);
+  body_.set("floor_hides", picture.ground.solid ? picture.contact : 0.0F);
   draw_meshes(body_);
 }
 
@@ -164,14 +182,13 @@ void PicturePainter::draw_ghosts(const Picture& picture, const Target& target) {
 
 void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) {
   const Ground& ground = picture.ground;
-  if (!ground.visible) return;
-  // The quad is centred below the focus; the grid is fixed in the world.
+  // The grid is fixed in the world.
   const Vector3f normal = vector(ground.normal).normalized();
   const Vector3f u = vector(ground.along).normalized();
   const Vector3f v = normal.cross(u);
-  const Vector3f to_focus = vector(picture.focus) - vector(ground.origin);
-  const float along_u = to_focus.dot(u);
-  const float along_v = to_focus.dot(v);
+  const Vector3f to_centre = vector(ground.centre) - vector(ground.origin);
+  const float along_u = to_centre.dot(u);
+  const float along_v = to_centre.dot(v);
   const Vector3f centre = vector(ground.origin) + along_u * u + along_v * v;
   ground_.use();
   ground_.set_matrix("view_projection", picture.view_projection.data());
@@ -186,10 +203,29 @@ void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) 
   ground_.set("fade", ground.fade);
   ground_.set("cell", ground.cell);
   ground_.set("shadow", picture.shadow);
-  ground_.set("surface", 0.05F);
-  ground_.set4("grid", &picture.grid.r);
+  const std::array<float, 4> none{};
+  ground_.set4("surface", ground.solid ? &picture.floor.r : none.data());
+  ground_.set3("shade", &picture.shade.r);
+  Color grid = picture.grid;
+  if (ground.solid) grid.a *= 0.65F;  // the floor itself shows where it is
+  ground_.set4("grid", &grid.r);
   glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}
+
+// Call after draw_ground(): they darken it. Neither writes depth.
+void PicturePainter::draw_contacts(const Picture& picture) {
+  if (picture.contacts.empty() || !grain_.contacts) return;
+  contact_instances_.upload(picture.contacts.data(), picture.contacts.size() * sizeof(SoftShadow));
+  const Vector3f normal = vector(picture.ground.normal).normalized();
+  const Color& c = picture.shade;
+  const std::array<float, 4> shade{c.r, c.g, c.b, picture.contact};
+  contact_.use();
+  contact_.set_matrix("view_projection", picture.view_projection.data());
+  contact_.set3("normal", normal.data());
+  contact_.set4("shade", shade.data());
+  glBindVertexArray(contact_array_);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(picture.contacts.size()));
 }
 
 void PicturePainter::draw_ribbons(const Picture& picture) {
@@ -246,6 +282,7 @@ void PicturePainter::draw_picture(const Picture& picture, const Target& target,
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   draw_ground(picture, light);
+  draw_contacts(picture);
   draw_ribbons(picture);
   draw_ghosts(picture, target);
   glDepthMask(GL_TRUE);

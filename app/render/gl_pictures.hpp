@@ -22,6 +22,7 @@ struct Grain {
   float taps = 1.0F;       // of the shadow map per pixel
   double tolerance = 0.5;  // of outlines [pixel]
   int vertices = 0;        // limit for bodies; beyond it outlines get coarser
+  bool contacts = true;    // the ambient shadow is drawn
 };
 Grain grain_of(Quality quality);
 
@@ -61,9 +62,11 @@ class PicturePainter {
               const Picture& picture, const Target& target);
   void draw_meshes(const gl::Program& program) const;
   void draw_ground(const Picture& picture, const Eigen::Matrix4f& light);
+  void draw_contacts(const Picture& picture);
   void draw_ribbons(const Picture& picture);
 
   gl::StreamBuffer ribbon_vertices_;
+  gl::StreamBuffer contact_instances_;
   DetailedBodies bodies_;
   std::array<gl::BodyMesh, kBoxSegments.size()> boxes_{
       {{kBoxSegments[0], true}, {kBoxSegments[1], true}, {kBoxSegments[2], true}}};
@@ -77,8 +80,10 @@ class PicturePainter {
   gl::Program body_;
   gl::Program shadow_;
   gl::Program ground_;
+  gl::Program contact_;
   gl::Program ribbon_;
   GLuint empty_array_ = 0;
+  GLuint contact_array_ = 0;
   GLuint ribbon_array_ = 0;
   Grain grain_;  // of the current paint()
 };

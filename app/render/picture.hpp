@@ -48,14 +48,31 @@ struct Part {
   bool operator==(const Part&) const = default;
 };
 
+/// A soft-edged rectangle or disc of darkness on the floor: nine floats of geometry and three
+/// numbers, in the layout of the vertex attributes.
+struct SoftShadow {
+  std::array<float, 3> centre{};  // on the floor [m]
+  float strength = 0.0F;          // at the centre of a wide one, 0..1
+  std::array<float, 3> along{};   // unit, in the floor
+  float round = 0.0F;             // 1: a disc
+  float half_u = 0.0F;            // half extents, to half of the strength [m]
+  float half_v = 0.0F;
+  float softness = 0.0F;  // half width of the edge [m]
+  float unused = 0.0F;
+
+  bool operator==(const SoftShadow&) const = default;
+};
+
 /// An infinite floor: a grid that fades with distance, and the shadows on it.
 struct Ground {
-  bool visible = true;
+  bool solid = false;             // a plane of the scene: matte; else only the grid is drawn
   std::array<float, 3> origin{};  // [m]
   std::array<float, 3> normal{0, 1, 0};
   std::array<float, 3> along{1, 0, 0};  // one of the grid's directions
+  std::array<float, 3> centre{};        // of the visible part [m]
   float cell = 1.0F;                    // [m]
-  float fade = 30.0F;                   // distance from `focus` at which it is invisible [m]
+  float fade = 30.0F;                   // distance from the centre at which it is invisible [m]
+  float reach = 1.0F;                   // height up to which it darkens bodies [m]
 
   bool operator==(const Ground&) const = default;
 };
@@ -71,12 +88,16 @@ struct Picture {
   Color background_bottom;
   Color grid;
   float ambient = 0.4F;  // ambient light, 0..1
+  Color floor;           // of the matte floor; alpha is its coverage at the centre
+  Color shade;           // of shadows on the floor
   float shadow = 0.5F;   // darkness of shadows on the ground, 0..1
+  float contact = 0.5F;  // darkness of the ambient shadow under bodies, 0..1
   std::vector<Instance> boxes;
   std::vector<Instance> balls;
   std::vector<Instance> ghost_boxes;  // translucent, without shadows
   std::vector<Instance> ghost_balls;
   std::vector<RibbonVertex> ribbons;  // triangles
+  std::vector<SoftShadow> contacts;   // on the floor
   Ground ground;
 
   bool operator==(const Picture&) const = default;

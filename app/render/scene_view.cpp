@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "app/lab/stiffness.hpp"
+#include "app/render/contact_shadows.hpp"
 #include "core/model/joint_fields.hpp"
 
 namespace substep {
@@ -128,14 +129,22 @@ double width_to_show(const Scene& scene, const Poses& poses) {
 void SceneView::follow(const Session& session) {
   if (session.generation() != generation_) {
     generation_ = session.generation();
-    camera.place(session.scene().camera, width_to_show(session.scene(), session.poses()));
-    home_ = ball_around(session.scene(), session.poses(), nullptr);
-    lowest_ = home_.centre.y() - home_.radius;
+    place(session.scene(), session.poses());
   }
+}
+
+void SceneView::place(const Scene& scene, const Poses& poses) {
+  camera.place(scene.camera, width_to_show(scene, poses));
+  home_ = ball_around(scene, poses, nullptr);
+  lowest_ = home_.centre.y() - home_.radius;
 }
 
 Bounds SceneView::bounds(const Scene& scene, const Poses& poses) const {
   return ball_around(scene, poses, &home_);
+}
+
+Bounds SceneView::bounds_around(const Vec3& centre, double radius) const {
+  return {centre, std::max(0.5 * home_.radius, 1.5 * radius)};
 }
 
 void SceneView::frame_all(const Session& session) {
@@ -155,8 +164,11 @@ void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPa
   out.background_top = palette.background_top;
   out.background_bottom = palette.background_bottom;
   out.grid = palette.grid;
+  out.floor = palette.floor;
+  out.shade = palette.shade;
   out.ambient = palette.ambient;
   out.shadow = palette.shadow;
+  out.contact = palette.contact;
   const Vec3 light = Vec3(0.42, 0.74, 0.52).normalized();
   out.to_light = floats(light);
 
@@ -168,6 +180,8 @@ void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPa
     add_trail(*seen.trail, palette.trail, camera.eye(view), pixel, out);
   }
   place_ground(*seen.scene, out);
+  out.contacts.clear();
+  if (out.ground.solid) out.contacts = contact_shadows(*seen.scene, *seen.poses, out.ground);
 
   // Shadows fall from the bodies down to the floor: both must be within the light's view.
   const Bounds around = bounds(*seen.scene, *seen.poses);
@@ -288,10 +302,14 @@ void SceneView::place_ground(const Scene& scene, Picture& out) const {
     out.ground.origin = floats(scene.bodies[i].position);
     out.ground.normal = floats(scene.bodies[i].orientation * Vec3::UnitY());
     out.ground.along = floats(scene.bodies[i].orientation * Vec3::UnitX());
+    out.ground.solid = true;
     break;
   }
+  // That of the scene at its start: it must not move with the bodies.
+  out.ground.centre = floats(home_.centre);
   out.ground.fade = static_cast<float>(std::clamp(5.0 * home_.radius, 12.0, 400.0));
   out.ground.cell = home_.radius > 40.0 ? 10.0F : 1.0F;
+  out.ground.reach = static_cast<float>(std::clamp(0.2 * home_.radius, 0.15, 4.0));
 }
 
 }  // namespace substep

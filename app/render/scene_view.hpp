@@ -44,6 +44,8 @@ struct ViewPalette {
   Color background_top;
   Color background_bottom;
   Color grid;
+  Color floor;  // matte floor; alpha is its coverage at the centre
+  Color shade;  // of shadows on it
   Color body;
   Color fixture;  // static bodies
   Color joint;
@@ -52,7 +54,8 @@ struct ViewPalette {
   Color stiff_mid;   // tint of half of the largest k/M
   Color stiff_high;  // tint of the body that sets N
   float ambient = 0.5F;
-  float shadow = 0.5F;
+  float shadow = 0.5F;   // darkness of the light's shadows, 0..1
+  float contact = 0.5F;  // darkness of the ambient shadow, 0..1
 };
 
 /// A run to draw: its scene and poses, and the state for the tint.
@@ -70,7 +73,11 @@ class SceneView {
 
   /// Resets the camera for a new scene.
   void follow(const Session& session);
+  /// Places the camera for a scene. @param poses its start
+  void place(const Scene& scene, const Poses& poses);
   void frame_all(const Session& session);
+  /// A sphere around a part of the scene at least this large, with some of what is around it.
+  [[nodiscard]] Bounds bounds_around(const Vec3& centre, double radius) const;
   /// @param view the rectangle of the run in the window
   void build(const Seen& seen, const ViewOptions& options, const ViewPalette& palette,
              const ViewRect& view, double window_width, double window_height, Picture& out) const;

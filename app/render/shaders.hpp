@@ -75,6 +75,9 @@ uniform vec3 to_light;
 uniform float ambient;
 uniform vec3 sky;
 uniform vec3 floor_light;
+uniform vec4 floor_plane;  // unit normal; height of a point p is dot(normal, p) + w
+uniform float floor_reach;
+uniform float floor_hides;
 out vec4 out_color;
 // Products and roots, no powers: those cost a processor that must draw far more.
 float square(float x) { return x * x; }
@@ -89,7 +92,10 @@ void main() {
   }
   float facing = max(0.0, dot(n, to_light));
   float light = facing > 0.0 ? facing * lit(v_shadow, 1.2) : 0.0;
-  vec3 around = mix(floor_light, sky, 0.5 + 0.5 * n.y) * ambient;
+  // The floor hides the sky, most from surfaces close to it that face it.
+  float height = max(0.0, dot(floor_plane.xyz, v_position) + floor_plane.w) / floor_reach;
+  float hidden = floor_hides * (0.6 - 0.4 * dot(n, floor_plane.xyz)) / (1.0 + height * height);
+  vec3 around = mix(floor_light, sky, 0.5 + 0.5 * n.y) * (ambient * (1.0 - hidden));
   vec3 half_way = normalize(to_light + to_eye);
   float s2 = square(max(0.0, dot(n, half_way)));
   float s16 = square(square(square(s2)));
@@ -143,8 +149,9 @@ void main() {
 }
 )";
 
-/// Lines one pixel wide at every cell and stronger ones at every fifth; each kind fades out before
-/// it gets denser than the pixels.
+/// A matte floor that fades into the background, shadows on it, and lines one pixel wide at every
+/// cell and stronger ones at every fifth; each kind fades out before it gets denser than the
+/// pixels.
 inline constexpr const char* kGroundFragment = R"(
 in vec2 v_uv;
 in vec4 v_shadow;
@@ -153,7 +160,8 @@ uniform float cell;
 uniform float fade;
 uniform vec4 grid;
 uniform float shadow;
-uniform float surface;
+uniform vec4 surface;  // colour; coverage at the centre
+uniform vec3 shade;
 out vec4 out_color;
 float lines(vec2 p, vec2 w) {
   vec2 d = abs(fract(p - 0.5) - 0.5) / max(w, vec2(1e-6));
@@ -162,18 +170,55 @@ float lines(vec2 p, vec2 w) {
   return max(line.x, line.y);
 }
 void main() {
-  float far = smoothstep(1.0, 0.25, length(v_uv) / fade);
+  float far = 1.0 - dot(v_uv, v_uv) / (fade * fade);
   if (far <= 0.0) discard;
+  far *= far;
   vec2 p = (v_uv + offset) / cell;
   vec2 w = fwidth(p);
   float strength = max(0.45 * lines(p, w), lines(0.2 * p, 0.2 * w));
   float dark = (1.0 - lit(v_shadow, 2.2)) * shadow;
   float line = strength * grid.a * (1.0 - 0.6 * dark);
-  // Line over shadow over a breath of surface, as one premultiplied colour.
-  float under = dark + surface * (1.0 - dark);
-  vec3 c = grid.rgb * line + grid.rgb * surface * (1.0 - dark) * (1.0 - line);
-  float a = line + under * (1.0 - line);
-  out_color = vec4(c, a) * far;
+  // Line over shadow over surface, as one premultiplied colour; with noise below one level.
+  vec4 c = mix(vec4(surface.rgb, 1.0) * surface.a, vec4(shade, 1.0), dark);
+  c = mix(c, vec4(grid.rgb, 1.0), line) * far;
+  float noise = fract(52.98 * fract(dot(gl_FragCoord.xy, vec2(0.0671, 0.00584)))) - 0.5;
+  out_color = c + vec4(vec3(noise / 255.0), 0.0);
+}
+)";
+
+/// Soft shadows on the floor, one instance each.
+inline constexpr const char* kContactVertex = R"(
+layout(location = 0) in vec4 centre_strength;
+layout(location = 1) in vec4 along_round;
+layout(location = 2) in vec4 extents;  // half u, half v, softness
+uniform mat4 view_projection;
+uniform vec3 normal;
+out vec2 v_at;
+flat out vec4 v_extents;
+flat out float v_strength;
+void main() {
+  vec2 corner = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1);
+  v_at = corner * (extents.xy + extents.z);
+  v_extents = vec4(extents.xyz, along_round.w);
+  v_strength = centre_strength.w;
+  vec3 along = along_round.xyz;
+  vec3 p = centre_strength.xyz + v_at.x * along + v_at.y * cross(normal, along);
+  gl_Position = view_projection * vec4(p, 1.0);
+}
+)";
+
+/// The shadow of a rectangle, blurred along both sides; of a disc, along its radius.
+inline constexpr const char* kContactFragment = R"(
+in vec2 v_at;
+flat in vec4 v_extents;
+flat in float v_strength;
+uniform vec4 shade;  // colour; darkness
+out vec4 out_color;
+vec2 edge(vec2 t) { t = clamp(0.5 + 0.5 * t, 0.0, 1.0); return t * t * (3.0 - 2.0 * t); }
+void main() {
+  vec2 at = v_extents.w > 0.5 ? vec2(length(v_at), 0.0) : v_at;
+  vec2 s = edge((v_extents.xy - at) / v_extents.z) + edge((v_extents.xy + at) / v_extents.z) - 1.0;
+  out_color = vec4(shade.rgb, 1.0) * (shade.a * v_strength * max(0.0, s.x * s.y));
 }
 )";
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/render/hull.hpp"
 #include "app/text/format.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
@@ -200,13 +201,14 @@ void draw_errors(const Look& look, const Session& session, const Desk& desk,
 }
 
 // Outline of a body on the display: the convex hull of its projected corners, or of a ball's rim.
-std::vector<ImVec2> outline(const Session& session, const Viewport& viewport, std::size_t body) {
+std::vector<ScreenPoint> outline(const Session& session, const Viewport& viewport,
+                                 std::size_t body) {
   const Poses& poses = session.poses();
   const Vec3& x = poses.x[body];
-  std::vector<ImVec2> points;
+  std::vector<ScreenPoint> points;
   const auto add = [&](const Vec3& corner) {
     ImVec2 p;
-    if (project(viewport, corner, p)) points.push_back(p);
+    if (project(viewport, corner, p)) points.push_back({p.x, p.y});
   };
   const Shape& shape = session.scene().bodies[body].shape;
   if (const auto* box = std::get_if<Box>(&shape)) {
@@ -233,32 +235,13 @@ std::vector<ImVec2> outline(const Session& session, const Viewport& viewport, st
   return points;
 }
 
-// Andrew's monotone chain.
-std::vector<ImVec2> convex_hull(std::vector<ImVec2> p) {
-  std::sort(p.begin(), p.end(),
-            [](ImVec2 a, ImVec2 b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  const auto left_turn = [](ImVec2 a, ImVec2 b, ImVec2 c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0F;
-  };
-  std::vector<ImVec2> hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const ImVec2 q : p) {
-      while (hull.size() >= first + 2 && !left_turn(hull[hull.size() - 2], hull.back(), q)) {
-        hull.pop_back();
-      }
-      hull.push_back(q);
-    }
-    hull.pop_back();
-    std::reverse(p.begin(), p.end());
-  }
-  return hull;
-}
-
 void draw_outline(const Session& session, const Viewport& viewport, ImDrawList& draw, int body,
                   ImU32 color) {
-  const std::vector<ImVec2> hull =
-      convex_hull(outline(session, viewport, static_cast<std::size_t>(body)));
+  std::vector<ImVec2> hull;
+  for (const ScreenPoint& p :
+       convex_hull(outline(session, viewport, static_cast<std::size_t>(body)))) {
+    hull.emplace_back(p.x, p.y);
+  }
   if (hull.size() < 3) return;
   const auto count = static_cast<int>(hull.size());
   draw.AddPolyline(hull.data(), count, fade(color, 0.25F), ImDrawFlags_Closed, 6.0F);
@@ -288,16 +271,18 @@ void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewp
   const auto clip = [&](const ViewRect& r) {
     draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
   };
-  clip(viewport.panes.front());
-  if (desk.selected >= 0) {
-    draw_outline(lab.session, viewport, draw, desk.selected, look.theme->accent_hover);
+  if (!lab.frozen()) {  // else they would be those of a later frame
+    clip(viewport.panes.front());
+    if (desk.selected >= 0) {
+      draw_outline(lab.session, viewport, draw, desk.selected, look.theme->accent_hover);
+    }
+    if (show.axes) draw_body_axes(look, lab.session, viewport, draw);
+    if (show.frames) draw_joint_frames(look, lab.session, viewport, draw);
+    if (show.contacts) draw_contacts(look, lab.session, viewport, draw);
+    if (show.forces) draw_forces(look, lab.session, viewport, draw);
+    if (show.errors) draw_errors(look, lab.session, desk, viewport, draw);
+    draw.PopClipRect();
   }
-  if (show.axes) draw_body_axes(look, lab.session, viewport, draw);
-  if (show.frames) draw_joint_frames(look, lab.session, viewport, draw);
-  if (show.contacts) draw_contacts(look, lab.session, viewport, draw);
-  if (show.forces) draw_forces(look, lab.session, viewport, draw);
-  if (show.errors) draw_errors(look, lab.session, desk, viewport, draw);
-  draw.PopClipRect();
   for (std::size_t pane = 0; pane < viewport.panes.size(); ++pane) {
     clip(viewport.panes[pane]);
     draw_hand(look, lab, viewport, draw, pane);

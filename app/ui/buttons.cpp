@@ -79,6 +79,7 @@ bool open_menu(const ImRect& box, const std::function<void()>& menu) {
   const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);
   if (open) {
     menu();
+    scroll_by_drag();
     ImGui::EndPopup();
   }
   ImGui::PopStyleVar(2);
@@ -173,14 +174,18 @@ bool icon_menu(const Look& look, const char* id, Icon icon, ButtonKind kind, flo
   return open;
 }
 
-bool menu_item(const Look& look, const char* text, const char* note, bool current) {
+bool menu_item(const Look& look, const char* text, const char* note, bool current,
+               const MenuPicture* picture) {
   const Theme& t = *look.theme;
   const ImVec2 size = text_size(look.fonts.regular, text);
   const ImVec2 note_size = *note != '\0' ? text_size(look.fonts.small, note) : ImVec2(0, 0);
-  const float needed = 28.0F + size.x + (note_size.x > 0.0F ? note_size.x + 24.0F : 0.0F) + 8.0F;
+  constexpr float kPad = 4.0F;  // around the picture
+  const float left = 28.0F + (picture != nullptr ? picture->size.x + 10.0F : 0.0F);
+  const float needed = left + size.x + (note_size.x > 0.0F ? note_size.x + 24.0F : 0.0F) + 8.0F;
   const float width = std::max(needed, ImGui::GetContentRegionAvail().x);
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float height = look.m.row + 2.0F;
+  const float height =
+      std::max(look.m.row + 2.0F, picture != nullptr ? picture->size.y + kPad : 0.0F);
   const bool pressed = ImGui::InvisibleButton(text, {width, height});
   mark(text, origin, {origin.x + width, origin.y + height});
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -189,7 +194,11 @@ bool menu_item(const Look& look, const char* text, const char* note, bool curren
   }
   const float middle = origin.y + 0.5F * height;
   if (current) draw_icon(draw, Icon::kCheck, {origin.x + 14.0F, middle}, 16.0F, t.accent_hover);
-  draw_text(draw, look.fonts.regular, {origin.x + 28.0F, middle - 0.5F * size.y}, t.text, text);
+  if (picture != nullptr && ImGui::IsItemVisible()) {
+    const ImVec2 corner(origin.x + 28.0F, middle - 0.5F * picture->size.y);
+    picture->draw(draw, corner, {corner.x + picture->size.x, corner.y + picture->size.y});
+  }
+  draw_text(draw, look.fonts.regular, {origin.x + left, middle - 0.5F * size.y}, t.text, text);
   if (note_size.x > 0.0F) {
     draw_text(draw, look.fonts.small,
               {origin.x + width - 8.0F - note_size.x, middle - 0.5F * note_size.y}, t.dim, note);

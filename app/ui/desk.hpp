@@ -8,6 +8,7 @@
 
 #include "app/render/scene_view.hpp"
 #include "app/ui/plot.hpp"
+#include "app/ui/thumbnails.hpp"
 
 namespace substep {
 
@@ -63,6 +64,7 @@ struct Desk {
   bool card_left = false;  // the selection card is on the left of the view
   ui::TimeAxis time;
   std::string unfolded_scene;  // scene whose variants are unfolded in the list
+  ui::Thumbnails thumbnails;   // in that list
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
   ViewRect plots_area;          // last position of the plots
   ViewRect accuracy_area;       // and of the accuracy picture with its conclusion

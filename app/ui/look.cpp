@@ -52,8 +52,11 @@ Theme make_dark() {
   t.view.stiff_low = color(0xccd6e6);
   t.view.stiff_mid = color(0xe6c9a8);
   t.view.stiff_high = color(0xf5803e);
+  t.view.floor = color(0x3a424e, 0.95F);
+  t.view.shade = color(0x0a0c10);
   t.view.ambient = 0.50F;
-  t.view.shadow = 0.62F;
+  t.view.shadow = 0.60F;
+  t.view.contact = 0.62F;
   return t;
 }
 
@@ -89,8 +92,11 @@ Theme make_light() {
   t.view.stiff_low = color(0xc2cfe2);
   t.view.stiff_mid = color(0xf0cfa9);
   t.view.stiff_high = color(0xf07a35);
+  t.view.floor = color(0xeef1f5, 0.95F);
+  t.view.shade = color(0x39424f);
   t.view.ambient = 0.52F;
-  t.view.shadow = 0.30F;
+  t.view.shadow = 0.34F;
+  t.view.contact = 0.42F;
   return t;
 }
 

@@ -103,18 +103,17 @@ void caption(const Look& look, const Session& session, const Viewport& viewport,
             unit.c_str());
 }
 
-void body_labels(const Look& look, const Session& session, const Desk& desk,
-                 const Viewport& viewport) {
+void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport) {
   if (!desk.view.labels) return;
-  const Scene& scene = session.scene();
-  const Poses& poses = session.poses();
+  const Scene& scene = lab.scene_in(0);
+  const Poses& poses = lab.poses_in(0);
   double lightest = 0.0;
   for (const Body& body : scene.bodies) {
     if (!body.is_static && (lightest == 0.0 || body.mass < lightest)) lightest = body.mass;
   }
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ViewRect& v = viewport.panes.front();
-  const std::size_t own = session.loaded().bodies.size();  // thrown balls have no label
+  const std::size_t own = lab.session.loaded().bodies.size();  // thrown balls have no label
   for (std::size_t i = 0; i < own; ++i) {
     const Body& body = scene.bodies[i];
     if (body.is_static || body.mass < 20.0 * lightest) continue;

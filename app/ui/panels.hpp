@@ -112,9 +112,10 @@ void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser
 
 /// Over the picture: title, N, the scale of the tint, masses, and problems.
 void caption(const Look& look, const Session& session, const Viewport& viewport, bool phone);
-void body_labels(const Look& look, const Session& session, const Desk& desk,
-                 const Viewport& viewport);
+void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
+/// A ring around what failed in each run, with its measure.
+void failure_rings(const Look& look, const Lab& lab, const Viewport& viewport);
 void selection_card(const Look& look, const Session& session, Desk& desk, const Viewport& viewport,
                     bool phone);
 void tint_scale(const Look& look, const Session& session, const Compare& compare, const Desk& desk,

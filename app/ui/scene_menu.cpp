@@ -26,25 +26,37 @@ std::string variant_title(const Scene& base, const Scene& variant) {
   return variant.title.starts_with(shared) ? variant.title.substr(shared.size()) : variant.title;
 }
 
+// An entry with a picture of the scene.
+bool scene_item(const Look& look, const std::shared_ptr<const Scene>& scene, const char* title,
+                bool current, Thumbnails& thumbnails) {
+  constexpr float kHeight = 32.0F;
+  const MenuPicture picture{{Thumbnail::kAspect * kHeight, kHeight},
+                            [&](ImDrawList& draw, ImVec2 min, ImVec2 max) {
+                              thumbnails.draw(draw, scene, look.theme->view, min, max);
+                            }};
+  return menu_item(look, title, "", current, &picture);
+}
+
 // One scene at a time is unfolded, and the one whose variant runs.
 // @return the variant that was chosen, or null
 std::shared_ptr<const Scene> variant_items(
     const Look& look, const Scene& base, const std::vector<std::shared_ptr<const Scene>>& variants,
-    const std::string& now, std::string& unfolded) {
+    const std::string& now, Desk& desk) {
   std::shared_ptr<const Scene> chosen;
   bool runs = false;
   for (const auto& variant : variants) runs = runs || variant->name == now;
-  bool open = runs || unfolded == base.name;
+  bool open = runs || desk.unfolded_scene == base.name;
   const bool was_open = open;
   const std::string title = "Variants of " + base.title;
   ImGui::PushID(base.name.c_str());
   ImGui::Indent(kVariantIndent + 12.0F);
   fold(look, title.c_str(), open, "");
   ImGui::Unindent(12.0F);
-  if (open != was_open) unfolded = open ? base.name : "";
+  if (open != was_open) desk.unfolded_scene = open ? base.name : "";
   for (const auto& variant : variants) {
     if (!open) break;
-    if (menu_item(look, variant_title(base, *variant).c_str(), "", variant->name == now)) {
+    const std::string name = variant_title(base, *variant);
+    if (scene_item(look, variant, name.c_str(), variant->name == now, desk.thumbnails)) {
       chosen = variant;
     }
   }
@@ -67,10 +79,12 @@ void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip) {
       if (first || group != scene->group) group_heading(look, scene->group, first);
       group = scene->group;
       first = false;
-      if (menu_item(look, scene->title.c_str(), "", scene->name == now.name)) chosen = scene;
+      if (scene_item(look, scene, scene->title.c_str(), scene->name == now.name, desk.thumbnails)) {
+        chosen = scene;
+      }
       const auto variants = lab.library.variants_of(*scene);
       if (variants.empty()) continue;
-      if (auto variant = variant_items(look, *scene, variants, now.name, desk.unfolded_scene)) {
+      if (auto variant = variant_items(look, *scene, variants, now.name, desk)) {
         chosen = std::move(variant);
       }
     }

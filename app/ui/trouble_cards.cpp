@@ -42,6 +42,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   const ViewRect& v = viewport.view_rect;
   if (desk.failure_run != lab.run_count) desk.failure_place = -1;
   desk.failure_run = lab.run_count;
+  if (desk.failure_place < 0 && !viewport.view.camera.at_rest()) return;  // first what failed
   constexpr ImVec2 kSize(380.0F, 180.0F);  // with the maximum number of remedies
   const CardPlace place = card_beside(lab.session, viewport, kSize, desk.failure_place);
   if (begin_card(look, viewport, "##failure", kSize.x, place.y, place.pivot, place.x)) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "app/render/failure_camera.hpp"
 #include "app/render/picture.hpp"
 #include "app/render/scene_view.hpp"
 #include "core/math/types.hpp"
@@ -23,6 +24,7 @@ struct Hand {
 /// The part of the window not covered by panels.
 struct Viewport {
   SceneView view;
+  FailureCamera failure_camera;
   ViewRect view_rect;
   /// This run in the first pane, those compared with it in the others.
   std::vector<ViewRect> panes{1};

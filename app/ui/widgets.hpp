@@ -113,7 +113,17 @@ bool menu_button(const Look& look, const char* id, const char* text, float width
 /// The same with an icon only.
 bool icon_menu(const Look& look, const char* id, Icon icon, ButtonKind kind, float size,
                const char* tip, const std::function<void()>& menu);
+/// A picture in front of an entry's text.
+struct MenuPicture {
+  ImVec2 size;
+  std::function<void(ImDrawList& draw, ImVec2 min, ImVec2 max)> draw;
+};
 /// An entry of such a menu.
-bool menu_item(const Look& look, const char* text, const char* note, bool current);
+bool menu_item(const Look& look, const char* text, const char* note, bool current,
+               const MenuPicture* picture = nullptr);
+
+/// Scrolls the current window by dragging with a finger. If the drag began on a control and is
+/// vertical, the window scrolls and the control is released.
+void scroll_by_drag();
 
 }  // namespace substep::ui

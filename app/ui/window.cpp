@@ -35,27 +35,6 @@ bool begin_panel(const char* id, const Rect& r, ImGuiWindowFlags flags = 0) {
   return ImGui::Begin(id, nullptr, kFixed | flags);
 }
 
-// Scrolls a panel by dragging with a finger. If the drag began on a control and is vertical, the
-// panel scrolls and the control is released.
-void scroll_by_drag() {
-  const ImGuiIO& io = ImGui::GetIO();
-  const ImGuiContext& g = *ImGui::GetCurrentContext();
-  if (!ImGui::IsWindowHovered(ImGuiHoveredFlags_ChildWindows |
-                              ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) ||
-      !ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) {
-    return;
-  }
-  // A pressed window background is active, as for moving the window.
-  const bool on_ground = g.ActiveId == 0 || g.ActiveId == g.ActiveIdWindow->MoveId;
-  if (!on_ground) {
-    const ImVec2 way = ImGui::GetMouseDragDelta(ImGuiMouseButton_Left, 4.0F);
-    const bool for_panel = std::abs(way.y) > 10.0F && std::abs(way.y) > 2.0F * std::abs(way.x);
-    if (io.MouseSource != ImGuiMouseSource_TouchScreen || !for_panel) return;
-    ImGui::ClearActiveID();
-  }
-  ImGui::SetScrollY(ImGui::GetScrollY() - io.MouseDelta.y);
-}
-
 // A panel opened by a tab. A new one is a separate file and a line here.
 struct Panel {
   Tab tab;
@@ -314,7 +293,8 @@ void draw_over_picture(App& app) {
   if (app.introduction.open()) return notice(app);
   const bool small = is_small(ImGui::GetIO().DisplaySize);
   annotations(app.look, app, app.desk, app);
-  body_labels(app.look, app.session, app.desk, app);
+  body_labels(app.look, app, app.desk, app);
+  failure_rings(app.look, app, app);
   caption(app.look, app.session, app, small);
   compare_legend(app.look, app.session, app.compare, app);
   if (!small) tint_scale(app.look, app.session, app.compare, app.desk, app);

@@ -1,0 +1,161 @@
+#include "app/render/contact_shadows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace substep {
+namespace {
+
+constexpr double kFaintest = 0.03;      // fainter shadows are left out [-]
+constexpr double kLowestPart = 0.4;     // of a body's height: the part that makes the footprint [-]
+constexpr double kBallFootprint = 0.6;  // of a ball's radius [-]
+constexpr double kSoft = 0.45;          // softness of a body on the floor, of its height [-]
+constexpr double kMostSoft = 0.5;       // the same, of its footprint: a tower casts no wide shadow
+
+// The plane of the floor.
+struct FloorFrame {
+  Vec3 origin;
+  Vec3 normal;
+  [[nodiscard]] double height(const Vec3& x) const { return normal.dot(x - origin); }
+  [[nodiscard]] Vec3 below(const Vec3& x) const { return x - height(x) * normal; }
+};
+
+FloorFrame floor_frame(const Ground& ground) {
+  const auto vector = [](const std::array<float, 3>& a) {
+    return Vec3(static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2]));
+  };
+  return {vector(ground.origin), vector(ground.normal).normalized()};
+}
+
+// What a footprint is made of, in the plane.
+struct Footprint {
+  Vec3 centre;          // on the floor [m]
+  Vec3 along;           // unit
+  double half_u = 0.0;  // [m]
+  double half_v = 0.0;  // [m]
+  double lowest = 0.0;  // of the body above the floor [m]
+  double height = 0.0;  // of the body itself [m]
+  bool round = false;
+};
+
+std::array<float, 3> as_floats(const Vec3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+std::optional<SoftShadow> shadow_of(const Footprint& print) {
+  const double lowest = std::max(0.0, print.lowest);
+  // About the share of the sky above a point on the floor that a plate of this size hides.
+  const double area = print.half_u * print.half_v;
+  const double strength = area / (area + 3.0 * lowest * lowest);
+  if (!(strength > kFaintest)) return std::nullopt;
+  const double wide = std::max(print.half_u, print.half_v);
+  SoftShadow shadow;
+  shadow.centre = as_floats(print.centre);
+  shadow.along = as_floats(print.along);
+  shadow.half_u = static_cast<float>(print.half_u);
+  shadow.half_v = static_cast<float>(print.half_v);
+  shadow.softness = static_cast<float>(std::min(kSoft * print.height, kMostSoft * wide) + lowest);
+  shadow.strength = static_cast<float>(strength);
+  shadow.round = print.round ? 1.0F : 0.0F;
+  return shadow;
+}
+
+// The corners of a box below a height, and where its edges cross it.
+std::vector<Vec3> lower_part(const std::array<Vec3, 8>& corners, const FloorFrame& floor,
+                             double top) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double here = floor.height(corners[i]);
+    if (here <= top) points.push_back(corners[i]);
+    for (const std::size_t bit : {1U, 2U, 4U}) {
+      const std::size_t j = i | bit;
+      const double there = floor.height(corners[j]);
+      if (j == i || (here <= top) == (there <= top)) continue;
+      points.push_back(corners[i] + (top - here) / (there - here) * (corners[j] - corners[i]));
+    }
+  }
+  return points;
+}
+
+// The direction in the floor of the edge that is longest there: it turns with the body.
+Vec3 direction_of(const Box& box, const Quat& q, const Vec3& normal) {
+  Vec3 longest = Vec3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Vec3 edge = q * (box.half_extents[i] * Vec3::Unit(i));
+    const Vec3 flat = edge - normal * normal.dot(edge);
+    if (flat.squaredNorm() > longest.squaredNorm()) longest = flat;
+  }
+  return longest.normalized();
+}
+
+// Calls for each shape; nothing for what has no footprint.
+struct Stand {
+  const FloorFrame& floor;
+  const Vec3& x;
+  const Quat& q;
+
+  std::optional<Footprint> operator()(const Sphere& sphere) const {
+    const double half = kBallFootprint * sphere.radius;
+    return Footprint{floor.below(x),
+                     floor.normal.unitOrthogonal(),
+                     half,
+                     half,
+                     floor.height(x) - sphere.radius,
+                     2.0 * sphere.radius,
+                     true};
+  }
+  std::optional<Footprint> operator()(const Box& box) const {
+    std::array<Vec3, 8> corners;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vec3 sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
+      corners[i] = x + q * box.half_extents.cwiseProduct(sign);
+      low = std::min(low, floor.height(corners[i]));
+      high = std::max(high, floor.height(corners[i]));
+    }
+    const Vec3 u = direction_of(box, q, floor.normal);
+    const Vec3 v = floor.normal.cross(u);
+    Eigen::Vector2d least = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+    Eigen::Vector2d most = -least;
+    for (const Vec3& p : lower_part(corners, floor, low + kLowestPart * (high - low))) {
+      const Eigen::Vector2d at(u.dot(p - x), v.dot(p - x));
+      least = least.cwiseMin(at);
+      most = most.cwiseMax(at);
+    }
+    const Eigen::Vector2d middle = 0.5 * (least + most);
+    const Eigen::Vector2d half = 0.5 * (most - least);
+    return Footprint{floor.below(x + middle.x() * u + middle.y() * v),
+                     u,
+                     half.x(),
+                     half.y(),
+                     low,
+                     high - low,
+                     false};
+  }
+  std::optional<Footprint> operator()(const Plane& /*plane*/) const { return std::nullopt; }
+};
+
+}  // namespace
+
+std::vector<SoftShadow> contact_shadows(const Scene& scene, const Poses& poses,
+                                        const Ground& ground) {
+  std::vector<SoftShadow> shadows;
+  const FloorFrame floor = floor_frame(ground);
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const double above = floor.height(poses.x[i]);
+    const double reach = radius_around(body.shape);
+    // Neither one that has fallen through the floor nor one far above it; not a number is neither.
+    if (!(above > -reach) || !(above < 8.0 * reach)) continue;
+    const auto print = std::visit(Stand{floor, poses.x[i], poses.q[i]}, body.shape);
+    if (!print) continue;
+    if (const auto shadow = shadow_of(*print)) shadows.push_back(*shadow);
+  }
+  return shadows;
+}
+
+}  // namespace substep

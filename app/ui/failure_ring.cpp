@@ -1,0 +1,78 @@
+// A ring around what failed, with its measure.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/ui/over_picture.hpp"
+#include "app/ui/panels.hpp"
+#include "app/ui/widgets.hpp"
+
+namespace substep::ui {
+namespace {
+
+constexpr float kLeastRing = 15.0F;  // radius [px]
+constexpr float kMostRing = 90.0F;
+
+ImU32 halo_of(const Look& look) {
+  const Color& b = look.theme->view.background_bottom;
+  return ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, 0.55F});
+}
+
+// To the right of the ring, or to its left if there is no room.
+void ring_label(const Look& look, ImDrawList& draw, ImVec2 centre, float radius,
+                const ViewRect& pane, const std::string& text) {
+  const ImVec2 size = text_size(look.fonts.medium, text.c_str());
+  const float least = pane.x + 8.0F;
+  const float most = std::max(least, pane.x + pane.width - 8.0F - size.x);
+  float x = centre.x + radius + 8.0F;
+  if (x > most) x = centre.x - radius - 8.0F - size.x;
+  draw_over(look, draw, look.fonts.medium, {std::clamp(x, least, most), centre.y - 0.5F * size.y},
+            look.theme->text, text.c_str());
+}
+
+void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Failure& failure,
+          std::size_t pane, ImU32 color) {
+  ImVec2 from;
+  ImVec2 to;
+  if (!project(viewport, failure.from, from, pane) || !project(viewport, failure.to, to, pane)) {
+    return;
+  }
+  const ImVec2 centre(0.5F * (from.x + to.x), 0.5F * (from.y + to.y));
+  float radius = 0.5F * std::hypot(to.x - from.x, to.y - from.y) + 9.0F;
+  if (failure.body >= 0) {
+    const double pixel = std::max(1e-9, pixel_size(viewport, failure.from));
+    radius = static_cast<float>(std::min(1e4, failure.radius / pixel));
+  }
+  radius = std::clamp(radius, kLeastRing, kMostRing);
+  const ImU32 halo = halo_of(look);
+  if (failure.joint >= 0) {
+    draw.AddLine(from, to, halo, 4.0F);
+    draw.AddLine(from, to, color, 2.0F);
+    for (const ImVec2 end : {from, to}) draw.AddCircleFilled(end, 3.0F, color);
+  }
+  draw.AddCircle(centre, radius, halo, 0, 6.0F);
+  draw.AddCircle(centre, radius, color, 0, 2.5F);
+  std::string text = failure.words;
+  if (!failure.name.empty()) text += (text.empty() ? "" : "  ·  ") + failure.name;
+  ring_label(look, draw, centre, radius, viewport.panes[pane], text);
+}
+
+}  // namespace
+
+void failure_rings(const Look& look, const Lab& lab, const Viewport& viewport) {
+  ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  for (std::size_t run = 0; run <= lab.compare.runs().size(); ++run) {
+    const auto failure = lab.failure_in(run);
+    if (!failure) continue;
+    const std::size_t pane = run < viewport.panes.size() ? run : 0;  // as a ghost: over this run
+    const bool ghost = run != pane;
+    const ViewRect& r = viewport.panes[pane];
+    draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
+    ring(look, draw, viewport, *failure, pane,
+         ghost ? compare_color(look, run - 1) : look.theme->orange);
+    draw.PopClipRect();
+  }
+}
+
+}  // namespace substep::ui

@@ -138,7 +138,7 @@ void add_map(CLI::App& app, int& exit_code) {
   command->footer(
       "Columns: what is varied and its value; alpha; solver; whether it holds; how long it ran "
       "[s];\n"
-      "sub-steps a frame, their median and most, and all of them.");
+      "sub-steps per frame, their median and most, and all of them.");
   command->callback([options, &exit_code] {
     keep_apart({{"--out", options->out}, {"--picture", options->picture}}, {});
     exit_code = run_map(*options);

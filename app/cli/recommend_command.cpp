@@ -85,13 +85,13 @@ Want want_of(const RecommendOptions& options, const Scene& scene) {
 
 std::string limit_text(const Want& want) {
   if (want.error_is_given) return format_text("%.3g %s", want.limit, unit_of(want.error));
-  return format_text(want.cost == CostAxis::kTime ? "%.3g ms a frame" : "%.3g operations a frame",
+  return format_text(want.cost == CostAxis::kTime ? "%.3g ms per frame" : "%.3g operations per frame",
                      want.limit);
 }
 
-/// "0.000858 m for 8.69e+04 operations a frame, 0.0266 ms"
+/// "0.000858 m for 8.69e+04 operations per frame, 0.0266 ms"
 std::string figures(const Result& result, ErrorAxis axis) {
-  return format_text("%.3g %s for %.3g operations a frame, %.3g ms",
+  return format_text("%.3g %s for %.3g operations per frame, %.3g ms",
                      error_of(result, axis).value_or(0.0), unit_of(axis),
                      cost_of(result, CostAxis::kOperations), cost_of(result, CostAxis::kTime));
 }

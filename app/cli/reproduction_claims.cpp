@@ -28,7 +28,7 @@ Card explosion(const Reproduction& options) {
   int least = kMost + 1;
   while (least > 1 && traces[static_cast<std::size_t>(least - 2)].holds) --least;
   const int predicted = static_cast<int>(peak(by_frame(traces.back())));
-  card.here = "By sub-steps a frame: " + lives(runs, traces, 0, kMost) +
+  card.here = "By sub-steps per frame: " + lives(runs, traces, 0, kMost) +
               format_text(
                   ". The smallest that holds is %d, and alpha = 1, the stability limit itself, "
                   "predicts %d.",

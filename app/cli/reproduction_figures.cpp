@@ -65,7 +65,7 @@ Figure2 figure_2(const std::string& title, const std::shared_ptr<const Scene>& s
 }
 
 std::string told(const Figure2& f) {
-  std::string words = format_text("%g / %g / %g sub-steps a frame (least, median, most)", f.least,
+  std::string words = format_text("%g / %g / %g sub-steps per frame (least, median, most)", f.least,
                                   f.median, f.most);
   if (f.n == 0) return words + ", with an error that no constant number up to 40 undercuts";
   return words + format_text(", %.0f %% %s than the constant %d that keeps as small an error",

@@ -94,7 +94,7 @@ export function timeByStage(results) {
     el("div", { class: "legend" }, ...present.map(([, label, tone]) => el("span", { class: "key" }, el("i", { class: "box", style: `background: var(--${tone})` }), label))),
   ];
   return figure("Where the time goes",
-    "Stages that a scene does not call for take none. The criterion is what it costs to evaluate the geometric stiffness: once a frame, or once a sub-step.",
+    "Stages that a scene does not call for take none. The criterion is what it costs to evaluate the geometric stiffness: once per frame, or once per sub-step.",
     { name: "stages", draw, data: () => bars.map(({ method, stage, us, share }) => ({ method, stage, us, share })) });
 }
 
@@ -143,5 +143,5 @@ function rowTable(costs, solver) {
     el("thead", {}, el("tr", {}, el("th", {}, "rows of a solve"), ...kinds.map(([, label]) => el("th", {}, label)))),
     el("tbody", {}, ...costs.map(c => el("tr", {}, el("th", { scope: "row" }, solver(c)),
       ...kinds.map(([key]) => el("td", {}, number(c.work.rows[key] / c.work.solves),
-        c.work.row_updates > 0 && el("small", {}, `, ${number(c.work.row_updates / c.work.frames * c.work.rows[key] / all(c))} updates a frame`))))))));
+        c.work.row_updates > 0 && el("small", {}, `, ${number(c.work.row_updates / c.work.frames * c.work.rows[key] / all(c))} updates per frame`))))))));
 }

@@ -18,8 +18,8 @@ const redrawAll = () => figures.forEach(fig => fig.redraw());
 const details = el("aside", { class: "details", hidden: true, "aria-live": "polite" });
 function select(r) {
   const rows = Object.entries({
-    verdict: r.verdict, "sub-steps": r.work.substeps, "a frame": `${r.work.n_min} / ${r.work.n_median} / ${r.work.n_max}`,
-    "row updates": r.work.row_updates, "solver operations": r.work.flops, "ms a frame": `${number(r.timing.ms_median)} (p95 ${number(r.timing.ms_p95)})`,
+    verdict: r.verdict, "sub-steps": r.work.substeps, "per frame": `${r.work.n_min} / ${r.work.n_median} / ${r.work.n_max}`,
+    "row updates": r.work.row_updates, "solver operations": r.work.flops, "ms per frame": `${number(r.timing.ms_median)} (p95 ${number(r.timing.ms_p95)})`,
     "trajectory error [m]": number(r.errors.trajectory_peak), "energy drift [%]": number(r.errors.energy_drift_percent),
     "joint gap [m]": number(r.errors.joint_gap?.peak), "state hash": r.hash, "experiment": r.id,
   });

@@ -26,7 +26,7 @@ constexpr std::array<Choice, 3> kForces{
       "with two steps, for scenes of joints, while dt² k < 6 M."}}};
 constexpr std::array<Choice, 2> kPolicies{
     {{"frame",
-      "N is decided once a frame, from the forces of its last sub-step: the paper's (Giles and "
+      "N is decided once per frame, from the forces of its last sub-step: the paper's (Giles and "
       "Andrews 2024)."},
      {"sub-step",
       "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};

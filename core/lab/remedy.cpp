@@ -37,7 +37,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   if (adaptive && last.capped) {
     const int n_max = larger(settings.n_max, last.n_wanted);
     if (n_max > settings.n_max) {
-      add("a larger cap, " + std::to_string(n_max) + " sub-steps a frame",
+      add("a larger cap, " + std::to_string(n_max) + " sub-steps per frame",
           std::to_string(last.n_wanted) + " were wanted")
           .n_max = n_max;
     }

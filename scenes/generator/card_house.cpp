@@ -50,7 +50,7 @@ Scene card_house(int storeys) {
                       " storeys high. Friction and balance are all that holds it.";
   scene.look_for = "It stands. Throw a ball at it, or pull out a card.";
   scene.effects = {.gravity = true, .contact = true, .friction = true};
-  // No stiffness asks for more than one step a frame; but in so long a step cards roll over their
+  // No stiffness asks for more than one step per frame; but in so long a step cards roll over their
   // edges, and creep.
   scene.settings.mode = Mode::kConst;
   scene.settings.n = 8;

@@ -180,7 +180,7 @@ Scene free_fall() {
   scene.title = "Free fall";
   scene.group = "exact";
   scene.description = "One ball, let go 20 m up.";
-  scene.look_for = "It has fallen 19.62 m after 2 s, and one sub-step a frame is enough.";
+  scene.look_for = "It has fallen 19.62 m after 2 s, and one sub-step per frame is enough.";
   scene.effects = {.gravity = true};
   scene.criteria.duration = 2.0;
   scene.criteria.track = 0;

@@ -27,9 +27,9 @@ Expectation fails(SolverKind solver, Mode mode, double before, std::string why =
           .why = std::move(why)};
 }
 
-/// One step a frame, with something put against the stiffness.
+/// One step per frame, with something put against the stiffness.
 constexpr std::array kOneStep{Mode::kDamping, Mode::kStiffness};
-/// Up to n_cap steps a frame, and something against what they do not reach.
+/// Up to n_cap steps per frame, and something against what they do not reach.
 constexpr std::array kUpToTheCap{Mode::kCapped, Mode::kInertia, Mode::kBlend};
 
 /// A rule for each of several modes.
@@ -114,7 +114,7 @@ Expectations heavy_stack_stress() {
                      fails(kNewton, Mode::kNone, 1.5),
                      const_fails(kNewton, 4, 4.0),
                      const_fails(kNewton, 8, 8.0)};
-  add_fails(rules, kBpp, kOneStep, 1.5, "One step a frame; it does not fall by turning.");
+  add_fails(rules, kBpp, kOneStep, 1.5, "One step per frame; it does not fall by turning.");
   add_fails(rules, kBpp, kUpToTheCap, 4.0, "A cap of four is four sub-steps.");
   for (const SolverKind sweeping : {kPgs, kXpbd}) {
     rules.push_back(
@@ -131,7 +131,7 @@ Expectations heavy_stack_stress_tall() {
                      fails(kNewton, Mode::kNone, 1.5),
                      const_fails(kNewton, 4, 4.0),
                      const_fails(kNewton, 16, 10.0)};
-  add_fails(rules, kBpp, kOneStep, 1.5, "One step a frame; it does not fall by turning.");
+  add_fails(rules, kBpp, kOneStep, 1.5, "One step per frame; it does not fall by turning.");
   add_fails(rules, kBpp, kUpToTheCap, 4.0, "A cap of four is four sub-steps.");
   for (const SolverKind sweeping : {kPgs, kXpbd}) {
     rules.push_back(
@@ -146,7 +146,7 @@ Expectations swinging_box_authors() {
       fails(kBpp, Mode::kNone, 2.0, "A long link at 13 kN: the stable step is a third of a frame."),
       fails(kPgs, Mode::kNone, 2.0),
       fails(kPgs, Mode::kAdaptive, 4.0,
-            "25 sweeps leave the joints open, and steps that change from 2 to 14 a frame give back "
+            "25 sweeps leave the joints open, and steps that change from 2 to 14 per frame give back "
             "more than was put in: 5 kJ in 2 s. A decision after every sub-step, or alpha = 0.05, "
             "holds.")};
   add_fails(rules, kPgs, kOneStep, 3.0, "25 sweeps of a whole frame do not converge.");
@@ -221,7 +221,7 @@ Expectations card_house() {
   for (const SolverKind sweeping : {kPgs, kXpbd}) {
     rules.push_back(all_fail(sweeping, 10.0, "What 25 sweeps leave over lets the cards creep."));
     for (const int n : {8, 16}) {
-      rules.push_back(const_holds(sweeping, n, "Hundreds of sweeps a frame: they creep slowly."));
+      rules.push_back(const_holds(sweeping, n, "Hundreds of sweeps per frame: they creep slowly."));
     }
   }
   return rules;

@@ -214,7 +214,7 @@ TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   const std::string line = error.out.substr(command, error.out.find('\n', command) - command);
   EXPECT_EQ(substep(line.substr(8) + " --seconds 2").exit_code, 0) << "what it tells can be run";
   const Outcome cost = substep("recommend pendulum --operations 3000 --seconds 2");
-  EXPECT_NE(cost.out.find("The most exact within 3e+03 operations a frame: "), std::string::npos)
+  EXPECT_NE(cost.out.find("The most exact within 3e+03 operations per frame: "), std::string::npos)
       << cost.out;
   EXPECT_NE(cost.out.find("the smallest alpha that does is "), std::string::npos) << cost.out;
   EXPECT_EQ(substep("recommend pendulum --error 1e-15 --seconds 1").exit_code, 1);

@@ -213,7 +213,7 @@ TEST(Solves, AreAllComplementary) {
     EXPECT_LT(r.residual, 1e-9) << scene.name;
     EXPECT_EQ(r.unsolved, 0) << scene.name;
   }
-  // Friction bounds are updated at most four times a sub-step and continue to settle in the next
+  // Friction bounds are updated at most four times per sub-step and continue to settle in the next
   // one.
   const Scene bridge = with_short_frames(scenes::bridge());
   int solves = 0;

@@ -81,7 +81,7 @@ test("what effects and the criterion cost has a bar each, by operations or by ti
   assert.match(await axis(), /ms/);
   const cells = await figure.locator("td").allTextContents();
   assert.equal(cells[0], "130", "joint rows of a solve");
-  assert.match(cells[1], /^130, .* updates a frame$/);
+  assert.match(cells[1], /^130, .* updates per frame$/);
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });

@@ -148,7 +148,7 @@ export async function makeEngine(engine, canvas, host) {
   }
   let losing = null; // WEBGL_lose_context: loses and restores a context
   wasm.run = (keeps) => {
-    // With alpha, although all pixels are opaque: a software renderer pays for masking it out.
+    // With alpha, although all pixels are opaque: masking it out is slow in a software renderer.
     const context = module.GL.createContext(canvas, {
       majorVersion: 2, minorVersion: 0, alpha: true, antialias: false, depth: false,
     });

@@ -18,7 +18,7 @@ test.after(async () => {
   rmSync(folder, { recursive: true });
 });
 
-// Ends with an error where a card is not as it was found.
+// Fails if a card differs from its recorded result.
 execFileSync(program, ["reproduce", "--quiet", "--out", folder]);
 
 for (const [name, options] of Object.entries({

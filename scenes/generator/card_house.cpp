@@ -47,7 +47,7 @@ Scene card_house(int storeys) {
   scene.title = "Card house";
   scene.group = "playground";
   scene.description = "A house of cards, " + std::to_string(storeys) +
-                      " storeys high. Friction and balance are all that holds it.";
+                      " storeys high, held by friction and balance only.";
   scene.look_for = "It stands. Throw a ball at it, or pull out a card.";
   scene.effects = {.gravity = true, .contact = true, .friction = true};
   // No stiffness asks for more than one step per frame; but in so long a step cards roll over their

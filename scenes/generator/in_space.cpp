@@ -55,8 +55,8 @@ Scene spherical_pendulum() {
       "spinning "
       "about that axis.";
   scene.look_for =
-      "It swings out of every plane while it turns over. Energy and the vertical angular momentum "
-      "stay.";
+      "It swings in no fixed plane and turns over. Energy and the vertical angular momentum are "
+      "conserved.";
   scene.criteria.track = 0;
   scene.camera.eye = {0.9, 2.4, 2.6};
   scene.camera.target = {0.0, 1.75, 0.0};
@@ -75,9 +75,9 @@ Scene heavy_top() {
   Scene scene = in_space("heavy_top", "Heavy top");
   scene.description =
       "A square plate of 2 kg spins at 60 rad/s about its axis, 36.87 degrees from upright (sine "
-      "3/5), 0.5 m from the point that it stands on.";
+      "3/5), 0.5 m from its fixed point.";
   scene.look_for =
-      "It does not fall: it goes round once in 8 s, and nods a little more than three times a "
+      "It does not fall: it precesses once in 8 s and nutates a little more than three times per "
       "second.";
   scene.criteria.track = 0;
   scene.camera.eye = {1.6, 1.7, 2.4};

@@ -91,7 +91,7 @@ Scene ragdoll_drop() {
   scene.group = "playground";
   scene.description = "Four dolls of 11 parts each fall down a flight of steps.";
   scene.look_for =
-      "Joints and contacts together: a landing asks for many sub-steps, a tumble for few.";
+      "Joints and contacts together: a landing needs many sub-steps, tumbling needs few.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
   add_ground(kMu, 0.01, scene);

@@ -57,8 +57,8 @@ Scene wrecking_ball() {
   scene.description =
       "A ball of 1000 kg on a chain of 16 light links swings into a tower of crates.";
   scene.look_for =
-      "Each island has its own number of sub-steps: the chain's rises with its pull, the tower "
-      "waits at one. They become one where the ball hits, and many where crates fly.";
+      "Each island has its own number of sub-steps: that of the chain rises with its tension, the "
+      "tower takes one. The islands merge when the ball hits and split when crates fly off.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
   add_ground(kMu, 0.01, scene);

@@ -175,15 +175,17 @@ TEST(Recommended, IsTheCheapestWithinTheError) {
   EXPECT_EQ(found->reached, 4.12e-4);
   EXPECT_EQ(found->operations, 100.0);
   EXPECT_EQ(found->seconds, 3.0);
-  EXPECT_EQ(found->why,
-            "The cheapest of 5 runs, 4 of which hold; the paper's method takes 65 times that, with "
-            "alpha 0.05.");
+  EXPECT_EQ(
+      found->why,
+      "The cheapest of 5 runs, 4 of which hold; the paper's method takes 65 times the work, with "
+      "alpha 0.05.");
   found = recommended_of(results, ErrorAxis::kTrajectory, 2e-3);
   EXPECT_EQ(found->why, "The cheapest of 5 runs, 4 of which hold; it is the paper's method.");
   found = recommended_of(results, ErrorAxis::kTrajectory, 4.1235e-4);
   EXPECT_LE(found->reached, found->within);
-  EXPECT_EQ(found->why,
-            "The cheapest of 5 runs, 4 of which hold; none of the paper's method gets there.");
+  EXPECT_EQ(
+      found->why,
+      "The cheapest of 5 runs, 4 of which hold; no run of the paper's method reaches this error.");
   EXPECT_FALSE(recommended_of(results, ErrorAxis::kTrajectory, 1e-4).has_value());
   EXPECT_FALSE(recommended_of(results, ErrorAxis::kEnergy, 1e9).has_value())
       << "nobody measured it";

@@ -14,11 +14,11 @@ const std::array<Preset, 3>& all_presets() {
       Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once per frame.", {}},
       Preset{kRecommended,
              "Up to four sub-steps, then damping: holds 48 of the 49 hard scenes at 15 % of the "
-             "operations of 32 constant ones, and slows motions a little.",
+             "operations of 32 constant sub-steps; damps motions slightly.",
              {.mode = Mode::kCapped, .n_cap = 4}},
       Preset{"robust",
-             "Newton's method, implicit, with four sub-steps: holds all 49 of the hard scenes at "
-             "three quarters of the operations of 32 constant ones, and slows motions a little.",
+             "Newton's method, implicit, with four sub-steps: holds all 49 hard scenes at three "
+             "quarters of the operations of 32 constant sub-steps; damps motions slightly.",
              {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
   };
   return all;

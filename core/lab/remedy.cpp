@@ -47,7 +47,8 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   }
   if (adaptive && last.joint_rows > 0 && last.contact_rows > 0 &&
       drift_law(settings) == Drift::kFull) {
-    add("the soft drift law", "impacts change N, and short steps pay back what long ones left")
+    add("the soft drift law",
+        "impacts change N, and short steps then correct errors of long ones too fast")
         .drift = Drift::kSoft;
   }
   if (adaptive && !last.capped && settings.alpha > kLeastOffered) {

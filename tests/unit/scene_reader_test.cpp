@@ -255,12 +255,11 @@ TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
     EXPECT_EQ(read.scene->bodies[2].position, Vec3(1.05, 3.0, 0.0)) << "as it is written";
   }
   EXPECT_EQ(problems_of(told("refuse", kGood)), List{});
-  EXPECT_EQ(
-      problems_of(told("refuse", turning)),
-      (List{"/joints/0: \"start\" is \"refuse\", and this joint is turning across its axis at "
-            "3 rad/s",
-            "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
-            "apart at 2 m/s"}));
+  EXPECT_EQ(problems_of(told("refuse", turning)),
+            (List{"/joints/0: \"start\" is \"refuse\", and this joint is rotating across its axis "
+                  "at 3 rad/s",
+                  "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
+                  "apart at 2 m/s"}));
   EXPECT_EQ(problems_of(told("mend", kGood)),
             List{"/start: \"mend\" is not project, keep or refuse"});
   EXPECT_EQ(problems_of(with(R"("position": [1, 3, 0])", R"("position": [1.25, 3, 0])")),

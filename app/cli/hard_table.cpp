@@ -61,7 +61,7 @@ class HardTable {
   static void print_heading() {
     std::printf(
         "# The hard set, scene by scene\n\n"
-        "`substep check --hard` prints this file; README.md says what it is about. Work beside\n"
+        "`substep check --hard` prints this file; README.md describes it. Work beside\n"
         "const 32 is the geometric mean over the scenes that both hold of the solver's\n"
         "floating-point operations per frame. A number is the sub-steps per frame of a scene that\n"
         "holds, an *italic* one the time at which it failed.\n\n");

@@ -109,10 +109,9 @@ ExamMeasure measure_bricard(double frame) {
 ExamCase exam_four_bar() {
   ExamCase exam = exam_case(
       "four_bar", "IFToMM A02, double four-bar",
-      "Five rods of 1 kg and 1 m on seven hinges, upright, pushed at 1 m/s; twice a turn all of "
-      "them lie in one line, a singular pose.",
-      "IFToMM benchmark, the first corner after 10 s; beside it the closed form by elliptic "
-      "functions",
+      "Five rods of 1 kg and 1 m on seven hinges, upright, pushed at 1 m/s; twice per revolution "
+      "all of them lie in one line, a singular pose.",
+      "IFToMM benchmark, the first corner after 10 s; and the closed form by elliptic functions",
       10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
@@ -155,10 +154,9 @@ ExamCase exam_four_bar() {
 ExamCase exam_bricard() {
   ExamCase exam = exam_case(
       "bricard", "IFToMM A04, Bricard's mechanism",
-      "Five rods of 1 kg and 1 m along the edges of a cube on six hinges, let go: more constraints "
-      "than freedoms, and yet it moves.",
-      "IFToMM benchmark: energy stays; the motion of its one freedom integrated here in minimal "
-      "coordinates",
+      "Five rods of 1 kg and 1 m along the edges of a cube on six hinges, released at rest: "
+      "overconstrained, yet mobile.",
+      "IFToMM benchmark: constant energy; its motion is integrated here in minimal coordinates",
       10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
@@ -183,7 +181,7 @@ ExamCase exam_bricard() {
   scene.criteria.track = 2;
   exam.quantities = {
       {"exact position", "m", six_digits(1.0), kSixDigits},
-      {"energy", "J", 1e-3, "the source asks for no drift; 4.6 J are exchanged in a swing"}};
+      {"energy", "J", 1e-3, "the source requires no drift; a swing exchanges 4.6 J"}};
   exam.measure = [frame = scene.frame] { return measure_bricard(frame); };
   exam.motion = bricard_motion;
   exam.methods = exam_methods(scene.settings, {16, 64, 256});

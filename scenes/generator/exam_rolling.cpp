@@ -91,8 +91,9 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
     }
   }
   scene.criteria.track = 1;
-  exam.quantities = {{"mean square velocity error", "m^2/s^2", 4.1e-7,
-                      "RaiSim's published figure at 1 ms; the others' range from 1e-17 to 3"}};
+  exam.quantities = {
+      {"mean square velocity error", "m^2/s^2", 4.1e-7,
+       "RaiSim's published figure at 1 ms; those of the other engines range from 1e-17 to 3"}};
   exam.measure = [along] { return measure_rolling(along); };
   exam.motion = [scene, along] { return rolling_motion(scene, along); };
   exam.methods = contact_methods(scene.settings, {4, 16, 64});  // 16: their step of 1 ms

@@ -38,7 +38,7 @@ Scene swinging_box(const SwingingBoxOptions& options = {});
 
 /// A heavy ball rolls over hanging planks.
 struct BridgeOptions {
-  double ball_x = -4.2;     // where the ball starts [m]
+  double ball_x = -4.2;     // initial position of the ball [m]
   double ball_speed = 3.0;  // along the plank under it [m/s]
   double span = 9.9;        // horizontal distance of the two ends [m]; they differ by 1 m in height
 };

@@ -68,7 +68,7 @@ Scene bouncing_balls() {
       "The first ball keeps its height; the first rebounds of the others reach 81 %, 49 %, 25 % "
       "and 0 % of it.";
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
-  scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
+  scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.criteria.track = 1;
   scene.camera.eye = {0.0, 1.9, 6.6};
   scene.camera.target = {0.0, 1.2, 0.0};
@@ -109,7 +109,7 @@ Scene newtons_cradle() {
   scene.settings.mode = Mode::kConst;
   scene.settings.n = 32;  // in a step no ball comes through more than a third of the gap
   scene.settings.integrator = Integrator::kLeapfrog;
-  scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
+  scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.criteria.track = kBalls;
   scene.camera.eye = {0.9, 1.0, 3.0};
   scene.camera.target = {0.0, 0.7, 0.0};

@@ -39,7 +39,7 @@ TEST(SmallSteps, ShareOutTheSameSweeps) {
       EXPECT_EQ(report.work.row_updates, of_one);
     }
     Simulator simulator = simulator_of(scene, small_steps(kind, 200));
-    EXPECT_EQ(simulator.step().work.iterations, 200) << "one at least in each";
+    EXPECT_EQ(simulator.step().work.iterations, 200) << "at least one in each";
   }
 }
 

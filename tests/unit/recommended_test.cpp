@@ -197,8 +197,8 @@ TEST(Recommended, IsThePresetOfItsScene) {
   ASSERT_EQ(presets.size(), 3U);
   EXPECT_EQ(presets[1].settings, some_recommended().settings);
   EXPECT_EQ(presets[1].about,
-            "For this scene: keeps the path within 1 mm over 2 s, for 1.2 thousand operations of "
-            "the solver a frame. It is cheap.");
+            "For this scene: keeps the path within 1 mm over 2 s, for 1.2 thousand solver "
+            "operations per frame. It is cheap.");
   EXPECT_EQ(settings_for(*find_preset("recommended"), scene), some_recommended().settings);
   EXPECT_EQ(settings_for(*find_preset("paper"), scene), Settings{});
   const auto generic = presets_for(scenes::pendulum());

@@ -69,7 +69,7 @@ void choose_headlines(const Theme& theme, const Accuracy& accuracy,
   for (AccuracyCurve& curve : curves) {
     if (curve.series != series || curve.headline) continue;
     curve.headline = true;
-    curve.name = accuracy.error_is_given ? "Cheapest" : "Most exact";
+    curve.name = accuracy.error_is_given ? "Cheapest" : "Most accurate";
     if (!accuracy.all_methods) curve.style.color = theme.text;
   }
 }

@@ -49,7 +49,7 @@ constexpr std::array<KeyAction, 19> kActions{
      {"R", "rR", "back to the start", [](App& app, char) { app.reset(); }},
      {"[  ]", "[]", "slower, faster",
       [](App& app, char typed) { change_speed(app.session, typed == ']' ? 1 : -1); }},
-     {"1 … 8", "12345678", "the ways to keep it stable",
+     {"1 … 8", "12345678", "stabilisation mode",
       [](App& app, char typed) { choose_mode(app, typed - '1'); }},
      {"B", "bB", "throw a ball at the pointer", [](App& app, char) { throw_ball(app, app); }},
      {"F", "fF", "show everything", [](App& app, char) { app.view.frame_all(app.session); }},

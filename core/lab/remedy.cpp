@@ -38,7 +38,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
     const int n_max = larger(settings.n_max, last.n_wanted);
     if (n_max > settings.n_max) {
       add("a larger cap, " + std::to_string(n_max) + " sub-steps per frame",
-          std::to_string(last.n_wanted) + " were wanted")
+          std::to_string(last.n_wanted) + " were required")
           .n_max = n_max;
     }
   }

@@ -133,7 +133,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reads = {"n"}},
     {.value = Mode::kDamping,
      .name = "damping",
-     .line = "One step per frame; a smaller α damps more.",
+     .line = "One step per frame; a low α damps more.",
      .about = "One step per frame; rotations that are too stiff for it are damped implicitly: "
               "b = max(0, (h² k − 4 α M)/h), Eq. 6.",
      .reference = "Andrews et al. 2017",

@@ -64,7 +64,7 @@ TEST(Link, WhatCannotBeReadIsToldAndTheRestHolds) {
 
 // The card states what was applied, and lists every invalid part.
 TEST(Link, WhatBecameOfTheSceneAndTheRestIsTold) {
-  const std::string rest = "The rest of the link was followed.";
+  const std::string rest = "The rest of the link was applied.";
   Headless h;
   const auto told = [&](const char* link) {
     h.app->trouble = {};

@@ -253,7 +253,7 @@ TEST(Stormer, NeedsNineSubsteps) {
 }
 
 // The error of the velocities is of order dt^2 and is corrected when the step changes: with the
-// paper's own choice of N, at which its scheme has an error of 12 mm, 60 nm remain.
+// paper's own choice of N, at which its scheme has an error of 12 mm, at most 60 nm remain.
 TEST(Stormer, KeepsItsOrderWhereNChanges) {
   for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
     const auto adaptive = [&](double alpha) {

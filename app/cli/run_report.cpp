@@ -68,8 +68,8 @@ std::string RunReport::summary(std::uint64_t state_hash) const {
   if (scene_.effects.joints) text += format_text("joint gap    %.2e m at most\n", joint_gap_);
   if (scene_.effects.contact) text += format_text("penetration  %.2e m at most\n", penetration_);
   if (total_substeps_ > 0) {
-    text += format_text("computing    %.3f s; %.3f ms per frame, %.1f us per sub-step\n", computing_,
-                        1e3 * computing_ / static_cast<double>(substeps_.size()),
+    text += format_text("computing    %.3f s; %.3f ms per frame, %.1f us per sub-step\n",
+                        computing_, 1e3 * computing_ / static_cast<double>(substeps_.size()),
                         1e6 * computing_ / static_cast<double>(total_substeps_));
   }
   text += format_text("state hash   %016" PRIx64 "\n", state_hash);

@@ -118,8 +118,8 @@ TEST(HeavyStackStress, StandsAsLongAsItHasSubsteps) {
   }
 }
 
-// With refinements a single step per frame stands longer than the paper's 26 sub-steps: 11 s with one
-// refinement, 27 s with two, for a tenth of the work of 14 sub-steps.
+// With refinements a single step per frame stands longer than the paper's 26 sub-steps: 11 s with
+// one refinement, 27 s with two, for a tenth of the work of 14 sub-steps.
 TEST(HeavyStackStress, RefinedASingleStepStands) {
   std::int64_t work = 0;
   const auto count = [&](const Simulator&, const FrameReport& report) {
@@ -170,7 +170,7 @@ TEST(HeavyStackStress, StandsLongestForItsWorkWithSixRefinements) {
     EXPECT_FALSE(r.holds) << "they all fall in the end";
     failed_at = r.failed_at;
     const double frames = 60.0 * r.failed_at;
-    return r.failed_at / (1e-3 * work / frames);  // [s per kflop a frame]
+    return r.failed_at / (1e-3 * work / frames);  // [s per (kflop per frame)]
   };
   const auto refined = [&](const Scene& scene, int refinements) {
     Settings settings = with(Mode::kNone);

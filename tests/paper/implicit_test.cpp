@@ -193,8 +193,8 @@ TEST(Numerov, StandsAsFarAsItsArgumentSays) {
   EXPECT_FALSE(swing(newton(Forces::kNumerov, 4)).holds);
 }
 
-// Without iteration the method is explicit: a single solve per sub-step holds from N = 8 on, and with
-// 6 it fails after a minute and a half.
+// Without iteration the method is explicit: a single solve per sub-step holds from N = 8 on, and
+// with 6 it fails after a minute and a half.
 TEST(Numerov, KeepsEnergyFor200Seconds) {
   for (const auto& [n, steps] : {std::pair{6, 2}, std::pair{8, 1}}) {
     const Outcome r = swing(newton(Forces::kNumerov, n, steps), 200.0);

@@ -109,8 +109,8 @@ TEST(WorkToAnError, IsSixtyAndAThousandTimesLessThanThePapers) {
 }
 
 // The claim of Tournier et al. 2015 for geometric stiffness in the mass, and of Andrews et al. 2017
-// for its diagonal as damping: the chain holds with one step per frame under any load, where undamped
-// steps fail, at the cost of damped motion across the chain.
+// for its diagonal as damping: the chain holds with one step per frame under any load, where
+// undamped steps fail, at the cost of damped motion across the chain.
 TEST(FullStiffnessMode, StandsInOneStepUnderAnyLoadAsDampingDoes) {
   for (const double load : {1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3}) {  // 10 kg to 1000 t on links of 1 kg
     const Scene scene = start_of(scenes::swinging_box(), load, 0);

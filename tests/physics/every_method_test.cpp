@@ -82,8 +82,8 @@ TEST(EveryMethod, CarriesALoad) {
   options.end_mass = 100.0;
   const Scene scene = scenes::rope_of_n(options);
   for (const auto& [name, best] : best_of(scene, ErrorAxis::kTrajectory, 1.0)) {
-    // One sub-step per frame is too few for explicit methods, two for Störmer, whose stability limit
-    // is half as large.
+    // One sub-step per frame is too few for explicit methods, two for Störmer, whose stability
+    // limit is half as large.
     const int too_few = best.method.integrator == Integrator::kStormer ? 2 : 1;
     EXPECT_GE(best.holds, sweeps(best.method) ? 1 : best.runs - too_few) << name;
     const double most = damps(best.method)                               ? 0.25

@@ -10,7 +10,7 @@ function makeRoom(room) {
   let held = [...all].filter((one) => one.holds()).length;
   for (const one of all) {
     if (held + room <= most) return;
-    if (one.handOn()) --held;
+    if (one.release()) --held;
   }
 }
 
@@ -61,10 +61,10 @@ export class Graphics {
   }
 
   /** Releases the context if it is out of sight. @returns whether it did */
-  handOn() {
-    if (this.seen || !this.canDraw() || !this.wasm.canHandOn()) return false;
+  release() {
+    if (this.seen || !this.canDraw() || !this.wasm.canReleaseGraphics()) return false;
     this.state = "leaving"; // a new context can only be requested after the browser confirms the loss
-    this.wasm.handOnGraphics();
+    this.wasm.releaseGraphics();
     return true;
   }
 

@@ -123,7 +123,7 @@ const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase(
  * @param engine the result of loadEngine
  * @param host services of the page for the application, see web/host.cpp
  * @returns the exports by their names in camel case; run() starts it, once the host is complete,
- *   handOnGraphics() releases the context until takeGraphics(), close() permanently
+ *   releaseGraphics() releases the context until takeGraphics(), close() permanently
  */
 export async function makeEngine(engine, canvas, host) {
   const module = await engine.create({
@@ -157,8 +157,8 @@ export async function makeEngine(engine, canvas, host) {
     const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);
   };
-  wasm.canHandOn = () => losing !== null;
-  wasm.handOnGraphics = () => {
+  wasm.canReleaseGraphics = () => losing !== null;
+  wasm.releaseGraphics = () => {
     wasm.contextLost();
     losing.loseContext();
   };

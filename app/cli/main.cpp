@@ -95,7 +95,7 @@ int parse_and_run(int argc, char** argv) {
   end_outputs(false);
   constexpr std::string_view kText = "substep: there is not enough memory for this\n";
   [[maybe_unused]] const auto n = ::write(STDERR_FILENO, kText.data(), kText.size());
-  std::_Exit(kUnforeseen);
+  std::_Exit(kInternalError);
 }
 
 /// For exceptions that cannot be caught, such as Eigen's inside noexcept functions.
@@ -109,7 +109,7 @@ int parse_and_run(int argc, char** argv) {
   }
   end_outputs(false);
   complain("substep: ended by an unexpected error");
-  std::_Exit(kUnforeseen);
+  std::_Exit(kInternalError);
 }
 
 /// Every exception ends the program with a message.
@@ -122,7 +122,7 @@ int caught(int argc, char** argv) {
   } catch (const std::exception& error) {
     complain("substep: ended by an unexpected error: %s", error.what());
   }
-  return kUnforeseen;
+  return kInternalError;
 }
 
 }  // namespace

@@ -116,8 +116,8 @@ int run_map(const MapOptions& options) {
     return out.close() ? kCancelled : kBadInput;
   }
   if (picture.is_open()) picture.write(map_picture(cells));
-  const bool told = out.close();
-  return picture.close() && told ? kOk : kBadInput;
+  const bool written = out.close();
+  return picture.close() && written ? kOk : kBadInput;
 }
 
 }  // namespace

@@ -204,12 +204,12 @@ void prepare_streams() {
 }
 
 bool flush_standard_output() {
-  static bool told = false;
+  static bool reported = false;
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
-  if (!told) complain("standard output: could not be written completely%s", why.c_str());
-  told = true;
+  if (!reported) complain("standard output: could not be written completely%s", why.c_str());
+  reported = true;
   return false;
 }
 

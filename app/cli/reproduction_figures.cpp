@@ -64,7 +64,7 @@ Figure2 figure_2(const std::string& title, const std::shared_ptr<const Scene>& s
   return figure;
 }
 
-std::string told(const Figure2& f) {
+std::string described(const Figure2& f) {
   std::string words = format_text("%g / %g / %g sub-steps per frame (least, median, most)", f.least,
                                   f.median, f.most);
   if (f.n == 0) return words + ", with a smaller error than every constant number up to 40";
@@ -106,8 +106,8 @@ Card substeps_over_time(const Reproduction& options) {
                                  pgs(Mode::kAdaptive), &RunTrace::constraint_error, options);
   const Figure2 crossing = figure_2("Bridge, direct solver", shared(short_bridge),
                                     direct(Mode::kAdaptive), &RunTrace::joint_gap, options);
-  card.here = "Swinging box: " + told(swing) + ". With Gauss-Seidel: " + told(gauss) +
-              ". Bridge: " + told(crossing) + ".";
+  card.here = "Swinging box: " + described(swing) + ". With Gauss-Seidel: " + described(gauss) +
+              ". Bridge: " + described(crossing) + ".";
   card.why =
       "The saving depends on the constant number. Compared with the one that has the same largest "
       "error as adaptive, as here, adaptive saves sub-steps; compared with the smallest that holds "

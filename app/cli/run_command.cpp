@@ -93,15 +93,15 @@ int run(const RunOptions& options) {
     std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
                  settings_line(simulator.settings()).c_str(),
                  forecast_line(*scene, simulator.settings()).c_str());
-    const std::string told = start_text(*scene, simulator.start());
-    if (!told.empty()) std::fprintf(words, "%s\n", told.c_str());
+    const std::string start_note = start_text(*scene, simulator.start());
+    if (!start_note.empty()) std::fprintf(words, "%s\n", start_note.c_str());
     std::fflush(words);
   }
   const std::int64_t frames = options.length.count(*scene);
   std::optional<FrameReport> failed;  // the frame in which it failed
   const std::atomic<bool>& cancelled = cancel_on_signal();
-  const auto goes_on = [&] { return !verdict.stopped() && !outputs.failed() && !cancelled; };
-  for (std::int64_t i = 0; i < frames && goes_on(); ++i) {
+  const auto running = [&] { return !verdict.stopped() && !outputs.failed() && !cancelled; };
+  for (std::int64_t i = 0; i < frames && running(); ++i) {
     const FrameReport frame = simulator.step();
     measure.add(*scene, simulator.state(), frame, frame.times.total);
     report.add(frame);

@@ -38,7 +38,7 @@ class Accuracy {
   /// Whether the results were shipped with the scene.
   [[nodiscard]] bool shipped() const { return shipped_.has_value(); }
   /// Assigns the results to a scene with the same motion under another name.
-  void is_of(std::shared_ptr<const Scene> scene) { scene_ = std::move(scene); }
+  void assign_to(std::shared_ptr<const Scene> scene) { scene_ = std::move(scene); }
   /// Stops before the next frame. Keeps the results so far.
   void cancel();
   /// Computing time per frame [s]: a few milliseconds, less during playback; if drawing is slow (a
@@ -119,7 +119,7 @@ class Accuracy {
   };
   [[nodiscard]] Limit limit() const;
   /// Selects axes for which the results have values.
-  void look_at_what_there_is();
+  void select_available_axes();
 
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;

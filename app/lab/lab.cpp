@@ -178,7 +178,7 @@ void Lab::keep(const Recommended& recommended) {
   scene.settings = recommended.settings;
   scene.recommended = recommended;
   const auto kept = add_own(scene);
-  accuracy.is_of(kept);
+  accuracy.assign_to(kept);
   run(kept);
   session.play();
   tell("Kept as " + kept->name + ": it starts with this");

@@ -60,7 +60,7 @@ constexpr std::array<KeyAction, 19> kActions{
      {"+  −", "+=-", "larger or smaller interface",
       [](App& app, char typed) { change_scale(app, typed == '-' ? -0.1 : 0.1); }, true},
      {"G", "gG", "the guided tour, and its next step",
-      [](App& app, char) { go_on_with_tour(app.desk); }, true},
+      [](App& app, char) { advance_tour(app.desk); }, true},
      {"L", "lL", "copy the link", [](App& app, char) { copy_link(app); }},
      {"C", "cC", "copy the command", [](App& app, char) { copy_command(app); }},
      {"O", "oO", "open a scene file",

@@ -106,7 +106,7 @@ void copy_command(Lab& lab);
 /// Takes a screenshot of the whole window after this frame is drawn.
 void capture_window(const Session& session, Desk& desk);
 /// Begins the tour, or goes to its next step; ends it after the last one.
-void go_on_with_tour(Desk& desk);
+void advance_tour(Desk& desk);
 /// The dialogue for choosing a scene file, while open.
 void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser& browser);
 

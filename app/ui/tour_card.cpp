@@ -146,7 +146,7 @@ void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
 
 }  // namespace
 
-void go_on_with_tour(Desk& desk) {
+void advance_tour(Desk& desk) {
   if (desk.tour + 1 < static_cast<int>(tour_steps().size())) {
     go_to(desk, desk.tour + 1);
   } else {

@@ -390,7 +390,7 @@ INSTANTIATE_TEST_SUITE_P(
     kind_of);
 
 TEST(CommandLine, RunTellsAnInconsistentStartAndWhatBecameOfIt) {
-  const auto told = [](const std::string& start) {
+  const auto run_start = [](const std::string& start) {
     Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json").scene;
     scene.bodies[0].velocity = {1.2, 0.0, 0.0};
     scene.bodies[0].position.z() += 0.02;
@@ -401,12 +401,12 @@ TEST(CommandLine, RunTellsAnInconsistentStartAndWhatBecameOfIt) {
   };
   const std::string found =
       "The start was inconsistent: joint 'hinge' open by 2 cm, 'hinge' moving apart at 1.2 m/s; ";
-  const Outcome projected = told("project");
+  const Outcome projected = run_start("project");
   EXPECT_EQ(projected.exit_code, 0) << projected.err;
   EXPECT_NE(projected.out.find("\n" + found + "projected. Energy "), std::string::npos)
       << projected.out;
-  EXPECT_NE(told("keep").out.find("\n" + found + "kept. Energy "), std::string::npos);
-  const Outcome refused = told("refuse");
+  EXPECT_NE(run_start("keep").out.find("\n" + found + "kept. Energy "), std::string::npos);
+  const Outcome refused = run_start("refuse");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("/joints/0: \"start\" is \"refuse\""), std::string::npos)
       << refused.err;

@@ -130,7 +130,7 @@ TEST(Output, StandardOutputThatTakesNothingIsAnError) {
       const std::string expected = "standard output: could not be written completely";
       const std::size_t at = run.err.find(expected);
       EXPECT_NE(at, std::string::npos) << command << " " << lost << ": " << run.err;
-      EXPECT_EQ(run.err.find(expected, at + 1), std::string::npos) << "told once: " << run.err;
+      EXPECT_EQ(run.err.find(expected, at + 1), std::string::npos) << "reported once: " << run.err;
     }
   }
 }

@@ -245,22 +245,22 @@ TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
   const std::string turning =
       with(R"("velocity": [0, 0, 0], )",
            R"("velocity": [0, 0, 0], "angular_velocity": [3, 0, 0], )", apart);
-  const auto told = [](const std::string& start, const std::string& text) {
+  const auto with_start = [](const std::string& start, const std::string& text) {
     return with(R"("frame": 0.01,)", R"("frame": 0.01, "start": ")" + start + R"(",)", text);
   };
   for (const char* start : {"project", "keep"}) {
-    const SceneResult read = read_scene(told(start, turning));
+    const SceneResult read = read_scene(with_start(start, turning));
     ASSERT_NE(read.scene, nullptr);
     EXPECT_EQ(name_of(read.scene->start), start);
     EXPECT_EQ(read.scene->bodies[2].position, Vec3(1.05, 3.0, 0.0)) << "as it is written";
   }
-  EXPECT_EQ(problems_of(told("refuse", kGood)), List{});
-  EXPECT_EQ(problems_of(told("refuse", turning)),
+  EXPECT_EQ(problems_of(with_start("refuse", kGood)), List{});
+  EXPECT_EQ(problems_of(with_start("refuse", turning)),
             (List{"/joints/0: \"start\" is \"refuse\", and this joint is rotating across its axis "
                   "at 3 rad/s",
                   "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
                   "apart at 2 m/s"}));
-  EXPECT_EQ(problems_of(told("mend", kGood)),
+  EXPECT_EQ(problems_of(with_start("mend", kGood)),
             List{"/start: \"mend\" is not project, keep or refuse"});
   EXPECT_EQ(problems_of(with(R"("position": [1, 3, 0])", R"("position": [1.25, 3, 0])")),
             List{"/joints/1: the anchors start 0.25 apart, which is more than 0.1 (m)"})

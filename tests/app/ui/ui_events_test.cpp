@@ -223,10 +223,10 @@ TEST(Events, WhatCannotBeReadIsTold) {
   const auto scene = shipped("swinging_box");
   const Settings settings = scene->settings;
   const auto problem = [&](const std::string& text) {
-    std::string told;
-    const auto events = read_events(text, *scene, settings, told);
-    EXPECT_EQ(events.empty(), !told.empty()) << text;
-    return told;
+    std::string message;
+    const auto events = read_events(text, *scene, settings, message);
+    EXPECT_EQ(events.empty(), !message.empty()) << text;
+    return message;
   };
   const std::vector<RunEvent> balls{{3, odd_ball(0)}, {9, odd_ball(1)}};
   const std::string text = events_text(balls, settings);

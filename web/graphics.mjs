@@ -77,9 +77,9 @@ export class Graphics {
     } else {
       this.state = "taken";
       this.wasm.contextLost();
-      this.frame.say("The graphics context was lost", "The system took the graphics away, " +
-        "perhaps to save memory or for other parts of the page. The picture comes back by itself " +
-        "when it is given again; the run waits.");
+      this.frame.say("The graphics context was lost", "The system revoked the graphics context, " +
+        "perhaps to save memory or for other parts of the page. The picture returns automatically " +
+        "when it is restored; the run is paused.");
       this.retry();
     }
   }
@@ -87,7 +87,7 @@ export class Graphics {
   restored() {
     const error = this.wasm.contextRestored();
     if (error) {
-      this.frame.say("The graphics did not come back", `${error} Reloading the page helps.`);
+      this.frame.say("The graphics context was not restored", `${error} Reload the page.`);
       return;
     }
     this.state = "held";

@@ -44,7 +44,7 @@ async function fetchEngine() {
     return { compiled, data, create: script.default };
   } catch (error) {
     if (error instanceof LoadError) throw error;
-    throw new LoadError(`the download broke off: ${error.message}`);
+    throw new LoadError(`the download was interrupted: ${error.message}`);
   }
 }
 
@@ -92,7 +92,7 @@ function wrap(module, name, signature, life) {
       if (type === "n") return Number(args[i]);
       const bytes = encoder.encode(String(args[i])); // much faster than the module's encoder
       const at = module._malloc(bytes.length + 1);
-      if (at === 0) throw new Error(`there is no memory for a text of ${bytes.length} bytes`);
+      if (at === 0) throw new Error(`not enough memory for a text of ${bytes.length} bytes`);
       texts.push(at);
       module.HEAPU8.set(bytes, at);
       module.HEAPU8[at + bytes.length] = 0;
@@ -152,7 +152,7 @@ export async function makeEngine(engine, canvas, host) {
     const context = module.GL.createContext(canvas, {
       majorVersion: 2, minorVersion: 0, alpha: true, antialias: false, depth: false,
     });
-    if (!context) throw new Error("The browser gave no WebGL 2 context");
+    if (!context) throw new Error("The browser provides no WebGL 2 context");
     losing = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
     const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);

@@ -38,9 +38,9 @@ function card(c) {
     el("div", { class: "sides" },
       el("div", {}, el("h3", {}, "The paper"), el("p", {}, c.paper)),
       el("div", {}, el("h3", {}, "Here"), el("p", {}, c.here))),
-    c.why ? el("p", { class: "why" }, el("b", {}, c.verdict === "agrees" ? "To know. " : "Why they differ. "), c.why) : "",
+    c.why ? el("p", { class: "why" }, el("b", {}, c.verdict === "agrees" ? "Note. " : "Why they differ. "), c.why) : "",
     c.command ? el("p", {}, el("code", {}, c.command)) : "",
-    el("p", { class: "stamp" }, { agrees: "agrees", differs: "differs, and why is known", fails: "not reproduced" }[c.verdict] ?? c.verdict));
+    el("p", { class: "stamp" }, { agrees: "agrees", differs: "differs for a known reason", fails: "not reproduced" }[c.verdict] ?? c.verdict));
 }
 
 const theme = el("button", { onclick: () => {

@@ -210,7 +210,7 @@ SceneResult SceneReading::result() {
   }
   if (problems.size() > kMaxProblems) {
     problems.resize(kMaxProblems);
-    problems.push_back({"", "and more: the rest of the file was not looked at"});
+    problems.push_back({"", "and more: the rest of the file was not checked"});
   }
   if (problems.empty()) result.scene = std::move(impl_->scene);
   return result;

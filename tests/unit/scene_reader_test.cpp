@@ -30,7 +30,7 @@ TEST(SceneReader, TellsAllProblemsAtOnce) {
   text = with(R"("track": "arm")", R"("trakc": "arm")", text);
   EXPECT_EQ(problems_of(text),
             (List{"/bodies/2/shape/radius: 1e999 is beyond the range of numbers (1.8e308)",
-                  "/settings/alpha: the key stands twice in this object",
+                  "/settings/alpha: the key occurs twice in this object",
                   "/bodies/0/shape/type: \"disc\" is not sphere, box or plane",
                   "/bodies/1/mass: must be above 0 (kg), not -2",
                   "/criteria/trakc: unknown key (did you mean \"track\"?)",
@@ -91,7 +91,7 @@ TEST(SceneReader, CutsALongListOfProblems) {
       R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
       bodies + "]}");
   ASSERT_EQ(problems.size(), kMaxProblems + 1);
-  EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
+  EXPECT_EQ(problems.back(), "and more: the rest of the file was not checked");
 }
 
 TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
@@ -99,7 +99,7 @@ TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
   for (int i = 0; i < 5000; ++i) keys += "\"key_" + std::to_string(i) + "\": 0, \"twice\": 1, ";
   const List problems = problems_of(with(R"("mass": 2)", keys + R"("mass": 2)"));
   ASSERT_EQ(problems.size(), kMaxProblems + 1);
-  EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
+  EXPECT_EQ(problems.back(), "and more: the rest of the file was not checked");
 }
 
 // A linear search through all keys for each of them would take minutes.
@@ -109,7 +109,7 @@ TEST(SceneReader, RefusesAnObjectOfVeryManyKeys) {
   for (int i = 0; i < kKeys; ++i) text += ", \"k" + std::to_string(i) + "\": 0";
   const List problems = problems_of(text + ", \"k77\": 1}");
   ASSERT_FALSE(problems.empty());
-  EXPECT_EQ(problems.front(), "/k77: the key stands twice in this object");
+  EXPECT_EQ(problems.front(), "/k77: the key occurs twice in this object");
 }
 
 TEST(SceneReader, ReadsInPartsWhatItReadsAtOnce) {

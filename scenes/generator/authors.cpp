@@ -1,5 +1,5 @@
-// The constants of the authors' own public program, beside the shipped scenes of the paper, whose
-// sizes are ours: the paper gives none.
+// Scenes with the constants of the authors' public program. The sizes of the other shipped scenes
+// of the paper are ours, because the paper gives none.
 
 #include <string>
 

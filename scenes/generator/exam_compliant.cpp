@@ -25,7 +25,7 @@ std::vector<ExamMethod> contact_methods(const Settings& base, const std::vector<
 // ---- on the ground, with y the gap and omega^2 = k/m:
 //        y'' = -g - omega^2 y,  y(0) = 0,  y'(0) = -v
 //        y = -(g/omega^2)(1 - cos omega t) - (v/omega) sin omega t.
-// It leaves where omega t = 2 (pi - atan(v omega/g)).
+// It leaves the ground at omega t = 2 (pi - atan(v omega/g)).
 
 double SpringBounce::flight() const { return 2.0 * std::sqrt(2.0 * height / gravity); }
 
@@ -104,7 +104,7 @@ void add_box_without_lid(Scene& scene) {
   }
 }
 
-/// What the contacts' springs hold [J]: with compliance C a force f has C f^2/2 in it.
+/// Energy of the contacts' springs [J]: C f^2/2 for a force f and compliance C.
 double elastic_energy(const Scene& scene, const ConstraintForces& forces) {
   double energy = 0.0;
   for (const ContactForce& contact : forces.contacts) {
@@ -150,7 +150,7 @@ ExamCase clutter(const std::string& name, const std::string& title, double compl
     const bool is_cube = (across + deep + layer) % 2 == 0;  // never beside another cube
     const Shape shape = is_cube ? Shape(box(kEdge, kEdge, kEdge)) : Shape(Sphere{0.5 * kEdge});
     Body body = solid((is_cube ? "cube_" : "sphere_") + std::to_string(i + 1), shape, 1.0, at);
-    // Fixed tilts, so that edges and corners come first: no two bodies fall alike.
+    // Different fixed tilts, so that edges and corners touch first.
     body.orientation = Quat(4.0, 0.3 * i, 1.0 - 0.2 * i, 0.5).normalized();
     scene.bodies.push_back(body);
   }

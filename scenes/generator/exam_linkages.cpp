@@ -12,9 +12,9 @@ namespace substep::scenes {
 namespace {
 
 constexpr double kGravity = 9.81;
-/// Both loops have more hinge rows than they need: six in the plane's four-bar, one in Bricard's.
-/// They are exact: a compliance of 1e-16 m/N, to share the force among them, carries the four-bar
-/// off by 3e-6 m where it passes its singular pose.
+/// Both loops have redundant hinge rows: six in the planar four-bar, one in Bricard's mechanism.
+/// They are exact: a compliance of 1e-16 m/N, which would distribute the force among them, causes
+/// an error of 3e-6 m when the four-bar passes its singular pose.
 HingeJoint hinge(const std::string& name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b,
                  const Vec3& axis) {
   HingeJoint joint;
@@ -35,12 +35,12 @@ Body rod(const std::string& name, int axis, const Vec3& centre) {
   extents[axis] = 1.0;
   Body body = solid(name, box(extents.x(), extents.y(), extents.z()), 1.0, centre);
   body.inertia = Vec3::Constant(1.0 / 12.0);
-  body.inertia[axis] = 1e-4;  // it never turns about its length
+  body.inertia[axis] = 1e-4;  // it never rotates about its length
   return body;
 }
 
-// ---- A02. The three uprights turn alike, by theta from straight up, and the two horizontal rods
-//      follow without turning: (3 (1/3) + 2) theta'' = (3/2 + 2) g sin theta.
+// ---- A02. The three uprights rotate together, by theta from the vertical, and the two horizontal
+//      rods follow without rotation: (3 (1/3) + 2) theta'' = (3/2 + 2) g sin theta.
 
 ExactPendulum four_bar_turn() {
   return ExactPendulum::over_the_top(std::sqrt(3.5 * kGravity / 3.0), 1.0);

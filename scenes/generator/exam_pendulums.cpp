@@ -1,4 +1,5 @@
-// Pendulums in a plane: one of the IFToMM benchmark, two that a commercial multibody code computed.
+// Planar pendulums: one of the IFToMM benchmark, and two with results of a commercial multibody
+// code.
 
 #include <array>
 
@@ -91,7 +92,7 @@ ExamMeasure measure_table(const std::array<PendulumRow, n>& rows) {
     const PendulumRow& row = rows[i];
     raise(errors[1], (state.x[0] - Vec3(row.x, 0.0, row.z)).norm());
     raise(errors[2], (velocity_of(state, 0) - Vec3(row.vx, 0.0, row.vz)).norm());
-    // Its markers have axes of their own: the rotation since the start is what can be compared.
+    // The markers of that code have other axes, so rotations since the start are compared.
     const Quat turned = orientation(row) * orientation(rows[0]).conjugate();
     raise(errors[3], angle_between(state.q[0], turned));
     raise(errors[4], (angular_velocity_of(state, 0) - Vec3(0.0, row.wy, 0.0)).norm());

@@ -48,7 +48,7 @@ ExamMeasure measure_rolling(const Vec3& along) {
   };
 }
 
-/// A ball on the box turns with the box's speed below it against its own.
+/// A ball on the box rolls with the difference between the box's speed and its own.
 ExamMotion rolling_motion(const Scene& scene, const Vec3& along) {
   std::vector<Vec3> start;
   for (const Body& body : scene.bodies) start.push_back(body.position);
@@ -75,7 +75,7 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
   scene.gravity = {0.0, -kGravity, 0.0};
   scene.settings.friction_cone = cone;
   scene.camera = {{14.0, 9.0, 18.0}, {0.0, 0.5, 0.0}};
-  // A pair has the root of its two coefficients' product.
+  // The coefficient of a pair is the geometric mean of the bodies' coefficients.
   scene.bodies.push_back(floor_plane());
   scene.bodies.back().friction = kOnGround * kOnGround / kOnBox;
   Body slab = solid("slab", box(20.0, 1.0, 20.0), kBoxMass, {0.0, 0.5, 0.0});

@@ -20,7 +20,7 @@ PivotedBody top() {
 }
 const Vec3 kTopRate{0.0, 150.0, -4.61538};  // at the start, body and world alike [rad/s]
 
-/// The top's attitude, moved on by steps of at most 10 us; half of that moves it by 1e-11 rad.
+/// The top's attitude, integrated in steps of at most 10 us; halving them changes it by 1e-11 rad.
 class TopMotion {
  public:
   const Attitude& at(double t) {

@@ -1,5 +1,5 @@
-// Bodies on ball joints whose motion leaves every plane, and whose moments of inertia differ: there
-// the gyroscopic torque and the joints' forces meet. Their exact motion is that of a joint tree.
+// Bodies with unequal moments of inertia on ball joints, in three-dimensional motion: the
+// gyroscopic torque and the joint forces interact. The exact motion is that of a joint tree.
 
 #include <cmath>
 #include <string>
@@ -87,7 +87,7 @@ Scene heavy_top() {
   const Vec3 axis{0.6, 0.8, 0.0};
   Body plate = solid("plate", box(0.8, 0.2, 0.8), 2.0, tip + 0.5 * axis);
   plate.orientation = rotation_between(Vec3::UnitY(), axis);
-  plate.angular_velocity = 60.0 * axis;  // the centre stands still
+  plate.angular_velocity = 60.0 * axis;  // the centre is at rest
   scene.bodies.push_back(plate);
   scene.joints.emplace_back(ball_joint("tip", 0, {0.0, -0.5, 0.0}, kWorld, tip));
   return scene;

@@ -42,7 +42,7 @@ void add_rope(const RopeOptions& options, Scene& scene) {
   scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
 }
 
-/// What a straight rope sets free on its way from its angle to straight down [J].
+/// Potential energy that a straight rope releases between its initial angle and the vertical [J].
 double fall(const Scene& scene, const RopeOptions& options) {
   double moment = 0.0;  // of its masses about the anchor [kg m]
   for (const Body& body : scene.bodies) {
@@ -67,7 +67,7 @@ Scene rope_of_n(const RopeOptions& options) {
   scene.camera.target = options.anchor + Vec3(0.0, -0.5 * length, 0.0);
   add_rope(options, scene);
   const double freed = fall(scene, options);
-  if (freed > 0.0) scene.criteria.energy_gain = 0.1 * freed;  // more is no motion of this rope
+  if (freed > 0.0) scene.criteria.energy_gain = 0.1 * freed;  // more is unphysical
   return scene;
 }
 

@@ -1,4 +1,4 @@
-// Small scenes with an answer in closed form.
+// Small scenes with a closed form.
 
 #include <string>
 
@@ -89,8 +89,7 @@ Scene newtons_cradle() {
   constexpr int kBalls = 5;
   constexpr double kRadius = 0.1;
   constexpr double kLength = 1.0;
-  // With no gap a blow would strike all of them at once, and what each takes of it has no one
-  // answer.
+  // Without gaps an impact would hit all of them at once, and its distribution would not be unique.
   constexpr double kGap = 0.004;
   constexpr double kPitch = 2.0 * kRadius + kGap;
   constexpr double kTop = 1.25;
@@ -107,7 +106,7 @@ Scene newtons_cradle() {
       "are solved in sequence, so that one step per frame is enough.";
   scene.effects = {.gravity = true, .joints = true, .contact = true, .restitution = true};
   scene.settings.mode = Mode::kConst;
-  scene.settings.n = 32;  // in a step no ball comes through more than a third of the gap
+  scene.settings.n = 32;  // in a step no ball moves by more than a third of the gap
   scene.settings.integrator = Integrator::kLeapfrog;
   scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.criteria.track = kBalls;

@@ -1,6 +1,5 @@
-// What every shipped scene should come to under every solver and mode: the one table.
-// The paper's claims and the scenes' own theory stand behind it; what a run showed to be otherwise
-// says why.
+// Expected verdicts of every shipped scene with every solver and mode, from the paper's claims and
+// the theory of the scenes. Rules that follow from runs state a reason.
 
 #include "scenes/generator/verdicts.hpp"
 
@@ -27,9 +26,9 @@ Expectation fails(SolverKind solver, Mode mode, double before, std::string why =
           .why = std::move(why)};
 }
 
-/// One step per frame, with something put against the stiffness.
+/// One step per frame, with damping or a larger mass against the stiffness.
 constexpr std::array kOneStep{Mode::kDamping, Mode::kStiffness};
-/// Up to n_cap steps per frame, and something against what they do not reach.
+/// Up to n_cap steps per frame, with damping or a larger inertia against the remaining stiffness.
 constexpr std::array kUpToTheCap{Mode::kCapped, Mode::kInertia, Mode::kBlend};
 
 /// A rule for each of several modes.

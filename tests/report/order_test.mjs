@@ -6,7 +6,7 @@ import { isOrder, observedOrder } from "../../app/report/order.mjs";
 const curve = (order, floor) =>
   [7, 8, 10, 12, 14, 16, 20, 24, 28, 40].map(cost => ({ cost, error: 5e-3 * cost ** -order + floor }));
 
-test("a clean curve has its order, and no floor", () => {
+test("an exact power law has its order and no floor", () => {
   for (const order of [1, 2, 4]) {
     const observed = observedOrder(curve(order, 0), 1e-10);
     assert.ok(Math.abs(observed.order - order) < 1e-6, `${observed.order}`);

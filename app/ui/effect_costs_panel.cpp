@@ -190,7 +190,7 @@ void effect_costs(const Look& look, Lab& lab) {
   space(look.m.section);
   stages_of_run(look, measured.scene()->effects, *costs);
   space(look.m.section);
-  section(look, "Cost of each effect", "time     operations", t.dim);
+  section(look, "Per effect", "time     operations", t.dim);
   draw_parts(look, parts_of(t, *costs));
   label(look.fonts.small, t.dim, summary(*costs).c_str());
 }

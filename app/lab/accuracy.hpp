@@ -72,8 +72,8 @@ class Accuracy {
   /// Stable runs at load 1 with a positive error, on the current axes. Errors below the floor are
   /// raised to the floor.
   [[nodiscard]] std::vector<Point> points() const;
-  /// The point that meets the requirement: the cheapest within the error, or the most exact within
-  /// the cost. Empty if there is none.
+  /// The point that meets the requirement: the cheapest within the error, or the most accurate
+  /// within the cost. Empty if there is none.
   [[nodiscard]] std::optional<Point> best(const std::vector<Point>& points) const;
   /// Searches for the alpha of the paper's method that meets the requirement, between the values of
   /// its curve and with at most its maximum N. Requires can_search().

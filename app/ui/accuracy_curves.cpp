@@ -74,7 +74,8 @@ void choose_headlines(const Theme& theme, const Accuracy& accuracy,
   }
 }
 
-/// The cheapest or most exact run of constant N with the direct solver and Euler, the usual method.
+/// The cheapest or most accurate run of constant N with the direct solver and Euler, the usual
+/// method.
 std::optional<Point> plain_best(const Accuracy& accuracy, const std::vector<Point>& points) {
   std::vector<Point> plain;
   std::copy_if(points.begin(), points.end(), std::back_inserter(plain),

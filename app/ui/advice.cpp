@@ -1,5 +1,5 @@
-// "What to set": the cheapest method within an error or the most exact within a cost, and the alpha
-// of the paper's method that meets the same requirement.
+// "What to set": the cheapest method within an error or the most accurate within a cost, and the
+// alpha of the paper's method that meets the same requirement.
 
 #include <algorithm>
 #include <array>

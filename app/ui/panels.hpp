@@ -70,7 +70,7 @@ void effect_table(const Look& look, Lab& lab);
 void effect_costs(const Look& look, Lab& lab);
 /// The cost of accuracy: all methods on this scene.
 void accuracy(const Look& look, Lab& lab, Desk& desk);
-/// The recommendation in the same panel: the cheapest within an error or the most exact within a
+/// The recommendation in the same panel: the cheapest within an error or the most accurate within a
 /// cost, with the reason, a button to run it, and a search for the paper's alpha.
 void advice(const Look& look, Lab& lab);
 /// Progress of the search for the paper's alpha, with a cancel button.

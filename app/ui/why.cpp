@@ -197,7 +197,7 @@ void bars(const Look& look, const Session& session, Desk& desk, const Criterion&
     draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, ink,
               fitted(look.fonts.small, name_of_body(scene, who), names - 4.0F).c_str());
     const float x = at.x + names;
-    const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N goes with √r
+    const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N is proportional to √r
     draw.AddRectFilled({x, at.y + 5.0F}, {x + most, at.y + kRow - 5.0F}, t.well, 2.0F);
     draw.AddRectFilled({x, at.y + 5.0F}, {x + std::max(2.0F, share * most), at.y + kRow - 5.0F},
                        leads ? t.orange : t.blue, 2.0F);

@@ -212,7 +212,7 @@ TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   const std::size_t command = error.out.find("substep run pendulum");
   ASSERT_NE(command, std::string::npos);
   const std::string line = error.out.substr(command, error.out.find('\n', command) - command);
-  EXPECT_EQ(substep(line.substr(8) + " --seconds 2").exit_code, 0) << "what it tells can be run";
+  EXPECT_EQ(substep(line.substr(8) + " --seconds 2").exit_code, 0) << "the printed command runs";
   const Outcome cost = substep("recommend pendulum --operations 3000 --seconds 2");
   EXPECT_NE(cost.out.find("The most accurate within 3e+03 operations per frame: "),
             std::string::npos)

@@ -76,7 +76,7 @@ TEST(Report, WhatIsNotMeasuredIsNoNumberAndDoesNotChangeTheMotion) {
       EXPECT_TRUE(std::isfinite(without.times.total));
     }
     EXPECT_EQ(state_hash(all.state()), state_hash(none.state()));
-    EXPECT_EQ(all.observe().energy, none.observe().energy) << "asked for, it is there";
+    EXPECT_EQ(all.observe().energy, none.observe().energy) << "computed on request";
   }
 }
 

@@ -188,7 +188,7 @@ TEST(Recommended, IsTheCheapestWithinTheError) {
       "The cheapest of 5 runs, 4 of which hold; no run of the paper's method reaches this error.");
   EXPECT_FALSE(recommended_of(results, ErrorAxis::kTrajectory, 1e-4).has_value());
   EXPECT_FALSE(recommended_of(results, ErrorAxis::kEnergy, 1e9).has_value())
-      << "nobody measured it";
+      << "it was not measured";
 }
 
 TEST(Recommended, IsThePresetOfItsScene) {

@@ -264,7 +264,7 @@ TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
             List{"/start: \"mend\" is not project, keep or refuse"});
   EXPECT_EQ(problems_of(with(R"("position": [1, 3, 0])", R"("position": [1.25, 3, 0])")),
             List{"/joints/1: the anchors start 0.25 apart, which is more than 0.1 (m)"})
-      << "whatever is done about starts";
+      << "for every start policy";
 }
 
 TEST(SceneReader, LeavesOrientationsAsTheyAreWritten) {

@@ -49,7 +49,7 @@ TEST(ExamGhost, IsThereOnlyForASceneAsItStands) {
   h.app->open("exam_compliant_ball");
   EXPECT_NE(h.app->exam.at(h.app->session), nullptr);
   h.app->open("exam_hard_clutter");
-  EXPECT_EQ(h.app->exam.at(h.app->session), nullptr) << "nobody knows its motion";
+  EXPECT_EQ(h.app->exam.at(h.app->session), nullptr) << "its motion is unknown";
   Scene heavier = *h.app->library.find("exam_revolute");
   heavier.bodies[0].mass *= 2.0;
   h.app->run(std::make_shared<const Scene>(heavier));

@@ -71,7 +71,7 @@ TEST(Picking, RayMeetsWhatIsSeenThere) {
       EXPECT_LT(hit->distance, to_centre.norm());
       met += hit->body == static_cast<int>(i) ? 1 : 0;
     }
-    EXPECT_GT(met, 3) << "what is not hidden is met itself, in " << scene;
+    EXPECT_GT(met, 3) << "visible bodies are picked, in " << scene;
   }
 }
 

@@ -41,10 +41,10 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     if (scene) {
       try {
         text = await unpack(scene.slice("scene64=".length));
-        if (text === "") throw new TypeError("nothing is in it");
+        if (text === "") throw new TypeError("it is empty");
       } catch (error) {
         const message = error instanceof RangeError ? error.message
-          : "is no scene: was the link cut short?";
+          : "is not a scene: was the link truncated?";
         const problem = { pointer: "scene64", message };
         wasm.trouble("The link's scene could not be read", problem.pointer, problem.message);
         host.changed?.();
@@ -86,7 +86,7 @@ export function makeAddress(wasm, host, readScene, keep, signal) {
     const own = wasm.ownScene() !== "";
     if (!(await host.copyText(text))) return;
     wasm.tell(own && !text.includes("scene64=")
-      ? "Link copied, but this scene is too large for it: send its file too" : "Link copied");
+      ? "Link copied, but this scene is too large for it, so send its file as well" : "Link copied");
     host.changed?.();
   };
 

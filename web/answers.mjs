@@ -5,7 +5,7 @@ export const largest = 32 << 20; // of a text: more than a scene file may have [
 
 export const right = () => ({ ok: true, problems: [] });
 export const wrong = (pointer, message) => ({ ok: false, problems: [{ pointer, message }] });
-export const tooLong = (pointer) => wrong(pointer, `has more than ${largest} letters`);
+export const tooLong = (pointer) => wrong(pointer, `has more than ${largest} characters`);
 
 /** Any value as a short text. */
 export function show(value) {

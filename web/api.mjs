@@ -4,13 +4,13 @@ import { isObject, isText, largest, makeGuards, messageOf, optionOf, right, show
   from "./answers.mjs";
 
 const longest = 100_000; // frames per call
-const gone = "this laboratory was removed: createSubstep opens another";
+const gone = "this laboratory was removed: createSubstep opens a new one";
 
 const parse = (text) => JSON.parse(text);
 
 function load(wasm, scene, from) {
   if (!isText(scene) && !isObject(scene)) {
-    return wrong("scene", `${show(scene)} is no scene's name, JSON text or object`);
+    return wrong("scene", `${show(scene)} is not the name of a scene, JSON text or an object`);
   }
   const name = typeof from === "string" ? from.slice(0, 200) : show(from);
   let text = scene;
@@ -53,7 +53,7 @@ function makeChanging(wasm, report) {
       return done();
     },
     goTo(time) {
-      if (!Number.isFinite(time) || time < 0) return wrong("time", `${show(time)} is no time in s`);
+      if (!Number.isFinite(time) || time < 0) return wrong("time", `${show(time)} is not a time in s`);
       wasm.play(0);
       wasm.goTo(time);
       return done();
@@ -104,7 +104,7 @@ const makePromised = (address, capture, report) => ({
       throw new Error(`seconds: ${show(seconds)} is not above 0 and at most 600`);
     }
     const video = capture.begin();
-    if (!video) throw new Error("a video is being recorded, or this browser cannot");
+    if (!video) throw new Error("a video is already being recorded, or this browser cannot record");
     setTimeout(capture.end, 1000 * seconds);
     return video;
   },

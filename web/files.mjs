@@ -9,8 +9,8 @@ const types = { json: "application/json", csv: "text/csv", png: "image/png", svg
 
 async function textOf(file) {
   if (file.size > largest) {
-    throw new Error(`${(file.size / 1e6).toFixed(0)} MB are too much: here a scene file has ` +
-      `at most ${(largest / 1e6).toFixed(0)} MB, on the command line 32 MB`);
+    throw new Error(`${(file.size / 1e6).toFixed(0)} MB are too large: a scene file has ` +
+      `at most ${(largest / 1e6).toFixed(0)} MB here, and 32 MB on the command line`);
   }
   const bytes = await file.arrayBuffer().catch(() => {
     throw new Error("the browser could not read it: is it a folder?");
@@ -68,7 +68,7 @@ export function makeFiles(frame, wasm, host, readScene) {
     const href = URL.createObjectURL(blob);
     Object.assign(document.createElement("a"), { href, download: name }).click();
     setTimeout(() => URL.revokeObjectURL(href), 60000);
-    tell(`${name} was handed to the browser's downloads`);
+    tell(`${name} was passed to the browser's downloads`);
   }
 
   host.saveFile = save;
@@ -80,7 +80,7 @@ export function makeFiles(frame, wasm, host, readScene) {
   };
   host.copyText = async (text) => {
     const done = await copy(text);
-    if (!done) tell("The browser does not allow copying here");
+    if (!done) tell("The browser does not permit copying here");
     return done;
   };
   // If storage is unavailable (private windows, blocked storage), nothing is stored.

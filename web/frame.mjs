@@ -7,7 +7,7 @@ const markup = (id, wholePage) => `
 ${wholePage ? '<section class="substep-tour" hidden></section>' : ""}
 <canvas class="substep-view" tabindex="0" role="application" aria-describedby="${id}-twin"
   aria-label="substep: simulation, controls and plots"></canvas>
-<section class="substep-twin" id="${id}-twin" aria-label="What the simulation shows"></section>
+<section class="substep-twin" id="${id}-twin" aria-label="State of the simulation"></section>
 <div class="substep-overlay">
   <div class="substep-card">
     <h2></h2>

@@ -10,7 +10,7 @@ function makeRoom(room) {
   let held = [...all].filter((one) => one.holds()).length;
   for (const one of all) {
     if (held + room <= most) return;
-    if (one.handOn()) --held;
+    if (one.release()) --held;
   }
 }
 
@@ -61,10 +61,10 @@ export class Graphics {
   }
 
   /** Releases the context if it is out of sight. @returns whether it did */
-  handOn() {
-    if (this.seen || !this.canDraw() || !this.wasm.canHandOn()) return false;
+  release() {
+    if (this.seen || !this.canDraw() || !this.wasm.canReleaseGraphics()) return false;
     this.state = "leaving"; // a new context can only be requested after the browser confirms the loss
-    this.wasm.handOnGraphics();
+    this.wasm.releaseGraphics();
     return true;
   }
 
@@ -77,9 +77,9 @@ export class Graphics {
     } else {
       this.state = "taken";
       this.wasm.contextLost();
-      this.frame.say("The graphics context was lost", "The system took the graphics away, " +
-        "perhaps to save memory or for other parts of the page. The picture comes back by itself " +
-        "when it is given again; the run waits.");
+      this.frame.say("The graphics context was lost", "The system revoked the graphics context, " +
+        "perhaps to save memory or for other parts of the page. The picture returns automatically " +
+        "when it is restored; the run is paused.");
       this.retry();
     }
   }
@@ -87,7 +87,7 @@ export class Graphics {
   restored() {
     const error = this.wasm.contextRestored();
     if (error) {
-      this.frame.say("The graphics did not come back", `${error} Reloading the page helps.`);
+      this.frame.say("The graphics context was not restored", `${error} Reload the page.`);
       return;
     }
     this.state = "held";

@@ -44,7 +44,7 @@ async function fetchEngine() {
     return { compiled, data, create: script.default };
   } catch (error) {
     if (error instanceof LoadError) throw error;
-    throw new LoadError(`the download broke off: ${error.message}`);
+    throw new LoadError(`the download was interrupted: ${error.message}`);
   }
 }
 
@@ -92,7 +92,7 @@ function wrap(module, name, signature, life) {
       if (type === "n") return Number(args[i]);
       const bytes = encoder.encode(String(args[i])); // much faster than the module's encoder
       const at = module._malloc(bytes.length + 1);
-      if (at === 0) throw new Error(`there is no memory for a text of ${bytes.length} bytes`);
+      if (at === 0) throw new Error(`not enough memory for a text of ${bytes.length} bytes`);
       texts.push(at);
       module.HEAPU8.set(bytes, at);
       module.HEAPU8[at + bytes.length] = 0;
@@ -123,7 +123,7 @@ const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase(
  * @param engine the result of loadEngine
  * @param host services of the page for the application, see web/host.cpp
  * @returns the exports by their names in camel case; run() starts it, once the host is complete,
- *   handOnGraphics() releases the context until takeGraphics(), close() permanently
+ *   releaseGraphics() releases the context until takeGraphics(), close() permanently
  */
 export async function makeEngine(engine, canvas, host) {
   const module = await engine.create({
@@ -148,17 +148,17 @@ export async function makeEngine(engine, canvas, host) {
   }
   let losing = null; // WEBGL_lose_context: loses and restores a context
   wasm.run = (keeps) => {
-    // With alpha, although all pixels are opaque: a software renderer pays for masking it out.
+    // With alpha, although all pixels are opaque: masking it out is slow in a software renderer.
     const context = module.GL.createContext(canvas, {
       majorVersion: 2, minorVersion: 0, alpha: true, antialias: false, depth: false,
     });
-    if (!context) throw new Error("The browser gave no WebGL 2 context");
+    if (!context) throw new Error("The browser provides no WebGL 2 context");
     losing = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
     const error = wasm.start(context, keeps ? 1 : 0);
     if (error) throw new Error(error);
   };
-  wasm.canHandOn = () => losing !== null;
-  wasm.handOnGraphics = () => {
+  wasm.canReleaseGraphics = () => losing !== null;
+  wasm.releaseGraphics = () => {
     wasm.contextLost();
     losing.loseContext();
   };

@@ -49,7 +49,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
   auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name(), true);
   if (!renderer) return error.c_str();
   substep::Library library("/scenes");
-  if (library.scenes().empty()) return "no scenes came with the page";
+  if (library.scenes().empty()) return "the page contains no scenes";
   substep::add_exam(library);
   instance->app = std::make_unique<substep::App>(std::move(library), std::move(renderer));
   instance->app->host = substep::web::page_host();

@@ -1,19 +1,19 @@
-// Serves the laboratory from a copy in the browser. Each version is fetched as a whole into a copy of
-// its own, so that no page ever mixes two; the oldest copy is the one in use.
+// Serves the laboratory from a copy in the browser. Each version is fetched as a whole into its own
+// copy, so that no page mixes versions; the oldest copy is in use.
 //
-// The worker looks for new versions itself: a browser does only when the page has rested for two
-// seconds, or after a minute, and this page draws all the time.
+// The worker checks for new versions itself: a browser does so only after the page was idle for two
+// seconds, or after a minute, and this page draws continuously.
 const prefix = `substep ${self.registration.scope} `; // a site may hold several laboratories
 
 /** Names of the copies, the one in use first. */
 const copies = async () => (await caches.keys()).filter((name) => name.startsWith(prefix));
 
-/** Whether all files of a copy are there: they come together or not at all. */
+/** Whether a copy is complete: its files are stored together or not at all. */
 async function isWhole(name) {
   return await caches.has(name) && (await (await caches.open(name)).keys()).length > 0;
 }
 
-/** Fetches the version that the server has now. @returns whether it is another than the one in use */
+/** Fetches the server's current version. @returns whether it differs from the one in use */
 async function look() {
   const { version, files } = await (await fetch("files.json", { cache: "no-store" })).json();
   const newest = prefix + version;
@@ -26,7 +26,7 @@ async function look() {
   return inUse !== newest;
 }
 
-/** Puts the newest version in the place of the one in use, if there is one. */
+/** Replaces the version in use by the newest one, if there is one. */
 async function takeOver() {
   const names = await copies();
   const newest = names.pop();
@@ -42,7 +42,7 @@ async function answer(request) {
   return found ?? fetch(request);
 }
 
-/** What a page may ask for; what it is told. */
+/** Requests of a page, and their answers. */
 const asked = {
   "look": async () => (await look() ? "there is a new version" : ""),
   "take over": async () => {
@@ -59,6 +59,6 @@ self.addEventListener("fetch", (event) => {
 self.addEventListener("message", (event) => {
   if (!Object.hasOwn(asked, event.data)) return;
   event.waitUntil(asked[event.data]().then(
-    (told) => { if (told) event.source.postMessage(told); },
+    (reply) => { if (reply) event.source.postMessage(reply); },
     () => {})); // there may be no network
 });

@@ -22,7 +22,7 @@ const VECTORS = new Uint8Array([
 /** The feature that this browser lacks, or "". */
 function missing() {
   if (typeof WebAssembly !== "object") return "WebAssembly";
-  if (!WebAssembly.validate(VECTORS)) return "WebAssembly with vectors (SIMD)";
+  if (!WebAssembly.validate(VECTORS)) return "WebAssembly with SIMD";
   const canvas = document.createElement("canvas");
   if (!canvas.getContext("webgl2")) return "WebGL 2";
   loseContext(canvas); // browsers limit their number
@@ -64,7 +64,7 @@ export async function createSubstep(element, options = {}) {
   const frame = makeFrame(element, options.wholePage === true);
   const lacking = missing();
   if (lacking) {
-    frame.say("This browser cannot show substep", `It needs ${lacking}, which is missing or ` +
+    frame.say("This browser cannot show substep", `It needs ${lacking}, which is unavailable or ` +
       "switched off here. A current Firefox, Chrome, Edge or Safari has it; on some machines " +
       "graphics acceleration must be on.");
     throw new Error(`substep needs ${lacking}`);
@@ -83,7 +83,7 @@ async function startAgain(frame, wasm, address) {
   console.error(wasm.stopped);
   const why = "The program ran out of memory, or has a defect. Other pages are not affected.";
   if (!frame.wholePage) return frame.say("The laboratory stopped", `${why} Reload the page.`);
-  await frame.ask("The laboratory stopped", why, "Start again with the scene before");
+  await frame.ask("The laboratory stopped", why, "Start again with the previous scene");
   address.goBefore();
 }
 
@@ -122,7 +122,7 @@ async function open(frame, options) {
   if (options.scene !== undefined) problems.push(...calls.load(options.scene).problems);
   if (options.settings !== undefined) problems.push(...calls.set(options.settings).problems);
   if (options.link !== undefined) problems.push(...(await calls.openLink(options.link)).problems);
-  if (problems.length > 0) console.warn("createSubstep: not all options could be used", problems);
+  if (problems.length > 0) console.warn("createSubstep: some options were ignored", problems);
   if (options.play === false) calls.pause();
   const linked = await address.start();
   if (frame.wholePage && !linked) wasm.introduce();

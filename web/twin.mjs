@@ -83,14 +83,14 @@ export function makeTwin(section, calls) {
   const inTour = () => section.parentElement?.classList.contains("substep-touring");
 
   let said = "";
-  let told = -Infinity;
+  let updatedAt = -Infinity;
   let names = "";
   const put = (control, value) => {
     if (document.activeElement !== control && control.value !== value) control.value = value;
   };
 
   function update() {
-    told = performance.now();
+    updatedAt = performance.now();
     const r = calls.report();
     const state = r.stopped ? "stopped" : r.playing ? "playing" : "paused";
     const values = {
@@ -124,7 +124,7 @@ export function makeTwin(section, calls) {
   update();
   return {
     afterDraw() {
-      if (performance.now() - told > period) update();
+      if (performance.now() - updatedAt > period) update();
     },
   };
 }

@@ -5,15 +5,15 @@
 namespace substep::cli {
 
 void BudgetFlags::add_to(CLI::App& command) {
-  constexpr const char* kGroup = "Budget (past it the run stops and says what asked for more)";
+  constexpr const char* kGroup = "Budget (a run that exceeds it stops and reports the reason)";
   command
       .add_option("--memory-budget", mebibytes_,
-                  "MiB that the direct solver may take; 512 where it is left out")
+                  "maximum memory of the direct solver [MiB]; default 512")
       ->check(within(kMemoryBudgetRange.least / kMebibyte, kMemoryBudgetRange.most / kMebibyte))
       ->group(kGroup);
   command
       .add_option("--work-budget", operations_,
-                  "floating-point operations that a frame may take; 2e10 where it is left out")
+                  "maximum of floating-point operations per frame; default 2e10")
       ->check(within(kWorkBudgetRange.least, kWorkBudgetRange.most))
       ->group(kGroup);
 }

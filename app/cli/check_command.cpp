@@ -95,7 +95,7 @@ int check_all(const CheckOptions& options) {
                 unexpected, depends);
   }
   if (!complete) {
-    complain("cancelled; the runs before are printed");
+    complain("cancelled; the completed runs are printed");
     return kCancelled;
   }
   return exit_code == kOk && unexpected > 0 ? kUnexpectedVerdict : exit_code;
@@ -106,24 +106,24 @@ int check_all(const CheckOptions& options) {
 void add_check(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command = app.add_subcommand(
-      "check",
-      "Run the verdict tables of scenes: does what must hold hold, and fail what must fail");
+      "check", "Run the verdict tables of scenes and compare the verdicts with the expected ones");
   auto* scenes = command->add_option("scene", options->scenes, "names or files of scenes");
   auto* all = command->add_flag("--all", options->all, "all shipped scenes");
   scenes->excludes(all);
-  auto* hard =
-      command->add_flag("--hard", options->hard,
-                        "the hard set under all settings that could be recommended (minutes)");
+  auto* hard = command->add_flag("--hard", options->hard,
+                                 "the hard set with all candidate settings (minutes)");
   hard->excludes(scenes)->excludes(all);
   command->add_flag("--own", options->own, "only the scenes' own settings");
-  command->add_option("--seed", options->seed, "of a nudge of the start by up to 1e-9 m/s; 0: none")
+  command
+      ->add_option("--seed", options->seed,
+                   "seed of a perturbation of the start by up to 1e-9 m/s; 0: none")
       ->check(CLI::Range(0, kMostSeed));
-  command->add_option("--jobs", options->jobs, "runs at a time; 0: one for each processor")
+  command->add_option("--jobs", options->jobs, "parallel runs; 0: one per processor")
       ->check(CLI::Range(0, 1000));
   command->add_flag("--json", options->json, "print JSON");
   command->footer(
-      "Columns: as expected or not; scene; run; expected; observed; margin, the share of the\n"
-      "criterion (or, where it fails, of the time) that was left; sub-steps; wall time.\n"
+      "Columns: as expected or not; scene; run; expected; observed; margin, the unused\n"
+      "share of the criterion (or, for a failure, of the time); sub-steps; wall time.\n"
       "Example:\n  substep check swinging_box bridge");
   command->callback([options, &exit_code] {
     if (options->hard) {

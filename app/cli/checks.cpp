@@ -47,7 +47,7 @@ bool run_checks(std::vector<Check>& checks, int jobs,
                 const std::function<void(const Check&)>& on_done,
                 const std::atomic<bool>& cancelled) {
   std::atomic<std::size_t> next{0};
-  std::size_t told = 0;
+  std::size_t reported = 0;
   std::mutex mutex;
   std::exception_ptr error;
   const auto one = [&](std::size_t i) {
@@ -55,7 +55,7 @@ bool run_checks(std::vector<Check>& checks, int jobs,
     if (!run(check, cancelled)) return;
     const std::lock_guard lock(mutex);
     checks[i] = std::move(check);
-    while (told < checks.size() && checks[told].done) on_done(checks[told++]);
+    while (reported < checks.size() && checks[reported].done) on_done(checks[reported++]);
     if (std::ferror(stdout) != 0) next = checks.size();  // the output is closed: stop
   };
   const auto work = [&] {
@@ -74,8 +74,8 @@ bool run_checks(std::vector<Check>& checks, int jobs,
   work();
   for (std::thread& other : others) other.join();
   if (error) std::rethrow_exception(error);
-  for (; told < checks.size(); ++told) {  // finished after a cancelled one
-    if (checks[told].done) on_done(checks[told]);
+  for (; reported < checks.size(); ++reported) {  // finished after a cancelled one
+    if (checks[reported].done) on_done(checks[reported]);
   }
   return !cancelled;
 }

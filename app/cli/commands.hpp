@@ -10,8 +10,8 @@ inline constexpr int kOk = 0;
 inline constexpr int kUnexpectedVerdict = 1;
 inline constexpr int kBadInput = 2;
 inline constexpr int kNotFinite = 3;
-inline constexpr int kUnforeseen = 4;   // out of memory, or an internal error
-inline constexpr int kCancelled = 130;  // the shells' code for Ctrl-C
+inline constexpr int kInternalError = 4;  // out of memory, or an internal error
+inline constexpr int kCancelled = 130;    // the shells' code for Ctrl-C
 
 // Each adds its subcommand and writes its exit code.
 void add_run(CLI::App& app, int& exit_code);

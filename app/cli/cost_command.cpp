@@ -110,7 +110,7 @@ int cost(const CostOptions& options) {
 void add_cost(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CostOptions>();
   CLI::App* command = app.add_subcommand(
-      "cost", "Tell what stages, rows, effects and the criterion cost in a scene");
+      "cost", "Print the cost of stages, rows, effects and the criterion in a scene");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
       ->required();
   command->add_option("--json", options->json, "write it to this file, - for stdout")
@@ -118,11 +118,9 @@ void add_cost(CLI::App& app, int& exit_code) {
   options->length.add_to(*command);
   options->settings.add_to(*command);
   command->footer(
-      "What an effect adds is found by stepping every frame again from the same state without "
-      "it,\n"
-      "with the same number of sub-steps. Operations and updates are counted and the same on "
-      "every\n"
-      "machine; times are this machine's.\n"
+      "The cost of an effect is the difference to a second step of every frame from the same\n"
+      "state without it, with the same number of sub-steps. Operations and updates are counted\n"
+      "and the same on every machine; times are of this machine.\n"
       "Examples:\n"
       "  substep cost bridge\n"
       "  substep cost bridge --solver pgs --seconds 2 --json costs.json");

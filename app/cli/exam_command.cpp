@@ -98,8 +98,8 @@ int run(const ExamOptions& options) {
 
 void add_exam(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ExamOptions>();
-  CLI::App* command = app.add_subcommand(
-      "exam", "Run cases whose answers others have published, or that have one in closed form");
+  CLI::App* command =
+      app.add_subcommand("exam", "Run cases with published answers or a closed form");
   auto* list = command->add_flag("--list", options->list, "list the cases and run nothing");
   command->add_option("--case", options->cases, "only these cases")->excludes(list);
   command->add_option("--json", options->json, "write every run as JSON; - for standard output")
@@ -110,13 +110,11 @@ void add_exam(CLI::App& app, int& exit_code) {
       ->excludes(list);
   command->add_flag("--quiet", options->quiet, "print the summary only");
   command->footer(
-      "A case passes where at least one run is within all of its tolerances, and every run keeps\n"
-      "what it should: the order of its method, and what a case asks of every run. Columns: "
-      "method;\n"
-      "n or alpha; sub-steps of a frame in the mean; an error for each quantity, with * where it "
-      "is\n"
-      "within its tolerance; observed order of the first quantity against the run before, with !\n"
-      "where the method should do better; wall time. Exit code 1 where a case fails.\n"
+      "A case passes if at least one run is within all of its tolerances, and every run meets the\n"
+      "requirements on all runs: the order of its method, and those of the case. Columns: method;\n"
+      "n or alpha; mean sub-steps per frame; an error for each quantity, with * if it is within\n"
+      "its tolerance; observed order of the first quantity relative to the previous run, with !\n"
+      "if it is below that of the method; wall time. Exit code 1 if a case fails.\n"
       "Example:\n  substep exam --case revolute --html revolute.html");
   command->callback([options, &exit_code] {
     keep_apart({{"--json", options->json}, {"--html", options->html}}, {});

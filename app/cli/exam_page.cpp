@@ -135,7 +135,7 @@ std::string exam_page(const std::vector<ExamOutcome>& outcomes) {
               escaped(outcome.exam.source) + ".</p>\n" + table(outcome) + "<ul>\n";
       for (const ExamQuantity& quantity : outcome.exam.quantities) {
         html += "<li>" + escaped(quantity.name + ": " + quantity.why) +
-                (quantity.for_every_run ? "; asked of every run" : "") + "\n";
+                (quantity.for_every_run ? "; required of every run" : "") + "\n";
       }
       html += "</ul>\n";
     }

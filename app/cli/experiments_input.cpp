@@ -108,7 +108,7 @@ class Experiments {
     }
     if (!runner_.run(*experiment.experiment, experiment.scene)) return kBadInput;
     if (!cancel_on_signal()) return std::nullopt;
-    complain("cancelled at line %zu; the results before are printed", number_);
+    complain("cancelled at line %zu; the completed results are printed", number_);
     return kCancelled;
   }
 

@@ -67,9 +67,8 @@ void add_generate(CLI::App& app, int& exit_code) {
         return scenes::rope_of_n(rope_options);
       });
   rope->add_option("-n,--links", o.rope.n, "links")->check(CLI::Range(1, 19999));
-  rope->add_option("--angle", o.angle_deg, "start, from straight down [deg]")->check(angle);
-  rope->add_option("--anchor", o.anchor, "point that it hangs from: x y z [m]")
-      ->check(within(-1e5, 1e5));
+  rope->add_option("--angle", o.angle_deg, "initial angle from the vertical [deg]")->check(angle);
+  rope->add_option("--anchor", o.anchor, "suspension point: x y z [m]")->check(within(-1e5, 1e5));
   rope->add_option("--link-length", o.rope.link_length, "[m]")->check(within(1e-3, 10.0));
   rope->add_option("--link-width", o.rope.link_width, "of its square cross-section [m]")
       ->check(within(1e-3, 10.0));
@@ -84,16 +83,16 @@ void add_generate(CLI::App& app, int& exit_code) {
     box_options.angle = angle_of_degrees(from.angle_deg);
     return scenes::swinging_box(box_options);
   });
-  box->add_option("--angle", o.angle_deg, "start, from straight down [deg]")->check(angle);
+  box->add_option("--angle", o.angle_deg, "initial angle from the vertical [deg]")->check(angle);
   box->add_option("--compliance", o.swinging_box.compliance, "of the joints [m/N]")
       ->check(compliance);
 
   CLI::App* bridge = add("bridge", "a heavy ball on hanging planks",
                          [](const GenerateOptions& from) { return scenes::bridge(from.bridge); });
-  bridge->add_option("--ball-x", o.bridge.ball_x, "where the ball starts [m]")
+  bridge->add_option("--ball-x", o.bridge.ball_x, "initial position of the ball [m]")
       ->check(within(-4.6, 4.6));
   bridge->add_option("--ball-speed", o.bridge.ball_speed, "[m/s]")->check(within(-50.0, 50.0));
-  bridge->add_option("--span", o.bridge.span, "of the 10 m of planks [m]")
+  bridge->add_option("--span", o.bridge.span, "span that the 10 m of planks bridge [m]")
       ->check(within(9.0, 9.94));
 
   CLI::App* stack =
@@ -104,7 +103,7 @@ void add_generate(CLI::App& app, int& exit_code) {
   stack->add_option("--alpha", o.stack.alpha, "of the settings")->check(within(1e-6, 1.0));
   stack->add_option("--compliance", o.stack.compliance, "of the contacts [m/N]")
       ->check(within(1e-300, 1e3));
-  stack->add_flag("--stress", o.stack.stress, "with regularisation and start jitter");
+  stack->add_flag("--stress", o.stack.stress, "with regularisation and displaced balls");
 
   CLI::App* slope =
       add("sliding_box", "a box on a slope of 5 in 12",

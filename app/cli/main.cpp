@@ -61,7 +61,7 @@ int parse_and_run(int argc, char** argv) {
       "  substep generate rope --links 100 | substep run -\n"
       "  substep sweep swinging_box\n"
       "  substep check --all\n"
-      "Exit code: 0 all went well, 1 a verdict is not as expected, 2 bad input, 3 the state "
+      "Exit code: 0 success, 1 a verdict is not as expected, 2 bad input, 3 the state "
       "stopped\n"
       "being finite, 4 not enough memory or a defect of this program, 130 cancelled.");
   int exit_code = kOk;
@@ -95,7 +95,7 @@ int parse_and_run(int argc, char** argv) {
   end_outputs(false);
   constexpr std::string_view kText = "substep: there is not enough memory for this\n";
   [[maybe_unused]] const auto n = ::write(STDERR_FILENO, kText.data(), kText.size());
-  std::_Exit(kUnforeseen);
+  std::_Exit(kInternalError);
 }
 
 /// For exceptions that cannot be caught, such as Eigen's inside noexcept functions.
@@ -108,8 +108,8 @@ int parse_and_run(int argc, char** argv) {
     // Other exceptions are unexpected.
   }
   end_outputs(false);
-  complain("substep: ended by an error that it did not expect");
-  std::_Exit(kUnforeseen);
+  complain("substep: ended by an unexpected error");
+  std::_Exit(kInternalError);
 }
 
 /// Every exception ends the program with a message.
@@ -120,9 +120,9 @@ int caught(int argc, char** argv) {
   try {
     return parse_and_run(argc, argv);
   } catch (const std::exception& error) {
-    complain("substep: ended by an error that it did not expect: %s", error.what());
+    complain("substep: ended by an unexpected error: %s", error.what());
   }
-  return kUnforeseen;
+  return kInternalError;
 }
 
 }  // namespace

@@ -38,15 +38,15 @@ std::vector<Axis> axes() {
   using namespace scenes;
   return {
       {"mass_ratio",
-       "mass of the box on 25 links, over a link's",
+       "mass of the box on 25 links, relative to a link",
        {1, 10, 100, 1e3, 1e4, 1e5, 1e6},
        [](double m) { return lasting(rope_of_n({.end_mass = m}), 5.0); }},
       {"chain_length",
-       "links of 1 kg above 1,000 kg",
+       "links of 1 kg carrying 1,000 kg",
        {5, 10, 25, 50, 100, 200, 400},
        [](double n) { return lasting(rope_of_n({.n = static_cast<int>(n)}), 4.0); }},
       {"stack_height",
-       "layers under 10 t, balls up to 2 mm off",
+       "layers under 10 t, balls displaced by up to 2 mm",
        {1, 2, 3, 5, 8, 10, 15},
        [](double n) {
          return lasting(heavy_stack({.layers = static_cast<int>(n), .stress = true}), 5.0);
@@ -112,12 +112,12 @@ int run_map(const MapOptions& options) {
       },
       cancel_on_signal());
   if (!complete) {
-    complain("cancelled; the runs before are in the table, and there is no picture");
+    complain("cancelled; the completed runs are in the table, the picture is not written");
     return out.close() ? kCancelled : kBadInput;
   }
   if (picture.is_open()) picture.write(map_picture(cells));
-  const bool told = out.close();
-  return picture.close() && told ? kOk : kBadInput;
+  const bool written = out.close();
+  return picture.close() && written ? kOk : kBadInput;
 }
 
 }  // namespace
@@ -125,20 +125,20 @@ int run_map(const MapOptions& options) {
 void add_map(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<MapOptions>();
   CLI::App* command = app.add_subcommand(
-      "map", "Where adaptive sub-steps hold, by alpha: mass ratio, chain length, stack height");
+      "map", "Map where adaptive sub-steps hold, by alpha: mass ratio, chain length, stack height");
   command->add_option("--out", options->out, "the table as CSV; - for standard output")
       ->check(named());
   command->add_option("--picture", options->picture, "the maps as SVG")->check(named());
   command
       ->add_option("--seconds", options->seconds,
-                   "simulated time of each run; without it 4 or 5 s, as the map is usually drawn")
+                   "simulated time of each run; default: that of the shipped map, 4 or 5 s")
       ->check(within(0.01, 3600.0));
-  command->add_option("--jobs", options->jobs, "runs at a time; 0: one for each processor")
+  command->add_option("--jobs", options->jobs, "parallel runs; 0: one per processor")
       ->check(CLI::Range(0, 1000));
   command->footer(
       "Columns: what is varied and its value; alpha; solver; whether it holds; how long it ran "
       "[s];\n"
-      "sub-steps a frame, their median and most, and all of them.");
+      "sub-steps per frame, their median and most, and all of them.");
   command->callback([options, &exit_code] {
     keep_apart({{"--out", options->out}, {"--picture", options->picture}}, {});
     exit_code = run_map(*options);

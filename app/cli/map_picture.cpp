@@ -122,7 +122,7 @@ std::string map_picture(const std::vector<MapCell>& cells) {
          "<rect width='100%' height='100%' fill='#ffffff'/>\n" +
          text(kLeft, 28, "title", "Where adaptive sub-steps hold") +
          text(kLeft, 48, "note",
-              "blue: holds, with the median of the sub-steps a frame · orange ×: fails, after so "
+              "blue: holds, with the median of the sub-steps per frame · orange ×: fails, after so "
               "many "
               "seconds") +
          svg + "</svg>\n";

@@ -145,13 +145,12 @@ int merge(const MergeOptions& options) {
 void add_merge(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<MergeOptions>();
   CLI::App* command = app.add_subcommand(
-      "merge", "Join the parts of a sweep into results.jsonl, and write their report");
-  command->add_option("folder", options->folder, "where the parts are and the results go")
-      ->required();
+      "merge", "Merge the parts of a sweep into results.jsonl, and write their report");
+  command->add_option("folder", options->folder, "folder of the parts and the results")->required();
   command->add_option("file", options->files, "further files of results, from `run --experiments`");
   command
       ->add_option("--scene", options->scene,
-                   "file of the scene, where it is not one of `substep scenes`")
+                   "file of the scene, if it is not one of `substep scenes`")
       ->check(named());
   command->add_flag("--quiet", options->quiet, "no summary");
   command->footer("Example:\n  substep merge bridge.sweep");

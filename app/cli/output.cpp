@@ -144,7 +144,7 @@ bool Output::close() {
   finish();
   discard();
   if (!failed()) return true;
-  complain("%s: could not be written to its end: %s", path_.c_str(), std::strerror(error_));
+  complain("%s: could not be written completely: %s", path_.c_str(), std::strerror(error_));
   return false;
 }
 
@@ -204,12 +204,12 @@ void prepare_streams() {
 }
 
 bool flush_standard_output() {
-  static bool told = false;
+  static bool reported = false;
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return true;
   const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
-  if (!told) complain("standard output: could not be written to its end%s", why.c_str());
-  told = true;
+  if (!reported) complain("standard output: could not be written completely%s", why.c_str());
+  reported = true;
   return false;
 }
 
@@ -246,15 +246,15 @@ void keep_apart(const NamedPaths& outputs, const std::vector<std::string>& input
     if (path.empty()) continue;
     for (std::size_t j = 0; j < i; ++j) {
       if (!same_output(outputs[j].second, path)) continue;
-      throw CLI::ValidationError(
-          flag, (path == "-" ? "standard output" : path) + " is taken by " + outputs[j].first);
+      throw CLI::ValidationError(flag, (path == "-" ? "standard output" : path) +
+                                           " is already used by " + outputs[j].first);
     }
     const auto there = about(path == "-" ? "/dev/stdout" : path);
     if (!there || !S_ISREG(there->st_mode)) continue;
     for (const std::string& input : inputs) {
       const auto from = input == "-" ? standard_input : about(input);
       if (!from || !same(*from, *there)) continue;
-      throw CLI::ValidationError(flag, path + " is read: it would be overwritten");
+      throw CLI::ValidationError(flag, path + " is an input: it would be overwritten");
     }
   }
 }

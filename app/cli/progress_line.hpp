@@ -6,7 +6,7 @@
 
 namespace substep::cli {
 
-/// A line on the terminal that is rewritten in place, at most ten times a second.
+/// A line on the terminal that is rewritten in place, at most ten times per second.
 class ProgressLine {
  public:
   explicit ProgressLine(bool shown) : shown_(shown) {}

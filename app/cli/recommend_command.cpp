@@ -85,13 +85,13 @@ Want want_of(const RecommendOptions& options, const Scene& scene) {
 
 std::string limit_text(const Want& want) {
   if (want.error_is_given) return format_text("%.3g %s", want.limit, unit_of(want.error));
-  return format_text(want.cost == CostAxis::kTime ? "%.3g ms a frame" : "%.3g operations a frame",
-                     want.limit);
+  return format_text(
+      want.cost == CostAxis::kTime ? "%.3g ms per frame" : "%.3g operations per frame", want.limit);
 }
 
-/// "0.000858 m for 8.69e+04 operations a frame, 0.0266 ms"
+/// "0.000858 m for 8.69e+04 operations per frame, 0.0266 ms"
 std::string figures(const Result& result, ErrorAxis axis) {
-  return format_text("%.3g %s for %.3g operations a frame, %.3g ms",
+  return format_text("%.3g %s for %.3g operations per frame, %.3g ms",
                      error_of(result, axis).value_or(0.0), unit_of(axis),
                      cost_of(result, CostAxis::kOperations), cost_of(result, CostAxis::kTime));
 }
@@ -112,11 +112,11 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
   const std::optional<AlphaChoice>& choice = search.choice();
   const char* which = want.error_is_given ? "largest" : "smallest";
   if (!choice) {
-    std::fprintf(words, "The paper's method: no alpha from %g to 1 keeps within it.\n",
+    std::fprintf(words, "The paper's method: no alpha from %g to 1 meets it.\n",
                  AlphaSearch::kLeast);
     return;
   }
-  std::fprintf(words, "The paper's method: the %s alpha that does is %.3g, %s\n", which,
+  std::fprintf(words, "The paper's method: the %s alpha that meets it is %.3g, %s\n", which,
                choice->alpha, figures(choice->result, want.error).c_str());
 }
 
@@ -152,13 +152,13 @@ int recommend(const RecommendOptions& options) {
     const Result& result = results[best->result];
     const SeriesParameter parameter = series_parameter(result.experiment.settings);
     std::fprintf(words, "%s within %s: %s, %s = %g: %s\n",
-                 want.error_is_given ? "The cheapest" : "The most exact", limit_text(want).c_str(),
-                 series_name(result.experiment.settings).c_str(), parameter.name, parameter.value,
-                 figures(result, want.error).c_str());
+                 want.error_is_given ? "The cheapest" : "The most accurate",
+                 limit_text(want).c_str(), series_name(result.experiment.settings).c_str(),
+                 parameter.name, parameter.value, figures(result, want.error).c_str());
     std::fprintf(words, "  substep run %s%s\n", options.scene.c_str(),
                  setting_flags(result.experiment.settings, scene->settings).c_str());
   } else {
-    std::fprintf(words, "No method keeps within %s.\n", limit_text(want).c_str());
+    std::fprintf(words, "No method meets %s.\n", limit_text(want).c_str());
   }
   if (best && !options.out.empty()) {
     const auto recommended = recommended_of(results, want.error, want.limit);
@@ -174,42 +174,43 @@ int recommend(const RecommendOptions& options) {
 
 void add_recommend(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RecommendOptions>();
-  CLI::App* command = app.add_subcommand(
-      "recommend",
-      "Run all methods over a scene and tell the cheapest within an error, or the most "
-      "exact within a cost");
+  CLI::App* command = app.add_subcommand("recommend",
+                                         "Run all methods on a scene and print the cheapest within "
+                                         "an error, or the most accurate within a cost");
   CLI::Option* scene =
       command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
   const CLI::Validator positive = within(1e-15, 1e15);
-  CLI::Option* error =
-      command->add_option("--error", options->error, "wanted at most [m, J]; 1 mm, 1 J left out")
-          ->check(positive);
+  CLI::Option* error = command
+                           ->add_option("--error", options->error,
+                                        "largest permitted error [m, J]; default 1 mm, 1 J")
+                           ->check(positive);
   CLI::Option* of =
       command
           ->add_option("--of", options->of,
                        "error of: path (of the body that the scene tracks), energy, gap or overlap")
           ->check(CLI::IsMember({"path", "energy", "gap", "overlap"}));
   CLI::Option* ms =
-      command->add_option("--ms", options->ms, "a frame may take at most, in the median [ms]")
+      command->add_option("--ms", options->ms, "maximum of the median time per frame [ms]")
           ->check(positive)
           ->excludes(error);
   CLI::Option* operations =
       command
           ->add_option("--operations", options->operations,
-                       "of the solver that a frame may take at most: the same on every machine")
+                       "maximum of solver operations per frame: the same on every machine")
           ->check(positive)
           ->excludes(error)
           ->excludes(ms);
   CLI::Option* out =
       command
           ->add_option("--out", options->out,
-                       "write the scene with what is recommended within the error to this file, "
-                       "- for stdout; it starts with that unless it has settings of its own")
+                       "write the scene with the recommended settings to this file, - for stdout; "
+                       "it starts with them unless it has its own settings")
           ->check(named());
   out->excludes(ms)->excludes(operations);
   command
-      ->add_flag("--all", options->all,
-                 "what the shipped scenes are written with, as JSON to --out or stdout (minutes)")
+      ->add_flag(
+          "--all", options->all,
+          "the recommended settings of all shipped scenes, as JSON to --out or stdout (minutes)")
       ->excludes(scene)
       ->excludes(error)
       ->excludes(of)
@@ -218,8 +219,9 @@ void add_recommend(CLI::App& app, int& exit_code) {
   command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
   options->length.add_to(*command);
   command->footer(
-      "The paper's method is told beside it: the largest alpha within the error, or the smallest\n"
-      "that fits the cost, found by halving over whole runs. Ends with 1 where nothing does.\n"
+      "For comparison, it prints the paper's method with the largest alpha within the error, or\n"
+      "the smallest within the cost, found by bisection over whole runs. Exit code 1 if no\n"
+      "method meets the limit.\n"
       "Examples:\n"
       "  substep recommend swinging_box --error 1e-4\n"
       "  substep recommend bridge --of gap --error 1e-3\n"
@@ -228,7 +230,7 @@ void add_recommend(CLI::App& app, int& exit_code) {
   command->callback([options, &exit_code] {
     if (options->all) {
       if (options->length.seconds || options->length.frames) {
-        throw CLI::ValidationError("--all", "each shipped scene has a length of its own");
+        throw CLI::ValidationError("--all", "each shipped scene has its own duration");
       }
       exit_code = recommend_shipped(options->out.empty() ? "-" : options->out, options->jobs);
       return;

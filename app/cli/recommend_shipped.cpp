@@ -29,8 +29,7 @@ int recommend_shipped(const std::string& out, int jobs) {
     if (!results) return kCancelled;
     const auto recommended = recommended_of(*results, wanted->of, wanted->within);
     if (!recommended) {
-      complain("%s: no method keeps within %g %s", wanted->scene, wanted->within,
-               unit_of(wanted->of));
+      complain("%s: no method meets %g %s", wanted->scene, wanted->within, unit_of(wanted->of));
       exit_code = kUnexpectedVerdict;
       continue;
     }

@@ -102,13 +102,12 @@ Json time_charts(const Scene& scene, const std::vector<Json>& results) {
   settings.mode = Mode::kNone;
   add("none", false);
   Json charts = Json::array();
-  charts.push_back(chart_json(
-      "Sub-steps over time",
-      "Adaptive sub-steps follow the forces. A constant number has to be found by trial, for the "
-      "worst frame, and it says nothing of the next scene.",
-      "time [s]", "sub-steps of a frame", false, n_curves));
+  charts.push_back(chart_json("Sub-steps over time",
+                              "Adaptive sub-steps follow the forces. A constant number must be "
+                              "found by trial for the worst frame, and again for every scene.",
+                              "time [s]", "sub-steps per frame", false, n_curves));
   charts.push_back(chart_json("Kinetic energy over time",
-                              "A mode that loses or gains energy parts from the others.",
+                              "A mode that loses or gains energy deviates from the others.",
                               "time [s]", "kinetic energy [J]", false, energy_curves));
   return charts;
 }
@@ -166,7 +165,7 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
                         const std::vector<Json>& results, bool quiet) {
   Json data;
   const std::string name = results.empty() ? "" : results.front().value("scene", "");
-  data["title"] = "What accuracy costs: " + (scene ? scene->title : name);
+  data["title"] = "Cost of accuracy: " + (scene ? scene->title : name);
   Json about = Json::array();
   if (scene) about.push_back(scene->description + " " + scene->look_for);
   Json own = Json::array();
@@ -184,7 +183,7 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
     }
   }
   about.push_back(std::to_string(results.size()) + " runs, " + std::to_string(failed) +
-                  " of them failed and are shown.");
+                  " of them failed; they are included.");
   if (data.contains("reference")) {
     const Json& reference = data["reference"];
     char text[400];
@@ -194,7 +193,7 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
                   reference.value("window", 0.0));
     std::string line = text;
     if (const double scale = reference.value("energy_scale", 0.0); scale >= kLeastEnergyScale) {
-      std::snprintf(text, sizeof text, " 100 %% of the energy drift are %g J, %s.", scale,
+      std::snprintf(text, sizeof text, " 100 %% energy drift is %g J, %s.", scale,
                     reference.value("energy_scale_source", "").c_str());
       line += text;
     }
@@ -206,14 +205,12 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
     data["mass_ratio"] = mass_ratio(*scene);
     data["charts"] = time_charts(*scene, results);
     data["costs"] = costs_of(*scene);
-    data["settings"] =
-        Json::array({"The scene's own settings: " + settings_line(scene->settings) +
-                         ". Every run differs from them by its method and its parameter alone.",
-                     "Work (sub-steps, row updates, operations) is counted and the same on every "
-                     "machine. Times "
-                     "are of the machine of the sweep, the first ten frames of a run left out; "
-                     "runs side by side "
-                     "share it. Energies under another load are judged in proportion to it."});
+    data["settings"] = Json::array(
+        {"The scene's own settings: " + settings_line(scene->settings) +
+             ". Runs differ from them only by method and parameter.",
+         "Work (sub-steps, row updates, operations) is counted and the same on every "
+         "machine. Times are of the machine of the sweep, without the first ten frames of a run; "
+         "parallel runs share it. Energies with another load are relative to the load."});
   }
   return write_page(folder / "report.html", data, quiet);
 }

@@ -57,7 +57,8 @@ Json page_of(const std::vector<Card>& cards) {
   data["title"] = "The paper's figures and claims";
   data["about"] = Json::array(
       {"Giles and Andrews, \"Adaptive Sub-stepping for Constrained Rigid Body Simulations\", MIG "
-       "'24, beside what comes out here. Every number was computed when this page was written."});
+       "'24, and the results of this program. Every number was computed when this page was "
+       "written."});
   data["cards"] = std::move(list);
   data["charts"] = std::move(charts);
   return data;
@@ -101,11 +102,11 @@ int run(const ReproduceOptions& options) {
 void add_reproduce(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ReproduceOptions>();
   CLI::App* command = app.add_subcommand(
-      "reproduce", "Run the paper's figures and claims and put them beside what it says");
+      "reproduce", "Recompute the paper's figures and claims and compare them with the paper");
   command->add_option("--out", options->out, "folder for report.html")->check(named());
   command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
-  command->footer("Exit code 1 where something is not as it was found before.");
+  command->footer("Exit code 1 if a result differs from the recorded one.");
   command->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

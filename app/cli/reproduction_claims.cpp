@@ -15,7 +15,7 @@ Card explosion(const Reproduction& options) {
   constexpr int kMost = 8;
   Card card;
   card.title = "The swinging box explodes without sub-steps or damping";
-  card.paper = "It does, and with the direct solver too: an exact solve does not help.";
+  card.paper = "It does, even with the direct solver: an exact solve does not help.";
   const auto scene = shared(scenes::swinging_box());
   std::vector<Run> runs;
   for (int n = 1; n <= kMost; ++n) {
@@ -28,7 +28,7 @@ Card explosion(const Reproduction& options) {
   int least = kMost + 1;
   while (least > 1 && traces[static_cast<std::size_t>(least - 2)].holds) --least;
   const int predicted = static_cast<int>(peak(by_frame(traces.back())));
-  card.here = "By sub-steps a frame: " + lives(runs, traces, 0, kMost) +
+  card.here = "By sub-steps per frame: " + lives(runs, traces, 0, kMost) +
               format_text(
                   ". The smallest that holds is %d, and alpha = 1, the stability limit itself, "
                   "predicts %d.",
@@ -45,8 +45,8 @@ Card alpha_law(const Reproduction& options) {
   Card card;
   card.title = "What alpha does";
   card.paper =
-      "Its text: halving alpha doubles the number of sub-steps. Its Eq. 10: dt goes with the "
-      "root of alpha.";
+      "The text: halving alpha doubles the number of sub-steps. Eq. 10: dt is proportional to the "
+      "square root of alpha.";
   const auto scene = shared(scenes::swinging_box());
   std::vector<Run> runs;
   Curve measured;
@@ -66,11 +66,13 @@ Card alpha_law(const Reproduction& options) {
       std::pow((measured.y.back() - 0.5) / (measured.y.front() - 0.5), 1.0 / halvings);
   card.here =
       format_text("Each halving multiplies the sub-steps by %.3f; sqrt 2 is 1.414.", factor);
-  card.why = "Eq. 10 is right and the sentence is a slip: N goes with alpha to the power -1/2.";
+  card.why =
+      "Eq. 10 is correct and the sentence is an error: N is proportional to alpha to the power "
+      "-1/2.";
   card.command = "substep run swinging_box --alpha 0.05";
   card.outcome = std::abs(factor - std::sqrt(2.0)) < 0.015 ? Outcome::kDiffers : Outcome::kFails;
-  card.charts = {chart_json("Sub-steps by alpha", "", "alpha", "mean sub-steps of a frame", false,
-                            {measured})};
+  card.charts = {
+      chart_json("Sub-steps by alpha", "", "alpha", "mean sub-steps per frame", false, {measured})};
   return card;
 }
 
@@ -85,11 +87,11 @@ Card gauss_seidel(const Reproduction& options) {
       {"drift soft, 25 iterations", scene, pgs(Mode::kAdaptive, Drift::kSoft), 10.0}};
   const std::vector<RunTrace> traces = trace_all(runs, options);
   card.here = "With the paper's drift law phi/h: " + life(traces[0]) + "; with 400 iterations " +
-              life(traces[1]) + ". With errors taken back slowly (drift soft): " + life(traces[2]) +
+              life(traces[1]) + ". With a slow drift correction (drift soft): " + life(traces[2]) +
               ".";
   card.why =
-      "An error that a long sub-step leaves is paid back in a short one at full rate: changing "
-      "steps feed energy in. phi dt/tau^2 does not; a constant step does not either.";
+      "A short sub-step corrects the error of a long one at full rate: changing steps add energy. "
+      "phi dt/tau^2 does not, nor does a constant step.";
   card.command = "substep run swinging_box --solver pgs --drift full";
   card.outcome =
       traces[2].holds ? (traces[0].holds ? Outcome::kAgrees : Outcome::kDiffers) : Outcome::kFails;
@@ -161,7 +163,7 @@ Card taller_stack(const Reproduction& options) {
 Card capped(const Reproduction& options) {
   Card card;
   card.title = "Future work: a cap on the sub-steps, and damping beyond it";
-  card.paper = "Proposed, not shown: at most so many sub-steps as there is time for, then damping.";
+  card.paper = "Proposed, not shown: as many sub-steps as the time permits, then damping.";
   const auto scene = shared(scenes::swinging_box());
   std::vector<Run> runs;
   for (const int cap : {1, 2, 4, 8, 16}) {

@@ -60,15 +60,15 @@ Figure2 figure_2(const std::string& title, const std::shared_ptr<const Scene>& s
     curves.push_back(substeps_curve(runs[at].name, traces[at]));
     curves.back().dashed = true;
   }
-  figure.chart = chart_json(title, "", "time [s]", "sub-steps of a frame", false, curves);
+  figure.chart = chart_json(title, "", "time [s]", "sub-steps per frame", false, curves);
   return figure;
 }
 
-std::string told(const Figure2& f) {
-  std::string words = format_text("%g / %g / %g sub-steps a frame (least, median, most)", f.least,
+std::string described(const Figure2& f) {
+  std::string words = format_text("%g / %g / %g sub-steps per frame (least, median, most)", f.least,
                                   f.median, f.most);
-  if (f.n == 0) return words + ", with an error that no constant number up to 40 undercuts";
-  return words + format_text(", %.0f %% %s than the constant %d that keeps as small an error",
+  if (f.n == 0) return words + ", with a smaller error than every constant number up to 40";
+  return words + format_text(", %.0f %% %s than the constant %d with no larger error",
                              100.0 * std::abs(f.fewer), f.fewer >= 0.0 ? "fewer" : "more", f.n);
 }
 
@@ -96,7 +96,7 @@ Card substeps_over_time(const Reproduction& options) {
   card.title = "Fig. 2: sub-steps over time";
   card.paper =
       "The number of sub-steps follows the stiffness: most at the bottom of the swing, and while "
-      "the ball is on the bridge. A constant number has to serve the worst frame.";
+      "the ball is on the bridge. A constant number must be sufficient for the worst frame.";
   const auto box = shared(scenes::swinging_box());
   Scene short_bridge = scenes::bridge();
   short_bridge.criteria.duration = 6.0;
@@ -106,12 +106,12 @@ Card substeps_over_time(const Reproduction& options) {
                                  pgs(Mode::kAdaptive), &RunTrace::constraint_error, options);
   const Figure2 crossing = figure_2("Bridge, direct solver", shared(short_bridge),
                                     direct(Mode::kAdaptive), &RunTrace::joint_gap, options);
-  card.here = "Swinging box: " + told(swing) + ". With Gauss-Seidel: " + told(gauss) +
-              ". Bridge: " + told(crossing) + ".";
+  card.here = "Swinging box: " + described(swing) + ". With Gauss-Seidel: " + described(gauss) +
+              ". Bridge: " + described(crossing) + ".";
   card.why =
-      "How much is saved depends on what the constant number is tuned to. Against the one that "
-      "keeps as small an error as adaptive does at its worst, as here, it saves; against the "
-      "smallest that merely holds (7 on the swinging box) it does not, but only trial tells that "
+      "The saving depends on the constant number. Compared with the one that has the same largest "
+      "error as adaptive, as here, adaptive saves sub-steps; compared with the smallest that holds "
+      "(7 on the swinging box) it does not, but only trial gives that "
       "number.";
   card.command = "substep run swinging_box --csv -";
   const bool follows = swing.holds && gauss.holds && crossing.holds &&
@@ -139,13 +139,13 @@ Card energy_over_time(const Reproduction& options) {
   const double second_order = energy_change(*scene, traces[1]);
   const double damping = energy_change(*scene, traces[2]);
   card.here = format_text(
-      "After 200 s damping has lost %.1f %% of the energy that goes back and forth, adaptive "
-      "sub-steps %.1f %%; with leapfrog, at the same cost, the energy has changed by %.1g %%. "
+      "After 200 s damping has lost %.1f %% of the exchanged energy, adaptive sub-steps %.1f %%; "
+      "with leapfrog, at the same cost, the energy has changed by %.1g %%. "
       "Without either the chain %s.",
       -damping, -adaptive, second_order, life(traces[3]).c_str());
   card.why =
-      "The small loss of adaptive sub-steps comes from changing the step under the semi-implicit "
-      "Euler rule, whose velocities lag half a step behind. Leapfrog has no such lag.";
+      "The small loss of adaptive sub-steps is due to changes of the step with semi-implicit "
+      "Euler, whose velocities lag half a step behind. Leapfrog has no such lag.";
   card.command = "substep run swinging_box --seconds 200 --mode damping";
   const bool as_before = traces[0].holds && traces[2].holds && std::abs(damping + 97.8) < 4.9 &&
                          std::abs(adaptive + 2.8) < 0.14 && std::abs(second_order) < 1e-3;
@@ -189,15 +189,15 @@ Card heavy_stack(const Reproduction& options) {
     pattern &= traces[i].holds == (runs[i].settings.mode == Mode::kAdaptive && !is_pgs);
   }
   card.here =
-      "With a start jitter and a regularisation that stands for finite precision "
+      "With displaced balls and a regularisation that models finite precision "
       "(heavy_stack_stress): " +
       lives(runs, traces, 0, cases) +
-      ". In plain double precision: " + lives(runs, traces, cases, cases) + ".";
+      ". In double precision: " + lives(runs, traces, cases, cases) + ".";
   card.why =
-      "In exact arithmetic the constrained stiffness of the symmetric stack is zero: nothing to "
-      "fall. What makes it fall is finite precision or softness, which no step shrinks. In double "
-      "precision every direct mode stands, even a single step; with a stated imprecision the "
-      "paper's pattern appears.";
+      "In exact arithmetic the constrained stiffness of the symmetric stack is zero, so it does "
+      "not fall. It falls because of finite precision or compliance, which a smaller step does not "
+      "reduce. In double precision it stands in every direct mode, even with a single step; with a "
+      "stated imprecision the paper's pattern appears.";
   card.command = "substep run heavy_stack_stress --mode const --n 8";
   card.outcome = !(pattern && gauss_falls) ? Outcome::kFails
                  : direct_stands           ? Outcome::kDiffers

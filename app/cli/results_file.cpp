@@ -71,7 +71,7 @@ bool read_results(const std::string& path, const std::string& text,
       order.push_back(*id);
     } else if (without_timing(entry->second) != without_timing(line)) {
       tell(path, "line " + std::to_string(number) + ": another result of experiment " + *id +
-                     " differs; were they made by different versions?");
+                     " differs; were they computed by different versions?");
       return false;
     }
   }
@@ -90,7 +90,7 @@ bool ResultsFile::take_lock() {
   }
   struct stat about {};
   if (::fstat(descriptor_, &about) != 0 || !S_ISREG(about.st_mode)) {
-    tell(path_, "is no regular file");
+    tell(path_, "is not a regular file");
     return false;
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
@@ -120,7 +120,7 @@ bool ResultsFile::read() {
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   const std::string header = results_header();
   if (whole == 0 && text != header.substr(0, text.size())) {
-    tell(path_, "is no results file of substep; it is left as it is");
+    tell(path_, "is not a results file of substep; it is unchanged");
     return false;
   }
   if (whole > 0) {
@@ -128,7 +128,7 @@ bool ResultsFile::read() {
     check_results_header(text.substr(0, text.find('\n')), problems);
     tell(path_, 1, problems);
     if (!problems.empty() || !read_results(path_, text.substr(0, whole), lines_, order_)) {
-      tell(path_, "is no results file of substep, or broken; it is left as it is");
+      tell(path_, "is not a results file of substep, or is damaged; it is unchanged");
       return false;
     }
   }
@@ -152,7 +152,7 @@ bool ResultsFile::write(const std::string& text) {
   if (::ftruncate(descriptor_, before) != 0) {
     // The next reader removes the partial line.
   }
-  tell(path_, std::string(std::strerror(error)) + "; all results before are kept");
+  tell(path_, std::string(std::strerror(error)) + "; the previous results are kept");
   return false;
 }
 
@@ -183,7 +183,7 @@ bool ResultsFile::finish(const std::vector<std::string>& order) {
   const int error = errno;
   if (descriptor >= 0) ::close(descriptor);
   if (!written || std::rename(temporary.c_str(), path_.c_str()) != 0) {
-    tell(path_, "not put in order: " + std::string(std::strerror(written ? errno : error)));
+    tell(path_, "not sorted: " + std::string(std::strerror(written ? errno : error)));
     ::unlink(temporary.c_str());
     return false;
   }

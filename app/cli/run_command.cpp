@@ -44,18 +44,19 @@ struct RunOptions {
 
 /// The forecast of N before the scene moves, and the scene's mass ratio.
 std::string forecast_line(const Scene& scene, const Settings& settings) {
-  const Forecast told = forecast(scene, settings);
-  std::string text = "foretold     " + std::to_string(told.at_start) + " sub-steps at the start";
-  if (told.body >= 0) text += ", " + std::to_string(told.hanging) + " hanging still";
-  text += "; masses 1 to " + number_text(std::round(told.mass_ratio)) + "\n";
+  const Forecast predicted = forecast(scene, settings);
+  std::string text =
+      "forecast     " + std::to_string(predicted.at_start) + " sub-steps at the start";
+  if (predicted.body >= 0) text += ", " + std::to_string(predicted.hanging) + " at rest";
+  text += "; masses 1 to " + number_text(std::round(predicted.mass_ratio)) + "\n";
   return text;
 }
 
-/// "would help   adaptive sub-steps (--mode adaptive)", one line per remedy.
+/// "remedies     adaptive sub-steps (--mode adaptive)", one line per remedy.
 std::string remedy_lines(const Settings& settings, const FrameReport& failed) {
   std::string text;
   for (const Remedy& remedy : remedies(settings, failed)) {
-    text += (text.empty() ? "would help   " : "             ") + remedy.text +
+    text += (text.empty() ? "remedies     " : "             ") + remedy.text +
             (remedy.why.empty() ? "" : "; " + remedy.why) + " (" +
             setting_flags(remedy.settings, settings).substr(1) + ")\n";
   }
@@ -92,15 +93,15 @@ int run(const RunOptions& options) {
     std::fprintf(words, "%s: %s\n%s", scene->name.c_str(),
                  settings_line(simulator.settings()).c_str(),
                  forecast_line(*scene, simulator.settings()).c_str());
-    const std::string told = start_text(*scene, simulator.start());
-    if (!told.empty()) std::fprintf(words, "%s\n", told.c_str());
+    const std::string start_note = start_text(*scene, simulator.start());
+    if (!start_note.empty()) std::fprintf(words, "%s\n", start_note.c_str());
     std::fflush(words);
   }
   const std::int64_t frames = options.length.count(*scene);
   std::optional<FrameReport> failed;  // the frame in which it failed
   const std::atomic<bool>& cancelled = cancel_on_signal();
-  const auto goes_on = [&] { return !verdict.stopped() && !outputs.failed() && !cancelled; };
-  for (std::int64_t i = 0; i < frames && goes_on(); ++i) {
+  const auto running = [&] { return !verdict.stopped() && !outputs.failed() && !cancelled; };
+  for (std::int64_t i = 0; i < frames && running(); ++i) {
     const FrameReport frame = simulator.step();
     measure.add(*scene, simulator.state(), frame, frame.times.total);
     report.add(frame);
@@ -111,7 +112,7 @@ int run(const RunOptions& options) {
   progress.clear();
   if (!outputs.end(simulator, measure)) return kBadInput;
   if (cancelled) {
-    complain("cancelled at %.3f s; the frames before are kept", simulator.state().time);
+    complain("cancelled at %.3f s; the completed frames are kept", simulator.state().time);
     return kCancelled;
   }
 
@@ -131,7 +132,7 @@ void refuse_beside_experiments(const CLI::App& command, const RunOptions& option
     throw CLI::ExcludesError(name, "--experiments");
   }
   if (options.scene == "-" && options.experiments == "-") {
-    throw CLI::ValidationError("--experiments", "standard input is taken by the scene");
+    throw CLI::ValidationError("--experiments", "standard input is already used by the scene");
   }
 }
 
@@ -139,18 +140,19 @@ void refuse_beside_experiments(const CLI::App& command, const RunOptions& option
 
 void add_run(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "Run a scene and tell whether it holds");
+  CLI::App* command = app.add_subcommand("run", "Run a scene and print whether it holds");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input");
   options->length.add_to(*command);
   options->files.add_to(*command);
   command->add_option("--load", options->load, "factor on the mass of the heaviest body")
       ->check(within(kLoadRange.least, kLoadRange.most));
-  command->add_option("--seed", options->seed, "nudge the start by up to 1e-9 m/s")
+  command
+      ->add_option("--seed", options->seed, "seed of a perturbation of the start by up to 1e-9 m/s")
       ->check(CLI::Range(0, kMostSeed));
   command
       ->add_option("--experiments", options->experiments,
-                   "run the experiments of this file, one JSON object a line, - for standard "
-                   "input; print one result a line")
+                   "run the experiments of this file, one JSON object per line, - for standard "
+                   "input; print one result per line")
       ->check(named());
   command->add_flag("--quiet", options->quiet, "print the verdict only");
   options->settings.add_to(*command);

@@ -55,11 +55,11 @@ std::string RunReport::summary(std::uint64_t state_hash) const {
   if (!substeps_.empty()) {
     std::vector<int> sorted = substeps_;
     std::sort(sorted.begin(), sorted.end());
-    text += format_text("sub-steps    %" PRId64 "; %d / %d / %d a frame (least, median, most)\n",
+    text += format_text("sub-steps    %" PRId64 "; %d / %d / %d per frame (least, median, most)\n",
                         total_substeps_, sorted.front(), sorted[sorted.size() / 2], sorted.back());
   }
   if (has_islands_ && !substeps_.empty()) {
-    text += format_text("of a body    %.3g a frame in the mean\n",
+    text += format_text("per body     %.3g sub-steps per frame on average\n",
                         substeps_of_a_body_ / static_cast<double>(substeps_.size()));
   }
   if (most_asleep_ > 0) text += format_text("asleep       %d bodies at most\n", most_asleep_);
@@ -68,8 +68,8 @@ std::string RunReport::summary(std::uint64_t state_hash) const {
   if (scene_.effects.joints) text += format_text("joint gap    %.2e m at most\n", joint_gap_);
   if (scene_.effects.contact) text += format_text("penetration  %.2e m at most\n", penetration_);
   if (total_substeps_ > 0) {
-    text += format_text("computing    %.3f s; %.3f ms a frame, %.1f us a sub-step\n", computing_,
-                        1e3 * computing_ / static_cast<double>(substeps_.size()),
+    text += format_text("computing    %.3f s; %.3f ms per frame, %.1f us per sub-step\n",
+                        computing_, 1e3 * computing_ / static_cast<double>(substeps_.size()),
                         1e6 * computing_ / static_cast<double>(total_substeps_));
   }
   text += format_text("state hash   %016" PRIx64 "\n", state_hash);

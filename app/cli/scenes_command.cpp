@@ -61,8 +61,8 @@ int list_scenes(bool as_json) {
 void add_scenes(CLI::App& app, int& exit_code) {
   auto as_json = std::make_shared<bool>(false);
   CLI::App* command = app.add_subcommand("scenes", "List the shipped scenes");
-  command->add_flag("--json", *as_json, "print JSON, with what to look for");
-  command->footer("They are read from the folder in SUBSTEP_SCENES where it is set.");
+  command->add_flag("--json", *as_json, "print JSON, with descriptions");
+  command->footer("They are read from the folder in SUBSTEP_SCENES if it is set.");
   command->callback([as_json, &exit_code] { exit_code = list_scenes(*as_json); });
 }
 

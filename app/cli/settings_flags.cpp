@@ -28,7 +28,7 @@ std::string help_of(const SettingField& field) {
 }  // namespace
 
 void SettingsFlags::add_to(CLI::App& command) {
-  constexpr const char* kGroup = "Settings (left out: as the scene has them)";
+  constexpr const char* kGroup = "Settings (default: those of the scene)";
   command
       .add_option_function<std::string>(
           "--preset",
@@ -38,7 +38,7 @@ void SettingsFlags::add_to(CLI::App& command) {
               throw CLI::ValidationError("--preset", name + " is not " + preset_names());
             }
           },
-          "All settings at once, before the others; `recommended` is the scene's own where it has "
+          "All settings at once, before the others; `recommended` is the scene's own if it has "
           "one")
       ->type_name(preset_names())
       ->group(kGroup);

@@ -154,7 +154,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   }
   const std::size_t known = all.size() - parallel.experiments.size();
   if (known > 0 && !options.quiet) {
-    complain("%zu of %zu runs are there already", known, all.size());
+    complain("%zu of %zu runs are already present", known, all.size());
   }
 
   const auto start = std::chrono::steady_clock::now();
@@ -179,7 +179,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   progress.clear();
   if (!written) return kBadInput;
   if (!complete) {
-    complain("cancelled: %zu of %zu runs are in %s; the same command goes on from there",
+    complain("cancelled: %zu of %zu runs are in %s; the same command continues from there",
              known + runs, all.size(), (folder / name).string().c_str());
     return kCancelled;
   }
@@ -197,8 +197,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
 
 void add_sweep(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SweepOptions>();
-  CLI::App* command =
-      app.add_subcommand("sweep", "Run all methods over a scene: what accuracy costs in time");
+  CLI::App* command = app.add_subcommand("sweep", "Run all methods on a scene: error against cost");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
       ->required();
   auto* out = command->add_option("--out", options->out, "folder for results.jsonl and report.html")
@@ -209,24 +208,25 @@ void add_sweep(CLI::App& app, int& exit_code) {
                    "runs of each experiment, from starts that differ by 1e-9 m/s")
       ->check(CLI::Range(1, kMostSeeds));
   command
-      ->add_option("--shard", options->shard, "i/n: only the i-th of n parts; `merge` joins them")
+      ->add_option("--shard", options->shard, "i/n: only the i-th of n parts; `merge` merges them")
       ->check([](const std::string& text) -> std::string {
         return parse_shard(text) ? "" : text + " is not i/n with 1 <= i <= n";
       });
   command
       ->add_flag("--list", options->list,
-                 "print the experiments, one JSON object a line, and run none")
+                 "print the experiments, one JSON object per line, and run none")
       ->excludes(out);
   command
       ->add_option("--ship", options->ship,
-                   "write what the window shows before it runs anything: scenes/sweeps/SCENE.txt")
+                   "write the shipped sweep, which the application shows before it runs anything: "
+                   "scenes/sweeps/SCENE.txt")
       ->check(named())
       ->excludes(out);
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   options->length.add_to(*command);
   options->settings.add_to(*command);
   command->footer(
-      "What is done already is not run again: a sweep that was stopped goes on where it was.\n"
+      "Completed runs are not repeated: a stopped sweep continues.\n"
       "Examples:\n"
       "  substep sweep swinging_box\n"
       "  substep sweep bridge --seconds 2 --iterations 50 --out bridge_50\n"

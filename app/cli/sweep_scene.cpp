@@ -29,7 +29,7 @@ bool keep_scene(const std::filesystem::path& folder, const Scene& scene) {
   if (!std::filesystem::exists(path, error)) return write_file(path, write_scene(scene));
   const SceneResult kept = read_scene_file(path);
   if (kept.scene && moving_part(*kept.scene) == moving_part(scene)) return true;
-  complain("%s: the results in this folder are of another scene of that name; give another --out",
+  complain("%s: the results in this folder are of another scene of this name; choose another --out",
            path.c_str());
   return false;
 }

@@ -1,11 +1,10 @@
-# Where Dear ImGui's sources come from: substep_fetch_imgui(OUT) sets OUT to a folder that holds them.
+# Fetches the sources of Dear ImGui: substep_fetch_imgui(OUT) sets OUT to their folder.
 #
 # Debian 12's libimgui-dev is 1.86 and native only; the web build needs sources, and both shells
-# should show the same version. So: Debian's own source package of 1.90.1, fetched by apt (which
-# checks its signature) under lists and sources of its own, so that nothing on the system changes;
-# elsewhere upstream's tag. Both ways must give the same bytes: the digest below covers every file
-# that we compile. A second configure finds the folder and needs no network.
-# -DIMGUI_SOURCE_DIR=... overrides all this.
+# should use the same version. On Debian, apt fetches the source package of 1.90.1 and checks its
+# signature, with separate lists and sources, so that the system is unchanged; elsewhere the upstream
+# tag is used. Both must have the same contents: the digest below covers every file that we compile.
+# A second configure finds the folder and needs no network. -DIMGUI_SOURCE_DIR=... overrides this.
 
 set(IMGUI_VERSION 1.90.1)
 set(IMGUI_DEBIAN_VERSION 1.90.1+ds-1)
@@ -99,7 +98,7 @@ function(substep_fetch_imgui out)
     return()
   endif()
 
-  # Builds of one checkout (release, web, ...) share what they fetch.
+  # Builds of one checkout (release, web, ...) share the fetched sources.
   string(FIND ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR}/build/ at)
   if(at EQUAL 0)
     set(deps ${PROJECT_SOURCE_DIR}/build/deps)
@@ -116,7 +115,7 @@ function(substep_fetch_imgui out)
     endif()
     substep_imgui_digest(${dir} digest)
     if(NOT digest STREQUAL IMGUI_DIGEST)
-      message(FATAL_ERROR "Dear ImGui in ${dir} is not ${IMGUI_VERSION} as we know it "
+      message(FATAL_ERROR "Dear ImGui in ${dir} differs from the expected ${IMGUI_VERSION} "
         "(digest ${digest}). Remove that folder, or give -DIMGUI_SOURCE_DIR=...")
     endif()
   endif()

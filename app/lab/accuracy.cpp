@@ -55,7 +55,7 @@ bool Accuracy::show_shipped(const std::shared_ptr<const Scene>& scene, bool aske
     error = recommended->of;
     wanted.at(static_cast<std::size_t>(error)) = recommended->within;
   }
-  look_at_what_there_is();
+  select_available_axes();
   return true;
 }
 
@@ -83,10 +83,10 @@ void Accuracy::advance(double seconds) {
   if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // ignores the time of a sleeping tab
   last_ = now;
   sweep_->advance(seconds);
-  if (!running()) look_at_what_there_is();
+  if (!running()) select_available_axes();
 }
 
-void Accuracy::look_at_what_there_is() {
+void Accuracy::select_available_axes() {
   for (int i = 0; i < static_cast<int>(ErrorAxis::kCount) && !has(error); ++i) {
     if (has(static_cast<ErrorAxis>(i))) error = static_cast<ErrorAxis>(i);
   }

@@ -38,7 +38,7 @@ class Accuracy {
   /// Whether the results were shipped with the scene.
   [[nodiscard]] bool shipped() const { return shipped_.has_value(); }
   /// Assigns the results to a scene with the same motion under another name.
-  void is_of(std::shared_ptr<const Scene> scene) { scene_ = std::move(scene); }
+  void assign_to(std::shared_ptr<const Scene> scene) { scene_ = std::move(scene); }
   /// Stops before the next frame. Keeps the results so far.
   void cancel();
   /// Computing time per frame [s]: a few milliseconds, less during playback; if drawing is slow (a
@@ -72,8 +72,8 @@ class Accuracy {
   /// Stable runs at load 1 with a positive error, on the current axes. Errors below the floor are
   /// raised to the floor.
   [[nodiscard]] std::vector<Point> points() const;
-  /// The point that meets the requirement: the cheapest within the error, or the most exact within
-  /// the cost. Empty if there is none.
+  /// The point that meets the requirement: the cheapest within the error, or the most accurate
+  /// within the cost. Empty if there is none.
   [[nodiscard]] std::optional<Point> best(const std::vector<Point>& points) const;
   /// Searches for the alpha of the paper's method that meets the requirement, between the values of
   /// its curve and with at most its maximum N. Requires can_search().
@@ -119,7 +119,7 @@ class Accuracy {
   };
   [[nodiscard]] Limit limit() const;
   /// Selects axes for which the results have values.
-  void look_at_what_there_is();
+  void select_available_axes();
 
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;

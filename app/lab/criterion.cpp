@@ -93,8 +93,8 @@ std::string rotation_text(const Scene& scene, const Criterion& criterion) {
 }
 
 std::string rotation_meaning(const Scene& scene, const Criterion& criterion) {
-  if (!criterion.rotation_on) return "The paper's rule alone sets N.";
-  if (criterion.rotation_body < 0) return "No body spins fast enough to matter.";
+  if (!criterion.rotation_on) return "Only the paper's rule sets N.";
+  if (criterion.rotation_body < 0) return "No body rotates fast enough to matter.";
   const double degrees = criterion.angular_speed * scene.frame * 180.0 / std::numbers::pi;
   const std::string now = plain_number(degrees) + "° in a frame";
   if (!criterion.remembered) return "It turns " + now;

@@ -36,7 +36,7 @@ void add_exam(Library& library) {
     if (!entry.build || !entry.not_reached.empty()) continue;
     const ExamCase exam = entry.build();
     Scene scene = exam.scene;
-    if (exam.motion) scene.look_for += "; the bodies that are seen through move as it says";
+    if (exam.motion) scene.look_for += "; the transparent bodies follow it";
     scene.look_for += ".";
     // The exam's frames are as long as the row spacing of its tables, too long for display.
     scene.frame = std::min(scene.frame, 1.0 / 60.0);

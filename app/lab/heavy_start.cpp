@@ -34,7 +34,7 @@ std::string heavy_start(const std::shared_ptr<const Scene>& scene, const Setting
   if (work <= kMost) return "";
   return "A frame takes " + grouped(substeps) + (substeps == 1 ? " sub-step" : " sub-steps") +
          " and about " + seconds_text(std::max(1.0, work / kPerSecond)) +
-         ". The window goes on answering meanwhile, and Esc leaves a frame.";
+         ". The window stays responsive, and Esc cancels a frame.";
 }
 
 }  // namespace substep

@@ -135,7 +135,7 @@ void Lab::save_scene() {
   // Positions and speeds beyond the limits of the scene format are rejected.
   SceneResult result = read_scene(text);
   if (!result.scene) {
-    trouble = {"This state cannot be a scene file", std::move(result.problems),
+    trouble = {"This state cannot be saved as a scene file", std::move(result.problems),
                "No file was written."};
   } else if (host.save_file) {
     host.save_file(scene.name + ".json", text);
@@ -177,7 +177,7 @@ void Lab::keep(const Recommended& recommended) {
   scene.settings = recommended.settings;
   scene.recommended = recommended;
   const auto kept = add_own(scene);
-  accuracy.is_of(kept);
+  accuracy.assign_to(kept);
   run(kept);
   session.play();
   tell("Kept as " + kept->name + ": it starts with this");
@@ -204,7 +204,7 @@ void Lab::change(const Settings& settings) {
   s.watch_stiffness = session.settings().watch_stiffness;
   // The other settings take effect with the next sub-step.
   if (s.probe != session.settings().probe && session.state().frame > 0) {
-    tell("The probe acts at a start: reset to see what it does");
+    tell("The probe acts at the start: reset to see its effect");
   }
   session.set_settings(s);
 }

@@ -17,8 +17,8 @@ constexpr std::array<Group, 7> kGroups{{{kOwnGroup, "Your own"},
                                         {"paper", "From the paper"},
                                         {"authors", "The authors' constants"},
                                         {"stress", "Stress"},
-                                        {"exact", "Small and exact"},
-                                        {"exam", "The exam: known answers"},
+                                        {"exact", "Exact solutions"},
+                                        {"exam", "The exam: known solutions"},
                                         {"playground", "Playground"}}};
 // First in their groups; the others are sorted by title.
 constexpr std::array<std::string_view, 3> kFirst{"swinging_box", "bridge", "heavy_stack"};

@@ -116,7 +116,7 @@ void Session::set_settings(const Settings& settings) {
 }
 
 // Continues in another scene from the current frame; the run no longer belongs to the loaded one.
-void Session::go_on_in(Scene scene, std::function<State(State)> carry) {
+void Session::continue_in(Scene scene, std::function<State(State)> carry) {
   forget_future();
   const std::shared_ptr<const Scene> from = scene_;
   State carried = carry(state());
@@ -162,7 +162,7 @@ void Session::smooth_times() {
 
 // Call before an action that happens between frames: completes a frame of single sub-steps if that
 // is quick.
-void Session::come_between_frames() {
+void Session::finish_partial_frame() {
   slices_.drop(*simulator_);
   if (substeps_left() == 0) return;
   if (slices_.quick()) {

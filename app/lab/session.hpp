@@ -156,7 +156,7 @@ class Session {
   void restart();
   void make_simulator();
   void use_scene(std::shared_ptr<const Scene> scene);
-  void go_on_in(Scene scene, std::function<State(State)> carry);
+  void continue_in(Scene scene, std::function<State(State)> carry);
   void put_ball(const Ball& ball);
   void put_effects(const Effects& effects);
   void use_settings(const Settings& settings);
@@ -167,7 +167,7 @@ class Session {
   void take_frame();
   bool end_frame();
   bool run_slice(FrameSlices::Clock::time_point until);
-  void come_between_frames();
+  void finish_partial_frame();
   void forget_future();
   [[nodiscard]] Moment moment() const;
   void show_present();

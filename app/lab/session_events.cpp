@@ -21,14 +21,14 @@ void Session::pull_to(const Vec3& target) {
 }
 
 void Session::throw_ball(const Ball& ball) {
-  come_between_frames();
+  finish_partial_frame();
   if (stopped()) return;
   log_.take_over();
   put_ball(ball);
 }
 
 void Session::set_effects(const Effects& effects) {
-  come_between_frames();
+  finish_partial_frame();
   if (stopped() || effects == scene_->effects) return;
   log_.take_over();
   put_effects(effects);
@@ -37,15 +37,15 @@ void Session::set_effects(const Effects& effects) {
 // Replaces the oldest ball once the maximum is reached.
 void Session::put_ball(const Ball& ball) {
   const std::size_t slot = loaded_->bodies.size() + log_.balls() % Ball::kMost;
-  go_on_in(with_ball(*scene_, ball, slot),
-           [ball, slot](State state) { return with_ball(std::move(state), ball, slot); });
+  continue_in(with_ball(*scene_, ball, slot),
+              [ball, slot](State state) { return with_ball(std::move(state), ball, slot); });
   log_.add(state().frame, ball);
 }
 
 void Session::put_effects(const Effects& effects) {
   Scene scene = *scene_;
   scene.effects = effects;
-  go_on_in(std::move(scene), [](State state) {
+  continue_in(std::move(scene), [](State state) {
     state.rest.clear();  // sleeping bodies may fall without them
     return state;
   });

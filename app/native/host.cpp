@@ -100,9 +100,9 @@ void NativeHost::copy_link() {
   ImGui::SetClipboardText((page + "#" + app_.link()).c_str());
   std::string said = "Link copied";
   if (is_own(app_.link_scene())) {
-    said += ": it only names this scene, send its file too";
+    said += ": it only names this scene, so send its file as well";
   } else if (page.empty()) {
-    said += ": put it behind the page's address, or open it here";
+    said += ": append it to the page's address, or open it here";
   }
   app_.tell(said);
 }
@@ -113,7 +113,7 @@ void NativeHost::open_link() {
   const std::size_t mark = link.find('#');
   const std::string fragment = link.substr(mark == std::string::npos ? 0 : mark + 1);
   if (!fragment.starts_with("scene=")) {
-    app_.tell("There is no link to an experiment on the clipboard");
+    app_.tell("The clipboard has no link to an experiment");
     return;
   }
   app_.open_link(fragment);
@@ -129,7 +129,7 @@ void NativeHost::record(bool on) {
     if (!app_.desk.recording) app_.tell(pictures_.string() + " could not be made");
   } else {
     app_.desk.recording = false;
-    app_.tell(std::to_string(count_) + " pictures, 60 a second, are in " + pictures_.string());
+    app_.tell(std::to_string(count_) + " pictures, 60 per second, are in " + pictures_.string());
   }
 }
 

@@ -224,9 +224,9 @@ int start(int argc, char** argv) {
   CLI::App cli{"substep: a laboratory for stable constrained rigid bodies"};
   cli.add_option("--scene", options.scene, "name of a shipped scene, or a scene file");
   cli.add_option("--scenes", options.scenes, "folder of the shipped scenes")->capture_default_str();
-  cli.add_option("--open", options.open, "a scene file; what is wrong with it is shown in a panel");
-  cli.add_option("--link", options.link, "the experiment of a link: what follows its #");
-  cli.add_option("--set", options.settings, "a setting, as --set alpha=0.2");
+  cli.add_option("--open", options.open, "a scene file; its errors are shown in a panel");
+  cli.add_option("--link", options.link, "the experiment of a link: the part after #");
+  cli.add_option("--set", options.settings, "a setting, for example --set alpha=0.2");
   for (const SettingField& field : setting_fields()) {
     std::string flag(field.name);
     std::replace(flag.begin(), flag.end(), '_', '-');
@@ -242,7 +242,7 @@ int start(int argc, char** argv) {
   }
   cli.add_flag("--light", options.light, "start in the light theme");
   cli.add_flag("--bare", options.bare, "start with the panels hidden");
-  cli.add_option("--screenshot", options.screenshot, "write a PNG after --frames frames and leave");
+  cli.add_option("--screenshot", options.screenshot, "write a PNG after --frames frames and exit");
   cli.add_option("--frames", options.frames, "frames before the screenshot")
       ->check(CLI::Range(1, 100000));
   std::string size = "1280x800";

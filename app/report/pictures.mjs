@@ -57,7 +57,7 @@ export function stabilityMap(results, massRatio, select) {
     return [plot];
   });
   return figure("Where it holds",
-    "The mass of the heaviest body is varied. A cell tells how long the run survived, the paler the longer; blue ones hold to the end. Click one for its command.",
+    "The mass of the heaviest body is varied. Cells show how long the run survived, paler is longer; blue ones hold to the end. Click a cell for its command.",
     { name: "stability-map", draw, data: () => results.filter(r => modes.includes(r.series)).map(r => ({ series: r.series, mass_ratio: (r.load ?? 1) * massRatio, parameter: r.parameter.name, value: r.parameter.value, verdict: r.verdict })) });
 }
 
@@ -94,7 +94,7 @@ export function timeByStage(results) {
     el("div", { class: "legend" }, ...present.map(([, label, tone]) => el("span", { class: "key" }, el("i", { class: "box", style: `background: var(--${tone})` }), label))),
   ];
   return figure("Where the time goes",
-    "Stages that a scene does not call for take none. The criterion is what it costs to evaluate the geometric stiffness: once a frame, or once a sub-step.",
+    "Stages that the scene does not need take no time. The criterion is the evaluation of the geometric stiffness, once per frame or once per sub-step.",
     { name: "stages", draw, data: () => bars.map(({ method, stage, us, share }) => ({ method, stage, us, share })) });
 }
 
@@ -128,7 +128,7 @@ export function effectCosts(costs) {
     rowTable(costs, solver),
   ];
   const fig = figure("What each effect costs",
-    "Every frame is stepped again from the same state without the effect, with the same number of sub-steps; the difference is what the effect adds. The criterion is K, its column norms and r, from which N follows.",
+    "Every frame is stepped again from the same state without the effect, with the same number of sub-steps; the difference is the cost of the effect. The criterion is K, its column norms and r, from which N follows.",
     { name: "effects", draw, data: () => bars.map(({ solver, part, flops, ms }) => ({ solver, part, flops, ms })),
       controls: [choice("cost", units, unit.key, key => { unit = units.find(u => u.key === key); fig.redraw(); })] });
   return fig;
@@ -143,5 +143,5 @@ function rowTable(costs, solver) {
     el("thead", {}, el("tr", {}, el("th", {}, "rows of a solve"), ...kinds.map(([, label]) => el("th", {}, label)))),
     el("tbody", {}, ...costs.map(c => el("tr", {}, el("th", { scope: "row" }, solver(c)),
       ...kinds.map(([key]) => el("td", {}, number(c.work.rows[key] / c.work.solves),
-        c.work.row_updates > 0 && el("small", {}, `, ${number(c.work.row_updates / c.work.frames * c.work.rows[key] / all(c))} updates a frame`))))))));
+        c.work.row_updates > 0 && el("small", {}, `, ${number(c.work.row_updates / c.work.frames * c.work.rows[key] / all(c))} updates per frame`))))))));
 }

@@ -106,7 +106,7 @@ export function workPrecision(results, reference, select) {
       const { order, floor } = observedOrder(points(own), y.key === "trajectory" ? reference?.uncertainty ?? 0 : 0);
       return el("button", {
         class: "key", "aria-pressed": String(shown.has(s)),
-        title: isOrder(order) && floor > 0 ? `Order of what the error has above ${number(floor)} m, which the reference's uncertainty explains` : undefined,
+        title: isOrder(order) && floor > 0 ? `Order of the error above ${number(floor)} m, which is within the uncertainty of the reference` : undefined,
         onclick: () => { if (!shown.delete(s)) shown.add(s); redraw(); },
         onmouseenter: () => { hovered = s; redrawPlot(); },
         onmouseleave: () => { hovered = null; redrawPlot(); },
@@ -116,7 +116,7 @@ export function workPrecision(results, reference, select) {
   }
 
   const fig = figure("Error against cost",
-    "One curve per method along its own parameter. The broad band is the Pareto front: what no other run beats. Crosses on the rail failed. Click a point for its settings and its command; click a name to hide it.",
+    "One curve per method along its own parameter. The broad band is the Pareto front: runs that no other run beats. Crosses on the rail are failed runs. Click a point for its settings and its command; click a name to hide it.",
     {
       name: "work-precision",
       draw,
@@ -151,8 +151,8 @@ export function priceTable(results) {
   })]);
   const best = limits.map((_, i) => Math.min(...rows.map(([, cells]) => (cells[i] ? cells[i].timing.ms_median : Infinity))));
   return el("section", { class: "figure" },
-    el("h2", {}, "What an error costs"),
-    el("p", { class: "note" }, `The cheapest run of each method whose ${y.label.replace(/ \[.*/, "")} stays below the limit: its parameter and the median milliseconds of a frame. The cheapest of a column is marked.`),
+    el("h2", {}, "Cost of an error"),
+    el("p", { class: "note" }, `The cheapest run of each method whose ${y.label.replace(/ \[.*/, "")} stays below the limit: its parameter and the median milliseconds per frame. The cheapest in each column is marked.`),
     el("div", { class: "scroll" }, el("table", {},
       el("thead", {}, el("tr", {}, el("th", {}, "method"), ...limits.map(l => el("th", {}, `≤ ${number(l)} ${/\[(.*)\]/.exec(y.label)?.[1] ?? ""}`)))),
       el("tbody", {}, ...rows.map(([s, cells]) => el("tr", {},

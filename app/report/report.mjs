@@ -18,8 +18,8 @@ const redrawAll = () => figures.forEach(fig => fig.redraw());
 const details = el("aside", { class: "details", hidden: true, "aria-live": "polite" });
 function select(r) {
   const rows = Object.entries({
-    verdict: r.verdict, "sub-steps": r.work.substeps, "a frame": `${r.work.n_min} / ${r.work.n_median} / ${r.work.n_max}`,
-    "row updates": r.work.row_updates, "solver operations": r.work.flops, "ms a frame": `${number(r.timing.ms_median)} (p95 ${number(r.timing.ms_p95)})`,
+    verdict: r.verdict, "sub-steps": r.work.substeps, "per frame": `${r.work.n_min} / ${r.work.n_median} / ${r.work.n_max}`,
+    "row updates": r.work.row_updates, "solver operations": r.work.flops, "ms per frame": `${number(r.timing.ms_median)} (p95 ${number(r.timing.ms_p95)})`,
     "trajectory error [m]": number(r.errors.trajectory_peak), "energy drift [%]": number(r.errors.energy_drift_percent),
     "joint gap [m]": number(r.errors.joint_gap?.peak), "state hash": r.hash, "experiment": r.id,
   });
@@ -38,9 +38,9 @@ function card(c) {
     el("div", { class: "sides" },
       el("div", {}, el("h3", {}, "The paper"), el("p", {}, c.paper)),
       el("div", {}, el("h3", {}, "Here"), el("p", {}, c.here))),
-    c.why ? el("p", { class: "why" }, el("b", {}, c.verdict === "agrees" ? "To know. " : "Why they differ. "), c.why) : "",
+    c.why ? el("p", { class: "why" }, el("b", {}, c.verdict === "agrees" ? "Note. " : "Why they differ. "), c.why) : "",
     c.command ? el("p", {}, el("code", {}, c.command)) : "",
-    el("p", { class: "stamp" }, { agrees: "agrees", differs: "differs, and why is known", fails: "not reproduced" }[c.verdict] ?? c.verdict));
+    el("p", { class: "stamp" }, { agrees: "agrees", differs: "differs for a known reason", fails: "not reproduced" }[c.verdict] ?? c.verdict));
 }
 
 const theme = el("button", { onclick: () => {

@@ -7,8 +7,8 @@ const modes = [
   [/newton( \d+)? mean, const/, "teal", "circle", "Newton, mean forces"],
   [/newton( \d+)?, const/, "teal", "circle", "Newton"],
   ["refined", "teal", "triangle", "constant N"],
-  [/xpbd \d+ a frame, const/, "purple", "star", "small steps"],
-  [/pgs \d+ a frame, const/, "amber", "triangle", "small steps"],
+  [/xpbd \d+ per frame, const/, "purple", "star", "small steps"],
+  [/pgs \d+ per frame, const/, "amber", "triangle", "small steps"],
   ["xpbd 1, const", "purple", "diamond", "XPBD"],
   ["xpbd", "purple", "cross", "XPBD"],
   [/adaptive.*by island/, "teal", "wye", "adaptive by island"],
@@ -45,7 +45,7 @@ export const colour = name =>
 export function styleOf(series) {
   const [, token, shape, mode] = modes.find(([part]) => series.search(part) >= 0) ?? ["", "grey", "circle", series];
   const leapfrog = series.includes("leapfrog");
-  const [, sweeping, sweeps, shared] = /^(pgs|xpbd) (\d+)( a frame)?/.exec(series) ?? [];
+  const [, sweeping, sweeps, shared] = /^(pgs|xpbd) (\d+)( per frame)?/.exec(series) ?? [];
   const named = sweeping === "pgs" || shared; // XPBD is its own name otherwise
   const implicit = /^newton/.test(series);
   const [, steps] = /^newton (\d+)/.exec(series) ?? [];

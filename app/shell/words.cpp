@@ -51,7 +51,7 @@ std::string select_body(App& app, std::string_view name) {
   const auto found =
       std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == name; });
   if (name != "none" && found == bodies.end()) {
-    return "there is no body of the name '" + std::string(name) + "'";
+    return "there is no body named '" + std::string(name) + "'";
   }
   app.desk.selected = name == "none" ? -1 : static_cast<int>(found - bodies.begin());
   return "";
@@ -149,8 +149,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
     accuracy.effects.cancel();
   } else if (value == "alpha") {
     if (!accuracy.can_search()) {
-      return "'alpha' searches beside a sweep that has found its reference: set accuracy=run "
-             "first";
+      return "'alpha' needs a sweep that has found its reference: set accuracy=run first";
     }
     accuracy.search_alpha();
   } else if (value == "map") {
@@ -164,7 +163,8 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
   } else if (value == "measure") {
     lab.measure_costs();
   } else {
-    return "'" + std::string(value) + "' is not run, cancel, alpha, measure, error, trade, map or stages";
+    return "'" + std::string(value) +
+           "' is not run, cancel, alpha, measure, error, trade, map or stages";
   }
   return "";
 }
@@ -173,7 +173,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
 
 std::string App::set(std::string_view key, std::string_view value) {
   if (key == "scene") {
-    return open(value) ? "" : "there is no scene of the name '" + std::string(value) + "'";
+    return open(value) ? "" : "there is no scene named '" + std::string(value) + "'";
   }
   if (auto problem = set_window(*this, key, value)) return *std::move(problem);
   introduction.leave(*this);  // the following commands are for the run in the laboratory
@@ -229,7 +229,7 @@ void App::open_link(std::string_view fragment, std::optional<SceneResult> scene)
 
 void App::open_link_paused(std::string_view fragment, std::optional<SceneResult> scene) {
   if (static_cast<double>(fragment.size()) > kLongestLink) {
-    trouble = {"The link was not followed",
+    trouble = {"The link was not opened",
                {{"", "it has " + grouped(static_cast<double>(fragment.size())) +
                          " characters; at most " + grouped(kLongestLink) + " are allowed"}},
                kSceneKept};
@@ -277,7 +277,7 @@ void App::open_link_paused(std::string_view fragment, std::optional<SceneResult>
   const bool kept = scene_refused && plain_scene == scene_before;
   std::string aftermath = kept ? kSceneKept : "";
   if (problems.size() < parts.size()) {
-    aftermath += std::string(kept ? " " : "") + "The rest of the link was followed.";
+    aftermath += std::string(kept ? " " : "") + "The rest of the link was applied.";
   }
   trouble = {"Some settings of the link were ignored", std::move(problems), std::move(aftermath)};
 }

@@ -66,7 +66,7 @@ std::string apply_changes(std::string_view text, Settings& settings) {
     text.remove_prefix(std::min(pair.size() + 1, text.size()));
     const std::size_t colon = std::min(pair.find(':'), pair.size());
     const SettingField* field = find_setting(pair.substr(0, colon));
-    if (field == nullptr) return "changes what is not a setting";
+    if (field == nullptr) return "changes an unknown setting";
     const std::string_view value = pair.substr(std::min(colon + 1, pair.size()));
     if (const auto problem = set_setting(*field, value, settings)) {
       return std::string(field->name) + " " + *problem;
@@ -145,9 +145,9 @@ class EventReader {
   RunEvent event(std::string& problem) {
     const std::uint64_t head = in_.whole();
     const std::uint64_t frames = head >> kKindBits;
-    if (frames > static_cast<std::uint64_t>(kMostFrames)) problem = "is after too long a run";
+    if (frames > static_cast<std::uint64_t>(kMostFrames)) problem = "is too late in the run";
     frame_ += problem.empty() ? static_cast<std::int64_t>(frames) : 0;
-    if (frame_ > kMostFrames) problem = "is after too long a run";
+    if (frame_ > kMostFrames) problem = "is too late in the run";
     RunEvent event{frame_, LetGo{}};
     switch (head & ((1U << kKindBits) - 1U)) {
       case kBall:
@@ -172,7 +172,7 @@ class EventReader {
         event.what = settings_;
         break;
       default:
-        problem = "is of no kind that is known";
+        problem = "is of an unknown kind";
     }
     return event;
   }
@@ -203,7 +203,7 @@ class EventReader {
       problem = "pulls a body that does not move";
     }
     for (const double x : anchor) {
-      if (!kPositionRange.contains(x)) problem = "pulls at a point that no body has";
+      if (!kPositionRange.contains(x)) problem = "pulls at a point outside all bodies";
     }
     held_ = Pull{problem.empty() ? static_cast<int>(body) : 0, {anchor[0], anchor[1], anchor[2]}};
     steps_ = {};
@@ -211,7 +211,7 @@ class EventReader {
   }
   Pull move(std::string& problem) {
     if (!held_) {
-      problem = "moves a hand that holds nothing";
+      problem = "moves a pull that has not begun";
       return {};
     }
     const double most = kGrid * kPositionRange.most;
@@ -258,7 +258,7 @@ std::vector<RunEvent> read_events(std::string_view text, const Scene& scene, con
   if (text.size() > kMostEventText) {
     problem = "has more than " + std::to_string(kMostEventText) + " characters";
   } else if (!bytes || bytes->empty()) {
-    problem = "is no list of events: was the link cut short?";
+    problem = "is not a list of events: was the link truncated?";
   } else if (bytes->front() != kVersion) {
     problem = "is of a later version of this program";
   }
@@ -269,7 +269,7 @@ std::vector<RunEvent> read_events(std::string_view text, const Scene& scene, con
   std::vector<RunEvent> events;
   while (!in.done()) {
     events.push_back(reader.event(problem));
-    if (!in.ok()) problem = "ends within an event: was the link cut short?";
+    if (!in.ok()) problem = "ends within an event: was the link truncated?";
     if (problem.empty()) continue;
     if (in.ok()) problem = "event " + std::to_string(events.size()) + " " + problem;
     return {};

@@ -16,7 +16,7 @@ IntroductionWords introduction_words(const Lab& lab) {
   const Verdict* verdict = Introduction::torn(lab);
   const bool torn = verdict != nullptr && !verdict->holds();
   words.torn.note = torn ? "Torn at " + fixed(verdict->failed_at(), 2) + " s: the step is too long"
-                         : "The step is too long for so stiff a chain";
+                         : "The step is too long for this stiff chain";
   words.held.title = "Adaptive: N sub-steps";
   const int n = lab.session.report().n_substeps;
   if (n > 0) words.held.title += ", now " + std::to_string(n);

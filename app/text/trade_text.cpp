@@ -30,9 +30,9 @@ std::string failing(const FairTrade& trade) {
 
 std::string of_one_load(const FairTrade& trade) {
   const TradeRow& row = trade.rows.front();
-  const std::string start = "Adaptive sub-stepping takes " + coarse_number(row.n()) +
-                            " sub-steps per frame on average. The smallest constant N that is as "
-                            "exact is ";
+  const std::string start =
+      "Adaptive sub-stepping takes " + coarse_number(row.n()) +
+      " sub-steps per frame on average. The smallest constant N that is as accurate is ";
   const bool known = row.constant != nullptr;
   if (!known) {
     return start + trade_number(row, trade.most_n) + ": " +
@@ -60,7 +60,7 @@ std::string trade_text(const FairTrade& trade) {
   const std::string n =
       trade.for_all ? std::to_string(*trade.for_all) : "more than " + std::to_string(trade.most_n);
   return "Adaptive sub-stepping takes " + coarse_number(mean) +
-         " sub-steps per frame, averaged over these loads. A constant N that is as exact under "
+         " sub-steps per frame, averaged over these loads. A constant N that is as accurate under "
          "all of them is " +
          n + ": " +
          times_as_many((trade.for_all ? *trade.for_all : trade.most_n + 1) / mean, !trade.for_all) +

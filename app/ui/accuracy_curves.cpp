@@ -69,12 +69,13 @@ void choose_headlines(const Theme& theme, const Accuracy& accuracy,
   for (AccuracyCurve& curve : curves) {
     if (curve.series != series || curve.headline) continue;
     curve.headline = true;
-    curve.name = accuracy.error_is_given ? "Cheapest" : "Most exact";
+    curve.name = accuracy.error_is_given ? "Cheapest" : "Most accurate";
     if (!accuracy.all_methods) curve.style.color = theme.text;
   }
 }
 
-/// The cheapest or most exact run of constant N with the direct solver and Euler, the usual method.
+/// The cheapest or most accurate run of constant N with the direct solver and Euler, the usual
+/// method.
 std::optional<Point> plain_best(const Accuracy& accuracy, const std::vector<Point>& points) {
   std::vector<Point> plain;
   std::copy_if(points.begin(), points.end(), std::back_inserter(plain),

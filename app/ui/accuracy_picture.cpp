@@ -95,7 +95,7 @@ void draw_curve_names(const Look& look, const std::vector<const AccuracyCurve*>&
   std::vector<float> wanted;
   std::vector<ImVec2> ends;
   for (const AccuracyCurve* curve : curves) {
-    // At the most exact end; curves converge towards the other.
+    // At the most accurate end; curves converge towards the other.
     const auto end =
         std::min_element(curve->points.begin(), curve->points.end(),
                          [](const Point& a, const Point& b) { return a.error < b.error; });

@@ -1,5 +1,5 @@
-// "What to set": the cheapest method within an error or the most exact within a cost, and the alpha
-// of the paper's method that meets the same requirement.
+// "What to set": the cheapest method within an error or the most accurate within a cost, and the
+// alpha of the paper's method that meets the same requirement.
 
 #include <algorithm>
 #include <array>
@@ -14,15 +14,16 @@
 namespace substep::ui {
 namespace {
 
-constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting that keeps within it"},
-                                        {"a cost", "The most exact setting that keeps within it"}}};
+constexpr std::array<Choice, 2> kGiven{{{"an error", "The cheapest setting within the limit"},
+                                        {"a cost", "The most accurate setting within the limit"}}};
 constexpr std::array<const char*, static_cast<std::size_t>(CostAxis::kCount)> kBudgetNames{
     "Sub-steps", "Operations", "Time, ms"};
 
 /// The requirement: its axis and its limit.
 void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Point>& points) {
   int given = accuracy.error_is_given ? 0 : 1;
-  if (segmented_row(look, "Given", kGiven, given, "What is wanted; the other is looked for")) {
+  if (segmented_row(look, "Given", kGiven, given,
+                    "The limited quantity; the other one is minimised")) {
     accuracy.error_is_given = given == 0;
   }
   const auto limits = [&](double CostAndError::*member) {
@@ -35,12 +36,13 @@ void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Po
     const auto [least, most] = limits(&CostAndError::error);
     power_slider(look, accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m",
                  accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), least, most,
-                 "The error that is wanted at most. What holds it at the least cost is below");
+                 "The largest permitted error. The cheapest setting within it is below");
   } else {
     const auto cost = static_cast<std::size_t>(accuracy.cost);
     const auto [least, most] = limits(&CostAndError::cost);
-    power_slider(look, kBudgetNames.at(cost), accuracy.budget.at(cost), least, most,
-                 "What a frame may cost at most. What comes nearest for it is below");
+    power_slider(
+        look, kBudgetNames.at(cost), accuracy.budget.at(cost), least, most,
+        "The largest permitted cost per frame. The most accurate setting within it is below");
   }
 }
 
@@ -57,7 +59,7 @@ std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
                        const Accuracy::Point* best) {
   if (!search.choice()) {
     return "No alpha from " + plain_number(AlphaSearch::kLeast) +
-           " to 1 makes the paper's method hold and keep within " + limit_text(accuracy) +
+           " to 1 makes the paper's method hold within " + limit_text(accuracy) +
            ", with at most " + std::to_string(accuracy.search_cap()) + " sub-steps per frame.";
   }
   const auto& [alpha, result] = *search.choice();
@@ -69,7 +71,7 @@ std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
       cost_text(cost, accuracy.cost) + ".";
   if (!best || !accuracy.error_is_given) return text;
   return text + " That is " + coarse_number(cost / best->cost) +
-         " times what the setting above takes.";
+         " times the cost of the setting above.";
 }
 
 /// The paper's alpha that meets the requirement, by search. @param best the recommendation, or null
@@ -80,7 +82,7 @@ void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
     if (accuracy.can_search() &&
         button(look, "find_alpha", Icon::kNone, "Find the paper's alpha", ButtonKind::kGhost, 0.0F,
                look.m.row,
-               "Between the values of its curve: by halving, each try a whole run of the scene")) {
+               "Bisection between the values of its curve: each step runs the whole scene")) {
       accuracy.search_alpha();
     }
     return;
@@ -106,8 +108,8 @@ std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::P
   if (paper->result == best.result) return "It is the paper's.";
   const std::string with = "The paper's method, with alpha = " + plain_number(alpha) + ", ";
   return accuracy.error_is_given
-             ? with + "takes " + coarse_number(paper->cost / best.cost) + " times that."
-             : with + "comes to " + error_text(paper->error, accuracy.error) + ".";
+             ? with + "takes " + coarse_number(paper->cost / best.cost) + " times the cost."
+             : with + "has an error of " + error_text(paper->error, accuracy.error) + ".";
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ void search_bar(const Look& look, Accuracy& accuracy) {
         ("Looking for the paper's alpha: run " + std::to_string(search.runs()) +
          ", alpha = " + coarse_number(search.alpha()))
             .c_str());
-  if (progress(look, search.progress(), "What was found so far is given up")) {
+  if (progress(look, search.progress(), "Discards the result so far")) {
     accuracy.cancel_search();
   }
 }
@@ -133,7 +135,7 @@ void advice(const Look& look, Lab& lab) {
   const auto best = accuracy.best(points);
   if (!best) {
     label(look.fonts.small, look.theme->dim,
-          ("No method keeps within " + limit_text(accuracy) + ".").c_str());
+          ("No method is within " + limit_text(accuracy) + ".").c_str());
     paper_alpha(look, lab, nullptr);
     space(8.0F);
     return;
@@ -165,7 +167,7 @@ void advice(const Look& look, Lab& lab) {
     ImGui::SameLine(0.0F, 8.0F);
     if (button(look, "keep", Icon::kNone, "Keep for this scene", ButtonKind::kGhost, 0.0F,
                look.m.row,
-               "A copy of the scene among your own that starts with it, and has it as the preset "
+               "Adds a copy to your own scenes that starts with it, and has it as the preset "
                "recommended")) {
       lab.keep(*recommended_of(accuracy.results(), accuracy.error,
                                accuracy.wanted.at(static_cast<std::size_t>(accuracy.error))));

@@ -19,11 +19,11 @@ struct Comparison {
   const char* link;  // settings of the run, then the compared runs
 };
 constexpr std::array<Comparison, 4> kComparisons{
-    {{"None, damping, adaptive", "what holds, and at what price",
+    {{"None, damping, adaptive", "which of them hold, and their cost",
       "mode=adaptive&compare=mode:none;mode:damping"},
      {"PGS and BPP", "an approximate and an exact solver",
       "mode=adaptive&solver=bpp&compare=solver:pgs"},
-     {"Alpha 0.1 and 0.05", "√2 times the sub-steps, for how much less error?",
+     {"Alpha 0.1 and 0.05", "√2 times the sub-steps: how much less error?",
       "mode=adaptive&alpha=0.1&compare=alpha:0.05"},
      {"Euler and leapfrog", "first and second order at the same cost",
       "mode=adaptive&integrator=euler&compare=integrator:leapfrog"}}};
@@ -103,7 +103,7 @@ bool other(const Look& look, const Session& session, Compare& compare, Desk& des
             origin.x + width);
   label(look.fonts.small, look.theme->dim, divergence_text(session, run).c_str());
   if (button(look, "change", Icon::kNone, opened ? "Done" : "Change", ButtonKind::kPlain, 0.0F, row,
-             "Any setting of this one alone")) {
+             "Any setting of this run only")) {
     desk.compare_open = opened ? -1 : static_cast<int>(i);
   }
   ImGui::SameLine(0.0F, 8.0F);
@@ -121,8 +121,8 @@ bool other(const Look& look, const Session& session, Compare& compare, Desk& des
 
 void presets(const Look& look, Desk& desk) {
   label(look.fonts.small, look.theme->dim,
-        "Other methods beside this run: the same scene, the same clock, the same start. They are "
-        "seen as ghosts or side by side, and in the plots. A hand or a ball reaches all of them.");
+        "Runs other methods with this one: the same scene, clock and start. They are shown as "
+        "ghosts or side by side, and in the plots. Pulls and balls act on all of them.");
   space(look.m.section);
   for (const Comparison& preset : kComparisons) {
     if (button(look, preset.title, Icon::kNone, preset.title, ButtonKind::kPlain,
@@ -145,7 +145,7 @@ void restart_buttons(const Look& look, Lab& lab) {
   }
   ImGui::SameLine(0.0F, 8.0F);
   if (button(look, "now", Icon::kNone, "From now", ButtonKind::kPlain, half, look.m.row,
-             "All of them from the state that this run is in")) {
+             "All of them from the current state of this run")) {
     lab.compare.restart(lab.session);
   }
 }
@@ -153,8 +153,8 @@ void restart_buttons(const Look& look, Lab& lab) {
 // Overlaid, or in separate views.
 void views_row(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kViews{
-      {{"Ghosts", "All in one view: this run as it is, the others in their colours (V)"},
-       {"Side by side", "Each in a view of its own, from the same place (V)"}}};
+      {{"Ghosts", "All in one view: this run as usual, the others in their colours (V)"},
+       {"Side by side", "Each in its own view, from the same camera (V)"}}};
   int split = desk.split ? 1 : 0;
   segmented(look, "views", kViews, split, ImGui::GetContentRegionAvail().x);
   desk.split = split == 1;

@@ -46,19 +46,19 @@ void showing(const Look& look, const Session& session, Desk& desk) {
   section(look, "Show");
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {6.0F, 6.0F});
   toggle(look, "why this N", v.tint, t.orange, true,
-         "Bodies by their k/M (Eq. 9): the orange ones ask for small steps. Evaluates K in every "
+         "Bodies by their k/M (Eq. 9): the orange ones need small steps. Evaluates K in every "
          "mode.");
-  toggle(look, "masses", v.labels, 0, false, "Mass of what is heavy.");
+  toggle(look, "masses", v.labels, 0, false, "Masses of heavy bodies.");
   if (scene.criteria.track) {
     toggle(look, "trail", v.trail, t.blue, false, "Path of the body that the scene tracks.");
   }
-  if (effects.joints) toggle(look, "joints", v.joints, 0, false, "Pins where bodies are joined.");
+  if (effects.joints) toggle(look, "joints", v.joints, 0, false, "Markers of joints.");
   if (effects.joints || effects.contact) {
-    toggle(
-        look, "forces", v.forces, t.amber, false,
-        "λ of Eq. 3: of joints on their first body in amber, of contacts with friction in "
-        "green. Arrows grow with the root of the force; a long one is the weight of all. As they "
-        "are at the end of the frame, in its last sub-step: an impact within it is not seen.");
+    toggle(look, "forces", v.forces, t.amber, false,
+           "λ of Eq. 3: of joints on their first body in amber, of contacts with friction in "
+           "green. Arrow lengths are proportional to the square root of the force; a long one is "
+           "the weight of all. Forces of the last sub-step of the frame: earlier impacts within it "
+           "are not shown.");
   }
   if (effects.contact) {
     toggle(look, "contacts", v.contacts, t.teal, false,
@@ -66,12 +66,13 @@ void showing(const Look& look, const Session& session, Desk& desk) {
   }
   if (effects.joints) {
     toggle(look, "gaps", v.errors, t.orange, false,
-           "Errors φ of joints, drawn longer by a power of ten so that the largest is seen.");
+           "Errors φ of joints, magnified by a power of ten so that the largest is visible.");
     toggle(look, "frames", v.frames, t.purple, false,
            "Axes of hinges, frames of ball joints: x orange, y green, z blue.");
   }
   toggle(look, "axes", v.axes, 0, false,
-         "Principal axes of bodies: x orange, y green, z blue. K is taken along them (Eq. 4).");
+         "Principal axes of bodies: x orange, y green, z blue. The columns of K are taken along "
+         "them (Eq. 4).");
   ImGui::PopStyleVar();
 }
 

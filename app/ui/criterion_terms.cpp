@@ -35,14 +35,13 @@ void term(const Look& look, const std::string& what, const std::string& meaning,
 void criterion_terms(const Look& look, const Session& session, const Criterion& c) {
   const Scene& scene = session.scene();
   section(look, "Which term sets N", "N");
-  tooltip(
-      look, "Which term sets N",
-      "Two things limit a sub-step. Stiffness: a force that turns with a body pushes back like "
-      "a spring, r = max k/M (Eq. 9). Rotation: a body that spins fast must not turn too far in "
-      "a sub-step; the paper's rule does not see it. Each gives an r and with it an N (Eqs. 10, "
-      "11). The larger N is taken.");
+  tooltip(look, "Which term sets N",
+          "Two terms limit a sub-step. Stiffness: a force that rotates with a body acts like a "
+          "spring, r = max k/M (Eq. 9). Rotation: a fast body must not rotate too far in a "
+          "sub-step; the paper's rule does not include this. Each gives an r and with it an N "
+          "(Eqs. 10, 11). The larger N is used.");
   term(look, stiffness_text(scene, c),
-       c.stiffness.body < 0 ? "No constraint force turns with a body."
+       c.stiffness.body < 0 ? "No constraint force rotates with a body."
                             : "k/M " + short_number(c.stiffness.r) + " s⁻², by Eq. 9",
        c.n_stiffness, c.set_by == CriterionTerm::kStiffness);
   term(look, rotation_text(scene, c), rotation_meaning(scene, c), c.n_rotation,

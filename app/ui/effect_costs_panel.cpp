@@ -38,11 +38,11 @@ std::vector<CostRow> parts_of(const Theme& t, const CostBreakdown& costs) {
   for (const EffectCost& cost : costs.effects) {
     CostRow part{std::string(cost.effect), 1e-3 * cost.ms, cost.flops, t.blue, ""};
     part.tip =
-        "A frame as it is, less the same frame without this effect, from the same state "
+        "The cost of a frame minus that of the same frame without this effect, from the same state "
         "with the same number of sub-steps.";
-    if (part.seconds < 0.0) part.tip += " It spares more than it takes.";
+    if (part.seconds < 0.0) part.tip += " It saves more than it costs.";
     if (cost.row_updates > 0.0) {
-      part.tip += "\nRow updates of PGS, a frame: " + short_number(cost.row_updates) + ".";
+      part.tip += "\nRow updates of PGS per frame: " + short_number(cost.row_updates) + ".";
     }
     parts.push_back(std::move(part));
   }
@@ -109,8 +109,8 @@ void stages_of_run(const Look& look, const Effects& effects, const CostBreakdown
   stage_list(look, list, {at.x, at.y + kStageBar + 8.0F}, width);
   ImGui::Dummy({width, kStageBar + 8.0F + stage_list_height(list)});
   tooltip(look, "Stages of a frame",
-          "Mean wall time of a frame on this machine. A stage that the scene does not call for "
-          "does not exist. Solving takes the rows of all kinds together.");
+          "Mean wall time of a frame on this machine. Stages that the scene does not need are not "
+          "executed. Rows of all kinds are solved together.");
 }
 
 /// "75 of joints, 24 of contact, 48 of friction"
@@ -161,12 +161,12 @@ void effect_costs(const Look& look, Lab& lab) {
   const CostBreakdown* costs = measured.breakdown();
   const bool of_this_run = lab.costs() != nullptr;
   if (measured.running()) {
-    if (progress(look, measured.progress(), "What was measured so far stays")) measured.cancel();
+    if (progress(look, measured.progress(), "Keeps the measurements so far")) measured.cancel();
   } else {
     if (costs == nullptr) {
       label(look.fonts.small, t.dim,
-            "Where the time of a frame goes: its stages, what each effect adds to them, and what "
-            "choosing the number of sub-steps costs, with the present settings.");
+            "The time of a frame: its stages, the cost of each effect, and the cost of choosing "
+            "the number of sub-steps, with the current settings.");
       space(8.0F);
     }
     if (button(look, "measure", Icon::kPlay,
@@ -175,8 +175,8 @@ void effect_costs(const Look& look, Lab& lab) {
                                   : "Measure these settings",
                of_this_run ? ButtonKind::kPlain : ButtonKind::kPrimary,
                ImGui::GetContentRegionAvail().x, look.m.row + 4.0F,
-               "The run from its start, in the background: every frame once as it is and once "
-               "without each effect")) {
+               "Repeats the run in the background: every frame once unchanged and once without "
+               "each effect")) {
       lab.measure_costs();
       costs = nullptr;
     }
@@ -190,7 +190,7 @@ void effect_costs(const Look& look, Lab& lab) {
   space(look.m.section);
   stages_of_run(look, measured.scene()->effects, *costs);
   space(look.m.section);
-  section(look, "What each adds", "time     operations", t.dim);
+  section(look, "Per effect", "time     operations", t.dim);
   draw_parts(look, parts_of(t, *costs));
   label(look.fonts.small, t.dim, summary(*costs).c_str());
 }

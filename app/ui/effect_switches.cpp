@@ -31,7 +31,7 @@ constexpr std::array<EffectFacts, kEffectNames.size()> kFacts{
      {"Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.", &FrameReport::friction_rows,
       &StageTimes::friction},
      {"Contacts that bounce (Newton's law).", nullptr, nullptr},
-     {"Constant forces and torques that the scene gives its bodies.", nullptr, nullptr}}};
+     {"Constant forces and torques of the scene on its bodies.", nullptr, nullptr}}};
 
 /// Right-aligned in the two columns at the end of a line.
 void columns(const Look& look, ImVec2 at, float width, ImU32 color, const std::string& rows,
@@ -61,11 +61,11 @@ std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
   std::string tip = facts.tip;
   if (cost != nullptr) {
     tip += "\nAdds " + duration(1e-3 * cost->ms) + " and " + short_number(cost->flops) +
-           " operations of the solver to a frame.";
+           " solver operations per frame.";
   } else if (facts.seconds != nullptr) {
-    tip += "\nThe time is that of making its rows; what solving them takes must be measured.";
+    tip += "\nThe time is that of building its rows; the time to solve them must be measured.";
   } else {
-    tip += "\nIt has no stage of its own: what it takes must be measured.";
+    tip += "\nIt has no stage of its own: its cost must be measured.";
   }
   return tip;
 }
@@ -116,15 +116,15 @@ void effect_table(const Look& look, Lab& lab) {
   }
 
   if (lab.accuracy.effects.running()) {
-    if (progress(look, lab.accuracy.effects.progress(), "What was measured so far stays")) {
+    if (progress(look, lab.accuracy.effects.progress(), "Keeps the measurements so far")) {
       lab.accuracy.effects.cancel();
     }
   } else if (costs == nullptr &&
              button(look, "measure effects", Icon::kPlay, "Measure cost per effect",
                     ButtonKind::kPlain, width, look.m.row,
-                    "The run from its start in the background, every frame once as it is and once "
-                    "without each effect: the difference is the effect's, solving its rows "
-                    "included.")) {
+                    "Repeats the run in the background, every frame once unchanged and once "
+                    "without each effect: the difference is the cost of the effect, solving its "
+                    "rows included.")) {
     lab.measure_costs();
   }
 }

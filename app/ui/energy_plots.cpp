@@ -119,7 +119,7 @@ void energy_plot(const PlotContext& in, float height, bool last) {
   spec.factor = unit.factor;
   spec.least_span = std::max(unit.factor, kLeastEnergy);
   if (several) {
-    tooltip(look, "Kinetic energy", "Of each run. One that explodes leaves the plot.");
+    tooltip(look, "Kinetic energy", "Of each run. A run that explodes leaves the plot.");
     compared_energies(in, origin, left, Channel::kKinetic, unit);
     spec.most = kRoomForFailed * most;
     spec.series.push_back({&h, Channel::kKinetic, t.blue, kThisRun});
@@ -159,8 +159,8 @@ void drift_plot(const PlotContext& in, float height, bool last) {
   const bool named = !several && std::isfinite(now);
   section(look, heading.c_str(), named ? energy_change(now, scale).c_str() : "");
   tooltip(look, "Energy drift",
-          "How much the total energy has changed since the start, on its own scale: not at all, "
-          "ideally. Friction, impacts and damping take energy out. The percentage is of the energy "
+          "The change of the total energy since the start, on its own scale; ideally zero. "
+          "Friction, impacts and damping remove energy. The percentage is of the energy "
           "that the motion exchanges; a scene at rest exchanges none, and has no percentage.");
   PlotSpec spec;
   spec.id = "drift";

@@ -37,13 +37,13 @@ void menu_row(const Look& look, const char* name, const Entries& entries, Value&
 void parameters(const Look& look, Settings& s) {
   if (reads(s, "alpha")) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
-           "Distance from the limit of stability, which is 1 (Eq. 5). N is proportional to 1/√α "
+           "Relative to the stability limit, which is 1 (Eq. 5). N is proportional to 1/√α "
            "(Eq. 10): quartering alpha doubles N.");
   }
   if (reads(s, "n")) slider(look, "N", s.n, 1, 128, true, "Sub-steps in every frame: dt = h/N.");
   if (reads(s, "n_cap")) {
     slider(look, "N cap", s.n_cap, 1, 64, true,
-           "Sub-steps up to here; what they do not reach, the mode damps.");
+           "Maximum of sub-steps; the mode damps the remaining stiffness.");
   }
 }
 
@@ -51,11 +51,11 @@ void method(const Look& look, Settings& s) {
   section(look, "Method");
   menu_row(
       look, "Stabilisation", kModes, s.mode, [](const ModeEntry& e) { return std::string(e.name); },
-      [](const ModeEntry& e) { return e.line; }, "What keeps the run stable (1 to 8)");
+      [](const ModeEntry& e) { return e.line; }, "Stabilisation of the run (1 to 8)");
   menu_row(
       look, "Solver", kSolvers, s.solver, [](const SolverEntry& e) { return std::string(e.title); },
       [](const SolverEntry& e) { return e.full_name; },
-      "What solves the velocities of a sub-step, Eq. 3");
+      "Solver for the velocities of a sub-step, Eq. 3");
   label(look.fonts.small, look.theme->dim, entry_of(s.mode).line);
   parameters(look, s);
 }
@@ -97,7 +97,7 @@ void comparison(const Look& look, Lab& lab, Desk& desk) {
     return;
   }
   checkbox(look, "Side by side", desk.split, width,
-           "Each in a view of its own, or the other as a ghost (V)");
+           "Each in its own view, or the other one as a ghost (V)");
   if (button(look, "end", Icon::kNone, "End the comparison", ButtonKind::kPlain, width, look.m.row,
              "")) {
     lab.compare.close();
@@ -117,7 +117,7 @@ void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& vi
   space(look.m.section);
   if (button(look, "throw", Icon::kBall, "Throw a ball", ButtonKind::kPlain,
              ImGui::GetContentRegionAvail().x, look.m.row + 2.0F,
-             "From beside the eye; B throws it at the pointer")) {
+             "From the camera; B throws it at the pointer")) {
     throw_ball(lab, viewport);
   }
 }

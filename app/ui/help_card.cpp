@@ -22,7 +22,7 @@ struct Gesture {
   std::string_view what;
 };
 // Handled by Dear ImGui and the pointer; the table of keys is in keys.cpp.
-constexpr std::array<Gesture, 13> kGestures{{{"click a body", "what it is and does"},
+constexpr std::array<Gesture, 13> kGestures{{{"click a body", "show its values"},
                                              {"drag a body", "pull it, while it plays"},
                                              {"drag beside", "turn the view"},
                                              {"right drag, Shift drag", "move the view"},

@@ -20,46 +20,46 @@ constexpr std::array<Choice, 3> kForces{
     {{"end", "The end of the sub-step: implicit Euler, which damps (Macklin et al. 2019)."},
      {"mean",
       "Before, at and after it by 1/4, 1/2, 1/4: average acceleration (Newmark 1959), stable for "
-      "any step, and loses nothing."},
+      "any step, without loss."},
      {"Numerov",
       "By 1/12, 10/12, 1/12 and with the rate of the forces (after Numerov 1924): fourth order "
       "with two steps, for scenes of joints, while dt² k < 6 M."}}};
 constexpr std::array<Choice, 2> kPolicies{
     {{"frame",
-      "N is decided once a frame, from the forces of its last sub-step: the paper's (Giles and "
+      "N is decided once per frame, from the forces of its last sub-step: the paper's (Giles and "
       "Andrews 2024)."},
      {"sub-step",
       "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};
 constexpr std::array<Choice, 3> kDrifts{
     {{"auto", "Soft with PGS, full with the others."},
-     {"full", "The whole error is taken back in one step: bias phi/dt (Baumgarte 1972)."},
+     {"full", "The whole error is corrected in one step: bias phi/dt (Baumgarte 1972)."},
      {"soft",
-      "The error decays with a time constant of its own: bias phi dt/tau², so that a "
-      "change of dt brings no energy in. This project's."}}};
+      "The error decays with its own time constant: bias phi dt/tau², so that a change of dt adds "
+      "no energy. This project's."}}};
 
 constexpr std::array<Choice, 2> kContactStiffnesses{
     {{"paper",
-      "The contact as a ball joint that carries its force: the paper's (Giles and Andrews 2024), "
-      "steers N."},
+      "The contact as a ball joint with the same force: the paper's (Giles and Andrews 2024), "
+      "determines N."},
      {"exact", "The true derivative of the contact force, friction included. This project's."}}};
 constexpr std::array<Choice, 2> kFrictionCones{
     {{"box",
-      "The paper's: each tangent resists up to μ times the normal force, so up to 1.41 μ across "
+      "The paper's: up to μ times the normal force along each tangent, and up to 1.41 μ between "
       "the tangents."},
      {"cone",
       "Isotropic Coulomb friction: the length of the friction force is at most μ times the normal "
       "force."}}};
 constexpr std::array<Choice, 2> kDetections{
-    {{"sub-step", "Looked for before every sub-step."},
+    {{"sub-step", "Detected before every sub-step."},
      {"frame",
-      "Looked for once a frame, as far ahead as bodies can come, and carried along with them "
-      "(Macklin et al. 2019, Small steps). Nothing fast gets through, and features that change "
-      "within the frame "
-      "are seen late."}}};
+      "Detected once per frame, as far ahead as bodies can travel, and moved with them (Macklin et "
+      "al. 2019, Small steps). Fast bodies do not pass through, but changes of features within the "
+      "frame are detected late."}}};
 constexpr std::array<Choice, 2> kGyroscopics{
-    {{"explicit", "Explicit Euler, as engines mostly have it: gains energy."},
+    {{"explicit", "Explicit Euler, as in most engines: gains energy."},
      {"implicit",
-      "Half a step explicit, half implicit: keeps energy and angular momentum. This project's."}}};
+      "Half a step explicit, half implicit: conserves energy and angular momentum. This "
+      "project's."}}};
 
 template <class Enum>
 bool choose(const Look& look, const char* name, std::span<const Choice> choices, Enum& value,
@@ -147,24 +147,25 @@ void stabilisation(const Look& look, const Scene& scene, Settings& s) {
 
   if (reads(s, "alpha")) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
-           "Stability threshold of Eq. 5: 1 is the limit itself, less keeps a distance from it. "
+           "Stability threshold of Eq. 5: 1 is the limit, smaller values keep a distance from it. "
            "N is proportional to 1/√α (Eq. 10): quartering alpha doubles N.");
   }
   if (reads(s, "n")) {
     slider(look, "N", s.n, 1, 128, true, "Sub-steps in every frame: dt = h/N.");
   }
   if (reads(s, "n_max")) {
-    slider(look, "Max sub-steps", s.n_max, 1, 512, true,
-           "An impact or a start that does not fit asks for thousands: this many are given.");
+    slider(
+        look, "Max sub-steps", s.n_max, 1, 512, true,
+        "Maximum of sub-steps per frame: an impact or an inconsistent start would need thousands.");
   }
   if (reads(s, "n_cap")) {
     slider(look, "N cap", s.n_cap, 1, 64, true,
-           "Sub-steps up to here; at dt = h/N cap the mode takes over what they do not reach.");
+           "Maximum of sub-steps; at dt = h/N cap the mode stabilises the remaining stiffness.");
   }
   if (reads(s, "alpha_m")) {
     slider(look, "Alpha m", s.alpha_m, 0.1, 0.99, false, "%.2f",
-           "How near to the limit of stability the larger inertia goes: forces may grow by 1/αm "
-           "from one sub-step to the next. Less is safer and less exact.");
+           "Distance of the larger inertia from the stability limit: forces may grow by 1/αm from "
+           "one sub-step to the next. Smaller is safer and less accurate.");
   }
   if (reads(s, "beta")) {
     slider(look, "Beta  β", s.beta, 0.0, 1.0, false, "%.3f",
@@ -175,10 +176,11 @@ void stabilisation(const Look& look, const Scene& scene, Settings& s) {
 void solving(const Look& look, const Scene& scene, Settings& s) {
   section(look, "Solver");
   choose(look, "Method", MethodChoices(kSolvers), s.solver,
-         "What solves the velocities of a sub-step, Eq. 3.");
+         "Solver for the velocities of a sub-step, Eq. 3.");
   const SolverEntry& solver = entry_of(s.solver);
   if (reads(s, "forces")) {
-    choose(look, "Forces", kForces, s.forces, "Poses that the constraint forces belong to.");
+    choose(look, "Forces", kForces, s.forces,
+           "Poses at which the constraint forces are evaluated.");
   }
   if (reads(s, "iterations")) {
     slider(look, solver.sweeps ? "Sweeps" : "Steps", s.iterations, 1, solver.iterations, true,
@@ -186,19 +188,19 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
   }
   if (reads(s, "refinements") && scene.regularisation > 0.0) {
     slider(look, "Refine", s.refinements, 0, 32, false,
-           "Solves, after the first, that take the scene's regularisation back, from the last "
-           "forces on: the proximal point method (Rockafellar 1976). Each costs a solve with the "
-           "factor as it is.");
+           "Additional solves that remove the effect of the scene's regularisation, starting from "
+           "the last forces: the proximal point method (Rockafellar 1976). Each costs a solve with "
+           "the existing factor.");
   }
   if (reads(s, "share_iterations")) {
     checkbox(look, "Sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
-             "The sweeps are those of a whole frame, shared out over its sub-steps: small steps "
-             "(Macklin et al. 2019, Small steps).");
+             "The sweeps are per frame and distributed over its sub-steps: small steps (Macklin et "
+             "al. 2019, Small steps).");
   }
   choose(look, "Integrator", MethodChoices(kIntegrators), s.integrator,
          "How a sub-step advances time.");
   if (s.integrator == Integrator::kStormer && !follows_accelerations(s)) {
-    label(look.fonts.small, look.theme->dim, "Newton and XPBD take it as leapfrog.");
+    label(look.fonts.small, look.theme->dim, "Newton and XPBD use leapfrog instead.");
   }
 }
 
@@ -209,27 +211,27 @@ void finer_points_of_mode(const Look& look, Settings& s) {
     choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
     if (s.policy == Policy::kSubstep) {
       slider(look, "Memory", s.memory, 0.0, 0.99, false, "%.2f",
-             "How much of r (Eq. 9) stays from sub-step to sub-step: a force that dips for one "
-             "sub-step does not let the next one grow.");
+             "Share of r (Eq. 9) that is kept from one sub-step to the next: a force that dips for "
+             "one sub-step does not lengthen the next one.");
     }
   }
   if (reads(s, "rotation_criterion")) {
     checkbox(look, "Rotation criterion", s.rotation_criterion, width,
-             "N also follows how fast bodies spin: the turn and the gyroscopic rate in a sub-step. "
-             "Off: the paper's rule alone.");
+             "N also depends on the rotation and the gyroscopic rate of bodies. Off: the paper's "
+             "rule only.");
   }
   if (reads(s, "islands")) {
     checkbox(look, "Per-island sub-steps", s.islands, width,
-             "Bodies that neither joints nor contacts to come connect within a frame take "
-             "sub-steps of their own: what is calm does not pay for what is not. This project's.");
+             "Groups of bodies that neither joints nor possible contacts connect within a frame "
+             "have their own number of sub-steps: calm ones stay cheap. This project's.");
   }
   checkbox(look, "Sleep resting bodies", s.sleep, width,
-           "Bodies stand still and cost nothing once all that is connected with them has been "
-           "slower than 1 cm/s for half a second. They wake where something comes near.");
+           "Bodies sleep at no cost when everything connected with them has been slower than 1 "
+           "cm/s for half a second. They wake when a body comes near.");
   if (reads(s, "probe")) {
     checkbox(look, "Probe before the first frame", s.probe, width,
-             "One solve of a whole frame, not integrated, tells the forces that Eq. 9 needs; "
-             "without it the first N is 1. Acts from a reset on.");
+             "One solve of a whole frame, not integrated, computes the forces that Eq. 9 needs; "
+             "without it the first N is 1. Takes effect on reset.");
   }
 }
 
@@ -238,14 +240,14 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   const float width = ImGui::GetContentRegionAvail().x;
   finer_points_of_mode(look, s);
   if (effects.contact) {
-    choose(look, "Contacts", kDetections, s.detection, "When contacts are looked for.");
+    choose(look, "Contacts", kDetections, s.detection, "When contacts are detected.");
     choose(look, "K contact", kContactStiffnesses, s.contact_stiffness,
-           "Which block of a contact enters K (Eq. 1).");
+           "Block of a contact in K (Eq. 1).");
   }
   if (effects.friction) {
-    choose(look, "Friction", kFrictionCones, s.friction_cone, "What bounds the friction force.");
+    choose(look, "Friction", kFrictionCones, s.friction_cone, "Bounds of the friction force.");
   }
-  choose(look, "Drift", kDrifts, s.drift, "How errors of position are taken back.");
+  choose(look, "Drift", kDrifts, s.drift, "Law of the correction of position errors.");
   if (drift_law(s) == Drift::kSoft) {
     double tau_ms = 1e3 * s.drift_tau;
     if (slider(look, "Drift τ", tau_ms, 0.2, 50.0, true, "%.2f ms",
@@ -258,19 +260,19 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   if (effects.joints && !aimed) {
     bool second = s.drift_order == 2;
     checkbox(look, "Correct for curvature", second, width,
-             "Second order: joints are also corrected for what turning will have bent by the end "
-             "of the sub-step, dt²/2 phi''. Half the error where joints are exact, noise "
-             "where they are soft. This project's.");
+             "Second order: joints are also corrected for the error that their rotation will cause "
+             "by the end of the sub-step, dt²/2 phi''. Half the error with exact joints, noise "
+             "with soft ones. This project's.");
     s.drift_order = second ? 2 : 1;
   }
   if (reads(s, "warm_start")) {
     checkbox(look, "Warm start", s.warm_start, width,
-             "Sweeps start from the forces of the last sub-step.");
+             "Sweeps start from the forces of the previous sub-step.");
   }
   if (reads(s, "pivots") && effects.contact) {
     slider(look, "Pivots", s.pivots, 1, 100, true,
-           "Block pivots of BPP (Judice and Pires 1994) before it goes on one row at a time, which "
-           "always ends.");
+           "Block pivots of BPP (Judice and Pires 1994) before it pivots single rows, which always "
+           "terminates.");
   }
   if (effects.gyroscopic) {
     choose(look, "Gyroscopic", kGyroscopics, s.gyroscopic, "How the torque I ω × ω is integrated.");
@@ -284,7 +286,7 @@ void method_controls(const Look& look, const Scene& scene, Settings& settings, b
   space(look.m.section);
   solving(look, scene, settings);
   fold(look, more ? "Less" : "More", more,
-       "What most people never touch: drift, the probe, how often N is decided, contacts in K.");
+       "Rarely needed settings: drift, the probe, how often N is decided, contacts in K.");
   if (more) finer_points(look, scene.effects, settings);
 }
 

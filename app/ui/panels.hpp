@@ -70,7 +70,7 @@ void effect_table(const Look& look, Lab& lab);
 void effect_costs(const Look& look, Lab& lab);
 /// The cost of accuracy: all methods on this scene.
 void accuracy(const Look& look, Lab& lab, Desk& desk);
-/// The recommendation in the same panel: the cheapest within an error or the most exact within a
+/// The recommendation in the same panel: the cheapest within an error or the most accurate within a
 /// cost, with the reason, a button to run it, and a search for the paper's alpha.
 void advice(const Look& look, Lab& lab);
 /// Progress of the search for the paper's alpha, with a cancel button.
@@ -106,7 +106,7 @@ void copy_command(Lab& lab);
 /// Takes a screenshot of the whole window after this frame is drawn.
 void capture_window(const Session& session, Desk& desk);
 /// Begins the tour, or goes to its next step; ends it after the last one.
-void go_on_with_tour(Desk& desk);
+void advance_tour(Desk& desk);
 /// The dialogue for choosing a scene file, while open.
 void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser& browser);
 

@@ -67,12 +67,10 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   const bool several = in.compare.open();
   count_heading(in, "Sub-steps per frame", "Sub-steps", Channel::kSubsteps, "N = ", "",
                 [](double v) { return fixed(v, 0); });
-  tooltip(
-      look, "Sub-steps per frame",
-      "The N taken in each frame (Eq. 11). Dashed: the smallest constant N that would have been "
-      "stable so far, which is N at alpha = 1 of the stiffest frame. It is known only after "
-      "the run. Where each island has its own N: the most that one took, and the mean of the "
-      "bodies.");
+  tooltip(look, "Sub-steps per frame",
+          "The N of each frame (Eq. 11). Dashed: the smallest constant N that would have been "
+          "stable so far, which is N at alpha = 1 of the stiffest frame. It is known only after "
+          "the run. With islands: the largest N of an island, and the mean of the bodies.");
 
   PlotSpec spec;
   spec.id = "substeps";
@@ -138,8 +136,8 @@ void time_plot(const PlotContext& in, float height, bool last) {
   count_heading(in, "Time per frame, ms", "Time, ms", Channel::kTime, "", " ms",
                 [](double v) { return fixed(v, 2); });
   tooltip(look, "Time per frame",
-          "Wall time of the simulation, frame by frame: the whole in grey, its stages in the "
-          "colours that the list below names.");
+          "Wall time of the simulation per frame: the total in grey, its stages in the colours of "
+          "the list below.");
   PlotSpec spec;
   spec.id = "time";
   spec.time_labels = last;
@@ -209,7 +207,7 @@ std::string span_name(double seconds) {
 void span_menu(const Look& look, Desk& desk, float width) {
   TimeAxis& time = desk.time;
   menu_button(look, "span", span_name(time.span).c_str(), width, look.m.row,
-              "How much time the plots show (wheel on a plot)", [&] {
+              "Time range of the plots (wheel on a plot)", [&] {
                 for (const double span : {2.0, 5.0, 10.0, 30.0, 60.0, 200.0, 600.0}) {
                   if (menu_item(look, span_name(span).c_str(), "", span == time.span)) {
                     time.span = span;
@@ -248,7 +246,7 @@ void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewp
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   if (button(look, "follow", time.follow ? Icon::kPause : Icon::kPlay, "", ButtonKind::kPlain, row,
              row,
-             time.follow ? "Hold the plots: the run goes on"
+             time.follow ? "Hold the plots; the run continues"
                          : "Follow the run again (double click on a plot)")) {
     if (time.follow) {
       time.end = time.window(lab.session.history().end_time()).second;
@@ -272,7 +270,7 @@ void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewp
   save_menu(look, lab, desk, viewport);
   ImGui::SameLine(0.0F, 8.0F);
   if (button(look, "clear", Icon::kCross, "", ButtonKind::kPlain, row, row,
-             "Clear the plots up to now; a reset brings them back")) {
+             "Clear the plots up to now; a reset restores them")) {
     time.from = lab.session.history().end_time();
     time.follow = true;
   }

@@ -80,10 +80,9 @@ void scrubber(const Look& look, Session& session, ImVec2 at, float width, float 
   draw_focus(look, draw, at, {at.x + width, at.y + height});
   if (!active && hovered) {
     const std::string when = fixed(track.time(pointer), 2) + " s";
-    tooltip(
-        look, when.c_str(),
-        "Drag to look back (, and . go by frames). The run goes on from where you leave it, bit "
-        "for bit; later frames are discarded.");
+    tooltip(look, when.c_str(),
+            "Drag to look back (, and . step by frames). The run continues from the selected "
+            "frame, bit for bit; later frames are discarded.");
   }
 }
 

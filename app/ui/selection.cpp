@@ -53,8 +53,8 @@ void stiffness_row(const Look& look, const Session& session, std::size_t i) {
   const int n = wanted_substeps(session.scene().frame, stable_step(session.settings().alpha, r));
   row(look, "k/M",
       fixed(100.0 * r / state.r, r < state.r ? 1 : 0) + " % of r  ·  N " + std::to_string(n),
-      "Its largest diagonal entry of K over that of M, as a share of r (Eq. 9), and the N that it "
-      "would ask for alone (Eqs. 10, 11).");
+      "Its largest ratio of the diagonals of K and M, as a share of r (Eq. 9), and the N that it "
+      "alone would need (Eqs. 10, 11).");
 }
 
 // Joints by their force, and the sum over the contacts.
@@ -76,7 +76,7 @@ void force_rows(const Look& look, const Session& session, int body) {
   constexpr std::size_t kShown = 4;
   for (std::size_t j = 0; j < std::min(kShown, pulls.size()); ++j) {
     row(look, pulls[j].joint->c_str(), newtons(pulls[j].force),
-        "Force in this joint at the end of the frame: in its last sub-step.");
+        "Force in this joint in the last sub-step of the frame.");
   }
   int touching = 0;
   double pressed = 0.0;
@@ -88,7 +88,7 @@ void force_rows(const Look& look, const Session& session, int body) {
   if (touching == 0) return;
   const std::string name = std::to_string(touching) + (touching == 1 ? " contact" : " contacts");
   row(look, name.c_str(), newtons(pressed),
-      "Sum of the normal forces at the end of the frame: in its last sub-step.");
+      "Sum of the normal forces in the last sub-step of the frame.");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void copy_command(Lab& lab) {
     // The edited scene, with the ball or without the effect, is not in a file yet.
     const Scene& scene = lab.link_scene();
     lab.host.save_file(scene.name + ".json", write_scene(scene));
-    said += ", and the scene that it runs was saved";
+    said += ", and its scene was saved";
   }
   lab.tell(said);
 }

@@ -115,8 +115,8 @@ void timing(const Look& look, const Session& session, bool brief) {
   }
   ImGui::Dummy({width, timing_height(look, session, brief) - kHeading});
   std::string tip =
-      "Wall time of the simulation by stage, smoothed over half a second. A stage that the scene "
-      "does not call for does not exist.";
+      "Wall time of the simulation by stage, smoothed over half a second. Stages that the scene "
+      "does not need are not executed.";
   for (const Stage& stage : list) {
     if (!brief || !(total > 0.0)) break;
     tip.append("\n").append(stage.name).append("  ").append(duration(stage.seconds));

@@ -120,7 +120,7 @@ void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
     const bool lab = desk.level == DeskLevel::kLab;
     if (lab && v.width >= 664.0F && desk.panels && desk.tab != Tab::kAccuracy) {
       if (button(look, "cost", Icon::kNone, "What does accuracy cost?", ButtonKind::kPlain, 0.0F,
-                 row, "All methods over this scene: error against cost")) {
+                 row, "All methods on this scene: error against cost")) {
         desk.tab = Tab::kAccuracy;
       }
       outline(look);
@@ -146,7 +146,7 @@ void invitation(const Look& look, Desk& desk, const Viewport& viewport) {
 
 }  // namespace
 
-void go_on_with_tour(Desk& desk) {
+void advance_tour(Desk& desk) {
   if (desk.tour + 1 < static_cast<int>(tour_steps().size())) {
     go_to(desk, desk.tour + 1);
   } else {

@@ -63,7 +63,7 @@ void play_buttons(App& app, float height, float gap) {
   }
   ImGui::SameLine(0.0F, gap);
   menu_button(look, "speed", speed_name(app.session.speed()), 84.0F, height,
-              "Speed of the simulation against the clock ([ and ])", [&] {
+              "Speed of the simulation relative to real time ([ and ])", [&] {
                 for (const Speed& s : kSpeeds) {
                   if (menu_item(look, s.name, "", s.value == app.session.speed())) {
                     app.session.set_speed(s.value);
@@ -110,13 +110,12 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   ImGui::SetCursorScreenPos({at.x, top});
   ImGui::InvisibleButton("verdict", {width, 28.0F});
   tooltip(look, ready ? text.c_str() : verdict_words(verdict.text()).c_str(),
-          ready ? "The run has not started. Each frame is judged after it is computed."
-          : disturbed
-              ? "A body was pulled or a ball thrown: this is no longer the scene's own run. "
-                "Joints that tear and numbers that are not finite are judged still. A reset "
-                "brings the scene back."
-              : "Judged by the criteria in the scene's file: the largest joint gap, energy "
-                "gained, a body displaced, numbers that are not finite.");
+          ready       ? "The run has not started. Each frame is judged after it is computed."
+          : disturbed ? "A body was pulled or a ball thrown: this is no longer the scene's own "
+                        "run. Only torn joints and numbers that are not finite still count as "
+                        "failures. A reset restores the scene."
+                      : "Judged by the criteria in the scene's file: the largest joint gap, energy "
+                        "gained, a body displaced, numbers that are not finite.");
   return width;
 }
 
@@ -200,15 +199,15 @@ void transport(App& app, bool phone) {
   // A paused run is drawn only on changes: a rate would be meaningless.
   if (app.session.playing()) {
     const std::string fps = fixed(1.0 / std::max(1e-3, app.frame_time), 0) + " fps";
-    right = status(look, right, bar, kHeight, fps, 40.0F, "Pictures drawn a second");
+    right = status(look, right, bar, kHeight, fps, 40.0F, "Pictures drawn per second");
   }
   if (app.session.playing() && app.session.pace() < 0.9) {
     right = status(look, right, bar, kHeight, fixed(100.0 * app.session.pace(), 0) + " % speed",
-                   0.0F, "The simulation takes longer than the time it shows");
+                   0.0F, "The simulation is slower than the selected speed");
   }
   if (right - after_buttons > 560.0F) {
     right = status(look, right, bar, kHeight, "hash " + hex(app.session.hash()), 0.0F,
-                   "Hash of the state's bits: the same on every machine for the same experiment");
+                   "Hash of the state: the same on every machine for the same experiment");
   }
 
   // From the right: verdict, time; the timeline takes the rest.

@@ -59,7 +59,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
         what +=
             " of " + lab.session.scene().bodies[static_cast<std::size_t>(report.failed_body)].name;
       }
-      what += " has left the range of numbers. What you see is the last state within it.";
+      what += " is no longer finite. The last finite state is shown.";
     }
     label(look.fonts.small, look.theme->dim, what.c_str());
     auto kind = ButtonKind::kPrimary;  // for the most likely remedy
@@ -73,12 +73,12 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
     }
     ImGui::SameLine();
     if (button(look, "good", Icon::kNone, "Last good state", ButtonKind::kPlain, 0.0F, 28.0F,
-               "Back to the last frame that held; it goes on from there")) {
+               "Back to the last frame that held; the run continues from there")) {
       lab.session.go_to_last_good();
     }
     ImGui::SameLine();
     if (button(look, "second", Icon::kNone, "1 s before", ButtonKind::kPlain, 0.0F, 28.0F,
-               "Back to one second before it failed; change something and go on from there")) {
+               "Back to one second before the failure; change a setting and continue")) {
       lab.session.go_to_last_good(1.0);
     }
     if (card_closed(look)) desk.dismissed_failure = lab.run_count;

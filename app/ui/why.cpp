@@ -44,7 +44,7 @@ int substeps_for(const Session& session, double r) {
 }
 
 std::string cap_note(const FrameReport& report) {
-  return grouped(report.n_wanted) + " wanted, " + grouped(report.n_substeps) + " given";
+  return grouped(report.n_wanted) + " required, " + grouped(report.n_substeps) + " used";
 }
 
 // One column per body in scene order, with height proportional to k/M.
@@ -128,8 +128,8 @@ std::string taken_note(const Session& session) {
   const ModeEntry& mode = entry_of(s.mode);
   if (mode.takes != nullptr) return with_values(mode.takes, s);
   if (mode.then != nullptr) {
-    return report.capped ? "The cap bit: " + cap_note(report) + "; " + mode.then + "."
-                         : "The cap of " + grouped(s.n_cap) + " did not bite.";
+    return report.capped ? "Capped: " + cap_note(report) + "; " + mode.then + "."
+                         : "The cap of " + grouped(s.n_cap) + " was not reached.";
   }
   if (report.capped) return "Max sub-steps is " + grouped(s.n_max) + ": " + cap_note(report) + ".";
   return s.policy == Policy::kSubstep ? "Decided again after every sub-step." : "";
@@ -172,8 +172,8 @@ void bars(const Look& look, const Session& session, Desk& desk, const Criterion&
   const bool sets = criterion.set_by == CriterionTerm::kStiffness;
   section(look, "N by stiffness of each body");
   tooltip(look, "N by stiffness of each body",
-          "The N that each body alone would ask for, from the k/M of its stiffest degree of "
-          "freedom. The largest is the stiffness term. A click selects the body.");
+          "The N that each body alone would need, from the k/M of its stiffest degree of freedom. "
+          "The largest is the stiffness term. A click selects the body.");
   const float width = ImGui::GetContentRegionAvail().x;
   const float names = std::min(112.0F, 0.4F * width);
   constexpr float kNumbers = 34.0F;
@@ -197,7 +197,7 @@ void bars(const Look& look, const Session& session, Desk& desk, const Criterion&
     draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, ink,
               fitted(look.fonts.small, name_of_body(scene, who), names - 4.0F).c_str());
     const float x = at.x + names;
-    const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N goes with √r
+    const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N is proportional to √r
     draw.AddRectFilled({x, at.y + 5.0F}, {x + most, at.y + kRow - 5.0F}, t.well, 2.0F);
     draw.AddRectFilled({x, at.y + 5.0F}, {x + std::max(2.0F, share * most), at.y + kRow - 5.0F},
                        leads ? t.orange : t.blue, 2.0F);
@@ -218,8 +218,8 @@ void nothing_stiff(const Look& look, const Session& session) {
   label(look.fonts.medium, look.theme->text, "No geometric stiffness yet");
   label(look.fonts.small, look.theme->dim,
         evaluated ? "No constraint force, no geometric stiffness: N = 1."
-                  : "K has not been evaluated: it takes a frame, and \"why this N\" under Show in "
-                    "the modes that do without it.");
+                  : "K has not been evaluated: this needs a frame, and in modes that do not use it "
+                    "\"why this N\" under Show.");
 }
 
 }  // namespace
@@ -252,7 +252,7 @@ void why_summary(const Look& look, const Session& session, Desk& desk) {
   draw_focus(look, draw, origin, {origin.x + width, origin.y + 36.0F});
   const std::string tip =
       "The largest r sets the longest stable step Δt max = 2 √(α/r) (Eq. 10), and with it N "
-      "(Eq. 11). r is the largest k/M (Eq. 9), or the rotation term where a body spins fast. "
+      "(Eq. 11). r is the largest k/M (Eq. 9), or the rotation term if a body rotates fast. "
       "Now: " +
       both_terms_text(criterion) + ". Click for details.";
   tooltip(look, "Why this N", tip.c_str());

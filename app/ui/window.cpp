@@ -59,17 +59,17 @@ void draw_plots(App& app, float height) {
 // Beside the picture the controls are always open; the others share a panel.
 constexpr std::array<Panel, 5> kPanels{
     {{Tab::kControls,
-      {"Controls", "Which scene, and how it is solved"},
+      {"Controls", "Scene and solution method"},
       [](App& app, float) { controls(app.look, app, app.desk, app); }},
-     {Tab::kPlots, {"Plots", "What happens, frame by frame"}, draw_plots},
+     {Tab::kPlots, {"Plots", "Results of every frame"}, draw_plots},
      {Tab::kWhy,
-      {"Why N", "Which body sets the sub-step count"},
+      {"Why N", "The body that determines the number of sub-steps"},
       [](App& app, float) { why(app.look, app.session, app.desk); }},
      {Tab::kCompare,
-      {"Compare", "Other methods beside this run"},
+      {"Compare", "Comparison with other methods"},
       [](App& app, float) { compare(app.look, app, app.desk); }},
      {Tab::kAccuracy,
-      {"Accuracy", "What does accuracy cost? All methods over this scene"},
+      {"Accuracy", "What does accuracy cost? All methods on this scene"},
       [](App& app, float) { accuracy(app.look, app, app.desk); }}}};
 
 // The panel of a tab, or the first.
@@ -133,7 +133,7 @@ void edge(App& app, const char* id, PanelSide& side, const Rect& strip, float wi
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled({c.x - 2.0F, c.y - 20.0F}, {c.x + 2.0F, c.y + 20.0F},
                        hot ? t.accent_hover : fade(t.faint, 0.7F), 2.0F);
-    tooltip(app.look, "", side.open ? "Drag: width. Click: fold away" : "Click: bring it back");
+    tooltip(app.look, "", side.open ? "Drag: width. Click: hide" : "Click: show");
   }
   ImGui::End();
   ImGui::PopStyleVar(2);

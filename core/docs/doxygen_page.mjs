@@ -1,6 +1,6 @@
-// A page as Doxygen reads it: node core/docs/doxygen_page.mjs PAGE.md. Doxygen's anchors are not those
-// of GitHub, for which the pages are written. Every heading gets a label of its own, links between
-// pages go to these labels, and links to files that are not pages become words and a path.
+// Converts a page for Doxygen: node core/docs/doxygen_page.mjs PAGE.md. The pages use GitHub's anchors,
+// which Doxygen does not know. Every heading gets its own label, links between pages refer to these
+// labels, and links to other files become text with a path.
 import { readFileSync } from "node:fs";
 import path from "node:path";
 

@@ -49,7 +49,7 @@ void read_own(ObjectReader& in, std::size_t bodies, std::vector<OwnSubstep>& own
   const bool has_r = in.numbers("own_r", kStiffnessOverMassRange, r.data(), bodies, kOptional);
   if ((in.member("own_r", kOptional) == nullptr) !=
       (in.member("own_dt_previous", kOptional) == nullptr)) {
-    in.problem("own_r", "needs own_dt_previous, and that needs it");
+    in.problem("own_r", "own_r and own_dt_previous need each other");
   }
   if (!has_dt || !has_r) return;
   for (std::size_t i = 0; i < bodies; ++i) own.push_back({dt[i], r[i]});
@@ -66,7 +66,7 @@ void read_rotation(ObjectReader& in, std::size_t bodies, Carried& carried) {
   in.number("rotation_age", not_negative(10.0, "s"), carried.rotation_age, kOptional);
   if ((in.member("rotation_before", kOptional) == nullptr) !=
       (in.member("rotation_now", kOptional) == nullptr)) {
-    in.problem("rotation_now", "needs rotation_before, and that needs it");
+    in.problem("rotation_now", "rotation_now and rotation_before need each other");
   }
   if (!has_before || !has_now) return;
   for (std::size_t i = 0; i < bodies; ++i) carried.rotation.push_back({before[i], now[i]});

@@ -59,7 +59,7 @@ class Builder {
     if (level.member == nullptr) {
       level.member = level.append(std::move(key));
     } else if (problems_.size() <= kMaxProblems) {
-      problems_.push_back({pointer(), "the key stands twice in this object"});
+      problems_.push_back({pointer(), "the key occurs twice in this object"});
     }
     return true;
   }

@@ -108,7 +108,7 @@ void check_results_header(std::string_view line, Problems& problems) {
   const Json* version = in.member("version", kRequired);
   if (version && *version != kResultsVersion) {
     in.problem("version", value_text(*version) + " is not " + std::to_string(kResultsVersion) +
-                              ", the only version that is known");
+                              ", the only known version");
   }
 }
 

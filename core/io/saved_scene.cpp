@@ -12,10 +12,10 @@ namespace {
 
 // Appends `mark` and `when`, replacing those of an earlier save. Texts that would be too long are
 // unchanged.
-void tell_when(std::string& text, const std::string& mark, const std::string& when,
-               std::size_t most) {
-  std::string told = text.substr(0, text.rfind(mark)) + mark + when;
-  if (told.size() <= most) text = std::move(told);
+void append_date(std::string& text, const std::string& mark, const std::string& when,
+                 std::size_t most) {
+  std::string dated = text.substr(0, text.rfind(mark)) + mark + when;
+  if (dated.size() <= most) text = std::move(dated);
 }
 
 }  // namespace
@@ -40,8 +40,8 @@ Scene saved_scene(const Scene& scene, const State& state, const Settings& settin
     const long long ms = std::llround(1e3 * state.time);
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%.2f", state.time);
-    tell_when(saved.name, "_at_", std::to_string(ms) + "ms", kMaxNameSize);
-    tell_when(saved.title, ", from ", std::string(seconds) + " s", kMaxTitle);
+    append_date(saved.name, "_at_", std::to_string(ms) + "ms", kMaxNameSize);
+    append_date(saved.title, ", from ", std::string(seconds) + " s", kMaxTitle);
   }
   return saved;
 }

@@ -78,7 +78,7 @@ struct SceneReading::Impl {
   Part read_joints();
   Part check();
   /// Whether another item of a list is to be read in this part.
-  bool goes_on(const Json* list, std::size_t end) const {
+  bool part_continues(const Json* list, std::size_t end) const {
     return list != nullptr && item < std::min(end, list->size()) && found.size() <= kMaxProblems;
   }
 };
@@ -113,12 +113,13 @@ SceneReading::Part SceneReading::Impl::read_head() {
 }
 
 SceneReading::Part SceneReading::Impl::read_bodies() {
-  for (const std::size_t end = item + kItemsOfAPart; goes_on(bodies, end); ++item) {
+  for (const std::size_t end = item + kItemsOfAPart; part_continues(bodies, end); ++item) {
     const std::size_t before = found.size();
     scene->bodies.push_back(read_body((*bodies)[item], pointer_to("/bodies", item), found));
     sound.bodies.push_back(found.size() == before);
   }
-  return goes_on(bodies, bodies == nullptr ? 0 : bodies->size()) ? Part::kBodies : Part::kNames;
+  return part_continues(bodies, bodies == nullptr ? 0 : bodies->size()) ? Part::kBodies
+                                                                        : Part::kNames;
 }
 
 SceneReading::Part SceneReading::Impl::read_names() {
@@ -135,7 +136,7 @@ SceneReading::Part SceneReading::Impl::read_names() {
 }
 
 SceneReading::Part SceneReading::Impl::read_joints() {
-  for (const std::size_t end = item + kItemsOfAPart; goes_on(joints, end); ++item) {
+  for (const std::size_t end = item + kItemsOfAPart; part_continues(joints, end); ++item) {
     const std::string pointer = pointer_to("/joints", item);
     const std::size_t before = found.size();
     scene->joints.push_back(read_joint((*joints)[item], pointer, *names, found));
@@ -148,7 +149,8 @@ SceneReading::Part SceneReading::Impl::read_joints() {
                                                         " already"});
     }
   }
-  return goes_on(joints, joints == nullptr ? 0 : joints->size()) ? Part::kJoints : Part::kChecks;
+  return part_continues(joints, joints == nullptr ? 0 : joints->size()) ? Part::kJoints
+                                                                        : Part::kChecks;
 }
 
 SceneReading::Part SceneReading::Impl::check() {
@@ -200,15 +202,15 @@ SceneResult SceneReading::result() {
   SceneResult result;
   Problems& problems = result.problems;
   problems = std::move(impl_->problems);
-  std::set<std::string> told;
-  for (const Problem& problem : problems) told.insert(problem.pointer);
+  std::set<std::string> reported;
+  for (const Problem& problem : problems) reported.insert(problem.pointer);
   for (Problem& problem : impl_->found) {
     // Skips content problems at locations that already have a text problem.
-    if (!told.contains(problem.pointer)) problems.push_back(std::move(problem));
+    if (!reported.contains(problem.pointer)) problems.push_back(std::move(problem));
   }
   if (problems.size() > kMaxProblems) {
     problems.resize(kMaxProblems);
-    problems.push_back({"", "and more: the rest of the file was not looked at"});
+    problems.push_back({"", "and more: the rest of the file was not checked"});
   }
   if (problems.empty()) result.scene = std::move(impl_->scene);
   return result;

@@ -19,7 +19,7 @@ bool read_version(ObjectReader& in, Problems& problems) {
     in.problem("format", value_text(format) + " is not \"substep-scene\"");
   }
   if (const Json* version = in.member("version", kRequired); version && *version != 1) {
-    in.problem("version", value_text(*version) + " is not 1, the only version that is known");
+    in.problem("version", value_text(*version) + " is not 1, the only known version");
   }
   return problems.size() == before;
 }
@@ -129,7 +129,7 @@ bool read_effects(ObjectReader& in, Scene& scene) {
     if (found == kEffectNames.end()) {
       in.item_problem("effects", i, value_text(name) + " is not " + one_of(names));
     } else if (scene.effects.*found->member) {
-      in.item_problem("effects", i, value_text(name) + " stands twice");
+      in.item_problem("effects", i, value_text(name) + " is listed twice");
     } else {
       scene.effects.*found->member = true;
     }

@@ -82,7 +82,7 @@ std::string solver_text(const Settings& s) {
   if (reads(s, "iterations") && (sweeps || s.iterations != Settings{}.iterations)) {
     text += " " + std::to_string(s.iterations);
   }
-  if (reads(s, "share_iterations") && s.share_iterations) text += " a frame";
+  if (reads(s, "share_iterations") && s.share_iterations) text += " per frame";
   if (reads(s, "forces") && s.forces != Forces::kEnd) text += " " + std::string(name_of(s.forces));
   if (reads(s, "refinements") && s.refinements > 0) {
     text += " refined " + std::to_string(s.refinements);
@@ -102,7 +102,7 @@ std::string series_name(const Settings& s) {
   name += name_of(s.integrator);
   if (s.drift != Drift::kAuto) name += ", drift " + std::string(name_of(s.drift));
   if (s.drift_order == 2) name += ", drift order 2";
-  if (s.detection == Detection::kFrame) name += ", contacts once a frame";
+  if (s.detection == Detection::kFrame) name += ", contacts once per frame";
   if (s.contact_stiffness == ContactStiffness::kExact) name += ", exact contact block";
   if (!s.rotation_criterion) name += ", without the rotation criterion";
   if (s.friction_cone == FrictionCone::kCone) name += ", friction cone";

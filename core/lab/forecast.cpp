@@ -146,13 +146,13 @@ int wanted_at_start(const Scene& scene, Settings settings) {
 }  // namespace
 
 Forecast forecast(const Scene& scene, const Settings& settings) {
-  Forecast told;
-  told.mass_ratio = mass_ratio(scene);
-  told.at_start = wanted_at_start(scene, settings);
+  Forecast result;
+  result.mass_ratio = mass_ratio(scene);
+  result.at_start = wanted_at_start(scene, settings);
   const auto [r, body] = hanging_bound(scene);
-  told.hanging = wanted_substeps(scene.frame, stable_step(settings.alpha, r));
-  told.body = body;
-  return told;
+  result.hanging = wanted_substeps(scene.frame, stable_step(settings.alpha, r));
+  result.body = body;
+  return result;
 }
 
 }  // namespace substep

@@ -4,7 +4,7 @@
 
 namespace substep {
 
-/// Predicts how many sub-steps per frame a scene will need.
+/// Predicts how many sub-steps per frame per scene will need.
 struct Forecast {
   double mass_ratio = 1.0;  // heaviest over lightest moving body [-]
   int at_start = 1;         // by Eq. 11 from the forces at the start, contacts included

@@ -11,14 +11,14 @@ constexpr std::string_view kRecommended = "recommended";
 
 const std::array<Preset, 3>& all_presets() {
   static const std::array<Preset, 3> all{
-      Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once a frame.", {}},
+      Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once per frame.", {}},
       Preset{kRecommended,
              "Up to four sub-steps, then damping: holds 48 of the 49 hard scenes at 15 % of the "
-             "operations of 32 constant ones, and slows motions a little.",
+             "operations of 32 constant sub-steps; damps motions slightly.",
              {.mode = Mode::kCapped, .n_cap = 4}},
       Preset{"robust",
-             "Newton's method, implicit, with four sub-steps: holds all 49 of the hard scenes at "
-             "three quarters of the operations of 32 constant ones, and slows motions a little.",
+             "Newton's method, implicit, with four sub-steps: holds all 49 hard scenes at three "
+             "quarters of the operations of 32 constant sub-steps; damps motions slightly.",
              {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
   };
   return all;
@@ -62,14 +62,14 @@ const char* noun(ErrorAxis of) {
   return "";
 }
 
-/// "For this scene: keeps the path within 1 mm for 8.5 thousand operations of the solver a frame,
+/// "For this scene: keeps the path within 1 mm for 8.5 thousand solver operations per frame,
 /// over 10 s. The cheapest of ..."
 std::string about(const Recommended& r) {
   char seconds[40];
   std::snprintf(seconds, sizeof seconds, "%g", r.seconds);
   std::string text = "For this scene: keeps " + std::string(noun(r.of)) + " within " +
                      error_text(r.within, r.of) + " over " + seconds + " s, for " +
-                     count_text(r.operations) + " operations of the solver a frame.";
+                     count_text(r.operations) + " solver operations per frame.";
   if (!r.why.empty()) text += " " + r.why;
   return text;
 }

@@ -24,8 +24,8 @@ bool is_paper(const Settings& s) {
          s.contact_stiffness == ContactStiffness::kPaper && s.drift_order == 1;
 }
 
-/// "The cheapest of 348 runs, 267 of which hold; the paper's method takes 65 times that, with alpha
-/// 0.00625."
+/// "The cheapest of 348 runs, 267 of which hold; the paper's method takes 65 times the work, with
+/// alpha 0.00625."
 std::string reason(std::span<const RunPoint> points, std::span<const Result> results,
                    const RunPoint& best, double within) {
   const auto plain = [](const Result& r) { return r.experiment.load == 1.0; };
@@ -40,12 +40,12 @@ std::string reason(std::span<const RunPoint> points, std::span<const Result> res
   const std::size_t room = sizeof text - static_cast<std::size_t>(size);
   const auto paper = cheapest_within(of_paper(points, results), within);
   if (!paper) {
-    std::snprintf(rest, room, "none of the paper's method gets there.");
+    std::snprintf(rest, room, "no run of the paper's method reaches this error.");
   } else if (paper->result == best.result) {
     std::snprintf(rest, room, "it is the paper's method.");
   } else {
     const double times = paper->cost / best.cost;
-    std::snprintf(rest, room, "the paper's method takes %.*f times that, with alpha %g.",
+    std::snprintf(rest, room, "the paper's method takes %.*f times the work, with alpha %g.",
                   times < 10.0 ? 1 : 0, times, results[paper->result].experiment.settings.alpha);
   }
   return text;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kChaoticWindow = 2.0;      // [s]
 constexpr double kChainUncertainty = 1e-9;  // of the integrator and of rounding over 10 s [m]
-constexpr int kFinest = 256;                // sub-steps a frame
+constexpr int kFinest = 256;                // sub-steps per frame
 // A chain is exact for rigid hinges. With a larger stretch by compliance, the finest run is closer
 // to the simulated motion.
 constexpr double kMostStretch = 1e-4;  // [m]
@@ -166,7 +166,7 @@ class FinestRun final : public ReferenceRun::Source {
   }
   [[nodiscard]] std::string name() const override {
     std::string text = "finest run: bpp, leapfrog, ";
-    return text.append(std::to_string(kFinest)).append(" sub-steps a frame");
+    return text.append(std::to_string(kFinest)).append(" sub-steps per frame");
   }
   std::optional<Sample> next() override {
     Simulator& simulator = fine_done_ ? coarse_ : fine_;

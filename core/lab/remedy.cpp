@@ -37,8 +37,8 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   if (adaptive && last.capped) {
     const int n_max = larger(settings.n_max, last.n_wanted);
     if (n_max > settings.n_max) {
-      add("a larger cap, " + std::to_string(n_max) + " sub-steps a frame",
-          std::to_string(last.n_wanted) + " were wanted")
+      add("a larger cap, " + std::to_string(n_max) + " sub-steps per frame",
+          std::to_string(last.n_wanted) + " were required")
           .n_max = n_max;
     }
   }
@@ -47,7 +47,8 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   }
   if (adaptive && last.joint_rows > 0 && last.contact_rows > 0 &&
       drift_law(settings) == Drift::kFull) {
-    add("the soft drift law", "impacts change N, and short steps pay back what long ones left")
+    add("the soft drift law",
+        "impacts change N, and short steps then correct errors of long ones too fast")
         .drift = Drift::kSoft;
   }
   if (adaptive && !last.capped && settings.alpha > kLeastOffered) {

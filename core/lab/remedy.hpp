@@ -11,7 +11,7 @@ namespace substep {
 /// A change of settings that should help a run that failed.
 struct Remedy {
   std::string text;  // "a smaller alpha, 0.05"
-  std::string why;   // the reason: "43 were wanted"; or ""
+  std::string why;   // the reason: "43 were required"; or ""
   Settings settings;
 };
 

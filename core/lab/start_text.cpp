@@ -25,7 +25,7 @@ std::string gap_text(double gap) { return "open by " + length_text(gap); }
 std::string tilt_text(double tilt) { return "tilted by " + short_text(tilt, "rad"); }
 std::string speed_text(double speed) { return "moving apart at " + short_text(speed, "m/s"); }
 std::string turning_text(double turning) {
-  return "turning across its axis at " + short_text(turning, "rad/s");
+  return "rotating across its axis at " + short_text(turning, "rad/s");
 }
 
 // Prints both energies: their difference may be a small part of either.
@@ -74,7 +74,7 @@ std::string start_text(const Scene& scene, const StartReport& report) {
   if (report.too_large) {
     text += "; kept, as the scene is too large to project.";
   } else {
-    text += report.failed ? "; no near start closes the joints, so it is kept." : "; kept.";
+    text += report.failed ? "; no start nearby closes the joints, so it is kept." : "; kept.";
   }
   return text + " Energy " + energy + ".";
 }

@@ -62,7 +62,7 @@ std::string stop_text(const Scene& scene, const FrameReport& report) {
     case StepStatus::kOverBudget:
       return overrun_text(report.overrun);
     case StepStatus::kInvalid:
-      return "what the simulator was given is invalid";
+      return "the input of the simulator is invalid";
   }
   return "";  // not reached: the switch is exhaustive
 }

@@ -114,7 +114,7 @@ std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int 
     return side != kWorld && (side < 0 || index(side) >= bodies.size());
   };
   const auto no_body = [&](int side, const char* world) {
-    return std::to_string(side) + " is no body: must be from 0 to " +
+    return std::to_string(side) + " is not a body: must be from 0 to " +
            std::to_string(bodies.size() - 1) + world;
   };
   if (bodies.empty()) return SideFault{"a", "the scene has no bodies"};

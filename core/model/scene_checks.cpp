@@ -84,10 +84,10 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
     const auto [other, is_new] = first.emplace(sides(scene, j), joint);
     if (is_new) return;
     const std::string& name = base(scene.joints[other->second]).name;
-    problems.push_back(
-        {pointer_to(pointer_to("/joints", joint), key),
-         "0 here and in \"" + name + "\" between the same bodies: \"" + name + "\" and \"" +
-             j.name + "\" hold the same twice, so one of them must be above 0 (" + unit + ")"});
+    problems.push_back({pointer_to(pointer_to("/joints", joint), key),
+                        "0 here and in \"" + name + "\" between the same bodies: \"" + name +
+                            "\" and \"" + j.name +
+                            "\" are redundant, so one of them must be above 0 (" + unit + ")"});
   };
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
     if (!is_sound(scene, sound, i)) continue;

@@ -83,7 +83,7 @@ bool has_sound_numbers(const StoredForce& force) {
 std::optional<std::string> body_fault(int body, const Scene& scene) {
   if (body >= 0 && index(body) < scene.bodies.size()) return std::nullopt;
   if (scene.bodies.empty()) return "the scene has no bodies";
-  return std::to_string(body) + " is no body: must be from 0 to " +
+  return std::to_string(body) + " is not a body: must be from 0 to " +
          std::to_string(scene.bodies.size() - 1);
 }
 

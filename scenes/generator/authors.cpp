@@ -1,5 +1,5 @@
-// The constants of the authors' own public program, beside the shipped scenes of the paper, whose
-// sizes are ours: the paper gives none.
+// Scenes with the constants of the authors' public program. The sizes of the other shipped scenes
+// of the paper are ours, because the paper gives none.
 
 #include <string>
 
@@ -21,13 +21,12 @@ Scene swinging_box_authors() {
   scene.name = "swinging_box_authors";
   scene.title = "Swinging box, authors' constants";
   scene.group = "authors";
-  scene.description = std::string(
-                          "A box of 1000 kg hangs on a chain of 18 links of 1 kg and is "
-                          "given 10 m/s.") +
-                      kWhose;
+  scene.description =
+      std::string("A box of 1000 kg hangs on a chain of 18 links of 1 kg and starts at 10 m/s.") +
+      kWhose;
   scene.look_for =
-      "Long links are slow to turn: half the sub-steps of the swinging box with its 25 short ones "
-      "do.";
+      "Long links have more inertia: half as many sub-steps as for the swinging box with 25 short "
+      "links are enough.";
   scene.effects = {.gravity = true, .joints = true};
   scene.criteria.energy_gain = 5000.0;
   scene.criteria.energy_scale = 50000.0;  // of the box's start
@@ -78,8 +77,8 @@ Scene bridge_authors() {
                           "starts straight, and rolls along it.") +
                       kWhose;
   scene.look_for =
-      "A straight chain has no room to sag: it carries the ball by what its joints give, at a "
-      "pull of 100 kN and more.";
+      "A straight chain cannot sag: it carries the ball only by the compliance of its joints, at a "
+      "tension of 100 kN and more.";
   scene.effects = {.gravity = true, .joints = true, .contact = true, .friction = true};
   scene.contact.compliance = 1e-7;
   scene.contact.friction_compliance = 1e-10;
@@ -122,7 +121,7 @@ Scene heavy_stack_authors() {
           "Four layers of four balls with plates between them, 1 kg each, carry a slab of "
           "20 t.") +
       kWhose;
-  scene.look_for = "Wide and low: what falls here falls by what the solver leaves over.";
+  scene.look_for = "Wide and low: here a stack falls only by the residual of the solver.";
   scene.effects = {.gravity = true, .contact = true};
   scene.contact.compliance = 1e-12;
   scene.camera.eye = {11.0, 8.0, 22.0};

@@ -1,5 +1,5 @@
-// Hinges 1, 3 and 5 turn by alpha, hinges 2, 4 and 6 by beta: the mechanism keeps the three-fold
-// symmetry that it starts with. The loop closes where
+// Hinges 1, 3 and 5 rotate by alpha, hinges 2, 4 and 6 by beta: the mechanism keeps the three-fold
+// symmetry of its start. The loop closes where
 //   (1 + sin alpha)(1 + sin beta) = 1.
 // Released at rest at alpha = 0, it swings to alpha = pi and back, beta between 0 and -30 degrees.
 

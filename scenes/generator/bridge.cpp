@@ -19,12 +19,12 @@ constexpr double kDrop = -1.0;       // of the right end against the left one [m
 constexpr double kRadius = 0.5;      // of the ball [m]
 constexpr double kMu = 0.8;          // Coulomb coefficient of every pair [-]
 
-/// A ball that comes along the road of the convoy.
+/// A ball on the road of the convoy.
 struct Load {
   const char* name;
   double mass;          // [kg]
   double radius;        // [m]
-  double arrives;       // at the bridge [s]
+  double arrives;       // time at the bridge [s]
   std::uint32_t color;  // 0xrrggbb
 };
 constexpr std::array kConvoy{Load{"light", 10.0, 0.25, 0.4, kTeal},
@@ -34,14 +34,14 @@ constexpr double kConvoySpeed = 3.0;  // [m/s]
 
 /// Slopes of the planks of the hanging bridge.
 ///
-/// A rigid plank hangs still when the forces T = (H, V) of its two pivots and its weight W balance.
-/// Forces: H is the same at every pivot, V grows by W from one to the next. Moments about its
-/// centre, with both arms +-r along the plank: r x (T_left + T_right) = 0. So the plank points
+/// A rigid plank is in equilibrium when the forces T = (H, V) of its two pivots and its weight W
+/// balance. Forces: H is the same at every pivot, V grows by W from one to the next. Moments about
+/// its centre, with both arms +-r along the plank: r x (T_left + T_right) = 0. So the plank points
 /// along T_left + T_right, and its slope is (V_left + V_right)/(2 H): linear in the plank's index,
 ///   t_i = middle + growth (i - (n - 1)/2),   growth = W/H.
-/// The two unknowns stand for the force of an end. They follow from where the other end is:
+/// The two unknowns represent the force of one end. They follow from the position of the other end:
 ///   sum pitch / sqrt(1 + t_i^2) = span,   sum pitch t_i / sqrt(1 + t_i^2) = drop,
-/// two equations that Newton's method solves from the shallow chain's answer.
+/// two equations that Newton's method solves, starting from the solution of the shallow chain.
 std::array<double, kPlanks> hanging_slopes(double span) {
   const double length = kPlanks * kPitch;
   const auto place = [](int i) { return i - 0.5 * (kPlanks - 1); };
@@ -51,7 +51,7 @@ std::array<double, kPlanks> hanging_slopes(double span) {
   double growth =
       std::sqrt((2.0 * (1.0 - span / length) - middle * middle) * 12.0 / (kPlanks * kPlanks - 1));
   for (int step = 0; step < 20; ++step) {
-    double f_x = -span, f_y = -kDrop;                   // by how much the right end is off [m]
+    double f_x = -span, f_y = -kDrop;                   // error of the right end [m]
     double x_m = 0.0, x_g = 0.0, y_m = 0.0, y_g = 0.0;  // derivatives by middle and growth
     for (int i = 0; i < kPlanks; ++i) {
       const double t = middle + growth * place(i);
@@ -147,7 +147,7 @@ void add_ball(const BridgeOptions& options, Scene& scene) {
   }
   Body ball = solid("ball", Sphere{kRadius}, 1000.0, {options.ball_x, rest.y, 0.0});
   ball.velocity = options.ball_speed * Vec3{rest.normal.y(), -rest.normal.x(), 0.0};
-  // Rolling: the touching point stands still, v + omega x (-radius n) = 0. Along +x that is about
+  // Rolling: the contact point is at rest, v + omega x (-radius n) = 0. Along +x that is about
   // -z.
   ball.angular_velocity = {0.0, 0.0, -options.ball_speed / kRadius};
   ball.friction = kMu;
@@ -195,14 +195,14 @@ Scene convoy() {
   scene.look_for =
       "The load changes, and the number of sub-steps follows it: about 4 on the empty bridge, 10 "
       "under 100 kg, 25 under 1000 kg. A constant number must be chosen for the heaviest ball.";
-  // Per sub-step, because the load comes within a few frames.
+  // Per sub-step, because the load changes within a few frames.
   scene.settings.policy = Policy::kSubstep;
   scene.settings.alpha = 0.25;
   scene.criteria.duration = kConvoy.back().arrives + 3.0;
   scene.criteria.window = scene.criteria.duration;
   scene.camera.eye = {-1.5, 6.5, 16.0};
   scene.camera.target = {-1.0, 3.4, 0.0};
-  scene.camera.width = 15.0;  // not all of the road
+  scene.camera.width = 15.0;  // without the far end of the road
   add_convoy(scene);
   return scene;
 }

@@ -32,7 +32,7 @@ void add_pair(double x, double y, Scene& scene) {
   const double half_height = 0.5 * (kLength * kCosine + kThickness * kSine);
   for (const double side : {-1.0, 1.0}) {
     Body body = card(scene, kLength, {x + side * half_width, y + half_height, 0.0});
-    // The card's +x looks up and to its partner.
+    // The card's +x points up, towards its partner.
     body.orientation = turn_about_z(-side * kSine, kCosine);
     scene.bodies.push_back(body);
   }
@@ -47,11 +47,11 @@ Scene card_house(int storeys) {
   scene.title = "Card house";
   scene.group = "playground";
   scene.description = "A house of cards, " + std::to_string(storeys) +
-                      " storeys high. Friction and balance are all that holds it.";
+                      " storeys high, held by friction and balance only.";
   scene.look_for = "It stands. Throw a ball at it, or pull out a card.";
   scene.effects = {.gravity = true, .contact = true, .friction = true};
-  // No stiffness asks for more than one step a frame; but in so long a step cards roll over their
-  // edges, and creep.
+  // The stiffness needs no more than one step per frame, but with such a step cards roll over their
+  // edges and creep.
   scene.settings.mode = Mode::kConst;
   scene.settings.n = 8;
   add_ground(kMu, 0.004, scene);
@@ -60,7 +60,7 @@ Scene card_house(int storeys) {
     const double first = -0.5 * (pairs - 1) * kPitch;
     for (int i = 0; i < pairs; ++i) add_pair(first + i * kPitch, y, scene);
     y += storey;
-    for (int i = 0; i + 1 < pairs; ++i) {  // lying cards: the next storey's floor
+    for (int i = 0; i + 1 < pairs; ++i) {  // horizontal cards: the floor of the next storey
       scene.bodies.push_back(
           card(scene, kPitch - 0.004, {first + (i + 0.5) * kPitch, y + 0.5 * kThickness, 0.0}));
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The exam's cases (core/lab/exam.hpp): scenes in code and what they are measured from.
+// The exam's cases (core/lab/exam.hpp): scenes in code and their references.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace substep::scenes {
 
-/// All cases in the order of the exam's table, those included that the vocabulary does not reach.
+/// All cases in the order of the exam's table, including those that scenes cannot express.
 const std::vector<ExamEntry>& exam();
 
 // Joints: exam_pendulums.cpp, exam_linkages.cpp

@@ -1,4 +1,4 @@
-// A ground that gives way: a ball on a spring without loss, and clutter, as the authors of an
+// Compliant ground: a ball on a lossless spring, and clutter, as the authors of an
 // error-controlled convex integrator test it.
 
 #include "scenes/generator/exam.hpp"
@@ -12,7 +12,7 @@ std::vector<ExamMethod> contact_methods(const Settings& base, const std::vector<
   for (ExamMethod& method : methods) {
     method.order.reset();
     if (method.settings.mode == Mode::kAdaptive) method.parameters = {0.1, 0.01};
-    method.settings.n_max = 64;  // an impact asks for thousands
+    method.settings.n_max = 64;  // an impact requests thousands
   }
   Settings settings = base;
   settings.mode = Mode::kConst;
@@ -25,7 +25,7 @@ std::vector<ExamMethod> contact_methods(const Settings& base, const std::vector<
 // ---- on the ground, with y the gap and omega^2 = k/m:
 //        y'' = -g - omega^2 y,  y(0) = 0,  y'(0) = -v
 //        y = -(g/omega^2)(1 - cos omega t) - (v/omega) sin omega t.
-// It leaves where omega t = 2 (pi - atan(v omega/g)).
+// It leaves the ground at omega t = 2 (pi - atan(v omega/g)).
 
 double SpringBounce::flight() const { return 2.0 * std::sqrt(2.0 * height / gravity); }
 
@@ -104,7 +104,7 @@ void add_box_without_lid(Scene& scene) {
   }
 }
 
-/// What the contacts' springs hold [J]: with compliance C a force f has C f^2/2 in it.
+/// Energy of the contacts' springs [J]: C f^2/2 for a force f and compliance C.
 double elastic_energy(const Scene& scene, const ConstraintForces& forces) {
   double energy = 0.0;
   for (const ContactForce& contact : forces.contacts) {
@@ -151,7 +151,7 @@ ExamCase clutter(const std::string& name, const std::string& title, double compl
     const bool is_cube = (across + deep + layer) % 2 == 0;  // never beside another cube
     const Shape shape = is_cube ? Shape(box(kEdge, kEdge, kEdge)) : Shape(Sphere{0.5 * kEdge});
     Body body = solid((is_cube ? "cube_" : "sphere_") + std::to_string(i + 1), shape, 1.0, at);
-    // Fixed tilts, so that edges and corners come first: no two bodies fall alike.
+    // Different fixed tilts, so that edges and corners touch first.
     body.orientation = Quat(4.0, 0.3 * i, 1.0 - 0.2 * i, 0.5).normalized();
     scene.bodies.push_back(body);
   }
@@ -159,8 +159,7 @@ ExamCase clutter(const std::string& name, const std::string& title, double compl
   scene.criteria.track = 5;
   exam.quantities = {
       {"energy gained", "-", 0.01,
-       "a claim in words, and a plot: a hundredth of the energy at the start can be read off it",
-       true},
+       "a claim in words, and a plot that resolves a hundredth of the initial energy", true},
       {"overlap", "m", overlap, why}};
   exam.needs_forces = true;
   exam.measure = measure_clutter;
@@ -171,12 +170,12 @@ ExamCase clutter(const std::string& name, const std::string& title, double compl
 }  // namespace
 
 ExamCase exam_compliant_ball() {
-  ExamCase exam = exam_case("compliant_ball", "Ball on a ground without loss",
-                            "A ball of 0.1 kg falls 1 m on a ground that gives way by 1 mm/N and "
-                            "returns all of it.",
-                            "the claim of an error-controlled convex integrator's authors: the "
-                            "energy stays, 11 bounces in 10 s; beside it the closed form",
-                            10.0, 0.02);
+  ExamCase exam =
+      exam_case("compliant_ball", "Ball on a lossless ground",
+                "A ball of 0.1 kg falls 1 m onto an elastic ground with a compliance of 1 mm/N.",
+                "the claim of an error-controlled convex integrator's authors: constant energy, 11 "
+                "bounces in 10 s; and the closed form",
+                10.0, 0.02);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true};
   scene.gravity = {0.0, -kBounce.gravity, 0.0};
@@ -187,13 +186,13 @@ ExamCase exam_compliant_ball() {
   scene.bodies.push_back(
       solid("ball", Sphere{kRadius}, kBounce.mass, {0.0, kRadius + kBounce.height, 0.0}));
   scene.criteria.track = 1;
-  exam.quantities = {{"height", "m", 1e-3, "the accuracy that their integrator is run with"},
+  exam.quantities = {{"height", "m", 1e-3, "the accuracy setting of their integrator"},
                      {"energy gained", "-", 1e-3,
-                      "the same, of the energy at the start; in flight, because on the spring it "
-                      "swings to and fro with the order of the velocity",
+                      "the same, relative to the initial energy; in flight, because on the spring "
+                      "it oscillates with the order of the velocity",
                       true},
-                     {"energy changed", "-", 1e-2, "what can be read off their plot; in flight"},
-                     {"bounces missed", "-", 0.5, "their count of eleven"}};
+                     {"energy changed", "-", 1e-2, "the resolution of their plot; in flight"},
+                     {"bounces missed", "-", 0.5, "they count eleven"}};
   exam.measure = measure_bounce;
   exam.motion = [] {
     return [](double t, std::vector<Vec3>& x, std::vector<Quat>&) {
@@ -205,13 +204,14 @@ ExamCase exam_compliant_ball() {
 }
 
 ExamCase exam_soft_clutter() {
-  return clutter("soft_clutter", "Soft clutter", 1e-4, 0.1,
-                 "a fall of 1 m on a spring of 10 kN/m presses it by 40 mm, several more");
+  return clutter(
+      "soft_clutter", "Soft clutter", 1e-4, 0.1,
+      "a fall of 1 m compresses a spring of 10 kN/m by 40 mm, several bodies compress it more");
 }
 
 ExamCase exam_hard_clutter() {
   return clutter("hard_clutter", "Hard clutter", 1e-8, 1e-3,
-                 "a fall of 1 m on a spring of 100 MN/m presses it by 0.4 mm");
+                 "a fall of 1 m compresses a spring of 100 MN/m by 0.4 mm");
 }
 
 }  // namespace substep::scenes

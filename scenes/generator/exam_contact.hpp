@@ -1,5 +1,5 @@
 #pragma once
-// What the exam's contact cases share, and their closed forms.
+// Common parts of the exam's contact cases, and their closed forms.
 
 #include <vector>
 
@@ -7,12 +7,12 @@
 
 namespace substep::scenes {
 
-/// The exam's methods without a judgement of their order, which contacts that open and close leave
-/// undefined, and Gauss-Seidel with 100 sweeps.
+/// The exam's methods without a check of their order, which is undefined when contacts open and
+/// close, and Gauss-Seidel with 100 sweeps.
 /// @param n sub-steps per frame, ascending
 std::vector<ExamMethod> contact_methods(const Settings& base, const std::vector<double>& n);
 
-/// Whether bodies have a constant force: until they do, the cases that need one are listed as not
+/// Whether bodies support a constant force; if not, the cases that need one are listed as not
 /// reached.
 template <class BodyType = Body>
 constexpr bool takes_force() {
@@ -34,7 +34,7 @@ struct RollingAccelerations {
 };
 RollingAccelerations rolling_accelerations();
 
-/// A ball that falls on a ground with a linear spring and loses nothing.
+/// A ball that falls onto a lossless linear spring.
 struct SpringBounce {
   double mass = 1.0;       // [kg]
   double stiffness = 1.0;  // of the ground [N/m]
@@ -43,7 +43,7 @@ struct SpringBounce {
 
   [[nodiscard]] double flight() const;               ///< from the ground up and down again [s]
   [[nodiscard]] double contact() const;              ///< time on the ground [s]
-  [[nodiscard]] double gap_after(double t) const;    ///< negative: the spring is pressed [m]
+  [[nodiscard]] double gap_after(double t) const;    ///< negative: the spring is compressed [m]
   [[nodiscard]] int bounces_within(double t) const;  ///< deepest points passed
 };
 

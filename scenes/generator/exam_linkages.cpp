@@ -12,9 +12,9 @@ namespace substep::scenes {
 namespace {
 
 constexpr double kGravity = 9.81;
-/// Both loops have more hinge rows than they need: six in the plane's four-bar, one in Bricard's.
-/// They are exact: a compliance of 1e-16 m/N, to share the force among them, carries the four-bar
-/// off by 3e-6 m where it passes its singular pose.
+/// Both loops have redundant hinge rows: six in the planar four-bar, one in Bricard's mechanism.
+/// They are exact: a compliance of 1e-16 m/N, which would distribute the force among them, causes
+/// an error of 3e-6 m when the four-bar passes its singular pose.
 HingeJoint hinge(const std::string& name, int a, const Vec3& anchor_a, int b, const Vec3& anchor_b,
                  const Vec3& axis) {
   HingeJoint joint;
@@ -35,12 +35,12 @@ Body rod(const std::string& name, int axis, const Vec3& centre) {
   extents[axis] = 1.0;
   Body body = solid(name, box(extents.x(), extents.y(), extents.z()), 1.0, centre);
   body.inertia = Vec3::Constant(1.0 / 12.0);
-  body.inertia[axis] = 1e-4;  // it never turns about its length
+  body.inertia[axis] = 1e-4;  // it never rotates about its length
   return body;
 }
 
-// ---- A02. The three uprights turn alike, by theta from straight up, and the two horizontal rods
-//      follow without turning: (3 (1/3) + 2) theta'' = (3/2 + 2) g sin theta.
+// ---- A02. The three uprights rotate together, by theta from the vertical, and the two horizontal
+//      rods follow without rotation: (3 (1/3) + 2) theta'' = (3/2 + 2) g sin theta.
 
 ExactPendulum four_bar_turn() {
   return ExactPendulum::over_the_top(std::sqrt(3.5 * kGravity / 3.0), 1.0);
@@ -109,10 +109,9 @@ ExamMeasure measure_bricard(double frame) {
 ExamCase exam_four_bar() {
   ExamCase exam = exam_case(
       "four_bar", "IFToMM A02, double four-bar",
-      "Five rods of 1 kg and 1 m on seven hinges, upright, pushed at 1 m/s; twice a turn all of "
-      "them lie in one line, a singular pose.",
-      "IFToMM benchmark, the first corner after 10 s; beside it the closed form by elliptic "
-      "functions",
+      "Five rods of 1 kg and 1 m on seven hinges, upright, pushed at 1 m/s; twice per revolution "
+      "all of them lie in one line, a singular pose.",
+      "IFToMM benchmark, the first corner after 10 s; and the closed form by elliptic functions",
       10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
@@ -156,10 +155,9 @@ ExamCase exam_four_bar() {
 ExamCase exam_bricard() {
   ExamCase exam = exam_case(
       "bricard", "IFToMM A04, Bricard's mechanism",
-      "Five rods of 1 kg and 1 m along the edges of a cube on six hinges, let go: more constraints "
-      "than freedoms, and yet it moves.",
-      "IFToMM benchmark: energy stays; the motion of its one freedom integrated here in minimal "
-      "coordinates",
+      "Five rods of 1 kg and 1 m along the edges of a cube on six hinges, released at rest: "
+      "overconstrained, yet mobile.",
+      "IFToMM benchmark: constant energy; its motion is integrated here in minimal coordinates",
       10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
@@ -185,7 +183,7 @@ ExamCase exam_bricard() {
   scene.criteria.track = 2;
   exam.quantities = {
       {"exact position", "m", six_digits(1.0), kSixDigits},
-      {"energy", "J", 1e-3, "the source asks for no drift; 4.6 J are exchanged in a swing"}};
+      {"energy", "J", 1e-3, "the source requires no drift; a swing exchanges 4.6 J"}};
   exam.measure = [frame = scene.frame] { return measure_bricard(frame); };
   exam.motion = bricard_motion;
   exam.methods = exam_methods(scene.settings, {16, 64, 256});

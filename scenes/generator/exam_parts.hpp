@@ -1,5 +1,5 @@
 #pragma once
-// What several cases of the exam are put together from.
+// Common parts of the exam's cases.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace substep::scenes {
 
-/// A case and its empty scene, which take name and words from each other.
+/// A case and its empty scene, with the same name and texts.
 /// @param duration, frame [s]
 inline ExamCase exam_case(const std::string& name, const std::string& title,
                           const std::string& definition, const std::string& source, double duration,
@@ -32,7 +32,7 @@ inline ExamCase exam_case(const std::string& name, const std::string& title,
   return exam;
 }
 
-/// The largest error so far; what is not a number counts as infinite.
+/// The largest error so far; NaN counts as infinite.
 inline void raise(double& error, double value) {
   error = std::isnan(value) ? std::numeric_limits<double>::infinity() : std::max(error, value);
 }
@@ -51,8 +51,8 @@ inline Vec3 angular_velocity_of(const State& state, int body) {
   return state.u_synchronised[index(body)].tail<3>();
 }
 
-/// Six digits of a motion of the size `scale`: what is asked of a scheme where the reference is
-/// exact, because the tables of other codes are printed with as many.
+/// Six digits of a motion of the size `scale`: the tolerance for an exact reference, because the
+/// tables of other codes have as many digits.
 inline double six_digits(double scale) { return 1e-6 * scale; }
 inline constexpr const char* kSixDigits =
     "the reference is exact; six digits of the motion's size, as printed tables have";

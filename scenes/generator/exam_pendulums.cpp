@@ -1,4 +1,5 @@
-// Pendulums in a plane: one of the IFToMM benchmark, two that a commercial multibody code computed.
+// Planar pendulums: one of the IFToMM benchmark, and two with results of a commercial multibody
+// code.
 
 #include <array>
 
@@ -14,7 +15,7 @@ constexpr double kRightAngle = 0.5 * std::numbers::pi;
 
 // ---- IFToMM A01. The point mass is a ball whose centre of oscillation is 1 m from the hinge:
 //      with I about the centre and a the centre's distance, I + m a^2 = m a L, the rigid body moves
-//      as the point mass at L does. A body without inertia needs no limit of its own that way.
+//      as the point mass at L does. This avoids the limit of a body without inertia.
 
 constexpr double kLength = 1.0;  // L [m]
 constexpr double kGravity = 9.81;
@@ -91,7 +92,7 @@ ExamMeasure measure_table(const std::array<PendulumRow, n>& rows) {
     const PendulumRow& row = rows[i];
     raise(errors[1], (state.x[0] - Vec3(row.x, 0.0, row.z)).norm());
     raise(errors[2], (velocity_of(state, 0) - Vec3(row.vx, 0.0, row.vz)).norm());
-    // Its markers have axes of their own: the rotation since the start is what can be compared.
+    // The markers of that code have other axes, so rotations since the start are compared.
     const Quat turned = orientation(row) * orientation(rows[0]).conjugate();
     raise(errors[3], angle_between(state.q[0], turned));
     raise(errors[4], (angular_velocity_of(state, 0) - Vec3(0.0, row.wy, 0.0)).norm());
@@ -105,8 +106,8 @@ ExamCase table_case(const std::string& name, const std::string& title,
   ExamCase exam = exam_case(
       name, title,
       "A body of 1 kg whose centre is 2 m from the joint, released at rest from the horizontal.",
-      "rows of a commercial multibody code, published as a joint benchmark; beside them the closed "
-      "form by elliptic functions",
+      "rows of a commercial multibody code, published as a joint benchmark; and the closed form by "
+      "elliptic functions",
       5.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
@@ -133,11 +134,11 @@ ExamCase table_case(const std::string& name, const std::string& title,
 }  // namespace
 
 ExamCase exam_simple_pendulum() {
-  ExamCase exam = exam_case(
-      "simple_pendulum", "IFToMM A01, simple pendulum",
-      "A point mass of 1 kg, 1 m from a hinge, released at rest from the horizontal.",
-      "IFToMM benchmark, the point after 10 s; beside it the closed form by elliptic functions",
-      10.0, 0.1);
+  ExamCase exam =
+      exam_case("simple_pendulum", "IFToMM A01, simple pendulum",
+                "A point mass of 1 kg, 1 m from a hinge, released at rest from the horizontal.",
+                "IFToMM benchmark, the point after 10 s; and the closed form by elliptic functions",
+                10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = {0.0, -kGravity, 0.0};
@@ -150,10 +151,9 @@ ExamCase exam_simple_pendulum() {
   hinge.anchor_a = {centre_distance(), 0.0, 0.0};
   scene.joints.emplace_back(hinge);
   scene.criteria.track = 0;
-  exam.quantities = {
-      {"exact position", "m", six_digits(kLength), kSixDigits},
-      {"position after 10 s", "m", 1e-10,
-       "eleven decimals are published; sub-steps leave rounding errors of their own"}};
+  exam.quantities = {{"exact position", "m", six_digits(kLength), kSixDigits},
+                     {"position after 10 s", "m", 1e-10,
+                      "eleven decimals are published; sub-steps add rounding errors"}};
   exam.measure = measure_simple_pendulum;
   exam.motion = simple_pendulum_motion;
   exam.methods = exam_methods(scene.settings, {16, 64, 256});
@@ -181,7 +181,7 @@ ExamCase exam_spherical() {
   ExamCase exam = table_case(
       "spherical", "Spherical joint, commercial code", {1e-3, 3e-3, 5e-4, 1.2e-3, 1.4e-2},
       "the table's own distance from the closed form, over all 501 rows: a hundred times that of "
-      "the revolute joint's table, though the motion is the same");
+      "the revolute joint's table, although the motion is the same");
   BallJoint joint;
   joint.name = "spherical";
   joint.anchor_a = {-kArm, 0.0, 0.0};

@@ -48,7 +48,7 @@ ExamMeasure measure_rolling(const Vec3& along) {
   };
 }
 
-/// A ball on the box turns with the box's speed below it against its own.
+/// A ball on the box rolls with the difference between the box's speed and its own.
 ExamMotion rolling_motion(const Scene& scene, const Vec3& along) {
   std::vector<Vec3> start;
   for (const Body& body : scene.bodies) start.push_back(body.position);
@@ -76,7 +76,7 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
   scene.settings.friction_cone = cone;
   scene.camera.eye = {14.0, 9.0, 18.0};
   scene.camera.target = {0.0, 0.5, 0.0};
-  // A pair has the root of its two coefficients' product.
+  // The coefficient of a pair is the geometric mean of the bodies' coefficients.
   scene.bodies.push_back(floor_plane());
   scene.bodies.back().friction = kOnGround * kOnGround / kOnBox;
   Body slab = solid("slab", box(20.0, 1.0, 20.0), kBoxMass, {0.0, 0.5, 0.0});
@@ -92,8 +92,9 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
     }
   }
   scene.criteria.track = 1;
-  exam.quantities = {{"mean square velocity error", "m^2/s^2", 4.1e-7,
-                      "RaiSim's published figure at 1 ms; the others' range from 1e-17 to 3"}};
+  exam.quantities = {
+      {"mean square velocity error", "m^2/s^2", 4.1e-7,
+       "RaiSim's published figure at 1 ms; those of the other engines range from 1e-17 to 3"}};
   exam.measure = [along] { return measure_rolling(along); };
   exam.motion = [scene, along] { return rolling_motion(scene, along); };
   exam.methods = contact_methods(scene.settings, {4, 16, 64});  // 16: their step of 1 ms

@@ -20,7 +20,7 @@ PivotedBody top() {
 }
 const Vec3 kTopRate{0.0, 150.0, -4.61538};  // at the start, body and world alike [rad/s]
 
-/// The top's attitude, moved on by steps of at most 10 us; half of that moves it by 1e-11 rad.
+/// The top's attitude, integrated in steps of at most 10 us; halving them changes it by 1e-11 rad.
 class TopMotion {
  public:
   const Attitude& at(double t) {
@@ -63,8 +63,7 @@ ExamMeasure measure_top() {
 
 ExamCase free_body(const std::string& name, const std::string& title, const std::string& definition,
                    const Vec3& extents, const Vec3& inertia, const Vec3& rate) {
-  ExamCase exam = exam_case(name, title, definition,
-                            "the closed form, as in every textbook of mechanics", 20.0, 0.1);
+  ExamCase exam = exam_case(name, title, definition, "the closed form, from textbooks", 20.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gyroscopic = true};
   scene.camera.eye = {1.4, 1.0, 2.4};
@@ -91,13 +90,13 @@ constexpr double kAside = 0.03;            // about the axis of the largest mome
 }  // namespace
 
 ExamCase exam_heavy_top() {
-  ExamCase exam = exam_case(
-      "heavy_top", "Heavy top at 150 rad/s",
-      "A top of 15 kg whose centre is 1 m from its fixed point, spinning at 150 rad/s, held "
-      "horizontal and let go.",
-      "the top of Lie group integrators' publications, Euler parameters after 0.2 s to five "
-      "decimals; beside it the motion in minimal coordinates, integrated here",
-      0.2, 0.01);
+  ExamCase exam =
+      exam_case("heavy_top", "Heavy top at 150 rad/s",
+                "A top of 15 kg whose centre is 1 m from its fixed point, spinning at 150 rad/s, "
+                "released in a horizontal position.",
+                "a benchmark of publications on Lie group integrators, Euler parameters after 0.2 "
+                "s to five decimals; and the motion in minimal coordinates, integrated here",
+                0.2, 0.01);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   scene.gravity = top().gravity;
@@ -113,7 +112,7 @@ ExamCase exam_heavy_top() {
   joint.anchor_a = -top().centre;
   scene.joints.emplace_back(joint);
   scene.criteria.track = 0;
-  exam.quantities = {{"orientation", "rad", 1e-5, "twice the Euler parameters' rounding"},
+  exam.quantities = {{"orientation", "rad", 1e-5, "twice the rounding of the Euler parameters"},
                      {"position", "m", 1e-5, "the same at 1 m"},
                      {"Euler parameters", "-", 1e-5, "five decimals are published"}};
   exam.measure = measure_top;
@@ -126,8 +125,8 @@ ExamCase exam_heavy_top() {
 
 ExamCase exam_symmetric_body() {
   ExamCase exam = free_body("symmetric_body", "Free body with two equal moments",
-                            "A plate in free flight turns and wobbles: its axis goes round the "
-                            "angular momentum at a constant rate.",
+                            "A plate in free flight rotates and wobbles: its axis precesses about "
+                            "the angular momentum at a constant rate.",
                             {1.0, 1.0, 0.1}, kSymmetric, kSymmetricRate);
   exam.measure = [] {
     return [](const ExamView& view, std::span<double> errors) {
@@ -148,10 +147,10 @@ ExamCase exam_symmetric_body() {
 }
 
 ExamCase exam_tumbling() {
-  ExamCase exam = free_body("tumbling", "Free body about its middle axis (Dzhanibekov)",
-                            "A free block turns about its middle axis and tips over again and "
-                            "again.",
-                            {1.0, 0.6, 0.2}, kUneven, {0.0, kMiddleRate, kAside});
+  ExamCase exam =
+      free_body("tumbling", "Free body about its intermediate axis (Dzhanibekov)",
+                "A free block rotates about its intermediate axis and flips over again and again.",
+                {1.0, 0.6, 0.2}, kUneven, {0.0, kMiddleRate, kAside});
   exam.measure = [] {
     const auto exact = std::make_shared<ExactTumbling>(kUneven, kMiddleRate, kAside);
     return [exact](const ExamView& view, std::span<double> errors) {

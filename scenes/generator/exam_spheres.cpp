@@ -12,8 +12,8 @@ constexpr double kGravity = 9.81;
 constexpr double kMass = 10.0;   // [kg]
 constexpr double kRadius = 0.1;  // [m]
 
-// ---- bouncing: 49 balls of one height fall on the ground and lose nothing. They are alike and do
-//      not meet, so that one of them tells the sum.
+// ---- bouncing: 49 balls fall from the same height and lose no energy. They move alike and do
+//      not meet, so that one of them gives the sum.
 
 constexpr int kBalls = 49;
 constexpr double kHeight = 5.0;  // of their centres at the start [m]
@@ -70,8 +70,8 @@ double squared_overlaps(const State& state) {
   return sum;
 }
 
-/// Steps of 4 and 1 ms. What fourth order adds between impacts, where spheres fall freely, is
-/// nothing, and each of these runs takes seconds: it is left out.
+/// Steps of 4 and 1 ms. Without the methods of fourth order: they gain nothing between impacts,
+/// where spheres fall freely, and each of their runs takes seconds.
 std::vector<ExamMethod> sphere_methods(const Settings& base) {
   std::vector<ExamMethod> methods = contact_methods(base, {4, 16});
   std::erase_if(methods, [](const ExamMethod& method) {
@@ -94,12 +94,12 @@ ExamMeasure measure_overlaps() {
 
 ExamCase exam_bouncing() {
   ExamCase exam = exam_case("bouncing", "SimBenchmark, bouncing",
-                            "A ball of 10 kg falls 4.9 m, bounces for 20 s and loses nothing.",
-                            "SimBenchmark: the energy stays; 49 balls are alike", 20.0, 0.1);
+                            "A ball of 10 kg falls 4.9 m and bounces for 20 s without loss.",
+                            "SimBenchmark: constant energy; its 49 balls move alike", 20.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
   scene.gravity = {0.0, -kGravity, 0.0};
-  scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
+  scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.camera.eye = {0.0, 2.5, 10.0};
   scene.camera.target = {0.0, 2.5, 0.0};
   scene.bodies.push_back(floor_plane());
@@ -122,12 +122,12 @@ ExamCase exam_bouncing() {
 }
 
 ExamCase exam_spheres() {
-  ExamCase exam = exam_case("spheres_666", "SimBenchmark, 666 spheres",
-                            "216 spheres of 10 kg, 6 x 6 x 6 of them, fall 1 m and spread "
-                            "without friction.",
-                            "SimBenchmark's measure; its runs take 10 s, these the first 2 s, "
-                            "in which all impacts are",
-                            2.0, 0.016);
+  ExamCase exam = exam_case(
+      "spheres_666", "SimBenchmark, 666 spheres",
+      "216 spheres of 10 kg, 6 x 6 x 6 of them, fall 1 m and spread "
+      "without friction.",
+      "SimBenchmark's measure; its runs take 10 s, these the first 2 s, which contain all impacts",
+      2.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true};
   scene.gravity = {0.0, -kGravity, 0.0};
@@ -143,15 +143,15 @@ ExamCase exam_spheres() {
 ExamCase exam_elastic_spheres() {
   ExamCase exam =
       exam_case("elastic_666", "SimBenchmark, elastic 666 spheres",
-                "The same spheres lose nothing at an impact: they fly apart.",
-                "SimBenchmark: the energy stays; its runs take 10 s, these 2 s", 2.0, 0.016);
+                "The same spheres with elastic impacts: they fly apart.",
+                "SimBenchmark: constant energy; its runs take 10 s, these 2 s", 2.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
   scene.gravity = {0.0, -kGravity, 0.0};
   scene.contact.compliance = 1e-16;
   scene.contact.restitution_speed = 0.0;
-  scene.contact.margin =
-      0.05;  // as far as two of them go in 4 ms: what is found late is pushed apart
+  // The distance by which two spheres approach in 4 ms: contacts detected late are pushed apart.
+  scene.contact.margin = 0.05;
   add_spheres(scene, 1.0);
   double energy = 0.0;
   for (const Body& body : scene.bodies) {

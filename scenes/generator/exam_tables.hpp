@@ -1,8 +1,9 @@
 #pragma once
 // Two swings of a pendulum as a commercial multibody code computed them: a joint benchmark that its
 // authors publish with 501 rows in 5 s, here every tenth. A body of 1 kg, its centre 2 m from the
-// joint, is released at rest from the horizontal; the revolute joint's axis is y. What is out of
-// the plane of motion is below 1e-9 there and left out. The force is that of the body on the world.
+// joint, is released at rest from the horizontal; the revolute joint's axis is y. Components
+// out of the plane of motion are below 1e-9 and omitted. The force is that of the body on the
+// world.
 
 #include <array>
 

@@ -11,8 +11,8 @@ namespace substep::scenes {
 namespace {
 
 constexpr double kLink = 0.4;     // length of a link [m]
-constexpr double kHeavy = 1e3;    // of what hangs on a chain [kg]
-constexpr Angle kFold{0.8, 0.6};  // of folded chains against straight down
+constexpr double kHeavy = 1e3;    // load of a chain [kg]
+constexpr Angle kFold{0.8, 0.6};  // of folded chains to the vertical
 
 Scene named(Scene scene, const std::string& name, double duration) {
   scene.name = name;
@@ -22,8 +22,8 @@ Scene named(Scene scene, const std::string& name, double duration) {
   return scene;
 }
 
-/// More energy than the start's fails: half of what lifts everything by 1 m, and a tenth of the
-/// motion.
+/// The permitted increase of energy: half of that which lifts everything by 1 m, and a tenth of the
+/// kinetic energy.
 void forbid_gain(Scene& scene) {
   double limit = 0.0;
   for (const Body& body : scene.bodies) {
@@ -34,7 +34,7 @@ void forbid_gain(Scene& scene) {
   scene.criteria.energy_gain = limit;
 }
 
-/// Bodies one after the other on ball joints, in the plane z = 0, from a point of the world on.
+/// A chain of bodies on ball joints in the plane z = 0, starting at a point of the world.
 class Chain {
  public:
   Chain(const Vec3& anchor, Scene& scene) : scene_(scene), end_(anchor), anchor_(anchor) {}
@@ -56,7 +56,7 @@ class Chain {
   void links(int n, const Vec3& direction) {
     for (int i = 0; i < n; ++i) add("link", box(kLink, 0.1, 0.1), 1.0, kLink, direction);
   }
-  /// Fixes the end to the world, where it is.
+  /// Joins the end to the world at its position.
   void fix_end() { join(last_, last_end_, kWorld, end_); }
   /// Joins the end to a point of another body.
   void join_end(int body, const Vec3& anchor) { join(last_, last_end_, body, anchor); }
@@ -128,8 +128,8 @@ Scene two_boxes(double upper, double lower) {
   return scene;
 }
 
-/// A chain that hangs on both of its ends, with a weight in the middle: it drops the slack that
-/// the V has, and swings.
+/// A chain suspended at both ends with a weight in the middle: it falls by the slack of the V and
+/// swings.
 Scene both_ends() {
   Scene scene = empty();
   Chain chain({-5.0, 10.0, 0.0}, scene);
@@ -141,7 +141,7 @@ Scene both_ends() {
   return scene;
 }
 
-/// A closed ring of 24 links that hangs by one corner, with a weight on the opposite one.
+/// A closed ring of 24 links, suspended at one corner, with a weight at the opposite one.
 Scene ring() {
   Scene scene = empty();
   Chain chain({0.0, 12.0, 0.0}, scene);
@@ -178,8 +178,8 @@ Scene links_of(double height, double depth) {
   return scene;
 }
 
-/// Every link starts with a velocity of its own, up to 5 m/s: the joints do not allow it. What a
-/// method makes of it is what is asked, so it is kept.
+/// Every link starts with a different velocity of up to 5 m/s, which the joints do not permit. The
+/// start is kept, to test how a method handles it.
 Scene inconsistent() {
   Scene scene = swinging_box();
   scene.start = StartPolicy::kKeep;
@@ -192,8 +192,8 @@ Scene inconsistent() {
   return scene;
 }
 
-/// The heavy box is yanked: it starts at 20 m/s across a chain at rest, or along it. The chain
-/// takes the blow in the first sub-step, not before it.
+/// The heavy box starts at 20 m/s across a chain at rest, or along it. The impact acts on the chain
+/// in the first sub-step, not before it.
 Scene yanked(const Vec3& velocity) {
   Scene scene = swinging_box();
   scene.start = StartPolicy::kKeep;
@@ -209,7 +209,7 @@ Scene bridge_with(double friction) {
   return scene;
 }
 
-/// The bridge's ball comes down on the middle planks at 30 m/s.
+/// The ball lands on the middle planks of the bridge at 30 m/s.
 Scene landing_on_bridge() {
   Scene scene = bridge();
   Body& ball = scene.bodies.back();

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes far past the paper's: what a recommended setting has to hold.
+// Scenes far beyond the paper's, which a recommended setting must hold.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace substep::scenes {
 
-/// One scene of the hard set. Its criteria say what counts as holding: no joint opens, nothing
-/// gains energy that nobody put in, and what should stand stands.
+/// One scene of the hard set. Its criteria define when it holds: no joint opens, the energy does
+/// not grow, and stacks stand.
 struct HardCase {
   std::string family;  // "mass ratio", "ropes", ...
   Scene scene;

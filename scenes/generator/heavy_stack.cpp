@@ -39,10 +39,10 @@ Scene heavy_stack(const HeavyStackOptions& options) {
   scene.title = "Heavy stack";
   scene.group = "paper";
   scene.description = layers + " layers of four balls and a plate, 1 kg each, carry a box of " +
-                      tonnes + " t. Nothing but contacts holds it.";
+                      tonnes + " t. Only contacts hold it.";
   scene.look_for =
       "The number of sub-steps. In double precision this stack stands in every mode of the direct "
-      "solver; the stress stack shows what sub-steps are for.";
+      "solver; the stress stack shows the benefit of sub-steps.";
   scene.effects = {.gravity = true, .contact = true};
   scene.contact.compliance = options.compliance;
   scene.settings.alpha = options.alpha;
@@ -53,11 +53,11 @@ Scene heavy_stack(const HeavyStackOptions& options) {
     scene.title = "Heavy stack, stress";
     scene.group = "stress";
     scene.description +=
-        " The balls start up to 2 mm off, and the solver's matrix carries a fixed regularisation, "
-        "as in single precision.";
+        " The balls are displaced by up to 2 mm, and the solver's matrix has a fixed "
+        "regularisation, as in single precision.";
     scene.look_for =
-        "Without sub-steps the stack falls within a second; more of them keep it up longer. "
-        "Refined, a single step does.";
+        "Without sub-steps the stack falls within a second; with more of them it stands longer. "
+        "With refinements a single step is enough.";
     scene.regularisation = 7e-5;
   }
   scene.bodies.push_back(floor_plane());

@@ -1,5 +1,5 @@
-// Bodies on ball joints whose motion leaves every plane, and whose moments of inertia differ: there
-// the gyroscopic torque and the joints' forces meet. Their exact motion is that of a joint tree.
+// Bodies with unequal moments of inertia on ball joints, in three-dimensional motion: the
+// gyroscopic torque and the joint forces interact. The exact motion is that of a joint tree.
 
 #include <cmath>
 #include <string>
@@ -55,8 +55,8 @@ Scene spherical_pendulum() {
       "spinning "
       "about that axis.";
   scene.look_for =
-      "It swings out of every plane while it turns over. Energy and the vertical angular momentum "
-      "stay.";
+      "It swings in no fixed plane and turns over. Energy and the vertical angular momentum are "
+      "conserved.";
   scene.criteria.track = 0;
   scene.camera.eye = {0.9, 2.4, 2.6};
   scene.camera.target = {0.0, 1.75, 0.0};
@@ -75,9 +75,9 @@ Scene heavy_top() {
   Scene scene = in_space("heavy_top", "Heavy top");
   scene.description =
       "A square plate of 2 kg spins at 60 rad/s about its axis, 36.87 degrees from upright (sine "
-      "3/5), 0.5 m from the point that it stands on.";
+      "3/5), 0.5 m from its fixed point.";
   scene.look_for =
-      "It does not fall: it goes round once in 8 s, and nods a little more than three times a "
+      "It does not fall: it precesses once in 8 s and nutates a little more than three times per "
       "second.";
   scene.criteria.track = 0;
   scene.camera.eye = {1.6, 1.7, 2.4};
@@ -87,7 +87,7 @@ Scene heavy_top() {
   const Vec3 axis{0.6, 0.8, 0.0};
   Body plate = solid("plate", box(0.8, 0.2, 0.8), 2.0, tip + 0.5 * axis);
   plate.orientation = rotation_between(Vec3::UnitY(), axis);
-  plate.angular_velocity = 60.0 * axis;  // the centre stands still
+  plate.angular_velocity = 60.0 * axis;  // the centre is at rest
   scene.bodies.push_back(plate);
   scene.joints.emplace_back(ball_joint("tip", 0, {0.0, -0.5, 0.0}, kWorld, tip));
   return scene;

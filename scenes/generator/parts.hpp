@@ -1,5 +1,5 @@
 #pragma once
-// What several scenes are put together from.
+// Common parts of scenes.
 
 #include <cstdint>
 #include <string>
@@ -11,8 +11,8 @@ namespace substep::scenes {
 /// A moving body with the inertia of its solid shape, at rest.
 Body solid(std::string name, const Shape& shape, double mass, const Vec3& position);
 
-/// Colours of the playground: apart for people who do not see red and green as others do, and none
-/// of them the bright orange that marks what asks for small steps.
+/// Colours of the playground: distinguishable with red-green colour blindness, and different from
+/// the bright orange that marks bodies that need small steps.
 inline constexpr std::uint32_t kBrick = 0xb07a6c;
 inline constexpr std::uint32_t kBrickDark = 0x9a6659;
 inline constexpr std::uint32_t kIron = 0x5a6676;
@@ -30,8 +30,8 @@ Box box(double x, double y, double z);
 /// A static plane y = height, facing up [m].
 Body floor_plane(double height = 0.0);
 
-/// What the playground stands on: a floor to begin with, and contacts that give way a little, since
-/// piles have more of their points than they need.
+/// Base of the playground scenes: a floor, and slightly compliant contacts, because piles have
+/// redundant contact points.
 /// @param margin gap below which a contact has rows [m]
 void add_ground(double friction, double margin, Scene& scene);
 
@@ -42,7 +42,7 @@ void add_ground(double friction, double margin, Scene& scene);
 void join_planks(int planks, double pitch, double half_width, const Vec3& left, const Vec3& right,
                  Scene& scene);
 
-/// The orientation that turns +x to (c, s, 0): a turn about z by an angle between -180 and 180 deg.
+/// The rotation of +x to (c, s, 0), about z by an angle between -180 and 180 deg.
 /// @param c its cosine  @param s its sine
 Quat turn_about_z(double c, double s);
 

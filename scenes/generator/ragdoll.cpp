@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMu = 0.6;
 
-/// Builds one doll, upright with its arms out, then turns it about its pelvis.
+/// Builds one doll, upright with its arms out, then rotates it about its pelvis.
 class Doll {
  public:
   Doll(int number, std::uint32_t color, const Vec3& pelvis, const Quat& turn, Scene& scene)
@@ -18,7 +18,7 @@ class Doll {
         turn_(turn),
         scene_(scene) {}
 
-  /// @param centre from the pelvis' centre, before the turn [m]  @return the body's index
+  /// @param centre from the pelvis' centre, before the rotation [m]  @return the body's index
   int part(const std::string& name, const Shape& shape, double mass, const Vec3& centre) {
     Body body = solid(prefix_ + name, shape, mass, at_ + turn_ * centre);
     body.orientation = turn_;
@@ -28,7 +28,7 @@ class Doll {
     scene_.bodies.push_back(body);
     return static_cast<int>(scene_.bodies.size()) - 1;
   }
-  /// A joint between two parts at a point from the pelvis' centre, before the turn.
+  /// A joint between two parts at a point from the pelvis' centre, before the rotation.
   template <class Joint>
   Joint& join(const std::string& name, int a, int b, const Vec3& point) {
     Joint joint;
@@ -51,7 +51,7 @@ class Doll {
   Vec3 at_;
   Quat turn_;
   Scene& scene_;
-  std::vector<Vec3> centres_;  // of the parts, before the turn [m]
+  std::vector<Vec3> centres_;  // of the parts, before the rotation [m]
 };
 
 void hinge_about(HingeJoint& hinge, const Vec3& axis) { hinge.axis_a = hinge.axis_b = axis; }
@@ -91,7 +91,7 @@ Scene ragdoll_drop() {
   scene.group = "playground";
   scene.description = "Four dolls of 11 parts each fall down a flight of steps.";
   scene.look_for =
-      "Joints and contacts together: a landing asks for many sub-steps, a tumble for few.";
+      "Joints and contacts together: a landing needs many sub-steps, tumbling needs few.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
   add_ground(kMu, 0.01, scene);

@@ -13,10 +13,9 @@ extern const char* const kRecommendedText;  // by CMake, from recommended.json
 
 namespace {
 
-// Paths to 1 mm where the motion can be predicted so far. Beyond an impact it cannot: there it is
-// joints that stay closed to 1 mm, and what stands on something sinks into it by 0.1 mm at most.
-// Free fall and the spinning top are left out: nothing is solved there, and every method costs the
-// same.
+// Paths within 1 mm if the motion is predictable. After an impact it is not: there joints stay
+// closed within 1 mm, or bodies sink into each other by at most 0.1 mm. Free fall and the spinning
+// top are omitted: nothing is solved there, and every method costs the same.
 constexpr Wanted kWanted[] = {
     {"swinging_box", ErrorAxis::kTrajectory, 1e-3, 10.0},
     {"bridge", ErrorAxis::kGap, 1e-3, 6.0},
@@ -25,18 +24,18 @@ constexpr Wanted kWanted[] = {
     {"heavy_stack_stress", ErrorAxis::kPenetration, 1e-4, 10.0},
     {"heavy_stack_stress_tall", ErrorAxis::kPenetration, 1e-4, 10.0},
     {"swinging_box_authors", ErrorAxis::kTrajectory, 1e-3, 10.0},
-    // Its joints give 1.2 mm under the ball, whatever the method.
+    // Its joints stretch by 1.2 mm under the ball with every method.
     {"bridge_authors", ErrorAxis::kGap, 2e-3, 6.0},
     {"heavy_stack_authors", ErrorAxis::kPenetration, 1e-4, 10.0},
     {"pendulum", ErrorAxis::kTrajectory, 1e-3, 10.0},
     {"sliding_box", ErrorAxis::kTrajectory, 1e-3, 2.0},
     {"bouncing_balls", ErrorAxis::kTrajectory, 1e-3, 10.0},
-    // The reference itself is uncertain by 0.4 mm after so many blows.
+    // The reference is uncertain by 0.4 mm after that many impacts.
     {"newtons_cradle", ErrorAxis::kTrajectory, 2e-3, 10.0},
-    // What follows takes long: as much of it as shows the first impacts.
+    // Slow scenes: only their first impacts.
     {"wrecking_ball", ErrorAxis::kGap, 1e-3, 1.5},
-    // A house that stands keeps its energy; that a step creeps shows there first.
     {"convoy", ErrorAxis::kGap, 1e-3, 8.4},
+    // A standing house keeps its energy; creep shows in the energy first.
     {"card_house", ErrorAxis::kEnergy, 1e-3, 2.0},
     {"ragdoll_drop", ErrorAxis::kGap, 1e-3, 3.0},
     {"wall", ErrorAxis::kPenetration, 5e-3, 0.8},

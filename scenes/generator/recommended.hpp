@@ -1,5 +1,5 @@
 #pragma once
-// What is recommended for the shipped scenes, and within which error.
+// Recommended settings of the shipped scenes, and their error limits.
 
 #include <map>
 #include <string>
@@ -11,22 +11,22 @@
 
 namespace substep::scenes {
 
-/// The error that is wanted of a shipped scene.
+/// The error limit of a shipped scene.
 struct Wanted {
   const char* scene;
   ErrorAxis of;
   double within;   // [m, J]
-  double seconds;  // that the runs to choose from take [s]
+  double seconds;  // duration of the compared runs [s]
 };
 
-/// Of a scene, or null where there is nothing to choose.
+/// The limit of a scene, or null if there is nothing to choose.
 const Wanted* wanted_of(std::string_view scene);
 
-/// What recommended.json has, by the scenes' names. `substep recommend --all` writes that file.
+/// The content of recommended.json, by scene name. `substep recommend --all` writes that file.
 std::map<std::string, Recommended> recommendations(Problems& problems);
 
-/// The scene with what is recommended for it. Those that show the paper start as it does; the
-/// others with what is recommended, unless they have settings of their own.
+/// The scene with its recommended settings. Scenes of the paper start with the paper's settings,
+/// the others with the recommended ones unless they have their own.
 Scene recommending(Scene scene, const Recommended& recommended);
 
 }  // namespace substep::scenes

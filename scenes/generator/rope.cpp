@@ -42,7 +42,7 @@ void add_rope(const RopeOptions& options, Scene& scene) {
   scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
 }
 
-/// What a straight rope sets free on its way from its angle to straight down [J].
+/// Potential energy that a straight rope releases between its initial angle and the vertical [J].
 double fall(const Scene& scene, const RopeOptions& options) {
   double moment = 0.0;  // of its masses about the anchor [kg m]
   for (const Body& body : scene.bodies) {
@@ -61,13 +61,13 @@ Scene rope_of_n(const RopeOptions& options) {
   scene.group = "playground";
   scene.description =
       std::to_string(options.n) + " hinged links with a heavy box at the end, released at rest.";
-  scene.look_for = "How many sub-steps the light links need, and what one of them costs.";
+  scene.look_for = "The number of sub-steps that the light links need, and the cost of one.";
   scene.effects = {.gravity = true, .joints = true};
   scene.camera.eye = options.anchor + Vec3(0.0, -0.5 * length, 2.0 * length);
   scene.camera.target = options.anchor + Vec3(0.0, -0.5 * length, 0.0);
   add_rope(options, scene);
   const double freed = fall(scene, options);
-  if (freed > 0.0) scene.criteria.energy_gain = 0.1 * freed;  // more is no motion of this rope
+  if (freed > 0.0) scene.criteria.energy_gain = 0.1 * freed;  // more is unphysical
   return scene;
 }
 
@@ -78,9 +78,8 @@ Scene swinging_box(const SwingingBoxOptions& options) {
   scene.group = "paper";
   scene.description = "A box of 1000 kg swings on a chain of 25 links of 1 kg each.";
   scene.look_for =
-      "Without sub-steps the chain tears at once. Adaptive spends most of them at the bottom of "
-      "the "
-      "swing, where the chain pulls hardest.";
+      "Without sub-steps the chain tears at once. Mode adaptive takes most of them at the bottom "
+      "of the swing, where the tension is largest.";
   scene.effects = {.gravity = true, .joints = true};
   scene.criteria.energy_gain = 5150.0;
   scene.criteria.energy_scale = 51500.0;

@@ -15,7 +15,7 @@ struct Angle {
 };
 inline constexpr Angle kSixtyDegrees{0.86602540378443865, 0.5};
 
-/// Links on hinges with a heavy box at the end, held out at an angle and let go.
+/// Links on hinges with a heavy box at the end, released at an angle.
 struct RopeOptions {
   int n = 25;                   // links, >= 1
   double link_length = 0.4;     // [m]
@@ -25,11 +25,11 @@ struct RopeOptions {
   double link_width = 0.1;      // edge of a link's square cross-section [m]
   double link_mass = 1.0;       // of one link [kg]
   double box_size = 1.0;        // edge of the box at the end [m]
-  Vec3 anchor = Vec3::Zero();   // that the rope hangs from, world [m]
+  Vec3 anchor = Vec3::Zero();   // suspension point, world [m]
 };
 Scene rope_of_n(const RopeOptions& options = {});
 
-/// The rope of 25 links with its anchor at (0, 12, 0), over a floor that is only drawn.
+/// The rope of 25 links with its anchor at (0, 12, 0), over a floor without contacts.
 struct SwingingBoxOptions {
   Angle angle = kSixtyDegrees;  // from straight down
   double compliance = 0.0;      // of all joint rows: hinges are exact [m/N, rad/(N m)]
@@ -38,7 +38,7 @@ Scene swinging_box(const SwingingBoxOptions& options = {});
 
 /// A heavy ball rolls over hanging planks.
 struct BridgeOptions {
-  double ball_x = -4.2;     // where the ball starts [m]
+  double ball_x = -4.2;     // initial position of the ball [m]
   double ball_speed = 3.0;  // along the plank under it [m/s]
   double span = 9.9;        // horizontal distance of the two ends [m]; they differ by 1 m in height
 };
@@ -69,12 +69,12 @@ Scene heavy_stack_authors();
 
 /// A rod on a hinge: the physical pendulum, released at rest from the angle with sine 3/5.
 Scene pendulum();
-/// A free asymmetric body that turns about its middle axis and keeps tipping over (Dzhanibekov).
+/// A free asymmetric body that rotates about its intermediate axis and flips over (Dzhanibekov).
 Scene spinning_top();
 
-/// A box with three unequal moments of inertia on a ball joint, thrown out of every plane.
+/// A box with three unequal moments of inertia on a ball joint, in three-dimensional motion.
 Scene spherical_pendulum();
-/// A symmetric top at 60 rad/s on a ball joint at its tip, let go tilted.
+/// A symmetric top at 60 rad/s on a ball joint at its tip, released tilted.
 Scene heavy_top();
 /// Light links on ball joints with a heavy box at the end, whirled around the vertical.
 Scene whirling_chain();
@@ -85,17 +85,17 @@ struct SlopeOptions {
   double fall = 5.0;
   double run = 12.0;
   double length = 13.0;
-  double friction = 0.3;  // mu; the box slips when it is below fall/run [-]
+  double friction = 0.3;  // mu; the box slides if it is below fall/run [-]
 };
 Scene sliding_box(const SlopeOptions& options = {});
 
 /// Balls fall 2 m and bounce with restitutions from 1 to 0.
 Scene bouncing_balls();
-/// Five equal balls on rods, 4 mm apart, that lose nothing at an impact; the first is let go from
-/// the angle with sine 3/5.
+/// Five equal balls on rods, 4 mm apart, with elastic impacts; the first is released from the angle
+/// with sine 3/5.
 Scene newtons_cradle();
 
-/// One ball falls 20 m towards nothing.
+/// One ball in free fall from 20 m.
 Scene free_fall();
 
 /// Dry bricks in running bond and a ball thrown at them.

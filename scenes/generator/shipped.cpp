@@ -30,7 +30,7 @@ std::vector<Scene> shipped() {
                          card_house(),
                          ragdoll_drop(),
                          wall()};
-  Problems problems;  // none: a test looks
+  Problems problems;  // none: checked by a test
   const auto recommended = recommendations(problems);
   for (Scene& scene : all) {
     scene.verdicts = verdicts_of(scene.name);

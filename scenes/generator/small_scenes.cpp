@@ -1,4 +1,4 @@
-// Small scenes with an answer in closed form.
+// Small scenes with a closed form.
 
 #include <string>
 
@@ -13,8 +13,8 @@ Scene pendulum() {
   scene.title = "Pendulum";
   scene.group = "exact";
   scene.description =
-      "A rod of 1 m on a hinge, let go 36.87 degrees from straight down (sine 3/5).";
-  scene.look_for = "Period 1.682 s; it keeps its height.";
+      "A rod of 1 m on a hinge, released 36.87 degrees from the vertical (sine 3/5).";
+  scene.look_for = "The period is 1.682 s; the amplitude is constant.";
   scene.effects = {.gravity = true, .joints = true};
   scene.camera.eye = {0.0, 1.5, 3.2};
   scene.camera.target = {0.0, 1.4, 0.0};
@@ -43,8 +43,8 @@ Scene spinning_top() {
   scene.title = "Spinning top";
   scene.group = "exact";
   scene.description =
-      "A free block turns about its middle axis, without gravity: the Dzhanibekov effect.";
-  scene.look_for = "It tips over again and again, while energy and angular momentum stay.";
+      "A free block rotates about its intermediate axis, without gravity: the Dzhanibekov effect.";
+  scene.look_for = "It flips over again and again; energy and angular momentum are conserved.";
   scene.effects = {.gyroscopic = true};
   scene.criteria.track = 0;
   scene.criteria.duration = 20.0;
@@ -62,12 +62,13 @@ Scene bouncing_balls() {
   scene.title = "Bouncing balls";
   scene.group = "exact";
   scene.description =
-      "Five balls fall 2 m onto a floor. They part with 1, 0.9, 0.7, 0.5 and 0 of the speed of "
-      "impact.";
+      "Five balls fall 2 m onto a floor. Their coefficients of restitution are 1, 0.9, 0.7, 0.5 "
+      "and 0.";
   scene.look_for =
-      "The first keeps its height for ever; the others come back to 81 %, 49 %, 25 % and nothing.";
+      "The first ball keeps its height; the first rebounds of the others reach 81 %, 49 %, 25 % "
+      "and 0 % of it.";
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
-  scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
+  scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.criteria.track = 1;
   scene.camera.eye = {0.0, 1.9, 6.6};
   scene.camera.target = {0.0, 1.2, 0.0};
@@ -88,8 +89,7 @@ Scene newtons_cradle() {
   constexpr int kBalls = 5;
   constexpr double kRadius = 0.1;
   constexpr double kLength = 1.0;
-  // With no gap a blow would strike all of them at once, and what each takes of it has no one
-  // answer.
+  // Without gaps an impact would hit all of them at once, and its distribution would not be unique.
   constexpr double kGap = 0.004;
   constexpr double kPitch = 2.0 * kRadius + kGap;
   constexpr double kTop = 1.25;
@@ -99,16 +99,16 @@ Scene newtons_cradle() {
   scene.title = "Newton's cradle";
   scene.group = "exact";
   scene.description =
-      "Five equal balls on rods of 1 m, 4 mm apart; the first is let go 36.87 degrees from "
-      "straight down. They lose nothing at an impact.";
+      "Five equal balls on rods of 1 m, 4 mm apart; the first is released 36.87 degrees from the "
+      "vertical. Impacts are elastic.";
   scene.look_for =
-      "One in, one out: the blow passes from ball to ball, and nothing is lost. Within a step "
-      "impacts follow one another, so that one step per frame does it too.";
+      "One in, one out: the impulse passes from ball to ball without loss. Impacts within a step "
+      "are solved in sequence, so that one step per frame is enough.";
   scene.effects = {.gravity = true, .joints = true, .contact = true, .restitution = true};
   scene.settings.mode = Mode::kConst;
-  scene.settings.n = 32;  // in a step no ball comes through more than a third of the gap
+  scene.settings.n = 32;  // in a step no ball moves by more than a third of the gap
   scene.settings.integrator = Integrator::kLeapfrog;
-  scene.contact.compliance = 1e-16;  // what gives way at an impact takes of its speed
+  scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.criteria.track = kBalls;
   scene.camera.eye = {0.9, 1.0, 3.0};
   scene.camera.target = {0.0, 0.7, 0.0};
@@ -154,7 +154,7 @@ Scene sliding_box(const SlopeOptions& options) {
   scene.group = "exact";
   scene.description = "A box on a slope of 5 in 12 with a friction coefficient of 0.3.";
   scene.look_for =
-      "It slips at 1.056 m/s^2. Above a coefficient of 5/12 it would stay where it is.";
+      "It slides down with 1.056 m/s^2. Above a coefficient of 5/12 it would not move.";
   scene.effects = {.gravity = true, .contact = true, .friction = true};
   scene.criteria.duration = 2.0;
   scene.criteria.track = 1;
@@ -179,8 +179,8 @@ Scene free_fall() {
   scene.name = "free_fall";
   scene.title = "Free fall";
   scene.group = "exact";
-  scene.description = "One ball, let go 20 m up.";
-  scene.look_for = "It has fallen 19.62 m after 2 s, and one sub-step a frame is enough.";
+  scene.description = "One ball, released at a height of 20 m.";
+  scene.look_for = "It falls 19.62 m in 2 s; one sub-step per frame is enough.";
   scene.effects = {.gravity = true};
   scene.criteria.duration = 2.0;
   scene.criteria.track = 0;

@@ -29,11 +29,10 @@ Scene wall(const WallOptions& options) {
   scene.title = "Wall";
   scene.group = "playground";
   scene.description = "A wall of " + std::to_string(options.courses) +
-                      " courses of dry bricks, and a ball of 150 kg on its way to it.";
+                      " courses of dry bricks, and a ball of 150 kg that will hit it.";
   scene.look_for =
-      "The ball arrives after half a second. Hundreds of contacts come and go; sub-steps follow "
-      "the "
-      "largest force among them.";
+      "The ball hits the wall after half a second. Hundreds of contacts open and close; the number "
+      "of sub-steps follows the largest force.";
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
   scene.criteria.duration = 5.0;
   add_ground(kMu, 0.01, scene);

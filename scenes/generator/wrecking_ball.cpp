@@ -13,7 +13,7 @@ constexpr double kCrate = 0.5;   // edge of a crate [m]
 constexpr double kMu = 0.5;
 const Vec3 kAnchor{0.0, 6.3, 0.0};
 
-/// A taut chain of ball joints with the ball at its end, held out at 53 degrees (sine 4/5).
+/// A taut chain of ball joints with the ball at its end, released at 53 degrees (sine 4/5).
 void add_chain(Scene& scene) {
   const Vec3 along{-0.8, -0.6, 0.0};
   const auto hang = [&](Body body, double centre, double half_length, double parent_half_length) {
@@ -24,7 +24,7 @@ void add_chain(Scene& scene) {
     BallJoint joint;
     joint.name = "pivot_" + std::to_string(scene.joints.size());
     joint.a = static_cast<int>(scene.bodies.size());
-    // The body's +x looks up along the chain.
+    // The body's +x points up along the chain.
     joint.anchor_a = {half_length, 0.0, 0.0};
     if (scene.joints.empty()) {
       joint.b = kWorld;
@@ -43,7 +43,7 @@ void add_chain(Scene& scene) {
   hang(solid("ball", Sphere{kRadius}, 1000.0, Vec3::Zero()), kLink * kLinks + kRadius, kRadius,
        0.5 * kLink);
   scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
-  scene.criteria.energy_scale = 21190.0;  // what the ball's fall sets free
+  scene.criteria.energy_scale = 21190.0;  // released by the fall of the ball
   scene.criteria.energy_gain = 2119.0;    // a tenth of it
 }
 
@@ -57,8 +57,8 @@ Scene wrecking_ball() {
   scene.description =
       "A ball of 1000 kg on a chain of 16 light links swings into a tower of crates.";
   scene.look_for =
-      "Each island has its own number of sub-steps: the chain's rises with its pull, the tower "
-      "waits at one. They become one where the ball hits, and many where crates fly.";
+      "Each island has its own number of sub-steps: that of the chain rises with its tension, the "
+      "tower takes one. The islands merge when the ball hits and split when crates fly off.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
   add_ground(kMu, 0.01, scene);
@@ -76,8 +76,8 @@ Scene wrecking_ball() {
     }
   }
   scene.settings.islands = true;  // with one N for all, fallen crates make the chain gain energy
-  // Between the ball, held out to the left, and where the crates come to rest, as far to the right:
-  // the view is as wide to either side as what it holds at the start.
+  // Centred between the initial ball on the left and the final position of the crates on the right:
+  // the view extends equally to both sides.
   scene.camera.eye = {4.9, 3.6, 13.0};
   scene.camera.target = {1.3, 3.0, 0.0};
   return scene;

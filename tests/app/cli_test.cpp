@@ -151,7 +151,7 @@ TEST(CommandLine, TwoResultsInOneFileAreRefused) {
     const Outcome run =
         substep("run pendulum --frames 1 --csv \"" + file + "\" --states \"" + same + "\"");
     EXPECT_EQ(run.exit_code, 2);
-    EXPECT_NE(run.err.find("--states: " + same + " is taken by --csv"), std::string::npos)
+    EXPECT_NE(run.err.find("--states: " + same + " is already used by --csv"), std::string::npos)
         << run.err;
   }
   EXPECT_EQ(text_of(file), "kept");
@@ -208,15 +208,16 @@ TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   const Outcome error = substep("recommend pendulum --error 1e-2 --seconds 2");
   EXPECT_EQ(error.exit_code, 0) << error.err;
   EXPECT_NE(error.out.find("The cheapest within 0.01 m: "), std::string::npos) << error.out;
-  EXPECT_NE(error.out.find("the largest alpha that does is "), std::string::npos) << error.out;
+  EXPECT_NE(error.out.find("the largest alpha that meets it is "), std::string::npos) << error.out;
   const std::size_t command = error.out.find("substep run pendulum");
   ASSERT_NE(command, std::string::npos);
   const std::string line = error.out.substr(command, error.out.find('\n', command) - command);
-  EXPECT_EQ(substep(line.substr(8) + " --seconds 2").exit_code, 0) << "what it tells can be run";
+  EXPECT_EQ(substep(line.substr(8) + " --seconds 2").exit_code, 0) << "the printed command runs";
   const Outcome cost = substep("recommend pendulum --operations 3000 --seconds 2");
-  EXPECT_NE(cost.out.find("The most exact within 3e+03 operations a frame: "), std::string::npos)
+  EXPECT_NE(cost.out.find("The most accurate within 3e+03 operations per frame: "),
+            std::string::npos)
       << cost.out;
-  EXPECT_NE(cost.out.find("the smallest alpha that does is "), std::string::npos) << cost.out;
+  EXPECT_NE(cost.out.find("the smallest alpha that meets it is "), std::string::npos) << cost.out;
   EXPECT_EQ(substep("recommend pendulum --error 1e-15 --seconds 1").exit_code, 1);
   EXPECT_EQ(substep("recommend pendulum --error 1 --ms 1").exit_code, 2);
   EXPECT_EQ(substep("recommend pendulum --of colour").exit_code, 2);
@@ -369,9 +370,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"NoCommand", "", "subcommand"},
         BadCall{"NoScene", "run", "scene or --experiments is required"},
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},
-        BadCall{"TwoResultsOnStandardOutput", "run bridge --csv - --json -", "taken by --csv"},
+        BadCall{"TwoResultsOnStandardOutput", "run bridge --csv - --json -",
+                "already used by --csv"},
         BadCall{"StatesAndJointsOnStandardOutput", "run bridge --states - --joints -",
-                "--joints: standard output is taken by --states"},
+                "--joints: standard output is already used by --states"},
         BadCall{"StatesInNoFolder", "run bridge --frames 1 --states /no/such/folder/a.csv",
                 "/no/such/folder/a.csv: No such file or directory"},
         BadCall{"UnknownScene", "run brigde",
@@ -388,7 +390,7 @@ INSTANTIATE_TEST_SUITE_P(
     kind_of);
 
 TEST(CommandLine, RunTellsAnInconsistentStartAndWhatBecameOfIt) {
-  const auto told = [](const std::string& start) {
+  const auto run_start = [](const std::string& start) {
     Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json").scene;
     scene.bodies[0].velocity = {1.2, 0.0, 0.0};
     scene.bodies[0].position.z() += 0.02;
@@ -399,12 +401,12 @@ TEST(CommandLine, RunTellsAnInconsistentStartAndWhatBecameOfIt) {
   };
   const std::string found =
       "The start was inconsistent: joint 'hinge' open by 2 cm, 'hinge' moving apart at 1.2 m/s; ";
-  const Outcome projected = told("project");
+  const Outcome projected = run_start("project");
   EXPECT_EQ(projected.exit_code, 0) << projected.err;
   EXPECT_NE(projected.out.find("\n" + found + "projected. Energy "), std::string::npos)
       << projected.out;
-  EXPECT_NE(told("keep").out.find("\n" + found + "kept. Energy "), std::string::npos);
-  const Outcome refused = told("refuse");
+  EXPECT_NE(run_start("keep").out.find("\n" + found + "kept. Energy "), std::string::npos);
+  const Outcome refused = run_start("refuse");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("/joints/0: \"start\" is \"refuse\""), std::string::npos)
       << refused.err;

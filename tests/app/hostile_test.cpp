@@ -90,7 +90,7 @@ TEST(Hostile, WhatWouldBeIgnoredBesideExperimentsIsNamed) {
     EXPECT_NE(refused.err.find("excludes --experiments"), std::string::npos) << refused.err;
   }
   expect_refused(substep("run pendulum" + run.substr(3)), "/scene");
-  expect_refused(substep("run - --experiments -"), "standard input is taken by the scene");
+  expect_refused(substep("run - --experiments -"), "standard input is already used by the scene");
   EXPECT_EQ(substep("run free_fall" + run.substr(3)).exit_code, 0) << "its scene";
 }
 
@@ -138,7 +138,7 @@ TEST(Hostile, AnEditedSceneDoesNotMixIntoAnOldSweep) {
   json["title"] = "Another title";
   EXPECT_EQ(sweep().exit_code, 0) << "it moves as before";
   json["gravity"] = {0, -5, 0};
-  expect_refused(sweep(), "another scene of that name");
+  expect_refused(sweep(), "another scene of this name");
   EXPECT_EQ(text_of(at / "s" / "results.jsonl"), results);
 }
 

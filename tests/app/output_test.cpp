@@ -43,7 +43,7 @@ TEST(Output, IsNeverWrittenOverTheScene) {
       const std::string command = flag + " " + output + " " + path;
       const Outcome run = substep(command);
       EXPECT_EQ(run.exit_code, 2) << command;
-      EXPECT_NE(run.err.find(output + " is read: it would be overwritten"), std::string::npos)
+      EXPECT_NE(run.err.find(output + " is an input: it would be overwritten"), std::string::npos)
           << run.err;
       EXPECT_EQ(text_of(path), scene) << command;
     }
@@ -83,7 +83,7 @@ TEST(Output, TwoOfOneCommandDoNotShareAFile) {
         std::string("run pendulum --frames 1 --csv - --json /dev/stdout")}) {
     const Outcome run = substep(command);
     EXPECT_EQ(run.exit_code, 2) << command;
-    EXPECT_NE(run.err.find("is taken by --"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("is already used by --"), std::string::npos) << run.err;
     EXPECT_FALSE(fs::exists(file));
   }
 }
@@ -127,10 +127,10 @@ TEST(Output, StandardOutputThatTakesNothingIsAnError) {
     for (const char* lost : {">/dev/full", ">&-"}) {
       const Outcome run = scripted(command, "RUN " + std::string(lost));
       EXPECT_EQ(run.exit_code, 2) << command << " " << lost;
-      const std::string expected = "standard output: could not be written to its end";
+      const std::string expected = "standard output: could not be written completely";
       const std::size_t at = run.err.find(expected);
       EXPECT_NE(at, std::string::npos) << command << " " << lost << ": " << run.err;
-      EXPECT_EQ(run.err.find(expected, at + 1), std::string::npos) << "told once: " << run.err;
+      EXPECT_EQ(run.err.find(expected, at + 1), std::string::npos) << "reported once: " << run.err;
     }
   }
 }
@@ -140,7 +140,7 @@ TEST(Output, APipeThatIsClosedIsAnErrorToTell) {
   const Outcome run = scripted("run pendulum --seconds 1000 --csv -",
                                "{ sleep 0.3; RUN; } | true; exit ${PIPESTATUS[0]}");
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_NE(run.err.find("standard output: could not be written to its end"), std::string::npos)
+  EXPECT_NE(run.err.find("standard output: could not be written completely"), std::string::npos)
       << run.err;
 }
 
@@ -156,7 +156,7 @@ TEST(Output, AFullDiskLeavesTheOldFileAndNoHalfOne) {
       call.replace(call.find("FILE"), 4, (at / name).string());
       const Outcome run = substep(call, "ulimit -f 8;");
       EXPECT_EQ(run.exit_code, 2) << call;
-      EXPECT_NE(run.err.find(name + std::string(": could not be written to its end: File too")),
+      EXPECT_NE(run.err.find(name + std::string(": could not be written completely: File too")),
                 std::string::npos)
           << call << run.err;
       EXPECT_EQ(text_of(at / "old"), "kept") << call;

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Pictures of every panel and card, in both themes, at the sizes and pixel ratios that people have:
+# Pictures of every panel and card, in both themes, at common window sizes and pixel ratios:
 #   tests/app/screenshots.sh [FOLDER] [NAME...]
-# They go to build/screenshots, to be looked at; nothing is compared. With names only those are made.
+# They are written to build/screenshots for review; nothing is compared. With names, only those are made.
 # Needs build/release/bin/substep-native and Xvfb (software OpenGL will do).
 set -euo pipefail
 cd "$(dirname "$0")/../.."

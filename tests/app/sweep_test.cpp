@@ -136,7 +136,7 @@ TEST(SweepCommand, InterruptedItSaysSoAndGoesOn) {
                               signalled("TERM", out / "results.jsonl", 2));
   EXPECT_EQ(run.exit_code, 130);
   EXPECT_NE(run.err.find("cancelled"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("goes on from there"), std::string::npos);
+  EXPECT_NE(run.err.find("continues from there"), std::string::npos);
 }
 
 TEST(SweepCommand, ALineThatWasCutShortIsRunAgain) {
@@ -193,7 +193,7 @@ TEST(SweepCommand, WhatIsNoFileIsRefused) {
   fs::create_symlink("/dev/full", out / "results.jsonl");
   const Outcome sweep = substep(kSweep + ("--out " + out.string()));
   EXPECT_EQ(sweep.exit_code, 2);
-  EXPECT_NE(sweep.err.find("results.jsonl: is no regular file"), std::string::npos) << sweep.err;
+  EXPECT_NE(sweep.err.find("results.jsonl: is not a regular file"), std::string::npos) << sweep.err;
   EXPECT_TRUE(fs::is_symlink(out / "results.jsonl"));
 }
 
@@ -202,7 +202,7 @@ TEST(SweepCommand, AFullDiskLosesNothingThatIsFinished) {
   const fs::path out = fresh("full");
   const Outcome full = substep(kSweep + ("--out " + out.string()), "ulimit -f 30;");
   EXPECT_EQ(full.exit_code, 2);
-  EXPECT_NE(full.err.find("all results before are kept"), std::string::npos) << full.err;
+  EXPECT_NE(full.err.find("the previous results are kept"), std::string::npos) << full.err;
   const std::string text = text_of(out / "results.jsonl");
   EXPECT_EQ(text.back(), '\n');
   EXPECT_GT(lines_of(text).size(), 2U);

@@ -58,7 +58,7 @@ Cost cost_of(const char* folder, const bench::Case& c, Mode mode) {
 }
 
 void print(const std::string& name, double time, const char* of, double allocations) {
-  std::printf("%-28s %8.4g %-14s %12g\n", name.c_str(), time, of, allocations);
+  std::printf("%-28s %8.4g %-15s %12g\n", name.c_str(), time, of, allocations);
 }
 
 }  // namespace
@@ -68,17 +68,17 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: bench_twin FOLDER_OF_SCENES\n");
     return 2;
   }
-  std::printf("%-28s %23s %12s\n", "Benchmark", "Time", "allocations");
+  std::printf("%-28s %24s %12s\n", "Benchmark", "Time", "allocations");
   // A warm-up run: WebAssembly is optimised in the background for more than a second.
   cost_of(argv[1], bench::kCases.front(), Mode::kConst);
   for (const bench::Case& c : bench::kCases) {
     const Cost cost = cost_of(argv[1], c, Mode::kConst);
-    print(bench::name_of_case(c), 1e6 * cost.substep, "us a sub-step", cost.allocations);
+    print(bench::name_of_case(c), 1e6 * cost.substep, "us per sub-step", cost.allocations);
   }
   for (const bench::Case& c : bench::kCases) {
     if (c.solver != SolverKind::kBpp) continue;
     const Cost cost = cost_of(argv[1], c, Mode::kAdaptive);
-    print(std::string(c.scene) + "/frame_alpha_0.1", 1e3 * cost.frame, "ms a frame",
+    print(std::string(c.scene) + "/frame_alpha_0.1", 1e3 * cost.frame, "ms per frame",
           cost.allocations);
   }
   return 0;

@@ -1,6 +1,6 @@
-// ./dev bench: the cases natively, in the Node.js that runs this and in headless Chromium. All take
-// turns, one at a time, and of every case the least counts: what else the machine does falls on all
-// alike.
+// ./dev bench: the cases natively, in the Node.js that runs this script, and in headless Chromium. Runs
+// are interleaved, one at a time, so that other load on the machine affects all platforms; the result
+// of a case is the minimum.
 //   node tests/bench/compare.mjs [ROUNDS, 3]
 
 import { execFile } from "node:child_process";
@@ -19,7 +19,7 @@ async function run(...command) {
   return stdout.split("\n");
 }
 
-/** What the page does: the program in a worker, where nothing draws. Resolves to its lines. */
+/** In the page: runs the program in a worker, without drawing. Resolves to its lines. */
 const inWorker = (address) => new Promise((resolve, reject) => {
   const source = `
     self.Module = {
@@ -39,14 +39,14 @@ const inWorker = (address) => new Promise((resolve, reject) => {
   };
 });
 
-/** A browser that is there only while it is measured, so that it disturbs nothing else. */
+/** Opens a browser for the measurement only, so that it does not disturb the other platforms. */
 async function inChromium() {
   const session = await open({ dist: path.dirname(twin) });
   try {
     chromium.title = `Chromium ${session.browser.version()}`;
     const page = await session.browser.newPage();
     const address = `${session.address}${path.basename(twin)}`;
-    await page.goto(address); // a worker must be of the same origin as its page
+    await page.goto(address); // a worker must have the same origin as its page
     return await page.evaluate(inWorker, address);
   } finally {
     await session.close();
@@ -64,11 +64,11 @@ const platforms = [
   chromium,
 ];
 
-/** name, time, of what and allocations of a line, or null for the heading. */
+/** Name, time, unit and allocations of a line, or null for the heading. */
 const reading = (line) =>
-  line.match(/^(\S+) +(\S+) ((?:us|ms) a \S+) +(\S+)$/)?.slice(1) ?? null;
+  line.match(/^(\S+) +(\S+) ((?:us|ms) per \S+) +(\S+)$/)?.slice(1) ?? null;
 
-/** Per case {of, allocations, times}: the least of each platform, the most allocations of any. */
+/** Per case {of, allocations, times}: the minimum time of each platform, the maximum of allocations. */
 async function measure() {
   const cases = new Map();
   for (let round = 0; round < rounds; ++round) {
@@ -87,7 +87,7 @@ async function measure() {
 const row = (name, of, times, ratios, allocations) =>
   [
     name.padEnd(29),
-    of.padEnd(13),
+    of.padEnd(16),
     ...times.map((cell) => cell.padStart(10)),
     ...ratios.map((cell) => cell.padStart(17)),
     String(allocations).padStart(13),
@@ -95,7 +95,7 @@ const row = (name, of, times, ratios, allocations) =>
 
 const cases = await measure();
 const titles = platforms.map(({ title }) => title).filter(Boolean).join(", ");
-console.log(`${titles}: the least of ${rounds} runs of each, in turns`);
+console.log(`${titles}: the minimum of ${rounds} interleaved runs`);
 const names = platforms.map(({ name }) => name);
 const others = names.slice(1);
 const ratioNames = others.map((name) => `${name}/native`);

@@ -1,5 +1,5 @@
-# Counts the instructions of PROGRAM on SCENE with EFFECT off, and with nothing of it there at all:
-# they may differ by a thousandth.
+# Counts the instructions of PROGRAM on SCENE with EFFECT off and without EFFECT in the scene: they may
+# differ by a thousandth.
 cmake_minimum_required(VERSION 3.25)
 
 function(count_instructions how result)
@@ -20,5 +20,5 @@ string(REPLACE "-" "" difference "${difference}")
 math(EXPR allowed "${absent} / 1000")
 message(STATUS "${off} instructions with ${EFFECT} off, ${absent} without it")
 if(difference GREATER allowed)
-  message(SEND_ERROR "${EFFECT} costs something where it is off")
+  message(SEND_ERROR "${EFFECT} executes instructions although it is off")
 endif()

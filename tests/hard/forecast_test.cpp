@@ -24,27 +24,27 @@ TEST(Forecast, OfAChainThatHangsStillIsItsN) {
     const Scene scene = scenes::rope_of_n({.end_mass = mass, .angle = {0.0, 1.0}});
     const Settings settings{.n_max = 10000};
     const Outcome hanging = run(scene, settings, 0.5);
-    const Forecast told = forecast(scene, settings);
+    const Forecast predicted = forecast(scene, settings);
     // The uppermost link carries 25 kg more than the lowest; Eq. 11 rounds up.
-    EXPECT_NEAR(told.hanging, hanging.n_median(), 1.0 + 0.02 * told.hanging) << mass;
-    EXPECT_EQ(told.mass_ratio, mass);
+    EXPECT_NEAR(predicted.hanging, hanging.n_median(), 1.0 + 0.02 * predicted.hanging) << mass;
+    EXPECT_EQ(predicted.mass_ratio, mass);
   }
 }
 
 TEST(Forecast, OfASwingIsWithinSqrtThreeOfItsMost) {
   const Scene scene = scenes::swinging_box();
-  const int told = forecast(scene, scene.settings).hanging;
+  const int predicted = forecast(scene, scene.settings).hanging;
   const Outcome swing = run(scene, scene.settings, 10.0);
-  EXPECT_GT(swing.n_max(), told);
-  EXPECT_LE(swing.n_max(), 1.7320508 * told + 1.0);
+  EXPECT_GT(swing.n_max(), predicted);
+  EXPECT_LE(swing.n_max(), 1.7320508 * predicted + 1.0);
 }
 
 TEST(Forecast, GoesWithTheRootOfTheLoadAndOfAlpha) {
-  const auto told = [](double mass, double alpha) {
+  const auto predicted = [](double mass, double alpha) {
     return forecast(scenes::rope_of_n({.end_mass = mass}), {.alpha = alpha}).hanging;
   };
-  EXPECT_NEAR(told(4e6, 0.1), 2 * told(1e6, 0.1), 2);
-  EXPECT_NEAR(told(1e6, 0.025), 2 * told(1e6, 0.1), 2);
+  EXPECT_NEAR(predicted(4e6, 0.1), 2 * predicted(1e6, 0.1), 2);
+  EXPECT_NEAR(predicted(1e6, 0.025), 2 * predicted(1e6, 0.1), 2);
 }
 
 TEST(Forecast, OfALoopSharesTheLoadBetweenItsTwoSides) {
@@ -56,9 +56,9 @@ TEST(Forecast, OfALoopSharesTheLoadBetweenItsTwoSides) {
 
 TEST(Forecast, IsThereForEveryHardCase) {
   for (const scenes::HardCase& hard : scenes::hard_set()) {
-    const Forecast told = forecast(hard.scene, hard.scene.settings);
-    EXPECT_GE(told.n(), 1) << hard.scene.name;
-    EXPECT_GE(told.mass_ratio, 1.0) << hard.scene.name;
+    const Forecast predicted = forecast(hard.scene, hard.scene.settings);
+    EXPECT_GE(predicted.n(), 1) << hard.scene.name;
+    EXPECT_GE(predicted.mass_ratio, 1.0) << hard.scene.name;
   }
 }
 

@@ -80,7 +80,7 @@ TEST(LongRun, TheBridgeComesToRestWithCappedDamping) {
   const Scene scene = scenes::bridge();
   const LongRun r = run_long(scene, {.mode = Mode::kCapped}, 600);  // the ball has left and landed
   ASSERT_EQ(r.status, StepStatus::kOk);
-  EXPECT_LT(r.energy_highest - r.energy_after_warm_up, 1.0) << "nobody puts energy in";
+  EXPECT_LT(r.energy_highest - r.energy_after_warm_up, 1.0) << "no energy is added";
   EXPECT_LT(r.joint_gap, 1e-2);
   EXPECT_LT(r.memory_growth, kMemoryRoom);
 }

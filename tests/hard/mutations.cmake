@@ -1,8 +1,8 @@
-# Takes out of the source, one at a time, what keeps hard cases stable, and expects a test to fail that
-# passes with it.
+# Mutation tests: each removes one feature that keeps hard cases stable, and a test that passes with it
+# must fail.
 #
-# substep_mutation(NAME SOURCE TAKEN LEFT TESTS TEST): the program TESTS with SOURCE changed, which comes
-# before the library that holds it unchanged; TEST of it must fail.
+# substep_mutation(NAME SOURCE TAKEN LEFT TESTS TEST): links the objects of the program TESTS with a
+# changed SOURCE, ahead of the library with the original; its TEST must fail.
 function(substep_mutation name source taken left tests test)
   set(mutant ${CMAKE_CURRENT_BINARY_DIR}/mutants/${name}.cpp)
   add_custom_command(OUTPUT ${mutant}
@@ -10,11 +10,11 @@ function(substep_mutation name source taken left tests test)
             -D "TAKEN=${taken}" -D "LEFT=${left}" -P ${CMAKE_CURRENT_SOURCE_DIR}/mutate.cmake
     DEPENDS ${PROJECT_SOURCE_DIR}/${source} ${CMAKE_CURRENT_SOURCE_DIR}/mutate.cmake
     COMMENT "Changing ${source}" VERBATIM)
-  # Alone in its object file, or the linker would have all that shares it twice.
+  # Not in a unity build: the other files of the unit would be linked twice.
   set_source_files_properties(${PROJECT_SOURCE_DIR}/${source} TARGET_DIRECTORY substep_core
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   add_executable(without_${name} ${mutant} $<TARGET_OBJECTS:${tests}>)
-  target_compile_options(without_${name} PRIVATE -w)  # what nothing calls any more is meant
+  target_compile_options(without_${name} PRIVATE -w)  # functions without callers are intended
   target_link_libraries(without_${name} PRIVATE substep_core substep_scenes GTest::gtest_main)
   add_test(NAME Mutations.ATestFailsWithout_${name}
     COMMAND without_${name} --gtest_filter=${test} --gtest_color=no)

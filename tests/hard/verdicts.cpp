@@ -1,7 +1,7 @@
 // The runner of `substep check` for any build, Node.js included:
 //   verdicts FOLDER_OF_SCENES SCENE...
-// Prints a line a run with its verdict, work and hash, identical in every build. Returns 1 if a run
-// differs from its scene's table.
+// Prints a line per run with its verdict, work and hash, identical in every build. Returns 1 if a
+// run differs from its scene's table.
 
 #include <cinttypes>
 #include <cstdio>

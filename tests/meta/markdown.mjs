@@ -1,4 +1,4 @@
-// What tests and the site read of a page in Markdown.
+// Parts of a Markdown page, for the tests and the site.
 
 /** The page with every line outside fenced and indented code replaced by change(line). */
 export function outsideCode(text, change) {
@@ -12,7 +12,7 @@ export function outsideCode(text, change) {
   }).join("\n");
 }
 
-/** The anchors that GitHub gives to the headings of a page, in their order. */
+/** The anchors that GitHub assigns to the headings of a page, in order. */
 export function slugs(text) {
   const seen = new Map();
   const found = [];
@@ -29,7 +29,7 @@ export function slugs(text) {
   return found;
 }
 
-/** What a page says in code: fenced and indented lines, and spans of others, a line each. */
+/** The code of a page: fenced and indented lines, and code spans of other lines, one per line. */
 export function code(text) {
   const found = [];
   let fence = false;

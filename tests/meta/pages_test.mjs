@@ -1,6 +1,6 @@
-// Pages that lead somewhere: node tests/meta/pages_test.mjs [ROOT]. Every relative link and anchor of
-// every *.md file exists; a link whose words are code names something that stands in the file it leads
-// to; commands of ./dev and substep are known; README.md has at most 100 lines.
+// Checks the pages: node tests/meta/pages_test.mjs [ROOT]. Every relative link and anchor of every *.md
+// file exists; a link whose text is code names something in the linked file; commands of ./dev and
+// substep exist; README.md has at most 100 lines.
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
@@ -19,7 +19,7 @@ function files(folder, ending) {
   });
 }
 
-// ------------------------------------------------------------------------------------ what is known
+// ------------------------------------------------------------------------------------- known commands
 const known = {
   dev: new Set([...read("dev").matchAll(/^cmd_(\w+)\(\)/gm)].map(match => match[1]).concat("help")),
   label: new Set(/\^\(([a-z|]+)\)\$ \]\] \|\|\n\s*die "there is no label/.exec(read("dev"))[1].split("|")),
@@ -27,8 +27,8 @@ const known = {
     .flatMap(file => [...read(file).matchAll(/app\.add_subcommand\(\s*"(\w+)"/g)].map(match => match[1]))),
 };
 
-// ------------------------------------------------------------------------------------- what is wrong
-/** The problems of a page, a line each. @param text of the page  @param page its path from the root */
+// ------------------------------------------------------------------------------------------- problems
+/** The problems of a page, one per line. @param text of the page  @param page its path from the root */
 function problems(text, page) {
   const found = [];
   const folder = path.dirname(page);
@@ -50,7 +50,7 @@ function problems(text, page) {
     }
     if (anchor !== undefined) {
       const there = linked === page ? text : linked.endsWith(".md") ? read(linked) : "";
-      if (!slugs(there).includes(anchor)) found.push(`${target} is no heading`);
+      if (!slugs(there).includes(anchor)) found.push(`${target} is not a heading`);
     }
     const names = [...words.matchAll(/`([A-Za-z_][\w:.]*)(?:\(\))?`/g)].map(match => match[1]);
     const onlyCode = words.replace(/`[^`]*`/g, "").replace(/[, ]/g, "") === "";
@@ -78,7 +78,7 @@ function problems(text, page) {
   return found.map(problem => `${page}: ${problem}`);
 }
 
-// ------------------------------------------------------------------------------ the check sees faults
+// ------------------------------------------------------------------------------------------ self-test
 const faulty = `# A page
 [a](README.md#nowhere) [b](nothing.md) [c](#b-page) [\`no_such_name()\`](core/sim/frame.cpp)
 \`./dev fly\` \`./dev cli fly\` \`./dev test fly\` \`substep fly\`
@@ -87,14 +87,14 @@ const faulty = `# A page
 `;
 const seen = problems(faulty, "page.md");
 if (seen.length !== 8) {
-  console.error(`8 faults were put into a page, and these found:\n${seen.join("\n")}`);
+  console.error(`expected 8 problems in the faulty page, found:\n${seen.join("\n")}`);
   process.exit(1);
 }
 
-// ------------------------------------------------------------------------------------------ the pages
+// ---------------------------------------------------------------------------------------------- pages
 const pages = files(".", ".md");
 const wrong = pages.flatMap(page => problems(read(page), page));
 const lines = read("README.md").split("\n").length - 1;
 if (lines > 100) wrong.push(`README.md: ${lines} lines; at most 100`);
-console.log(wrong.join("\n") || `${pages.length} pages are in order.`);
+console.log(wrong.join("\n") || `${pages.length} pages are correct.`);
 process.exit(wrong.length > 0 ? 1 : 0);

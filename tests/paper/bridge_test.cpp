@@ -182,8 +182,8 @@ Settings leapfrog(Settings settings) {
   return settings;
 }
 
-// The ball hops, and its next landing point depends on micrometres; in a sub-step of 256 a frame it
-// moves 200 of them. So no method stays within half a per cent of the exchanged energy of such a
+// The ball hops, and its next landing point depends on micrometres; in a sub-step of 256 per frame
+// it moves 200 of them. So no method stays within half a per cent of the exchanged energy of such a
 // run, start by start: neither a finer one nor the exact motion. Rounding is a different matter: a
 // nanometre changes next to nothing, so the runs are reproducible and not noise.
 TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {

@@ -118,8 +118,8 @@ TEST(HeavyStackStress, StandsAsLongAsItHasSubsteps) {
   }
 }
 
-// With refinements a single step a frame stands longer than the paper's 26 sub-steps: 11 s with one
-// refinement, 27 s with two, for a tenth of the work of 14 sub-steps.
+// With refinements a single step per frame stands longer than the paper's 26 sub-steps: 11 s with
+// one refinement, 27 s with two, for a tenth of the work of 14 sub-steps.
 TEST(HeavyStackStress, RefinedASingleStepStands) {
   std::int64_t work = 0;
   const auto count = [&](const Simulator&, const FrameReport& report) {
@@ -170,7 +170,7 @@ TEST(HeavyStackStress, StandsLongestForItsWorkWithSixRefinements) {
     EXPECT_FALSE(r.holds) << "they all fall in the end";
     failed_at = r.failed_at;
     const double frames = 60.0 * r.failed_at;
-    return r.failed_at / (1e-3 * work / frames);  // [s per kflop a frame]
+    return r.failed_at / (1e-3 * work / frames);  // [s per (kflop per frame)]
   };
   const auto refined = [&](const Scene& scene, int refinements) {
     Settings settings = with(Mode::kNone);
@@ -210,7 +210,7 @@ double work_of(const Scene& scene, const Settings& settings) {
   return 1e-3 * work / static_cast<double>(r.n.size());
 }
 
-// Rigid contacts, balls displaced by up to 5 mm: one sub-step a frame holds; ten layers need two.
+// Rigid contacts, balls displaced by up to 5 mm: one sub-step per frame holds; ten layers need two.
 TEST(HeavyStackMoved, OneSubstepStandsAMinute) {
   for (const double compliance : {0.0, 1e-13}) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {

@@ -32,7 +32,7 @@ Outcome swing(const Settings& settings, double seconds = 10.0, double compliance
   return run(scenes::swinging_box(options), settings, seconds);
 }
 
-// One step a frame is seven times the stable step of an explicit sub-step: BPP fails at once.
+// One step per frame is seven times the stable step of an explicit sub-step: BPP fails at once.
 TEST(NewtonAtTheEnd, StandsAtOneSubstepAndDamps) {
   double before = -100.0;
   for (const int n : {1, 2, 4, 8}) {
@@ -170,7 +170,7 @@ TEST(NewtonAtTheMean, IsOfSecondOrder) {
   EXPECT_NEAR(std::log2(chain_error(Forces::kMean, 8) / chain_error(Forces::kMean, 16)), 2.0, 0.05);
 }
 
-// Even with a single step, i.e. one linear solve a sub-step.
+// Even with a single step, i.e. one linear solve per sub-step.
 TEST(Numerov, IsOfFourthOrder) {
   for (const auto& [steps, order] : {std::pair{1, 4.0}, std::pair{2, 4.0}, std::pair{25, 4.0}}) {
     const double error = chain_error(Forces::kNumerov, 8, steps);
@@ -193,8 +193,8 @@ TEST(Numerov, StandsAsFarAsItsArgumentSays) {
   EXPECT_FALSE(swing(newton(Forces::kNumerov, 4)).holds);
 }
 
-// Without iteration the method is explicit: a single solve a sub-step holds from N = 8 on, and with
-// 6 it fails after a minute and a half.
+// Without iteration the method is explicit: a single solve per sub-step holds from N = 8 on, and
+// with 6 it fails after a minute and a half.
 TEST(Numerov, KeepsEnergyFor200Seconds) {
   for (const auto& [n, steps] : {std::pair{6, 2}, std::pair{8, 1}}) {
     const Outcome r = swing(newton(Forces::kNumerov, n, steps), 200.0);
@@ -239,7 +239,7 @@ TEST(Xpbd, StretchesByTheCompliance) {
   }
 }
 
-// At a mass ratio of a thousand to one, one sweep a sub-step lets the links swing wildly between
+// At a mass ratio of a thousand to one, one sweep per sub-step lets the links swing wildly between
 // their joints; 25 hold from N = 4 on, but stretch.
 TEST(Xpbd, NeedsManySweepsForTheHeavyBox) {
   EXPECT_FALSE(swing(xpbd(28, 1)).holds);

@@ -27,7 +27,7 @@ Outcome swing(const Settings& settings, double seconds = 10.0) {
   return run(scenes::swinging_box(), settings, seconds);
 }
 
-// The paper's scheme takes 9,476 sub-steps for 12 mm; one sub-step a frame is 600.
+// The paper's scheme takes 9,476 sub-steps for 12 mm; one sub-step per frame is 600.
 TEST(GeometricInertia, IsMoreExactThanThePaperWithASixteenthOfTheSubsteps) {
   const std::pair<int, double> most[] = {{1, 8.5e-3}, {2, 2.1e-3}, {4, 4.2e-4}};  // [m]
   for (const auto& [n, error] : most) {
@@ -89,7 +89,7 @@ TEST(SecondOrderDrift, NeedsABlendWhereStepsAreLong) {
 }
 
 // Sub-steps for 10 s. The paper's scheme is of first order: 12 mm with 9,476, so 1 mm with 12 times
-// and 0.01 mm with 1,200 times as many, far beyond its cap of 64 a frame.
+// and 0.01 mm with 1,200 times as many, far beyond its cap of 64 per frame.
 TEST(WorkToAnError, IsSixtyAndAThousandTimesLessThanThePapers) {
   constexpr double kPaper = 9476.0;
   constexpr double kPaperError = 1.2e-2;  // [m]
@@ -109,8 +109,8 @@ TEST(WorkToAnError, IsSixtyAndAThousandTimesLessThanThePapers) {
 }
 
 // The claim of Tournier et al. 2015 for geometric stiffness in the mass, and of Andrews et al. 2017
-// for its diagonal as damping: the chain holds with one step a frame under any load, where undamped
-// steps fail, at the cost of damped motion across the chain.
+// for its diagonal as damping: the chain holds with one step per frame under any load, where
+// undamped steps fail, at the cost of damped motion across the chain.
 TEST(FullStiffnessMode, StandsInOneStepUnderAnyLoadAsDampingDoes) {
   for (const double load : {1e-2, 1e-1, 1.0, 1e1, 1e2, 1e3}) {  // 10 kg to 1000 t on links of 1 kg
     const Scene scene = start_of(scenes::swinging_box(), load, 0);
@@ -222,7 +222,7 @@ Settings stormer(int n) {
   return settings;
 }
 
-// One solve a sub-step, like leapfrog, which has fifty times the error with as many sub-steps.
+// One solve per sub-step, like leapfrog, which has fifty times the error with as many sub-steps.
 TEST(Stormer, IsOfFourthOrder) {
   const std::pair<int, double> most[] = {{9, 3.0e-7}, {10, 2.4e-7}, {16, 7.1e-8}};  // [m]
   for (const auto& [n, error] : most) {
@@ -253,7 +253,7 @@ TEST(Stormer, NeedsNineSubsteps) {
 }
 
 // The error of the velocities is of order dt^2 and is corrected when the step changes: with the
-// paper's own choice of N, at which its scheme has an error of 12 mm, 60 nm remain.
+// paper's own choice of N, at which its scheme has an error of 12 mm, at most 60 nm remain.
 TEST(Stormer, KeepsItsOrderWhereNChanges) {
   for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
     const auto adaptive = [&](double alpha) {

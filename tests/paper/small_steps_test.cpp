@@ -1,5 +1,5 @@
 // Small steps (Macklin et al. 2019, "Small steps in physics simulation"): contacts are predicted
-// once a frame, and the sweeps of a frame are distributed over its sub-steps.
+// once per frame, and the sweeps of a frame are distributed over its sub-steps.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 namespace substep::test {
 namespace {
 
-/// 64 sweeps a frame.
+/// 64 sweeps per frame.
 Settings small_steps(SolverKind solver, int n) {
   Settings settings;
   settings.solver = solver;
@@ -39,7 +39,7 @@ TEST(SmallSteps, ShareOutTheSameSweeps) {
       EXPECT_EQ(report.work.row_updates, of_one);
     }
     Simulator simulator = simulator_of(scene, small_steps(kind, 200));
-    EXPECT_EQ(simulator.step().work.iterations, 200) << "one at least in each";
+    EXPECT_EQ(simulator.step().work.iterations, 200) << "at least one in each";
   }
 }
 

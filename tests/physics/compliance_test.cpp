@@ -50,7 +50,7 @@ constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, Solver
 }  // namespace
 
 // Released at its equilibrium, the weight stays there. The soft law once multiplied the compliance
-// by (tau/dt)^2: 603 mm at 64 sub-steps a frame.
+// by (tau/dt)^2: 603 mm at 64 sub-steps per frame.
 TEST(Compliance, SagsByWhatItIsWhateverTheSubsteps) {
   const double C = 1e-5;
   const double sag = C * kMass * kGravity;

@@ -66,7 +66,7 @@ TEST(EveryMethod, SwingsAsAPendulum) {
   for (const auto& [name, best] : best_of(scene, ErrorAxis::kTrajectory, 3.0)) {
     EXPECT_EQ(best.holds, best.runs) << name;
     // All of K in the mass is inertia that the rod does not have. The other methods are of first,
-    // second or fourth order, with one sub-step a frame if N follows K: nothing is stiff here.
+    // second or fourth order, with one sub-step per frame if N follows K: nothing is stiff here.
     const double of_fourth_order = best.method.mode == Mode::kAdaptive ? 1e-5 : 1e-9;
     const double most = best.method.mode == Mode::kStiffness             ? 0.1
                         : best.method.integrator == Integrator::kStormer ? of_fourth_order
@@ -82,8 +82,8 @@ TEST(EveryMethod, CarriesALoad) {
   options.end_mass = 100.0;
   const Scene scene = scenes::rope_of_n(options);
   for (const auto& [name, best] : best_of(scene, ErrorAxis::kTrajectory, 1.0)) {
-    // One sub-step a frame is too few for explicit methods, two for Störmer, whose stability limit
-    // is half as large.
+    // One sub-step per frame is too few for explicit methods, two for Störmer, whose stability
+    // limit is half as large.
     const int too_few = best.method.integrator == Integrator::kStormer ? 2 : 1;
     EXPECT_GE(best.holds, sweeps(best.method) ? 1 : best.runs - too_few) << name;
     const double most = damps(best.method)                               ? 0.25
@@ -99,7 +99,7 @@ TEST(EveryMethod, SlidesWithTheFrictionOfCoulomb) {
   const Scene scene = scenes::sliding_box();
   const double seconds = 1.0;
   const double acceleration = 9.81 * (5.0 / 13.0 - 0.3 * 12.0 / 13.0);
-  const double ahead = 0.5 * acceleration * seconds / 60.0;  // of Euler with one sub-step a frame
+  const double ahead = 0.5 * acceleration * seconds / 60.0;  // of Euler with one sub-step per frame
   for (const auto& [name, best] : best_of(scene, ErrorAxis::kTrajectory, seconds)) {
     EXPECT_EQ(best.holds, best.runs) << name;
     const bool exact = best.method.integrator == Integrator::kLeapfrog;

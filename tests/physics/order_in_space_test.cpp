@@ -272,9 +272,9 @@ TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
   }
 }
 
-// It has almost no stiffness, so that the paper's rule gives it one sub-step a frame: a rotation of
-// a whole radian. The rotation criterion requires rotations of 2 sqrt(alpha)/3.2 = 0.2 rad, six a
-// frame.
+// It has almost no stiffness, so that the paper's rule gives it one sub-step per frame: a rotation
+// of a whole radian. The rotation criterion requires rotations of 2 sqrt(alpha)/3.2 = 0.2 rad, six
+// a frame.
 /// A disc that spins fast enough to stay upright: (I_3 w)^2 > 4 I_1 m g l.
 BallChain standing_top() {
   BallChain::Link top;

@@ -118,7 +118,7 @@ TEST(Sleep, AHandOrOtherSettingsWake) {
   EXPECT_EQ(simulator.step().asleep, 0);
   simulator.set_grab(std::nullopt);
   for (int frame = 0; frame < 200; ++frame) simulator.step();
-  ASSERT_GT(simulator.step().asleep, 0) << "let go, it comes to rest again";
+  ASSERT_GT(simulator.step().asleep, 0) << "after release it comes to rest again";
   Settings other = simulator.settings();
   other.alpha = 0.05;
   simulator.set_settings(other);

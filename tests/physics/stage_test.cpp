@@ -76,7 +76,7 @@ TEST(Report, WhatIsNotMeasuredIsNoNumberAndDoesNotChangeTheMotion) {
       EXPECT_TRUE(std::isfinite(without.times.total));
     }
     EXPECT_EQ(state_hash(all.state()), state_hash(none.state()));
-    EXPECT_EQ(all.observe().energy, none.observe().energy) << "asked for, it is there";
+    EXPECT_EQ(all.observe().energy, none.observe().energy) << "computed on request";
   }
 }
 
@@ -213,7 +213,7 @@ TEST(Solves, AreAllComplementary) {
     EXPECT_LT(r.residual, 1e-9) << scene.name;
     EXPECT_EQ(r.unsolved, 0) << scene.name;
   }
-  // Friction bounds are updated at most four times a sub-step and continue to settle in the next
+  // Friction bounds are updated at most four times per sub-step and continue to settle in the next
   // one.
   const Scene bridge = with_short_frames(scenes::bridge());
   int solves = 0;

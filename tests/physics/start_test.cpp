@@ -258,7 +258,7 @@ TEST(Start, ThatNoNearOneClosesIsKeptAndSaysSo) {
   EXPECT_FALSE(start.report.projected);
   EXPECT_EQ(state_hash(start.state), state_hash(initial_state(scene)));
   EXPECT_EQ(start_text(scene, start.report),
-            "The start was inconsistent: joint 'joint_0' open by 5 cm; no near start closes the "
+            "The start was inconsistent: joint 'joint_0' open by 5 cm; no start nearby closes the "
             "joints, so it is kept. Energy 0 J.");
 }
 

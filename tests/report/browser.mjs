@@ -12,7 +12,7 @@ export async function launch() {
   return chromium.launch({ executablePath: path, args: ["--no-sandbox", "--disable-gpu"] });
 }
 
-/** Opens a file. page.complaints lists what it logged, and all that it asked a network for. */
+/** Opens a file. page.complaints lists its log messages and its network requests. */
 export async function openFile(browser, file, { width = 1280, height = 720, dark = false, ratio = 1 } = {}) {
   const context = await browser.newContext({
     viewport: { width, height }, colorScheme: dark ? "dark" : "light", deviceScaleFactor: ratio, acceptDownloads: true,

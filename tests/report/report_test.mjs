@@ -24,7 +24,7 @@ const report = join(folder, "report.html");
 const results = readFileSync(join(folder, "results.jsonl"), "utf8").trim().split("\n").slice(1).map(line => JSON.parse(line));
 const plain = results.filter(r => r.load === 1);
 
-test("the Pareto front is that of brute force", () => {
+test("the Pareto front equals that of a brute-force search", () => {
   for (let round = 0; round < 200; ++round) {
     const points = Array.from({ length: round % 30 }, () => ({ cost: Math.floor(9 * Math.random()), error: Math.floor(9 * Math.random()) }));
     const front = new Set(paretoFront(points));
@@ -38,7 +38,7 @@ test("the Pareto front is that of brute force", () => {
 for (const [name, options] of Object.entries({
   light: {}, dark: { dark: true }, phone: { width: 390, height: 844 },
 })) {
-  test(`it opens from disk without a complaint: ${name}`, async () => {
+  test(`it opens from disk without errors: ${name}`, async () => {
     const page = await openFile(browser, report, options);
     assert.deepEqual(page.complaints, []);
     assert.equal(await page.locator(".figure").count(), 7);
@@ -49,7 +49,7 @@ for (const [name, options] of Object.entries({
   });
 }
 
-test("every point has a read-out, and a click tells its command", async () => {
+test("every point has a tooltip, and a click shows its command", async () => {
   const page = await openFile(browser, report, { height: 1400 });
   const dots = page.locator(".figure").first().locator('.picture svg:not(.swatch) g[aria-label="dot"] path, .picture svg:not(.swatch) g[aria-label="dot"] circle');
   const places = await dots.evaluateAll(nodes => nodes.map(node => {
@@ -70,7 +70,7 @@ test("every point has a read-out, and a click tells its command", async () => {
   await page.context().close();
 });
 
-test("what effects and the criterion cost has a bar each, by operations or by time", async () => {
+test("each effect and the criterion have a bar, in operations or time", async () => {
   const page = await openFile(browser, report);
   const figure = page.locator(".figure").last();
   assert.equal(await figure.locator("h2").textContent(), "What each effect costs");
@@ -81,12 +81,12 @@ test("what effects and the criterion cost has a bar each, by operations or by ti
   assert.match(await axis(), /ms/);
   const cells = await figure.locator("td").allTextContents();
   assert.equal(cells[0], "130", "joint rows of a solve");
-  assert.match(cells[1], /^130, .* updates a frame$/);
+  assert.match(cells[1], /^130, .* updates per frame$/);
   assert.deepEqual(page.complaints, []);
   await page.context().close();
 });
 
-test("axes can be switched, methods hidden, the theme turned", async () => {
+test("axes, methods and the theme can be switched", async () => {
   const page = await openFile(browser, report);
   const figure = page.locator(".figure").first();
   const name = () => figure.locator("svg[role=img]").getAttribute("aria-label");

@@ -86,7 +86,7 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
   const SolverWork& work = report.work;
   // Islands take separate sub-steps; islands with the same number are stepped together.
   const std::int64_t substeps = std::int64_t{report.n_substeps} * std::max(1, report.islands);
-  if (work.solves - work.impacts > substeps + 1) return "a solve a sub-step, and the probe";
+  if (work.solves - work.impacts > substeps + 1) return "a solve per sub-step, and the probe";
   if (work.impacts > 200 * substeps) return "impacts are bounded";
   if (!(report.n_mean <= report.n_substeps)) return "the mean N is no more than the largest";
   // Newton solves with BPP in each of its iterations, and so does each refinement.

@@ -71,7 +71,7 @@ TEST(EffectCost, ItsSimulatorsTogetherTakeNoMoreMemoryThanOneMay) {
       << costs.run.verdict;
 }
 
-// Until the ball hits the tower, its chain takes 12 sub-steps a frame and the tower one.
+// Until the ball hits the tower, its chain takes 12 sub-steps per frame and the tower one.
 TEST(EffectCost, OfIslandsIsPartOfWhatTheyCost) {
   const Scene scene = scenes::wrecking_ball();
   Experiment experiment = experiment_of(scene, scene.settings);

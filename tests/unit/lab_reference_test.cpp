@@ -80,7 +80,7 @@ TEST(PlanarChain, SwingingBoxAgreesWithTheIndependentDataAndKeepsItsEnergy) {
     EXPECT_NEAR(chain->kinetic(), rows[frame][10], 1e-4) << frame;
   }
   EXPECT_LT(apart, 1e-8) << "[m], over 10 s";
-  EXPECT_LT(drift, 1e-9 * 51500.0) << "[J], of what is exchanged";
+  EXPECT_LT(drift, 1e-9 * 51500.0) << "[J], of the exchanged energy";
 }
 
 TEST(PlanarChain, PendulumHasThePeriodOfTheEllipticIntegral) {
@@ -98,7 +98,7 @@ TEST(PlanarChain, PendulumHasThePeriodOfTheEllipticIntegral) {
   EXPECT_NEAR(chain->centre(0).x(), -start.x(), 1e-11);
   chain->advance(0.5 * period);
   EXPECT_LT((chain->centre(0) - start).norm(), 1e-11);
-  EXPECT_NEAR(period, 1.682, 5e-4) << "as the scene tells people";
+  EXPECT_NEAR(period, 1.682, 5e-4) << "as stated in the scene";
 }
 
 TEST(PlanarChain, AnyLengthAndStartAngleKeepTheirEnergy) {

@@ -52,8 +52,8 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
                            "newton 1 numerov, const, leapfrog",
                            "newton 2 numerov, const, leapfrog",
                            "newton numerov, const, leapfrog",
-                           "pgs 64 a frame, const, euler",
-                           "xpbd 64 a frame, const, euler"}) {
+                           "pgs 64 per frame, const, euler",
+                           "xpbd 64 per frame, const, euler"}) {
     EXPECT_TRUE(series.contains(name)) << name;
   }
   EXPECT_EQ(std::count_if(series.begin(), series.end(), by_island), 0) << "which joints make one";
@@ -76,8 +76,8 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
       const bool joints_alone = name.find("numerov") != std::string::npos ||
                                 name.ends_with("stormer") ||
                                 (name.ends_with("drift order 2") && !other.effects.joints);
-      const bool once_a_frame = name.find(" a frame") != std::string::npos;
-      EXPECT_EQ(there.contains(once_a_frame ? name + ", contacts once a frame" : name),
+      const bool shared_sweeps = name.find(" 64 per frame") != std::string::npos;
+      EXPECT_EQ(there.contains(shared_sweeps ? name + ", contacts once per frame" : name),
                 !joints_alone)
           << other.name << ": " << name;
     }

@@ -175,18 +175,20 @@ TEST(Recommended, IsTheCheapestWithinTheError) {
   EXPECT_EQ(found->reached, 4.12e-4);
   EXPECT_EQ(found->operations, 100.0);
   EXPECT_EQ(found->seconds, 3.0);
-  EXPECT_EQ(found->why,
-            "The cheapest of 5 runs, 4 of which hold; the paper's method takes 65 times that, with "
-            "alpha 0.05.");
+  EXPECT_EQ(
+      found->why,
+      "The cheapest of 5 runs, 4 of which hold; the paper's method takes 65 times the work, with "
+      "alpha 0.05.");
   found = recommended_of(results, ErrorAxis::kTrajectory, 2e-3);
   EXPECT_EQ(found->why, "The cheapest of 5 runs, 4 of which hold; it is the paper's method.");
   found = recommended_of(results, ErrorAxis::kTrajectory, 4.1235e-4);
   EXPECT_LE(found->reached, found->within);
-  EXPECT_EQ(found->why,
-            "The cheapest of 5 runs, 4 of which hold; none of the paper's method gets there.");
+  EXPECT_EQ(
+      found->why,
+      "The cheapest of 5 runs, 4 of which hold; no run of the paper's method reaches this error.");
   EXPECT_FALSE(recommended_of(results, ErrorAxis::kTrajectory, 1e-4).has_value());
   EXPECT_FALSE(recommended_of(results, ErrorAxis::kEnergy, 1e9).has_value())
-      << "nobody measured it";
+      << "it was not measured";
 }
 
 TEST(Recommended, IsThePresetOfItsScene) {
@@ -195,8 +197,8 @@ TEST(Recommended, IsThePresetOfItsScene) {
   ASSERT_EQ(presets.size(), 3U);
   EXPECT_EQ(presets[1].settings, some_recommended().settings);
   EXPECT_EQ(presets[1].about,
-            "For this scene: keeps the path within 1 mm over 2 s, for 1.2 thousand operations of "
-            "the solver a frame. It is cheap.");
+            "For this scene: keeps the path within 1 mm over 2 s, for 1.2 thousand solver "
+            "operations per frame. It is cheap.");
   EXPECT_EQ(settings_for(*find_preset("recommended"), scene), some_recommended().settings);
   EXPECT_EQ(settings_for(*find_preset("paper"), scene), Settings{});
   const auto generic = presets_for(scenes::pendulum());

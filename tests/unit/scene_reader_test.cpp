@@ -30,7 +30,7 @@ TEST(SceneReader, TellsAllProblemsAtOnce) {
   text = with(R"("track": "arm")", R"("trakc": "arm")", text);
   EXPECT_EQ(problems_of(text),
             (List{"/bodies/2/shape/radius: 1e999 is beyond the range of numbers (1.8e308)",
-                  "/settings/alpha: the key stands twice in this object",
+                  "/settings/alpha: the key occurs twice in this object",
                   "/bodies/0/shape/type: \"disc\" is not sphere, box or plane",
                   "/bodies/1/mass: must be above 0 (kg), not -2",
                   "/criteria/trakc: unknown key (did you mean \"track\"?)",
@@ -91,7 +91,7 @@ TEST(SceneReader, CutsALongListOfProblems) {
       R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
       bodies + "]}");
   ASSERT_EQ(problems.size(), kMaxProblems + 1);
-  EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
+  EXPECT_EQ(problems.back(), "and more: the rest of the file was not checked");
 }
 
 TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
@@ -99,7 +99,7 @@ TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
   for (int i = 0; i < 5000; ++i) keys += "\"key_" + std::to_string(i) + "\": 0, \"twice\": 1, ";
   const List problems = problems_of(with(R"("mass": 2)", keys + R"("mass": 2)"));
   ASSERT_EQ(problems.size(), kMaxProblems + 1);
-  EXPECT_EQ(problems.back(), "and more: the rest of the file was not looked at");
+  EXPECT_EQ(problems.back(), "and more: the rest of the file was not checked");
 }
 
 // A linear search through all keys for each of them would take minutes.
@@ -109,7 +109,7 @@ TEST(SceneReader, RefusesAnObjectOfVeryManyKeys) {
   for (int i = 0; i < kKeys; ++i) text += ", \"k" + std::to_string(i) + "\": 0";
   const List problems = problems_of(text + ", \"k77\": 1}");
   ASSERT_FALSE(problems.empty());
-  EXPECT_EQ(problems.front(), "/k77: the key stands twice in this object");
+  EXPECT_EQ(problems.front(), "/k77: the key occurs twice in this object");
 }
 
 TEST(SceneReader, ReadsInPartsWhatItReadsAtOnce) {
@@ -245,27 +245,26 @@ TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
   const std::string turning =
       with(R"("velocity": [0, 0, 0], )",
            R"("velocity": [0, 0, 0], "angular_velocity": [3, 0, 0], )", apart);
-  const auto told = [](const std::string& start, const std::string& text) {
+  const auto with_start = [](const std::string& start, const std::string& text) {
     return with(R"("frame": 0.01,)", R"("frame": 0.01, "start": ")" + start + R"(",)", text);
   };
   for (const char* start : {"project", "keep"}) {
-    const SceneResult read = read_scene(told(start, turning));
+    const SceneResult read = read_scene(with_start(start, turning));
     ASSERT_NE(read.scene, nullptr);
     EXPECT_EQ(name_of(read.scene->start), start);
     EXPECT_EQ(read.scene->bodies[2].position, Vec3(1.05, 3.0, 0.0)) << "as it is written";
   }
-  EXPECT_EQ(problems_of(told("refuse", kGood)), List{});
-  EXPECT_EQ(
-      problems_of(told("refuse", turning)),
-      (List{"/joints/0: \"start\" is \"refuse\", and this joint is turning across its axis at "
-            "3 rad/s",
-            "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
-            "apart at 2 m/s"}));
-  EXPECT_EQ(problems_of(told("mend", kGood)),
+  EXPECT_EQ(problems_of(with_start("refuse", kGood)), List{});
+  EXPECT_EQ(problems_of(with_start("refuse", turning)),
+            (List{"/joints/0: \"start\" is \"refuse\", and this joint is rotating across its axis "
+                  "at 3 rad/s",
+                  "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
+                  "apart at 2 m/s"}));
+  EXPECT_EQ(problems_of(with_start("mend", kGood)),
             List{"/start: \"mend\" is not project, keep or refuse"});
   EXPECT_EQ(problems_of(with(R"("position": [1, 3, 0])", R"("position": [1.25, 3, 0])")),
             List{"/joints/1: the anchors start 0.25 apart, which is more than 0.1 (m)"})
-      << "whatever is done about starts";
+      << "for every start policy";
 }
 
 TEST(SceneReader, LeavesOrientationsAsTheyAreWritten) {

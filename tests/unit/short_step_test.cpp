@@ -76,7 +76,7 @@ Settings until_done(Forces forces) {
   return settings;
 }
 
-/// Bounds of friction change with the solution; BPP updates them a few times a call.
+/// Bounds of friction change with the solution; BPP updates them a few times per call.
 SolveReport settle(Solver& solver, Pile& pile, Forces forces = Forces::kEnd) {
   const std::vector<Vec6> u = pile.state.u;
   SolveReport report;

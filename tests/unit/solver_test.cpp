@@ -229,7 +229,7 @@ TEST_P(EverySolver, MatchesAnEnumeratedSolutionWithFriction) {
   for (int trial = 0; trial < kTrials; ++trial) {
     Problem problem = random_problem(random, {3, trial % 3, 1 + trial % 2, 0.4});
     const auto solutions = enumerate(problem);
-    // The bounds change with the solution: BPP updates them four times a call, so it is called
+    // The bounds change with the solution: BPP updates them four times per call, so it is called
     // until they have settled, as over successive sub-steps.
     const std::vector<Vec6> u = problem.u;
     double residual = kUnbounded;

@@ -73,7 +73,7 @@ describe("axe finds nothing serious in any state", { concurrency: true }, () => 
   }
 });
 
-test("HTML tells what the canvas shows, and says aloud only what matters", async () => {
+test("HTML mirrors the canvas, and announces only important changes", async () => {
   const page = await openPage(session);
   await page.evaluate(() => {
     window.said = [];
@@ -94,7 +94,7 @@ test("HTML tells what the canvas shows, and says aloud only what matters", async
   await page.context().close();
 });
 
-test("the keyboard alone runs everything, and gets out again", async () => {
+test("everything is operable by keyboard, and the focus can leave", async () => {
   const page = await openPage(session);
   await call(page, "pause");
   await call(page, "reset");
@@ -137,14 +137,14 @@ test("the keyboard alone runs everything, and gets out again", async () => {
   await page.keyboard.press("Enter");
   await reports(page, "frame", 0);
   await page.keyboard.press("Tab");
-  assert.equal(await focused(page), "after", "there is no way out");
+  assert.equal(await focused(page), "after", "the focus cannot leave");
   for (let i = 0; i < 8; ++i) await page.keyboard.press("Shift+Tab");
   assert.equal(await focused(page), "substep-view");
   quiet(page);
   await page.context().close();
 });
 
-test("a ring shows where the keyboard is", async () => {
+test("a ring shows the keyboard focus", async () => {
   const page = await openPage(session);
   await call(page, "pause");
   await drawn(page);
@@ -159,7 +159,7 @@ test("a ring shows where the keyboard is", async () => {
   await page.context().close();
 });
 
-test("keys work at once, before anything was clicked", async () => {
+test("keys work before the first click", async () => {
   const page = await openPage(session);
   await call(page, "pause");
   await call(page, "reset");
@@ -169,7 +169,7 @@ test("keys work at once, before anything was clicked", async () => {
   await page.context().close();
 });
 
-test("who asked for less motion gets it", async () => {
+test("prefers-reduced-motion is respected", async () => {
   const page = await openPage(session, { calm: true });
   await call(page, "pause");
   await page.waitForTimeout(1700);

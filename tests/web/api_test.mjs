@@ -14,7 +14,7 @@ before(async () => {
 });
 after(() => session?.close());
 
-test("wrong calls tell what is wrong and leave the run alone", async () => {
+test("invalid calls report problems and do not change the run", async () => {
   await call(page, "set", { scene: "bridge" });
   await call(page, "step", 10);
   const hash = await call(page, "hash");
@@ -50,20 +50,20 @@ test("wrong calls tell what is wrong and leave the run alone", async () => {
   quiet(page);
 });
 
-test("what can be read of several settings holds", async () => {
+test("the valid settings of a call are applied", async () => {
   const result = await call(page, "set", { alpha: -1, warp: 9, mode: "none" });
   assert.deepEqual(result.problems.map((p) => p.pointer).sort(), ["alpha", "warp"]);
   assert.equal((await call(page, "report")).mode, "none");
 });
 
-test("settings are told with what is allowed", async () => {
+test("settings are returned with their allowed values", async () => {
   const settings = Object.fromEntries((await call(page, "settings")).map((s) => [s.name, s]));
   assert.match(settings.mode.allowed, /none.*adaptive/);
   assert.equal(settings.mode.value, "none");
   assert.ok(settings.alpha.help.length > 10);
 });
 
-test("listeners hear frames and verdicts until they leave", async () => {
+test("listeners receive frames and verdicts until they are removed", async () => {
   await call(page, "set", { scene: "swinging_box", mode: "none" });
   await call(page, "reset");
   const heard = await page.evaluate(async () => {
@@ -87,7 +87,7 @@ test("listeners hear frames and verdicts until they leave", async () => {
   quiet(page);
 });
 
-test("the run goes on from its past, bit for bit", async () => {
+test("the run continues from an earlier frame, bit for bit", async () => {
   await call(page, "set", { scene: "bridge", mode: "adaptive" });
   await call(page, "pause");
   await call(page, "reset");
@@ -108,14 +108,14 @@ test("the run goes on from its past, bit for bit", async () => {
   quiet(page);
 });
 
-test("an event that is none is told", async () => {
+test("an unknown event is reported", async () => {
   const other = await openPage(session);
   await other.evaluate(() => window.substep.on("explosion", () => {}));
   assert.match(other.complaints.join(), /events are frame, verdict/);
   await other.context().close();
 });
 
-test("pictures and videos are given as blobs", async () => {
+test("pictures and videos are returned as blobs", async () => {
   const bytes = (name, options) => page.evaluate(async ([n, o]) => {
     const blob = await window.substep[n](o);
     return [blob.type, ...new Uint8Array(await blob.arrayBuffer())];
@@ -144,7 +144,7 @@ test("the history is a table", async () => {
   assert.equal(lines.length, 31);
 });
 
-test("an article holds two, which do not disturb each other", async () => {
+test("two laboratories in an article are independent", async () => {
   const article = await openPage(session, { path: "example/article.html", before: "1", height: 900 });
   await article.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
   const report = (which) => article.evaluate((w) => window.laboratories[w].report(), which);
@@ -190,7 +190,7 @@ test("an article holds two, which do not disturb each other", async () => {
   await article.context().close();
 });
 
-test("createSubstep says what it was not given, and can be removed", async () => {
+test("createSubstep reports a missing element, and can be removed", async () => {
   const other = await openPage(session, { path: "example/article.html", before: "1" });
   await other.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
   const message = await other.evaluate(async () => {

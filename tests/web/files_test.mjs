@@ -22,7 +22,7 @@ after(() => session?.close());
 
 const read = async (download) => readFile(await download.path());
 
-test("a dropped scene file runs, and is there at the next visit", async () => {
+test("a dropped scene file runs, and is available at the next visit", async () => {
   await drop(page, "mine.json", mine);
   assert.deepEqual([(await call(page, "report")).scene, (await call(page, "report")).trouble], ["mine", ""]);
   await page.reload();
@@ -32,7 +32,7 @@ test("a dropped scene file runs, and is there at the next visit", async () => {
   quiet(page);
 });
 
-test("a file that is none is told by name, and the run is untouched", async () => {
+test("an invalid file is reported by name, and the run is unchanged", async () => {
   await call(page, "set", { scene: "bridge" });
   await call(page, "pause");
   await call(page, "step", 20);
@@ -62,7 +62,7 @@ test("a file that is none is told by name, and the run is untouched", async () =
   quiet(page);
 });
 
-test("a huge file is refused without being read", async () => {
+test("a huge file is rejected without being read", async () => {
   const hash = await call(page, "hash");
   await page.evaluate(() => {
     const data = new DataTransfer();
@@ -91,7 +91,7 @@ test("the menu opens a file", async () => {
   quiet(page);
 });
 
-test("the run as it is now is saved, and goes on from its file", async () => {
+test("the current state is saved, and the run continues from its file", async () => {
   await call(page, "set", { scene: "heavy_stack", mode: "const", n: 8 });
   await call(page, "pause");
   await call(page, "reset");
@@ -109,7 +109,7 @@ test("the run as it is now is saved, and goes on from its file", async () => {
   quiet(page);
 });
 
-test("pictures of window and view are what is seen", async () => {
+test("pictures of window and view equal the screen", async () => {
   for (const entry of ["window", "view"]) {
     const [download] = await Promise.all([page.waitForEvent("download"), pick(page, `Picture of the ${entry}`)]);
     assert.match(download.suggestedFilename(), /^heavy_stack.*\.png$/);

@@ -38,7 +38,7 @@ for (const light of [false, true]) {
         await page.waitForTimeout(500);
         const now = await picture(page);
         for (const side of [left, right]) {
-          assert.ok(difference(part(before, side), part(now, side)) > 0.002, "a chain stands still");
+          assert.ok(difference(part(before, side), part(now, side)) > 0.002, "a chain does not move");
         }
       }
       quiet(page);
@@ -47,7 +47,7 @@ for (const light of [false, true]) {
   }
 }
 
-test("Try it opens the laboratory, once and for all", async () => {
+test("Try it opens the laboratory, also at later visits", async () => {
   const page = await openPage(session, { first: true });
   await introduced(page, true);
   assert.equal(await page.evaluate(() => location.hash), "", "the address is no longer plain");
@@ -66,7 +66,7 @@ test("Try it opens the laboratory, once and for all", async () => {
   await page.context().close();
 });
 
-test("Enter, Escape and a tap leave it; Tour begins the tour", async () => {
+test("Enter, Escape and a tap close it; Tour begins the tour", async () => {
   for (const leave of [(p) => p.keyboard.press("Enter"), (p) => p.keyboard.press("Escape"),
     (p) => p.mouse.click(320, 300), (p) => click(p, "Tour")]) {
     const page = await openPage(session, { first: true });
@@ -79,7 +79,7 @@ test("Enter, Escape and a tap leave it; Tour begins the tour", async () => {
   }
 });
 
-test("a link and the API go past it", async () => {
+test("a link and the API skip it", async () => {
   const linked = await openPage(session, { first: true, fragment: "scene=bridge&mode=none" });
   assert.equal((await call(linked, "report")).introduction, null);
   await reports(linked, "scene", "bridge");
@@ -93,7 +93,7 @@ test("a link and the API go past it", async () => {
   await page.context().close();
 });
 
-test("the keyboard finds the same words and two buttons in HTML", async () => {
+test("HTML has the same text and two buttons for the keyboard", async () => {
   const page = await openPage(session, { first: true });
   await introduced(page, true);
   await page.waitForTimeout(1100);
@@ -116,7 +116,7 @@ test("the keyboard finds the same words and two buttons in HTML", async () => {
   await page.context().close();
 });
 
-test("a laboratory in an article begins without it", async () => {
+test("a laboratory in an article starts without it", async () => {
   const page = await openPage(session, { path: "example/article.html", before: "1", first: true });
   await page.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
   const shown = await page.evaluate(() => Object.values(window.laboratories)

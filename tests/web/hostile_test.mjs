@@ -89,7 +89,7 @@ async function tryAll() {
   return found;
 }
 
-test("no call throws, whatever its argument does", async () => {
+test("no call throws for any argument", async () => {
   const page = await openPage(session);
   await call(page, "pause");
   await call(page, "set", { scene: "bridge" });
@@ -108,7 +108,7 @@ test("no call throws, whatever its argument does", async () => {
   await page.context().close();
 });
 
-test("an answer that its reader changed changes no other", async () => {
+test("changing a result does not affect other results", async () => {
   const page = await openPage(session);
   const second = await page.evaluate(() => {
     window.substep.pause().problems.push("mine");
@@ -125,7 +125,7 @@ async function openArticle() {
   return page;
 }
 
-test("calls after remove() say that there is no laboratory", async () => {
+test("calls after remove() report that the laboratory was removed", async () => {
   const page = await openArticle();
   const { first, picture, answers } = await page.evaluate(async () => {
     const lab = window.laboratories.none;
@@ -151,7 +151,7 @@ test("calls after remove() say that there is no laboratory", async () => {
   await page.context().close();
 });
 
-test("who listens may remove the laboratory, and so may what it reads", async () => {
+test("listeners and getters may remove the laboratory", async () => {
   const page = await openArticle();
   const answer = await page.evaluate(async () => {
     const { none, adaptive } = window.laboratories;

@@ -26,7 +26,7 @@ async function run(frames) {
   return call(page, "hash");
 }
 
-test("a body is grabbed, pulled and let go", async () => {
+test("a body is grabbed, pulled and released", async () => {
   const free = await run(60);
   await run(0);
   await call(page, "set", { speed: 0.01 }); // bodies are held while the run plays
@@ -50,7 +50,7 @@ test("a body is grabbed, pulled and let go", async () => {
   quiet(page);
 });
 
-test("a ball is thrown with its key", async () => {
+test("a key throws a ball", async () => {
   const free = await run(60);
   await run(0);
   await page.mouse.move(620, 300);
@@ -63,7 +63,7 @@ test("a ball is thrown with its key", async () => {
   quiet(page);
 });
 
-test("the past is looked at by dragging along it", async () => {
+test("dragging along the timeline shows earlier frames", async () => {
   const end = await run(60);
   const track = await find(page, "past");
   await page.mouse.move(...place(track, 1));
@@ -81,7 +81,7 @@ test("the past is looked at by dragging along it", async () => {
   quiet(page);
 });
 
-test("other methods run beside it, in the picture and in the plots", async () => {
+test("compared methods are shown in the picture and in the plots", async () => {
   await run(0);
   await click(page, "Compare", "tabs");
   const empty = await picture(page, side);
@@ -96,7 +96,7 @@ test("other methods run beside it, in the picture and in the plots", async () =>
   quiet(page);
 });
 
-test("why this N has a page of its own", async () => {
+test("why this N has its own panel", async () => {
   await run(30);
   const plots = await picture(page, side);
   await click(page, "Why N", "tabs");
@@ -106,7 +106,7 @@ test("why this N has a page of its own", async () => {
   quiet(page);
 });
 
-test("fingers turn, zoom and scroll", async () => {
+test("touches rotate, zoom and scroll", async () => {
   const phone = await openPage(session, { width: 390, height: 844, ratio: 2, touch: true, calm: true });
   await call(phone, "pause");
   await call(phone, "set", { scene: "heavy_stack" });

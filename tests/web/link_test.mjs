@@ -28,7 +28,7 @@ test("is read when the page opens", async () => {
   await page.context().close();
 });
 
-test("gives the same run again, to the bit", async () => {
+test("reproduces the run, bit for bit", async () => {
   const first = await openPage(session);
   await call(first, "set", { scene: "heavy_stack", solver: "pgs", mode: "capped", n_cap: 3,
     alpha: 0.0371, iterations: 11, warm_start: false, integrator: "leapfrog", drift: "soft" });
@@ -46,7 +46,7 @@ test("gives the same run again, to the bit", async () => {
   await second.context().close();
 });
 
-test("leads back and forward from scene to scene", async () => {
+test("supports back and forward between scenes", async () => {
   const page = await openPage(session, { fragment: "scene=swinging_box&mode=none" });
   await call(page, "set", { scene: "bridge" });
   await page.waitForURL(/scene=bridge/);
@@ -69,7 +69,7 @@ test("leads back and forward from scene to scene", async () => {
   await page.context().close();
 });
 
-test("follows what a person types into it", async () => {
+test("follows changes of the address", async () => {
   const page = await openPage(session);
   await page.evaluate(() => { location.hash = "#scene=bridge&mode=damping"; });
   await reports(page, "scene", "bridge");
@@ -78,7 +78,7 @@ test("follows what a person types into it", async () => {
   await page.context().close();
 });
 
-test("holds a scene of one's own, and another browser runs it", async () => {
+test("contains a user's scene, and another browser runs it", async () => {
   const page = await openPage(session);
   await drop(page, "mine.json", await ownScene());
   await call(page, "set", { mode: "const", n: 5 });
@@ -100,7 +100,7 @@ test("holds a scene of one's own, and another browser runs it", async () => {
   await other.context().close();
 });
 
-test("holds thrown balls in little room, and another browser throws them again", async () => {
+test("contains thrown balls in compact form, and another browser throws them again", async () => {
   const page = await openPage(session);
   await call(page, "pause");
   await call(page, "reset");
@@ -125,7 +125,7 @@ test("holds thrown balls in little room, and another browser throws them again",
   await other.context().close();
 });
 
-test("that cannot be read is told, and the page runs", async () => {
+test("that is invalid is reported, and the page runs", async () => {
   const broken = ["mode=warp&alpha=7&%zz&=&scene=%00", "scene=no_such_scene", "scene64=AAAA",
     "scene64=%%%", "scene64=", "&&&", `scene64=${"A".repeat(5000)}`, "alpha=1e999&n=-3&solver="];
   const page = await openPage(session);

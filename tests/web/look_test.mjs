@@ -33,7 +33,7 @@ async function still(page, settings, frames) {
 for (const [scene, frames, theme] of [
   ["swinging_box", 150, "dark"], ["bridge", 90, "light"], ["heavy_stack", 60, "dark"],
 ]) {
-  test(`${scene} looks as it did, ${theme}`, async () => {
+  test(`${scene} looks unchanged, ${theme}`, async () => {
     const page = await openPage(session, { width: 480, height: 400, light: theme === "light", calm: true });
     await still(page, { scene, mode: "adaptive", panels: "off" }, frames);
     const now = await picture(page, { x: 0, y: 64, width: 480, height: 216 });

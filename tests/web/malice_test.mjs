@@ -193,7 +193,7 @@ async function openCalm() {
   return page;
 }
 
-test("links made to harm are refused, wait for a person, or run in slices", async () => {
+test("hostile links are rejected, wait for a confirmation, or run in slices", async () => {
   const page = await openCalm();
   const list = await links();
   assert.ok(list.length >= 50, `${list.length} links`);
@@ -204,13 +204,13 @@ test("links made to harm are refused, wait for a person, or run in slices", asyn
   }
   tell(suffered);
   const count = (as) => suffered.filter(({ end }) => end === as).length;
-  assert.ok(count("held") >= 0.4 * suffered.length, "those that are heavy wait");
+  assert.ok(count("held") >= 0.4 * suffered.length, "too few heavy runs were held");
   assert.ok(count("refused") >= 0.1 * suffered.length);
   quiet(page);
   await page.context().close();
 });
 
-test("files made to harm, dropped on the page", async () => {
+test("hostile files, dropped on the page", async () => {
   const page = await openCalm();
   const list = await files();
   assert.equal(list.length, 20);
@@ -224,7 +224,7 @@ test("files made to harm, dropped on the page", async () => {
   await page.context().close();
 });
 
-test("a heavy run waits with a sentence, and a button leads back", async () => {
+test("a heavy run waits with a message and a button to go back", async () => {
   const page = await openCalm();
   const before = await call(page, "link");
   await call(page, "openLink", `scene=swinging_box&${heavyRun}`);
@@ -248,7 +248,7 @@ test("a heavy run waits with a sentence, and a button leads back", async () => {
   await page.context().close();
 });
 
-test("a program that ends in a trap says so, and the page starts again with the run before", async () => {
+test("a trap of the program is reported, and the page restarts with the previous run", async () => {
   const page = await openPage(session, { fragment: "scene=bridge&alpha=0.2" });
   await page.waitForURL(/scene=bridge.*alpha=0\.2/);
   await call(page, "set", { scene: "swinging_box" });

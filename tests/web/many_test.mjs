@@ -50,7 +50,7 @@ async function look(page, i) {
   return picture(page, await page.locator(`#place${i}`).boundingBox());
 }
 
-test("each of twenty laboratories draws whenever it is seen", async () => {
+test("each of twenty laboratories draws when it is visible", async () => {
   const page = await openMany();
   const order = Array.from({ length: count }, (_, i) => i);
   // All in order, back to the first one, then some in arbitrary order.
@@ -66,7 +66,7 @@ test("each of twenty laboratories draws whenever it is seen", async () => {
   await page.context().close();
 });
 
-test("graphics that others of the page took come back", async () => {
+test("a context lost to other canvases of the page is restored", async () => {
   const page = await openMany();
   await look(page, 0);
   await page.evaluate(() => {

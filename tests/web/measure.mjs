@@ -65,7 +65,7 @@ for (const scene of ["swinging_box", "bridge", "heavy_stack"]) {
       await drawn(page);
     }
     const times = await page.evaluate(() => window.frameTimes);
-    console.log(`200 s of plots, without physics: ${middle(times).toFixed(2)} ms a frame, ` +
+    console.log(`200 s of plots, without physics: ${middle(times).toFixed(2)} ms per frame, ` +
       `95 % below ${middle(times, 0.95).toFixed(2)} ms, ${times.length} frames`);
     await call(page, "set", { mode: "adaptive", panel: "accuracy" });
     await call(page, "reset");

@@ -33,7 +33,7 @@ async function round(page, scenes) {
   await drawn(page);
 }
 
-test("panels, scenes, comparisons and sweeps give their memory back", async () => {
+test("panels, scenes, comparisons and sweeps release their memory", async () => {
   const page = await openPage(session);
   await call(page, "pause");
   const scenes = ["swinging_box", "bridge", "heavy_stack"];
@@ -48,7 +48,7 @@ test("panels, scenes, comparisons and sweeps give their memory back", async () =
   await page.context().close();
 });
 
-test("a long run keeps what fits, and no more", async () => {
+test("the memory of a long run is bounded", async () => {
   const page = await openPage(session);
   await call(page, "pause");
   const run = async () => {
@@ -64,7 +64,7 @@ test("a long run keeps what fits, and no more", async () => {
   await page.context().close();
 });
 
-test("laboratories that are removed are gone", async () => {
+test("removed laboratories are freed", async () => {
   const page = await openPage(session, { path: "files.json", before: "1" }); // without a laboratory
   const count = 10;
   const devtools = await page.context().newCDPSession(page);

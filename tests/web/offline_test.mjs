@@ -24,7 +24,7 @@ test("all files together are small", async () => {
   assert.ok(gzip > 1e5 && gzip < mostBytes, `${gzip} bytes`);
 });
 
-test("no file asks for anything outside its folder", async () => {
+test("no file requests anything outside its folder", async () => {
   const page = await openPage(session);
   const requests = [];
   page.on("request", (request) => requests.push(request.url()));
@@ -36,7 +36,7 @@ test("no file asks for anything outside its folder", async () => {
   await page.context().close();
 });
 
-test("a download that fails can be tried again", async () => {
+test("a failed download can be retried", async () => {
   const page = await openPage(session, { before: "1", fragment: "scene=bridge" });
   await page.route(/engine\.wasm/, (route) => route.abort());
   await page.reload();
@@ -50,7 +50,7 @@ test("a download that fails can be tried again", async () => {
   await page.context().close();
 });
 
-test("progress is shown while the program comes", async () => {
+test("progress is shown while the program loads", async () => {
   const page = await openPage(session, { before: "1" });
   await page.route(/engine\.data/, async (route) => {
     await new Promise((done) => { setTimeout(done, 1500); });
@@ -67,7 +67,7 @@ test("progress is shown while the program comes", async () => {
 /** The copies of the page that are kept. */
 const kept = (page) => page.evaluate(async () => (await caches.keys()).join());
 
-test("a new version takes the place of the one that was kept", async () => {
+test("a new version replaces the stored one", async () => {
   const page = await openPage(session, { offline: true });
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.waitForFunction(() => navigator.serviceWorker.controller);
@@ -108,7 +108,7 @@ test("a new version takes the place of the one that was kept", async () => {
   await next.context().close();
 });
 
-test("a version that cannot be fetched whole leaves the one that was kept", async () => {
+test("an incomplete download keeps the stored version", async () => {
   const page = await openPage(session, { offline: true });
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.waitForFunction(() => navigator.serviceWorker.controller);
@@ -130,7 +130,7 @@ test("a version that cannot be fetched whole leaves the one that was kept", asyn
 });
 
 // Must be last: it stops the server.
-test("what was loaded once works without a network", async () => {
+test("a loaded page works without a network", async () => {
   const page = await openPage(session, { offline: true });
   await page.evaluate(() => navigator.serviceWorker.ready);
   session.server.close();

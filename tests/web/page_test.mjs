@@ -47,7 +47,7 @@ after(async () => {
   await session?.close();
 });
 
-test("loads, shows a picture and says nothing on the console", async () => {
+test("loads, shows a picture and logs nothing", async () => {
   await drawn(page);
   assert.ok(variance(await picture(page, view)) > somethingSeen);
   assert.ok(await page.locator(".substep-overlay").isHidden());
@@ -67,7 +67,7 @@ test("runs in real time and the plots move", async () => {
   quiet();
 });
 
-test("tells in HTML what the canvas shows", async () => {
+test("mirrors the canvas in HTML", async () => {
   await page.waitForTimeout(1200);
   const twin = await page.locator(".substep-twin").innerText();
   for (const word of ["Swinging box", "adaptive, bpp, euler", "playing at", "holds"]) {
@@ -98,7 +98,7 @@ for (const scene of scenes) {
   }
 }
 
-test("changes by mouse and keys, and the address follows", async () => {
+test("mouse and keys change the run, and the address follows", async () => {
   await api("pause");
   await api("set", { scene: "swinging_box", mode: "adaptive" });
   await drawn(page);
@@ -160,7 +160,7 @@ test("alpha follows the drag of its slider", async () => {
   quiet();
 });
 
-test("a sweep goes on beside a run that is paused", async () => {
+test("a sweep continues while the run is paused", async () => {
   await api("set", { scene: "pendulum", panel: "accuracy", accuracy: "run" });
   await api("pause");
   await page.waitForTimeout(2500); // without input the page would stop drawing
@@ -172,7 +172,7 @@ test("a sweep goes on beside a run that is paused", async () => {
   quiet();
 });
 
-test("a sweep is begun, cancelled and a point of it run, by clicks", async () => {
+test("clicks start and cancel a sweep, and run one of its points", async () => {
   await api("set", { scene: "pendulum", panel: "accuracy", accuracy: "run" });
   await page.waitForFunction(() =>
     window.substep.widgets().filter((w) => w.group === "accuracy picture").length > 3, null, { timeout: 60000 });
@@ -192,7 +192,7 @@ test("a sweep is begun, cancelled and a point of it run, by clicks", async () =>
   quiet();
 });
 
-test("picks a scene from the menu", async () => {
+test("opens a scene from the menu", async () => {
   await click(page, "scene");
   await save(page, "scene-menu");
   await click(page, "Bridge");
@@ -200,7 +200,7 @@ test("picks a scene from the menu", async () => {
   quiet();
 });
 
-test("turns the view by dragging", async () => {
+test("rotates the view by dragging", async () => {
   await api("set", { scene: "heavy_stack" });
   await drawn(page);
   const straight = await picture(page, view);
@@ -214,7 +214,7 @@ test("turns the view by dragging", async () => {
   quiet();
 });
 
-test("keeps the running scene and shows what is wrong with another", async () => {
+test("keeps the running scene and shows the problems of another", async () => {
   await api("set", { scene: "bridge" });
   await api("step", 10);
   const hash = await api("hash");
@@ -233,7 +233,7 @@ test("keeps the running scene and shows what is wrong with another", async () =>
   quiet();
 });
 
-test("fits a phone, at two pixels to one", async () => {
+test("fits a phone with a pixel ratio of 2", async () => {
   const phone = await openPage(session, { width: 390, height: 844, ratio: 2, touch: true });
   await phone.evaluate(() => { window.substep.pause(); window.substep.step(90); });
   await drawn(phone);
@@ -250,7 +250,7 @@ test("fits a phone, at two pixels to one", async () => {
   await phone.context().close();
 });
 
-test("comes back when the graphics context was lost", async () => {
+test("recovers from a lost graphics context", async () => {
   await page.evaluate(() => {
     window.lostContext = document.querySelector(".substep-view").getContext("webgl2")
       .getExtension("WEBGL_lose_context");
@@ -267,7 +267,7 @@ test("comes back when the graphics context was lost", async () => {
   quiet();
 });
 
-test("a slow machine gets a coarser picture while it moves, and the best when it rests", async () => {
+test("a slow machine draws a coarser picture in motion, and the best one at rest", async () => {
   const slow = await openPage(session, { fragment: "scene=swinging_box" });
   const tools = await slow.context().newCDPSession(slow);
   await tools.send("Emulation.setCPUThrottlingRate", { rate: 12 });
@@ -282,7 +282,7 @@ test("a slow machine gets a coarser picture while it moves, and the best when it
   const resting = await picture(slow, view);
   const changed = difference(moving, resting);
   assert.ok(changed > 0.001, "edges of the moving picture are coarser");
-  assert.ok(changed < 0.3, `the same all the same: ${changed} differ`);
+  assert.ok(changed < 0.3, `too different: ${changed} differ`);
   quiet(slow);
   await slow.context().close();
 });
@@ -292,7 +292,7 @@ for (const [what, script] of [
   ["WebAssembly", "delete globalThis.WebAssembly;"],
   ["vectors", "WebAssembly.validate = () => false;"],
 ]) {
-  test(`says so where ${what} is missing`, async () => {
+  test(`reports that ${what} is missing`, async () => {
     const poor = await openPage(session, { before: script });
     await poor.waitForFunction(() => /cannot/.test(document.querySelector(".substep-overlay h2").textContent));
     assert.ok((await poor.locator(".substep-overlay p").innerText()).includes(what));
@@ -303,7 +303,7 @@ for (const [what, script] of [
 }
 
 // Must be last: its minute starts before the first test.
-test("a minute behind another tab costs nothing and leaves no backlog", async () => {
+test("a minute in the background is not simulated and leaves no backlog", async () => {
   await minute;
   await tab.comeBack();
   const { seen, then, faults } = await tab.evaluate(`new Promise((done) => {
@@ -313,7 +313,7 @@ test("a minute behind another tab costs nothing and leaves no backlog", async ()
   const [left, back] = seen;
   assert.ok(back.at - left.at > 59000, `${back.at - left.at} ms away`);
   assert.ok(back.time - left.time < 0.2, `${back.time - left.time} s were simulated behind the other tab`);
-  assert.ok(then.time > back.time, "it goes on");
-  assert.ok(then.time - back.time < (then.at - back.at) / 1000 + 0.2, "no time is made up for");
+  assert.ok(then.time > back.time, "the run does not continue");
+  assert.ok(then.time - back.time < (then.at - back.at) / 1000 + 0.2, "simulated time was caught up");
   assert.deepEqual(faults, []);
 });

@@ -46,7 +46,7 @@ function ask(path, method = "GET", port = server.address().port) {
   });
 }
 
-test("a file, a folder's page and links that stay inside are served", async () => {
+test("serves files, a folder's page and links within the folder", async () => {
   for (const [path, body] of [["/", "<p>home"], ["/below/", "<p>below"], ["/engine.wasm", "\0asm"],
     ["/file_in.html", "<p>below"], ["/folder_in/index.html", "<p>below"], ["/?a=1", "<p>home"]]) {
     const answer = await ask(path);
@@ -55,7 +55,7 @@ test("a file, a folder's page and links that stay inside are served", async () =
   assert.equal((await ask("/engine.wasm")).headers["content-type"], "application/wasm");
 });
 
-test("a folder that is itself a link is served", async () => {
+test("serves a folder that is itself a link", async () => {
   await symlink(join(base, "page"), join(base, "page-link"));
   const other = await serve(join(base, "page-link"), 0);
   assert.equal((await ask("/below/", "GET", other.address().port)).body, "<p>below");
@@ -63,7 +63,7 @@ test("a folder that is itself a link is served", async () => {
   other.closeAllConnections();
 });
 
-test("links out of the folder lead nowhere", async () => {
+test("does not follow links out of the folder", async () => {
   for (const path of ["/file_out.txt", "/folder_out/secret.txt", "/beside_out/", "/beside_out",
     "/beside_out/index.html", "/below/index.txt", "/folder_in/index.txt", "/dangling", "/itself",
     "/folder_out/page/index.html/../../secret.txt"]) {
@@ -73,7 +73,7 @@ test("links out of the folder lead nowhere", async () => {
   }
 });
 
-test("no spelling of a path leaves the folder", async () => {
+test("no form of a path leaves the folder", async () => {
   for (const path of ["/../secret.txt", "/%2e%2e/secret.txt", "/..%2fsecret.txt", "/below/../../secret.txt",
     "/..%2fpage-beside/index.html", "/%00", "/%", "//..//secret.txt", "/below\\..\\..\\secret.txt"]) {
     const answer = await ask(path);
@@ -82,14 +82,14 @@ test("no spelling of a path leaves the folder", async () => {
   }
 });
 
-test("a folder without its slash leads to it on the same host", async () => {
+test("redirects a folder without its slash on the same host", async () => {
   for (const path of ["/below", "/.//below", "/below?x=1"]) {
     const answer = await ask(path);
     assert.deepEqual([answer.status, answer.headers.location], [301, "/below/"], path);
   }
 });
 
-test("GET and HEAD are all that is answered", async () => {
+test("supports only GET and HEAD", async () => {
   for (const method of ["POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "PROPFIND"]) {
     for (const path of ["/", "/nothing", "/below"]) {
       const answer = await ask(path, method);
@@ -104,7 +104,7 @@ test("GET and HEAD are all that is answered", async () => {
   assert.equal(head.headers["content-length"], get.headers["content-length"]);
 });
 
-test("every answer says what a page may do, and that types are not guessed", async () => {
+test("every response has a content security policy and forbids type sniffing", async () => {
   for (const [path, method] of [["/", "GET"], ["/engine.wasm", "HEAD"], ["/nothing", "GET"],
     ["/below", "GET"], ["/", "POST"]]) {
     const { headers } = await ask(path, method);

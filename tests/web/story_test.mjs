@@ -27,7 +27,7 @@ test("none tears, adaptive holds, alpha changes N, the link is copied", async ()
   await click(page, "Reset with adaptive sub-steps");
   const report = await call(page, "report");
   assert.deepEqual([report.mode, report.verdict], ["adaptive", "holds"]);
-  assert.ok(report.playing, "it goes on");
+  assert.ok(report.playing, "the run does not continue");
   await click(page, "What does accuracy cost?");
   await offered(page, "Run again"); // the picture appears immediately
   await pick(page, "Copy link");
@@ -39,7 +39,7 @@ test("none tears, adaptive holds, alpha changes N, the link is copied", async ()
   await page.context().close();
 });
 
-test("a run that diverges pauses, explains, and goes back to its last good state", async () => {
+test("a diverging run pauses, explains, and returns to its last good state", async () => {
   const page = await openPage(session, { fragment: "scene=spinning_top" });
   await call(page, "reset");
   // An explicit gyroscopic torque at this speed gains energy without bound.

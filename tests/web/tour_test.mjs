@@ -83,7 +83,7 @@ for (const [width, height, light] of [[1280, 720, false], [1920, 1080, true], [3
   });
 }
 
-test("the button in the canvas begins it; Next, Back and Done lead through it", async () => {
+test("the button in the canvas begins it; Next, Back and Done navigate it", async () => {
   const page = await openPage(session);
   assert.equal(await tour(page).isVisible(), false);
   await page.waitForFunction(() => window.substep.widgets().some((w) => w.label === "Take the tour"));
@@ -109,7 +109,7 @@ test("the button in the canvas begins it; Next, Back and Done lead through it", 
   await page.context().close();
 });
 
-test("a number is dragged, the run has it, and the task is answered by the run", async () => {
+test("dragging a number changes the run, and the run answers the task", async () => {
   const page = await openPage(session);
   await goTo(page, 2);
   assert.match(await reply(page, "holds"), /^With 7 sub-steps it holds for 4 s\.$/);
@@ -156,7 +156,7 @@ test("the keys of a slider change a number", async () => {
   await page.context().close();
 });
 
-test("a number that is set elsewhere is shown in the sentence", async () => {
+test("a number changed elsewhere is updated in the sentence", async () => {
   const page = await openPage(session);
   await goTo(page, 5);
   await call(page, "set", { alpha: 0.07 });
@@ -177,7 +177,7 @@ test("a number that is set elsewhere is shown in the sentence", async () => {
   await page.context().close();
 });
 
-test("words point at plots: a ring on hover and focus, the panel on a click", async () => {
+test("references mark plots with a ring on hover and focus, and open the panel on a click", async () => {
   const page = await openPage(session);
   await goTo(page, 5);
   await page.waitForTimeout(300);
@@ -205,7 +205,7 @@ test("words point at plots: a ring on hover and focus, the panel on a click", as
   await page.context().close();
 });
 
-test("what breaks does so again and again, and slowly", async () => {
+test("a failing run repeats, in slow motion", async () => {
   const page = await openPage(session);
   await goTo(page, 1);
   await page.evaluate(() => {
@@ -221,7 +221,7 @@ test("what breaks does so again and again, and slowly", async () => {
   await page.context().close();
 });
 
-test("with reduced motion it stops at the end, and Play shows it once more", async () => {
+test("with reduced motion it stops at the end, and Play repeats it", async () => {
   const page = await openPage(session, { calm: true });
   await goTo(page, 1);
   await reports(page, "playing", false);
@@ -231,7 +231,7 @@ test("with reduced motion it stops at the end, and Play shows it once more", asy
   await page.context().close();
 });
 
-test("leaving gives back the run, its comparison and the window", async () => {
+test("leaving restores the run, its comparison and the window", async () => {
   for (const leave of [(p) => button(p, "Close the tour").click(), (p) => p.keyboard.press("Escape")]) {
     const page = await openPage(session, { fragment: "scene=bridge&mode=damping&compare=mode:none" });
     const width = (await canvasBox(page)).width;
@@ -256,7 +256,7 @@ test("leaving gives back the run, its comparison and the window", async () => {
   }
 });
 
-test("the keyboard alone: from the first screen through a step and out", async () => {
+test("keyboard only: from the first screen through a step and out", async () => {
   const page = await openPage(session, { first: true });
   await page.waitForFunction(() => window.substep.report().introduction !== null);
   await page.waitForTimeout(1100);
@@ -267,7 +267,7 @@ test("the keyboard alone: from the first screen through a step and out", async (
   await drawn(page);
   const focused = () => page.evaluate(() => document.activeElement.textContent
     || document.activeElement.getAttribute("aria-label"));
-  assert.equal(await focused(), "A heavy box on a thin chain", "it is not read from its title on");
+  assert.equal(await focused(), "A heavy box on a thin chain", "the focus is not on the title");
   const reached = [];
   for (let i = 0; i < 4; ++i) {
     await page.keyboard.press("Tab");
@@ -296,7 +296,7 @@ test("its colours follow the theme of the laboratory", async () => {
   await page.context().close();
 });
 
-test("a laboratory in an article has the card in its window, as before", async () => {
+test("a laboratory in an article has the tour as a card in its canvas", async () => {
   const page = await openPage(session, { path: "example/article.html", before: "1" });
   await page.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
   const labels = await page.evaluate(async () => {

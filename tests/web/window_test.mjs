@@ -32,17 +32,17 @@ test("opens, draws the scene, and its plots move", () => {
   assert.deepEqual([late.width, late.height], [1280, 720]);
   assert.ok(variance(part(late, view)) > 120, "the picture is blank");
   assert.ok(difference(part(early, view), part(late, view)) > 0.005, "nothing swings");
-  assert.ok(difference(part(early, plots), part(late, plots)) > 0.005, "the plots stand still");
+  assert.ok(difference(part(early, plots), part(late, plots)) > 0.005, "the plots do not move");
 });
 
-test("is sharp at two pixels to one", () => {
+test("is sharp with a pixel ratio of 2", () => {
   const picture = shot("ratio-2", "--scene", "heavy_stack", "--size", "1000x640", "--scale", "2",
     "--frames", "5", "--light");
   assert.deepEqual([picture.width, picture.height], [2000, 1280]);
   assert.ok(variance(picture) > 120);
 });
 
-test("says what is wrong with its arguments", () => {
+test("reports invalid arguments", () => {
   for (const args of [["--scene", "no_such_scene"], ["--alpha", "7"], ["--size", "big"]]) {
     const result = spawnSync("xvfb-run", ["-a", program, ...args, "--screenshot", "/dev/null",
       "--frames", "1"], { encoding: "utf8", timeout: 60000 });

@@ -93,7 +93,7 @@ TEST_F(TwoTerms, SwitchedOffItIsThePapersRuleAlone) {
   const Criterion c = criterion();
   EXPECT_EQ(c.set_by, CriterionTerm::kStiffness);
   EXPECT_EQ(rotation_text(scene(), c), "Rotation: switched off");
-  EXPECT_EQ(rotation_meaning(scene(), c), "The paper's rule alone sets N.");
+  EXPECT_EQ(rotation_meaning(scene(), c), "Only the paper's rule sets N.");
 }
 
 TEST(WhyPanel, ShowsBothTermsOfEveryScene) {

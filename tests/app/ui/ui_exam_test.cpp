@@ -14,7 +14,7 @@ TEST(ExamGhost, ScenesStandInAGroupOfTheirOwn) {
   EXPECT_GE(library.scenes().size(), before + 14);
   EXPECT_EQ(library.scenes().front()->name, first);
   ASSERT_NE(library.find("exam_four_bar"), nullptr);
-  EXPECT_EQ(group_title(library.find("exam_four_bar")->group), "The exam: known answers");
+  EXPECT_EQ(group_title(library.find("exam_four_bar")->group), "The exam: known solutions");
   EXPECT_FALSE(is_own(*library.find("exam_four_bar")));
 }
 
@@ -49,7 +49,7 @@ TEST(ExamGhost, IsThereOnlyForASceneAsItStands) {
   h.app->open("exam_compliant_ball");
   EXPECT_NE(h.app->exam.at(h.app->session), nullptr);
   h.app->open("exam_hard_clutter");
-  EXPECT_EQ(h.app->exam.at(h.app->session), nullptr) << "nobody knows its motion";
+  EXPECT_EQ(h.app->exam.at(h.app->session), nullptr) << "its motion is unknown";
   Scene heavier = *h.app->library.find("exam_revolute");
   heavier.bodies[0].mass *= 2.0;
   h.app->run(std::make_shared<const Scene>(heavier));

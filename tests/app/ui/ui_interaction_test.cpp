@@ -71,7 +71,7 @@ TEST(Picking, RayMeetsWhatIsSeenThere) {
       EXPECT_LT(hit->distance, to_centre.norm());
       met += hit->body == static_cast<int>(i) ? 1 : 0;
     }
-    EXPECT_GT(met, 3) << "what is not hidden is met itself, in " << scene;
+    EXPECT_GT(met, 3) << "visible bodies are picked, in " << scene;
   }
 }
 
@@ -266,7 +266,7 @@ TEST(Failure, OffersWhatWouldHaveHelped) {
   ASSERT_EQ(h.app->set("n_max", "2"), "");
   for (int i = 0; i < 60; ++i) h.app->session.step();
   h.frames(2);
-  EXPECT_NE(find_handle("Reset with a larger cap, 10 sub-steps a frame"), nullptr);
+  EXPECT_NE(find_handle("Reset with a larger cap, 10 sub-steps per frame"), nullptr);
   EXPECT_NE(find_handle("Reset with the direct solver"), nullptr);
 }
 

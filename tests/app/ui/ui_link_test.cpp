@@ -64,22 +64,22 @@ TEST(Link, WhatCannotBeReadIsToldAndTheRestHolds) {
 
 // The card states what was applied, and lists every invalid part.
 TEST(Link, WhatBecameOfTheSceneAndTheRestIsTold) {
-  const std::string rest = "The rest of the link was followed.";
+  const std::string rest = "The rest of the link was applied.";
   Headless h;
-  const auto told = [&](const char* link) {
+  const auto aftermath = [&](const char* link) {
     h.app->trouble = {};
     h.app->open_link(link);
     h.frames(2);
     return h.app->trouble.aftermath;
   };
-  EXPECT_EQ(told("scene=bridge&alpha=7"), rest);
+  EXPECT_EQ(aftermath("scene=bridge&alpha=7"), rest);
   EXPECT_EQ(h.app->session.scene().name, "bridge");
-  EXPECT_EQ(told("scene=nowhere&n=5"), std::string(kSceneKept) + " " + rest);
-  EXPECT_EQ(told("scene=nowhere"), kSceneKept);
-  EXPECT_EQ(told("scene=nowhere&scene=pendulum"), rest);
+  EXPECT_EQ(aftermath("scene=nowhere&n=5"), std::string(kSceneKept) + " " + rest);
+  EXPECT_EQ(aftermath("scene=nowhere"), kSceneKept);
+  EXPECT_EQ(aftermath("scene=nowhere&scene=pendulum"), rest);
   EXPECT_EQ(h.app->session.scene().name, "pendulum");
-  EXPECT_EQ(told("alpha=7"), "") << "a scene inside the link may have been opened before";
-  EXPECT_EQ(told("#=5"), "");
+  EXPECT_EQ(aftermath("alpha=7"), "") << "a scene inside the link may have been opened before";
+  EXPECT_EQ(aftermath("#=5"), "");
   ASSERT_EQ(h.app->trouble.problems.size(), 1U);
   EXPECT_EQ(h.app->trouble.problems[0].pointer, "=5");
 }

@@ -284,7 +284,7 @@ TEST(Slices, OfAFrameThatIsLeftChangeNothing) {
     for (int i = 0; i < 3; ++i) session.advance(1.0 / 60.0, 0.0);
     ASSERT_TRUE(session.slices().open());
     EXPECT_GT(session.slices().taken(), 0);
-    EXPECT_EQ(session.hash(), before) << "what is seen is the last whole frame";
+    EXPECT_EQ(session.hash(), before) << "the last complete frame is shown";
   };
   begin();
   session.pause();
@@ -328,7 +328,7 @@ TEST(Slices, AHandActsFromTheNextFrameOn) {
   const int taken = session.slices().taken();
   session.grab(static_cast<int>(session.scene().bodies.size()) - 1, Vec3::Zero(), Vec3::Ones());
   session.advance(1.0 / 60.0, 0.0);
-  EXPECT_GT(session.slices().taken(), taken) << "the frame goes on";
+  EXPECT_GT(session.slices().taken(), taken) << "the frame continues";
   EXPECT_TRUE(session.held());
 }
 

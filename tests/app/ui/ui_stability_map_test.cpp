@@ -33,7 +33,7 @@ TEST(Accuracy, TheMapComesLastAndACellGivesItsFiguresAgain) {
     EXPECT_EQ(h.app->session.hash(), r->metrics.hash) << r->experiment.load;
     failed += r->metrics.holds ? 0 : 1;
   }
-  EXPECT_GT(failed, 0) << "of a map where all holds no cell tells anything";
+  EXPECT_GT(failed, 0) << "a map in which every run holds tests nothing";
   h.app->run_result(results.front());
   EXPECT_EQ(h.app->load, 1.0);
 }

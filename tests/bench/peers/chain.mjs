@@ -1,12 +1,13 @@
-// A chain that no scene file holds: six flat boxes on ball joints, hung from the world and let go in
-// a shape that lies in no plane, so that all moments of inertia and the gyroscopic torque count.
+// A chain that is not a scene file: six flat boxes on ball joints, suspended from the world and
+// released in a shape that lies in no plane, so that all moments of inertia and the gyroscopic torque
+// matter.
 
 import { add, between, length, rotate } from "./rotation.mjs";
 
 const kSize = [0.5, 0.2, 0.1]; // [m]
 const kMass = 2; // [kg]
 const kTop = [0, 4, 0]; // [m]
-// Along each box, from the world outwards: an arc seen from above, sinking.
+// Direction of each box, from the world outwards: a descending arc.
 const kAlong = [
   [2, -1, 2],
   [6, -2, 3],
@@ -16,7 +17,7 @@ const kAlong = [
   [2, -1, -2],
 ];
 
-/** @return what a scene file holds */
+/** @return the content of a scene file */
 export function chain() {
   const half = kSize[0] / 2;
   const bodies = [];

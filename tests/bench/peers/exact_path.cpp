@@ -1,5 +1,5 @@
 // The exact position of the tracked body of a scene after every frame: exact_path SCENE.json prints
-// x y z [m], a line a frame. A scene without a known exact motion is rejected.
+// x y z [m], a line per frame. A scene without a known exact motion is rejected.
 
 #include <cstdio>
 

@@ -17,7 +17,7 @@ export const ladder = {
 
 let Jolt;
 
-/** What Jolt's bindings take is copied by them: made for a call and given back after it. */
+/** Jolt's bindings copy their arguments: the object is created for a call and destroyed after it. */
 function withTemporary(make, use) {
   const object = make();
   const result = use(object);
@@ -28,7 +28,7 @@ function withTemporary(make, use) {
 const vector = (v, use) => withTemporary(() => new Jolt.Vec3(...v), use);
 const position = (v, use) => withTemporary(() => new Jolt.RVec3(...v), use);
 
-/** Layer 0 stands still, 1 moves, 2 + g is collision group g, which does not meet itself. */
+/** Layer 0 is static, 1 moves, 2 + g is collision group g, which does not collide with itself. */
 function layers(scene) {
   const groups = scene.bodies.map(({ group }) => group ?? -1);
   const count = 3 + Math.max(...groups);
@@ -122,7 +122,7 @@ function tune(system, scene, setting) {
   const physics = system.GetPhysicsSettings();
   physics.mNumVelocitySteps = setting.velocity;
   physics.mNumPositionSteps = setting.position;
-  physics.mPenetrationSlop = 0; // [m]; no overlap is left on purpose
+  physics.mPenetrationSlop = 0; // [m]
   physics.mAllowSleeping = false;
   system.SetPhysicsSettings(physics);
 }

@@ -1,8 +1,8 @@
-// What a run is judged by, from its poses alone and the same for every engine.
+// Errors and verdicts of a run, from its poses only and the same for every engine.
 
 import { add, conjugate, length, rotate, subtract } from "./rotation.mjs";
 
-const kNumbers = 7; // of a body's pose: x y z, w x y z
+const kNumbers = 7; // per pose: x y z, w x y z
 
 /** @param text lines of "milliseconds pose pose ..." @return {ms, poses} of every frame */
 export function readFrames(text) {
@@ -37,7 +37,7 @@ function jointGap(scene, poses) {
   return Math.max(0, ...gaps);
 }
 
-/** How deep a sphere is in a plane or box whose surface it has not passed with its centre [m]. */
+/** Penetration of a sphere into a plane or a box; also with its centre inside the box [m]. */
 function depth(sphere, centre, other, poses, i) {
   const local = rotate(conjugate(orientation(poses, i)), subtract(centre, position(poses, i)));
   if (other.shape.type === "plane") return sphere.shape.radius - local[1];
@@ -66,7 +66,7 @@ function penetration(scene, poses) {
 const largest = (frames, measure) => frames.reduce((most, f) => Math.max(most, measure(f.poses)), 0);
 const indexOf = (scene, name) => scene.bodies.findIndex((body) => body.name === name);
 
-/** How a scene broke by its own criteria, as a word; null where it did not. */
+/** How a scene failed by its own criteria, in a word; null if it did not. */
 export function broken(scene, poses) {
   const { joint_gap, displacement } = scene.criteria;
   if (!poses.every((x) => Math.abs(x) < 1e6)) return "explodes";
@@ -88,10 +88,10 @@ function whyBroken(scene, frames) {
 }
 
 /**
- * Of the tracked body from the exact motion.
- * @param exact its places after every frame [m]
- * @param most off by more is another motion: how reduced coordinates explode [m]
- * @param error of the distances after every frame
+ * Distance of the tracked body from the exact motion.
+ * @param exact its positions after every frame [m]
+ * @param most a larger distance is a failure: in reduced coordinates no joint can open [m]
+ * @param error reduces the distances after all frames to the error
  */
 function off(scene, frames, exact, most, error) {
   const body = indexOf(scene, scene.criteria.track);
@@ -105,7 +105,7 @@ function off(scene, frames, exact, most, error) {
   };
 }
 
-/** Error: the heavy box from the exact motion at 3 s. */
+/** Error: the distance of the heavy box from the exact motion at 3 s. */
 function swingingBox(scene, frames, exact) {
   const kTime = 3.0; // [s]
   return off(scene, frames, exact, 0.5, (distances) => distances[Math.round(kTime / scene.frame) - 1]);
@@ -121,14 +121,14 @@ function bridge(scene, frames) {
   const kFarEnd = 4.9; // [m]
   const ball = indexOf(scene, scene.criteria.track);
   const left = frames.findIndex(({ poses }) => position(poses, ball)[0] > kFarEnd);
-  // Below the end of the bridge the ball has fallen through it, however far it rolls on.
+  // Below the end of the bridge the ball has fallen through it.
   const crosses = left >= 0 && position(frames[left].poses, ball)[1] > 4;
   const crossing = crosses ? frames.slice(0, left) : frames;
   return {
     failure: crosses ? null : "the ball does not cross",
     error: largest(frames, (poses) => jointGap(scene, poses)),
     other: largest(crossing, (poses) => penetration(scene, poses)),
-    costFrames: crossing, // the rest is an empty bridge
+    costFrames: crossing, // afterwards the bridge is empty
   };
 }
 
@@ -146,8 +146,8 @@ function stack(scene, frames) {
 
 /**
  * @param kind swinging_box, in_space, bridge or stack
- * @param exact where the tracked body is after every frame, if that is known [m]
- * @return failure (null where the scene holds), error [m], other [m], ms: median cost of a frame
+ * @param exact positions of the tracked body after every frame, if known [m]
+ * @return failure (null if the scene holds), error [m], other [m], ms: median cost of a frame
  */
 export function judge(kind, scene, frames, exact) {
   const failure = whyBroken(scene, frames);

@@ -1,5 +1,5 @@
-// MuJoCo: Newton's method on soft constraints, in reduced coordinates where the joints are a tree,
-// or in maximal ones (free bodies and equality constraints).
+// MuJoCo: Newton's method on soft constraints, in reduced coordinates if the joints form a tree, or
+// in maximal ones (free bodies and equality constraints).
 
 import loadMujoco from "@mujoco/mujoco";
 import { collisionBits, jointTree, relativeTurn } from "./scene.mjs";
@@ -9,8 +9,8 @@ export const title = "MuJoCo";
 
 const reduced = (integrator, ...counts) =>
   counts.map((substeps) => ({ substeps, coordinates: "reduced", integrator }));
-/** @param timeconst in which an error decays [sub-steps]
- *  @param impedance the part of a constraint that is enforced, the rest is soft */
+/** @param timeconst time constant of the decay of an error [sub-steps]
+ *  @param impedance share of a constraint that is enforced; the rest is soft */
 const maximal = (integrator, timeconst, impedance, ...counts) =>
   counts.map((substeps) => ({
     substeps,
@@ -19,7 +19,7 @@ const maximal = (integrator, timeconst, impedance, ...counts) =>
     timeconst,
     impedance,
   }));
-/** Of first order and cheap; without damping they differ in maximal coordinates only. */
+/** First order and cheap; without damping they differ in maximal coordinates only. */
 const kCheap = ["Euler", "implicitfast", "discrete"];
 
 export const ladder = {
@@ -52,7 +52,7 @@ const text = (numbers) => numbers.map((x) => x.toPrecision(17)).join(" ");
 function geom(body, collides) {
   if (!collides) return "";
   const { bit, mask } = collisionBits(body);
-  // A plane's normal is its z here and its y in our scenes.
+  // The normal of a plane is z in MuJoCo and y in our scenes.
   const shape = {
     plane: () => `type="plane" size="0 0 1" quat="${text(between([0, 0, 1], [0, 1, 0]))}"`,
     box: () => `type="box" size="${text(body.shape.size.map((edge) => edge / 2))}"`,
@@ -75,7 +75,7 @@ function freeBody(body, i, collides) {
     <freejoint/>${inertial(body)}${geom(body, collides)}</body>`;
 }
 
-/** A body of the joint tree within its parent, and all that hangs on it. */
+/** A body of the joint tree in the frame of its parent, with its subtree. */
 function nestedBody(scene, tree, link) {
   const { body: i, parent, joint, flipped } = link;
   const body = scene.bodies[i];
@@ -98,7 +98,7 @@ function reducedWorld(scene) {
   return roots.map((link) => nestedBody(scene, tree, link)).join("\n");
 }
 
-/** One point a ball joint; two on the axis hold a hinge. */
+/** One point per ball joint, two points on the axis of a hinge. */
 function equalities(scene) {
   const name = (i) => (i < 0 ? "world" : `b${i}`);
   return scene.joints.flatMap(({ hinge, a, b, anchorA, axisA }) =>
@@ -162,7 +162,7 @@ export async function build(scene, setting) {
     step() {
       for (let i = 0; i < setting.substeps; ++i) mujoco.mj_step(model, data);
     },
-    /** Bodies are where the last step began until asked for. */
+    /** xpos is that of the start of the last step until the kinematics are recomputed. */
     poses() {
       mujoco.mj_kinematics(model, data);
       const { xpos, xquat } = data;

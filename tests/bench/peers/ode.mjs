@@ -1,5 +1,5 @@
-// ODE: its direct solver where that is the best it has, its Gauss-Seidel one beside it. The program
-// is ode_peer.cpp.
+// ODE: mainly its direct solver, with its Gauss-Seidel solver for comparison. The program is
+// ode_peer.cpp.
 
 export const title = "ODE";
 

@@ -1,4 +1,4 @@
-// This project's settings, for its native program and the same compiled to WebAssembly.
+// Settings of this project, for its native program and its WebAssembly build.
 
 const kPaper = { mode: "adaptive", alpha: 0.1 };
 const leapfrog = (n) => ({ mode: "const", n, integrator: "leapfrog", drift_order: 2 });

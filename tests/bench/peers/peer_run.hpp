@@ -33,7 +33,7 @@ struct PeerFrame {
   std::vector<Quat> q;        // q_WB
 };
 
-/// A line a frame: milliseconds, then x y z, w x y z of every body.
+/// A line per frame: milliseconds, then x y z, w x y z of every body.
 void print(const std::vector<PeerFrame>& frames);
 
 /// @param world has step(), one frame of physics, and poses(PeerFrame&)

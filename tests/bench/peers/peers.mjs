@@ -1,7 +1,6 @@
-// ./dev bench --peers: the same scenes on this project and on the engines that people would pick
-// instead. Every setting of every engine's ladder runs once; those that hold and that no other
-// setting of the engine beats in both cost and error are timed again, in turns, so that whatever
-// else the machine does falls on all alike.
+// ./dev bench --peers: the same scenes on this project and on other engines. Every setting of every
+// engine's ladder runs once. Those that hold, and that no other setting of the engine beats in both
+// cost and error, are timed again, interleaved, so that other load on the machine affects all engines.
 
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -28,15 +27,15 @@ const { values: options } = parseArgs({
 });
 
 const kWarmUp = { search: 60, timing: 600 }; // frames
-// WebAssembly compiled once and well, not twice: which code a frame runs in is then no question.
+// Only the optimising compiler: otherwise a frame could run in code of either tier.
 const kNode = [process.execPath, "--no-liftoff"];
-const kSlack = 0.8; // of the costs found in the search, each of one run: a shared machine is at times so slow
+const kSlack = 0.8; // uncertainty of a cost from the single run of the search, on a shared machine [-]
 const kLimit = 120e3; // of one run [ms]
 
-/** The scenes, each with its kind, by what it is judged, and how many times cheaper than every peer
- *  we aim to be at an error no larger, where we aim at something; of the scene files, but for the
- *  chain. The moved stacks lose the regularisation
- *  that stands for finite precision: it is this project's own, and only makes its answer worse. */
+/** The scenes. kind selects the measures; aim, if given, is the factor by which we want to be cheaper
+ *  than every peer at an error no larger. All but the chain are scene files. The regularisation of
+ *  the moved stacks models finite precision; only this project has it, and it only increases its
+ *  error, so it is removed. */
 const kScenes = [
   { title: "Swinging box", kind: "swinging_box", file: "swinging_box", aim: 7 },
   { title: "Spherical pendulum", kind: "in_space", file: "spherical_pendulum" },
@@ -61,7 +60,7 @@ function writeScene({ file, make = () => shipped(file) }) {
 
 const assignments = (setting) => Object.entries(setting).map(([name, value]) => `${name}=${value}`);
 
-/** An engine is its ladder and the command line of one run: a program of the build, */
+/** An engine that is a program of the build: its ladder and the command line of one run. */
 const program = (name, title, ladder, ...words) => ({
   name,
   title,
@@ -74,7 +73,7 @@ const program = (name, title, ladder, ...words) => ({
   ],
 });
 
-/** or a package under Node.js. */
+/** An engine that is an npm package, run by Node.js. */
 async function npmPackage(name) {
   const { title, ladder } = await import(`./${name}.mjs`);
   return {
@@ -90,7 +89,7 @@ async function npmPackage(name) {
 
 const kPackages = ["mujoco", "rapier", "jolt", "physx"];
 
-/** Ends with what is allowed where a name is none of it. */
+/** Exits with a list of the allowed names if a name is unknown. */
 function known(what, names = [], allowed) {
   const stranger = names.find((name) => !allowed.includes(name));
   if (stranger === undefined) return;
@@ -100,7 +99,7 @@ function known(what, names = [], allowed) {
 
 const built = (preset, name) => path.join(root, "build", preset, "tests/bench/peers", name);
 
-/** Where the tracked body is after every frame [m], for the kinds that are judged by it. */
+/** Positions of the tracked body after every frame [m], for the kinds whose error depends on them. */
 function exactPath(kind, file) {
   if (kind === "bridge" || kind === "stack") return null;
   const lines = execFileSync(built("release", "exact_path"), [file], { encoding: "utf8" });
@@ -118,7 +117,7 @@ async function engines() {
   return options.engine ? all.filter(({ name }) => options.engine.includes(name)) : all;
 }
 
-/** One run in a process of its own: an engine that aborts takes nothing with it. */
+/** One run in its own process: an engine that aborts does not end the bench. */
 function run(entry, warmUp) {
   const { engine, scene, setting, kind, exact } = entry;
   const frames = Math.round(scene.criteria.duration / scene.frame);
@@ -133,8 +132,8 @@ function run(entry, warmUp) {
 }
 
 /**
- * The settings that hold and that no other of the same engine beats in cost and error.
- * @param slack by which a cost may be wrong [-]
+ * The settings that hold and that no other setting of the same engine beats in cost and error.
+ * @param slack relative uncertainty of a cost [-]
  */
 function frontier(entries, slack) {
   const holding = entries.filter((entry) => !entry.failure);
@@ -174,7 +173,7 @@ function time(entries, repeats) {
   }
 }
 
-/** As it goes into peers.json: lengths in metres, costs in milliseconds a frame. */
+/** An entry of peers.json: lengths in metres, costs in milliseconds per frame. */
 function record(entry, best) {
   const { setting, failure, error, other, ms, medians } = entry;
   const engine = entry.engine.title;

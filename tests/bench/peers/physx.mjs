@@ -1,5 +1,5 @@
-// PhysX: articulations (Featherstone's algorithm, reduced coordinates) where the joints are a tree,
-// or joints between free bodies under its two Gauss-Seidel solvers, PGS and TGS; single precision.
+// PhysX: articulations (Featherstone's algorithm, reduced coordinates) if the joints form a tree, or
+// joints between free bodies with its two Gauss-Seidel solvers, PGS and TGS; single precision.
 
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -26,7 +26,7 @@ let physics;
 let dispatcher;
 let tolerances;
 
-/** The package is built for pages and refuses Node.js: while it loads it sees a window instead. */
+/** The package is built for pages and rejects Node.js: process is hidden while it loads. */
 async function loadAsInPage() {
   const path = createRequire(import.meta.url).resolve("physx-js-webidl/physx-js-webidl.wasm");
   const wasmBinary = readFileSync(path);
@@ -49,17 +49,17 @@ async function start() {
   tolerances = new PhysX.PxTolerancesScale();
   physics = top.CreatePhysics(top.PHYSICS_VERSION, foundation, tolerances);
   top.InitExtensions(physics);
-  dispatcher = top.DefaultCpuDispatcherCreate(0); // in the thread that calls
+  dispatcher = top.DefaultCpuDispatcherCreate(0); // no threads: runs in the caller's
 }
 
 const vector = (v) => new PhysX.PxVec3(...v);
 const transform = (x, [w, qx, qy, qz]) =>
   new PhysX.PxTransform(vector(x), new PhysX.PxQuat(qx, qy, qz, w));
 const kNoTurn = [1, 0, 0, 0];
-// PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, which the package does not name.
+// PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, which the package does not export.
 const kGyroscopic = 1 << 10;
 
-/** PhysX turns about x. @return what turns x into a joint's axis, if it has one */
+/** PhysX joints rotate about x. @return the rotation from x to a joint's axis, if it has one */
 const axisFrame = (axis) => (axis ? between([1, 0, 0], axis) : kNoTurn);
 const frame = (anchor, axis) => transform(anchor, axisFrame(axis));
 
@@ -93,7 +93,7 @@ function setMass(rigid, body, gyroscopic) {
   rigid.setRigidBodyFlag(kGyroscopic, gyroscopic);
 }
 
-/** A body that no articulation holds. */
+/** A body outside of articulations. */
 function addBody(scene, body, setting, world) {
   const pose = transform(body.x, body.q);
   const rigid = body.fixed ? physics.createRigidStatic(pose) : physics.createRigidDynamic(pose);
@@ -131,7 +131,7 @@ function tuneJoint(inbound, joint, flipped, parentTurn, childTurn) {
   const [parentAnchor, childAnchor] = flipped
     ? [joint.anchorA, joint.anchorB]
     : [joint.anchorB, joint.anchorA];
-  // The start is where all joint angles are zero: both frames lie alike in the world.
+  // Joint angles are zero at the start: both frames have the same orientation in the world.
   const childFrame = axisFrame(flipped ? joint.axisB : joint.axisA);
   const parentFrame = multiply(multiply(conjugate(parentTurn), childTurn), childFrame);
   inbound.setParentPose(transform(parentAnchor, parentFrame));
@@ -144,7 +144,7 @@ function tuneJoint(inbound, joint, flipped, parentTurn, childTurn) {
   inbound.setMaxJointVelocity(1e4);
 }
 
-/** Lets a joint start at the speed that its body has. */
+/** Sets the initial velocity of a joint from that of its body. */
 function startJoint(inbound, world, link) {
   const { joint, flipped } = link;
   const { PxArticulationAxisEnum: axes } = PhysX;
@@ -156,7 +156,7 @@ function startJoint(inbound, world, link) {
   inbound.setJointVelocity(axes.eSWING2, z);
 }
 
-/** All jointed bodies as one tree on a base that stays at the origin. */
+/** All jointed bodies as one tree on a fixed base at the origin. */
 function addArticulation(scene, world, setting) {
   const articulation = physics.createArticulationReducedCoordinate();
   articulation.setArticulationFlag(PhysX.PxArticulationFlagEnum.eFIX_BASE, true);
@@ -168,7 +168,7 @@ function addArticulation(scene, world, setting) {
   const links = [];
   const tree = jointTree(world);
   for (const { body, parent, joint, flipped } of tree) {
-    if (!joint) throw new Error("a free body beside an articulation is not made here");
+    if (!joint) throw new Error("a free body beside an articulation is not supported");
     const { x, q } = world.bodies[body];
     links[body] = articulation.createLink(parent < 0 ? base : links[parent], transform(x, q));
     setMass(links[body], world.bodies[body], world.gyroscopic);

@@ -1,5 +1,5 @@
-// Rapier: sub-stepped Gauss-Seidel on soft constraints (iterations are its sub-steps, each with
-// `inner` sweeps), joints as impulses or as multibodies (reduced coordinates).
+// Rapier: sub-stepped Gauss-Seidel on soft constraints (`iterations` is the number of its sub-steps,
+// each of `inner` sweeps); joints as impulses or as multibodies (reduced coordinates).
 
 import RAPIER from "@dimforge/rapier3d-compat";
 import { collisionBits, jointTree } from "./scene.mjs";
@@ -66,7 +66,7 @@ function addBody(world, body) {
   return world.createRigidBody(desc);
 }
 
-/** From b to a, or the other way round. */
+/** From b to a, or from a to b if flipped. */
 function jointData(joint, flipped) {
   const anchors = [joint.anchorB, joint.anchorA].map(vector);
   if (flipped) anchors.reverse();
@@ -77,8 +77,8 @@ function jointData(joint, flipped) {
 }
 
 /**
- * Multibodies start with all their joint angles at zero, that is with the frames of both bodies
- * turned alike: what hangs from the world hangs from a fixed body that lies where it does.
+ * Multibodies start with zero joint angles, i.e. equal orientations of both bodies: a body on a joint
+ * to the world is joined to a fixed body at its own pose instead.
  */
 function addTree(world, scene, rigid) {
   for (const { body, parent, joint, flipped } of jointTree(scene)) {
@@ -112,7 +112,7 @@ export async function build(scene, setting) {
   const parameters = world.integrationParameters;
   parameters.numSolverIterations = setting.iterations;
   parameters.numInternalPgsIterations = setting.inner;
-  parameters.normalizedAllowedLinearError = 1e-6; // [m]; no overlap is left on purpose
+  parameters.normalizedAllowedLinearError = 1e-6; // [m]
   if (setting.contactHz) parameters.contact_natural_frequency = setting.contactHz;
   const rigid = scene.bodies.map((body) => addBody(world, body));
   if (scene.collides) scene.bodies.forEach((body, i) => addCollider(world, body, rigid[i]));

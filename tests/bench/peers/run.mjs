@@ -1,5 +1,5 @@
-// One run of one engine, in a process of its own: node run.mjs ENGINE SCENE.json FRAMES WARM_UP SETTING
-// prints what substep_peer prints, a line a frame: milliseconds of physics, then all poses.
+// One run of one engine in its own process: node run.mjs ENGINE SCENE.json FRAMES WARM_UP SETTING
+// prints one line per frame, like substep_peer: milliseconds of physics, then all poses.
 
 import { broken } from "./measures.mjs";
 import { readScene } from "./scene.mjs";
@@ -9,9 +9,9 @@ const { build } = await import(`./${engine}.mjs`);
 const scene = readScene(path);
 const setting = JSON.parse(settingText);
 
-/** A first world, thrown away: the engine's code is compiled and its memory has its size. */
+/** Warm-up in a separate world: afterwards code is compiled and memory is allocated. */
 async function warm() {
-  const kEnough = 5e3; // whatever is slower than this is warm [ms]
+  const kEnough = 5e3; // maximum duration [ms]
   const world = await build(scene, setting);
   const start = performance.now();
   for (let i = 0; i < Number(warmUp) && performance.now() - start < kEnough; ++i) world.step();
@@ -19,16 +19,16 @@ async function warm() {
 }
 
 /**
- * Milliseconds of one frame of physics. Where others have the processor in between, in frames
- * longer than their turn, the wall clock tells of them: the time this process had is then nearer.
+ * Milliseconds of one frame of physics. In a frame longer than a time slice the wall clock may include
+ * other processes; the CPU time of this process is then more accurate.
  */
 function timed(world) {
-  const kTurn = 1.0; // [ms]
+  const kSlice = 1.0; // [ms]
   const cpu = process.cpuUsage();
   const start = performance.now();
   world.step();
   const wall = performance.now() - start;
-  if (wall < kTurn) return wall;
+  if (wall < kSlice) return wall;
   const { user, system } = process.cpuUsage(cpu);
   return Math.min(wall, (user + system) / 1e3);
 }
@@ -40,7 +40,7 @@ for (let i = 1; i <= Number(frames); ++i) {
   const milliseconds = timed(world);
   const poses = world.poses();
   lines.push([milliseconds, ...poses].join(" "));
-  // What has failed need not run on. Seldom asked, so that it disturbs no timing.
+  // A failed run may end. Checked rarely, so as not to disturb the timing.
   if (i % 60 === 0 && broken(scene, poses)) break;
 }
 process.stdout.write(lines.join("\n") + "\n");

@@ -1,4 +1,4 @@
-// A scene file of this project as plain numbers, for every engine to build the same world from.
+// Reads a scene file of this project into plain numbers, from which every engine builds its world.
 
 import { readFileSync } from "node:fs";
 import { conjugate, rotate, subtract } from "./rotation.mjs";
@@ -59,13 +59,13 @@ export function readScene(path) {
   };
 }
 
-/** Of a link of the joint tree relative to its parent at the start, in the link's axes [rad/s]. */
+/** Initial angular velocity of a link relative to its parent, in the link's axes [rad/s]. */
 export function relativeTurn(scene, { body, parent }) {
   const { q, w } = scene.bodies[body];
   return rotate(conjugate(q), parent < 0 ? w : subtract(w, scene.bodies[parent].w));
 }
 
-/** Bits for engines that filter pairs by "my bit is in your mask": one bit a group, 1 for none. */
+/** For engines that filter pairs by bit and mask: one bit per group, bit 1 for bodies without group. */
 export function collisionBits(body) {
   if (body.group === null) return { bit: 1, mask: 0x7fff };
   const bit = 2 << body.group;
@@ -73,10 +73,10 @@ export function collisionBits(body) {
 }
 
 /**
- * The joints as a tree that hangs from the world: for every moving body the joint to its parent.
- * What a reduced formulation starts from.
- * @return in an order with parents first: {body, parent, joint, flipped}, flipped where the joint's
- * a is the parent; joint null where the body is free. Throws where joints close a loop.
+ * The joints as a tree rooted at the world, for formulations in reduced coordinates: for every moving
+ * body the joint to its parent.
+ * @return parents first: {body, parent, joint, flipped}; flipped if the joint's a is the parent, joint
+ * null if the body is free. Throws if joints close a loop.
  */
 export function jointTree(scene) {
   const placed = new Set([-1]);

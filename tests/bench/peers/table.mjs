@@ -1,4 +1,4 @@
-// The peer bench on a terminal.
+// The tables of the peer bench, as text.
 
 const kColumns = {
   swinging_box: ["off at 3 s", "joint gap"],
@@ -33,10 +33,10 @@ function timedRow(entry) {
   ]);
 }
 
-/** Those that hold, cheapest first within an engine, then those that fail. */
+/** Settings that hold, cheapest first within an engine, then those that fail. */
 export function sceneLines({ title, kind }, entries, best) {
   const columns = kColumns[kind].map((column) => `${column} mm`);
-  const lines = ["", title, row(["engine", "ms a frame", ...columns, "setting"])];
+  const lines = ["", title, row(["engine", "ms per frame", ...columns, "setting"])];
   const engines = [...new Set(entries.map(({ engine }) => engine))];
   for (const engine of engines) {
     const own = best.filter((entry) => entry.engine === engine).sort((a, b) => a.ms - b.ms);
@@ -52,16 +52,15 @@ export function sceneLines({ title, kind }, entries, best) {
   return lines;
 }
 
-/** Newton's steps bring their own scheme with them; null where an engine has one integrator only. */
+/** Newton's method has its own integration; null if an engine has only one integrator. */
 function integrator({ engine, setting }) {
   if (setting.forces) return `newton, forces ${setting.forces}`;
   return setting.integrator ?? (engine.ours ? "euler" : null);
 }
 
-const kAlike = 1.01; // errors of one size
+const kAlike = 1.01; // ratio of errors that count as equal
 
-/** Which integrator did best, of every engine that was tried with several: the least error, and of
- *  those with as little the cheapest. */
+/** The best integrator of every engine that has several: the least error, the cheapest among equals. */
 export function integratorLines(entries, best) {
   const engines = [...new Set(best.map(({ engine }) => engine))];
   return engines.flatMap((engine) => {
@@ -72,13 +71,13 @@ export function integratorLines(entries, best) {
     const alike = own(best).filter(({ error }) => error <= kAlike * least);
     const [first] = alike.sort((a, b) => a.ms - b.ms);
     const cost = `${millimetres(first.error)} mm at ${first.ms.toPrecision(3)} ms`;
-    return [`  ${engine.title}: ${integrator(first)} did best of: ${[...tried].join("; ")}: ${cost}`];
+    return [`  ${engine.title}: ${integrator(first)} is the best of: ${[...tried].join("; ")}: ${cost}`];
   });
 }
 
 const platform = ({ engine }) => engine.title.split(", ").at(-1);
 
-/** Our cheapest setting on a peer's platform at an error no larger than the peer's. */
+/** Our cheapest setting on the platform of a peer, at an error no larger than the peer's. */
 function answer(best, peer) {
   return best
     .filter((entry) => entry.engine.ours && platform(entry) === platform(peer))
@@ -92,14 +91,14 @@ function aimText(aim, least) {
   return `; aim ${aim}: ${verdict}`;
 }
 
-/** For every timed setting of a peer: how many times cheaper we are at an error no larger. */
+/** For every timed setting of a peer: its cost relative to ours at an error no larger. */
 export function factorLines({ aim }, best) {
   const peers = best.filter(({ engine }) => !engine.ours);
   const pairs = peers.map((peer) => ({ peer, ours: answer(best, peer) }));
   const lines = pairs.map(({ peer, ours }) => {
     const verdict = ours
       ? `${(peer.ms / ours.ms).toFixed(1)} times our cost (${settingText(ours.setting)})`
-      : "more exact than we are at any setting tried";
+      : "more accurate than we are at any setting tried";
     const cost = `${millimetres(peer.error)} mm, ${peer.ms.toPrecision(3)} ms`;
     return `  ${peer.engine.title} at ${cost}: ${verdict}`;
   });
@@ -107,12 +106,12 @@ export function factorLines({ aim }, best) {
     const here = pairs.filter(({ peer }) => platform(peer) === name);
     const answered = here.filter(({ ours }) => ours);
     if (answered.length < here.length) {
-      lines.push(`  ${name}: more exact than we are: ${here.length - answered.length} settings`);
+      lines.push(`  ${name}: more accurate than we are: ${here.length - answered.length} settings`);
     }
     if (answered.length === 0) continue;
     const least = Math.min(...answered.map(({ peer, ours }) => peer.ms / ours.ms));
-    const times = `${least.toFixed(1)} times as much`;
-    lines.push(`  ${name}: the others cost at least ${times}${aimText(aim, least)}`);
+    const times = `${least.toFixed(1)} times our cost`;
+    lines.push(`  ${name}: the others take at least ${times}${aimText(aim, least)}`);
   }
   return lines;
 }

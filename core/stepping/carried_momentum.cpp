@@ -1,7 +1,8 @@
 #include "core/stepping/carried_momentum.hpp"
 
 #include "core/math/gyroscopic.hpp"
-#include "core/stepping/euler.hpp"
+#include "core/stepping/gyroscopic_stage.hpp"
+#include "core/stepping/integrate.hpp"
 
 namespace substep {
 
@@ -40,7 +41,7 @@ void synchronise_momentum(const Substep& sub, std::size_t body, const Vec3& gain
   const Vec3 omega_B = q.conjugate() * Vec3(state.u[body].tail<3>());
   state.u_synchronised[body].tail<3>() =
       q * Vec3((momentum_after(I, omega_B, sub.dt) + q.conjugate() * gained).cwiseQuotient(I));
-  keep_finite(*sub.scene, body, state);
+  keep_finite(sub.scene->bodies[body], state.u[body], state.u_synchronised[body]);
 }
 
 }  // namespace substep

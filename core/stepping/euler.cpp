@@ -1,7 +1,6 @@
 #include "core/stepping/euler.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/constraints/joint_rows.hpp"
 #include "core/constraints/moved_rows.hpp"
@@ -115,12 +114,7 @@ void Euler::synchronise_spin(const Substep& sub, std::size_t body, double ahead,
     omega += q * Vec3(gyroscopic_explicit(I, omega_B, 0.5 * sub.dt) - omega_B) +
              sub.inverse_mass[body].angular * bent;
   }
-  keep_finite(*sub.scene, body, state);
-}
-
-void keep_finite(const Scene& scene, std::size_t body, State& state) {
-  if (std::isfinite(most_kinetic(scene.bodies[body], state.u_synchronised[body]))) return;
-  state.u_synchronised[body] = state.u[body];
+  keep_finite(sub.scene->bodies[body], state.u[body], state.u_synchronised[body]);
 }
 
 }  // namespace substep

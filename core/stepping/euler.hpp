@@ -36,8 +36,4 @@ class Euler : public TimeIntegrator {
   std::vector<Vec6> bent_push_;  // change of the joints' impulses as bodies move [N s, N m s]
 };
 
-/// Keeps a synchronised velocity finite: gyroscopic torques are quadratic in speed and may overflow
-/// first.
-void keep_finite(const Scene& scene, std::size_t body, State& state);
-
 }  // namespace substep

@@ -1,6 +1,7 @@
 #include "core/stepping/integrate.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/math/lanes.hpp"
 
@@ -45,6 +46,10 @@ void rotation_matrices(std::span<const int> bodies, const State& state, std::spa
 double most_kinetic(const Body& body, const Vec6& u) {
   return std::max(1.0, body.mass) * u.head<3>().squaredNorm() +
          std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
+}
+
+void keep_finite(const Body& body, const Vec6& u, Vec6& synchronised) {
+  if (!std::isfinite(most_kinetic(body, synchronised))) synchronised = u;
 }
 
 }  // namespace substep

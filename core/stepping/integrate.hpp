@@ -20,4 +20,8 @@ void rotation_matrices(std::span<const int> bodies, const State& state, std::spa
 /// Upper bound on twice a body's kinetic energy [J]; finite only if its velocity is.
 double most_kinetic(const Body& body, const Vec6& u);
 
+/// Replaces a synchronised velocity by u if it is not finite: gyroscopic torques are quadratic in
+/// speed and may overflow first.
+void keep_finite(const Body& body, const Vec6& u, Vec6& synchronised);
+
 }  // namespace substep

@@ -98,6 +98,7 @@ bool gives_forces(const Substep& sub, const Block& block) {
 }  // namespace
 
 void Stormer::begin(const Substep& sub, State& state) {
+  if (sub.scene->effects.gyroscopic) resize_torques(state);
   if (needs_first_changes(sub, state)) find_first_changes(sub, state);
   const bool known = !state.acceleration_change.empty();
   for (const int body : sub.part->moving) {
@@ -110,7 +111,6 @@ void Stormer::begin(const Substep& sub, State& state) {
     state.u[i] += correction;
   }
   if (sub.settings.gyroscopic != Gyroscopic::kImplicit) return Leapfrog::begin(sub, state);
-  if (sub.scene->effects.gyroscopic) resize_torques(state);
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     if (!tumbles(sub, i)) continue;
@@ -134,11 +134,11 @@ void Stormer::find_first_changes(const Substep& sub, State& state) const {
   };
   state.acceleration.resize(state.u.size(), Vec6::Zero());
   state.acceleration_change.resize(state.u.size(), Vec6::Zero());
-  resize_torques(state);
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     state.acceleration[i] = first.before.a[i];
     state.acceleration_change[i] = change([](const Accelerations& at) { return at.a; }, i);
+    if (!tumbles(sub, i)) continue;
     state.torque[i] = first.before.torque[i];
     state.torque_change[i] = change([](const Accelerations& at) { return at.torque; }, i);
   }

@@ -12,7 +12,9 @@ bool TimeIntegrator::breaks_motion(const Block& contact) const {
 
 std::unique_ptr<TimeIntegrator> make_integrator(const Scene& scene, const JointStage* joints,
                                                 const Settings& settings) {
-  if (extrapolates(settings)) return std::make_unique<Numerov>(scene, joints, settings.integrator);
+  if (settings.solver == SolverKind::kNewton && settings.forces == Forces::kNumerov) {
+    return std::make_unique<Numerov>(scene, joints, settings.integrator);
+  }
   if (follows_accelerations(settings)) return std::make_unique<Stormer>(scene, joints);
   if (settings.integrator == Integrator::kEuler) return std::make_unique<Euler>(scene);
   return std::make_unique<Leapfrog>(scene);

@@ -44,7 +44,7 @@ void RestitutionStage::apply(const Scene& scene, std::span<const Vec6> u_before,
     Block& block = blocks[i];
     const double speed = impact_speed(scene, u_before, dt, block);
     if (speed > 0.0) block.bias[0] = std::min(block.bias[0], -restitution_of(block) * speed);
-    if (!struck(i)) continue;
+    if (struck_.empty() || struck_[i] == 0) continue;
     block.bias[0] = std::min(block.bias[0], -normal_speed(block, u_before));
   }
 }

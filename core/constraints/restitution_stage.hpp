@@ -27,9 +27,8 @@ class RestitutionStage {
   bool spreads(const Scene& scene, std::span<const Vec6> u, double dt,
                std::span<const Block> blocks);
 
-  /// True if impacts were propagated in this sub-step; with i, if contact i was among them.
-  [[nodiscard]] bool struck() const { return !struck_.empty(); }
-  [[nodiscard]] bool struck(std::size_t i) const { return struck() && struck_[i] != 0; }
+  /// Per block: 1 if an impact of this sub-step was propagated there. Empty if none was propagated.
+  [[nodiscard]] std::span<const std::uint8_t> struck() const { return struck_; }
 
   /// Sets up the rows of all pending impacts as one simultaneous impact without forces: contacts
   /// that do not rebound are open, joints are rigid. @param u, dt as above  @return true if there

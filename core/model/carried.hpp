@@ -11,7 +11,7 @@ namespace substep {
 struct StoredForce {
   std::uint64_t id = 0;   // of the constraint block
   double lambda[5] = {};  // per row [N or N m]
-  // Per row, if extrapolates(); 0 if not yet known.
+  // Per row, with Newton's forces numerov; 0 if not yet known.
   double rate[5] = {};             // of lambda [N/s or N m/s]
   double rate_change[5] = {};      // of the rate [N/s^2 or N m/s^2]
   double rate_age = 0.0;           // age of the rate relative to lambda [s]
@@ -41,7 +41,8 @@ struct Carried {
   std::vector<Mat3> K_resisting;  // per body, of mode stiffness: full_stiffness.hpp, or empty
   bool stiffness_known = false;   // r and k are from the last frame; if false, a probe is due
   std::vector<StoredForce> forces;
-  // Per body, if extrapolates(): of the last sub-step, 0 after an impact [m/s^2, rad/s^2].
+  // Per body, with Newton's forces numerov: of the last sub-step, 0 after an impact [m/s^2,
+  // rad/s^2].
   std::vector<Vec6> acceleration;
   // Per body, if follows_accelerations(), which carries both: change per sub-step of the last
   // length, 0 if unknown [m/s^2, rad/s^2].

@@ -86,22 +86,11 @@ inline bool starts_from_last_forces(const Settings& s) {
          (s.solver == SolverKind::kBpp && s.refinements > 0);
 }
 
-/// True if a sub-step starts from extrapolated forces and velocities, and carries means over it
-/// (numerov.hpp).
-inline bool extrapolates(const Settings& s) {
-  return s.solver == SolverKind::kNewton && s.forces == Forces::kNumerov;
-}
-
 /// True if poses are corrected for the change of acceleration (stormer.hpp). With solvers that hold
 /// constraints at the end of a sub-step, bodies move by their velocities: leapfrog.
 inline bool follows_accelerations(const Settings& s) {
   return s.integrator == Integrator::kStormer && s.solver != SolverKind::kNewton &&
          s.solver != SolverKind::kXpbd;
-}
-
-/// True if sub-steps carry the angular momentum of tumbling bodies, which rotate by free_turn.hpp.
-inline bool carries_momentum(const Settings& s) {
-  return follows_accelerations(s) || extrapolates(s);
 }
 
 /// The drift law, with kAuto resolved by solver.

@@ -1,7 +1,5 @@
 #include "core/sim/energy.hpp"
 
-#include <algorithm>
-
 namespace substep {
 
 Energies energies_of(const Scene& scene, const State& state) {
@@ -17,11 +15,6 @@ Energies energies_of(const Scene& scene, const State& state) {
     if (scene.effects.external) sum.potential -= body.force.dot(state.x[i]);
   }
   return sum;
-}
-
-double most_kinetic(const Body& body, const Vec6& u) {
-  return std::max(1.0, body.mass) * u.head<3>().squaredNorm() +
-         std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
 }
 
 }  // namespace substep

@@ -14,7 +14,4 @@ struct Energies {
 /// no potential: its work changes the sum.
 Energies energies_of(const Scene& scene, const State& state);
 
-/// Upper bound on twice a body's kinetic energy [J]; finite only if its velocity is.
-double most_kinetic(const Body& body, const Vec6& u);
-
 }  // namespace substep

@@ -2,14 +2,14 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "core/constraints/grab_rows.hpp"
-#include "core/math/lanes.hpp"
 #include "core/sim/energy.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/integrate.hpp"
 #include "core/stepping/mode_rules.hpp"
+#include "core/stepping/stored_forces.hpp"
 
 namespace substep {
 
@@ -51,34 +51,32 @@ bool Simulator::Impl::probe_due() const {
 
 // One solve over a whole frame with zeroed errors: only the forces are kept.
 void Simulator::Impl::probe(FrameReport& report) {
-  const double h = scene->frame;
-  const Settings chosen = settings;
-  settings.mode = Mode::kNone;               // Mt = M: k is not known yet
-  settings.integrator = Integrator::kEuler;  // forces act for the whole of h
-  begin_substep(report);
-  bool solved = append_rows(report);
+  Substep once = current;
+  once.settings = settings;
+  once.settings.mode = Mode::kNone;               // Mt = M: k is not known yet
+  once.settings.integrator = Integrator::kEuler;  // forces act for the whole of h
+  const auto euler = make_integrator(*scene, joints.get(), once.settings);
+  once.integrator = euler.get();
+  once.part = &all;
+  once.dt = scene->frame;
+  once.probing = true;
+  clock = StageClock(measures.stages);
+  copy(state.u, once.u_start);
+  bool solved = append_rows(once, report);
   if (solved) {
-    external_forces(h, report);
-    solved = solve(h, report, true);
+    external_forces(once, report);
+    solved = solve(once, report) && finite(once, report);
   }
-  settings = chosen;
-  if (solved && finite(report)) {
-    std::swap(state.forces, forces);
-    if (evaluate_stiffness(report)) state.r = bound.r;
+  if (solved) {
+    state.forces.clear();
+    if (forces_are_stored(once)) store_forces(once, state, state.forces);
+    if (evaluate_stiffness(once, report)) state.r = bound.r;
   }
-  copy(u_start, state.u);
+  copy(once.u_start, state.u);
   state.stiffness_known = true;
   report.status = StepStatus::kOk;  // a failed probe is not fatal
   report.failed_body = -1;
   report.stages.probe = true;
-}
-
-void Simulator::Impl::turn_axes(std::span<const int> bodies) {
-  in_pairs(bodies, [&](auto some) {
-    rotation_matrix(
-        some.at([&](int i) { return std::as_const(state.q[index(i)]).coeffs().data(); }),
-        some.at([&](int i) { return R_WB[index(i)].data(); }));
-  });
 }
 
 void Simulator::Impl::begin_frame() {
@@ -87,7 +85,7 @@ void Simulator::Impl::begin_frame() {
   contacts_predicted = false;
   substeps_of_bodies = 0;
   first_block = first_force = 0;
-  turn_axes(all.bodies);
+  rotation_matrices(all.bodies, state, current.R_WB);
   if (probe_due()) probe(report);  // the first frame has no lambda yet
   if (heeds_rotation()) {
     rotation->remember(*scene, state);
@@ -117,7 +115,8 @@ void Simulator::Impl::schedule_substeps(FrameReport& report) {
     }
   }
   if (!islands) islands = std::make_unique<Islands>(*scene);
-  islands->find(*scene, all, state, R_WB, scene->frame, contact ? &contact->detector() : nullptr);
+  islands->find(*scene, all, state, current.R_WB, scene->frame,
+                contact ? &contact->detector() : nullptr);
   report.islands = islands->count();
   schedule_islands(report);
 }
@@ -157,7 +156,7 @@ RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const
 }
 
 double Simulator::Impl::r_rotation_again() const {
-  return decides_again(settings) ? rotation_bound(part().moving).r : 0.0;
+  return decides_again(settings) ? rotation_bound(schedule.part().moving).r : 0.0;
 }
 
 FrameReport Simulator::Impl::refusal() {
@@ -211,7 +210,7 @@ void Simulator::Impl::close(FrameReport& report) {
   report.stages.friction = friction != nullptr;
   report.stages.restitution = restitution != nullptr;
   report.work.residual =
-      measures.errors ? lcp_residual({blocks.all(), inverse_mass, state.u}) : kNotMeasured;
+      measures.errors ? lcp_residual({blocks.all(), current.inverse_mass, state.u}) : kNotMeasured;
   const RowCounts rows = count_rows(blocks.all());
   report.joint_rows = static_cast<int>(rows.joint);
   report.contact_rows = static_cast<int>(rows.contact);
@@ -221,8 +220,8 @@ void Simulator::Impl::close(FrameReport& report) {
 }
 
 void Simulator::Impl::look(FrameReport& report) {
-  if (measures.errors) turn_axes(all.bodies);
-  observe(measures, R_WB, contact ? &contact->detector() : nullptr, report);
+  if (measures.errors) rotation_matrices(all.bodies, state, current.R_WB);
+  observe(measures, current.R_WB, contact ? &contact->detector() : nullptr, report);
 }
 
 void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes, Detector* detector,

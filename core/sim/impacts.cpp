@@ -23,29 +23,29 @@ SolverKind impact_solver(SolverKind chosen) {
 // its energy. Impacts are therefore resolved in passes within the sub-step, all pending ones
 // simultaneously and without forces, until none is left. This conserves energy for e = 1 and
 // preserves symmetry (Smith et al., Reflections on simultaneous impact, 2012).
-bool Simulator::Impl::propagate_impacts(double dt, FrameReport& report) {
-  const std::span<Block> own = rows();
-  if (!restitution->spreads(*scene, u_before, dt, own)) return true;
+bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
+  if (!restitution->spreads(*scene, sub.u_before, sub.dt, sub.rows)) return true;
   if (!impacts) impacts = make_solver(impact_solver(settings.solver));
-  std::span<const InverseMass> masses = inverse_mass;
+  std::span<const InverseMass> masses = sub.inverse_mass;
   if (changes_mass(settings.mode)) {  // no time passes: no damping or geometric stiffness
-    rigid_mass.resize(inverse_mass.size());
-    substep::inverse_mass(inertia_inverse, part(), R_WB, rigid_mass);
+    rigid_mass.resize(sub.inverse_mass.size());
+    inverse_mass(sub.inertia_inverse, *sub.part, sub.R_WB, rigid_mass);
     masses = rigid_mass;
   }
-  for (const int body : part().moving) state.u[index(body)] -= u_before[index(body)];
-  for (int i = 0; restitution->set_impacts(*scene, u_before, dt, own) && i < kMostImpacts; ++i) {
-    System system{own, masses, u_before, {}, dt, R_WB, scene->regularisation};
-    system.limits = limits_of_solve(progress(report), settings, budget);
+  for (const int body : sub.part->moving) state.u[index(body)] -= sub.u_before[index(body)];
+  for (int i = 0;
+       restitution->set_impacts(*scene, sub.u_before, sub.dt, sub.rows) && i < kMostImpacts; ++i) {
+    System system{sub.rows, masses, sub.u_before, {}, sub.dt, sub.R_WB, scene->regularisation};
+    system.limits = limits_of_solve(progress(sub, report), settings, budget);
     const SolveReport solved = impacts->find_velocities(system, settings);
     if (solved.status == SolveStatus::kOverLimits) {
-      refuse_solve(solved, dt, report);
+      refuse_solve(sub, solved, report);
       return false;
     }
-    count_work(solved, report);
+    count_work(sub, solved, report);
     ++report.work.impacts;
   }
-  for (const int body : part().moving) state.u[index(body)] += u_before[index(body)];
+  for (const int body : sub.part->moving) state.u[index(body)] += sub.u_before[index(body)];
   return true;
 }
 

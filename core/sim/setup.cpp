@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/model/joint_fields.hpp"
 #include "core/model/validate.hpp"
 #include "core/sim/simulator_impl.hpp"
+#include "core/stepping/gyroscopic_stage.hpp"
 
 namespace substep {
-
-namespace {
-
-bool is_spring(const Joint& joint) {
-  return base(joint).compliance > 0.0 || angular_compliance_of(joint).value_or(0.0) > 0.0;
-}
-
-}  // namespace
 
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
     : Impl(scene_in, start_of_run(*scene_in)) {}
@@ -24,7 +16,8 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
     : scene(std::move(scene_in)),
       settings(scene->settings),
       state(std::move(start_in.state)),
-      start(start_in.report) {
+      start(start_in.report),
+      current(*scene) {
   const Effects& effects = scene->effects;
   if (effects.joints) joints = std::make_unique<JointStage>(*scene);
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
@@ -32,9 +25,8 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
   if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);
   if (effects.joints || effects.gyroscopic) rotation = std::make_unique<RotationCriterion>(*scene);
   solver = make_solver(settings.solver);
+  integrator = make_integrator(*scene, joints.get(), settings);
   all = whole(*scene);
-  has_springs = effects.joints && std::any_of(scene->joints.begin(), scene->joints.end(),
-                                              [](const Joint& joint) { return is_spring(joint); });
   for (const Body& body : scene->bodies) {
     if (!body.is_static) heaviest = std::max({heaviest, body.mass, body.inertia.maxCoeff()});
   }
@@ -47,14 +39,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
   state.forces.reserve(n_blocks);
   forces.reserve(n_blocks);
   state.k.reserve(n);
-  R_WB.resize(n);
-  inertia_inverse = inertia_inverses(*scene);
-  inverse_mass.resize(n);
-  u_start.resize(n);
-  u_before.resize(n);
-  impulse_time.resize(n);
-  if (joints) bent_push.resize(n, Vec6::Zero());
-  if (effects.gyroscopic) resize_torques();
+  if (effects.gyroscopic) resize_torques(state);
 }
 
 Simulator::Simulator(std::shared_ptr<const Scene> scene) {
@@ -115,7 +100,7 @@ ConstraintForces Simulator::constraint_forces() const {
   ConstraintForces out;
   for (const Block& block : impl_->blocks.all()) {
     double lambda[kMaxRows];
-    impl_->find_lambda(block, lambda);
+    find_lambda(impl_->current, block, lambda);
     if (block.is_contact()) {
       Vec3 force = lambda[0] * block.n;
       if (block.rows == 3) force += lambda[1] * block.t1 + lambda[2] * block.t2;
@@ -154,7 +139,10 @@ void Simulator::set_settings(const Settings& settings) {
   const bool other_solver = settings.solver != impl_->settings.solver;
   Settings only_watched = impl_->settings;
   only_watched.watch_stiffness = settings.watch_stiffness;
-  if (settings != only_watched) impl_->state.rest.clear();  // may move under new settings
+  if (settings != only_watched) {
+    impl_->state.rest.clear();  // may move under new settings
+    impl_->integrator = make_integrator(*impl_->scene, impl_->joints.get(), settings);
+  }
   impl_->settings = settings;
   if (!other_solver) return;
   impl_->solver = make_solver(settings.solver);

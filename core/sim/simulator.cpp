@@ -13,18 +13,18 @@ FrameReport Simulator::Impl::advance(Share share) {
   if (!open) begin_frame();  // N = ceil(h / dt_max)                                 Eqs. 9-11
   FrameReport& report = *open;
   for (double spent = 0.0; schedule.running() && share.most-- > 0 && spent < share.work;) {
-    const double dt = schedule.dt();
     const std::int64_t before = report.work.flops;
-    outputs_needed = share.most == 0 || schedule.last_of_part();
-    begin_substep(report);
-    if (!append_rows(report)) break;  // phi, J
-    external_forces(dt, report);      // Mt, u* = Mt^-1 (M u + dt f)                      Eqs. 2, 6
-    if (!solve(dt, report)) break;    // dt lambda, u+                                    Eq. 3
-    if (!finite(report)) break;
+    Substep& sub = begin_substep(share.most == 0, report);
+    if (!append_rows(sub, report)) break;  // phi, J
+    external_forces(sub, report);          // Mt, u* = Mt^-1 (M u + dt f)                 Eqs. 2, 6
+    if (!solve(sub, report)) break;        // dt lambda, u+                               Eq. 3
+    if (!finite(sub, report)) break;
+    keep_forces(sub);
     // K, k, r, with the arms matching lambda                                         Eqs. 1, 4, 9
-    if (schedule.needs_stiffness() && !evaluate_stiffness(report)) break;
-    advance_poses(dt, report);
-    spent += static_cast<double>(report.work.flops - before) + work_beside_solver(progress(report));
+    if (schedule.needs_stiffness() && !evaluate_stiffness(sub, report)) break;
+    advance_poses(sub, report);
+    spent +=
+        static_cast<double>(report.work.flops - before) + work_beside_solver(progress(sub, report));
     schedule.advance(bound.r, r_rotation_again());  // re-evaluates N with policy substep
   }
   return end(wall, share.whole());

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/constraints/grab_rows.hpp"
+#include "core/stepping/drift.hpp"
+
 namespace substep {
 
 namespace {
@@ -35,6 +38,34 @@ double mobility(const Block& joint, int row, std::span<const InverseMass> invers
     sum += W.linear * J.head<3>().squaredNorm() + turn.dot(W.angular * turn);
   }
   return sum;
+}
+
+void set_joint_springs(const Substep& sub, const State& state) {
+  const double rate = drift_rate(drift_law(sub.settings), sub.settings.drift_tau, sub.dt);
+  const bool stored = springs_are_stored(sub);
+  if (!stored && !averages_springs(sub.settings)) return;  // plain Eq. 3
+  for (Block& block : sub.rows) {
+    if (block.is_contact() || is_grab(block)) continue;
+    const SubstepTimes times{sub.dt, dt_previous_of(state, block), impulse_time_of(sub, block)};
+    // At the start and after the probe, all of phi is elastic.
+    const bool known = stored && block.seeded && times.dt_previous > 0.0;
+    if (!known) std::copy_n(block.phi, kMaxRows, block.elastic);
+    set_springs(sub.settings, times, rate, sub.inverse_mass, sub.u_start, sub.scene->regularisation,
+                block);
+  }
+}
+
+void set_contact_springs(const Substep& sub, const State& state) {
+  if (sub.scene->contact.compliance < kSoftContact || drift_law(sub.settings) != Drift::kFull ||
+      !averages_springs(sub.settings)) {
+    return;
+  }
+  for (Block& block : sub.rows) {
+    if (!block.is_contact()) continue;
+    const SubstepTimes times{sub.dt, dt_previous_of(state, block), impulse_time_of(sub, block)};
+    set_contact_spring(sub.settings, times, sub.inverse_mass, sub.u_start,
+                       sub.scene->regularisation, block);
+  }
 }
 
 const Settings kLeapfrog = [] {
@@ -122,6 +153,11 @@ void set_contact_spring(const Settings& settings, const SubstepTimes& times,
       (w.ahead * phi + (1.0 - w.ahead - w.behind) * pressed + w.behind * pressed_behind) / ahead;
   contact.softness[0] = contact.C[0] / (ahead * times.force_time) + regularisation;
   contact.spring_ahead[0] = w.ahead;
+}
+
+void set_springs(const Substep& sub, const State& state) {
+  if (sub.has_springs) set_joint_springs(sub, state);
+  if (sub.scene->effects.contact) set_contact_springs(sub, state);
 }
 
 void store_elastic(const double* lambda, Block& joint) {

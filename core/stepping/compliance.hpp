@@ -5,6 +5,7 @@
 #include "core/constraints/block.hpp"
 #include "core/model/settings.hpp"
 #include "core/solver/system.hpp"
+#include "core/stepping/substep.hpp"
 
 namespace substep {
 
@@ -75,6 +76,9 @@ inline constexpr double kResolvedContact = 100.0;
 void set_contact_spring(const Settings& settings, const SubstepTimes& times,
                         std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
                         double regularisation, Block& contact);
+
+/// Sets bias and softness of all compliant rows, after the drift correction.
+void set_springs(const Substep& sub, const State& state);
 
 /// Stores the elastic part of phi after the sub-step, from its law and the computed force, in
 /// Block::elastic. @param lambda per row [N, N m]

@@ -1,5 +1,8 @@
 #include "core/stepping/integrate.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/math/lanes.hpp"
 
 namespace substep {
@@ -31,6 +34,22 @@ void integrate(auto bodies, double dt, std::span<const Vec6> velocities, State& 
 
 void integrate(const Part& part, double dt, std::span<const Vec6> u, State& state) {
   in_pairs(part.moving, [&](auto bodies) { integrate(bodies, dt, u, state); });
+}
+
+void rotation_matrices(std::span<const int> bodies, const State& state, std::span<Mat3> R_WB) {
+  in_pairs(bodies, [&](auto some) {
+    rotation_matrix(some.at([&](int i) { return state.q[index(i)].coeffs().data(); }),
+                    some.at([&](int i) { return R_WB[index(i)].data(); }));
+  });
+}
+
+double most_kinetic(const Body& body, const Vec6& u) {
+  return std::max(1.0, body.mass) * u.head<3>().squaredNorm() +
+         std::max(1.0, body.inertia.maxCoeff()) * u.tail<3>().squaredNorm();
+}
+
+void keep_finite(const Body& body, const Vec6& u, Vec6& synchronised) {
+  if (!std::isfinite(most_kinetic(body, synchronised))) synchronised = u;
 }
 
 }  // namespace substep

@@ -1,8 +1,12 @@
 #include "core/stepping/stormer.hpp"
 
+#include "core/constraints/grab_rows.hpp"
 #include "core/math/flops.hpp"
-#include "core/solver/system.hpp"
+#include "core/math/free_turn.hpp"
+#include "core/stepping/carried_momentum.hpp"
 #include "core/stepping/compliance.hpp"
+#include "core/stepping/first_changes.hpp"
+#include "core/stepping/integrate.hpp"
 
 namespace substep {
 
@@ -11,58 +15,72 @@ namespace {
 // In the first sub-steps, and the first after an impact, the change is unknown.
 bool changes_are_known(const Vec6& acceleration) { return !acceleration.isZero(0.0); }
 
-}  // namespace
+// dt/dt-. In the first sub-step, changes refer to a trial sub-step of the same length.
+double growth_of(double dt, double time) {
+  if (time == dt) return 1.0;
+  const double before = 2.0 * time - dt;
+  return before > 0.0 ? dt / before : 1.0;
+}
 
-Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& acceleration,
-                      const Vec6& acceleration_change, double dt, double time) {
-  const double scaled = changes_are_known(acceleration) ? stormer_growth(dt, time) * dt : 0.0;
-  const double per_time = 1.0 / time;
+// Velocity correction for a change of step length, as a factor on the change of acceleration per
+// previous sub-step [s]; likewise for momentum and torque.
+double step_change(double dt, double time) {
+  const double before = 2.0 * time - dt;
+  return before > 0.0 ? (dt * dt - before * before) / (12.0 * before) : dt / 12.0;
+}
+
+// The velocity w that moves a body's pose. `u` is the velocity after this sub-step's impulses,
+// `u_before` that before its forces.
+Vec6 pose_velocity(const Substep& sub, const State& state, std::size_t i, const Vec6& u) {
+  const double dt = sub.dt;
+  const Vec6& u_before = sub.u_before[i];
+  const Vec6& acceleration = state.acceleration[i];
+  const Vec6& last_change = state.acceleration_change[i];
+  const double scaled =
+      changes_are_known(acceleration) ? growth_of(dt, sub.impulse_time[i]) * dt : 0.0;
+  const double per_time = 1.0 / sub.impulse_time[i];
   Vec6 w;
   Vec3 middle;  // angular acceleration
   for (int j = 0; j < 6; ++j) {
     const double a = per_time * (u[j] - u_before[j]);
     const double change = a - acceleration[j];
-    w[j] = (u[j] - scaled / 12.0 * acceleration_change[j]) + scaled / 6.0 * change;
+    w[j] = (u[j] - scaled / 12.0 * last_change[j]) + scaled / 6.0 * change;
     if (j < 3) continue;
     const double growth = scaled / dt;
-    middle[j - 3] = a + growth * (7.0 * change - 3.0 * acceleration_change[j]) / 8.0;
+    middle[j - 3] = a + growth * (7.0 * change - 3.0 * last_change[j]) / 8.0;
   }
   w.tail<3>() += dt * dt / 12.0 * middle.cross(w.tail<3>());
   w.tail<3>() *= half_tangent_factor(0.5 * dt * w.tail<3>());
   return w;
 }
 
-void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceleration,
-                          std::span<const Vec6> u_guess, std::span<const Motion> motions,
-                          std::span<const double> times, double dt) {
-  const Motion none;
-  const auto motion_of = [&](int body) -> const Motion& {
-    return body < 0 ? none : motions[index(body)];
-  };
-  for (Block& block : blocks) {
-    if (block.is_contact()) continue;
-    double gained[kMaxRows];
-    moved_errors(block, motion_of(block.a), motion_of(block.b), gained);
-    double speed[kMaxRows];
-    row_speeds(block, u_guess, speed);
-    double per_g = 1.0;
-    for (const int body : {block.a, block.b}) {
-      if (body < 0 || !changes_are_known(acceleration[index(body)])) continue;
-      const double time = times[index(body)];
-      per_g = 1.0 / (1.0 + stormer_growth(dt, time) * dt / (6.0 * time));
-    }
-    for (int row = 0; row < block.rows; ++row) {
-      if (block.softness[row] >= kGivenForce) continue;
-      // The bias of a spring belongs to a mean over the sub-step.
-      const double aimed = block.C[row] > 0.0 ? per_g * (block.bias[row] + gained[row] / dt)
-                                              : per_g / dt * (block.phi[row] + gained[row]);
-      block.bias[row] = aimed - speed[row];
-      block.softness[row] *= per_g;
-    }
+// Rotation from the carried momentum l and `torque`, extrapolated over the sub-step by its last two
+// changes. Returns the angular velocity for integrate() [rad/s].
+Vec3 turn_velocity(const Substep& sub, const State& state, std::size_t body, const Vec3& l,
+                   const Vec3& torque) {
+  const Vec3& I = sub.scene->bodies[body].inertia;
+  const Mat3& R = sub.R_WB[body];
+  Vec3 change = Vec3::Zero();  // per sub-step dt
+  Vec3 bent = Vec3::Zero();
+  if (changes_are_known(state.acceleration[body])) {
+    const double growth = growth_of(sub.dt, sub.impulse_time[body]);
+    const Vec3 now = growth * (torque - state.torque[body]);
+    const Vec3 before = growth * state.torque_change[body];
+    change = 2.0 * now - before;
+    bent = now - before;
   }
+  const Vec3 middle = torque + 0.5 * change - 0.125 * bent;
+  const auto to_body = [&](const Vec3& v) -> Vec3 { return R.transpose() * v; };
+  const Vec3 turn = free_turn(I, to_body(l), to_body(middle), to_body(change), sub.dt);
+  return R * (half_tangent_factor(0.5 * turn) / sub.dt * turn);
 }
 
-std::int64_t stormer_flops(std::span<const Block> blocks, std::size_t bodies) {
+Vec3 torque_of(const Substep& sub, const State& state, std::size_t body) {
+  return (1.0 / sub.impulse_time[body]) *
+         (momentum_of(sub, body, state.u[body]) - momentum_of(sub, body, sub.u_before[body]));
+}
+
+std::int64_t aim_flops(std::span<const Block> blocks, std::size_t bodies) {
   constexpr std::int64_t kBody = 2 * 50 + 60;  // w, w^ and its rotation
   std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
   for (const Block& block : blocks) {
@@ -71,6 +89,194 @@ std::int64_t stormer_flops(std::span<const Block> blocks, std::size_t bodies) {
     flops += (15 + 4) * block.rows + product_flops(block.rows, 6, sides);
   }
   return flops;
+}
+
+bool gives_forces(const Substep& sub, const Block& block) {
+  return sub.has_springs && !block.is_contact() && !is_grab(block);
+}
+
+}  // namespace
+
+void Stormer::begin(const Substep& sub, State& state) {
+  if (sub.scene->effects.gyroscopic) resize_torques(state);
+  if (needs_first_changes(sub, state)) find_first_changes(sub, state);
+  const bool known = !state.acceleration_change.empty();
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    if (!known || sub.impulse_time[i] == sub.dt || state.acceleration_change[i].isZero(0.0)) {
+      continue;
+    }
+    Vec6 correction = step_change(sub.dt, sub.impulse_time[i]) * state.acceleration_change[i];
+    if (tumbles(sub, i)) correction.tail<3>().setZero();  // by its momentum, below
+    state.u[i] += correction;
+  }
+  if (sub.settings.gyroscopic != Gyroscopic::kImplicit) return Leapfrog::begin(sub, state);
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    if (!tumbles(sub, i)) continue;
+    const Mat3& R = sub.R_WB[i];
+    Vec3 l = momentum_at_start(sub, state, i);
+    if (sub.impulse_time[i] != sub.dt && !state.torque_change[i].isZero(0.0)) {
+      l += R.transpose() * Vec3(step_change(sub.dt, sub.impulse_time[i]) * state.torque_change[i]);
+    }
+    state.u[i].tail<3>() = R * l.cwiseQuotient(sub.scene->bodies[i].inertia);
+  }
+}
+
+void Stormer::find_first_changes(const Substep& sub, State& state) const {
+  const std::unique_ptr<Solver> solver = make_solver(sub.settings.solver);
+  const FirstAccelerations first = first_accelerations(sub, state, joints_, *solver);
+  // A parabola through the three gives the change before the first of them.
+  const auto change = [&](const auto& quantity, std::size_t i) {
+    return (3.0 * quantity(first.at_start)[i] - 2.0 * quantity(first.before)[i] -
+            quantity(first.after)[i])
+        .eval();
+  };
+  state.acceleration.resize(state.u.size(), Vec6::Zero());
+  state.acceleration_change.resize(state.u.size(), Vec6::Zero());
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    state.acceleration[i] = first.before.a[i];
+    state.acceleration_change[i] = change([](const Accelerations& at) { return at.a; }, i);
+    if (!tumbles(sub, i)) continue;
+    state.torque[i] = first.before.torque[i];
+    state.torque_change[i] = change([](const Accelerations& at) { return at.torque; }, i);
+  }
+}
+
+std::int64_t Stormer::aim(const Substep& sub, State& state) {
+  const bool aims = drift_law(sub.settings) == Drift::kFull;
+  if (aims) aim_at_poses(sub, state);
+  for (const Block& block : sub.rows) {
+    if (gives_forces(sub, block)) apply_impulse(block, block.given, sub.inverse_mass, state.u);
+  }
+  return aims ? aim_flops(sub.rows, sub.part->moving.size()) : 0;
+}
+
+// Joints must hold at the end poses; rows are linearised about poses extrapolated with the last
+// change of acceleration: the motion w^ from u^.
+void Stormer::aim_at_poses(const Substep& sub, State& state) {
+  for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &u_guess_}) {
+    of_bodies->resize(state.u.size(), Vec6::Zero());
+  }
+  motions_.resize(state.u.size());
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    u_guess_[i] = sub.u_before[i] +
+                  sub.impulse_time[i] * (state.acceleration[i] + state.acceleration_change[i]);
+    Vec6 w_guess = pose_velocity(sub, state, i, u_guess_[i]);
+    if (tumbles(sub, i)) {
+      const Vec3 torque = state.torque[i] + state.torque_change[i];
+      const Vec3 l = momentum_of(sub, i, sub.u_before[i]) + sub.impulse_time[i] * torque;
+      u_guess_[i].tail<3>() = velocity_of(sub, i, l);
+      w_guess.tail<3>() = turn_velocity(sub, state, i, l, torque);
+    }
+    motions_[i] = motion(w_guess, sub.dt);
+  }
+  const Motion none;
+  const auto motion_of = [&](int body) -> const Motion& {
+    return body < 0 ? none : motions_[index(body)];
+  };
+  for (Block& block : sub.rows) {
+    if (block.is_contact()) continue;
+    double gained[kMaxRows];
+    moved_errors(block, motion_of(block.a), motion_of(block.b), gained);
+    double speed[kMaxRows];
+    row_speeds(block, u_guess_, speed);
+    double per_g = 1.0;
+    for (const int body : {block.a, block.b}) {
+      if (body < 0 || !changes_are_known(state.acceleration[index(body)])) continue;
+      const double time = sub.impulse_time[index(body)];
+      per_g = 1.0 / (1.0 + growth_of(sub.dt, time) * sub.dt / (6.0 * time));
+    }
+    for (int row = 0; row < block.rows; ++row) {
+      if (block.softness[row] >= kGivenForce) continue;
+      // The bias of a spring belongs to a mean over the sub-step.
+      const double aimed = block.C[row] > 0.0 ? per_g * (block.bias[row] + gained[row] / sub.dt)
+                                              : per_g / sub.dt * (block.phi[row] + gained[row]);
+      block.bias[row] = aimed - speed[row];
+      block.softness[row] *= per_g;
+    }
+  }
+}
+
+bool Stormer::breaks_motion(const Block& contact) const {
+  if (!(contact.spring_ahead[0] > 0.0)) return Leapfrog::breaks_motion(contact);
+  return (contact.impulse[0] > 0.0) != contact.was_closed;
+}
+
+void Stormer::settle(Substep& sub, State& /*state*/) {
+  for (Block& block : sub.rows) {
+    if (!gives_forces(sub, block)) continue;
+    for (int row = 0; row < block.rows; ++row) block.impulse[row] += block.given[row];
+  }
+}
+
+// In a sub-step with an impact poses move by the velocities.
+void Stormer::find_pose_velocities(const Substep& sub, State& state) {
+  for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &w_}) {
+    of_bodies->resize(state.u.size(), Vec6::Zero());
+  }
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    w_[i] = sub.smooth ? pose_velocity(sub, state, i, state.u[i]) : state.u[i];
+    if (!tumbles(sub, i)) continue;
+    const Vec3 torque = sub.smooth ? torque_of(sub, state, i) : Vec3(Vec3::Zero());
+    w_[i].tail<3>() = turn_velocity(sub, state, i, momentum_of(sub, i, state.u[i]), torque);
+  }
+}
+
+void Stormer::move_poses(const Substep& sub, State& state) {
+  find_pose_velocities(sub, state);
+  changes_.resize(state.u.size());
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    Vec6 a = Vec6::Zero();
+    if (sub.smooth) a = (1.0 / sub.impulse_time[i]) * (state.u[i] - sub.u_before[i]);
+    store_changes(sub, i, a, state);
+    state.acceleration[i] = a;
+  }
+  integrate(*sub.part, sub.dt, w_, state);
+  settle_momentum(sub, state);
+}
+
+// begin() corrected the velocity with the change of the sub-step before last; the current one is
+// now known, so the difference is added. Poses are not corrected: they satisfy the constraints.
+void Stormer::store_changes(const Substep& sub, std::size_t body, const Vec6& a, State& state) {
+  const double time = sub.impulse_time[body];
+  const bool known = sub.smooth && changes_are_known(state.acceleration[body]);
+  const double growth = known ? growth_of(sub.dt, time) : 0.0;
+  const double late = known && time != sub.dt ? 1.5 * step_change(sub.dt, time) : 0.0;
+  const Vec6 change = a - state.acceleration[body];
+  changes_[body] = {a, growth * change, growth * state.acceleration_change[body]};
+  Vec6 correction = late * (change - state.acceleration_change[body]);
+  state.acceleration_change[body] = growth * change;
+  if (tumbles(sub, body)) {
+    const Vec3 torque = sub.smooth ? torque_of(sub, state, body) : Vec3(Vec3::Zero());
+    const Vec3 torque_change = torque - state.torque[body];
+    changes_[body].a.tail<3>() = torque;
+    changes_[body].now.tail<3>() = growth * torque_change;
+    changes_[body].before.tail<3>() = growth * state.torque_change[body];
+    correction.tail<3>() =
+        velocity_of(sub, body, late * (torque_change - state.torque_change[body]));
+    state.torque_change[body] = growth * torque_change;
+    state.torque[body] = torque;
+  }
+  if (late != 0.0 && correction.allFinite()) state.u[body] += correction;
+}
+
+// Velocities are q' - dt^2/24 a' in the middle of a sub-step; from there on
+//   q'+ = q' + dt (a/2 + 3/8 D + (D - D-)/3),
+// with parabolic accelerations. For tumbling bodies likewise with momentum and torque.
+void Stormer::synchronise(const Substep& sub, State& state) {
+  if (!sub.smooth) return Leapfrog::synchronise(sub, state);
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    const Changes& by = changes_[i];
+    const Vec6 gained = sub.dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before);
+    state.u_synchronised[i] = state.u[i] + gained;
+    if (tumbles(sub, i)) synchronise_momentum(sub, i, gained.tail<3>(), state);
+  }
 }
 
 }  // namespace substep

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstdint>
-#include <span>
+#include <vector>
 
 #include "core/constraints/moved_rows.hpp"
-#include "core/math/types.hpp"
+#include "core/stepping/leapfrog.hpp"
 
 namespace substep {
 
@@ -26,35 +25,38 @@ namespace substep {
 // dt w + dt^3/12 w' x w in world axes. (For tumbling bodies see free_turn.hpp.) The Cayley vector
 // of integrate() is dt w/2; that of a rotation by dt |w| is longer by a relative (dt |w|/2)^2/3.
 
-/// dt/dt-. In the first sub-step, changes refer to a trial sub-step of the same length.
-/// @param time t, that forces act for: (dt- + dt)/2 [s]
-inline double stormer_growth(double dt, double time) {
-  if (time == dt) return 1.0;
-  const double before = 2.0 * time - dt;
-  return before > 0.0 ? dt / before : 1.0;
-}
+/// Needs solvers that hold the rows as they are given. In sub-steps with an impact, which is not an
+/// acceleration, it is leapfrog.
+class Stormer : public Leapfrog {
+ public:
+  Stormer(const Scene& scene, const JointStage* joints) : Leapfrog(scene), joints_(joints) {}
+  void begin(const Substep& sub, State& state) override;
+  std::int64_t aim(const Substep& sub, State& state) override;
+  /// The change of acceleration is unknown when a contact with a resolved spring opens or closes.
+  [[nodiscard]] bool breaks_motion(const Block& contact) const override;
+  void settle(Substep& sub, State& state) override;
+  void move_poses(const Substep& sub, State& state) override;
+  void synchronise(const Substep& sub, State& state) override;
 
-/// Velocity correction for a change of step length, as a factor on the change of acceleration per
-/// previous sub-step [s]; likewise for momentum and torque.
-/// @param time t, that forces act for: (dt- + dt)/2 [s]
-inline double stormer_step_change(double dt, double time) {
-  const double before = 2.0 * time - dt;
-  return before > 0.0 ? (dt * dt - before * before) / (12.0 * before) : dt / 12.0;
-}
+ protected:
+  [[nodiscard]] bool keeps_momentum(std::size_t /*body*/) const override { return true; }
 
-/// The velocity that moves a body's pose. @param u, u_before after this sub-step's impulses and
-/// before its forces  @param time duration of the forces [s]  @return w [m/s, rad/s]
-Vec6 stormer_velocity(const Vec6& u, const Vec6& u_before, const Vec6& acceleration,
-                      const Vec6& acceleration_change, double dt, double time);
+ private:
+  void find_first_changes(const Substep& sub, State& state) const;
+  void aim_at_poses(const Substep& sub, State& state);
+  void find_pose_velocities(const Substep& sub, State& state);
+  void store_changes(const Substep& sub, std::size_t body, const Vec6& a, State& state);
 
-/// Makes the drift correction and softness of joints refer to the poses at the end of the sub-step.
-/// @param acceleration, u_guess per body: a- and u^  @param motions per body: by w^, in dt
-/// @param times per body [s]
-void aim_at_stormer_poses(std::span<Block> blocks, std::span<const Vec6> acceleration,
-                          std::span<const Vec6> u_guess, std::span<const Motion> motions,
-                          std::span<const double> times, double dt);
-
-/// Floating-point operations of both functions.
-std::int64_t stormer_flops(std::span<const Block> blocks, std::size_t bodies);
+  const JointStage* joints_;
+  std::vector<Vec6> u_guess_;    // u^
+  std::vector<Motion> motions_;  // by w^
+  std::vector<Vec6> w_;
+  struct Changes {  // per body, over dt; of the torque for tumbling bodies
+    Vec6 a = Vec6::Zero();
+    Vec6 now = Vec6::Zero();
+    Vec6 before = Vec6::Zero();
+  };
+  std::vector<Changes> changes_;
+};
 
 }  // namespace substep

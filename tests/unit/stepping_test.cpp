@@ -7,8 +7,8 @@
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/geometric_inertia.hpp"
-#include "core/stepping/integrate.hpp"
 #include "core/stepping/substep_clock.hpp"
+#include "core/stepping/time_integrator.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {
@@ -150,6 +150,7 @@ double growth_of_swing(const Settings& settings, double kappa, double growth) {
   const double k = kappa * I / (kDt * kDt);
   StiffBody body(settings, {0.0, k, 0.0});
   const Vec3 axis = body.R[0].col(1);
+  const auto integrator = make_integrator(body.scene, nullptr, settings);
   double angle = 1.0;
   double dt_previous = 0.0;
   double first = 0.0;
@@ -157,7 +158,7 @@ double growth_of_swing(const Settings& settings, double kappa, double growth) {
   for (int step = 0; step < kSteps; ++step) {
     const std::vector<Vec6> u_start = body.state.u;
     inverse_mass(inertia_inverses(body.scene), whole(body.scene), body.R, body.inverse);
-    const double time = force_time(settings.integrator, dt_previous, kDt);
+    const double time = integrator->force_time(dt_previous, kDt);
     body.state.u[0].tail<3>() -= axis * (time * growth * k * angle / I);
     if (changes_mass(settings.mode)) {
       effective_mass(body.scene, whole(body.scene), settings, inertia_inverses(body.scene), body.R,

@@ -1,0 +1,120 @@
+#include "core/stepping/euler.hpp"
+
+#include <algorithm>
+
+#include "core/constraints/joint_rows.hpp"
+#include "core/constraints/moved_rows.hpp"
+#include "core/math/gyroscopic.hpp"
+#include "core/stepping/integrate.hpp"
+
+namespace substep {
+
+Euler::Euler(const Scene& scene) {
+  hit_.resize(scene.bodies.size());
+  bent_push_.resize(scene.bodies.size());
+  if (scene.effects.gyroscopic) gyroscopic_.emplace();
+}
+
+double Euler::force_time(double /*dt_previous*/, double dt) const { return dt; }
+
+void Euler::begin(const Substep& sub, State& state) {
+  if (gyroscopic_) gyroscopic_->begin(sub, state);
+}
+
+std::int64_t Euler::aim(const Substep& sub, State& /*state*/) {
+  if (gyroscopic_) gyroscopic_->bend_rows(sub);
+  return 0;
+}
+
+void Euler::settle(Substep& sub, State& state) {
+  if (gyroscopic_) gyroscopic_->settle(sub, state);
+}
+
+void Euler::move_poses(const Substep& sub, State& state) {
+  state.acceleration.clear();  // of another method, outdated
+  state.acceleration_change.clear();
+  integrate(*sub.part, sub.dt, state.u, state);
+}
+
+double Euler::share_ahead(double dt_previous, double dt) const {
+  return dt / ((dt_previous == 0.0 ? dt : dt_previous) + dt);
+}
+
+bool Euler::keeps_momentum(std::size_t body) const { return gyroscopic_->keeps_momentum(body); }
+
+// Applies the forces of the sub-step for half of its length; bodies that were hit are skipped.
+// Joint forces are applied along the rows at the new poses, where they do no work and conserve the
+// angular momentum about a fixed anchor.
+void Euler::synchronise(const Substep& sub, State& state) {
+  // Newton and XPBD already apply forces along rows at later poses.
+  const bool turns_forces = sub.scene->effects.joints &&
+                            sub.settings.solver != SolverKind::kNewton &&
+                            sub.settings.solver != SolverKind::kXpbd;
+  if (turns_forces) turn_joint_forces(sub, state);
+  find_hit(sub);
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    const double ahead = hit_[i] != 0 ? 0.0 : share_ahead(state.dt_previous_of(i), sub.dt);
+    const Vec6 pushed = turns_forces ? Vec6(ahead * bent_push_[i]) : Vec6(Vec6::Zero());
+    const Vec3 bent = pushed.tail<3>();
+    state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - sub.u_before[i]);
+    state.u_synchronised[i].head<3>() += sub.inverse_mass[i].linear * pushed.head<3>();
+    if (turns_otherwise(sub, i)) {
+      synchronise_spin(sub, i, ahead, bent, state);
+    } else {
+      state.u_synchronised[i].tail<3>() += sub.inverse_mass[i].angular * bent;
+    }
+  }
+}
+
+// In a sub-step with an impact, marks the bodies with constraint forces, which may include the
+// impact. Bodies in free flight are extrapolated.
+void Euler::find_hit(const Substep& sub) {
+  hit_.assign(sub.u_before.size(), 0);
+  if (sub.smooth) return;
+  for (std::size_t i = 0; i < sub.rows.size(); ++i) {
+    const Block& block = sub.rows[i];
+    const bool acts = !block.is_contact() || block.impulse[0] > 0.0 ||
+                      (!sub.struck.empty() && sub.struck[i] != 0);
+    for (const int body : {block.a, block.b}) {
+      if (acts && body >= 0) hit_[index(body)] = 1;
+    }
+  }
+}
+
+// (J+ - J)^T impulse.
+void Euler::turn_joint_forces(const Substep& sub, const State& state) {
+  bent_push_.assign(state.u.size(), Vec6::Zero());
+  const auto motion_of = [&](int body) {
+    return body < 0 ? Motion{} : motion(state.u[index(body)], sub.dt);
+  };
+  Vec6 unmoved = Vec6::Zero();  // for the world and static bodies
+  for (const Block& block : sub.rows) {
+    if (block.is_contact()) continue;
+    Vec6& on_a = block.a < 0 ? unmoved : bent_push_[index(block.a)];
+    Vec6& on_b = block.b < 0 ? unmoved : bent_push_[index(block.b)];
+    with_joint_rows(block.kind, [&](auto joint) {
+      joint.push_change(block, motion_of(block.a), motion_of(block.b), block.impulse, on_a, on_b);
+    });
+  }
+}
+
+void Euler::synchronise_spin(const Substep& sub, std::size_t body, double ahead, const Vec3& bent,
+                             State& state) const {
+  const Vec3& I = sub.scene->bodies[body].inertia;
+  const Quat& q = state.q[body];
+  const Vec3 omega_B = q.conjugate() * Vec3(state.u[body].tail<3>());
+  auto omega = state.u_synchronised[body].tail<3>();
+  if (tumbles(sub, body) && keeps_momentum(body)) {
+    const Vec3 pushed =
+        q.conjugate() * Vec3(ahead * sub.impulse_time[body] * state.torque[body] + bent);
+    omega = q * (momentum_after(I, omega_B, sub.dt) + pushed).cwiseQuotient(I);
+  } else {
+    // u_before includes this torque up to the middle of the sub-step; the other half is added here.
+    omega += q * Vec3(gyroscopic_explicit(I, omega_B, 0.5 * sub.dt) - omega_B) +
+             sub.inverse_mass[body].angular * bent;
+  }
+  keep_finite(sub.scene->bodies[body], state.u[body], state.u_synchronised[body]);
+}
+
+}  // namespace substep

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/stepping/gyroscopic_stage.hpp"
+#include "core/stepping/time_integrator.hpp"
+
+namespace substep {
+
+/// Semi-implicit Euler, the paper's: u+ from Eq. 3, then poses with u+.
+class Euler : public TimeIntegrator {
+ public:
+  explicit Euler(const Scene& scene);
+  [[nodiscard]] double force_time(double dt_previous, double dt) const override;
+  void begin(const Substep& sub, State& state) override;
+  std::int64_t aim(const Substep& sub, State& state) override;
+  void settle(Substep& sub, State& state) override;
+  void move_poses(const Substep& sub, State& state) override;
+  void synchronise(const Substep& sub, State& state) override;
+
+ protected:
+  /// The share of the last change of velocity that is missing at the end of the sub-step.
+  [[nodiscard]] virtual double share_ahead(double dt_previous, double dt) const;
+  /// True if a tumbling body keeps its angular momentum in this sub-step.
+  [[nodiscard]] virtual bool keeps_momentum(std::size_t body) const;
+
+ private:
+  void find_hit(const Substep& sub);
+  void turn_joint_forces(const Substep& sub, const State& state);
+  void synchronise_spin(const Substep& sub, std::size_t body, double ahead, const Vec3& bent,
+                        State& state) const;
+
+  std::optional<GyroscopicStage> gyroscopic_;  // if the scene has the effect
+  std::vector<std::uint8_t> hit_;              // per body: an impact of this sub-step reached it
+  std::vector<Vec6> bent_push_;  // change of the joints' impulses as bodies move [N s, N m s]
+};
+
+}  // namespace substep

@@ -1,0 +1,173 @@
+#include "core/stepping/gyroscopic_stage.hpp"
+
+#include <algorithm>
+
+#include "core/constraints/grab_rows.hpp"
+#include "core/constraints/moved_rows.hpp"
+#include "core/math/gyroscopic.hpp"
+
+namespace substep {
+
+namespace {
+
+// Largest rotation per sub-step for which the torque is predicted [rad]. The prediction error feeds
+// back into the next torque, in proportion to the rotation. For larger rotations the torque is
+// taken as zero, which is stable and first order.
+constexpr double kMaxPredictedTurn = 0.2;
+
+bool is_zero(const Vec3& v) { return v.isZero(0.0); }
+
+// A sub-step is solved with the gradients at its start, which leaves an error dt^2/2 phi''. In
+// planar motion this is a constant offset along the joint's arm. In 3D the force acts at that
+// offset from the joint, and angular momentum and energy drift. The rows are therefore set up at
+// the predicted poses:
+//   phi + (r_a^ - r_a) - (r_b^ - r_b) + dt (J u+ - J_omega omega^) = 0,
+// and likewise for a hinge. Centres move linearly and drop out. Impacts cannot be predicted: in
+// scenes with contacts joints use plain Eq. 3.
+bool bends_rows(const Substep& sub) {
+  const Settings& settings = sub.settings;
+  const bool looks_ahead =
+      settings.solver == SolverKind::kNewton || settings.solver == SolverKind::kXpbd;
+  return settings.gyroscopic == Gyroscopic::kImplicit && sub.scene->effects.joints &&
+         !sub.scene->effects.contact && settings.drift_order == 1 && !looks_ahead;
+}
+
+// In a loop either all rows are bent or none: in an overconstrained mechanism, bent and unbent rows
+// contradict each other by dt/2 phi''. Bodies rotating about a principal axis are then predicted
+// like the others. True if the part has more joints than bodies.
+bool closes_loops(const Substep& sub) {
+  const auto joined = std::count_if(sub.rows.begin(), sub.rows.end(), [](const Block& block) {
+    return !block.is_contact() && !is_grab(block);
+  });
+  return joined > std::ssize(sub.part->moving);
+}
+
+bool any_out_of_axis(const Substep& sub, const State& state) {
+  const std::vector<int>& moving = sub.part->moving;
+  return std::any_of(moving.begin(), moving.end(), [&](int body) {
+    const std::size_t i = index(body);
+    if (!tumbles(sub, i)) return false;
+    const Vec3 omega_B = sub.R_WB[i].transpose() * state.u[i].tail<3>();
+    return !is_zero(gyroscopic_torque(sub.scene->bodies[i].inertia, omega_B));
+  });
+}
+
+// The force acts on both bodies at one point, the static anchor or the midpoint, whatever the gap:
+// angular momentum is then conserved to rounding.
+void meet(Block& block) {
+  const Vec3 gap{block.phi[0], block.phi[1], block.phi[2]};
+  if (block.a >= 0) block.r_a -= (block.b >= 0 ? 0.5 : 1.0) * gap;
+  if (block.b >= 0) block.r_b += (block.a >= 0 ? 0.5 : 1.0) * gap;
+}
+
+}  // namespace
+
+bool turns_otherwise(const Substep& sub, std::size_t body) {
+  return sub.scene->effects.gyroscopic && !sub.inertia_inverse[body].isotropic;
+}
+
+bool tumbles(const Substep& sub, std::size_t body) {
+  return turns_otherwise(sub, body) && sub.settings.gyroscopic == Gyroscopic::kImplicit;
+}
+
+void resize_torques(State& state) {
+  state.torque.resize(state.u.size(), Vec3::Zero());
+  state.torque_change.resize(state.u.size(), Vec3::Zero());
+}
+
+void GyroscopicStage::begin(const Substep& sub, State& state) {
+  if (sub.settings.gyroscopic == Gyroscopic::kImplicit) {
+    resize_torques(state);
+    spins_.resize(state.u.size());
+    const bool damps =
+        sub.settings.solver == SolverKind::kNewton && sub.settings.forces == Forces::kEnd;
+    loops_bend_ = bends_rows(sub) && closes_loops(sub) && any_out_of_axis(sub, state);
+    for (const int body : sub.part->moving) {
+      if (tumbles(sub, index(body))) predict(sub, index(body), damps, state);
+    }
+    return;
+  }
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    if (!turns_otherwise(sub, i)) continue;
+    const Vec3 omega_B = sub.R_WB[i].transpose() * state.u[i].tail<3>();
+    state.u[i].tail<3>() = sub.R_WB[i] * gyroscopic_explicit(sub.scene->bodies[i].inertia, omega_B,
+                                                             sub.impulse_time[i]);
+  }
+}
+
+void GyroscopicStage::predict(const Substep& sub, std::size_t i, bool damps, State& state) {
+  const Vec3& I = sub.scene->bodies[i].inertia;
+  const Mat3& R = sub.R_WB[i];
+  Spin& spin = spins_[i];
+  const Vec3 omega_B = R.transpose() * state.u[i].tail<3>();
+  spin = {I.cwiseProduct(omega_B), Vec3::Zero(), state.u[i].tail<3>(), false, false};
+  if (is_zero(gyroscopic_torque(I, omega_B)) && !loops_bend_) return;  // about a principal axis
+  spin.momentum = momentum_after(I, omega_B, state.dt_previous_of(i));
+  spin.damped = damps || sub.dt * state.u[i].tail<3>().norm() > kMaxPredictedTurn ||
+                changes_mass_of(i, *sub.scene, sub.settings, state, sub.dt);
+  Vec3 pushed = Vec3::Zero();
+  if (!spin.damped) {
+    pushed = sub.impulse_time[i] * (R.transpose() * state.torque[i]);
+  }
+  const Vec3 guess = omega_B + pushed.cwiseQuotient(I);
+  const Vec3 then = velocity_of_momentum(I, spin.momentum + pushed, sub.dt, guess);
+  spin.predicted = 0.5 * sub.dt * gyroscopic_torque(I, then);
+  spin.omega = R * then;
+  spin.out_of_axis = true;
+  state.u[i].tail<3>() =
+      R * (spin.damped ? then : Vec3((spin.momentum + spin.predicted).cwiseQuotient(I)));
+}
+
+void GyroscopicStage::bend_rows(const Substep& sub) const {
+  if (!bends_rows(sub)) return;
+  const double dt = sub.dt;
+  const auto turns = [&](int body) { return body >= 0 && spins_[index(body)].out_of_axis; };
+  const auto predicted_turn = [&](int body) {
+    Vec6 u = Vec6::Zero();
+    if (body >= 0) {
+      const std::size_t i = index(body);
+      u.tail<3>() = turns(body) ? spins_[i].omega : Vec3(sub.u_before[i].tail<3>());
+    }
+    return u;
+  };
+  for (Block& block : sub.rows) {
+    if (block.is_contact() || is_grab(block) || !(turns(block.a) || turns(block.b))) continue;
+    const Vec6 u_a = predicted_turn(block.a);
+    const Vec6 u_b = predicted_turn(block.b);
+    if (dt * std::max(u_a.tail<3>().norm(), u_b.tail<3>().norm()) > kMaxPredictedTurn) continue;
+    double bent[kMaxRows];
+    double speed[kMaxRows];
+    moved_errors(block, motion(u_a, dt), motion(u_b, dt), bent);
+    row_speeds(block, block.a >= 0 ? &u_a : nullptr, block.b >= 0 ? &u_b : nullptr, speed);
+    for (int row = 0; row < block.rows; ++row) block.bias[row] += bent[row] / dt - speed[row];
+    if (block.has_point_rows) meet(block);
+  }
+}
+
+void GyroscopicStage::settle(Substep& sub, State& state) const {
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    if (!tumbles(sub, i)) continue;
+    const Vec3& I = sub.scene->bodies[i].inertia;
+    const Mat3& R = sub.R_WB[i];
+    const Spin& spin = spins_[i];
+    auto omega = state.u[i].tail<3>();
+    const Vec3 omega_B = R.transpose() * omega;
+    state.torque[i].setZero();
+    state.torque_change[i].setZero();
+    if (spin.damped) continue;
+    const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.predicted);
+    if (turns_freely && !loops_bend_) continue;
+    // From the stored momentum: rotating it back and forth would lose a digit every thousand steps.
+    const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - sub.u_before[i].tail<3>()));
+    if (sub.smooth) {
+      state.torque[i] = R * (1.0 / sub.impulse_time[i] * pushed);
+    }
+    const Vec3 settled = R * velocity_of_momentum(I, spin.momentum + pushed, sub.dt, omega_B);
+    sub.u_before[i].tail<3>() += settled - omega;  // keeps the impulse unchanged
+    omega = settled;
+  }
+}
+
+}  // namespace substep

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <vector>
+
+#include "core/stepping/substep.hpp"
+
+namespace substep {
+
+// Tumbling of bodies with unequal moments of inertia: torques change their angular momentum, which
+// determines their rotation (math/gyroscopic.hpp, free_turn.hpp).
+
+/// True if a body rotates differently from what torques alone give.
+bool turns_otherwise(const Substep& sub, std::size_t body);
+
+/// True if in addition its angular momentum is conserved.
+bool tumbles(const Substep& sub, std::size_t body);
+
+/// Gives every body a stored torque, zero if it has none.
+void resize_torques(State& state);
+
+/// The gyroscopic torque of first- and second-order methods.
+///
+/// The solver assumes M u+ = M u* + J^T impulse, while the angular momentum p at the start of the
+/// sub-step obeys p + J^T impulse = I u+ - dt/2 (I u+) x u+. The gyroscopic term on the right is
+/// predicted with the torque of the previous sub-step; settle() then solves for u+ with the exact
+/// momentum. The correction is O(dt^3); the joint error of the same order is removed by the drift
+/// correction. No torque is predicted if a mode replaces the mass, if Newton uses forces at the end
+/// of the sub-step, or if the rotation is large: these cases are first order anyway.
+class GyroscopicStage {
+ public:
+  /// Adds the torque to state.u before the forces.
+  void begin(const Substep& sub, State& state);
+  /// Sets up rows of joints for the predicted rotation of their bodies.
+  void bend_rows(const Substep& sub) const;
+  /// Solves for the angular velocity with the exact momentum, after the solve.
+  void settle(Substep& sub, State& state) const;
+  /// True if begin() found that a body rotates out of axis, and its momentum is kept.
+  [[nodiscard]] bool keeps_momentum(std::size_t body) const {
+    return spins_[body].out_of_axis && !spins_[body].damped;
+  }
+
+ private:
+  struct Spin {                     // about the principal axes [N m s]
+    Vec3 momentum = Vec3::Zero();   // at the start of the sub-step
+    Vec3 predicted = Vec3::Zero();  // dt/2 of the gyroscopic torque in it
+    Vec3 omega = Vec3::Zero();      // predicted, world [rad/s]
+    bool out_of_axis = false;       // false: it rotates about a principal axis
+    bool damped = false;            // its momentum is not kept
+  };
+  void predict(const Substep& sub, std::size_t body, bool damps, State& state);
+
+  std::vector<Spin> spins_;  // per body, of what tumbles
+  bool loops_bend_ = false;  // the rows of all joints are bent in this sub-step
+};
+
+}  // namespace substep

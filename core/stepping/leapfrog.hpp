@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/stepping/euler.hpp"
+
+namespace substep {
+
+/// Leapfrog, second order (Verlet 1967): Euler with external forces from the middle of the last
+/// sub-step to the middle of this one. dt_previous = 0 at the start.
+class Leapfrog : public Euler {
+ public:
+  using Euler::Euler;
+  [[nodiscard]] double force_time(double dt_previous, double dt) const override {
+    return 0.5 * (dt_previous + dt);
+  }
+
+ protected:
+  [[nodiscard]] double share_ahead(double dt_previous, double dt) const override {
+    return dt / (dt_previous + dt);
+  }
+};
+
+}  // namespace substep

@@ -1,0 +1,80 @@
+#include "core/stepping/stored_forces.hpp"
+
+#include <algorithm>
+
+#include "core/constraints/grab_rows.hpp"
+#include "core/stepping/compliance.hpp"
+#include "core/stepping/time_integrator.hpp"
+
+namespace substep {
+
+namespace {
+
+void seed(const Substep& sub, const State& state, const StoredForce& force, Block& block) {
+  const double time = impulse_time_of(sub, block);
+  const bool seeds = block.is_contact() || starts_from_last_forces(sub.settings);
+  for (int row = 0; row < block.rows; ++row) {
+    block.elastic[row] = force.elastic[row];
+    if (seeds) block.impulse[row] = force.lambda[row] * time;
+    if (block.is_contact()) block.active_set[row] = force.active_set[row];
+  }
+  block.was_closed = force.lambda[0] > 0.0;
+  block.seeded = true;
+  sub.integrator->seed(force, state, block);
+}
+
+}  // namespace
+
+bool forces_are_stored(const Substep& sub) {
+  return sub.scene->effects.contact || starts_from_last_forces(sub.settings) ||
+         springs_are_stored(sub);
+}
+
+void seed_forces(const Substep& sub, const State& state, std::span<const StoredForce> of_last) {
+  std::size_t next = 0;  // blocks are mostly in the order of the last sub-step
+  const bool of_joints = starts_from_last_forces(sub.settings) || springs_are_stored(sub);
+  for (Block& block : sub.rows) {
+    for (double& impulse : block.impulse) impulse = 0.0;
+    block.seeded = false;
+    if (block.is_contact()) {
+      std::fill_n(block.active_set, kMaxRows, kUnknownSet);
+      block.was_closed = false;
+      block.elastic[0] = 0.0;
+    } else if (!of_joints) {
+      continue;
+    }
+    for (std::size_t tried = 0; tried < of_last.size(); ++tried) {
+      const StoredForce& force = of_last[next];
+      next = next + 1 < of_last.size() ? next + 1 : 0;
+      if (force.id != block.id) continue;
+      seed(sub, state, force, block);
+      break;
+    }
+  }
+}
+
+void store_forces(const Substep& sub, const State& state, std::vector<StoredForce>& out) {
+  const bool all = starts_from_last_forces(sub.settings);
+  const bool soft = drift_law(sub.settings) == Drift::kSoft;
+  const bool springs = springs_are_stored(sub);
+  for (Block& block : sub.rows) {
+    if (!block.is_contact() && !all && !springs) continue;
+    find_lambda(sub, block, block.lambda);
+    StoredForce& force = out.emplace_back();
+    force.id = block.id;
+    for (int row = 0; row < block.rows; ++row) {
+      force.lambda[row] = block.lambda[row];
+      force.active_set[row] = block.active_set[row];
+    }
+    sub.integrator->store(sub, state, block, force);
+    if (!soft || is_grab(block)) continue;
+    if (block.is_contact()) {
+      force.elastic[0] = -block.C[0] * block.lambda[0];
+    } else if (springs) {
+      store_elastic(block.lambda, block);
+      std::copy_n(block.elastic, block.rows, force.elastic);
+    }
+  }
+}
+
+}  // namespace substep

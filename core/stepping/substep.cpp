@@ -1,0 +1,43 @@
+#include "core/stepping/substep.hpp"
+
+#include <algorithm>
+
+#include "core/model/joint_fields.hpp"
+
+namespace substep {
+
+Substep::Substep(const Scene& of) : scene(&of), inertia_inverse(inertia_inverses(of)) {
+  has_springs =
+      of.effects.joints && std::any_of(of.joints.begin(), of.joints.end(), [](const Joint& joint) {
+        return base(joint).compliance > 0.0 || angular_compliance_of(joint).value_or(0.0) > 0.0;
+      });
+  const std::size_t n = of.bodies.size();
+  R_WB.resize(n);
+  u_start.resize(n);
+  impulse_time.resize(n);
+  u_before.resize(n);
+  inverse_mass.resize(n);
+}
+
+double impulse_time_of(const Substep& sub, const Block& block) {
+  const double a = block.a < 0 ? 0.0 : sub.impulse_time[index(block.a)];
+  const double b = block.b < 0 ? 0.0 : sub.impulse_time[index(block.b)];
+  return std::max(a, b);
+}
+
+double dt_previous_of(const State& state, const Block& block) {
+  const double a = block.a < 0 ? 0.0 : state.dt_previous_of(index(block.a));
+  const double b = block.b < 0 ? 0.0 : state.dt_previous_of(index(block.b));
+  return std::max(a, b);
+}
+
+void find_lambda(const Substep& sub, const Block& block, double* lambda) {
+  const double time = impulse_time_of(sub, block);
+  for (int row = 0; row < block.rows; ++row) lambda[row] = block.impulse[row] / time;
+}
+
+bool springs_are_stored(const Substep& sub) {
+  return sub.has_springs && drift_law(sub.settings) == Drift::kSoft;
+}
+
+}  // namespace substep

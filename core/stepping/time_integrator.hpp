@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include "core/constraints/joint_stage.hpp"
+#include "core/stepping/substep.hpp"
+
+namespace substep {
+
+/// A method that advances velocities and poses, one class for each. Its functions are called in
+/// this order in a sub-step. Those with a default are for methods that need more than Eq. 3.
+class TimeIntegrator {
+ public:
+  virtual ~TimeIntegrator() = default;
+
+  /// Duration of external forces [s]. @param dt_previous 0 at the start [s]
+  [[nodiscard]] virtual double force_time(double dt_previous, double dt) const = 0;
+  /// Sets state.u to the velocity that the forces of the sub-step act on.
+  virtual void begin(const Substep& sub, State& state) = 0;
+  /// Continues the force that seeds a block.
+  virtual void seed(const StoredForce& /*of_last*/, const State& /*state*/,
+                    Block& /*block*/) const {}
+  /// Changes rows that must hold at other poses than Eq. 3 implies. @return operations
+  virtual std::int64_t aim(const Substep& sub, State& state) = 0;
+  /// Adds the data of solvers that compute more than velocities.
+  virtual void extend(System& /*system*/, const Substep& /*sub*/, const State& /*state*/) {}
+  /// True if accelerations must not be extrapolated across the force of this contact. A resolved
+  /// spring causes no impact.
+  [[nodiscard]] virtual bool breaks_motion(const Block& contact) const;
+  /// Completes the velocities after the solve.
+  virtual void settle(Substep& sub, State& state) = 0;
+  /// Adds rates to a force that is stored for the next sub-step.
+  virtual void store(const Substep& /*sub*/, const State& /*state*/, const Block& /*block*/,
+                     StoredForce& /*force*/) const {}
+  /// Advances the poses.
+  virtual void move_poses(const Substep& sub, State& state) = 0;
+  /// Sets state.u_synchronised: stored velocities are half a sub-step older than the poses.
+  virtual void synchronise(const Substep& sub, State& state) = 0;
+};
+
+/// The method that the settings select. @param joints null without joints; both outlive the method
+std::unique_ptr<TimeIntegrator> make_integrator(const Scene& scene, const JointStage* joints,
+                                                const Settings& settings);
+
+}  // namespace substep

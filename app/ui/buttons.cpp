@@ -72,8 +72,10 @@ bool open_menu(const ImRect& box, const std::function<void()>& menu) {
   const bool left = box.Min.x > display.x - 220.0F;  // extends towards the side with room
   ImGui::SetNextWindowPos({left ? box.Max.x : box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F},
                           ImGuiCond_Always, {left ? 1.0F : 0.0F, up ? 1.0F : 0.0F});
+  const float room = left ? box.Max.x - 8.0F : display.x - box.Min.x - 8.0F;
+  const float widest = std::max(box.GetWidth(), std::min(400.0F, room));
   ImGui::SetNextWindowSizeConstraints({box.GetWidth(), 0.0F},
-                                      {400.0F, std::max(120.0F, up ? above : below)});
+                                      {widest, std::max(120.0F, up ? above : below)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
   const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);

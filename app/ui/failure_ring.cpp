@@ -19,16 +19,19 @@ ImU32 halo_of(const Look& look) {
   return ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, 0.55F});
 }
 
-// To the right of the ring, or to its left if there is no room.
+// To the right of the ring, or to its left; if there is no room, above it.
 void ring_label(const Look& look, ImDrawList& draw, ImVec2 centre, float radius,
                 const ViewRect& pane, const std::string& text) {
+  constexpr float kGap = 8.0F;
   const ImVec2 size = text_size(look.fonts.medium, text.c_str());
-  const float least = pane.x + 8.0F;
-  const float most = std::max(least, pane.x + pane.width - 8.0F - size.x);
-  float x = centre.x + radius + 8.0F;
-  if (x > most) x = centre.x - radius - 8.0F - size.x;
-  draw_over(look, draw, look.fonts.medium, {std::clamp(x, least, most), centre.y - 0.5F * size.y},
-            look.theme->text, text.c_str());
+  const float least = pane.x + kGap;
+  const float most = std::max(least, pane.x + pane.width - kGap - size.x);
+  ImVec2 at(centre.x + radius + kGap, centre.y - 0.5F * size.y);
+  if (at.x > most) at.x = centre.x - radius - kGap - size.x;
+  if (at.x < least) {
+    at = {std::clamp(centre.x - 0.5F * size.x, least, most), centre.y - radius - kGap - size.y};
+  }
+  draw_over(look, draw, look.fonts.medium, at, look.theme->text, text.c_str());
 }
 
 void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Failure& failure,

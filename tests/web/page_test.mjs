@@ -194,7 +194,11 @@ test("clicks start and cancel a sweep, and run one of its points", async () => {
 
 test("opens a scene from the menu", async () => {
   await click(page, "scene");
+  await drawn(page); // a few pictures of scenes are made in each frame
   await save(page, "scene-menu");
+  const { x, y, height } = await find(page, "Bridge");
+  const thumbnail = { x: x + 28, y: y + height / 2 - 16, width: 48, height: 32 };
+  assert.ok(variance(await picture(page, thumbnail)) > 100, "the picture of the bridge is blank");
   await click(page, "Bridge");
   assert.equal((await api("report")).scene, "bridge");
   quiet();

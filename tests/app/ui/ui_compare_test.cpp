@@ -121,6 +121,7 @@ TEST(Compare, AHandAndABallReachAllOfThem) {
   Headless h;
   Session& session = h.app->session;
   h.app->open_link("scene=bridge&mode=const&n=2&compare=mode:const;mode:damping");
+  h.app->compare.past_failure = true;  // the hand may tear the bridge
   const Compare::Run& same = h.app->compare.runs()[0];
   for (int i = 0; i < 20; ++i) session.step();
   const Vec3 target = session.state().x[3] + Vec3(0.0, 1.0, 0.5);
@@ -284,7 +285,11 @@ TEST(Compare, EveryPanelIsDrawnWithIt) {
     }
     h.app->desk.compare_open = 1;
     h.frames(3);
-    EXPECT_EQ(h.app->compare.runs()[2].history.size(), h.app->session.history().size());
+    for (const Compare::Run& run : h.app->compare.runs()) {
+      if (!run.verdict->holds()) continue;  // it ends where it failed
+      EXPECT_EQ(run.history.size(), h.app->session.history().size());
+    }
+    EXPECT_TRUE(h.app->compare.runs()[1].verdict->holds());
   }
 }
 

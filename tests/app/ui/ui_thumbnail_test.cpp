@@ -118,6 +118,7 @@ TEST(SceneMenu, ScrollsWithAFingerOnAPhone) {
   h.frames(12);
   const ui::Handle* item = find_handle("Bridge");
   ASSERT_NE(item, nullptr);
+  EXPECT_LE(item->max.x, 390.0F) << "as wide as the phone";
   const float before = item->min.y;
   ImGuiIO& io = ImGui::GetIO();
   io.AddMouseSourceEvent(ImGuiMouseSource_TouchScreen);

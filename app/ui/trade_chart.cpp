@@ -19,11 +19,11 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kTop = 20.0F;       // above the rows: the name of the line
-constexpr float kLoadLine = 18.0F;  // the name of a load
-constexpr float kBar = 16.0F;       // height of a bar with its gap
-constexpr float kGap = 8.0F;        // between loads
-constexpr float kFigures = 104.0F;  // N and the error, on the right
+constexpr float kTop = 20.0F;          // above the rows: the name of the line
+constexpr float kLoadLine = 18.0F;     // the name of a load
+constexpr float kBar = 16.0F;          // height of a bar with its gap
+constexpr float kBetweenLoads = 8.0F;  // between loads
+constexpr float kFigures = 104.0F;     // N and the error, on the right
 
 /// The present alpha if it ran, else the nearest one.
 double nearest(const std::vector<double>& alphas, double wanted) {
@@ -145,7 +145,7 @@ class Chart {
     draw_bar(adaptive_bar(t, row), row);
     draw_bar(constant_bar(t, row, trade_.most_n), row);
     if (shows_line()) draw_line(top);
-    y_ += kGap;
+    y_ += kBetweenLoads;
   }
 
   void draw_bar(const Bar& bar, const TradeRow& row) {

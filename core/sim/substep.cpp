@@ -37,6 +37,7 @@ Substep& Simulator::Impl::begin_substep(bool last_of_share, FrameReport& report)
     state.time = static_cast<double>(state.frame) * scene->frame;
   }
   current.integrator = integrator.get();
+  current.solver = solver.get();
   current.settings = settings;
   current.part = &schedule.part();
   current.dt = schedule.dt();

@@ -124,8 +124,7 @@ void Stormer::begin(const Substep& sub, State& state) {
 }
 
 void Stormer::find_first_changes(const Substep& sub, State& state) const {
-  const std::unique_ptr<Solver> solver = make_solver(sub.settings.solver);
-  const FirstAccelerations first = first_accelerations(sub, state, joints_, *solver);
+  const FirstAccelerations first = first_accelerations(sub, state, joints_, *sub.solver);
   // A parabola through the three gives the change before the first of them.
   const auto change = [&](const auto& quantity, std::size_t i) {
     return (3.0 * quantity(first.at_start)[i] - 2.0 * quantity(first.before)[i] -

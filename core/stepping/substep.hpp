@@ -13,6 +13,7 @@
 
 namespace substep {
 
+class Solver;
 class TimeIntegrator;
 
 /// The data of one sub-step, in the order in which its parts are computed. Vectors hold one element
@@ -29,6 +30,7 @@ struct Substep {
 
   // The step to take.
   TimeIntegrator* integrator = nullptr;
+  Solver* solver = nullptr;
   Settings settings;
   const Part* part = nullptr;  // bodies to move
   double dt = 0.0;             // [s]

@@ -24,8 +24,9 @@ std::string failing(const FairTrade& trade) {
   });
   const std::string alpha = "With alpha = " + plain_number(trade.alpha) + " adaptive sub-stepping ";
   if (trade.rows.size() == 1) return alpha + "fails here. Choose a smaller alpha.";
-  return alpha + "fails under " + plain_number(failed->load) +
-         " times the load. Choose a smaller alpha.";
+  const std::string load =
+      failed->load == 1.0 ? "the scene's own load" : plain_number(failed->load) + " times the load";
+  return alpha + "fails under " + load + ". Choose a smaller alpha.";
 }
 
 std::string of_one_load(const FairTrade& trade) {

@@ -121,9 +121,11 @@ void add_convoy(Scene& scene) {
   const double top = kLeftHeight + 0.5 * kThickness;
   const double length = kConvoySpeed * kConvoy.back().arrives + 2.0;
   constexpr double kRoad = 0.3;  // thickness [m]
-  Body road = solid("road", box(length, kRoad, 2.0), 1.0,
-                    {-0.5 * kSpan - 0.5 * length, top - 0.5 * kRoad, 0.0});
+  Body road;
+  road.name = "road";
   road.is_static = true;
+  road.shape = box(length, kRoad, 2.0);
+  road.position = {-0.5 * kSpan - 0.5 * length, top - 0.5 * kRoad, 0.0};
   road.friction = kMu;
   scene.bodies.push_back(std::move(road));
   for (const Load& load : kConvoy) {

@@ -16,17 +16,29 @@ struct Case {
   Simulator simulator;
 };
 
-inline constexpr const char* kScenes[] = {"swinging_box",       "bridge",
-                                          "heavy_stack",        "heavy_stack_tall",
-                                          "bouncing_balls",     "card_house",
-                                          "heavy_stack_stress", "heavy_stack_stress_tall",
-                                          "free_fall",          "pendulum",
-                                          "ragdoll_drop",       "sliding_box",
-                                          "spinning_top",       "wall",
-                                          "wrecking_ball",      "swinging_box_authors",
-                                          "bridge_authors",     "heavy_stack_authors",
-                                          "newtons_cradle",     "spherical_pendulum",
-                                          "heavy_top",          "whirling_chain"};
+inline constexpr const char* kScenes[] = {"swinging_box",
+                                          "bridge",
+                                          "heavy_stack",
+                                          "heavy_stack_tall",
+                                          "bouncing_balls",
+                                          "card_house",
+                                          "heavy_stack_stress",
+                                          "heavy_stack_stress_tall",
+                                          "free_fall",
+                                          "pendulum",
+                                          "ragdoll_drop",
+                                          "sliding_box",
+                                          "spinning_top",
+                                          "wall",
+                                          "wrecking_ball",
+                                          "convoy",
+                                          "swinging_box_authors",
+                                          "bridge_authors",
+                                          "heavy_stack_authors",
+                                          "newtons_cradle",
+                                          "spherical_pendulum",
+                                          "heavy_top",
+                                          "whirling_chain"};
 
 /// A program that takes the folder of the scenes and runs every shipped scene: adaptive and with 16
 /// sub-steps, with BPP and with PGS; the heaps with islands, the stress stacks with refinements,

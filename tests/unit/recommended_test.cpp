@@ -242,7 +242,8 @@ TEST(Recommended, IsWhatTheSmallAndThePlayfulScenesStartWith) {
       EXPECT_FALSE(starts) << scene.name;
     }
   }
-  EXPECT_EQ(own, (std::set<std::string>{"card_house", "newtons_cradle", "wrecking_ball"}));
+  EXPECT_EQ(own,
+            (std::set<std::string>{"card_house", "convoy", "newtons_cradle", "wrecking_ball"}));
 }
 
 }  // namespace

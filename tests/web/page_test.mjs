@@ -294,7 +294,7 @@ test("a slow machine draws a coarser picture in motion, and the best one at rest
 for (const [what, script] of [
   ["WebGL 2", "HTMLCanvasElement.prototype.getContext = () => null;"],
   ["WebAssembly", "delete globalThis.WebAssembly;"],
-  ["vectors", "WebAssembly.validate = () => false;"],
+  ["SIMD", "WebAssembly.validate = () => false;"],
 ]) {
   test(`reports that ${what} is missing`, async () => {
     const poor = await openPage(session, { before: script });

@@ -238,7 +238,7 @@ test("leaving restores the run, its comparison and the window", async () => {
     const labels = async () => (await call(page, "widgets")).filter((w) => w.group !== "body")
       .map((w) => w.label).sort();
     await drawn(page);
-    await goTo(page, 7);
+    await goTo(page, steps);
     assert.ok((await canvasBox(page)).width < width);
     await button(page, "Error against cost").click();
     await leave(page);

@@ -12,6 +12,10 @@
 namespace substep::ui {
 namespace {
 
+// Size of the em square of Inter, as a share of the height of its lines: fonts of Dear ImGui have
+// the latter, those of SVG the former.
+constexpr float kEm = 2048.0F / (1984.0F + 494.0F);
+
 struct NotedText {
   const ImDrawList* draw = nullptr;
   const ImFont* font = nullptr;
@@ -152,7 +156,7 @@ class Writer {
             : text.font->CalcTextSizeA(size, 1e6F, 0.0F, line.data(), line.data() + line.size()).x;
     const bool bold = text.font != look_.fonts.regular && text.font != look_.fonts.small;
     body_ += "<text x=\"" + number(at.x - area_.x) + "\" y=\"" + number(at.y - area_.y) +
-             "\" font-size=\"" + number(size) + "\" textLength=\"" + number(width) + '"' +
+             "\" font-size=\"" + number(kEm * size) + "\" textLength=\"" + number(width) + '"' +
              (bold ? " font-weight=\"600\"" : "") + fill(text.color) + '>' + escaped(line) +
              "</text>\n";
   }

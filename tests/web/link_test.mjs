@@ -164,8 +164,13 @@ test("and the command are copied from the menu", async () => {
   const copied = async (entry) => {
     await page.evaluate(() => navigator.clipboard.writeText("nothing yet"));
     await pick(page, entry);
-    await page.waitForFunction(async () => (await navigator.clipboard.readText()) !== "nothing yet");
-    return page.evaluate(() => navigator.clipboard.readText());
+    // waitForFunction() does not await the promise of its function.
+    let text = "nothing yet";
+    for (let i = 0; i < 100 && text === "nothing yet"; ++i) {
+      await page.waitForTimeout(50);
+      text = await page.evaluate(() => navigator.clipboard.readText());
+    }
+    return text;
   };
   assert.equal(await copied("Copy link"), page.url());
   assert.match((await call(page, "report")).notice, /Link copied/);

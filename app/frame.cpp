@@ -66,7 +66,7 @@ void take_capture(App& app, int width, int height) {
 
 // Draws the window once more, without presenting it, and saves a part of it as SVG.
 void take_figure(App& app) {
-  const Capture figure = *std::exchange(app.desk.figure, std::nullopt);
+  const Figure figure = *std::exchange(app.desk.figure, std::nullopt);
   if (!app.host.save_file) return;
   const ui::FigureFrame drawing;
   ImGui::NewFrame();
@@ -80,7 +80,7 @@ void take_figure(App& app) {
   about["link"] = app.link();
   about["citation"] = std::string(kPaperAuthors) + ", " + kPaperTitle + ", doi:" + kPaperDoi;
   app.host.save_file(figure.name,
-                     ui::svg_figure(app.look, *ImGui::GetDrawData(), figure.area,
+                     ui::svg_figure(app.look, *ImGui::GetDrawData(), figure.part,
                                     {app.session.scene().title, app.command(), about.dump()}));
 }
 

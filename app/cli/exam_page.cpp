@@ -6,6 +6,7 @@
 
 #include "app/cli/exam_report.hpp"
 #include "app/cli/format_text.hpp"
+#include "core/io/xml_text.hpp"
 
 namespace substep::cli {
 namespace {
@@ -47,32 +48,12 @@ a { color: inherit; }
 </style>
 <body>
 <main>
-<h1>The exam: other people's numbers</h1>
-<p>Scenes whose answers others have published, or that have one in closed form. A case passes where
-at least one run is within all of its tolerances and every run keeps what it should: the order of
-its method, and what the case asks of every run. Bars are logarithmic: a full one is a million
-times the tolerance, an empty one a thousandth; green ones are within.</p>
+<h1>The exam: published results</h1>
+<p>Scenes with published results or a closed-form solution. A case passes if at least one run is
+within all of its tolerances, and every run keeps the order of its method and the limits that the
+case sets for all runs. Bars are logarithmic: a full bar is a million times the tolerance, an empty
+bar a thousandth; green bars are within it.</p>
 )";
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
 
 const char* css_class(const ExamOutcome& outcome) {
   if (!outcome.reached_by_vocabulary()) return "absent";
@@ -90,7 +71,7 @@ std::string error_cell(const ExamRow& row, const ExamCase& exam, std::size_t i) 
   return format_text("<td%s>%s<span class=\"bar\"><i style=\"width:%.0f%%\"></i></span></td>",
                      row.within[i] ? " class=\"within\"" : "",
                      std::isfinite(row.errors[i]) ? format_text("%.2e", row.errors[i]).c_str()
-                                                  : escaped(row.status).c_str(),
+                                                  : xml_text(row.status).c_str(),
                      bar_length(row.errors[i], exam.quantities[i].tolerance));
 }
 
@@ -98,14 +79,14 @@ std::string table(const ExamOutcome& outcome) {
   const ExamCase& exam = outcome.exam;
   std::string html = "<div class=\"scroll\"><table><thead><tr><th>method<th>parameter<th>sub-steps";
   for (const ExamQuantity& quantity : exam.quantities) {
-    html += format_text("<th>%s [%s]<br>&le; %.2g", escaped(quantity.name).c_str(),
-                        escaped(quantity.unit).c_str(), quantity.tolerance);
+    html += format_text("<th>%s [%s]<br>&le; %.2g", xml_text(quantity.name).c_str(),
+                        xml_text(quantity.unit).c_str(), quantity.tolerance);
   }
   html += "<th>order<th>time [s]</thead><tbody>\n";
   for (const ExamRow& row : outcome.result.rows) {
     html +=
         format_text("<tr%s><td>%s<td>%s %g<td>%.1f", row.keeps ? "" : " class=\"broken\"",
-                    escaped(row.method).c_str(), row.parameter.c_str(), row.value, row.substeps);
+                    xml_text(row.method).c_str(), row.parameter.c_str(), row.value, row.substeps);
     for (std::size_t i = 0; i < row.errors.size(); ++i) html += error_cell(row, exam, i);
     html += row.order ? format_text("<td>%.2f", *row.order) : "<td>&ndash;";
     if (row.expected_order) html += format_text(" of %g", *row.expected_order);
@@ -120,26 +101,26 @@ std::string exam_page(const std::vector<ExamOutcome>& outcomes) {
   std::string html = kHead;
   html += "<div class=\"scroll\"><table><thead><tr><th>case<th>verdict</thead><tbody>\n";
   for (const ExamOutcome& outcome : outcomes) {
-    html += "<tr><td><a href=\"#" + outcome.entry->name + "\">" + escaped(outcome.entry->title) +
+    html += "<tr><td><a href=\"#" + outcome.entry->name + "\">" + xml_text(outcome.entry->title) +
             "</a><td>" +
             (outcome.reached_by_vocabulary() ? std::string(css_class(outcome))
-                                             : escaped(verdict_of(outcome))) +
+                                             : xml_text(verdict_of(outcome))) +
             "\n";
   }
   html += "</tbody></table></div>\n";
   for (const ExamOutcome& outcome : outcomes) {
     html += std::string("<section class=\"claim ") + css_class(outcome) + "\" id=\"" +
-            outcome.entry->name + "\">\n<h2>" + escaped(outcome.entry->title) + "</h2>\n";
+            outcome.entry->name + "\">\n<h2>" + xml_text(outcome.entry->title) + "</h2>\n";
     if (outcome.reached_by_vocabulary()) {
-      html += "<p>" + escaped(outcome.exam.definition) + "</p>\n<p class=\"note\">From " +
-              escaped(outcome.exam.source) + ".</p>\n" + table(outcome) + "<ul>\n";
+      html += "<p>" + xml_text(outcome.exam.definition) + "</p>\n<p class=\"note\">From " +
+              xml_text(outcome.exam.source) + ".</p>\n" + table(outcome) + "<ul>\n";
       for (const ExamQuantity& quantity : outcome.exam.quantities) {
-        html += "<li>" + escaped(quantity.name + ": " + quantity.why) +
+        html += "<li>" + xml_text(quantity.name + ": " + quantity.why) +
                 (quantity.for_every_run ? "; required of every run" : "") + "\n";
       }
       html += "</ul>\n";
     }
-    html += "<p class=\"stamp\">" + escaped(verdict_of(outcome)) + "</p>\n</section>\n";
+    html += "<p class=\"stamp\">" + xml_text(verdict_of(outcome)) + "</p>\n</section>\n";
   }
   return html + "</main>\n</body>\n</html>\n";
 }

@@ -14,6 +14,7 @@
 #include "app/ui/panels.hpp"
 #include "app/ui/stability_map.hpp"
 #include "app/ui/trade_chart.hpp"
+#include "app/ui/vector_figure.hpp"
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
@@ -146,9 +147,10 @@ void other_scene(const Look& look, Lab& lab) {
 }
 
 /// The area of items from one cursor position to another, with a margin.
-ViewRect around(ImVec2 from, ImVec2 to, float width) {
+WindowPart around(ImVec2 from, ImVec2 to, float width) {
   constexpr float kMargin = 8.0F;
-  return {from.x - kMargin, from.y - kMargin, width + 2.0F * kMargin, to.y - from.y + kMargin};
+  return part_of_window(
+      {from.x - kMargin, from.y - kMargin, width + 2.0F * kMargin, to.y - from.y + kMargin});
 }
 
 /// Options of the picture: curves, size, saving it, and computing it here.
@@ -312,13 +314,14 @@ void accuracy_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewp
   const float down = shows_map(lab.accuracy) ? room - size.y : 0.0F;
   ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption + down});
   ImGui::SetNextWindowSize(size);
-  desk.accuracy_area = {v.x + kAround, v.y + kCaption + down, size.x, size.y};
   if (ImGui::Begin("##accuracy", nullptr,
                    ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoScrollbar)) {
+    const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 inside = ImGui::GetContentRegionAvail();
     picture(look, lab, {inside.x, inside.y - 22.0F});
+    desk.accuracy_area = around(from, ImGui::GetCursorScreenPos(), inside.x);
   }
   ImGui::End();
 }

@@ -35,6 +35,17 @@ struct Capture {
   ViewRect area;
 };
 
+/// A part of a window's contents, which may be scrolled out of view.
+struct WindowPart : ViewRect {
+  unsigned window = 0;  // Dear ImGui's id
+};
+
+/// A figure to be saved as SVG after this frame.
+struct Figure {
+  std::string name;  // file name
+  WindowPart part;
+};
+
 /// State of the window that does not affect the run.
 struct Desk {
   Desk();
@@ -48,8 +59,8 @@ struct Desk {
   bool open_share_menu = false;  // in the next frame
   std::string follow;            // link to open after this frame, or ""
   std::optional<Capture> capture;
-  std::optional<Capture> figure;  // likewise, as SVG: see FigureFrame
-  bool recording = false;         // a video, see Host::record
+  std::optional<Figure> figure;
+  bool recording = false;  // a video, see Host::record
   bool reduced_motion = false;
   Tab tab = Tab::kControls;
   PanelSide left;
@@ -66,8 +77,8 @@ struct Desk {
   std::string unfolded_scene;  // scene whose variants are unfolded in the list
   ui::Thumbnails thumbnails;   // in that list
   std::array<ui::PlotState, static_cast<std::size_t>(Plot::kCount)> plots;
-  ViewRect plots_area;          // last position of the plots
-  ViewRect accuracy_area;       // and of the accuracy picture with its conclusion
+  WindowPart plots_area;        // last position of the plots
+  WindowPart accuracy_area;     // and of the accuracy picture with its conclusion
   bool accuracy_large = false;  // the accuracy picture is shown over the view
   bool split = false;           // compared runs are drawn side by side, not as ghosts
   int compare_open = -1;        // index of the compared run whose settings are shown

@@ -11,6 +11,7 @@
 #include "app/ui/plot_headings.hpp"
 #include "app/ui/plots.hpp"
 #include "app/ui/timing.hpp"
+#include "app/ui/vector_figure.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
@@ -319,8 +320,8 @@ void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, flo
   if (shown.empty()) {
     label(look.fonts.small, look.theme->dim, "Every plot is hidden: the list above shows them.");
   }
-  desk.plots_area = {from.x - 8.0F, from.y - 4.0F, width + 16.0F,
-                     ImGui::GetCursorScreenPos().y - from.y + 4.0F};
+  desk.plots_area = part_of_window(
+      {from.x - 8.0F, from.y - 4.0F, width + 16.0F, ImGui::GetCursorScreenPos().y - from.y + 4.0F});
 }
 
 }  // namespace substep::ui

@@ -1,12 +1,15 @@
 #include "app/ui/vector_figure.hpp"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/io/xml_text.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep::ui {
@@ -35,24 +38,6 @@ std::string number(float value) {
   return number_text(std::round(100.0 * static_cast<double>(value)) / 100.0);
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '&') {
-      out += "&amp;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
-
 /// fill="#rrggbb", with fill-opacity if it is translucent.
 std::string fill(ImU32 color) {
   constexpr std::string_view kDigits = "0123456789abcdef";
@@ -67,11 +52,21 @@ std::string fill(ImU32 color) {
   return text;
 }
 
+/// The window that draws a list, or null.
+const ImGuiWindow* window_of(const ImDrawList& list) {
+  for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
+    if (window->DrawList == &list) return window;
+  }
+  return nullptr;
+}
+
 class Writer {
  public:
-  Writer(const Look& look, const ViewRect& area) : look_(look), area_(area) {}
+  Writer(const Look& look, const WindowPart& part) : look_(look), area_(part) {}
 
-  void add_list(const ImDrawList& list) {
+  void add_window(const ImGuiWindow& window) {
+    const ImDrawList& list = *window.DrawList;
+    view_ = window.InnerClipRect;
     for (const ImDrawCmd& command : list.CmdBuffer) {
       if (command.UserCallback == nullptr) add_command(list, command);
     }
@@ -157,11 +152,12 @@ class Writer {
     const bool bold = text.font != look_.fonts.regular && text.font != look_.fonts.small;
     body_ += "<text x=\"" + number(at.x - area_.x) + "\" y=\"" + number(at.y - area_.y) +
              "\" font-size=\"" + number(kEm * size) + "\" textLength=\"" + number(width) + '"' +
-             (bold ? " font-weight=\"600\"" : "") + fill(text.color) + '>' + escaped(line) +
+             (bold ? " font-weight=\"600\"" : "") + fill(text.color) + '>' + xml_text(line) +
              "</text>\n";
   }
 
-  /// Opens a group with this clip rectangle, unless it is open. @return whether it is visible
+  /// Opens a group with this clip rectangle, unless it is open. Where it ends with the visible part
+  /// of the window, the contents continue. @return whether it is visible
   bool set_clip(const ImVec4& rect) {
     if (rect.x == clip_.x && rect.y == clip_.y && rect.z == clip_.z && rect.w == clip_.w) {
       return visible_;
@@ -170,9 +166,10 @@ class Writer {
     if (visible_) body_ += "</g>\n";
     clip_ = rect;
     const float left = std::max(rect.x, area_.x);
-    const float top = std::max(rect.y, area_.y);
+    const float top = rect.y == view_.Min.y ? area_.y : std::max(rect.y, area_.y);
     const float right = std::min(rect.z, area_.x + area_.width);
-    const float bottom = std::min(rect.w, area_.y + area_.height);
+    const float end = area_.y + area_.height;
+    const float bottom = rect.w == view_.Max.y ? end : std::min(rect.w, end);
     visible_ = left < right && top < bottom;
     if (!visible_) return false;
     const std::string id = "c" + std::to_string(++clips_);
@@ -188,6 +185,7 @@ class Writer {
 
   const Look& look_;
   const ViewRect area_;
+  ImRect view_;  // of the window
   std::string body_;
   std::string path_;
   ImU32 path_color_ = 0;
@@ -227,17 +225,24 @@ void note_text(const ImDrawList& draw, const ImFont* font, ImVec2 at, float widt
                    end == nullptr ? std::string(text) : std::string(text, end)});
 }
 
-std::string svg_figure(const Look& look, const ImDrawData& panels, const ViewRect& area,
+WindowPart part_of_window(const ViewRect& area) {
+  return {area, ImGui::GetCurrentWindow()->RootWindow->ID};
+}
+
+std::string svg_figure(const Look& look, const ImDrawData& panels, const WindowPart& part,
                        const FigureNote& note) {
-  Writer writer(look, area);
-  for (int i = 0; i < panels.CmdListsCount; ++i) writer.add_list(*panels.CmdLists[i]);
-  const std::string width = number(area.width);
-  const std::string height = number(area.height);
+  Writer writer(look, part);
+  for (const ImDrawList* list : panels.CmdLists) {
+    const ImGuiWindow* window = window_of(*list);
+    if (window != nullptr && window->RootWindow->ID == part.window) writer.add_window(*window);
+  }
+  const std::string width = number(part.width);
+  const std::string height = number(part.height);
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width + "\" height=\"" + height +
          "\" viewBox=\"0 0 " + width + ' ' + height +
-         "\" font-family=\"Inter, system-ui, sans-serif\">\n<title>" + escaped(note.title) +
-         "</title>\n<desc>" + escaped(note.command) + "</desc>\n<metadata>" +
-         escaped(note.experiment) + "</metadata>\n<rect width=\"" + width + "\" height=\"" +
+         "\" font-family=\"Inter, system-ui, sans-serif\">\n<title>" + xml_text(note.title) +
+         "</title>\n<desc>" + xml_text(note.command) + "</desc>\n<metadata>" +
+         xml_text(note.experiment) + "</metadata>\n<rect width=\"" + width + "\" height=\"" +
          height + "\"" + fill(look.theme->panel | IM_COL32_A_MASK) + "/>\n" + writer.finish() +
          "</svg>\n";
 }

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "app/render/scene_view.hpp"
+#include "app/ui/desk.hpp"
 #include "app/ui/look.hpp"
 
 namespace substep::ui {
@@ -36,8 +36,12 @@ struct FigureNote {
   std::string experiment;  // JSON
 };
 
-/// @param panels of a frame drawn within a FigureFrame  @param area in interface pixels
-std::string svg_figure(const Look& look, const ImDrawData& panels, const ViewRect& area,
+/// A part of the current window, for svg_figure().
+WindowPart part_of_window(const ViewRect& area);
+
+/// The contents of a window within an area, whether or not they are scrolled into view.
+/// @param panels of a frame drawn within a FigureFrame  @param part in interface pixels
+std::string svg_figure(const Look& look, const ImDrawData& panels, const WindowPart& part,
                        const FigureNote& note);
 
 }  // namespace substep::ui

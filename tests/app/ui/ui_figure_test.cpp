@@ -1,6 +1,7 @@
 // Figures as SVG: texts, shapes, and the experiment inside.
 
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <string>
 
@@ -16,7 +17,7 @@ struct SavedFigure {
   std::string text;
 };
 
-SavedFigure save_figure(Headless& h, const Capture& figure) {
+SavedFigure save_figure(Headless& h, const Figure& figure) {
   SavedFigure saved;
   h.app->host.save_file = [&](const std::string& name, const std::string& text) {
     saved = {name, text};
@@ -101,6 +102,29 @@ TEST(Figure, TakesTheChartAndLeavesTheWindowAsItWas) {
   EXPECT_EQ(ui::handles().size(), handles);
   const SavedFigure again = save_figure(h, {"chart.svg", h.app->desk.accuracy_area});
   EXPECT_EQ(again.text, figure.text);
+}
+
+TEST(Figure, IsWholeWhereThePanelIsScrolled) {
+  Headless h;
+  h.app->host.save_file = [](const std::string&, const std::string&) {};
+  h.app->session.pause();
+  h.app->desk.tab = Tab::kAccuracy;
+  ASSERT_EQ(h.app->set("accuracy", "trade"), "");
+  h.frames(3);
+  ImGuiWindow* panel = ImGui::FindWindowByID(h.app->desk.accuracy_area.window);
+  ASSERT_NE(panel, nullptr);
+  ASSERT_GT(panel->ScrollMax.y, 0.0F) << "all of it is visible";
+  ImGui::SetScrollY(panel, panel->ScrollMax.y);
+  h.frames(3);
+  const SavedFigure figure = save_figure(h, {"trade.svg", h.app->desk.accuracy_area});
+  for (const char* text :
+       {"Adaptive sub-stepping takes", "0.01 × load", "10 × load", "found by trying"}) {
+    EXPECT_NE(figure.text.find(text), std::string::npos) << text;
+  }
+  EXPECT_EQ(figure.text.find("Run again"), std::string::npos) << "outside its area";
+  EXPECT_EQ(figure.text.find("sub-steps</text>"), std::string::npos) << "of another window";
+  const float height = h.app->desk.accuracy_area.height;
+  EXPECT_GT(height, panel->Size.y - 100.0F);
 }
 
 TEST(Figure, EscapesWhatASceneSays) {

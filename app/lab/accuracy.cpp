@@ -26,6 +26,7 @@ void Accuracy::start(std::shared_ptr<const Scene> scene) {
   cancelled_ = false;
   elapsed_ = 0.0;
   last_ = -1.0;
+  trade_is_of_.reset();
   trade_alpha = scene_->settings.alpha;
   trade_policy = scene_->settings.policy;
   if (!scene_->criteria.track) error = first_axis(*scene_);
@@ -49,6 +50,7 @@ bool Accuracy::show_shipped(const std::shared_ptr<const Scene>& scene, bool aske
   for (const Result& result : shipped_->results) shipped_plan_.push_back(result.experiment);
   error = first_axis(*scene);
   cost = CostAxis::kOperations;
+  trade_is_of_.reset();
   trade_alpha = scene->settings.alpha;
   trade_policy = scene->settings.policy;
   if (const auto& recommended = scene->recommended) {
@@ -126,6 +128,15 @@ bool Accuracy::has_map() const {
 const ReferenceSummary* Accuracy::reference() const {
   if (shipped_) return &shipped_->reference;
   return sweep_ ? sweep_->reference() : nullptr;
+}
+
+const FairTrade& Accuracy::trade() {
+  const TradeKey key{results().size(), trade_alpha, trade_policy};
+  if (trade_is_of_ != key) {
+    trade_ = scene_ ? fair_trade(*scene_, results(), trade_policy, trade_alpha) : FairTrade{};
+    trade_is_of_ = key;
+  }
+  return trade_;
 }
 
 double Accuracy::floor() const {

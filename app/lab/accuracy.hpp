@@ -10,6 +10,7 @@
 #include "app/lab/effect_costs.hpp"
 #include "core/io/stored_sweep.hpp"
 #include "core/lab/alpha_search.hpp"
+#include "core/lab/fair_trade.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"
 
@@ -66,6 +67,8 @@ class Accuracy {
   [[nodiscard]] bool has_map() const;
   /// Null until it is computed.
   [[nodiscard]] const ReferenceSummary* reference() const;
+  /// Adaptive sub-stepping at trade_alpha and trade_policy beside constant N.
+  [[nodiscard]] const FairTrade& trade();
   /// Path errors below this are within the uncertainty of the reference [m].
   [[nodiscard]] double floor() const;
 
@@ -121,13 +124,23 @@ class Accuracy {
   /// Selects axes for which the results have values.
   void select_available_axes();
 
+  /// What the trade depends on, beside the scene of the results.
+  struct TradeKey {
+    std::size_t results = 0;
+    double alpha = 0.0;
+    Policy policy = Policy::kFrame;
+    friend bool operator==(const TradeKey&, const TradeKey&) = default;
+  };
+
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;
   std::optional<StoredSweep> shipped_;      // used instead of sweep_
   std::shared_ptr<const Scene> looked_up_;  // last scene for which a shipped sweep was looked up
   std::vector<Experiment> shipped_plan_;
-  Settings paper_;                     // settings of the sweep's paper curve, without alpha
-  std::optional<AlphaSearch> search_;  // uses the sweep's reference
+  FairTrade trade_;
+  std::optional<TradeKey> trade_is_of_;  // empty: outdated
+  Settings paper_;                       // settings of the sweep's paper curve, without alpha
+  std::optional<AlphaSearch> search_;    // uses the sweep's reference
   Limit searched_for_;
   bool cancelled_ = false;
   double elapsed_ = 0.0;  // wall time of the sweep, including the time between slices [s]

@@ -6,7 +6,7 @@
 
 namespace substep {
 
-/// The number of constant sub-steps that is as exact: "7", "9 to 10" if the values between the two
+/// The number of constant sub-steps that is as accurate: "7", "9 to 10" if the values between the two
 /// that ran are unknown, "more than 24" if none that ran is enough.
 std::string trade_number(const TradeRow& row, int most_n);
 

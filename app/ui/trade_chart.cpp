@@ -25,25 +25,6 @@ constexpr float kBar = 16.0F;          // height of a bar with its gap
 constexpr float kBetweenLoads = 8.0F;  // between loads
 constexpr float kFigures = 104.0F;     // N and the error, on the right
 
-/// The present alpha if it ran, else the nearest one.
-double nearest(const std::vector<double>& alphas, double wanted) {
-  const auto distance = [&](double alpha) { return std::abs(std::log(alpha / wanted)); };
-  return *std::min_element(alphas.begin(), alphas.end(),
-                           [&](double a, double b) { return distance(a) < distance(b); });
-}
-
-std::vector<double> alphas_of(const Accuracy& accuracy) {
-  if (!accuracy.scene()) return {};
-  return trade_alphas(*accuracy.scene(), accuracy.results(), accuracy.trade_policy);
-}
-
-FairTrade trade_of(const Accuracy& accuracy) {
-  const std::vector<double> alphas = alphas_of(accuracy);
-  if (alphas.empty()) return {};
-  return fair_trade(*accuracy.scene(), accuracy.results(), accuracy.trade_policy,
-                    nearest(alphas, accuracy.trade_alpha));
-}
-
 void policy_row(const Look& look, Accuracy& accuracy) {
   constexpr std::array<Choice, 2> kPolicies{
       {{"per frame", "Under every load that was run"},
@@ -54,25 +35,26 @@ void policy_row(const Look& look, Accuracy& accuracy) {
   }
 }
 
-void alpha_row(const Look& look, Accuracy& accuracy, double shown) {
-  const std::vector<double> alphas = alphas_of(accuracy);
+void alpha_row(const Look& look, Accuracy& accuracy) {
+  const std::vector<double>& alphas = accuracy.trade().alphas;
   std::vector<std::string> names;
   for (const double alpha : alphas) names.push_back(plain_number(alpha));
   std::vector<Choice> choices;
   for (const std::string& name : names) {
-    choices.push_back({name.c_str(), "Stability threshold of adaptive sub-stepping"});
+    choices.push_back({name.c_str(), "Stability threshold of adaptive sub-stepping (Eq. 5)"});
   }
-  auto current = static_cast<int>(std::find(alphas.begin(), alphas.end(), shown) - alphas.begin());
+  const auto shown = std::find(alphas.begin(), alphas.end(), accuracy.trade().alpha);
+  auto current = static_cast<int>(shown - alphas.begin());
   if (segmented_row(look, "Alpha", choices, current, "Of adaptive sub-stepping")) {
     accuracy.trade_alpha = alphas[static_cast<std::size_t>(current)];
   }
 }
 
-/// A bar with its figures; the runs it stands for.
+/// A bar with its figures, and the run that it starts.
 struct Bar {
-  const Result* result = nullptr;  // null if none ran
-  double certain = 0.0;            // sub-steps per frame, at least
-  double most = 0.0;               // and at most
+  const Result* result = nullptr;  // null if no N that ran is enough
+  double certain = 0.0;            // lower bound of the sub-steps per frame
+  double most = 0.0;               // upper bound
   std::string n;
   ImU32 color = 0;
   const char* name = "";
@@ -89,7 +71,7 @@ Bar adaptive_bar(const Theme& t, const TradeRow& row) {
 }
 
 Bar constant_bar(const Theme& t, const TradeRow& row, int most_n) {
-  Bar bar{row.constant, 0.0, 0.0, "", t.grey, "Smallest constant N that is as exact"};
+  Bar bar{row.constant, 0.0, 0.0, "", t.grey, "Smallest constant N that is as accurate"};
   if (row.constant == nullptr) {
     bar.certain = bar.most = std::max(row.too_few, most_n);
     bar.n = "> " + plain_number(bar.most);
@@ -237,7 +219,7 @@ void legend(const Look& look, const FairTrade& trade) {
   };
   entry(adaptive_bar(t, trade.rows.front()).color,
         "Adaptive, alpha = " + plain_number(trade.alpha) + ": mean sub-steps per frame");
-  entry(t.grey, "Smallest constant N that is as exact, found by trying");
+  entry(t.grey, "Smallest constant N that is as accurate, found by trying");
   label(look.fonts.small, t.dim,
         (std::string("On the right: N, and the ") + axis_name(trade.axis) + ".").c_str());
 }
@@ -245,17 +227,17 @@ void legend(const Look& look, const FairTrade& trade) {
 }  // namespace
 
 void trade_head(const Look& look, Accuracy& accuracy) {
-  const FairTrade trade = trade_of(accuracy);
-  label(look.fonts.regular, look.theme->text,
-        trade.rows.empty() ? "The runs to compare are not there yet." : trade_text(trade).c_str());
+  const bool known = !accuracy.trade().rows.empty();
+  const std::string text = known ? trade_text(accuracy.trade()) : "No runs to compare yet.";
+  label(look.fonts.regular, look.theme->text, text.c_str());
   space(6.0F);
   policy_row(look, accuracy);
-  if (!trade.rows.empty()) alpha_row(look, accuracy, trade.alpha);
+  if (known) alpha_row(look, accuracy);
   space(4.0F);
 }
 
-std::optional<std::size_t> trade_chart(const Look& look, const Accuracy& accuracy, float width) {
-  const FairTrade trade = trade_of(accuracy);
+std::optional<std::size_t> trade_chart(const Look& look, Accuracy& accuracy, float width) {
+  const FairTrade& trade = accuracy.trade();
   if (trade.rows.empty()) return std::nullopt;
   const auto chosen = Chart(look, accuracy, trade, width).draw();
   space(4.0F);

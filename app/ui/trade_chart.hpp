@@ -12,8 +12,8 @@ namespace substep::ui {
 void trade_head(const Look& look, Accuracy& accuracy);
 
 /// Sub-steps per frame under each load: a bar for adaptive sub-stepping and one for the smallest
-/// constant N that is as exact, each with its error; a line for the constant N that serves all
+/// constant N that is as accurate, each with its error; a line for the constant N that serves all
 /// loads. @param width logical pixels @return the result whose bar was clicked
-std::optional<std::size_t> trade_chart(const Look& look, const Accuracy& accuracy, float width);
+std::optional<std::size_t> trade_chart(const Look& look, Accuracy& accuracy, float width);
 
 }  // namespace substep::ui

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <string>
@@ -13,7 +14,7 @@
 namespace substep {
 namespace {
 
-constexpr double kNoLessExact = 1.05;  // ratio of errors
+constexpr double kAsAccurate = 1.05;  // ratio of errors
 constexpr std::array kAxes{ErrorAxis::kGap, ErrorAxis::kPenetration, ErrorAxis::kEnergy};
 
 using Column = std::map<double, const Result*>;  // by the method's parameter
@@ -43,7 +44,7 @@ std::vector<double> common(const Columns& columns) {
   return all;
 }
 
-/// The first error that every run of the column has.
+/// The first error that any run has.
 ErrorAxis axis_of(const Columns& columns) {
   for (const ErrorAxis axis : kAxes) {
     for (const auto& [load, column] : columns) {
@@ -60,7 +61,7 @@ double error(const Result& result, ErrorAxis axis) {
 }
 
 bool is_enough(const Result& constant, const Result& adaptive, ErrorAxis axis) {
-  return constant.metrics.holds && error(constant, axis) <= kNoLessExact * error(adaptive, axis);
+  return constant.metrics.holds && error(constant, axis) <= kAsAccurate * error(adaptive, axis);
 }
 
 TradeRow row_of(double load, const Result& adaptive, const Column& constants, ErrorAxis axis) {
@@ -74,6 +75,18 @@ TradeRow row_of(double load, const Result& adaptive, const Column& constants, Er
     row.too_few = static_cast<int>(n);
   }
   return row;
+}
+
+bool is_on_map(double alpha) {
+  const std::span<const double> shown = map_alphas();
+  return std::find(shown.begin(), shown.end(), alpha) != shown.end();
+}
+
+/// By their ratio.
+double nearest(const std::vector<double>& alphas, double wanted) {
+  const auto distance = [&](double alpha) { return std::abs(std::log(alpha / wanted)); };
+  return *std::min_element(alphas.begin(), alphas.end(),
+                           [&](double a, double b) { return distance(a) < distance(b); });
 }
 
 Settings adaptive_of(const Scene& scene, Policy policy) {
@@ -107,36 +120,31 @@ bool FairTrade::holds() const {
                      [](const TradeRow& row) { return row.adaptive->metrics.holds; });
 }
 
-std::vector<double> trade_alphas(const Scene& scene, std::span<const Result> results,
-                                 Policy policy) {
-  std::vector<double> alphas = common(columns_of(results, adaptive_of(scene, policy)));
-  const std::span<const double> shown = map_alphas();
-  std::erase_if(alphas, [&](double alpha) {
-    return std::find(shown.begin(), shown.end(), alpha) == shown.end();
-  });
-  return alphas;
-}
-
 FairTrade fair_trade(const Scene& scene, std::span<const Result> results, Policy policy,
                      double alpha) {
   const Columns adaptive = columns_of(results, adaptive_of(scene, policy));
   const Columns constant = columns_of(results, constant_of(scene));
   FairTrade trade;
   trade.axis = axis_of(adaptive);
-  trade.alpha = alpha;
+  trade.alphas = common(adaptive);
+  std::erase_if(trade.alphas, [](double value) { return !is_on_map(value); });
+  if (trade.alphas.empty()) return trade;
+  trade.alpha = nearest(trade.alphas, alpha);
   for (const auto& [load, column] : adaptive) {
-    const auto run = column.find(alpha);
     const auto beside = constant.find(load);
-    if (run == column.end() || beside == constant.end()) continue;
-    trade.rows.push_back(row_of(load, *run->second, beside->second, trade.axis));
+    if (beside == constant.end()) continue;
+    trade.rows.push_back(row_of(load, *column.at(trade.alpha), beside->second, trade.axis));
   }
+  if (trade.rows.empty()) return trade;
   for (const double n : common(constant)) {
     trade.most_n = static_cast<int>(n);
-    const bool enough = std::all_of(trade.rows.begin(), trade.rows.end(), [&](const TradeRow& row) {
+    const auto enough_in = [&](const TradeRow& row) {
       return row.adaptive->metrics.holds &&
              is_enough(*constant.at(row.load).at(n), *row.adaptive, trade.axis);
-    });
-    if (enough && !trade.rows.empty() && !trade.for_all) trade.for_all = static_cast<int>(n);
+    };
+    if (!trade.for_all && std::all_of(trade.rows.begin(), trade.rows.end(), enough_in)) {
+      trade.for_all = static_cast<int>(n);
+    }
   }
   return trade;
 }

@@ -9,7 +9,7 @@
 
 namespace substep {
 
-/// A run of adaptive sub-stepping, and the smallest constant N that is no less exact.
+/// A run of adaptive sub-stepping, and the smallest constant N that is as accurate.
 struct TradeRow {
   double load = 1.0;                 // Experiment::load
   const Result* adaptive = nullptr;  // never null
@@ -20,15 +20,16 @@ struct TradeRow {
   [[nodiscard]] double n() const;
 };
 
-/// What it is worth not to choose N: adaptive sub-stepping at one alpha beside constant numbers of
-/// sub-steps that are chosen in hindsight, for each load alone and for all loads together. A
-/// constant N is no less exact if its run holds and its error is at most 5 % larger.
+/// Compares the cost of adaptive sub-stepping with that of a constant N chosen in hindsight, for
+/// each load alone and for all loads together. A constant N is as accurate if its run holds and its
+/// error is at most 5 % larger.
 struct FairTrade {
-  ErrorAxis axis = ErrorAxis::kGap;  // the error compared
-  double alpha = 0.0;
-  int most_n = 0;              // the largest constant N that ran under every load
-  std::vector<TradeRow> rows;  // by load, ascending
-  std::optional<int> for_all;  // the smallest N that is no less exact under every load
+  ErrorAxis axis = ErrorAxis::kGap;  // the error compared: joint gap, else overlap, else energy
+  std::vector<double> alphas;        // that ran under every load, ascending
+  double alpha = 0.0;                // the one compared
+  int most_n = 0;                    // the largest constant N that ran under every load
+  std::vector<TradeRow> rows;        // by load, ascending
+  std::optional<int> for_all;        // the smallest N that is as accurate under every load
 
   /// Mean sub-steps per frame of the adaptive runs, all loads counted equally.
   [[nodiscard]] double mean_n() const;
@@ -36,14 +37,10 @@ struct FairTrade {
   [[nodiscard]] bool holds() const;
 };
 
-/// The alphas of the map that ran under every load of this policy, ascending.
-/// @param results of a sweep of this scene
-std::vector<double> trade_alphas(const Scene& scene, std::span<const Result> results,
-                                 Policy policy);
-
-/// Compares the runs of a sweep with the direct solver and Euler's method.
+/// The trade in the runs of a sweep with the direct solver and Euler's method, at the alpha of the
+/// map that is nearest to `alpha`.
+/// @param results of a sweep of this scene; must outlive the rows
 /// @param policy when N is decided; per sub-step ran under the scene's own load only
-/// @param alpha one of trade_alphas()  @param results must outlive the rows
 /// @return without rows if nothing can be compared
 FairTrade fair_trade(const Scene& scene, std::span<const Result> results, Policy policy,
                      double alpha);

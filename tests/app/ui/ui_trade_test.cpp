@@ -90,12 +90,25 @@ TEST(FairTrade, EveryShippedSweepHasAConclusion) {
     if (scene->group == "exam") continue;
     show_trade(h, scene->name.c_str());
     for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
-      for (const double alpha : trade_alphas(*scene, h.app->accuracy.results(), policy)) {
-        const FairTrade trade = fair_trade(*scene, h.app->accuracy.results(), policy, alpha);
-        EXPECT_FALSE(trade_text(trade).empty()) << scene->name << ", alpha " << alpha;
+      h.app->accuracy.trade_policy = policy;
+      for (const double alpha : std::vector<double>(h.app->accuracy.trade().alphas)) {
+        h.app->accuracy.trade_alpha = alpha;
+        EXPECT_EQ(h.app->accuracy.trade().alpha, alpha) << scene->name;
+        EXPECT_FALSE(trade_text(h.app->accuracy.trade()).empty()) << scene->name << ", " << alpha;
       }
     }
   }
+}
+
+TEST(FairTrade, GrowsWithASweep) {
+  Headless h;
+  sweep_a_rope(h);
+  const std::size_t all = h.app->accuracy.trade().rows.size();
+  EXPECT_EQ(all, 6U) << "a row for each load";
+  h.app->accuracy.start(h.app->accuracy.scene());
+  EXPECT_TRUE(h.app->accuracy.trade().rows.empty()) << "the rows of the last sweep";
+  finish(h);
+  EXPECT_EQ(h.app->accuracy.trade().rows.size(), all);
 }
 
 TEST(FairTrade, SaysHowManyAndHowSurely) {

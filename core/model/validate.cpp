@@ -108,6 +108,9 @@ Problems check_all_values(const Scene& scene, SoundParts& sound) {
     sound.bodies.push_back(problems.size() == before);
   }
   check_criteria(scene, problems);
+  if (scene.camera.width) {
+    check_number(*scene.camera.width, kDistanceRange, "/camera/width", problems);
+  }
   for (std::size_t i = 0; i < scene.joints.size() && problems.size() < kMaxProblems; ++i) {
     const std::size_t before = problems.size();
     check_joint(scene.joints[i], scene.bodies, joints.at(i), problems);

@@ -139,11 +139,13 @@ void Simulator::set_settings(const Settings& settings) {
   const bool other_solver = settings.solver != impl_->settings.solver;
   Settings only_watched = impl_->settings;
   only_watched.watch_stiffness = settings.watch_stiffness;
-  if (settings != only_watched) {
-    impl_->state.rest.clear();  // may move under new settings
+  if (settings != only_watched) impl_->state.rest.clear();  // may move under new settings
+  const bool other_integrator = other_solver || settings.integrator != impl_->settings.integrator ||
+                                settings.forces != impl_->settings.forces;
+  impl_->settings = settings;
+  if (other_integrator) {
     impl_->integrator = make_integrator(*impl_->scene, impl_->joints.get(), settings);
   }
-  impl_->settings = settings;
   if (!other_solver) return;
   impl_->solver = make_solver(settings.solver);
   impl_->solver->reserve(impl_->scene->bodies.size(), impl_->blocks.capacity());

@@ -208,6 +208,9 @@ TEST(Reference, WithoutAnExactMotionTheFinestRunStatesItsUncertainty) {
   EXPECT_LT(reference.uncertainty, 1e-2);
   EXPECT_EQ(predictable_window(scene, 10.0), 2.0) << "contact is chaotic";
   EXPECT_EQ(predictable_window(scenes::swinging_box(), 10.0), 10.0);
+  scene.criteria.window = 5.0;
+  EXPECT_EQ(predictable_window(scene, 10.0), 5.0) << "the scene's own";
+  EXPECT_EQ(predictable_window(scene, 3.0), 3.0) << "no longer than the run";
 }
 
 }  // namespace

@@ -100,6 +100,8 @@ std::vector<Break> breaks_of_files() {
       {"/settings/n", [](Scene& s) { s.settings.n = 0; }},
       {"/settings/iterations", [](Scene& s) { s.settings.iterations = 1000000; }},
       {"/criteria/duration", [](Scene& s) { s.criteria.duration = 0.0; }},
+      {"/criteria/window", [](Scene& s) { s.criteria.window = -1.0; }},
+      {"/camera/width", [](Scene& s) { s.camera.width = 0.0; }},
       {"/effects", [](Scene& s) { s.effects.joints = false; }},
       {"/effects",
        [](Scene& s) {

@@ -48,7 +48,7 @@ void add_frame(Cost& cost, const FrameReport& report) {
 
 }  // namespace
 
-bool Compare::goes_on(const Run& run) const {
+bool Compare::continues(const Run& run) const {
   return run.report.status == StepStatus::kOk && (past_failure || run.verdict->holds());
 }
 
@@ -219,7 +219,7 @@ bool Compare::take_frame(const Session& session) {
 
 bool Compare::behind(const Session& session) const {
   return std::any_of(runs_.begin(), runs_.end(), [&](const Run& run) {
-    return goes_on(run) &&
+    return continues(run) &&
            (run.slices.open() || run.simulator->state().frame < session.state().frame);
   });
 }
@@ -274,7 +274,7 @@ void Compare::seek(Run& run, const Session& session, std::int64_t frame,
     run.history.cut(list.back().state.time);
     if (run.divergence && run.divergence->time > session.state().time) run.divergence.reset();
   }
-  while (goes_on(run)) {
+  while (continues(run)) {
     const SceneEdit* edit = edit_of(run.scene);
     const bool now = edit != nullptr && edit->frame == run.simulator->state().frame;
     if (now) {
@@ -311,7 +311,7 @@ void Compare::follow(const Session& session) {
     watch(run, session);
   }
   for (Run& run : runs_) {
-    const double t = goes_on(run) ? session.between() : 1.0;
+    const double t = continues(run) ? session.between() : 1.0;
     const State& now = run.slices.state(*run.simulator);
     run.poses = run.previous;
     for (std::size_t i = 0; i < now.x.size(); ++i) {

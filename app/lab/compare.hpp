@@ -66,8 +66,8 @@ class Compare {
     std::vector<Checkpoint> checkpoints;  // oldest first
   };
 
-  /// Whether a run goes on after its failure. Otherwise it stays at the frame that failed: the
-  /// motion after a failure is not physical.
+  /// Whether runs continue after a failure. Otherwise they stay at the frame that failed, because
+  /// the motion after a failure is not physical.
   bool past_failure = false;
 
   [[nodiscard]] bool open() const { return !runs_.empty(); }
@@ -110,7 +110,7 @@ class Compare {
     std::optional<Grab> grab;
   };
 
-  [[nodiscard]] bool goes_on(const Run& run) const;
+  [[nodiscard]] bool continues(const Run& run) const;
   void begin(Run& run, const Session& session);
   void use_scene(Run& run, const std::shared_ptr<const Scene>& scene) const;
   bool step(Run& run, FrameSlices::Clock::time_point until);

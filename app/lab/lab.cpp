@@ -217,7 +217,8 @@ void Lab::watch_stiffness(bool on) {
 
 void Lab::tell(std::string text) { notice = {std::move(text), 5.0}; }
 
-// The motion after a failure is not physical. In a comparison the clock of the others goes on.
+// The motion after a failure is not physical. In a comparison the other runs need the clock, so
+// this run continues, but its picture stays.
 void Lab::note_failure() {
   if (compare.open()) {
     const State& state = session.state();
@@ -254,7 +255,7 @@ std::optional<Failure> Lab::failure_in(std::size_t pane) const {
   if (frozen()) {
     return failure_of(*failed_frame_.scene, failed_frame_.poses, failed_frame_.report, verdict);
   }
-  // A person may have let it go on.
+  // The user may have continued the run.
   if (session.playing() || (!session.stopped() && session.report().time != verdict.failed_at())) {
     return std::nullopt;
   }

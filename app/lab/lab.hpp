@@ -84,8 +84,8 @@ struct Lab {
   /// Pane 0 is this run; the others are the runs compared with it.
   [[nodiscard]] const Scene& scene_in(std::size_t pane) const;
   [[nodiscard]] const Poses& poses_in(std::size_t pane) const;
-  /// Whether this run has failed in a comparison: it goes on, because the others share its clock,
-  /// but it is shown at the frame that failed.
+  /// Whether this run has failed in a comparison: it continues, because the others share its clock,
+  /// but the frame that failed is shown.
   [[nodiscard]] bool frozen() const;
   /// What failed in a pane, while it shows the frame that failed.
   [[nodiscard]] std::optional<Failure> failure_in(std::size_t pane) const;

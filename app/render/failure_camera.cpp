@@ -3,7 +3,7 @@
 namespace substep {
 
 void FailureCamera::follow(OrbitCamera& camera, const std::optional<Bounds>& failed, bool moves) {
-  // Another scene has placed the camera anew, or a person has moved it.
+  // A new scene has reset the camera, or the user has moved it.
   if (before_ && (camera.placed() != before_->placed() || camera.by_hand())) before_.reset();
   if (failed) {
     if (!seen_ && moves && !camera.by_hand()) {

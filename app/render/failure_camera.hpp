@@ -6,8 +6,8 @@
 
 namespace substep {
 
-/// Turns a camera to what failed, and back when the run holds again. A person who has moved the
-/// camera keeps it as it is.
+/// Turns a camera to what failed, and back when the run holds again. A camera that the user has
+/// moved stays.
 class FailureCamera {
  public:
   /// Call in every frame.

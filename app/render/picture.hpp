@@ -48,8 +48,7 @@ struct Part {
   bool operator==(const Part&) const = default;
 };
 
-/// A soft-edged rectangle or disc of darkness on the floor: nine floats of geometry and three
-/// numbers, in the layout of the vertex attributes.
+/// A soft-edged rectangle or disc of darkness on the floor, in the layout of the vertex attributes.
 struct SoftShadow {
   std::array<float, 3> centre{};  // on the floor [m]
   float strength = 0.0F;          // at the centre of a wide one, 0..1
@@ -58,7 +57,7 @@ struct SoftShadow {
   float half_u = 0.0F;            // half extents, to half of the strength [m]
   float half_v = 0.0F;
   float softness = 0.0F;  // half width of the edge [m]
-  float unused = 0.0F;
+  float padding = 0.0F;
 
   bool operator==(const SoftShadow&) const = default;
 };

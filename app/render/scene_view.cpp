@@ -106,8 +106,7 @@ Bounds ball_around(const Scene& scene, const Poses& poses, const Bounds* limit) 
 }
 
 // Half of the width that the scene states, or of the bodies around the camera's initial target,
-// projected to its distance. Bodies
-// may swing to the other side, nearer or farther.
+// projected to its distance. Bodies may swing to the other side, nearer or farther.
 double width_to_show(const Scene& scene, const Poses& poses) {
   if (scene.camera.width) return 0.5 * *scene.camera.width;
   const Vec3 right = OrbitCamera::right_of(scene.camera);

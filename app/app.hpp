@@ -54,6 +54,7 @@ struct App : Lab, Viewport {
 /// One frame: advances the simulation, builds the panels, draws. The shell has already passed the
 /// display size, pixel ratio and events to Dear ImGui.
 /// @param wall_dt time since the last call [s]
-void frame(App& app, double wall_dt);
+/// @param whole see DrawOptions
+void frame(App& app, double wall_dt, bool whole = true);
 
 }  // namespace substep

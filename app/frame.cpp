@@ -68,6 +68,7 @@ void take_capture(App& app, int width, int height) {
 void take_figure(App& app) {
   const Figure figure = *std::exchange(app.desk.figure, std::nullopt);
   if (!app.host.save_file) return;
+  app.renderer->present(true);  // its panels are drawn once more
   const ui::FigureFrame drawing;
   ImGui::NewFrame();
   ui::forget_handles();
@@ -152,7 +153,7 @@ void follow_failure(App& app) {
 
 }  // namespace
 
-void frame(App& app, double wall_dt) {
+void frame(App& app, double wall_dt, bool whole) {
   const Scaled scaled(app);
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.quality.observe(wall_dt, app.own_time);
@@ -192,7 +193,8 @@ void frame(App& app, double wall_dt) {
   ImGui::Render();
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
-  app.renderer->draw(app.pictures, *ImGui::GetDrawData(), {width, height, app.quality.quality()});
+  app.renderer->draw(app.pictures, *ImGui::GetDrawData(),
+                     {width, height, app.quality.quality(), whole});
   if (app.desk.capture) take_capture(app, width, height);
   if (app.desk.figure) take_figure(app);
 

@@ -2,6 +2,8 @@
 import { Graphics } from "./graphics.mjs";
 
 const cursors = ["default", "grab", "text"];
+const answering = 500; // for this long after an event, every frame is drawn whole [ms]
+const partly = 3; // otherwise one of so many, if it is rendered in software
 
 /** Draws during activity and for a moment after every event, while the canvas is visible. */
 export class Clock {
@@ -10,6 +12,9 @@ export class Clock {
     Object.assign(this, { wasm, frame, afterDraw });
     this.before = performance.now();
     this.awakeUntil = 0;
+    this.wholeUntil = 0;
+    this.frames = 0; // of the browser
+    this.shownIn = -1; // the last frame of the browser in which a picture was shown
     this.timer = 0; // for a frame that was begun and not shown
     this.pictures = frame.canvas.pictures = { begun: 0, shown: 0 }; // for tests that read pixels
     this.graphics = new Graphics(wasm, frame, () => this.wake());
@@ -22,6 +27,7 @@ export class Clock {
     this.watcher.observe(frame.canvas);
     this.tick = (now) => {
       this.request = requestAnimationFrame(this.tick);
+      this.frames += 1;
       if (this.canDraw() && this.seen) this.next(now);
       else this.before = now;
     };
@@ -32,7 +38,11 @@ export class Clock {
   canDraw() { return !this.wasm.stopped && this.graphics.canDraw(); }
 
   /** Keeps drawing until animations have ended. */
-  wake() { this.awakeUntil = performance.now() + 1500; }
+  wake() {
+    const now = performance.now();
+    this.awakeUntil = now + 1500;
+    this.wholeUntil = now + answering;
+  }
 
   /** Draws the next frame, if there is a change. */
   next(now) {
@@ -41,33 +51,43 @@ export class Clock {
     else if (this.timer) return;
     const dt = Math.max(0, (now - this.before) / 1000);
     this.before = now;
-    if (this.wasm.busy()) this.wake(); // what it ends with is drawn too: a failure and its card
+    // What a run ends with is drawn too: a failure and its card.
+    const running = this.wasm.busy();
+    if (running) this.awakeUntil = Math.max(this.awakeUntil, now + 1500);
     if (now >= this.awakeUntil) return;
+    const whole = !running || now < this.wholeUntil || this.pictures.begun % partly === 0;
     if (emptied || !this.wasm.deferred()) this.draw(dt);
-    else this.begin(dt);
+    else this.begin(dt, whole);
   }
 
   /** Draws a frame and shows it synchronously. */
   draw(dt) {
     this.pictures.begun += 1;
-    this.wasm.frame(dt);
+    this.wasm.frame(dt, 1);
     this.wasm.present(1);
     this.shown();
   }
 
   /**
    * Begins a software-rendered frame and shows it when it is finished. A browser reads the pixels
-   * of a changed canvas, and blocks until they are drawn.
+   * of a changed canvas, and blocks until they are drawn; the next frame is begun before it does,
+   * so that the renderer does not wait for it.
    */
-  begin(dt) {
+  begin(dt, whole) {
     this.pictures.begun += 1;
     const showWhenFinished = () => {
-      if (!this.canDraw() || this.wasm.present(0)) this.shown();
-      else this.timer = setTimeout(showWhenFinished);
+      const due = this.frames > this.shownIn; // not two pictures in one frame of the browser
+      if (!this.canDraw() || (due && this.wasm.present(0))) {
+        this.shownIn = this.frames;
+        this.shown();
+        if (this.canDraw() && this.seen) this.next(performance.now());
+      } else {
+        this.timer = setTimeout(showWhenFinished);
+      }
     };
     this.timer = setTimeout(() => { // after the browser's own frame
       try {
-        if (this.canDraw()) this.wasm.frame(dt);
+        if (this.canDraw()) this.wasm.frame(dt, whole ? 1 : 0);
       } finally {
         showWhenFinished(); // or no frame would follow
       }

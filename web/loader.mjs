@@ -64,7 +64,7 @@ export async function loadEngine(progress) {
 
 // Results and parameters of the exports: v nothing, n number, s text.
 const exported = {
-  start: "snn", context_lost: "v", context_restored: "s", resize: "vnnn", frame: "vn", deferred: "n", present: "nn", cursor: "n",
+  is_software: "ns", start: "snsn", context_lost: "v", context_restored: "s", resize: "vnnn", frame: "vnn", deferred: "n", present: "nn", cursor: "n",
   pointer: "vnnn", pointer_gone: "v", button: "vnnn", wheel: "vnn", pinching: "vn", pinch: "vnnn",
   key: "nsnnnnn", text: "vs", focus: "vn", pasted: "vs", reduced_motion: "vn",
   open: "ss", open_text: "sss", set: "ss", step: "vn", substep: "v", go_to: "vn", play: "vn", busy: "n", reset: "v",
@@ -122,10 +122,11 @@ const camel = (name) => name.replace(/_(.)/g, (_, letter) => letter.toUpperCase(
  * A separate application for a canvas.
  * @param engine the result of loadEngine
  * @param host services of the page for the application, see web/host.cpp
+ * @param renderer name of the graphics renderer, or ""
  * @returns the exports by their names in camel case; run() starts it, once the host is complete,
  *   releaseGraphics() releases the context until takeGraphics(), close() permanently
  */
-export async function makeEngine(engine, canvas, host) {
+export async function makeEngine(engine, canvas, host, renderer) {
   const module = await engine.create({
     host,
     canvas,
@@ -149,12 +150,14 @@ export async function makeEngine(engine, canvas, host) {
   let losing = null; // WEBGL_lose_context: loses and restores a context
   wasm.run = (keeps) => {
     // With alpha, although all pixels are opaque: masking it out is slow in a software renderer.
+    // Such a renderer may redraw parts of the canvas, which therefore keeps its pixels.
     const context = module.GL.createContext(canvas, {
       majorVersion: 2, minorVersion: 0, alpha: true, antialias: false, depth: false,
+      preserveDrawingBuffer: wasm.isSoftware(renderer) !== 0,
     });
     if (!context) throw new Error("The browser provides no WebGL 2 context");
     losing = canvas.getContext("webgl2").getExtension("WEBGL_lose_context");
-    const error = wasm.start(context, keeps ? 1 : 0);
+    const error = wasm.start(context, renderer, keeps ? 1 : 0);
     if (error) throw new Error(error);
   };
   wasm.canReleaseGraphics = () => losing !== null;

@@ -1,6 +1,5 @@
 // The application in a page: entry points called by web/loader.mjs for start and drawing.
 
-#include <GLES3/gl3.h>
 #include <emscripten.h>
 #include <emscripten/heap.h>
 #include <emscripten/html5.h>
@@ -10,6 +9,7 @@
 #include <string>
 
 #include "app/render/gl_renderer.hpp"
+#include "app/render/quality.hpp"
 #include "app/shell/arrangement.hpp"
 #include "web/host.hpp"
 #include "web/instance.hpp"
@@ -20,15 +20,7 @@ std::unique_ptr<Instance> instance;
 
 namespace {
 EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = 0;
-
-// Browsers provide the name only by an extension; "" without it.
-std::string renderer_name() {
-  constexpr GLenum kUnmaskedRenderer = 0x9246;
-  if (!emscripten_webgl_enable_extension(context, "WEBGL_debug_renderer_info")) return "";
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): characters
-  const auto* name = reinterpret_cast<const char*>(glGetString(kUnmaskedRenderer));
-  return name != nullptr ? name : "";
-}
+std::string renderer_name;
 
 }  // namespace
 
@@ -38,20 +30,27 @@ using substep::web::instance;
 
 extern "C" {
 
+/// Whether the renderer of this name is software: then the canvas must keep its pixels.
+EMSCRIPTEN_KEEPALIVE int substep_is_software(const char* renderer) {
+  return substep::is_software(renderer) ? 1 : 0;
+}
+
 /// Runs the first scene. @param context WebGL 2 context, as an Emscripten handle
+/// @param renderer its name, or "" if the browser hides it
 /// @param keeps whether data is stored between visits; false in an embedded article
 /// @return "" or the reason for a failure
-EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, int keeps) {
+EMSCRIPTEN_KEEPALIVE const char* substep_start(int context, const char* renderer, int keeps) {
   static std::string error;
   substep::web::context = context;
+  substep::web::renderer_name = renderer;
   emscripten_webgl_make_context_current(context);
   instance = std::make_unique<substep::web::Instance>();
-  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name(), true);
-  if (!renderer) return error.c_str();
+  auto gl = substep::make_gl_renderer(error, renderer, true);
+  if (!gl) return error.c_str();
   substep::Library library("/scenes");
   if (library.scenes().empty()) return "the page contains no scenes";
   substep::add_exam(library);
-  instance->app = std::make_unique<substep::App>(std::move(library), std::move(renderer));
+  instance->app = std::make_unique<substep::App>(std::move(library), std::move(gl));
   instance->app->host = substep::web::page_host();
   if (keeps == 0) {
     instance->app->host.remember = nullptr;
@@ -71,7 +70,7 @@ EMSCRIPTEN_KEEPALIVE const char* substep_context_restored() {
   static std::string error;
   error.clear();
   emscripten_webgl_make_context_current(substep::web::context);
-  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name(), true);
+  auto renderer = substep::make_gl_renderer(error, substep::web::renderer_name, true);
   if (!renderer) return error.c_str();
   instance->app->renderer = std::move(renderer);
   return "";
@@ -94,10 +93,11 @@ EMSCRIPTEN_KEEPALIVE int substep_present(int wait) {
 }
 
 /// Draws one frame, or begins to. @param dt wall time since the last one [s]
-EMSCRIPTEN_KEEPALIVE void substep_frame(double dt) {
+/// @param whole 0: without a graphics card, panels may keep what they showed
+EMSCRIPTEN_KEEPALIVE void substep_frame(double dt, int whole) {
   ImGui::GetIO().DeltaTime = static_cast<float>(dt > 1e-4 ? dt : 1e-4);
   if (instance->pinching) instance->app->hand.moved = true;
-  substep::frame(*instance->app, dt);
+  substep::frame(*instance->app, dt, whole != 0);
 }
 
 /// The mouse cursor to show: 0 arrow, 1 hand, 2 text.

@@ -19,14 +19,21 @@ const VECTORS = new Uint8Array([
   10, 15, 1, 13, 0, 0x44, 0, 0, 0, 0, 0, 0, 0, 0, 0xfd, 20, 0x0b, // f64.const 0, f64x2.splat, end
 ]);
 
-/** The feature that this browser lacks, or "". */
-function missing() {
-  if (typeof WebAssembly !== "object") return "WebAssembly";
-  if (!WebAssembly.validate(VECTORS)) return "WebAssembly with SIMD";
+/**
+ * What this browser has.
+ * @returns {lacking, renderer}: the feature that is missing, or ""; the name of the graphics
+ *   renderer, or "" if the browser hides it
+ */
+function inspect() {
+  if (typeof WebAssembly !== "object") return { lacking: "WebAssembly" };
+  if (!WebAssembly.validate(VECTORS)) return { lacking: "WebAssembly with SIMD" };
   const canvas = document.createElement("canvas");
-  if (!canvas.getContext("webgl2")) return "WebGL 2";
+  const gl = canvas.getContext("webgl2");
+  if (!gl) return { lacking: "WebGL 2" };
+  const names = gl.getExtension("WEBGL_debug_renderer_info");
+  const renderer = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
   loseContext(canvas); // browsers limit their number
-  return "";
+  return { lacking: "", renderer };
 }
 
 /** Loads the program; on network errors retries until it succeeds or the user gives up. */
@@ -62,7 +69,7 @@ export async function createSubstep(element, options = {}) {
     throw new TypeError("createSubstep: the first argument is not an element of the page");
   }
   const frame = makeFrame(element, options.wholePage === true);
-  const lacking = missing();
+  const { lacking, renderer } = inspect();
   if (lacking) {
     frame.say("This browser cannot show substep", `It needs ${lacking}, which is unavailable or ` +
       "switched off here. A current Firefox, Chrome, Edge or Safari has it; on some machines " +
@@ -70,7 +77,7 @@ export async function createSubstep(element, options = {}) {
     throw new Error(`substep needs ${lacking}`);
   }
   try {
-    return await open(frame, options);
+    return await open(frame, options, renderer);
   } catch (error) {
     console.error(error);
     frame.say("substep did not start", String(error?.message ?? error));
@@ -87,10 +94,10 @@ async function startAgain(frame, wasm, address) {
   address.goBefore();
 }
 
-async function open(frame, options) {
+async function open(frame, options, renderer) {
   const engine = await load(frame);
   const host = {}; // called by the application, see web/host.cpp
-  const wasm = await makeEngine(engine, frame.canvas, host);
+  const wasm = await makeEngine(engine, frame.canvas, host, renderer);
   const readScene = makeSceneReader(wasm);
   const files = makeFiles(frame, wasm, host, readScene);
   const address = makeAddress(wasm, host, readScene, options.address === true, frame.signal);

@@ -3,6 +3,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <utility>
 
@@ -62,6 +63,41 @@ std::vector<PixelRect> uncovered(const PixelRect& window, std::span<const PixelR
     parts = std::move(left);
   }
   return parts;
+}
+
+PixelRect largest_uncovered(const PixelRect& window, std::span<const PixelRect> covers) {
+  const auto area = [](const PixelRect& r) { return r.width * r.height; };
+  PixelRect largest;
+  for (const PixelRect& part : uncovered(window, covers)) {
+    if (area(part) > area(largest)) largest = part;
+  }
+  return 4 * area(largest) < area(window) ? window : largest;
+}
+
+void keep_within(const PixelRect& part, ImDrawData& panels) {
+  constexpr float kRounding = 0.01F;  // the back end truncates to pixels
+  const auto at = [&](int x, int y) {
+    return ImVec2((static_cast<float>(x) + kRounding) / panels.FramebufferScale.x,
+                  (static_cast<float>(y) + kRounding) / panels.FramebufferScale.y);
+  };
+  const ImVec2 min = at(part.x, part.y);
+  const ImVec2 max = at(part.x + part.width, part.y + part.height);
+  const auto outside = [&](const ImDrawList* list) {
+    ImRect bounds(FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX);
+    for (const ImDrawVert& v : list->VtxBuffer) bounds.Add(v.pos);
+    return !bounds.Overlaps({min, max});
+  };
+  ImVector<ImDrawList*>& lists = panels.CmdLists;
+  lists.resize(
+      static_cast<int>(std::remove_if(lists.begin(), lists.end(), outside) - lists.begin()));
+  panels.CmdListsCount = lists.Size;
+  for (ImDrawList* list : lists) {
+    for (ImDrawCmd& command : list->CmdBuffer) {
+      ImVec4& clip = command.ClipRect;
+      clip = {std::max(clip.x, min.x), std::max(clip.y, min.y), std::min(clip.z, max.x),
+              std::min(clip.w, max.y)};
+    }
+  }
 }
 
 }  // namespace substep

@@ -54,12 +54,17 @@ PicturePainter::~PicturePainter() {
 
 bool PicturePainter::build(std::string& error) {
   const std::string header = glsl::kHeader;
-  const std::string receiving = header + glsl::kShadowFunction;
-  bool ok = background_.build(header + glsl::kBackgroundVertex, header + glsl::kBackgroundFragment,
-                              error);
-  ok &= body_.build(header + glsl::kBodyVertex, receiving + glsl::kBodyFragment, error);
+  bool ok = true;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::string fragment = header + (i == 1 ? glsl::kRough : "");
+    ok &= background_[i].build(header + glsl::kBackgroundVertex,
+                               fragment + glsl::kBackgroundFragment, error);
+    ok &= ground_[i].build(header + glsl::kGroundVertex,
+                           fragment + glsl::kShadowFunction + glsl::kGroundFragment, error);
+  }
+  ok &= body_.build(header + glsl::kBodyVertex,
+                    header + glsl::kShadowFunction + glsl::kBodyFragment, error);
   ok &= shadow_.build(header + glsl::kBodyVertex, header + glsl::kShadowFragment, error);
-  ok &= ground_.build(header + glsl::kGroundVertex, receiving + glsl::kGroundFragment, error);
   ok &= contact_.build(header + glsl::kContactVertex, header + glsl::kContactFragment, error);
   ok &= ribbon_.build(header + glsl::kRibbonVertex, header + glsl::kRibbonFragment, error);
   if (!shadow_map_.complete()) {
@@ -190,25 +195,26 @@ void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) 
   const float along_u = to_centre.dot(u);
   const float along_v = to_centre.dot(v);
   const Vector3f centre = vector(ground.origin) + along_u * u + along_v * v;
-  ground_.use();
-  ground_.set_matrix("view_projection", picture.view_projection.data());
-  ground_.set_matrix("world_to_shadow", light.data());
-  ground_.set("shadow_map", 0);
-  ground_.set("shadow_taps", grain_.taps);
-  ground_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
-  ground_.set3("origin", centre.data());
-  ground_.set3("axis_u", u.data());
-  ground_.set3("axis_v", v.data());
-  ground_.set2("offset", along_u, along_v);
-  ground_.set("fade", ground.fade);
-  ground_.set("cell", ground.cell);
-  ground_.set("shadow", picture.shadow);
+  const gl::Program& program = ground_.at(rough_);
+  program.use();
+  program.set_matrix("view_projection", picture.view_projection.data());
+  program.set_matrix("world_to_shadow", light.data());
+  program.set("shadow_map", 0);
+  program.set("shadow_taps", grain_.taps);
+  program.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  program.set3("origin", centre.data());
+  program.set3("axis_u", u.data());
+  program.set3("axis_v", v.data());
+  program.set2("offset", along_u, along_v);
+  program.set("fade", ground.fade);
+  program.set("cell", ground.cell);
+  program.set("shadow", picture.shadow);
   const std::array<float, 4> none{};
-  ground_.set4("surface", ground.solid ? &picture.floor.r : none.data());
-  ground_.set3("shade", &picture.shade.r);
+  program.set4("surface", ground.solid ? &picture.floor.r : none.data());
+  program.set3("shade", &picture.shade.r);
   Color grid = picture.grid;
   if (ground.solid) grid.a *= 0.65F;  // the floor itself shows where it is
-  ground_.set4("grid", &grid.r);
+  program.set4("grid", &grid.r);
   glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
@@ -240,6 +246,7 @@ void PicturePainter::draw_ribbons(const Picture& picture) {
 void PicturePainter::paint(std::span<const Picture> pictures, Quality quality, const Target& target,
                            std::span<const PixelRect> hidden) {
   grain_ = grain_of(quality);
+  rough_ = quality <= Quality::kCoarse ? 1 : 0;
   shadow_map_.fit(grain_.shadow_size);
   for (const Picture& picture : pictures) draw_picture(picture, target, hidden);
 }
@@ -247,9 +254,10 @@ void PicturePainter::paint(std::span<const Picture> pictures, Quality quality, c
 // Drawn behind everything else.
 void PicturePainter::draw_background(const Picture& picture) {
   glDepthFunc(GL_LEQUAL);
-  background_.use();
-  background_.set3("top", &picture.background_top.r);
-  background_.set3("bottom", &picture.background_bottom.r);
+  const gl::Program& program = background_.at(rough_);
+  program.use();
+  program.set3("top", &picture.background_top.r);
+  program.set3("bottom", &picture.background_bottom.r);
   glBindVertexArray(empty_array_);
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDepthFunc(GL_LESS);

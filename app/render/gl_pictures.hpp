@@ -76,16 +76,17 @@ class PicturePainter {
                                                          {kBallSegments[3], false},
                                                          {kBallSegments[4], false}}};
   gl::ShadowMap shadow_map_;
-  gl::Program background_;
+  std::array<gl::Program, 2> background_;  // smooth, rough
+  std::array<gl::Program, 2> ground_;
   gl::Program body_;
   gl::Program shadow_;
-  gl::Program ground_;
   gl::Program contact_;
   gl::Program ribbon_;
   GLuint empty_array_ = 0;
   GLuint contact_array_ = 0;
   GLuint ribbon_array_ = 0;
-  Grain grain_;  // of the current paint()
+  Grain grain_;            // of the current paint()
+  std::size_t rough_ = 0;  // 1: with the shaders that glsl::kRough simplifies
 };
 
 }  // namespace substep

@@ -48,7 +48,7 @@ class GlRenderer final : public Renderer {
 
  private:
   void paint(std::span<const Picture> pictures);
-  // Parts hidden by panels, in pixels of the current canvas.
+  // Parts that are not shown, in pixels of the current canvas.
   [[nodiscard]] std::vector<PixelRect> hidden() const;
   void show_canvas() const;
   [[nodiscard]] Quality finest(std::span<const Picture> pictures) const;
@@ -60,13 +60,14 @@ class GlRenderer final : public Renderer {
   GLuint empty_array_ = 0;
   std::vector<Picture> drawn_;        // on the canvas
   std::vector<PixelRect> covered_;    // by panels; not drawn
+  PixelRect window_;                  // its frame buffer
+  PixelRect part_;                    // of it, to be drawn by present()
+  bool incomplete_ = false;           // only a part of the canvas was painted
   Quality quality_ = Quality::kFine;  // of the canvas
   bool software_ = false;             // software renderer
   bool deferred_ = false;
   ImDrawData* panels_ = nullptr;  // to be drawn by present() over the canvas
   int unchanged_ = 0;             // frames since the pictures changed
-  int width_ = 0;                 // of the window's frame buffer [pixel]
-  int height_ = 0;
 };
 
 bool GlRenderer::build(std::string_view draws, bool may_defer, std::string& error) {
@@ -85,7 +86,9 @@ bool GlRenderer::build(std::string_view draws, bool may_defer, std::string& erro
 
 std::vector<PixelRect> GlRenderer::hidden() const {
   std::vector<PixelRect> parts;
-  for (const PixelRect& r : covered_) parts.push_back(scaled(r, grain_of(quality_).scale));
+  for (const PixelRect& r : part_ == window_ ? covered_ : uncovered(window_, {&part_, 1})) {
+    parts.push_back(scaled(r, grain_of(quality_).scale));
+  }
   return parts;
 }
 
@@ -101,9 +104,9 @@ Quality GlRenderer::finest(std::span<const Picture> pictures) const {
 void GlRenderer::paint(std::span<const Picture> pictures) {
   const Grain grain = grain_of(quality_);
   const auto pixels = [&](int size) { return static_cast<int>(std::ceil(grain.scale * size)); };
-  canvas_.fit(pixels(width_), pixels(height_), grain.samples);
-  painter_.paint(pictures, quality_, {canvas_.frame_buffer(), pixels(width_), pixels(height_)},
-                 hidden());
+  canvas_.fit(pixels(window_.width), pixels(window_.height), grain.samples);
+  painter_.paint(pictures, quality_,
+                 {canvas_.frame_buffer(), pixels(window_.width), pixels(window_.height)}, hidden());
   canvas_.resolve();
 }
 
@@ -114,13 +117,13 @@ void GlRenderer::show_canvas() const {
   glDisable(GL_BLEND);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_CULL_FACE);
-  glViewport(0, 0, width_, height_);
+  glViewport(0, 0, window_.width, window_.height);
   texture_.use();
   texture_.set("picture", 0);
   canvas_.bind_texture();
   glBindVertexArray(empty_array_);
-  for (const PixelRect& part : uncovered({0, 0, width_, height_}, covered_)) {
-    glScissor(part.x, height_ - part.y - part.height, part.width, part.height);
+  for (const PixelRect& r : uncovered(part_, covered_)) {
+    glScissor(r.x, window_.height - r.y - r.height, r.width, r.height);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
   glDisable(GL_SCISSOR_TEST);
@@ -129,7 +132,8 @@ void GlRenderer::show_canvas() const {
 
 void GlRenderer::draw(std::span<const Picture> pictures, ImDrawData& panels,
                       const DrawOptions& options) {
-  const bool fits = options.width == width_ && options.height == height_;
+  const PixelRect window{0, 0, options.width, options.height};
+  const bool fits = window == window_;
   const bool same =
       fits && std::equal(pictures.begin(), pictures.end(), drawn_.begin(), drawn_.end());
   unchanged_ = same ? unchanged_ + 1 : 0;
@@ -137,14 +141,18 @@ void GlRenderer::draw(std::span<const Picture> pictures, ImDrawData& panels,
   const Quality quality =
       std::min(unchanged_ < 2 ? options.moving : Quality::kFine, finest(pictures));
   std::vector<PixelRect> covered = covered_by_panels();
-  if (!same || quality > quality_ || covered != covered_) {
-    covered_ = std::move(covered);
+  const bool as_before = fits && covered == covered_;
+  const bool partly = deferred_ && !options.whole && as_before;
+  covered_ = std::move(covered);
+  window_ = window;
+  part_ = partly ? largest_uncovered(window, covered_) : window;
+  if (!same || quality > quality_ || !as_before || (incomplete_ && !partly)) {
     quality_ = quality;
-    width_ = options.width;
-    height_ = options.height;
     paint(pictures);
     drawn_.assign(pictures.begin(), pictures.end());
+    incomplete_ = partly;
   }
+  if (partly) keep_within(part_, panels);
   if (software_) slice_fans(panels);
   panels_ = &panels;
   if (deferred_) {
@@ -168,7 +176,8 @@ std::vector<std::uint8_t> GlRenderer::pixels(int x, int y, int width, int height
   const auto w = static_cast<std::size_t>(width);
   const auto h = static_cast<std::size_t>(height);
   std::vector<std::uint8_t> rgba(4 * w * h);
-  glReadPixels(x, height_ - y - height, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  glReadPixels(x, window_.height - y - height, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+               rgba.data());
   std::vector<std::uint8_t> rgb;
   rgb.reserve(3 * w * h);
   for (std::size_t row = h; row-- > 0;) {

@@ -23,6 +23,7 @@ struct DrawOptions {
   int width = 0;  // of the window's frame buffer [pixel]
   int height = 0;
   Quality moving = Quality::kFine;  // while the picture changes; at rest: the finest
+  bool whole = true;  // false: without a graphics card, panels may keep what they showed before
 };
 
 /// Draws pictures side by side and the panels over them. The shell owns the window system.

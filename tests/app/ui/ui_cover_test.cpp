@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <imgui_internal.h>
+
 #include <algorithm>
+#include <cfloat>
 #include <random>
 
 #include "app/render/cover.hpp"
@@ -52,6 +55,63 @@ TEST(Cover, LeavesUncoveredWhatNoneCovers) {
         };
         const bool covered = std::any_of(covers.begin(), covers.end(), holds);
         EXPECT_EQ(std::count_if(parts.begin(), parts.end(), holds), covered ? 0 : 1);
+      }
+    }
+  }
+}
+
+TEST(Cover, TheLargestPartIsTheWindowWhereAllPartsAreSmall) {
+  const PixelRect window{0, 0, 100, 100};
+  const std::vector<PixelRect> sides{{0, 0, 30, 100}, {80, 0, 20, 100}};
+  const std::vector<PixelRect> most{{20, 0, 80, 100}};
+  EXPECT_EQ(largest_uncovered(window, sides), (PixelRect{30, 0, 50, 100}));
+  EXPECT_EQ(largest_uncovered(window, {}), window);
+  EXPECT_EQ(largest_uncovered(window, most), window) << "a fifth is left";
+  EXPECT_EQ(largest_uncovered(window, {&window, 1}), window);
+}
+
+// Counts triangles whose bounding box overlaps the clip rectangle of their command.
+std::size_t triangles_drawn(const ImDrawData& data) {
+  std::size_t drawn = 0;
+  for (const ImDrawList* list : data.CmdLists) {
+    for (const ImDrawCmd& c : list->CmdBuffer) {
+      for (unsigned i = 0; i < c.ElemCount; i += 3) {
+        ImRect box(FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX);
+        for (unsigned k = 0; k < 3; ++k) {
+          const ImDrawIdx vertex = list->IdxBuffer[static_cast<int>(c.IdxOffset + i + k)];
+          box.Add(list->VtxBuffer[static_cast<int>(c.VtxOffset + vertex)].pos);
+        }
+        if (box.Overlaps(ImRect(c.ClipRect))) ++drawn;
+      }
+    }
+  }
+  return drawn;
+}
+
+TEST(Cover, PanelsOutsideAPartAreNotDrawn) {
+  for (const float ratio : {1.0F, 1.5F, 2.0F}) {
+    Headless h(1280, 720, ratio);
+    h.frames(2);
+    ImDrawData& panels = *ImGui::GetDrawData();
+    const PixelRect window{0, 0, static_cast<int>(1280 * ratio), static_cast<int>(720 * ratio)};
+    const PixelRect part = largest_uncovered(window, covered_by_panels());
+    ASSERT_NE(part, window);
+    const int lists = panels.CmdListsCount;
+    const std::size_t before = triangles_drawn(panels);
+    keep_within(part, panels);
+    EXPECT_LT(panels.CmdListsCount, lists);
+    EXPECT_EQ(panels.CmdListsCount, panels.CmdLists.Size);
+    const std::size_t after = triangles_drawn(panels);
+    EXPECT_GT(after, 0U) << "the title lies over the picture";
+    EXPECT_LT(4 * after, before);
+    for (const ImDrawList* list : panels.CmdLists) {
+      for (const ImDrawCmd& c : list->CmdBuffer) {
+        if (c.ClipRect.x >= c.ClipRect.z || c.ClipRect.y >= c.ClipRect.w) continue;
+        // Truncated, as by the back end.
+        EXPECT_GE(static_cast<int>(c.ClipRect.x * ratio), part.x);
+        EXPECT_GE(static_cast<int>(c.ClipRect.y * ratio), part.y);
+        EXPECT_LE(static_cast<int>(c.ClipRect.z * ratio), part.x + part.width);
+        EXPECT_LE(static_cast<int>(c.ClipRect.w * ratio), part.y + part.height);
       }
     }
   }

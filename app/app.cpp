@@ -16,6 +16,8 @@ App::App(Library shipped, std::unique_ptr<Renderer> draws)
     desk.time.follow = true;
   };
   watch_stiffness(desk.view.tint);
+  // Each step down from the finest would take four frames of a fifth of a second.
+  if (renderer->deferred()) quality = QualityGovernor(Quality::kSketch);
 }
 
 }  // namespace substep

@@ -3,7 +3,7 @@ import { Graphics } from "./graphics.mjs";
 
 const cursors = ["default", "grab", "text"];
 const answering = 500; // for this long after an event, every frame is drawn whole [ms]
-const partly = 3; // otherwise one of so many, if it is rendered in software
+const partly = 4; // otherwise one of so many, if it is rendered in software
 
 /** Draws during activity and for a moment after every event, while the canvas is visible. */
 export class Clock {

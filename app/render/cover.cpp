@@ -30,7 +30,7 @@ void cut(const PixelRect& from, const PixelRect& c, std::vector<PixelRect>& left
 
 }  // namespace
 
-std::vector<PixelRect> covered_by_panels() {
+Panels panels_over_picture() {
   constexpr ImGuiWindowFlags kSeenThrough =
       ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Popup;
   const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -40,19 +40,23 @@ std::vector<PixelRect> covered_by_panels() {
   };
   const auto ceil = [](float x) { return std::ceil(x); };
   const auto floor = [](float x) { return std::floor(x); };
-  std::vector<PixelRect> covers;
+  Panels panels;
   for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows) {
     if (!window->Active || window->Hidden || (window->Flags & kSeenThrough) != 0) continue;
-    const float corner = window->WindowRounding + 1.0F;
-    const ImVec2 min(window->Pos.x + corner, window->Pos.y + corner);
-    const ImVec2 max(window->Pos.x + window->Size.x - corner,
-                     window->Pos.y + window->Size.y - corner);
-    const PixelRect inside =
-        between(pixel(min.x, size.x, ratio.x, ceil), pixel(min.y, size.y, ratio.y, ceil),
-                pixel(max.x, size.x, ratio.x, floor), pixel(max.y, size.y, ratio.y, floor));
-    if (inside.width > 0 && inside.height > 0) covers.push_back(inside);
+    ImRect all = window->Rect();
+    ImRect inside = all;
+    all.Expand(1.0F);
+    inside.Expand(-window->WindowRounding - 1.0F);
+    const PixelRect interior = between(
+        pixel(inside.Min.x, size.x, ratio.x, ceil), pixel(inside.Min.y, size.y, ratio.y, ceil),
+        pixel(inside.Max.x, size.x, ratio.x, floor), pixel(inside.Max.y, size.y, ratio.y, floor));
+    if (interior.width <= 0 || interior.height <= 0) continue;
+    panels.interiors.push_back(interior);
+    panels.bounds.push_back(
+        between(pixel(all.Min.x, size.x, ratio.x, floor), pixel(all.Min.y, size.y, ratio.y, floor),
+                pixel(all.Max.x, size.x, ratio.x, ceil), pixel(all.Max.y, size.y, ratio.y, ceil)));
   }
-  return covers;
+  return panels;
 }
 
 std::vector<PixelRect> uncovered(const PixelRect& window, std::span<const PixelRect> covers) {
@@ -71,31 +75,45 @@ PixelRect largest_uncovered(const PixelRect& window, std::span<const PixelRect> 
   for (const PixelRect& part : uncovered(window, covers)) {
     if (area(part) > area(largest)) largest = part;
   }
-  return 4 * area(largest) < area(window) ? window : largest;
+  if (4 * area(largest) < area(window)) return window;
+  // uncovered() divides along the edges of all panels: extended up and down to the next one.
+  int top = window.y;
+  int bottom = window.y + window.height;
+  for (const PixelRect& c : covers) {
+    if (c.x >= largest.x + largest.width || c.x + c.width <= largest.x) continue;
+    if (c.y < largest.y) {
+      top = std::max(top, c.y + c.height);
+    } else {
+      bottom = std::min(bottom, c.y);
+    }
+  }
+  return between(largest.x, top, largest.x + largest.width, bottom);
 }
 
 void keep_within(const PixelRect& part, ImDrawData& panels) {
-  constexpr float kRounding = 0.01F;  // the back end truncates to pixels
-  const auto at = [&](int x, int y) {
-    return ImVec2((static_cast<float>(x) + kRounding) / panels.FramebufferScale.x,
-                  (static_cast<float>(y) + kRounding) / panels.FramebufferScale.y);
-  };
-  const ImVec2 min = at(part.x, part.y);
-  const ImVec2 max = at(part.x + part.width, part.y + part.height);
+  const ImVec2 pixel(1.0F / panels.FramebufferScale.x, 1.0F / panels.FramebufferScale.y);
+  const ImRect within(static_cast<float>(part.x) * pixel.x, static_cast<float>(part.y) * pixel.y,
+                      static_cast<float>(part.x + part.width) * pixel.x,
+                      static_cast<float>(part.y + part.height) * pixel.y);
   const auto outside = [&](const ImDrawList* list) {
     ImRect bounds(FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX);
     for (const ImDrawVert& v : list->VtxBuffer) bounds.Add(v.pos);
-    return !bounds.Overlaps({min, max});
+    return !bounds.Overlaps(within);
   };
   ImVector<ImDrawList*>& lists = panels.CmdLists;
   lists.resize(
       static_cast<int>(std::remove_if(lists.begin(), lists.end(), outside) - lists.begin()));
   panels.CmdListsCount = lists.Size;
+  // The back end truncates the left edge, the distance of the lower one from the window's, the
+  // width and the height to whole pixels: none of them may fall short by rounding.
+  constexpr float kSpare = 0.01F;  // [pixel]
   for (ImDrawList* list : lists) {
     for (ImDrawCmd& command : list->CmdBuffer) {
       ImVec4& clip = command.ClipRect;
-      clip = {std::max(clip.x, min.x), std::max(clip.y, min.y), std::min(clip.z, max.x),
-              std::min(clip.w, max.y)};
+      clip = {std::max(clip.x, within.Min.x) + kSpare * pixel.x,
+              std::max(clip.y, within.Min.y) - 2 * kSpare * pixel.y,
+              std::min(clip.z, within.Max.x) + 2 * kSpare * pixel.x,
+              std::min(clip.w, within.Max.y) - kSpare * pixel.y};
     }
   }
 }

@@ -19,13 +19,20 @@ struct PixelRect {
   bool operator==(const PixelRect&) const = default;
 };
 
-/// The interior of every panel, without its rounded corners. Call after ImGui::Render().
-std::vector<PixelRect> covered_by_panels();
+/// The panels that hide the picture. Call after ImGui::Render().
+struct Panels {
+  std::vector<PixelRect> interiors;  // without the rounded corners, beside which it shows
+  std::vector<PixelRect> bounds;     // with them and the smooth edge around
+
+  bool operator==(const Panels&) const = default;
+};
+Panels panels_over_picture();
 
 /// The uncovered parts of the window, without overlap.
 std::vector<PixelRect> uncovered(const PixelRect& window, std::span<const PixelRect> covers);
 
-/// The largest of them; the whole window if it is less than a quarter of it.
+/// The largest of them, up and down to the next cover; the whole window if less than a quarter of
+/// it would be left.
 PixelRect largest_uncovered(const PixelRect& window, std::span<const PixelRect> covers);
 
 /// Removes the draw lists without a vertex in a part of the window, and clips the others to it.

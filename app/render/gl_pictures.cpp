@@ -59,11 +59,11 @@ bool PicturePainter::build(std::string& error) {
     const std::string fragment = header + (i == 1 ? glsl::kRough : "");
     ok &= background_[i].build(header + glsl::kBackgroundVertex,
                                fragment + glsl::kBackgroundFragment, error);
+    ok &= body_[i].build(header + glsl::kBodyVertex,
+                         fragment + glsl::kShadowFunction + glsl::kBodyFragment, error);
     ok &= ground_[i].build(header + glsl::kGroundVertex,
                            fragment + glsl::kShadowFunction + glsl::kGroundFragment, error);
   }
-  ok &= body_.build(header + glsl::kBodyVertex,
-                    header + glsl::kShadowFunction + glsl::kBodyFragment, error);
   ok &= shadow_.build(header + glsl::kBodyVertex, header + glsl::kShadowFragment, error);
   ok &= contact_.build(header + glsl::kContactVertex, header + glsl::kContactFragment, error);
   ok &= ribbon_.build(header + glsl::kRibbonVertex, header + glsl::kRibbonFragment, error);
@@ -150,24 +150,25 @@ void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) 
     sky[i] = 0.82F + 0.35F * sky[i];
     below[i] = 0.34F + 0.35F * below[i];
   }
-  body_.use();
-  body_.set_matrix("view_projection", picture.view_projection.data());
-  body_.set_matrix("world_to_shadow", light.data());
-  body_.set("shadow_map", 0);
-  body_.set("shadow_taps", grain_.taps);
-  body_.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
-  body_.set3("eye", picture.eye.data());
-  body_.set3("to_light", picture.to_light.data());
-  body_.set("ambient", picture.ambient);
-  body_.set3("sky", sky.data());
-  body_.set3("floor_light", below.data());
+  const gl::Program& program = body_.at(rough_);
+  program.use();
+  program.set_matrix("view_projection", picture.view_projection.data());
+  program.set_matrix("world_to_shadow", light.data());
+  program.set("shadow_map", 0);
+  program.set("shadow_taps", grain_.taps);
+  program.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  program.set3("eye", picture.eye.data());
+  program.set3("to_light", picture.to_light.data());
+  program.set("ambient", picture.ambient);
+  program.set3("sky", sky.data());
+  program.set3("floor_light", below.data());
   const Vector3f normal = vector(picture.ground.normal).normalized();
   const std::array<float, 4> plane{normal.x(), normal.y(), normal.z(),
                                    -normal.dot(vector(picture.ground.origin))};
-  body_.set4("floor_plane", plane.data());
-  body_.set("floor_reach", picture.ground.reach);
-  body_.set("floor_hides", picture.ground.solid ? picture.contact : 0.0F);
-  draw_meshes(body_);
+  program.set4("floor_plane", plane.data());
+  program.set("floor_reach", picture.ground.reach);
+  program.set("floor_hides", picture.ground.solid ? picture.contact : 0.0F);
+  draw_meshes(program);
 }
 
 // Call after draw_bodies; uses the same lighting. Ghosts are pushed back slightly, so that they do
@@ -179,8 +180,8 @@ void PicturePainter::draw_ghosts(const Picture& picture, const Target& target) {
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.0F, 8.0F);
   glDepthMask(GL_TRUE);  // only the nearest face of a ghost is visible
-  body_.use();
-  draw_meshes(body_);
+  body_.at(rough_).use();
+  draw_meshes(body_.at(rough_));
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_CULL_FACE);
 }

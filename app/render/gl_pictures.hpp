@@ -77,8 +77,8 @@ class PicturePainter {
                                                          {kBallSegments[4], false}}};
   gl::ShadowMap shadow_map_;
   std::array<gl::Program, 2> background_;  // smooth, rough
+  std::array<gl::Program, 2> body_;
   std::array<gl::Program, 2> ground_;
-  gl::Program body_;
   gl::Program shadow_;
   gl::Program contact_;
   gl::Program ribbon_;

@@ -59,7 +59,7 @@ class GlRenderer final : public Renderer {
   gl::Program texture_;
   GLuint empty_array_ = 0;
   std::vector<Picture> drawn_;        // on the canvas
-  std::vector<PixelRect> covered_;    // by panels; not drawn
+  Panels covers_;                     // parts of the canvas are not drawn
   PixelRect window_;                  // its frame buffer
   PixelRect part_;                    // of it, to be drawn by present()
   bool incomplete_ = false;           // only a part of the canvas was painted
@@ -86,7 +86,8 @@ bool GlRenderer::build(std::string_view draws, bool may_defer, std::string& erro
 
 std::vector<PixelRect> GlRenderer::hidden() const {
   std::vector<PixelRect> parts;
-  for (const PixelRect& r : part_ == window_ ? covered_ : uncovered(window_, {&part_, 1})) {
+  for (const PixelRect& r :
+       part_ == window_ ? covers_.interiors : uncovered(window_, {&part_, 1})) {
     parts.push_back(scaled(r, grain_of(quality_).scale));
   }
   return parts;
@@ -122,7 +123,7 @@ void GlRenderer::show_canvas() const {
   texture_.set("picture", 0);
   canvas_.bind_texture();
   glBindVertexArray(empty_array_);
-  for (const PixelRect& r : uncovered(part_, covered_)) {
+  for (const PixelRect& r : uncovered(part_, covers_.interiors)) {
     glScissor(r.x, window_.height - r.y - r.height, r.width, r.height);
     glDrawArrays(GL_TRIANGLES, 0, 3);
   }
@@ -140,12 +141,12 @@ void GlRenderer::draw(std::span<const Picture> pictures, ImDrawData& panels,
   // While the mouse orbits the view, single frames may be unchanged.
   const Quality quality =
       std::min(unchanged_ < 2 ? options.moving : Quality::kFine, finest(pictures));
-  std::vector<PixelRect> covered = covered_by_panels();
-  const bool as_before = fits && covered == covered_;
+  Panels covers = panels_over_picture();
+  const bool as_before = fits && covers == covers_;
   const bool partly = deferred_ && !options.whole && as_before;
-  covered_ = std::move(covered);
+  covers_ = std::move(covers);
   window_ = window;
-  part_ = partly ? largest_uncovered(window, covered_) : window;
+  part_ = partly ? largest_uncovered(window, covers_.bounds) : window;
   if (!same || quality > quality_ || !as_before || (incomplete_ && !partly)) {
     quality_ = quality;
     paint(pictures);

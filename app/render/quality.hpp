@@ -18,13 +18,14 @@ Quality finest_in_software(std::size_t bodies);
 /// It observes the drawing time and never affects the run.
 class QualityGovernor {
  public:
+  explicit QualityGovernor(Quality start = Quality::kFine) : quality_(start) {}
   /// Call once per frame. @param wall_dt since the last call [s]
   /// @param own share of it spent on simulation, which coarser pictures would not save [s]
   void observe(double wall_dt, double own);
   [[nodiscard]] Quality quality() const { return quality_; }
 
  private:
-  Quality quality_ = Quality::kFine;
+  Quality quality_;
   bool tried_ = false;     // this quality was reached from a coarser one
   int seen_ = 0;           // frames in the current window
   int slow_ = 0;           // slow frames among them

@@ -10,8 +10,8 @@ inline constexpr const char* kHeader =
 inline constexpr const char* kHeader = "#version 330 core\n";
 #endif
 
-/// Between the header and a fragment shader of the background or the floor: leaves out noise and
-/// soft transitions, which take a third of a software renderer's time for the picture.
+/// Between the header and a fragment shader: leaves out noise, soft transitions and reflections,
+/// which take a third of a software renderer's time for the picture.
 inline constexpr const char* kRough = "#define ROUGH\n";
 
 /// Boxes with rounded edges and balls. A corner of the unit box is moved in by the rounding and out
@@ -91,7 +91,6 @@ out vec4 out_color;
 float square(float x) { return x * x; }
 void main() {
   vec3 n = normalize(v_normal);
-  vec3 to_eye = normalize(eye - v_position);
   vec3 base = v_color.rgb;
   if (v_pattern > 0.5) {
     vec2 width = fwidth(v_local.xy) + 1e-5;
@@ -104,12 +103,16 @@ void main() {
   float height = max(0.0, dot(floor_plane.xyz, v_position) + floor_plane.w) / floor_reach;
   float hidden = floor_hides * (0.6 - 0.4 * dot(n, floor_plane.xyz)) / (1.0 + height * height);
   vec3 around = mix(floor_light, sky, 0.5 + 0.5 * n.y) * (ambient * (1.0 - hidden));
+  vec3 c = base * (around + vec3(1.0, 0.97, 0.92) * light);
+#ifndef ROUGH
+  vec3 to_eye = normalize(eye - v_position);
   vec3 half_way = normalize(to_light + to_eye);
   float s2 = square(max(0.0, dot(n, half_way)));
   float s16 = square(square(square(s2)));
   float shine = s16 * square(s16) * 0.22 * light;  // to the 48th
   float rim = square(square(1.0 - max(0.0, dot(n, to_eye)))) * 0.18;
-  vec3 c = base * (around + vec3(1.0, 0.97, 0.92) * light) + shine + rim * sky * ambient;
+  c += shine + rim * sky * ambient;
+#endif
   out_color = vec4(sqrt(c / (1.0 + 0.12 * c)), 1.0) * v_color.a;
 }
 )";

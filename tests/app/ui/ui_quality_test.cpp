@@ -50,6 +50,14 @@ TEST(Quality, GoesDownStepByStepWhereDrawingIsSlow) {
   EXPECT_EQ(governor.quality(), Quality::kSketch);
 }
 
+TEST(Quality, RisesFromACoarseStartWhereFramesAreQuick) {
+  QualityGovernor governor(Quality::kSketch);
+  observe(governor, kQuick, 1.0);
+  EXPECT_EQ(governor.quality(), Quality::kSketch);
+  observe(governor, kQuick, 60.0);
+  EXPECT_EQ(governor.quality(), Quality::kFine);
+}
+
 // Otherwise a page without a graphics processor would start with two seconds at five frames a
 // second.
 TEST(Quality, FourVerySlowFramesAreEnough) {

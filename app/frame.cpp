@@ -166,6 +166,7 @@ void frame(App& app, double wall_dt, bool whole) {
     app.pause_at = 0.0;  // playing again continues past the end
   }
   app.accuracy.advance(Accuracy::slice(app.session.playing(), wall_dt - app.own_time));
+  app.desk.whole = whole;
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;
 

@@ -157,8 +157,11 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
   const { answering, promising, telling } = makeGuards(trouble);
   const listeners = makeListeners(report, trouble);
   const waking = (call) => (...args) => {
-    wake();
-    return call(...args);
+    try {
+      return call(...args);
+    } finally {
+      wake(); // afterwards: a call may take longer than the page stays awake
+    }
   };
 
   const calls = {

@@ -7,7 +7,10 @@ const partly = 4; // otherwise one of so many, if it is rendered in software
 
 /** Draws during activity and for a moment after every event, while the canvas is visible. */
 export class Clock {
-  /** @param afterDraw called after each drawn frame, while its pixels are available */
+  /**
+   * @param afterDraw called after each drawn frame, while its pixels are available, with whether
+   *   the frame was drawn whole
+   */
   constructor(wasm, frame, afterDraw) {
     Object.assign(this, { wasm, frame, afterDraw });
     this.before = performance.now();
@@ -63,6 +66,7 @@ export class Clock {
   /** Draws a frame and shows it synchronously. */
   draw(dt) {
     this.pictures.begun += 1;
+    this.whole = true;
     this.wasm.frame(dt, 1);
     this.wasm.present(1);
     this.shown();
@@ -75,6 +79,7 @@ export class Clock {
    */
   begin(dt, whole) {
     this.pictures.begun += 1;
+    this.whole = whole;
     const showWhenFinished = () => {
       const due = this.frames > this.shownIn; // not two pictures in one frame of the browser
       if (!this.canDraw() || (due && this.wasm.present(0))) {
@@ -100,7 +105,7 @@ export class Clock {
     this.pictures.shown = this.pictures.begun;
     if (!this.canDraw()) return;
     this.frame.canvas.style.cursor = cursors[this.wasm.cursor()];
-    this.afterDraw();
+    this.afterDraw(this.whole);
   }
 
   stop() {

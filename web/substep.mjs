@@ -107,10 +107,10 @@ async function open(frame, options, renderer) {
   let api = null;
   let twin = null;
   let tour = null;
-  const clock = new Clock(wasm, frame, () => {
+  const clock = new Clock(wasm, frame, (whole) => {
     capture.afterDraw();
     frame.paint(wasm.dark());
-    tour?.afterDraw();
+    if (whole) tour?.afterDraw(); // it shows the same time and N as the panels
     twin?.afterDraw();
     api?.afterDraw(); // last: a listener may remove the laboratory
   });

@@ -1,6 +1,8 @@
-// A number in a sentence of the tour: changed by horizontal drags, or by the keys of a slider.
+// A number in a sentence of the tour: changed by horizontal drags, by clicks on the arrows beside it,
+// or by the keys of a slider.
 
 const pixels = 10; // drag distance per value
+const click = 3; // a drag is longer [CSS pixel]
 const page = 4; // values per Page Up or Page Down
 
 const keys = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: page,
@@ -34,7 +36,7 @@ export function makeNumber(change, settle) {
   element.tabIndex = 0;
   element.setAttribute("role", "slider");
   let now = { stops: [0], value: 0 };
-  let drag = null; // {x, index, value} at the start; {by}: offset so far
+  let drag = null; // {x, index, value} at the start; {by}: offset so far; {still}: a click
 
   const set = (value) => {
     if (value !== undefined && value !== now.value) change(value);
@@ -44,14 +46,24 @@ export function makeNumber(change, settle) {
     element.setPointerCapture(event.pointerId);
     element.focus({ preventScroll: true });
     drag = { x: event.clientX, index: indexOf(now.stops, now.value), value: now.value,
-      by: 0 };
+      by: 0, still: true };
     event.preventDefault(); // no text selection
   });
   element.addEventListener("pointermove", (event) => {
     if (!drag) return;
+    if (Math.abs(event.clientX - drag.x) > click) drag.still = false;
     const by = Math.round((event.clientX - drag.x) / pixels);
     if (by !== drag.by) set(by === 0 ? drag.value : moved(now.stops, drag.index, by));
     drag.by = by;
+  });
+  element.addEventListener("pointerup", (event) => {
+    if (!drag?.still) return;
+    const { left, width } = element.getBoundingClientRect();
+    const at = (event.clientX - left) / width;
+    const by = at < 1 / 3 ? -1 : at > 2 / 3 ? 1 : 0; // the arrows fill the outer thirds
+    if (by !== 0) set(moved(now.stops, drag.index, by));
+    settle();
+    drag = null;
   });
   for (const type of ["pointerup", "pointercancel"]) {
     element.addEventListener(type, () => {

@@ -42,7 +42,8 @@ std::span<const TourStep> tour_steps() {
        {.title = "Adaptive sub-steps",
         .text = "The paper computes the stiffness from the forces in the chain, and from the "
                 "stiffness the number of sub-steps that the next frame needs. At alpha = 0.1 N is "
-                "10 at the turning points and 20 at the bottom of the swing. In ten seconds 0.15 % "
+                "10 at the turning points and 20 at the bottom of the swing. In ten seconds "
+                "0.15\u00a0% "
                 "of the energy is lost. Here alpha = {alpha}.",
         .watch = "Watch [which link sets N](why), and [the law](law) with its numbers.",
         .task = "",

@@ -18,6 +18,19 @@ std::string times_as_many(double ratio, bool at_least) {
   return (at_least ? "at least " : "") + coarse_number(ratio) + " times as many";
 }
 
+const char* as_accurate(const FairTrade& trade) {
+  switch (trade.axis) {
+    case ErrorAxis::kGap:
+      return "with as small a joint gap";
+    case ErrorAxis::kPenetration:
+      return "with as small an overlap";
+    case ErrorAxis::kEnergy:
+      return "with as small an energy drift";
+    default:
+      return "that is as accurate";
+  }
+}
+
 std::string failing(const FairTrade& trade) {
   const auto failed = std::find_if(trade.rows.begin(), trade.rows.end(), [](const TradeRow& row) {
     return !row.adaptive->metrics.holds;
@@ -31,9 +44,9 @@ std::string failing(const FairTrade& trade) {
 
 std::string of_one_load(const FairTrade& trade) {
   const TradeRow& row = trade.rows.front();
-  const std::string start =
-      "Adaptive sub-stepping takes " + coarse_number(row.n()) +
-      " sub-steps per frame on average. The smallest constant N that is as accurate is ";
+  const std::string start = "Adaptive sub-stepping takes " + coarse_number(row.n()) +
+                            " sub-steps per frame on average. The smallest constant N " +
+                            as_accurate(trade) + " is ";
   const bool known = row.constant != nullptr;
   if (!known) {
     return start + trade_number(row, trade.most_n) + ": " +
@@ -61,9 +74,8 @@ std::string trade_text(const FairTrade& trade) {
   const std::string n =
       trade.for_all ? std::to_string(*trade.for_all) : "more than " + std::to_string(trade.most_n);
   return "Adaptive sub-stepping takes " + coarse_number(mean) +
-         " sub-steps per frame, averaged over these loads. A constant N that is as accurate under "
-         "all of them is " +
-         n + ": " +
+         " sub-steps per frame, averaged over these loads. A constant N " + as_accurate(trade) +
+         " under all of them is " + n + ": " +
          times_as_many((trade.for_all ? *trade.for_all : trade.most_n + 1) / mean, !trade.for_all) +
          ".";
 }

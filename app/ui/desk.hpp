@@ -46,6 +46,12 @@ struct Figure {
   WindowPart part;
 };
 
+/// N as it was last shown, with its unit: the picture and the panels show the same.
+struct ShownN {
+  std::string n;
+  std::string unit;
+};
+
 /// State of the window that does not affect the run.
 struct Desk {
   Desk();
@@ -54,6 +60,8 @@ struct Desk {
   DeskLevel level = DeskLevel::kLab;  // a first visit begins in kExplore, see recall_arrangement()
   bool dark = true;
   bool panels = true;  // false: only the picture
+  bool whole = true;   // the panels are drawn in this frame, see DrawOptions
+  ShownN shown_n;
   bool help = false;
   bool more = false;             // advanced method settings are unfolded
   bool open_share_menu = false;  // in the next frame

@@ -90,7 +90,7 @@ void comparison(const Look& look, Lab& lab, Desk& desk) {
   section(look, "Compare");
   const float width = ImGui::GetContentRegionAvail().x;
   if (!lab.compare.open()) {
-    compare_menu(look, lab.session, lab.compare, "Another method beside it …", width);
+    compare_menu(look, lab.session, lab.compare, "With another method", width);
     if (!lab.compare.open()) return;
     lab.reset();  // restart both
     lab.session.play();

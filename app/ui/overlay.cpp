@@ -75,7 +75,8 @@ std::string unit_of_n(const FrameReport& report, int left) {
   return report.n_substeps == 1 ? "step per frame" : "sub-steps";
 }
 
-void caption(const Look& look, const Session& session, const Viewport& viewport, bool phone) {
+void caption(const Look& look, const Session& session, Desk& desk, const Viewport& viewport,
+             bool phone) {
   const Theme& t = *look.theme;
   const ViewRect& v = viewport.view_rect;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
@@ -83,8 +84,10 @@ void caption(const Look& look, const Session& session, const Viewport& viewport,
   const FrameReport& report = session.report();
   const bool stepped = report.n_substeps > 0 || report.asleep > 0;
   const bool has_n = stepped && viewport.panes.size() == 1;  // else each pane shows its own
-  const std::string n = has_n ? std::to_string(report.n_substeps) : "";
-  const std::string unit = has_n ? unit_of_n(report, session.substeps_left()) : "";
+  if (desk.whole) {
+    desk.shown_n = {std::to_string(report.n_substeps), unit_of_n(report, session.substeps_left())};
+  }
+  const auto& [n, unit] = has_n ? desk.shown_n : ShownN{};
   const ImVec2 n_size = text_size(look.fonts.large, n.c_str());
   const float unit_width = text_size(look.fonts.regular, unit.c_str()).x;
   const auto room_beside = [&](float width) {

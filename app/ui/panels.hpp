@@ -111,7 +111,8 @@ void advance_tour(Desk& desk);
 void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser& browser);
 
 /// Over the picture: title, N, the scale of the tint, masses, and problems.
-void caption(const Look& look, const Session& session, const Viewport& viewport, bool phone);
+void caption(const Look& look, const Session& session, Desk& desk, const Viewport& viewport,
+             bool phone);
 void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport);
 /// A ring around what failed in each run, with its measure.

@@ -132,7 +132,9 @@ void draw_values(const Look& look, const PlotSpec& spec, const PlotFrame& f, flo
   }
 }
 
-void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
+// @param cursor takes the place of the labels beneath it
+void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f,
+               const std::optional<TimeLabel>& cursor, ImDrawList& draw) {
   const ImU32 line = fade(look.theme->faint, look.theme->dark ? 0.16F : 0.25F);
   const double step = nice_step(f.t1 - f.t0, static_cast<int>((f.max.x - f.min.x) / 50.0F));
   const int digits = step < 0.1 ? 2 : step < 1.0 ? 1 : 0;
@@ -147,6 +149,10 @@ void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDra
     const ImVec2 size = text_size(look.fonts.small, text.c_str());
     const float left = std::clamp(x - 0.5F * size.x, f.min.x, f.max.x - size.x);
     if (left < before + 8.0F) continue;
+    if (cursor && left + size.x + 8.0F > cursor->left &&
+        left < cursor->left + cursor->size.x + 8.0F) {
+      continue;
+    }
     before = left + size.x;
     draw_text(draw, look.fonts.small, {left, f.max.y + 3.0F}, look.theme->dim, text.c_str());
   }
@@ -256,7 +262,8 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   const bool pointed = ImGui::IsMouseHoveringRect(origin, f.max);
   const bool toggle = !spec.linear && scale_toggle(look, origin, pointed, state);
   draw.AddRectFilled(f.min, f.max, look.theme->well, 4.0F);
-  draw_time(look, spec, f, draw);
+  const auto cursor = spec.time_labels ? cursor_time(look, f, axis) : std::nullopt;
+  draw_time(look, spec, f, cursor, draw);
   draw_values(look, spec, f, toggle ? kToggle : 0.0F, draw);
   draw.PushClipRect(f.min, f.max, true);
   for (const Series& series : spec.series) draw_series(series, axis.from, f, draw);
@@ -265,7 +272,7 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   draw.PopClipRect();
   draw_levels(look, spec, axis.from, f, draw);
   draw_names(look, spec, axis.from, f, draw);
-  if (spec.time_labels) draw_cursor_time(look, f, axis, draw);
+  if (cursor) draw_cursor_time(look, f, *cursor, draw);
 
   mark(spec.id, {origin.x, origin.y - kHeading}, {origin.x + size.x, origin.y + size.y}, "plot");
   ImGui::SetCursorScreenPos(f.min);

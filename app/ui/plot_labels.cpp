@@ -138,17 +138,23 @@ void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotF
   }
 }
 
-void draw_cursor_time(const Look& look, const PlotFrame& f, const TimeAxis& axis,
-                      ImDrawList& draw) {
+std::optional<TimeLabel> cursor_time(const Look& look, const PlotFrame& f, const TimeAxis& axis) {
   const auto cursor = axis.cursor();
-  if (!cursor || *cursor < f.t0 || *cursor > f.t1) return;
-  const std::string text = fixed(*cursor, 2) + " s";
-  const ImVec2 size = text_size(look.fonts.small, text.c_str());
-  const float left = std::clamp(f.x(*cursor) - 0.5F * size.x, f.min.x, f.max.x - size.x);
-  const ImVec2 at(left, f.max.y + 3.0F);
-  draw.AddRectFilled({at.x - 4.0F, at.y - 1.0F}, {at.x + size.x + 4.0F, at.y + size.y + 1.0F},
-                     look.theme->control, 3.0F);
-  draw_text(draw, look.fonts.small, at, look.theme->text, text.c_str());
+  if (!cursor || *cursor < f.t0 || *cursor > f.t1) return std::nullopt;
+  TimeLabel label;
+  label.text = fixed(*cursor, 2) + " s";
+  label.size = text_size(look.fonts.small, label.text.c_str());
+  label.left = std::clamp(f.x(*cursor) - 0.5F * label.size.x, f.min.x, f.max.x - label.size.x);
+  return label;
+}
+
+void draw_cursor_time(const Look& look, const PlotFrame& f, const TimeLabel& label,
+                      ImDrawList& draw) {
+  const ImVec2 at(label.left, f.max.y + 3.0F);
+  draw.AddRectFilled({at.x - 4.0F, at.y - 1.0F},
+                     {at.x + label.size.x + 4.0F, at.y + label.size.y + 1.0F}, look.theme->control,
+                     3.0F);
+  draw_text(draw, look.fonts.small, at, look.theme->text, label.text.c_str());
 }
 
 }  // namespace substep::ui

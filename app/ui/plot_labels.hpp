@@ -1,6 +1,9 @@
 #pragma once
 // Labels in a plot: names of curves, levels and moments.
 
+#include <optional>
+#include <string>
+
 #include "app/ui/plot.hpp"
 #include "app/ui/plot_curves.hpp"
 
@@ -24,7 +27,15 @@ void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotF
 /// The name of each curve at its end. @param from omits earlier samples [s]
 void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
                 ImDrawList& draw);
-/// The time at the cursor, over the time axis labels.
-void draw_cursor_time(const Look& look, const PlotFrame& f, const TimeAxis& axis, ImDrawList& draw);
+/// The time at the cursor, among the labels of the time axis.
+struct TimeLabel {
+  std::string text;
+  ImVec2 size;
+  float left = 0.0F;
+};
+/// Nothing without a cursor.
+std::optional<TimeLabel> cursor_time(const Look& look, const PlotFrame& f, const TimeAxis& axis);
+void draw_cursor_time(const Look& look, const PlotFrame& f, const TimeLabel& label,
+                      ImDrawList& draw);
 
 }  // namespace substep::ui

@@ -121,7 +121,7 @@ void error_plot(const PlotContext& in, float height, bool last) {
   } else {
     std::vector<NamedChannel> shown;
     if (effects.contact) shown.push_back({Channel::kPenetration, "overlap", t.amber});
-    if (effects.joints) shown.push_back({Channel::kJointError, "joints", t.blue});
+    if (effects.joints) shown.push_back({Channel::kJointError, "joint sum", t.blue});
     named_values(in, origin, origin.x + heading_width(look, "Error, m"), shown);
     for (const NamedChannel& one : shown) {
       spec.series.push_back({&h, one.channel, one.color, one.name});

@@ -295,7 +295,7 @@ void draw_over_picture(App& app) {
   annotations(app.look, app, app.desk, app);
   body_labels(app.look, app, app.desk, app);
   failure_rings(app.look, app, app);
-  caption(app.look, app.session, app, small);
+  caption(app.look, app.session, app.desk, app, small);
   compare_legend(app.look, app.session, app.compare, app);
   if (!small) tint_scale(app.look, app.session, app.compare, app.desk, app);
   notice(app);

@@ -14,6 +14,20 @@ std::string number(std::int64_t x) { return std::to_string(x); }
 std::string number(int x) { return std::to_string(x); }
 std::string number(bool x) { return x ? "1" : "0"; }
 
+/// A member of the report of a frame, or of its solver's work, or of what determined r.
+template <auto kMember>
+std::string report(const FrameView& f) {
+  return number(f.report.*kMember);
+}
+template <auto kMember>
+std::string work(const FrameView& f) {
+  return number(f.report.work.*kMember);
+}
+template <auto kMember>
+std::string leading(const FrameView& f) {
+  return number(f.report.leader.*kMember);
+}
+
 /// Centre of the tracked body, along one axis [m].
 template <int kAxis>
 std::string tracked(const FrameView& f) {
@@ -38,39 +52,29 @@ std::string leader(const FrameView& f) {
 
 const std::vector<FrameColumn>& all_columns() {
   static const std::vector<FrameColumn> columns{
-      {"frame", "completed frames [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.frame); }},
-      {"time", "at the end of the frame [s]", nullptr,
-       [](const FrameView& f) { return number(f.report.time); }},
-      {"substeps", "sub-steps N of this frame [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.n_substeps); }},
+      {"frame", "completed frames [-]", nullptr, report<&FrameReport::frame>},
+      {"time", "at the end of the frame [s]", nullptr, report<&FrameReport::time>},
+      {"substeps", "sub-steps N of this frame [-]", nullptr, report<&FrameReport::n_substeps>},
       {"substeps_mean", "mean of the sub-steps per body [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.n_mean); }},
+       report<&FrameReport::n_mean>},
       {"islands", "number of islands; 0: not determined [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.islands); }},
+       report<&FrameReport::islands>},
       {"asleep", "sleeping bodies, which no sub-step moves [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.asleep); }},
+       report<&FrameReport::asleep>},
       {"substeps_wanted", "N by Eq. 11, before the cap [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.n_wanted); }},
-      {"capped", "1 if the cap limited N [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.capped); }},
-      {"dt_min", "shortest sub-step [s]", nullptr,
-       [](const FrameView& f) { return number(f.report.dt_min); }},
-      {"dt_max", "longest sub-step [s]", nullptr,
-       [](const FrameView& f) { return number(f.report.dt_max); }},
-      {"dt_stable", "2 sqrt(alpha/r), Eq. 10 [s]", nullptr,
-       [](const FrameView& f) { return number(f.report.dt_stable); }},
-      {"r", "largest k/M, Eq. 9 [1/s^2]", nullptr,
-       [](const FrameView& f) { return number(f.report.leader.r); }},
+       report<&FrameReport::n_wanted>},
+      {"capped", "1 if the cap limited N [-]", nullptr, report<&FrameReport::capped>},
+      {"dt_min", "shortest sub-step [s]", nullptr, report<&FrameReport::dt_min>},
+      {"dt_max", "longest sub-step [s]", nullptr, report<&FrameReport::dt_max>},
+      {"dt_stable", "2 sqrt(alpha/r), Eq. 10 [s]", nullptr, report<&FrameReport::dt_stable>},
+      {"r", "largest k/M, Eq. 9 [1/s^2]", nullptr, leading<&StiffnessLeader::r>},
       {"leader", "the body that determines r", nullptr, leader, false},
       {"leader_dof", "its degree of freedom: 0-2 along x, y, z, 3-5 about its principal axes [-]",
-       nullptr, [](const FrameView& f) { return number(f.report.leader.dof); }},
-      {"kinetic", "kinetic energy [J]", nullptr,
-       [](const FrameView& f) { return number(f.report.kinetic); }},
+       nullptr, leading<&StiffnessLeader::dof>},
+      {"kinetic", "kinetic energy [J]", nullptr, report<&FrameReport::kinetic>},
       {"potential", "potential energy of gravity and constant forces [J]", nullptr,
-       [](const FrameView& f) { return number(f.report.potential); }},
-      {"energy", "kinetic and potential energy [J]", nullptr,
-       [](const FrameView& f) { return number(f.report.energy); }},
+       report<&FrameReport::potential>},
+      {"energy", "kinetic and potential energy [J]", nullptr, report<&FrameReport::energy>},
       {"px", "momentum of all bodies [kg m/s]", nullptr, momentum<0>},
       {"py", "momentum of all bodies [kg m/s]", nullptr, momentum<1>},
       {"pz", "momentum of all bodies [kg m/s]", nullptr, momentum<2>},
@@ -78,25 +82,19 @@ const std::vector<FrameColumn>& all_columns() {
       {"ly", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<1>},
       {"lz", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<2>},
       {"constraint_error", "sum of the errors of all joint rows [m, rad]", &Effects::joints,
-       [](const FrameView& f) { return number(f.report.constraint_error); }},
+       report<&FrameReport::constraint_error>},
       {"joint_gap", "largest gap of a joint [m]", &Effects::joints,
-       [](const FrameView& f) { return number(f.report.joint_gap); }},
-      {"joint_rows", "rows of joints [-]", &Effects::joints,
-       [](const FrameView& f) { return number(f.report.joint_rows); }},
-      {"penetration", "deepest overlap [m]", &Effects::contact,
-       [](const FrameView& f) { return number(f.report.penetration); }},
-      {"contact_rows", "normal rows [-]", &Effects::contact,
-       [](const FrameView& f) { return number(f.report.contact_rows); }},
+       report<&FrameReport::joint_gap>},
+      {"joint_rows", "rows of joints [-]", &Effects::joints, report<&FrameReport::joint_rows>},
+      {"penetration", "deepest overlap [m]", &Effects::contact, report<&FrameReport::penetration>},
+      {"contact_rows", "normal rows [-]", &Effects::contact, report<&FrameReport::contact_rows>},
       {"friction_rows", "friction rows [-]", &Effects::friction,
-       [](const FrameView& f) { return number(f.report.friction_rows); }},
-      {"iterations", "sweeps of PGS [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.work.iterations); }},
-      {"pivots", "changes of the active set of BPP [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.work.pivots); }},
-      {"unsolved", "solves of BPP given up [-]", nullptr,
-       [](const FrameView& f) { return number(f.report.work.unsolved); }},
+       report<&FrameReport::friction_rows>},
+      {"iterations", "sweeps of PGS [-]", nullptr, work<&SolverWork::iterations>},
+      {"pivots", "changes of the active set of BPP [-]", nullptr, work<&SolverWork::pivots>},
+      {"unsolved", "solves of BPP given up [-]", nullptr, work<&SolverWork::unsolved>},
       {"residual", "largest violation of bounds and complementarity [N s, m/s]", nullptr,
-       [](const FrameView& f) { return number(f.report.work.residual); }},
+       work<&SolverWork::residual>},
       {"x", "the tracked body's centre [m]", nullptr, tracked<0>},
       {"y", "the tracked body's centre [m]", nullptr, tracked<1>},
       {"z", "the tracked body's centre [m]", nullptr, tracked<2>},

@@ -38,6 +38,26 @@ std::int64_t correction_flops(const Block& block, int count) {
          bodies * (product_flops(6, count, 1) + product_flops(3, 3, 1) + 15 + kPush);
 }
 
+// The residual of rows, e = bias + phi/dt + softness * impulse. @param moved the rows as moved
+// @param direction e of length 1; unchanged for a single row
+// @return the length of e; e itself for a single row
+double residual(const Block& block, const Block& moved, RowRange rows, double dt,
+                double* direction) {
+  const double softness = block.softness[rows.first];
+  double length = 0.0;
+  for (int i = 0; i < rows.count; ++i) {
+    const int row = rows.first + i;
+    const double e = block.bias[row] + moved.phi[row] / dt + softness * block.impulse[row];
+    if (rows.count == 1) return e;
+    direction[i] = e;
+    length += e * e;
+  }
+  length = std::sqrt(length);
+  if (length == 0.0) return 0.0;
+  for (int i = 0; i < rows.count; ++i) direction[i] /= length;
+  return length;
+}
+
 }  // namespace
 
 void Xpbd::reserve(std::size_t bodies, std::size_t blocks) {
@@ -55,8 +75,7 @@ bool Xpbd::stays_open(const System& system, const Block& block) const {
              0.0;
 }
 
-// The residual of the rows, e = bias + phi/dt + softness * impulse, has length c and direction d;
-// an impulse p along d changes it along d by
+// The residual has length c and direction d; an impulse p along d changes it along d by
 //   (w + softness) p,   w = g M^-1 g^T,   g = d^T J,
 // so p = -c/(w + softness). The authors use the error without softness: identical in the first
 // sweep, but for soft joints further sweeps may stall where the two parts are perpendicular.
@@ -65,26 +84,11 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
   Block& moved = moved_[at];
   move_rows(block, motion_of(block.a), motion_of(block.b), moved, rows);
 
-  const double softness = block.softness[rows.first];
   double direction[kMaxRows] = {1.0};
-  double left = 0.0;  // signed for a single row
-  for (int i = 0; i < rows.count; ++i) {
-    const int row = rows.first + i;
-    const double e = block.bias[row] + moved.phi[row] / system.dt + softness * block.impulse[row];
-    if (rows.count == 1) {
-      left = e;
-    } else {
-      direction[i] = e;
-      left += e * e;
-    }
-  }
-  if (rows.count > 1) {
-    left = std::sqrt(left);
-    if (left == 0.0) return;
-    for (int i = 0; i < rows.count; ++i) direction[i] /= left;
-  }
+  const double left = residual(block, moved, rows, system.dt, direction);
+  if (left == 0.0 && rows.count > 1) return;
 
-  double w = softness;
+  double w = block.softness[rows.first];
   Vec6 du_a = Vec6::Zero();
   Vec6 du_b = Vec6::Zero();
   if (block.a >= 0) {

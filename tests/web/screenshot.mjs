@@ -15,7 +15,8 @@ try {
     window.substep.reset();
     window.substep.step(570);
   });
-  await page.waitForTimeout(1000);
+  await page.waitForFunction(() => window.substep.report().time > 9.49);
+  await page.waitForTimeout(2000); // until the picture is at its finest
   await drawn(page);
   const png = await page.screenshot();
   if (page.complaints.length > 0) throw new Error(page.complaints.join("\n"));

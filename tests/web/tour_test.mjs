@@ -109,6 +109,31 @@ test("the button in the canvas begins it; Next, Back and Done navigate it", asyn
   await page.context().close();
 });
 
+test("the arrows beside a number go to the next value, by mouse and by finger", async () => {
+  for (const touch of [false, true]) {
+    const page = await openPage(session, touch ? { width: 390, height: 844, touch } : {});
+    await goTo(page, 2);
+    const n = async () => Number((await call(page, "settings")).find((s) => s.name === "n").value);
+    const press = async (share) => {
+      const box = await number(page, "Sub-steps per frame").boundingBox();
+      const x = box.x + share * box.width;
+      const y = box.y + 0.5 * box.height;
+      if (touch) await page.touchscreen.tap(x, y);
+      else await page.mouse.click(x, y);
+    };
+    assert.equal(await n(), 7);
+    await press(0.9);
+    assert.equal(await n(), 8);
+    await press(0.5);
+    assert.equal(await n(), 8, "the number itself is only dragged");
+    await press(0.1);
+    await press(0.1);
+    assert.equal(await n(), 6);
+    quiet(page);
+    await page.context().close();
+  }
+});
+
 test("dragging a number changes the run, and the run answers the task", async () => {
   const page = await openPage(session);
   await goTo(page, 2);

@@ -36,13 +36,19 @@ std::vector<Entry> entries(const Look& look, const Session& session, const Compa
   return list;
 }
 
+// Above the picture; below it in a narrow view, whose upper half the bodies need.
 void legend(const Look& look, const Session& session, const Compare& compare,
             const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const float x = viewport.view_rect.x + 24.0F;
-  float y = viewport.view_rect.y + kCaptionHeight + 8.0F;
-  const float room = viewport.view_rect.width - 64.0F;
-  for (const Entry& entry : entries(look, session, compare)) {
+  const std::vector<Entry> all = entries(look, session, compare);
+  constexpr float kNarrow = 500.0F;
+  const ViewRect& v = viewport.view_rect;
+  const float line = text_size(look.fonts.regular, "N").y + 8.0F;
+  float y = v.width < kNarrow ? v.y + v.height - 4.0F - line * static_cast<float>(all.size())
+                              : v.y + kCaptionHeight + 8.0F;
+  const float room = v.width - 64.0F;
+  for (const Entry& entry : all) {
     const std::string stands = !entry.judged ? "Ready"
                                : entry.verdict->holds()
                                    ? "N " + std::to_string(entry.report->n_substeps)
@@ -54,7 +60,7 @@ void legend(const Look& look, const Session& session, const Compare& compare,
                        fade(look.theme->panel, 0.8F), look.m.radius);
     draw.AddCircleFilled({x + 5.0F, y + 0.5F * size.y}, 5.0F, entry.color);
     draw_text(draw, look.fonts.regular, {x + 18.0F, y}, look.theme->text, text.c_str());
-    y += size.y + 8.0F;
+    y += line;
   }
 }
 

@@ -26,8 +26,7 @@ void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool s
     const ImU32 color = compare_color(in.look, i);
     spec.series.push_back(
         {&run.history, channel, color, overrides_title(run.overrides), steps, false, 1.25F});
-    if (run.divergence)
-      spec.marks.push_back({run.divergence->time, named ? "diverges" : "", color});
+    if (run.divergence) spec.marks.push_back({run.divergence->time, named ? "differs" : "", color});
   }
 }
 
@@ -68,10 +67,12 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   const bool several = in.compare.open();
   count_heading(in, "Sub-steps per frame", "Sub-steps", Channel::kSubsteps, "N = ", "",
                 [](double v) { return fixed(v, 0); });
-  tooltip(look, "Sub-steps per frame",
-          "The N of each frame (Eq. 11). Dashed: the smallest constant N that would have been "
-          "stable so far, which is N at alpha = 1 of the stiffest frame. It is known only after "
-          "the run. With islands: the largest N of an island, and the mean of the bodies.");
+  tooltip(
+      look, "Sub-steps per frame",
+      "The N of each frame (Eq. 11). Dashed: the smallest constant N that would have been "
+      "stable so far, which is N at alpha = 1 of the stiffest frame. It is known only after "
+      "the run, and less accurate than the N of a smaller alpha. With islands: the largest N of an "
+      "island, and the mean of the bodies.");
 
   PlotSpec spec;
   spec.id = "substeps";
@@ -85,8 +86,9 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   if (islands) spec.series.push_back({&h, Channel::kMean, t.teal, "mean", true});
   add_compared(in, spec, Channel::kSubsteps, true);
   if (const auto n = smallest_stable_n(h, s); n && !several) {
-    spec.levels.push_back({static_cast<double>(*n), "Smallest stable constant N: " + grouped(*n),
-                           "Stable constant N: " + grouped(*n), t.amber});
+    spec.levels.push_back({static_cast<double>(*n),
+                           "Constant N = " + grouped(*n) + ": barely stable",
+                           "N = " + grouped(*n) + ": barely stable", t.amber});
   }
   // A cap is drawn once N comes near it.
   const int cap = reads(s, "n_max") ? s.n_max : reads(s, "n_cap") ? s.n_cap : 0;

@@ -18,19 +18,6 @@ std::string times_as_many(double ratio, bool at_least) {
   return (at_least ? "at least " : "") + coarse_number(ratio) + " times as many";
 }
 
-const char* as_accurate(const FairTrade& trade) {
-  switch (trade.axis) {
-    case ErrorAxis::kGap:
-      return "with as small a joint gap";
-    case ErrorAxis::kPenetration:
-      return "with as small an overlap";
-    case ErrorAxis::kEnergy:
-      return "with as small an energy drift";
-    default:
-      return "that is as accurate";
-  }
-}
-
 std::string failing(const FairTrade& trade) {
   const auto failed = std::find_if(trade.rows.begin(), trade.rows.end(), [](const TradeRow& row) {
     return !row.adaptive->metrics.holds;
@@ -58,6 +45,19 @@ std::string of_one_load(const FairTrade& trade) {
 }
 
 }  // namespace
+
+const char* as_accurate(const FairTrade& trade) {
+  switch (trade.axis) {
+    case ErrorAxis::kGap:
+      return "with as small a joint gap";
+    case ErrorAxis::kPenetration:
+      return "with as small an overlap";
+    case ErrorAxis::kEnergy:
+      return "with as small an energy drift";
+    default:
+      return "that is as accurate";
+  }
+}
 
 std::string trade_number(const TradeRow& row, int most_n) {
   if (row.constant == nullptr) return "more than " + std::to_string(std::max(row.too_few, most_n));

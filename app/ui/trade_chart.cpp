@@ -55,6 +55,7 @@ struct Bar {
   const Result* result = nullptr;  // null if no N that ran is enough
   double certain = 0.0;            // lower bound of the sub-steps per frame
   double most = 0.0;               // upper bound
+  bool open = false;               // none is known
   std::string n;
   ImU32 color = 0;
   const char* name = "";
@@ -64,6 +65,7 @@ Bar adaptive_bar(const Theme& t, const TradeRow& row) {
   return {row.adaptive,
           row.n(),
           row.n(),
+          false,
           row.adaptive->metrics.holds ? coarse_number(row.n()) : "fails",
           row.adaptive->metrics.holds ? curve_style(t, row.adaptive->experiment.settings).color
                                       : t.orange,
@@ -71,9 +73,10 @@ Bar adaptive_bar(const Theme& t, const TradeRow& row) {
 }
 
 Bar constant_bar(const Theme& t, const TradeRow& row, int most_n) {
-  Bar bar{row.constant, 0.0, 0.0, "", t.grey, "Smallest constant N that is as accurate"};
+  Bar bar{row.constant, 0.0, 0.0, false, "", t.grey, "Smallest constant N that is as accurate"};
   if (row.constant == nullptr) {
     bar.certain = bar.most = std::max(row.too_few, most_n);
+    bar.open = true;
     bar.n = "> " + plain_number(bar.most);
     return bar;
   }
@@ -135,7 +138,7 @@ class Chart {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImVec2 min(corner_.x, y_);
     const ImVec2 max(corner_.x + width_, y_ + kBar);
-    const float end = std::max(x_of(bar.most), min.x + 2.0F);
+    const float end = bar.open ? corner_.x + room_ : std::max(x_of(bar.most), min.x + 2.0F);
     draw.AddRectFilled({min.x, min.y + 2.0F}, {end, max.y - 2.0F}, fade(bar.color, 0.4F), 2.0F);
     draw.AddRectFilled({min.x, min.y + 2.0F},
                        {std::max(x_of(bar.certain), min.x + 2.0F), max.y - 2.0F}, bar.color, 2.0F);
@@ -219,9 +222,11 @@ void legend(const Look& look, const FairTrade& trade) {
   };
   entry(adaptive_bar(t, trade.rows.front()).color,
         "Adaptive, alpha = " + plain_number(trade.alpha) + ": mean sub-steps per frame");
-  entry(t.grey, "Smallest constant N that is as accurate, found by trying");
+  entry(t.grey, std::string("Smallest constant N ") + as_accurate(trade) +
+                    ", found by trying; light: it is in this range");
+  const std::string axis = axis_name(trade.axis);  // each error has its own unit
   label(look.fonts.small, t.dim,
-        (std::string("On the right: N, and the ") + axis_name(trade.axis) + ".").c_str());
+        ("On the right: N, and the " + axis.substr(0, axis.find(" [")) + ".").c_str());
 }
 
 }  // namespace

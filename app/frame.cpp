@@ -155,6 +155,7 @@ void follow_failure(App& app) {
 
 void frame(App& app, double wall_dt, bool whole) {
   const Scaled scaled(app);
+  app.desk.whole = whole;
   app.frame_time += 0.05 * (std::clamp(wall_dt, 1e-4, 1.0) - app.frame_time);
   app.quality.observe(wall_dt, app.own_time);
   app.introduction.follow(app, !app.desk.reduced_motion);
@@ -166,7 +167,6 @@ void frame(App& app, double wall_dt, bool whole) {
     app.pause_at = 0.0;  // playing again continues past the end
   }
   app.accuracy.advance(Accuracy::slice(app.session.playing(), wall_dt - app.own_time));
-  app.desk.whole = whole;
   app.own_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   app.notice.left -= wall_dt;
 
@@ -195,7 +195,7 @@ void frame(App& app, double wall_dt, bool whole) {
   const int width = static_cast<int>(std::lround(io.DisplaySize.x * io.DisplayFramebufferScale.x));
   const int height = static_cast<int>(std::lround(io.DisplaySize.y * io.DisplayFramebufferScale.y));
   app.renderer->draw(app.pictures, *ImGui::GetDrawData(),
-                     {width, height, app.quality.quality(), whole});
+                     {width, height, app.quality.quality(), app.desk.whole});
   if (app.desk.capture) take_capture(app, width, height);
   if (app.desk.figure) take_figure(app);
 

@@ -2,8 +2,9 @@
 import { Graphics } from "./graphics.mjs";
 
 const cursors = ["default", "grab", "text"];
-const answering = 500; // for this long after an event, every frame is drawn whole [ms]
-const partly = 4; // otherwise one of so many, if it is rendered in software
+// A software renderer draws the panels in some frames only, while a run plays.
+const wholeAfterEvent = 500; // for this long, every frame is drawn whole [ms]
+const wholeEvery = 4; // afterwards, one of so many frames
 
 /** Draws during activity and for a moment after every event, while the canvas is visible. */
 export class Clock {
@@ -44,7 +45,7 @@ export class Clock {
   wake() {
     const now = performance.now();
     this.awakeUntil = now + 1500;
-    this.wholeUntil = now + answering;
+    this.wholeUntil = now + wholeAfterEvent;
   }
 
   /** Draws the next frame, if there is a change. */
@@ -58,7 +59,7 @@ export class Clock {
     const running = this.wasm.busy();
     if (running) this.awakeUntil = Math.max(this.awakeUntil, now + 1500);
     if (now >= this.awakeUntil) return;
-    const whole = !running || now < this.wholeUntil || this.pictures.begun % partly === 0;
+    const whole = !running || now < this.wholeUntil || this.pictures.begun % wholeEvery === 0;
     if (emptied || !this.wasm.deferred()) this.draw(dt);
     else this.begin(dt, whole);
   }

@@ -31,9 +31,9 @@ function inspect() {
   const gl = canvas.getContext("webgl2");
   if (!gl) return { lacking: "WebGL 2" };
   const names = gl.getExtension("WEBGL_debug_renderer_info");
-  const renderer = names ? gl.getParameter(names.UNMASKED_RENDERER_WEBGL) : "";
+  const renderer = names && gl.getParameter(names.UNMASKED_RENDERER_WEBGL);
   loseContext(canvas); // browsers limit their number
-  return { lacking: "", renderer };
+  return { lacking: "", renderer: renderer ?? "" };
 }
 
 /** Loads the program; on network errors retries until it succeeds or the user gives up. */

@@ -61,9 +61,11 @@ export function makeNumber(change, settle) {
     const { left, width } = element.getBoundingClientRect();
     const at = (event.clientX - left) / width;
     const by = at < 1 / 3 ? -1 : at > 2 / 3 ? 1 : 0; // the arrows fill the outer thirds
-    if (by !== 0) set(moved(now.stops, drag.index, by));
-    settle();
+    const value = by === 0 ? undefined : moved(now.stops, drag.index, by);
     drag = null;
+    if (value === undefined) return;
+    set(value);
+    settle();
   });
   for (const type of ["pointerup", "pointercancel"]) {
     element.addEventListener(type, () => {

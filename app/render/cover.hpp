@@ -31,8 +31,8 @@ Panels panels_over_picture();
 /// The uncovered parts of the window, without overlap.
 std::vector<PixelRect> uncovered(const PixelRect& window, std::span<const PixelRect> covers);
 
-/// The largest of them, up and down to the next cover; the whole window if less than a quarter of
-/// it would be left.
+/// The largest of them, extended up and down to the next cover; the whole window if each of them is
+/// smaller than a quarter of it.
 PixelRect largest_uncovered(const PixelRect& window, std::span<const PixelRect> covers);
 
 /// Removes the draw lists without a vertex in a part of the window, and clips the others to it.

@@ -139,6 +139,16 @@ void PicturePainter::draw_shadows(const Matrix4f& light) {
   glDisable(GL_POLYGON_OFFSET_FILL);
 }
 
+void PicturePainter::use_in_light(const gl::Program& program, const Picture& picture,
+                                  const Matrix4f& light) const {
+  program.use();
+  program.set_matrix("view_projection", picture.view_projection.data());
+  program.set_matrix("world_to_shadow", light.data());
+  program.set("shadow_map", 0);
+  program.set("shadow_taps", grain_.taps);
+  program.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+}
+
 void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) {
   const auto linear = [](const Color& c) {
     return std::array<float, 3>{c.r * c.r, c.g * c.g, c.b * c.b};
@@ -151,12 +161,7 @@ void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) 
     below[i] = 0.34F + 0.35F * below[i];
   }
   const gl::Program& program = body_.at(rough_);
-  program.use();
-  program.set_matrix("view_projection", picture.view_projection.data());
-  program.set_matrix("world_to_shadow", light.data());
-  program.set("shadow_map", 0);
-  program.set("shadow_taps", grain_.taps);
-  program.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  use_in_light(program, picture, light);
   program.set3("eye", picture.eye.data());
   program.set3("to_light", picture.to_light.data());
   program.set("ambient", picture.ambient);
@@ -197,12 +202,7 @@ void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) 
   const float along_v = to_centre.dot(v);
   const Vector3f centre = vector(ground.origin) + along_u * u + along_v * v;
   const gl::Program& program = ground_.at(rough_);
-  program.use();
-  program.set_matrix("view_projection", picture.view_projection.data());
-  program.set_matrix("world_to_shadow", light.data());
-  program.set("shadow_map", 0);
-  program.set("shadow_taps", grain_.taps);
-  program.set("shadow_texel", 1.0F / static_cast<float>(shadow_map_.size()));
+  use_in_light(program, picture, light);
   program.set3("origin", centre.data());
   program.set3("axis_u", u.data());
   program.set3("axis_v", v.data());

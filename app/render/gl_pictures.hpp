@@ -55,6 +55,9 @@ class PicturePainter {
                     std::span<const PixelRect> hidden);
   void draw_background(const Picture& picture);
   void draw_shadows(const Eigen::Matrix4f& light);
+  // Uses a program that receives shadows, and sets its view and its shadow map.
+  void use_in_light(const gl::Program& program, const Picture& picture,
+                    const Eigen::Matrix4f& light) const;
   void draw_bodies(const Picture& picture, const Eigen::Matrix4f& light);
   void draw_ghosts(const Picture& picture, const Target& target);
   // Uploads the instances for draw_meshes().

@@ -11,7 +11,7 @@ inline constexpr const char* kHeader = "#version 330 core\n";
 #endif
 
 /// Between the header and a fragment shader: leaves out noise, soft transitions and reflections,
-/// which take a third of a software renderer's time for the picture.
+/// for software renderers.
 inline constexpr const char* kRough = "#define ROUGH\n";
 
 /// Boxes with rounded edges and balls. A corner of the unit box is moved in by the rounding and out

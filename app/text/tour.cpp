@@ -41,10 +41,9 @@ std::span<const TourStep> tour_steps() {
         .reply = reply_lose_less},
        {.title = "Adaptive sub-steps",
         .text = "The paper computes the stiffness from the forces in the chain, and from the "
-                "stiffness the number of sub-steps that the next frame needs. At alpha = 0.1 N is "
+                "stiffness the number of sub-steps that the next frame needs. At alpha = 0.1, N is "
                 "10 at the turning points and 20 at the bottom of the swing. In ten seconds "
-                "0.15\u00a0% "
-                "of the energy is lost. Here alpha = {alpha}.",
+                "0.15 % of the energy is lost. Here alpha = {alpha}.",
         .watch = "Watch [which link sets N](why), and [the law](law) with its numbers.",
         .task = "",
         .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler&panel=why"

@@ -86,8 +86,7 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   if (islands) spec.series.push_back({&h, Channel::kMean, t.teal, "mean", true});
   add_compared(in, spec, Channel::kSubsteps, true);
   if (const auto n = smallest_stable_n(h, s); n && !several) {
-    spec.levels.push_back({static_cast<double>(*n),
-                           "Constant N = " + grouped(*n) + ": barely stable",
+    spec.levels.push_back({static_cast<double>(*n), "Constant " + grouped(*n) + ": barely stable",
                            "N = " + grouped(*n) + ": barely stable", t.amber});
   }
   // A cap is drawn once N comes near it.

@@ -116,8 +116,9 @@ void law(const Look& look, const Session& session, const Criterion& criterion) {
   }
   law_line(look, "Δt max = 2 √(α/r) = " + duration(dt),
            "= 2 √(" + plain_number(alpha) + " / " + short_number(r) + ")", "Eq. 10");
-  law_line(look, "Next N = h/Δt max, rounded up = " + grouped(substeps_for(session, r)),
-           "= " + short_number(1e3 * h) + " ms / " + duration(dt) + " = " + short_number(h / dt),
+  law_line(look, "N = h/Δt max, rounded up = " + grouped(substeps_for(session, r)),
+           "= " + short_number(1e3 * h) + " ms / " + duration(dt) + " = " + short_number(h / dt) +
+               ", for the next frame",
            "Eq. 11");
 }
 

@@ -4,41 +4,11 @@
 #include <cmath>
 #include <utility>
 
-#include "core/model/names.hpp"
-#include "core/model/setting_fields.hpp"
-
 namespace substep {
 namespace {
 
 constexpr std::int64_t kCheckpointFrames = 32;
 constexpr std::size_t kMostCheckpoints = 200;
-constexpr std::string_view kSame = "same";  // in a link, a run without overrides
-
-// Splits a text at separators; empty for an empty text.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (!text.empty()) {
-    const std::string_view part = text.substr(0, text.find(separator));
-    text.remove_prefix(std::min(part.size() + 1, text.size()));
-    if (!part.empty()) parts.push_back(part);
-  }
-  return parts;
-}
-
-Overrides differences(const Settings& of, const Settings& from) {
-  Overrides list;
-  for (const SettingField& field : setting_fields()) {
-    if (field.name == "watch_stiffness") continue;  // display only
-    std::string value = setting_text(field, of);
-    if (value != setting_text(field, from)) list.push_back({std::string(field.name), value});
-  }
-  return list;
-}
-
-std::string_view solver_title(std::string_view name) {
-  const auto solver = value_of<SolverKind>(name);
-  return solver ? entry_of(*solver).title : name;
-}
 
 void add_frame(Cost& cost, const FrameReport& report) {
   ++cost.frames;
@@ -53,11 +23,8 @@ bool Compare::continues(const Run& run) const {
 }
 
 Settings Compare::settings_of(const Overrides& overrides, const Settings& session) {
-  Settings s = session;
+  Settings s = with_overrides(session, overrides);
   s.watch_stiffness = false;  // only the session's bodies are tinted
-  for (const Override& o : overrides) {
-    if (const SettingField* field = find_setting(o.key)) set_setting(*field, o.value, s);
-  }
   return s;
 }
 
@@ -92,7 +59,7 @@ void Compare::begin(Run& run, const Session& session) {
   run.simulator->set_state(session.state());
   run.report = run.simulator->observe();
   run.verdict.emplace(*scene_, session.state(), run.report);
-  run.history.start(run.report, scene_->frame);
+  run.history.start(run.report, scene_->frame, scene_->criteria.energy_scale.value_or(0.0));
   run.previous = {session.state().x, session.state().q};
   run.poses = run.previous;
   run.cost = {};
@@ -319,66 +286,6 @@ void Compare::follow(const Session& session) {
       run.poses.q[i] = run.previous.q[i].slerp(t, now.q[i]);
     }
   }
-}
-
-std::string overrides_text(const std::vector<Overrides>& runs) {
-  std::string text;
-  for (const Overrides& overrides : runs) {
-    if (&overrides != &runs.front()) text += ';';
-    if (overrides.empty()) text += kSame;
-    for (const Override& o : overrides) {
-      if (&o != &overrides.front()) text += ',';
-      text.append(o.key).append(":").append(o.value);
-    }
-  }
-  return text;
-}
-
-std::vector<Overrides> parse_overrides(std::string_view text, std::string& problem) {
-  std::vector<Overrides> runs;
-  for (const std::string_view part : split(text, ';')) {
-    if (part == kSame) {
-      runs.emplace_back();
-      continue;
-    }
-    Overrides overrides;
-    for (const std::string_view pair : split(part, ',')) {
-      const std::size_t colon = std::min(pair.find(':'), pair.size());
-      const std::string key(pair.substr(0, colon));
-      const std::string value(pair.substr(std::min(colon + 1, pair.size())));
-      const SettingField* field = find_setting(key);
-      Settings scratch;
-      if (field == nullptr) {
-        problem = "'" + key + "' is not a setting";
-      } else if (const auto wrong = set_setting(*field, value, scratch)) {
-        problem = key + " " + *wrong;
-      } else {
-        overrides.push_back({key, value});
-      }
-    }
-    if (!overrides.empty()) runs.push_back(std::move(overrides));  // else it is invalid
-  }
-  if (runs.size() > Compare::kMost) {
-    problem = "more than " + std::to_string(Compare::kMost) + " methods beside the run";
-    runs.resize(Compare::kMost);
-  }
-  return runs;
-}
-
-std::string overrides_title(const Overrides& overrides) {
-  if (overrides.empty()) return "the same";
-  std::string title;
-  for (const Override& o : overrides) {
-    if (!title.empty()) title += ", ";
-    if (o.key == "solver") {
-      title += solver_title(o.value);
-    } else if (o.key == "n") {
-      title += "constant " + o.value;
-    } else {
-      title += o.key == "mode" || o.key == "integrator" ? o.value : o.key + " " + o.value;
-    }
-  }
-  return title;
 }
 
 }  // namespace substep

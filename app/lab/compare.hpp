@@ -3,21 +3,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
+#include "app/lab/overrides.hpp"
 #include "app/lab/session.hpp"
 
 namespace substep {
-
-/// One setting that differs from the reference run, as spelt in links.
-struct Override {
-  std::string key;
-  std::string value;
-  friend bool operator==(const Override&, const Override&) = default;
-};
-using Overrides = std::vector<Override>;
 
 /// Cost of a run since the comparison began.
 struct Cost {
@@ -129,12 +120,5 @@ class Compare {
   std::int64_t frame_ = 0;              // the session's frame at the last call
   Settings settings_;                   // the session's at start() or follow()
 };
-
-/// "mode:none;mode:damping,alpha:0.2": the runs of a comparison as links spell them.
-std::string overrides_text(const std::vector<Overrides>& runs);
-/// Parses such text. @param problem error message, or ""
-std::vector<Overrides> parse_overrides(std::string_view text, std::string& problem);
-/// The overrides as a title: "no sub-steps, PGS"; "the same" if there are none.
-std::string overrides_title(const Overrides& overrides);
 
 }  // namespace substep

@@ -7,13 +7,6 @@
 namespace substep {
 namespace {
 
-// "joint gap 0.13 m" of "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
-std::string what_of(const std::string& verdict) {
-  const std::size_t colon = verdict.find(": ");
-  const std::string what = colon == std::string::npos ? "" : verdict.substr(colon + 2);
-  return what.substr(0, what.find(" > "));
-}
-
 Failure torn_joint(const Scene& scene, const Poses& poses, int index) {
   const JointBase& j = base(scene.joints[static_cast<std::size_t>(index)]);
   const auto a = static_cast<std::size_t>(j.a);
@@ -48,18 +41,18 @@ std::optional<Failure> failure_of(const Scene& scene, const Poses& poses, const 
                                   const Verdict& verdict) {
   if (verdict.holds()) return std::nullopt;
   const Criteria& criteria = scene.criteria;
+  const std::optional<Exceeded>& exceeded = verdict.exceeded();
   std::optional<Failure> failure;
   if (report.status != StepStatus::kOk) {
     if (report.failed_body >= 0) failure = failed_body(scene, poses, report.failed_body);
-    return failure;  // the verdict's text is about numbers
+    return failure;
   }
-  const std::string what = what_of(verdict.text());
   if (report.joint_gap_joint >= 0 && report.joint_gap > criteria.joint_gap) {
     failure = torn_joint(scene, poses, report.joint_gap_joint);
-  } else if (criteria.displacement && what.starts_with("moved")) {
+  } else if (exceeded && exceeded->what == Exceeded::What::kMoved) {
     failure = failed_body(scene, poses, criteria.displacement->body);
   }
-  if (failure) failure->words = what;
+  if (failure && exceeded) failure->exceeded = *exceeded;
   return failure;
 }
 

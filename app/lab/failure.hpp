@@ -15,8 +15,8 @@ struct Failure {
   Vec3 from = Vec3::Zero();  // the joint's anchor on b, or the body's centre; world [m]
   Vec3 to = Vec3::Zero();    // its anchor on a, or the same as from; world [m]
   double radius = 0.0;       // of the bodies concerned, largest [m]
-  std::string words;         // "joint gap 0.13 m", "moved 0.2 m"
-  std::string name;          // of the joint or body
+  std::optional<Exceeded> exceeded;
+  std::string name;  // of the joint or body
 
   [[nodiscard]] Vec3 centre() const { return 0.5 * (from + to); }
 };

@@ -77,13 +77,14 @@ Extent Samples::extent(std::size_t first, std::size_t last) const {
   return extent;
 }
 
-void History::start(const FrameReport& report, double frame) {
+void History::start(const FrameReport& report, double frame, double exchanged) {
   for (Samples& samples : channels_) samples.clear();
   frame_ = frame;
   start_time_ = report.time;
   first_time_ = report.time + frame;
   energy_at_start_ = report.energy;
   potential_at_start_ = report.potential;
+  exchanged_ = exchanged;
 }
 
 void History::add(const FrameReport& report) {
@@ -118,7 +119,8 @@ void History::add(const FrameReport& report) {
 
 double History::potential_offset() const {
   const Extent all = samples(Channel::kPotential).extent(0, size());
-  return all.empty() ? 0.0 : -std::min(0.0, static_cast<double>(all.low));  // 0 at the start
+  const double lowest = all.empty() ? 0.0 : static_cast<double>(all.low);
+  return std::max(exchanged_, -lowest);
 }
 
 double History::largest_drift() const {

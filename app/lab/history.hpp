@@ -73,7 +73,8 @@ class History {
       std::size_t{60} * 600;  // ten minutes at 60 frames a second
 
   /// @param frame duration of a frame [s]
-  void start(const FrameReport& report, double frame);
+  /// @param exchanged energy that the motion is known to exchange [J], 0 if it is not known
+  void start(const FrameReport& report, double frame, double exchanged = 0.0);
   void add(const FrameReport& report);
   /// Discards samples later than `time` [s].
   void cut(double time);
@@ -99,9 +100,10 @@ class History {
   /// Value of the sample nearest to a time; NaN if there is none within a frame.
   [[nodiscard]] double at(Channel channel, double time) const;
   [[nodiscard]] double potential_at_start() const { return potential_at_start_; }  ///< [J]
-  /// Offset added to the potential and to the total so that the lowest potential is 0 [J]. The zero
-  /// of a potential is arbitrary; this one keeps kinetic, potential and total energy on one
-  /// readable scale.
+  /// Offset added to the potential and to the total so that the lowest potential is 0 [J], or that
+  /// of the start is the energy that the motion is known to exchange if this is more. The zero of a
+  /// potential is arbitrary; this one keeps kinetic, potential and total energy on one readable
+  /// scale, which does not change during the first fall.
   [[nodiscard]] double potential_offset() const;
   /// Largest absolute change of the total energy so far [J].
   [[nodiscard]] double largest_drift() const;
@@ -118,6 +120,7 @@ class History {
   double first_time_ = 0.0;
   double energy_at_start_ = 0.0;
   double potential_at_start_ = 0.0;
+  double exchanged_ = 0.0;
 };
 
 }  // namespace substep

@@ -28,7 +28,7 @@ RunLoop::Pass pass_of(const History& history, const Verdict& verdict) {
   RunLoop::Pass pass;
   pass.stable = verdict.holds();
   pass.failed_at = verdict.failed_at();
-  pass.reason = verdict.text();
+  pass.exceeded = verdict.exceeded();
   if (history.size() == 0) return pass;
   pass.drift = static_cast<double>(history[Channel::kDrift].back());
   const Extent n = history.samples(Channel::kSubsteps).extent(0, history.size());

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "app/lab/lab.hpp"
@@ -20,10 +19,10 @@ class RunLoop {
   /// One run over one pass.
   struct Pass {
     bool stable = true;
-    double failed_at = 0.0;  // if not stable [s]
-    std::string reason;      // from the verdict
-    double drift = 0.0;      // change of the total energy [J]
-    int least_n = 0;         // sub-steps per frame [-]
+    double failed_at = 0.0;            // if not stable [s]
+    std::optional<Exceeded> exceeded;  // the criterion that failed the pass
+    double drift = 0.0;                // change of the total energy [J]
+    int least_n = 0;                   // sub-steps per frame [-]
     int most_n = 0;
     std::int64_t substeps = 0;  // of all frames [-]
   };

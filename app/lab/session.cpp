@@ -63,7 +63,7 @@ void Session::restart() {
   report_ = simulator_->observe();
   forces_ = {};
   verdict_ = std::make_unique<Verdict>(*scene_, state(), report_);
-  history_.start(report_, scene_->frame);
+  history_.start(report_, scene_->frame, scene_->criteria.energy_scale.value_or(0.0));
   timeline_.start(moment());
   editions_.clear();
   trail_.clear();

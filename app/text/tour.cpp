@@ -11,7 +11,7 @@ std::span<const TourStep> tour_steps() {
       {{.title = "A heavy box on a thin chain",
         .text = "A box of {load} hangs on 25 links of 1 kg each. The solver is exact and takes one "
                 "step per frame. The pull of the chain turns with every link and acts like a "
-                "spring. This spring is too stiff for so long a step.",
+                "spring. At 1,000 kg this spring is too stiff for so long a step.",
         .watch = "Watch the links in slow motion, and [the joint error](error) as it climbs.",
         .task = "Does a lighter box help? Set its mass to 10 kg.",
         .link = "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots&plots=error"
@@ -19,7 +19,7 @@ std::span<const TourStep> tour_steps() {
         .loop = {.end = 4.0, .slow_until = 0.5},
         .reply = reply_lighter_box},
        {.title = "Enough sub-steps hold it",
-        .text = "Every frame takes {n}. Seven are enough for this chain. You cannot know "
+        .text = "Every frame takes {n}. This chain needs at least seven. You cannot know "
                 "the number in advance, and every frame pays for the worst one.",
         .watch = "Watch the chain as it swings down, and [the joint error](error).",
         .task = "Break it: set six sub-steps.",
@@ -28,10 +28,9 @@ std::span<const TourStep> tour_steps() {
         .loop = {.end = 4.0},
         .reply = reply_break_it},
        {.title = "Damping holds it too, and slows it",
-        .text =
-            "A frame takes at most {n_cap}. Bodies that are too stiff for that are damped. The "
-            "chain holds even with one sub-step, but after ten seconds a fifth of the energy is "
-            "gone.",
+        .text = "A frame takes at most {n_cap}. Bodies that are too stiff for that are damped. The "
+                "chain holds even with one sub-step, which costs a fifth of the energy in ten "
+                "seconds.",
         .watch = "Watch the box fall behind the orange ghost, which swings undamped, and "
                  "[the kinetic energy](energy).",
         .task = "Lose less than a tenth: allow more sub-steps.",
@@ -45,7 +44,7 @@ std::span<const TourStep> tour_steps() {
                 "10 at the turning points and 20 at the bottom of the swing. In ten seconds "
                 "0.15 % of the energy is lost. Here alpha = {alpha}.",
         .watch = "Watch [which link sets N](why), and [the law](law) with its numbers.",
-        .task = "",
+        .task = "Keep N at ten or below: raise alpha.",
         .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler&panel=why"
                 "&plots=substeps,energy&level=explore",
         .loop = {.end = 10.0},
@@ -74,7 +73,7 @@ std::span<const TourStep> tour_steps() {
        {.title = "A load that changes while it runs",
         .text =
             "Balls of 10, 100 and 1,000 kg roll over a bridge of light planks, and N follows each "
-            "of them. The orange ghost takes {n} in every frame. That is the best constant "
+            "of them. The orange ghost takes {n} in every frame. Fourteen is the best constant "
             "number, known only after the run: as accurate as the adaptive sub-steps, but more "
             "expensive.",
         .watch = "Watch [the plot of N](substeps) under each ball, and [the joint error](error).",

@@ -28,9 +28,11 @@ std::string lost(const Lab& lab, const RunLoop::Pass& pass) {
 /// "the chain tears at 0.35 s", from the verdict. @param torn what has the joints
 std::string failure(const RunLoop::Pass& pass, const std::string& torn = "the chain") {
   std::string what = "the run fails at ";
-  if (pass.reason.find("joint gap") != std::string::npos) what = torn + " tears at ";
-  if (pass.reason.find("energy gain") != std::string::npos)
+  using What = Exceeded::What;
+  if (pass.exceeded && pass.exceeded->what == What::kJointGap) what = torn + " tears at ";
+  if (pass.exceeded && pass.exceeded->what == What::kEnergyGain) {
     what = "the run gains energy and fails at ";
+  }
   return what + fixed(pass.failed_at, 2) + " s";
 }
 
@@ -75,7 +77,7 @@ TourReply reply_range_of_n(const Lab& lab, const RunLoop::Outcome& outcome) {
   if (outcome.open()) return {};
   return {"After " + seconds(outcome.time) + ": N from " + std::to_string(outcome.run.least_n) +
               " to " + std::to_string(outcome.run.most_n) + ", " + lost(lab, outcome.run) + ".",
-          false};
+          outcome.run.most_n <= 10};
 }
 
 TourReply reply_double_n(const Lab& lab, const RunLoop::Outcome& outcome) {

@@ -18,6 +18,44 @@ std::string verdict_words(const std::string& text) {
   return text;
 }
 
+namespace {
+
+std::string quantity(double value, Exceeded::What what) {
+  if (what != Exceeded::What::kEnergyGain) return plain_number(value) + " m";
+  const Unit unit = unit_for(value);
+  return plain_number(value / unit.factor) + " " + unit.prefix + "J";
+}
+
+}  // namespace
+
+std::string exceeded_label(const Exceeded& e) {
+  const std::string value = quantity(e.value, e.what);
+  switch (e.what) {
+    case Exceeded::What::kJointGap:
+      return "joint gap " + value;
+    case Exceeded::What::kEnergyGain:
+      return "energy gain " + value;
+    case Exceeded::What::kMoved:
+      return "moved " + value;
+  }
+  return "";
+}
+
+std::string exceeded_sentence(const Exceeded& e) {
+  const std::string value = quantity(e.value, e.what);
+  const std::string limit = quantity(e.limit, e.what);
+  switch (e.what) {
+    case Exceeded::What::kJointGap:
+      return e.name + " has a gap of " + value + ". Above " + limit + " a joint counts as torn.";
+    case Exceeded::What::kEnergyGain:
+      return "The run has gained " + value + " of energy from nowhere. The scene allows " + limit +
+             ".";
+    case Exceeded::What::kMoved:
+      return e.name + " has moved by " + value + ". The scene allows " + limit + ".";
+  }
+  return "";
+}
+
 std::string verdict_note(const Verdict& verdict, bool judged) {
   if (!judged) return "Ready";
   return verdict.holds() ? "Stable" : "Failed at " + fixed(verdict.failed_at(), 2) + " s";

@@ -108,8 +108,7 @@ const char* fewer(CostAxis axis) {
 }
 
 std::string with_parameter(const Settings& s) {
-  const SeriesParameter parameter = series_parameter(s);
-  return short_name(s) + " (" + parameter.name + " = " + plain_number(parameter.value) + ")";
+  return short_name(s) + " (" + parameter_text(s) + ")";
 }
 
 /// "4.1 times", or "" if the ratio is negligible.

@@ -291,6 +291,10 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   }
   picture_buttons(look, lab, desk);
   if (shows_map(accuracy)) map_note(look, accuracy);
+  if (accuracy.picture == AccuracyPicture::kFairTrade) {
+    label(look.fonts.small, look.theme->dim,
+          "Euler with BPP. \"Error\" compares all methods, under the scene's own load.");
+  }
   if (!shows_errors(accuracy)) return;
   space(8.0F);
   advice(look, lab);

@@ -119,10 +119,9 @@ void draw_curve_names(const Look& look, const std::vector<const AccuracyCurve*>&
 void read_point(const Look& look, const Accuracy& accuracy, const Result& result) {
   const Theme& t = *look.theme;
   const Settings& s = result.experiment.settings;
-  const SeriesParameter parameter = series_parameter(s);
   std::vector<ReadOutLine> lines{{curve_style(t, s).name(), t.text, true}};
   const auto line = [&](std::string text) { lines.push_back({std::move(text), t.dim}); };
-  line(std::string(parameter.name) + " = " + plain_number(parameter.value));
+  line(parameter_text(s));
   if (const auto error = error_of(result, accuracy.error)) {
     const bool below = *error <= accuracy.floor();
     line((below ? "below " + short_number(accuracy.floor()) : short_number(*error)) + "  " +

@@ -146,17 +146,15 @@ void advice(const Look& look, Lab& lab) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_swatch(style, look.theme->panel | IM_COL32_A_MASK, draw, {at.x + 14.0F, at.y + 10.0F});
-  draw_text(
-      draw, look.fonts.medium, {at.x + 36.0F, at.y + 2.0F}, look.theme->text,
-      fitted(look.fonts.medium, style.name(), ImGui::GetContentRegionAvail().x - 36.0F).c_str());
-  ImGui::Dummy({1.0F, 18.0F});
-  const SeriesParameter parameter = series_parameter(s);
+  const std::string name =
+      wrapped(look.fonts.medium, style.name().c_str(), ImGui::GetContentRegionAvail().x - 36.0F);
+  draw_text(draw, look.fonts.medium, {at.x + 36.0F, at.y + 2.0F}, look.theme->text, name.c_str());
+  ImGui::Dummy({1.0F, text_size(look.fonts.medium, name.c_str()).y + 2.0F});
   const AlphaSearch* search = accuracy.alpha_search();
   const std::string reason =
-      std::string("With ") + parameter.name + " = " + plain_number(parameter.value) + " within " +
-      limit_text(accuracy) + ": " + error_text(best->error, accuracy.error) + " for " +
-      cost_text(best->cost, accuracy.cost) + "." +
-      (search && search->done() ? "" : " " + beside_paper(accuracy, points, *best));
+      "With " + parameter_text(s) + " within " + limit_text(accuracy) + ": " +
+      error_text(best->error, accuracy.error) + " for " + cost_text(best->cost, accuracy.cost) +
+      "." + (search && search->done() ? "" : " " + beside_paper(accuracy, points, *best));
   label(look.fonts.small, look.theme->dim, reason.c_str());
   if (button(look, "cheapest", Icon::kPlay, "Run it", ButtonKind::kPlain, 0.0F, look.m.row,
              "This scene from its start with this method")) {

@@ -69,13 +69,15 @@ CardPlace card_beside(const Session& session, const Viewport& viewport, ImVec2 s
   const float left = v.x + 12.0F + 0.5F * size.x;
   const float right = v.x + v.width - 12.0F - 0.5F * size.x;
   const float top = v.y + kCaption;
-  const float over_panel = ImGui::GetIO().DisplaySize.x - 12.0F - 0.5F * size.x;
+  const float over_controls = 12.0F + 0.5F * size.x;
+  const float over_plots = ImGui::GetIO().DisplaySize.x - over_controls;
   const std::vector<CardPlace> places{below,
                                       {below.y, 1.0F, left},
                                       {below.y, 1.0F, right},
                                       {top, 0.0F, left},
                                       {top, 0.0F, right},
-                                      {below.y, 1.0F, over_panel}};
+                                      {below.y, 1.0F, over_controls},
+                                      {below.y, 1.0F, over_plots}};
   if (which < 0) {
     float least = 0.0F;
     for (std::size_t i = 0; i < places.size(); ++i) {

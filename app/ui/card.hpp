@@ -28,7 +28,8 @@ struct CardPlace {
 /// those, under the transport bar and the tabs.
 CardPlace card_below(const ViewRect& picture);
 /// card_below(), or another place at the picture's edges if the card covers less of the bodies
-/// there, or over the right panel if bodies fill the picture.
+/// there, or over the end of a panel if bodies fill the picture, rather of the controls than of the
+/// plots.
 /// @param size of the card @param which the earlier choice, or -1 to choose
 CardPlace card_beside(const Session& session, const Viewport& viewport, ImVec2 size, int& which);
 void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& title);

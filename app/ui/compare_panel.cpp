@@ -150,6 +150,16 @@ void restart_buttons(const Look& look, Lab& lab) {
   }
 }
 
+// Whether a setting belongs to another solver or mode than those of these settings.
+bool belongs_to_another(const Settings& s, std::string_view setting) {
+  const auto reads_it = [setting](const auto& entry) {
+    return std::find(entry.reads.begin(), entry.reads.end(), setting) != entry.reads.end();
+  };
+  const bool by_some = std::any_of(kSolvers.begin(), kSolvers.end(), reads_it) ||
+                       std::any_of(kModes.begin(), kModes.end(), reads_it);
+  return by_some && !reads(s, setting);
+}
+
 // Overlaid, or in separate views.
 void views_row(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kViews{
@@ -170,7 +180,9 @@ std::string run_title(const Session& session, const Compare& compare) {
       const bool known = std::any_of(own.begin(), own.end(),
                                      [&](const auto& other) { return other.key == o.key; });
       const SettingField* field = find_setting(o.key);
-      if (known || field == nullptr) continue;
+      if (known || field == nullptr || belongs_to_another(session.settings(), o.key)) {
+        continue;
+      }
       own.push_back({o.key, setting_text(*field, session.settings())});
     }
   }

@@ -21,27 +21,31 @@ struct Entry {
   std::string name;
   ImU32 color = 0;
   const Verdict* verdict = nullptr;
-  const FrameReport* report = nullptr;
+  int n = 0;            // sub-steps of the frame that the panels show
   bool judged = false;  // a frame was judged
 };
 
-std::vector<Entry> entries(const Look& look, const Session& session, const Compare& compare) {
+std::vector<Entry> entries(const Look& look, const Session& session, const Compare& compare,
+                           Desk& desk) {
   std::vector<Entry> list{{run_title(session, compare), look.theme->blue, &session.verdict(),
-                           &session.report(), session.judged()}};
+                           session.report().n_substeps, session.judged()}};
   for (std::size_t i = 0; i < compare.runs().size(); ++i) {
     const Compare::Run& run = compare.runs()[i];
     list.push_back({overrides_title(run.overrides), compare_color(look, i), &*run.verdict,
-                    &run.report, session.judged()});
+                    run.report.n_substeps, session.judged()});
+  }
+  desk.shown_ns.resize(list.size());
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (desk.whole) desk.shown_ns[i] = list[i].n;
+    list[i].n = desk.shown_ns[i];
   }
   return list;
 }
 
 // Above the picture; below it in a narrow view, whose upper half the bodies need.
-void legend(const Look& look, const Session& session, const Compare& compare,
-            const Viewport& viewport) {
+void legend(const Look& look, const std::vector<Entry>& all, const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const float x = viewport.view_rect.x + 24.0F;
-  const std::vector<Entry> all = entries(look, session, compare);
   constexpr float kNarrow = 500.0F;
   const ViewRect& v = viewport.view_rect;
   const float line = text_size(look.fonts.regular, "N").y + 8.0F;
@@ -49,10 +53,9 @@ void legend(const Look& look, const Session& session, const Compare& compare,
                               : v.y + kCaptionHeight + 8.0F;
   const float room = v.width - 64.0F;
   for (const Entry& entry : all) {
-    const std::string stands = !entry.judged ? "Ready"
-                               : entry.verdict->holds()
-                                   ? "N " + std::to_string(entry.report->n_substeps)
-                                   : verdict_note(*entry.verdict, true);
+    const std::string stands = !entry.judged            ? "Ready"
+                               : entry.verdict->holds() ? "N " + std::to_string(entry.n)
+                                                        : verdict_note(*entry.verdict, true);
     const std::string text =
         fitted(look.fonts.regular, entry.name + "  ·  " + stands, std::max(40.0F, room));
     const ImVec2 size = text_size(look.fonts.regular, text.c_str());
@@ -69,7 +72,7 @@ void pane_label(const Look& look, const Entry& entry, const ViewRect& r) {
   const Theme& t = *look.theme;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
-  const std::string n = "N " + std::to_string(entry.report->n_substeps);
+  const std::string n = "N " + std::to_string(entry.n);
   const ImVec2 at(r.x + kPad, r.y + 8.0F);
   constexpr float kNarrow = 150.0F;  // narrower: N or the failure's time is below the name
   const bool narrow = r.width < kNarrow;
@@ -152,15 +155,15 @@ Part part_of_window(const Viewport& viewport, std::size_t pane) {
   return {left, r.y / display.y, right - left, bottom - r.y / display.y};
 }
 
-void compare_legend(const Look& look, const Session& session, const Compare& compare,
+void compare_legend(const Look& look, const Session& session, const Compare& compare, Desk& desk,
                     const Viewport& viewport) {
   if (!compare.open()) return;
+  const std::vector<Entry> list = entries(look, session, compare, desk);
   if (viewport.panes.size() == 1) {
-    legend(look, session, compare, viewport);
+    legend(look, list, viewport);
     return;
   }
   pane_borders(look, viewport);
-  const std::vector<Entry> list = entries(look, session, compare);
   for (std::size_t i = 0; i < std::min(list.size(), viewport.panes.size()); ++i) {
     pane_label(look, list[i], viewport.panes[i]);
   }

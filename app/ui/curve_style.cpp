@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/text/format.hpp"
+#include "core/lab/experiment.hpp"
 #include "core/model/names.hpp"
 #include "core/stepping/substep_clock.hpp"
 
@@ -89,6 +91,14 @@ void style_of_solver(const Theme& theme, const Settings& s, CurveStyle& style) {
 }
 
 }  // namespace
+
+std::string parameter_text(const Settings& s) {
+  const SeriesParameter parameter = series_parameter(s);
+  std::string name = parameter.name;
+  if (name == "n") name = "N";
+  if (name == "n_cap") name = "N cap";
+  return name + " = " + plain_number(parameter.value);
+}
 
 ImU32 color_of(const Theme& theme, Tint tint) {
   switch (tint) {

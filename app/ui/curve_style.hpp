@@ -23,6 +23,8 @@ struct CurveStyle {
   [[nodiscard]] std::string name() const { return family + ", " + own_name; }
 };
 CurveStyle curve_style(const Theme& theme, const Settings& settings);
+/// Name and value of the setting that varies along a method's curve: "N = 7", "alpha = 0.1".
+std::string parameter_text(const Settings& settings);
 ImU32 color_of(const Theme& theme, Tint tint);
 
 /// Line and point of a curve, in front of its name.

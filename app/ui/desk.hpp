@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/render/scene_view.hpp"
 #include "app/ui/plot.hpp"
@@ -62,6 +63,7 @@ struct Desk {
   bool panels = true;  // false: only the picture
   bool whole = true;   // the panels are drawn in this frame, see DrawOptions
   ShownN shown_n;
+  std::vector<int> shown_ns;  // N of this run and of those compared with it, as last shown
   bool help = false;
   bool more = false;             // advanced method settings are unfolded
   bool open_share_menu = false;  // in the next frame

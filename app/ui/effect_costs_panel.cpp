@@ -148,9 +148,7 @@ std::string summary(const CostBreakdown& costs) {
 }
 
 std::string method_name(const Theme& theme, const Settings& s) {
-  const SeriesParameter parameter = series_parameter(s);
-  return curve_style(theme, s).name() + ", " + parameter.name + " = " +
-         plain_number(parameter.value);
+  return curve_style(theme, s).name() + ", " + parameter_text(s);
 }
 
 }  // namespace

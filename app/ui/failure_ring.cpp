@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "app/text/verdict_words.hpp"
 #include "app/ui/over_picture.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -56,7 +57,7 @@ void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Fa
   }
   draw.AddCircle(centre, radius, halo, 0, 6.0F);
   draw.AddCircle(centre, radius, color, 0, 2.5F);
-  std::string text = failure.words;
+  std::string text = failure.exceeded ? exceeded_label(*failure.exceeded) : "";
   if (!failure.name.empty()) text += (text.empty() ? "" : "  ·  ") + failure.name;
   ring_label(look, draw, centre, radius, viewport.panes[pane], text);
 }

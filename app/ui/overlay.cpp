@@ -158,12 +158,17 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
   if (stiffness_shares(session.scene(), session.state()).empty()) return;
   const ViewPalette& palette = look.theme->view;
   const ViewRect& v = viewport.view_rect;
+  constexpr float kHalf = 48.0F;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   const ImVec2 at(v.x + 16.0F, v.y + v.height - 28.0F);
+  constexpr const char* kText = "k/M: orange needs smaller steps";
+  const ImVec2 size = text_size(look.fonts.small, kText);
+  draw.AddRectFilled({at.x - 8.0F, at.y - 8.0F},
+                     {at.x + 2 * kHalf + 16.0F + size.x, at.y - 2.0F + size.y},
+                     fade(look.theme->panel, 0.7F), look.m.radius);
   const auto ink = [](const Color& c) {
     return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0F});
   };
-  constexpr float kHalf = 48.0F;
   const ImU32 low = ink(palette.stiff_low);
   const ImU32 mid = ink(palette.stiff_mid);
   const ImU32 high = ink(palette.stiff_high);
@@ -172,7 +177,7 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
                                high, mid);
   draw.AddRect(at, {at.x + 2 * kHalf, at.y + 6.0F}, fade(look.theme->faint, 0.6F));
   draw_over(look, draw, look.fonts.small, {at.x + 2 * kHalf + 8.0F, at.y - 5.0F}, look.theme->text,
-            "k/M: orange needs smaller steps");
+            kText);
 }
 
 }  // namespace substep::ui

@@ -84,7 +84,7 @@ std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,
 /// The part of the window covered by a pane's picture.
 Part part_of_window(const Viewport& viewport, std::size_t pane);
 /// The legend of the compared runs; draws nothing without a comparison.
-void compare_legend(const Look& look, const Session& session, const Compare& compare,
+void compare_legend(const Look& look, const Session& session, const Compare& compare, Desk& desk,
                     const Viewport& viewport);
 /// The guided tour's card, or the button that opens it.
 /// @param words of the current step; null outside the tour, and if the page shows them

@@ -194,8 +194,9 @@ void interact(const PlotFrame& f, double now, TimeAxis& axis) {
   }
   const bool moves = io.KeyShift || ImGui::IsMouseDown(ImGuiMouseButton_Right) ||
                      ImGui::IsMouseDown(ImGuiMouseButton_Middle);
-  if (ImGui::IsItemActivated() && !moves) axis.drag_from = t;
-  if (ImGui::IsItemActive() && moves && io.MouseDelta.x != 0.0F) {
+  const bool pressed = ImGui::IsItemActivated();  // the motion of this frame precedes it
+  if (pressed && !moves) axis.drag_from = t;
+  if (ImGui::IsItemActive() && !pressed && moves && io.MouseDelta.x != 0.0F) {
     axis.drag_from.reset();
     axis.pan(static_cast<double>(-io.MouseDelta.x / (f.max.x - f.min.x)) * axis.span, now);
   }

@@ -41,8 +41,8 @@ void drift_plot(const PlotContext& in, float height, bool last);
 /// indicates.
 std::optional<int> smallest_stable_n(const History& history, const Settings& settings);
 
-/// The curves of the energy plot without a comparison; potential and total count from the lowest
-/// potential so far.
+/// The curves of the energy plot without a comparison; potential and total have the zero of
+/// History::potential_offset().
 std::vector<Series> energy_series(const Theme& theme, const History& history, bool gravity);
 
 }  // namespace substep::ui

@@ -101,10 +101,9 @@ ImU32 cell_color(const Theme& t, const Result& result) {
 }
 
 void read_cell(const Look& look, const Result& result, double ratio) {
-  const SeriesParameter parameter = series_parameter(result.experiment.settings);
   const Theme& t = *look.theme;
-  const std::string name = curve_style(t, result.experiment.settings).name() + ", " +
-                           parameter.name + " = " + plain_number(parameter.value);
+  const Settings& s = result.experiment.settings;
+  const std::string name = curve_style(t, s).name() + ", " + parameter_text(s);
   read_out(look, std::vector<ReadOutLine>{{name, t.text, true},
                                           {"mass ratio " + plain_number(ratio), t.dim},
                                           {verdict_words(result.metrics.verdict),

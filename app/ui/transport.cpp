@@ -205,7 +205,7 @@ void transport(App& app, bool phone) {
     right = status(look, right, bar, kHeight, fixed(100.0 * app.session.pace(), 0) + " % speed",
                    0.0F, "The simulation is slower than the selected speed");
   }
-  if (right - after_buttons > 560.0F) {
+  if (app.desk.level == DeskLevel::kLab && right - after_buttons > 560.0F) {
     right = status(look, right, bar, kHeight, "hash " + hex(app.session.hash()), 0.0F,
                    "Hash of the state: the same on every machine for the same experiment");
   }

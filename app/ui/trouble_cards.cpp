@@ -4,6 +4,7 @@
 #include <string>
 
 #include "app/text/format.hpp"
+#include "app/text/verdict_words.hpp"
 #include "app/ui/card.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
@@ -53,6 +54,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
     std::string what = verdict.text();
     if (const std::size_t colon = what.find(": "); colon != std::string::npos)
       what.erase(0, colon + 2);
+    if (verdict.exceeded()) what = exceeded_sentence(*verdict.exceeded());
     if (report.status == StepStatus::kNotFinite) {
       what = "The motion";
       if (report.failed_body >= 0) {

@@ -137,8 +137,9 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport) {
   ImGui::InvisibleButton("picture", io.DisplaySize,
                          ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                              ImGuiButtonFlags_MouseButtonMiddle);
-  if (ImGui::IsItemActivated()) press(lab, viewport, io.MousePos);
-  if (ImGui::IsItemActive()) {
+  if (ImGui::IsItemActivated()) {  // the motion of this frame precedes the press
+    press(lab, viewport, io.MousePos);
+  } else if (ImGui::IsItemActive()) {
     drag(lab.session, viewport);
   } else if (ImGui::IsItemDeactivated()) {
     release(lab.session, desk, viewport);

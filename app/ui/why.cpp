@@ -118,7 +118,7 @@ void law(const Look& look, const Session& session, const Criterion& criterion) {
            "= 2 √(" + plain_number(alpha) + " / " + short_number(r) + ")", "Eq. 10");
   law_line(look, "N = h/Δt max, rounded up = " + grouped(substeps_for(session, r)),
            "= " + short_number(1e3 * h) + " ms / " + duration(dt) + " = " + short_number(h / dt) +
-               ", for the next frame",
+               ", next frame",
            "Eq. 11");
 }
 
@@ -233,7 +233,8 @@ void why_summary(const Look& look, const Session& session, Desk& desk) {
   const Criterion criterion = criterion_of(session);
   const std::string note = report.capped ? cap_note(report)
                            : std::isfinite(report.dt_stable)
-                               ? "Δt max " + duration(report.dt_stable)
+                               ? "Δt max " + duration(report.dt_stable) + " at α " +
+                                     plain_number(session.settings().alpha)
                                : "";
   section(look, "Why this N", note.c_str(), report.capped ? t.orange : t.text);
   const ImVec2 origin = ImGui::GetCursorScreenPos();

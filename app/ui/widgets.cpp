@@ -150,6 +150,18 @@ void place_tooltip(ImVec2 size) {
                            above ? std::max(8.0F, mouse.y - 8.0F - size.y) : mouse.y + 20.0F});
 }
 
+// Whether the last item was clicked since the pointer came to it, or something was clicked and the
+// pointer rests since: a tooltip would cover what the click has changed.
+bool clicked_here() {
+  const ImGuiIO& io = ImGui::GetIO();
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  constexpr float kSlack = 0.1F;  // Dear ImGui's timers lag by some frames [s]
+  const auto ago = static_cast<float>(g.Time - io.MouseClickedTime[0]);
+  const bool on_item = g.LastItemData.Rect.Contains(io.MouseClickedPos[0]);
+  return io.MouseClickedTime[0] > 0.0 && (ago < g.MouseStationaryTimer + kSlack ||
+                                          (on_item && ago < g.HoverItemDelayTimer + kSlack));
+}
+
 }  // namespace
 
 void read_out(const Look& look, std::span<const ReadOutLine> lines) {
@@ -179,8 +191,10 @@ void read_out(const Look& look, std::span<const ReadOutLine> lines) {
 
 void tooltip(const Look& look, const char* title, const char* text) {
   if (text == nullptr || *text == '\0') return;
-  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_NoSharedDelay))
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_NoSharedDelay) ||
+      clicked_here()) {
     return;
+  }
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
   const std::string lines = wrapped(look.fonts.regular, text, kTooltip);

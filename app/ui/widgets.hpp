@@ -43,7 +43,8 @@ struct ReadOutLine {
 /// A tooltip at the pointer without delay, kept inside the display.
 void read_out(const Look& look, std::span<const ReadOutLine> lines);
 
-/// A tooltip for the last item: a title and a longer text. Shown after a delay.
+/// A tooltip for the last item: a title and a longer text. Shown after a delay; not after
+/// a click, until the pointer leaves the item.
 void tooltip(const Look& look, const char* title, const char* text);
 
 struct Choice {

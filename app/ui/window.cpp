@@ -296,7 +296,7 @@ void draw_over_picture(App& app) {
   body_labels(app.look, app, app.desk, app);
   failure_rings(app.look, app, app);
   caption(app.look, app.session, app.desk, app, small);
-  compare_legend(app.look, app.session, app.compare, app);
+  compare_legend(app.look, app.session, app.compare, app.desk, app);
   if (!small) tint_scale(app.look, app.session, app.compare, app.desk, app);
   notice(app);
 }

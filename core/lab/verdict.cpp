@@ -10,11 +10,17 @@ namespace substep {
 
 namespace {
 
-/// "what 0.13 m > 0.1 m"
-std::string exceeds(const char* what, double value, double limit, const char* unit) {
+using What = Exceeded::What;
+
+/// "joint gap 0.13 m > 0.1 m (link_3)"
+std::string text_of(const Exceeded& e) {
+  const char* unit = e.what == What::kEnergyGain ? "J" : "m";
+  const char* what = e.what == What::kJointGap     ? "joint gap"
+                     : e.what == What::kEnergyGain ? "energy gain"
+                                                   : "moved";
   char text[160];
-  std::snprintf(text, sizeof text, "%s %.4g %s > %.4g %s", what, value, unit, limit, unit);
-  return text;
+  std::snprintf(text, sizeof text, "%s %.4g %s > %.4g %s", what, e.value, unit, e.limit, unit);
+  return e.name.empty() ? text : text + (" (" + e.name + ")");
 }
 
 }  // namespace
@@ -30,26 +36,25 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   const Criteria& criteria = scene.criteria;
   std::string why = stop_text(scene, report);
   // The first criterion exceeded is the reason; all contribute to the strain.
-  const auto judge = [&](const char* what, double value, double limit, const char* unit,
-                         const std::string& who) {
+  const auto judge = [&](What what, double value, double limit, const std::string& name) {
     strain_ = std::max(strain_, value / limit);
     if (!(value > limit) || !why.empty()) return;
-    why = exceeds(what, value, limit, unit);
-    if (!who.empty()) why += " (" + who + ")";
+    exceeded_ = {what, value, limit, name};
+    why = text_of(*exceeded_);
   };
   stopped_ = report.status != StepStatus::kOk;
   if (report.joint_gap_joint >= 0) {
     const auto joint = static_cast<std::size_t>(report.joint_gap_joint);
-    judge("joint gap", report.joint_gap, criteria.joint_gap, "m", base(scene.joints[joint]).name);
+    judge(What::kJointGap, report.joint_gap, criteria.joint_gap, base(scene.joints[joint]).name);
   }
   // An invalid scene has no state.
   const bool judged = !disturbed_ && report.status != StepStatus::kInvalid;
   if (judged && criteria.energy_gain) {
-    judge("energy gain", report.energy - energy_at_start_, *criteria.energy_gain, "J", {});
+    judge(What::kEnergyGain, report.energy - energy_at_start_, *criteria.energy_gain, {});
   }
   if (judged && criteria.displacement) {
     const auto body = static_cast<std::size_t>(criteria.displacement->body);
-    judge("moved", (state.x[body] - watched_start_).norm(), criteria.displacement->distance, "m",
+    judge(What::kMoved, (state.x[body] - watched_start_).norm(), criteria.displacement->distance,
           scene.bodies[body].name);
   }
   if (why.empty()) return;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "core/model/scene.hpp"
@@ -7,6 +8,15 @@
 #include "core/sim/report.hpp"
 
 namespace substep {
+
+/// A criterion of the scene and the value that exceeds it.
+struct Exceeded {
+  enum class What { kJointGap, kEnergyGain, kMoved };
+  What what = What::kJointGap;
+  double value = 0.0;  // [m], of an energy [J]
+  double limit = 0.0;  // in the same unit
+  std::string name;    // of the joint or body, empty for an energy
+};
 
 /// Checks a run against its scene's criteria: the single implementation for browser, command line
 /// and tests.
@@ -29,6 +39,8 @@ class Verdict {
   [[nodiscard]] bool stopped() const { return stopped_; }
   /// Largest value so far relative to its criterion's limit [-].
   [[nodiscard]] double strain() const { return strain_; }
+  /// The criterion that failed the run; empty if it holds or cannot continue.
+  [[nodiscard]] const std::optional<Exceeded>& exceeded() const { return exceeded_; }
   /// "holds", "disturbed at 1.20 s", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
   [[nodiscard]] const std::string& text() const { return text_; }
 
@@ -40,6 +52,7 @@ class Verdict {
   double strain_ = 0.0;
   double energy_at_start_ = 0.0;
   Vec3 watched_start_ = Vec3::Zero();
+  std::optional<Exceeded> exceeded_;
   std::string text_ = "holds";
 };
 

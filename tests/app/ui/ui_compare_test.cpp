@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/ui/over_picture.hpp"
+#include "app/ui/panels.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 
 namespace substep {
@@ -113,6 +114,15 @@ TEST(Compare, WhatCannotBeReadIsNoRunAndTheSameIsOne) {
 TEST(Compare, SolversAreCalledByTheirNames) {
   EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}), "Newton, none");
   EXPECT_EQ(overrides_title({{"solver", "xpbd"}}), "XPBD");
+  EXPECT_EQ(overrides_title({{"mode", "const"}, {"n", "6"}}), "constant 6");
+  EXPECT_EQ(overrides_title({{"mode", "const"}}), "const");
+}
+
+TEST(Compare, TitlesNameOnlyWhatARunReads) {
+  Headless h;
+  h.app->compare.start(h.app->session,
+                       {{{"mode", "const"}, {"n", "6"}, {"integrator", "leapfrog"}}});
+  EXPECT_EQ(ui::run_title(h.app->session, h.app->compare), "adaptive, euler (this run)");
 }
 
 // The compared run has the session's own method: after every action on both they must agree bit for

@@ -38,7 +38,10 @@ TEST(Failure, OfATornJointLiesBetweenItsAnchors) {
   const FrameReport& report = torn.h.app->session.report();
   EXPECT_EQ(failure->joint, report.joint_gap_joint);
   EXPECT_NEAR((failure->to - failure->from).norm(), report.joint_gap, 1e-9);
-  EXPECT_EQ(failure->words.find("joint gap 0."), 0U) << failure->words;
+  ASSERT_TRUE(failure->exceeded.has_value());
+  EXPECT_EQ(failure->exceeded->what, Exceeded::What::kJointGap);
+  EXPECT_EQ(failure->exceeded->value, report.joint_gap);
+  EXPECT_EQ(failure->exceeded->name, failure->name);
   EXPECT_EQ(
       failure->name,
       base(torn.h.app->session.scene().joints[static_cast<std::size_t>(failure->joint)]).name);
@@ -55,7 +58,8 @@ TEST(Failure, OfABodyThatMovedIsTheBody) {
   const auto failure = h.app->failure_in(0);
   ASSERT_TRUE(failure.has_value());
   EXPECT_EQ(failure->body, h.app->session.scene().criteria.displacement->body);
-  EXPECT_EQ(failure->words.find("moved "), 0U) << failure->words;
+  ASSERT_TRUE(failure->exceeded.has_value());
+  EXPECT_EQ(failure->exceeded->what, Exceeded::What::kMoved);
 }
 
 TEST(Failure, OfAStableRunIsNone) {

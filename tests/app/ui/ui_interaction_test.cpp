@@ -167,6 +167,43 @@ TEST(Hand, DragOnABodyTurnsTheViewWhileTheRunRests) {
   EXPECT_GT((h.app->view.camera.eye(h.app->view_rect) - eye).norm(), 1.0);
 }
 
+TEST(Hand, APressFarFromThePointerDoesNotTurnTheView) {
+  Headless h;
+  point_at(h, {640.0F, 300.0F});
+  const Vec3 eye = h.app->view.camera.eye(h.app->view_rect);
+  ImGui::GetIO().AddMousePosEvent(560.0F, 620.0F);  // in the frame of the press
+  press(h, true);
+  press(h, false);
+  h.frames(30);
+  EXPECT_LT((h.app->view.camera.eye(h.app->view_rect) - eye).norm(), 1e-9);
+}
+
+TEST(Tooltips, StayClosedOverWhatWasClicked) {
+  Headless h;
+  h.app->set("level", "lab");
+  h.frames(3);
+  const ui::Handle* tab = find_handle("Why N");
+  ASSERT_NE(tab, nullptr);
+  const ImVec2 at{0.5F * (tab->min.x + tab->max.x), 0.5F * (tab->min.y + tab->max.y)};
+  const auto tooltip_open = [] {
+    for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
+      if ((w->Flags & ImGuiWindowFlags_Tooltip) != 0 && w->WasActive && !w->Hidden) return true;
+    }
+    return false;
+  };
+  point_at(h, at);
+  h.frames(60);
+  EXPECT_TRUE(tooltip_open()) << "the pointer rests";
+  h.click(at.x, at.y);
+  h.frames(60);
+  EXPECT_FALSE(tooltip_open());
+  point_at(h, {640.0F, 400.0F});
+  h.frames(60);
+  point_at(h, at);
+  h.frames(60);
+  EXPECT_TRUE(tooltip_open()) << "the pointer has come back";
+}
+
 TEST(Hand, BallFliesAtThePointer) {
   Headless h;
   h.app->session.play();

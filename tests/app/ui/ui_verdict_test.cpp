@@ -17,6 +17,17 @@ TEST(VerdictWords, SayWhatTheJudgeSays) {
   EXPECT_EQ(verdict_words("disturbed at 1.20 s"), "Disturbed at 1.20 s");
 }
 
+TEST(VerdictWords, NameTheValueTheLimitAndWhatTheyMean) {
+  using What = Exceeded::What;
+  EXPECT_EQ(exceeded_sentence({What::kJointGap, 0.1067, 0.1, "hinge_7"}),
+            "hinge_7 has a gap of 0.107 m. Above 0.1 m a joint counts as torn.");
+  EXPECT_EQ(exceeded_sentence({What::kEnergyGain, 36921.0, 5150.0, ""}),
+            "The run has gained 36.9 kJ of energy from nowhere. The scene allows 5.15 kJ.");
+  EXPECT_EQ(exceeded_sentence({What::kMoved, 0.31, 0.25, "box"}),
+            "box has moved by 0.31 m. The scene allows 0.25 m.");
+  EXPECT_EQ(exceeded_label({What::kEnergyGain, 0.05, 0.01, ""}), "energy gain 50 mJ");
+}
+
 TEST(Verdict, NothingIsSaidBeforeAFrameWasJudged) {
   Session session(shipped("swinging_box"));
   EXPECT_FALSE(session.judged());

@@ -107,8 +107,13 @@ const char* fewer(CostAxis axis) {
   }
 }
 
+/// "capped + damping, leapfrog (N cap = 2)", within a sentence.
 std::string with_parameter(const Settings& s) {
-  return short_name(s) + " (" + parameter_text(s) + ")";
+  std::string name = short_name(s);
+  if (s.solver == SolverKind::kBpp) {  // else it begins with a proper name
+    name.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(name.front())));
+  }
+  return name + " (" + parameter_text(s) + ")";
 }
 
 /// "4.1 times", or "" if the ratio is negligible.

@@ -108,7 +108,9 @@ std::string beside_paper(const Accuracy& accuracy, const std::vector<Accuracy::P
   if (paper->result == best.result) return "It is the paper's.";
   const std::string with = "The paper's method, with alpha = " + plain_number(alpha) + ", ";
   return accuracy.error_is_given
-             ? with + "takes " + coarse_number(paper->cost / best.cost) + " times the cost."
+             ? with + (paper->cost < 1.05 * best.cost
+                           ? "costs as much."
+                           : "takes " + coarse_number(paper->cost / best.cost) + " times the cost.")
              : with + "has an error of " + error_text(paper->error, accuracy.error) + ".";
 }
 

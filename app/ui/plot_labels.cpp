@@ -50,6 +50,19 @@ std::vector<CurveEnd> ends_of(const PlotSpec& spec, double from, const PlotFrame
   return ends;
 }
 
+/// Right end of the name of a curve.
+float name_end(const Look& look, const CurveEnd& end) {
+  return end.at.x + kNameGap + text_size(look.fonts.small, end.name.c_str()).x;
+}
+
+/// Whether a text of this size would cover the name of a curve.
+bool covers_name(const Look& look, const std::vector<CurveEnd>& ends, ImVec2 at, ImVec2 size) {
+  return std::any_of(ends.begin(), ends.end(), [&](const CurveEnd& end) {
+    return at.x < name_end(look, end) && at.x + size.x > end.at.x &&
+           at.y < end.at.y + 0.5F * kNameLine && at.y + size.y > end.at.y - 0.5F * kNameLine;
+  });
+}
+
 }  // namespace
 
 std::vector<NamePlace> apart(const std::vector<float>& wanted, float line, float top,
@@ -93,9 +106,10 @@ void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotF
 
 void draw_levels(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
                  ImDrawList& draw) {
+  const std::vector<CurveEnd> ends = ends_of(spec, from, f);
   float taken = f.min.x;  // occupied by curves and their names
-  for (const CurveEnd& end : ends_of(spec, from, f)) {
-    taken = std::max(taken, end.at.x + kNameGap + kNameGutter);
+  for (const CurveEnd& end : ends) {
+    taken = std::max(taken, name_end(look, end) + kNameGap);
   }
   for (const Level& level : spec.levels) {
     const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
@@ -109,11 +123,13 @@ void draw_levels(const Look& look, const PlotSpec& spec, double from, const Plot
       name = level.brief + arrow;
     }
     // Below the line, if there is room: the curves are mostly above.
-    const float height = text_size(look.fonts.small, name.c_str()).y;
-    const float text_y = y + 1.0F + height > f.max.y ? y - height - 1.0F : y + 1.0F;
-    const float right = f.max.x - text_size(look.fonts.small, name.c_str()).x - 6.0F;
-    const float text_x = right > taken ? right : f.min.x + 6.0F;
-    draw_on_ground(look, draw, {text_x, text_y}, level.color, name);
+    const ImVec2 size = text_size(look.fonts.small, name.c_str());
+    const float below = y + 1.0F;
+    const float over = y - size.y - 1.0F;
+    const float right = f.max.x - size.x - 6.0F;
+    ImVec2 at{right > taken ? right : f.min.x + 6.0F, below + size.y > f.max.y ? over : below};
+    if (covers_name(look, ends, at, size)) at.y = over;
+    draw_on_ground(look, draw, at, level.color, name);
   }
 }
 

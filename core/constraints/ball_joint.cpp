@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/constraints/stiffness_flops.hpp"
-
 namespace substep {
 
 void BallRows::constants(const JointBase& joint, Block& block) {
@@ -57,14 +55,6 @@ void BallRows::push_change(const Block& block, const Motion& a, const Motion& b,
   const Vec3 f{force[0], force[1], force[2]};
   on_a.tail<3>() += (a.R * block.r_a - block.r_a).cross(f);
   on_b.tail<3>() -= (b.R * block.r_b - block.r_b).cross(f);
-}
-
-std::int64_t BallRows::stiffness_flops(std::int64_t bodies) {
-  return bodies * (kSkewProductFlops + kSumFlops);
-}
-
-std::int64_t BallRows::turning_stiffness_flops(std::int64_t bodies) {
-  return stiffness_flops(bodies);
 }
 
 }  // namespace substep

@@ -1,6 +1,5 @@
 #include "core/constraints/hinge_joint.hpp"
 
-#include "core/constraints/stiffness_flops.hpp"
 #include "core/math/across.hpp"
 
 namespace substep {
@@ -96,12 +95,5 @@ void HingeRows::push_change(const Block& block, const Motion& a, const Motion& b
 }
 
 // w, W U, on each body and between both.
-std::int64_t HingeRows::stiffness_flops(std::int64_t bodies) {
-  return BallRows::stiffness_flops(bodies) + 9 + kSkewProductFlops + bodies * bodies * kSumFlops;
-}
-
-std::int64_t HingeRows::turning_stiffness_flops(std::int64_t bodies) {
-  return BallRows::turning_stiffness_flops(bodies) + 9 + kSkewProductFlops + bodies * kSumFlops;
-}
 
 }  // namespace substep

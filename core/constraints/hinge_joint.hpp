@@ -43,8 +43,6 @@ struct HingeRows {
   static Vec3 torque(const Block& block, const double* force);
   static void push_change(const Block& block, const Motion& a, const Motion& b, const double* force,
                           Vec6& on_a, Vec6& on_b);
-  static std::int64_t stiffness_flops(std::int64_t bodies);
-  static std::int64_t turning_stiffness_flops(std::int64_t bodies);
 };
 
 }  // namespace substep

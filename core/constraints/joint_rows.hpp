@@ -22,8 +22,7 @@ template <class Rows, class J>
 concept JointRows = requires(const J& joint, Block& block, const Block& start,
                              const JointGeometry& geometry, const Side& side, const Vec6& velocity,
                              const Motion& motion, RowRange range, double* out, const double* force,
-                             Vec6& push, StiffnessMatrix& K, std::span<Mat3> turning,
-                             std::int64_t bodies) {
+                             Vec6& push, StiffnessMatrix& K, std::span<Mat3> turning) {
   // Constant part of its block: numbers of rows, compliance.
   { Rows::constants(joint, block) } -> std::same_as<void>;
   // The joint's data for rows().
@@ -44,9 +43,6 @@ concept JointRows = requires(const J& joint, Block& block, const Block& start,
   { Rows::torque(start, force) } -> std::same_as<Vec3>;
   // Adds the change of J^T force due to the motion of a and b: force first, then torque.
   { Rows::push_change(start, motion, motion, force, push, push) } -> std::same_as<void>;
-  // Floating-point operations of the two stiffness functions, by number of moving bodies.
-  { Rows::stiffness_flops(bodies) } -> std::same_as<std::int64_t>;
-  { Rows::turning_stiffness_flops(bodies) } -> std::same_as<std::int64_t>;
 };
 
 /// In the order of the Joint variant.

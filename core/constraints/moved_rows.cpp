@@ -70,11 +70,4 @@ double moved_gap(const Block& start, const Motion& a, const Motion& b) {
   return gained_gap(start, d, start.H * d);
 }
 
-std::int64_t move_flops(const Block& block, int rows) {
-  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  constexpr std::int64_t kRow = 15;   // phi and J of one row at other poses
-  constexpr std::int64_t kBody = 60;  // its rotation
-  return kRow * rows + kBody * bodies;
-}
-
 }  // namespace substep

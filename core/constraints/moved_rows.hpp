@@ -26,7 +26,4 @@ void moved_errors(const Block& start, const Motion& a, const Motion& b, double* 
 /// Change of phi of a contact's normal, as in move_rows().
 double moved_gap(const Block& start, const Motion& a, const Motion& b);
 
-/// Floating-point operations of move_rows for the given number of rows.
-std::int64_t move_flops(const Block& block, int rows);
-
 }  // namespace substep

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/constraints/stiffness_flops.hpp"
-
 namespace substep {
 namespace {
 
@@ -179,17 +177,6 @@ void PrismaticRows::push_change(const Block& block, const Motion& a, const Motio
   on_a.tail<3>() += turned;
   on_b.head<3>() -= f_moved - f;
   on_b.tail<3>() -= slid;
-}
-
-// f, both products of the angles, [f][r_a] and [rho][f] or [r_a][f] of each pair.
-std::int64_t PrismaticRows::stiffness_flops(std::int64_t bodies) {
-  return turning_stiffness_flops(bodies) +
-         (bodies > 1 ? 2 * (kSkewProductFlops + kSumFlops) + 3 * 36 : 0);
-}
-
-std::int64_t PrismaticRows::turning_stiffness_flops(std::int64_t bodies) {
-  constexpr std::int64_t kAngles = 9 + 2 * kSkewProductFlops + 2 * kSumFlops;
-  return 9 + kAngles + bodies * (kSkewProductFlops + 2 * kSumFlops);
 }
 
 }  // namespace substep

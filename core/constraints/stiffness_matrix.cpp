@@ -63,14 +63,6 @@ Mat6 StiffnessMatrix::block(int row, int col) const {
   return K;
 }
 
-// Per block: columns are rotated, squared and summed; one root per column.
-std::int64_t StiffnessMatrix::norm_flops() const {
-  const std::int64_t size = whole_.empty() ? 3 : 6;
-  const std::int64_t of_block = size * size * (5 + 2);
-  return static_cast<std::int64_t>(pairs_.size()) * of_block +
-         size * static_cast<std::int64_t>(bodies_);
-}
-
 void StiffnessMatrix::column_norms(std::span<const int> bodies, std::span<const Mat3> R_WB,
                                    std::span<Vec6> k) const {
   // The norm is invariant under rotation of the rows, so only the columns are rotated.

@@ -35,8 +35,10 @@ class StiffnessMatrix {
   void column_norms(std::span<const int> bodies, std::span<const Mat3> R_WB,
                     std::span<Vec6> k) const;
 
-  /// Floating-point operations of column_norms, additions, multiplications and roots.
-  [[nodiscard]] std::int64_t norm_flops() const;
+  [[nodiscard]] std::size_t bodies() const { return bodies_; }
+  [[nodiscard]] std::size_t blocks() const { return pairs_.size(); }
+  /// Rows of a block: 3 if only the angular parts are kept.
+  [[nodiscard]] std::int64_t block_size() const { return whole_.empty() ? 3 : 6; }
 
   /// The block of one pair; zero if absent.
   [[nodiscard]] Mat6 block(int row, int col) const;

@@ -24,7 +24,10 @@ SolverKind impact_solver(SolverKind chosen) {
 // simultaneously and without forces, until none is left. This conserves energy for e = 1 and
 // preserves symmetry (Smith et al., Reflections on simultaneous impact, 2012).
 bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
-  if (!restitution->spreads(*scene, sub.u_before, sub.dt, sub.rows)) return true;
+  if (!restitution || sub.probing) return true;
+  const bool spreads = restitution->spreads(*scene, sub.u_before, sub.dt, sub.rows);
+  sub.struck = restitution->struck();
+  if (!spreads) return true;
   if (!impacts) impacts = make_solver(impact_solver(settings.solver));
   std::span<const InverseMass> masses = sub.inverse_mass;
   if (changes_mass(settings.mode)) {  // no time passes: no damping or geometric stiffness

@@ -2,7 +2,7 @@
 
 #include "core/sim/budget.hpp"
 #include "core/sim/simulator_impl.hpp"
-#include "core/stepping/small_steps.hpp"
+#include "core/solver/small_steps.hpp"
 
 namespace substep {
 

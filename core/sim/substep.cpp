@@ -5,13 +5,13 @@
 
 #include "core/constraints/grab_rows.hpp"
 #include "core/sim/simulator_impl.hpp"
+#include "core/solver/cost_model.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/external.hpp"
 #include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/mode_rules.hpp"
-#include "core/stepping/small_steps.hpp"
 #include "core/stepping/stored_forces.hpp"
 
 namespace substep {
@@ -123,10 +123,7 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   set_softness(sub.rows, scene->regularisation, sub.dt);
-  if (restitution && !sub.probing) {
-    if (!propagate_impacts(sub, report)) return false;
-    sub.struck = restitution->struck();
-  }
+  if (!propagate_impacts(sub, report)) return false;
   if (forces_are_stored(sub)) seed_forces(sub, state, seeds(sub));
   set_bias(sub, report);
   if (holds_grab(sub)) soften_grab(*grab, sub.dt, sub.rows.back());
@@ -135,9 +132,8 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   system.force_time = sub.impulse_time;
   system.limits = limits_of_solve(progress(sub, report), settings, budget);
   sub.integrator->extend(system, sub, state);
-  Settings asked = sub.settings;
-  asked.iterations = iterations_of(sub.settings, sub.dt / scene->frame);
-  const SolveReport solved = solver->find_velocities(system, asked);
+  system.frame_share = sub.dt / scene->frame;
+  const SolveReport solved = solver->find_velocities(system, sub.settings);
   if (solved.status == SolveStatus::kOverLimits) {
     refuse_solve(sub, solved, report);
     return false;
@@ -243,7 +239,7 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
   }
   remember_stiffness(*sub.part);
   ++report.criterion.evaluations;
-  report.criterion.flops += stiffness->flops(sub.rows, terms);
+  report.criterion.flops += criterion_flops(sub.rows, terms, stiffness->matrix());
   report.stages.stiffness = true;
   clock.lap(report.times.stiffness);
   return true;

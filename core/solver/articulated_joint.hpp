@@ -47,14 +47,6 @@ class ArticulatedJoint {
   /// Change of the child's velocity at the pivot.
   [[nodiscard]] const double* velocity() const { return v_; }
 
-  // @param exact no row has softness
-  static std::int64_t factor_flops(int rows, bool exact) {
-    return 250 + (rows == 3 ? 240 : 84) + (exact ? 0 : 82 * rows);
-  }
-  static std::int64_t solve_flops(int rows, bool exact) {
-    return 150 + (rows == 3 ? 105 : 35) + (exact ? 0 : 72 + 16 * rows);
-  }
-
  private:
   /// A ball joint leaves three rotations free, a hinge one.
   static constexpr int n_free(int rows) { return rows == 5 ? 1 : 3; }

@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "core/constraints/moved_rows.hpp"
-#include "core/constraints/stiffness_flops.hpp"
 #include "core/constraints/turning_stiffness.hpp"
-#include "core/math/flops.hpp"
+#include "core/solver/cost_model.hpp"
 
 namespace substep {
 
@@ -17,28 +16,6 @@ constexpr double kConverged = 1e-9;  // largest change of a velocity in a step, 
 
 /// Of the mean, average acceleration.
 constexpr PoseWeights kMean{0.25, 0.5, 0.25, 0.0};
-
-/// Operations of a step without the linear solve: rows at other poses, their averages, and the
-/// Hessian.
-std::int64_t relinearise_flops(std::span<const Block> blocks, std::size_t bodies, Forces forces) {
-  constexpr std::int64_t kBody = 2 * product_flops(3, 3, 3) + 30 +  // D
-                                 2 * product_flops(3, 3, 3) + 40 +  // Mt^-1
-                                 2 * product_flops(3, 3, 1) + 30;   // u, its change
-  constexpr std::int64_t kCourse = 2 * 400;  // two rotations of three iterations each
-  std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
-  for (const Block& block : blocks) {
-    const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-    flops += move_flops(block, block.rows) + product_flops(block.rows, 6, sides) + 4 * block.rows +
-             turning_stiffness_flops(block);
-    if (forces == Forces::kEnd) continue;
-    const std::int64_t averaged = block.rows * (block.has_point_rows ? 3 : 6) + 3;
-    flops += 4 * averaged * sides;
-    if (forces != Forces::kNumerov) continue;
-    flops += move_flops(block, block.rows) + (20 + 3 * 12) * block.rows * sides;
-  }
-  if (forces == Forces::kNumerov) flops += kCourse * static_cast<std::int64_t>(bodies);
-  return flops;
-}
 
 /// The resisting diagonal of -K about a body's principal axes, the columns of R_WB.
 Mat3 resisting_diagonal(const Mat3& K, const Mat3& R_WB) {
@@ -251,7 +228,7 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
     report.pivots += step.pivots;
     report.passes += step.passes;
     report.factorisations += step.factorisations;
-    report.flops += step.flops + relinearise_flops(rows_, u_.size(), settings.forces);
+    report.flops += step.flops + relinearise_flops(rows_, std::ssize(u_), settings.forces);
   }
   if (settings.forces == Forces::kNumerov) numerov_.find_turns(system);
   return report;

@@ -5,9 +5,10 @@
 #include <new>
 #include <type_traits>
 
-#include "core/math/flops.hpp"
 #include "core/math/pair.hpp"
 #include "core/solver/body_products.hpp"
+#include "core/solver/cost_model.hpp"
+#include "core/solver/small_steps.hpp"
 
 namespace substep {
 
@@ -129,25 +130,6 @@ void kick(const Table<V::Rows, V::kComponents>& W, double signed_mass,
       store_pair(sum, u.data() + 2 * p);
     }
   }
-}
-
-/// Operations per visit of a block: J u and Mt^-1 J^T change on each body, row coupling, and per
-/// row softness, step and bounds.
-std::int64_t visit_flops(const Block& block) {
-  const std::int64_t n = block.rows;
-  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  const std::int64_t multiplied =
-      block.has_point_rows ? 3 : 6;  // the linear part of point rows is +-E
-  return bodies * (2 * product_flops(n, multiplied, 1) + (block.has_point_rows ? 9 : 0)) +
-         unit_triangle_flops(n) + 5 * n;
-}
-
-/// Operations of packing a block: Mt^-1 J^T and the products of its rows on each body.
-std::int64_t pack_flops(const Block& block) {
-  const std::int64_t n = block.rows;
-  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  const std::int64_t multiplied = block.has_point_rows ? 3 : 6;
-  return bodies * (18 * n + n * (n + 1) * multiplied + (block.has_point_rows ? 3 : 0)) + 2 * n;
 }
 
 /// J, Mt^-1 J^T and the coupling within the block through one of its bodies.
@@ -299,17 +281,18 @@ void Pgs::pack(const System& system, bool warm_start, bool cone) {
 SolveReport Pgs::find_velocities(const System& system, const Settings& settings) {
   const bool cone = settings.friction_cone == FrictionCone::kCone;
   SolveReport report;
-  report.iterations = settings.iterations;
+  const int iterations = iterations_of(settings, system.frame_share);
+  report.iterations = iterations;
   for (const Block& block : system.blocks) {
-    report.row_updates += static_cast<std::int64_t>(block.rows) * settings.iterations;
-    report.flops += pack_flops(block) + visit_flops(block) * settings.iterations;
+    report.row_updates += static_cast<std::int64_t>(block.rows) * iterations;
+    report.flops += pack_flops(block) + visit_flops(block) * iterations;
   }
   if (static_cast<double>(report.flops) > system.limits.work) {
     return {.status = SolveStatus::kOverLimits, .work_needed = static_cast<double>(report.flops)};
   }
   pack(system, settings.warm_start, cone);
   const std::size_t count = system.blocks.size();
-  for (int iteration = 0; iteration < settings.iterations; ++iteration) {
+  for (int iteration = 0; iteration < iterations; ++iteration) {
     std::byte* at = records_.get();
     for (std::size_t k = 0; k < count; ++k) {
       take(at, [&](auto& visit) { update(visit, system.u); });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/math/flops.hpp"
 #include "core/solver/body_products.hpp"
 #include "core/solver/dense_ldlt.hpp"
 #include "core/solver/saddle_ldlt.hpp"
@@ -26,27 +25,15 @@ void set_zero(double* to, int n) {
 }  // namespace
 
 void SaddleLdlt::count(Node& node) const {
-  const std::int64_t n = width(node);
-  const std::int64_t rows = node.n_rows;
   node.counted_rows = node.n_rows;
-  node.factor_flops = node.handed_flops;
   if (node.kind == NodeKind::kArticulated) {
     const Attached& attached = attached_[node.first_attached];
-    const int n_rows = keys_[index(attached.block)].rows();
-    node.factor_flops += ArticulatedJoint::factor_flops(n_rows, attached.exact);
-    node.solve_flops = ArticulatedJoint::solve_flops(n_rows, attached.exact);
-    return;
+    node.flops = articulated_flops(keys_[index(attached.block)].rows(), attached.exact);
+  } else {
+    node.flops =
+        node_flops(node.n_rows, width(node), node.kind != NodeKind::kGeneral, node.springs);
   }
-  // Zero blocks of a leaf node are counted as dense: the count depends only on sizes.
-  const std::int64_t gram = n * (n + 6);  // per row of Y or Z: two flops on half a square
-  const std::int64_t to_general = node.kind == NodeKind::kGeneral ? 1 : 0;
-  node.factor_flops += to_general * (ldlt_flops(6) + unit_triangle_flops(6, n + rows) + 6 * gram +
-                                     product_flops(rows, 6, n) + node.springs.factor) +
-                       product_flops(rows, 6, rows + 6) / 2 + ldlt_flops(rows) +
-                       unit_triangle_flops(rows, n) + rows * gram;
-  node.solve_flops =
-      node.springs.solve + 2 * (unit_triangle_flops(6) + unit_triangle_flops(rows) +
-                                product_flops(rows, 6, 2) + product_flops(rows + 6, n, 1));
+  node.flops.factor += node.update_flops;
 }
 
 void SaddleLdlt::add_inertia(const Node& node, Square6& A) const {
@@ -138,8 +125,7 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
     const Block& block = blocks[index(attached.block)];
     if (attached.folded) {
       const auto free = std::count(block.active_set, block.active_set + block.rows, std::int8_t{0});
-      const SpringFlops flops =
-          spring_flops(block, static_cast<int>(free), attached.other < 0 ? 1 : 2);
+      const FactorFlops flops = spring_flops(block, free, attached.other < 0 ? 1 : 2);
       node.springs.factor += flops.factor;
       node.springs.solve += flops.solve;
       continue;

@@ -191,8 +191,7 @@ void SaddleLdlt::link_nodes() {
     if (nodes_[i].parent < 0) continue;
     Node& parent = nodes_[index(nodes_[i].parent)];
     children_[parent.first_child + parent.n_children++] = static_cast<int>(i);
-    const std::int64_t handed = width(nodes_[i]);
-    parent.handed_flops += handed * (handed + 6) / 2;
+    parent.update_flops += update_flops(width(nodes_[i]));
   }
 }
 

@@ -66,7 +66,7 @@ Vec6* SaddleLdlt::of_body(int body) {
 
 bool SaddleLdlt::factor_node(Node& node, const System& system) {
   if (node.kind != NodeKind::kArticulated) gather_rows(node, system.blocks);
-  flops_ += node.factor_flops;
+  flops_ += node.flops.factor;
   if (static_cast<double>(flops_) > system.limits.work) return false;
   node.dirty = false;
   if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
@@ -197,7 +197,7 @@ bool SaddleLdlt::solve(const System& system) {
     } else {
       forward(node);
     }
-    flops_ += node.solve_flops;
+    flops_ += node.flops.solve;
   }
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];

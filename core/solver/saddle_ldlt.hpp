@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/solver/articulated_joint.hpp"
+#include "core/solver/cost_model.hpp"
 #include "core/solver/dense_ldlt.hpp"
 #include "core/solver/elimination_order.hpp"
 #include "core/solver/spring.hpp"
@@ -94,11 +95,10 @@ class SaddleLdlt {
     bool folds = false;  // some rows are folded
     bool has_contacts = false;
     bool gathered = false;  // its rows are gathered and fixed: none can become active
-    SpringFlops springs;
-    int counted_rows = -1;          // number of rows for which the counts below are valid
-    std::int64_t handed_flops = 0;  // to add the children's contributions
-    std::int64_t factor_flops = 0;
-    std::int64_t solve_flops = 0;
+    FactorFlops springs;
+    int counted_rows = -1;          // number of rows for which `flops` is valid
+    std::int64_t update_flops = 0;  // to add the children's contributions
+    FactorFlops flops;
     std::size_t values = 0;  // into values_, unless articulated
     std::size_t update = 0;  // into values_: contribution to the coupled bodies, general nodes only
     // Of an articulated node:

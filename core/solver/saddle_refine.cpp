@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/math/flops.hpp"
 #include "core/solver/saddle_ldlt.hpp"
 
 namespace substep {
@@ -47,8 +46,7 @@ double SaddleLdlt::start_correction(const System& system) {
       largest = std::max(largest, std::abs(w[row] + block.bias[row]));
       block.impulse[row] = 0.0;
     }
-    const int sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-    flops_ += 2 * product_flops(block.rows, 6, sides) + 5 * block.rows;
+    flops_ += residual_flops(block);
   }
   return largest;
 }

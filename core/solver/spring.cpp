@@ -114,19 +114,6 @@ void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
   }
 }
 
-// Counts the operations of add_pin(), add_turn(), add_row(), push() and row_speeds().
-SpringFlops spring_flops(const Block& block, int rows, int bodies) {
-  const std::int64_t other = bodies - 1;
-  const auto of_row = [&](std::int64_t n) {  // n gradients of each body
-    return SpringFlops{1 + n + n * (n + 1) + other * (2 * n + 4 * n * n), 3 + bodies * 4 * n};
-  };
-  const SpringFlops of_pin{13 + other * 28, 3 + bodies * 13};
-  const std::int64_t pins = block.has_point_rows ? 3 : 0;
-  const SpringFlops further = of_row(block.has_point_rows ? 3 : 6);
-  return {pins * of_pin.factor + (rows - pins) * further.factor,
-          pins * of_pin.solve + (rows - pins) * further.solve};
-}
-
 void spring_impulses(const double* w, const Vec6* a, const Vec6* b, Block& block) {
   double speed[kMaxRows];
   row_speeds(block, a, b, speed);

@@ -22,14 +22,6 @@ struct SpringTarget {
 /// @param is_a true if the body is side a of the block
 void add_springs(const Block& block, bool is_a, const SpringTarget& to);
 
-/// Floating-point operations of springs: adding them, and one solve.
-struct SpringFlops {
-  std::int64_t factor = 0;
-  std::int64_t solve = 0;
-};
-/// @param rows free rows of the block  @param bodies moving bodies, 1 or 2
-SpringFlops spring_flops(const Block& block, int rows, int bodies);
-
 /// The impulses of free rows, x = -(w + J v)/s.
 /// @param w J u* + bias  @param a, b changes of velocity; nullptr for a static side
 void spring_impulses(const double* w, const Vec6* a, const Vec6* b, Block& block);

@@ -61,6 +61,8 @@ struct System {
   std::span<BodyCourse> courses{};
 
   SolveLimits limits{};
+
+  double frame_share = 1.0;  // dt over the length of the frame, for small steps [-]
 };
 
 enum class SolveStatus : std::uint8_t {
@@ -78,7 +80,7 @@ struct SolveReport {
   int pivots = 0;                // BPP, also in Newton: changes of the active set
   int passes = 0;                // the same: refreshes of the friction bounds, the first included
   int factorisations = 0;        // BPP, also in Newton
-  std::int64_t flops = 0;        // to form, factor and solve, and of row updates: flops.hpp
+  std::int64_t flops = 0;        // to form, factor and solve, and of row updates: cost_model.hpp
   double memory_needed = 0.0;    // for kOverLimits [bytes], 0 if the work was exceeded
   double work_needed = 0.0;      // for kOverLimits [operations], 0 if the memory was exceeded
 };

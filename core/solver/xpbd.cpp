@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/flops.hpp"
 #include "core/math/turn.hpp"
+#include "core/solver/cost_model.hpp"
+#include "core/solver/small_steps.hpp"
 
 namespace substep {
 
@@ -27,15 +28,6 @@ Vec6 response(const InverseMass& mass, const Vec6& g) {
 void push(const Vec6& du, double dt, Vec6& u) {
   u.head<3>() += du.head<3>();
   u.tail<3>() = (2.0 / dt) * turn_after(0.5 * dt * u.tail<3>(), 0.5 * dt * du.tail<3>());
-}
-
-/// Operations per correction: rows at the current poses, the direction, and per body the gradient,
-/// its response and the impulse.
-std::int64_t correction_flops(const Block& block, int count) {
-  const std::int64_t bodies = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-  constexpr std::int64_t kPush = 50;
-  return move_flops(block, count) + count * 6 + 6 +
-         bodies * (product_flops(6, count, 1) + product_flops(3, 3, 1) + 15 + kPush);
 }
 
 // The residual of rows, e = bias + phi/dt + softness * impulse. @param moved the rows as moved
@@ -138,7 +130,8 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
 SolveReport Xpbd::find_velocities(const System& system, const Settings& settings) {
   const bool cone = settings.friction_cone == FrictionCone::kCone;
   SolveReport report;
-  report.iterations = settings.iterations;
+  const int iterations = iterations_of(settings, system.frame_share);
+  report.iterations = iterations;
   double most = 0.0;  // upper bound: every row in every sweep
   for (const Block& block : system.blocks) {
     std::int64_t sweep = block.rows * correction_flops(block, 1);
@@ -147,7 +140,7 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
       sweep = correction_flops(block, block.position_rows) +
               (angles > 0 ? correction_flops(block, angles) : 0);
     }
-    most += static_cast<double>(settings.iterations) * static_cast<double>(sweep);
+    most += static_cast<double>(iterations) * static_cast<double>(sweep);
   }
   if (most > system.limits.work) {
     report.status = SolveStatus::kOverLimits;
@@ -164,7 +157,7 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
     report.row_updates += rows.count;
     report.flops += correction_flops(system.blocks[i], rows.count);
   };
-  for (int iteration = 0; iteration < settings.iterations; ++iteration) {
+  for (int iteration = 0; iteration < iterations; ++iteration) {
     for (std::size_t i = 0; i < moved_.size(); ++i) {
       const Block& block = system.blocks[i];
       if (block.is_contact()) {

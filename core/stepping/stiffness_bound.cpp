@@ -1,7 +1,6 @@
 #include "core/stepping/stiffness_bound.hpp"
 
 #include "core/constraints/joint_rows.hpp"
-#include "core/constraints/stiffness_flops.hpp"
 
 namespace substep {
 
@@ -23,12 +22,6 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactTerms terms,
   }
   k.resize(R_WB.size(), Vec6::Zero());
   K_.column_norms(part.bodies, R_WB, k);
-}
-
-std::int64_t StiffnessStage::flops(std::span<const Block> blocks, ContactTerms terms) const {
-  std::int64_t sum = K_.norm_flops();
-  for (const Block& block : blocks) sum += stiffness_flops(block, terms);
-  return sum;
 }
 
 StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const int> bodies,

@@ -33,8 +33,6 @@ class StiffnessStage {
   /// r = max k_i / M_ii over the moving ones of these bodies (Eq. 9).
   [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const int> bodies,
                                             std::span<const Vec6> k);
-  /// Floating-point operations of the last evaluate(), for the same blocks.
-  [[nodiscard]] std::int64_t flops(std::span<const Block> blocks, ContactTerms terms) const;
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
 
  private:

@@ -1,8 +1,8 @@
 #include "core/stepping/stormer.hpp"
 
 #include "core/constraints/grab_rows.hpp"
-#include "core/math/flops.hpp"
 #include "core/math/free_turn.hpp"
+#include "core/solver/cost_model.hpp"
 #include "core/stepping/carried_momentum.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/first_changes.hpp"
@@ -80,17 +80,6 @@ Vec3 torque_of(const Substep& sub, const State& state, std::size_t body) {
          (momentum_of(sub, body, state.u[body]) - momentum_of(sub, body, sub.u_before[body]));
 }
 
-std::int64_t aim_flops(std::span<const Block> blocks, std::size_t bodies) {
-  constexpr std::int64_t kBody = 2 * 50 + 60;  // w, w^ and its rotation
-  std::int64_t flops = kBody * static_cast<std::int64_t>(bodies);
-  for (const Block& block : blocks) {
-    if (block.is_contact()) continue;
-    const std::int64_t sides = (block.a >= 0 ? 1 : 0) + (block.b >= 0 ? 1 : 0);
-    flops += (15 + 4) * block.rows + product_flops(block.rows, 6, sides);
-  }
-  return flops;
-}
-
 bool gives_forces(const Substep& sub, const Block& block) {
   return sub.has_springs && !block.is_contact() && !is_grab(block);
 }
@@ -149,7 +138,7 @@ std::int64_t Stormer::aim(const Substep& sub, State& state) {
   for (const Block& block : sub.rows) {
     if (gives_forces(sub, block)) apply_impulse(block, block.given, sub.inverse_mass, state.u);
   }
-  return aims ? aim_flops(sub.rows, sub.part->moving.size()) : 0;
+  return aims ? aim_flops(sub.rows, std::ssize(sub.part->moving)) : 0;
 }
 
 // Joints must hold at the end poses; rows are linearised about poses extrapolated with the last

@@ -94,6 +94,4 @@ void HingeRows::push_change(const Block& block, const Motion& a, const Motion& b
   on_b.tail<3>() -= (b.R * block.r_b - block.r_b).cross(f) + couple;
 }
 
-// w, W U, on each body and between both.
-
 }  // namespace substep

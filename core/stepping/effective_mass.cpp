@@ -1,6 +1,5 @@
 #include "core/stepping/effective_mass.hpp"
 
-#include "core/math/lanes.hpp"
 #include "core/stepping/damping.hpp"
 #include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/geometric_inertia.hpp"
@@ -10,25 +9,14 @@ namespace substep {
 
 namespace {
 
-/// R diag(d) R^T, exactly symmetric. @param R, out column by column
-template <class T>
-void turn(const Place<T, const double>& R, const Place<T, const double>& d,
-          const Place<T, double>& out) {
-  T r[9];
-  for (int k = 0; k < 9; ++k) r[k] = R[k];
+/// R diag(d) R^T, exactly symmetric.
+inline void turn(const Mat3& R, const Vec3& d, Mat3& out) {
   for (int i = 0; i < 3; ++i) {
-    const T x = r[i] * d[0];
-    const T y = r[i + 3] * d[1];
-    const T z = r[i + 6] * d[2];
+    const Vec3 row = R.row(i).transpose().cwiseProduct(d);
     for (int j = 0; j <= i; ++j) {
-      const T sum = x * r[j] + y * r[j + 3] + z * r[j + 6];
-      out.set(i + 3 * j, sum);
-      out.set(j + 3 * i, sum);
+      out(i, j) = out(j, i) = row.x() * R(j, 0) + row.y() * R(j, 1) + row.z() * R(j, 2);
     }
   }
-}
-inline void turn(const Mat3& R, const Vec3& d, Mat3& out) {
-  turn<double>({R.data()}, {d.data()}, {out.data()});
 }
 
 inline void turn(const Mat3& R, const InertiaInverse& own, InverseMass& out) {
@@ -55,22 +43,7 @@ std::vector<InertiaInverse> inertia_inverses(const Scene& scene) {
 
 void inverse_mass(std::span<const InertiaInverse> own, const Part& part, std::span<const Mat3> R_WB,
                   std::span<InverseMass> out) {
-  const auto neither_is_isotropic = [&](int i, int j) {
-    return !own[index(i)].isotropic && !own[index(j)].isotropic;
-  };
-  in_pairs(part.moving, neither_is_isotropic, [&](auto bodies) {
-    if constexpr (bodies.count == 1) {
-      const std::size_t i = index(bodies.first);
-      turn(R_WB[i], own[i], out[i]);
-    } else {
-      bodies.at([&](int i) { return &out[index(i)].linear; }).set(0, bodies.at([&](int i) {
-        return &own[index(i)].linear;
-      })[0]);
-      turn(bodies.at([&](int i) { return R_WB[index(i)].data(); }),
-           bodies.at([&](int i) { return own[index(i)].angular.data(); }),
-           bodies.at([&](int i) { return out[index(i)].angular.data(); }));
-    }
-  });
+  for (const int body : part.moving) turn(R_WB[index(body)], own[index(body)], out[index(body)]);
 }
 
 bool changes_mass(Mode mode) { return rules_of(mode).mass != StiffMass::kOwn; }

@@ -3,44 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/lanes.hpp"
-
 namespace substep {
 
-namespace {
-
-void integrate(auto bodies, double dt, std::span<const Vec6> velocities, State& state) {
-  using T = typename decltype(bodies)::T;
-  const auto u = bodies.at([&](int i) { return velocities[index(i)].data(); });
-  const auto x = bodies.at([&](int i) { return state.x[index(i)].data(); });
-  for (int k = 0; k < 3; ++k) x.set(k, x[k] + dt * u[k]);
-
-  // (1, half) * q, world axes; q is stored as x, y, z, w.
-  const double half_dt = 0.5 * dt;
-  const Lanes3<T> half{half_dt * u[3], half_dt * u[4], half_dt * u[5]};
-  const auto q = bodies.at([&](int i) { return state.q[index(i)].coeffs().data(); });
-  const Lanes3<T> v = vector_at(q);
-  const T w = q[3];
-  const Lanes3<T> turned = (v + w * half) + cross(half, v);
-  const T cosine = w - dot(half, v);
-  const T norm =
-      root((turned.x * turned.x + turned.y * turned.y) + (turned.z * turned.z + cosine * cosine));
-  const T per_norm = 1.0 / norm;
-  set_vector(q, 0, per_norm * turned);
-  q.set(3, per_norm * cosine);
-}
-
-}  // namespace
-
 void integrate(const Part& part, double dt, std::span<const Vec6> u, State& state) {
-  in_pairs(part.moving, [&](auto bodies) { integrate(bodies, dt, u, state); });
+  const double half_dt = 0.5 * dt;
+  for (const int body : part.moving) {
+    const std::size_t i = index(body);
+    state.x[i] += dt * u[i].head<3>();
+    // (1, half) * q, world axes
+    Quat& q = state.q[i];
+    const Vec3 half = half_dt * u[i].tail<3>();
+    const Vec3 v = q.vec();
+    Eigen::Vector4d turned;  // x, y, z, w
+    turned << (v + q.w() * half) + half.cross(v), q.w() - half.dot(v);
+    q.coeffs() = (1.0 / turned.norm()) * turned;
+  }
 }
 
 void rotation_matrices(std::span<const int> bodies, const State& state, std::span<Mat3> R_WB) {
-  in_pairs(bodies, [&](auto some) {
-    rotation_matrix(some.at([&](int i) { return state.q[index(i)].coeffs().data(); }),
-                    some.at([&](int i) { return R_WB[index(i)].data(); }));
-  });
+  for (const int body : bodies) R_WB[index(body)] = state.q[index(body)].toRotationMatrix();
 }
 
 double most_kinetic(const Body& body, const Vec6& u) {

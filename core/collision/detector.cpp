@@ -7,10 +7,8 @@ namespace substep {
 
 namespace {
 
-std::size_t at(int body) { return static_cast<std::size_t>(body); }
-
 bool is_box(const Scene& scene, int body) {
-  return std::holds_alternative<Box>(scene.bodies[at(body)].shape);
+  return std::holds_alternative<Box>(scene.bodies[index(body)].shape);
 }
 
 }  // namespace
@@ -46,7 +44,8 @@ void Detector::look_ahead(const Scene& scene, const State& state, double ahead) 
 }
 
 double Detector::margin(const Scene& scene, int i, int j) const {
-  return way_.empty() ? scene.contact.margin : scene.contact.margin + way_[at(i)] + way_[at(j)];
+  return way_.empty() ? scene.contact.margin
+                      : scene.contact.margin + way_[index(i)] + way_[index(j)];
 }
 
 std::span<const BroadPhase::Pair> Detector::within_reach(const Scene& scene, const Part& part,
@@ -66,9 +65,9 @@ std::span<const BroadPhase::Pair> Detector::within_reach(const Scene& scene, con
 void Detector::touch(const Scene& scene, const State& state, std::span<const Mat3> R_WB,
                      const BroadPhase::Pair& pair) {
   const auto [i, j] = pair;
-  touch_shapes({i, state.x[at(i)], R_WB[at(i)]}, scene.bodies[at(i)].shape,
-               {j, state.x[at(j)], R_WB[at(j)]}, scene.bodies[at(j)].shape, margin(scene, i, j),
-               points_);
+  touch_shapes({i, state.x[index(i)], R_WB[index(i)]}, scene.bodies[index(i)].shape,
+               {j, state.x[index(j)], R_WB[index(j)]}, scene.bodies[index(j)].shape,
+               margin(scene, i, j), points_);
 }
 
 void Detector::find(const Scene& scene, const Part& part, const State& state,
@@ -76,16 +75,16 @@ void Detector::find(const Scene& scene, const Part& part, const State& state,
   points_.clear();
   broad_phase_.update(scene, part, state, R_WB, way_);
   for (const Ground& ground : grounds_) {
-    const Placed plane{ground.body, state.x[at(ground.body)], R_WB[at(ground.body)]};
+    const Placed plane{ground.body, state.x[index(ground.body)], R_WB[index(ground.body)]};
     const Vec3 n = plane.R.col(1);
     for (const int body : ground.solids) {
       if (points_.size() > limit_) return;
       if (!part.holds(body)) continue;
       const double near = margin(scene, body, ground.body);
       const double reach = broad_phase_.reach(body).dot(n.cwiseAbs());
-      if (n.dot(state.x[at(body)] - plane.x) > reach + near) continue;
-      touch_shapes({body, state.x[at(body)], R_WB[at(body)]}, scene.bodies[at(body)].shape, plane,
-                   Plane{}, near, points_);
+      if (n.dot(state.x[index(body)] - plane.x) > reach + near) continue;
+      touch_shapes({body, state.x[index(body)], R_WB[index(body)]}, scene.bodies[index(body)].shape,
+                   plane, Plane{}, near, points_);
     }
   }
   for (const BroadPhase::Pair& pair : broad_phase_.pairs()) {

@@ -27,8 +27,8 @@ Mat3 turned_curvature(const Mat3& H, const Mat3& R) {
 void ContactStage::append(std::span<const ContactPoint> points, const Scene& scene,
                           const State& state, Blocks& blocks) const {
   for (const ContactPoint& point : points) {
-    const auto a = static_cast<std::size_t>(point.a);
-    const auto b = static_cast<std::size_t>(point.b);
+    const auto a = index(point.a);
+    const auto b = index(point.b);
     Block& block = blocks.append();
     block.a = scene.bodies[a].is_static ? -1 : point.a;
     block.b = scene.bodies[b].is_static ? -1 : point.b;
@@ -61,7 +61,7 @@ bool ContactStage::prediction_valid(const Scene& scene, const Part& part, const 
                                     double dt) const {
   const double room = 0.5 * scene.contact.margin;  // per body of a pair
   return std::all_of(part.bodies.begin(), part.bodies.end(), [&](int body) {
-    const auto i = static_cast<std::size_t>(body);
+    const auto i = index(body);
     if (scene.bodies[i].is_static) return true;
     const double turned =
         2.0 * radius_around(scene.bodies[i].shape) * half_turn(q_[i], state.q[i]).norm();
@@ -77,7 +77,7 @@ bool ContactStage::append_predicted(const Scene& scene, const Part& part, const 
   if (detector_.too_many()) return false;
   const auto motion = [&](int body) {
     if (body < 0) return Motion{};
-    const auto i = static_cast<std::size_t>(body);
+    const auto i = index(body);
     return Motion{state.x[i] - x_[i], turn_matrix(half_turn(q_[i], state.q[i]))};
   };
   for (const Block& row : predicted_.all()) {
@@ -136,8 +136,8 @@ void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB,
   const Vec3 slope = scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero());
   for (Block& block : blocks) {
     if (!block.is_contact()) continue;
-    const auto a = static_cast<std::size_t>(block.body_a);
-    const auto b = static_cast<std::size_t>(block.body_b);
+    const auto a = index(block.body_a);
+    const auto b = index(block.body_b);
     const double mu = sqrt_mu_[a] * sqrt_mu_[b];
     if (!(mu > 0.0)) continue;
     const Mat3 still = block.a < 0 ? R_WB[a] : block.b < 0 ? R_WB[b] : Mat3(Mat3::Zero());

@@ -13,8 +13,8 @@ constexpr double kOpen = 1e30;
 double normal_speed(const Block& block, std::span<const Vec6> u) {
   double speed = 0.0;
   for (int j = 0; j < 6; ++j) {
-    if (block.a >= 0) speed += block.J_a[0][j] * u[static_cast<std::size_t>(block.a)][j];
-    if (block.b >= 0) speed += block.J_b[0][j] * u[static_cast<std::size_t>(block.b)][j];
+    if (block.a >= 0) speed += block.J_a[0][j] * u[index(block.a)][j];
+    if (block.b >= 0) speed += block.J_b[0][j] * u[index(block.b)][j];
   }
   return speed;
 }
@@ -26,8 +26,7 @@ RestitutionStage::RestitutionStage(const Scene& scene) : impact_(scene.bodies.si
 }
 
 double RestitutionStage::restitution_of(const Block& contact) const {
-  return std::max(e_[static_cast<std::size_t>(contact.body_a)],
-                  e_[static_cast<std::size_t>(contact.body_b)]);
+  return std::max(e_[index(contact.body_a)], e_[index(contact.body_b)]);
 }
 
 double RestitutionStage::impact_speed(const Scene& scene, std::span<const Vec6> u, double dt,
@@ -60,7 +59,7 @@ bool RestitutionStage::spreads(const Scene& scene, std::span<const Vec6> u, doub
     any = true;
     for (const int body : {block.a, block.b}) {
       if (body < 0) continue;
-      double& most = impact_[static_cast<std::size_t>(body)];
+      double& most = impact_[index(body)];
       most = std::max(most, speed);
     }
   }
@@ -70,7 +69,7 @@ bool RestitutionStage::spreads(const Scene& scene, std::span<const Vec6> u, doub
     if (impact_speed(scene, u, dt, block) > 0.0) return false;
     double change = 0.0;  // each body's speed changes by at most twice its fastest impact
     for (const int body : {block.a, block.b}) {
-      if (body >= 0) change += 2.0 * impact_[static_cast<std::size_t>(body)];
+      if (body >= 0) change += 2.0 * impact_[index(body)];
     }
     return change > 0.0 && block.phi[0] + (normal_speed(block, u) - change) * dt < 0.0;
   });

@@ -29,7 +29,7 @@ int StiffnessMatrix::find(int row, int col) const {
 std::size_t StiffnessMatrix::made(int row, int col) {
   if (const int at = find(row, col); at >= 0) return static_cast<std::size_t>(at);
   const std::size_t at = pairs_.size();
-  Pair& diagonal = pairs_[static_cast<std::size_t>(col)];
+  Pair& diagonal = pairs_[index(col)];
   const int next = std::exchange(diagonal.next, static_cast<int>(at));
   pairs_.push_back({row, next});
   if (whole_.empty()) {
@@ -73,10 +73,10 @@ void StiffnessMatrix::column_norms(std::span<const int> bodies, std::span<const 
     }
   };
   for (const int body : bodies) {
-    const auto col = static_cast<std::size_t>(body);
+    const auto col = index(body);
     Vec6 sum = Vec6::Zero();
-    for (int e = body; e >= 0; e = pairs_[static_cast<std::size_t>(e)].next) {
-      const auto at = static_cast<std::size_t>(e);
+    for (int e = body; e >= 0; e = pairs_[index(e)].next) {
+      const auto at = index(e);
       if (whole_.empty()) {
         add_squares(angular_[at], R_WB[col], sum.tail<3>());
       } else {

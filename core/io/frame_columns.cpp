@@ -32,7 +32,7 @@ std::string leading(const FrameView& f) {
 template <int kAxis>
 std::string tracked(const FrameView& f) {
   if (!f.scene.criteria.track) return "nan";
-  return number(f.state.x[static_cast<std::size_t>(*f.scene.criteria.track)][kAxis]);
+  return number(f.state.x[index(*f.scene.criteria.track)][kAxis]);
 }
 
 /// Sum over bodies, along one world axis.
@@ -47,7 +47,7 @@ std::string angular_momentum(const FrameView& f) {
 
 std::string leader(const FrameView& f) {
   const int body = f.report.leader.body;
-  return body < 0 ? "" : f.scene.bodies[static_cast<std::size_t>(body)].name;
+  return body < 0 ? "" : f.scene.bodies[index(body)].name;
 }
 
 const std::vector<FrameColumn>& all_columns() {

@@ -53,7 +53,7 @@ std::optional<UniformAcceleration> box_on_slope(const Scene& scene, const Body& 
 
 std::optional<UniformAcceleration> closed_form(const Scene& scene) {
   if (!scene.criteria.track || !scene.joints.empty()) return std::nullopt;
-  const Body& body = scene.bodies[static_cast<std::size_t>(*scene.criteria.track)];
+  const Body& body = scene.bodies[index(*scene.criteria.track)];
   if (body.is_static) return std::nullopt;
   // A torque changes the energy of the spin, which is taken to stay.
   if (scene.effects.external && body.torque != Vec3::Zero()) return std::nullopt;

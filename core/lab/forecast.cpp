@@ -23,8 +23,8 @@ class JointGraph {
     for (const Joint& joint : scene.joints) {
       const BodyPair pair = pair_of(joint);
       if (pair.first != pair.second && joints_[pair]++ == 0) {
-        edges_[static_cast<std::size_t>(pair.first)].push_back(pair.second);
-        edges_[static_cast<std::size_t>(pair.second)].push_back(pair.first);
+        edges_[index(pair.first)].push_back(pair.second);
+        edges_[index(pair.second)].push_back(pair.first);
       }
     }
     hang();
@@ -48,7 +48,7 @@ class JointGraph {
   };
 
   [[nodiscard]] int node(int body) const {
-    if (body == kWorld || scene_.bodies[static_cast<std::size_t>(body)].is_static) return 0;
+    if (body == kWorld || scene_.bodies[index(body)].is_static) return 0;
     return body + 1;
   }
   [[nodiscard]] BodyPair pair_of(const Joint& joint) const {
@@ -71,11 +71,11 @@ class JointGraph {
     enter(0, -1);
     while (!path.empty()) {
       Visit& here = path.back();
-      const auto& edges = edges_[static_cast<std::size_t>(here.node)];
+      const auto& edges = edges_[index(here.node)];
       if (here.next < edges.size()) {
         const int other = edges[here.next++];
         if (other == here.parent) continue;
-        if (const int order = seen_[static_cast<std::size_t>(other)]) {
+        if (const int order = seen_[index(other)]) {
           here.low = std::min(here.low, order);
           in_loops.push_back(std::minmax(here.node, other));
         } else {
@@ -114,7 +114,7 @@ std::pair<double, int> hanging_bound(const Scene& scene) {
   const auto add = [&](int body, const Vec3& arm, double force) {
     if (body == kWorld) return;
     for (int e = 0; e < 3; ++e) {
-      k[static_cast<std::size_t>(body)][e] += force * arm.cross(Vec3::Unit(e)).norm();
+      k[index(body)][e] += force * arm.cross(Vec3::Unit(e)).norm();
     }
   };
   for (const Joint& joint : scene.joints) {

@@ -29,7 +29,7 @@ PeakAndMedian peak_and_median(const std::vector<double>& values) {
 bool is_isolated(const Scene& scene) {
   if (scene.effects.gravity || scene.effects.external) return false;
   const auto is_fixed = [&](int body) {
-    return body == kWorld || scene.bodies[static_cast<std::size_t>(body)].is_static;
+    return body == kWorld || scene.bodies[index(body)].is_static;
   };
   for (const Joint& joint : scene.joints) {
     if (is_fixed(base(joint).a) || is_fixed(base(joint).b)) return false;
@@ -84,7 +84,7 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
       std::max(errors_.energy_drift_peak, std::abs(energy_ - energy_at_start_));
   const auto frame = static_cast<std::size_t>(report.frame);
   if (frame < reference_.track.size() && scene.criteria.track) {
-    const Vec3& x = state.x[static_cast<std::size_t>(*scene.criteria.track)];
+    const Vec3& x = state.x[index(*scene.criteria.track)];
     errors_.trajectory_final = (x - reference_.track[frame]).norm();
     errors_.trajectory_peak =
         std::max(errors_.trajectory_peak.value_or(0.0), *errors_.trajectory_final);

@@ -53,7 +53,7 @@ class ClosedForm final : public ReferenceRun::Source {
   [[nodiscard]] std::string name() const override { return "exact: closed form"; }
   std::optional<Sample> next() override {
     const double t = static_cast<double>(++frame_) * scene_.frame;
-    const Body& body = scene_.bodies[static_cast<std::size_t>(*scene_.criteria.track)];
+    const Body& body = scene_.bodies[index(*scene_.criteria.track)];
     const Vec3 v = motion_.velocity + motion_.acceleration * t;
     // What spins freely keeps the energy of its spin.
     const Vec3 omega = body.orientation.conjugate() * body.angular_velocity;
@@ -182,7 +182,7 @@ class FinestRun final : public ReferenceRun::Source {
  private:
   Sample sample() {
     if (!scene_.criteria.track) return {Vec3::Zero(), kinetic_};
-    const auto body = static_cast<std::size_t>(*scene_.criteria.track);
+    const auto body = index(*scene_.criteria.track);
     const Vec3 x = fine_.state().x[body];
     apart_ = std::max(apart_, (x - coarse_.state().x[body]).norm());
     return {x, kinetic_};
@@ -232,8 +232,7 @@ ReferenceRun::ReferenceRun(std::shared_ptr<const Scene> scene, double duration,
   reference_.window = predictable_window(*scene_, duration);
   frames_ = frames_of(*scene_, reference_.window);
   if (scene_->criteria.track) {
-    reference_.track.push_back(
-        scene_->bodies[static_cast<std::size_t>(*scene_->criteria.track)].position);
+    reference_.track.push_back(scene_->bodies[index(*scene_->criteria.track)].position);
   }
 }
 ReferenceRun::~ReferenceRun() = default;

@@ -58,7 +58,7 @@ std::string start_text(const Scene& scene, const StartReport& report) {
   std::vector<std::string> parts;
   const auto add = [&](bool beyond, int joint, const std::string& what) {
     if (!beyond) return;
-    const std::string& name = base(scene.joints[static_cast<std::size_t>(joint)]).name;
+    const std::string& name = base(scene.joints[index(joint)]).name;
     parts.push_back((parts.empty() ? "joint '" : "'") + name + "' " + what);
   };
   add(found.beyond.gap, found.gap_joint, gap_text(found.gap));

@@ -28,7 +28,7 @@ std::string text_of(const Exceeded& e) {
 Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& start)
     : energy_at_start_(start.energy) {
   if (start.status == StepStatus::kInvalid || !scene.criteria.displacement) return;
-  watched_start_ = state.x[static_cast<std::size_t>(scene.criteria.displacement->body)];
+  watched_start_ = state.x[index(scene.criteria.displacement->body)];
 }
 
 void Verdict::add(const Scene& scene, const State& state, const FrameReport& report) {
@@ -44,7 +44,7 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   };
   stopped_ = report.status != StepStatus::kOk;
   if (report.joint_gap_joint >= 0) {
-    const auto joint = static_cast<std::size_t>(report.joint_gap_joint);
+    const auto joint = index(report.joint_gap_joint);
     judge(What::kJointGap, report.joint_gap, criteria.joint_gap, base(scene.joints[joint]).name);
   }
   // An invalid scene has no state.
@@ -53,7 +53,7 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
     judge(What::kEnergyGain, report.energy - energy_at_start_, *criteria.energy_gain, {});
   }
   if (judged && criteria.displacement) {
-    const auto body = static_cast<std::size_t>(criteria.displacement->body);
+    const auto body = index(criteria.displacement->body);
     judge(What::kMoved, (state.x[body] - watched_start_).norm(), criteria.displacement->distance,
           scene.bodies[body].name);
   }

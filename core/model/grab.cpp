@@ -7,12 +7,10 @@
 namespace substep {
 
 double joined_mass(const Scene& scene, int body) {
-  const auto moves = [&](int i) {
-    return i != kWorld && !scene.bodies[static_cast<std::size_t>(i)].is_static;
-  };
+  const auto moves = [&](int i) { return i != kWorld && !scene.bodies[index(i)].is_static; };
   std::vector<bool> found(scene.bodies.size(), false);
   std::vector<int> open{body};
-  found[static_cast<std::size_t>(body)] = true;
+  found[index(body)] = true;
   double mass = 0.0;
   while (!open.empty()) {
     const int at = open.back();
@@ -22,8 +20,8 @@ double joined_mass(const Scene& scene, int body) {
       const JointBase& j = base(joint);
       if ((j.a != at && j.b != at) || !moves(j.a) || !moves(j.b)) continue;
       const int other = j.a == at ? j.b : j.a;
-      if (found[static_cast<std::size_t>(other)]) continue;
-      found[static_cast<std::size_t>(other)] = true;
+      if (found[index(other)]) continue;
+      found[index(other)] = true;
       open.push_back(other);
     }
   }

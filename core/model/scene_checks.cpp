@@ -22,21 +22,20 @@ struct Pose {
 
 Pose pose(const Scene& scene, int body) {
   if (body == kWorld) return {};
-  const Body& b = scene.bodies[static_cast<std::size_t>(body)];
+  const Body& b = scene.bodies[index(body)];
   return {b.position, b.orientation};
 }
 
 bool is_sound(const Scene& scene, const SoundParts& sound, std::size_t joint) {
   if (!sound.joints[joint]) return false;
   const JointBase& j = base(scene.joints[joint]);
-  return sound.bodies[static_cast<std::size_t>(j.a)] &&
-         (j.b == kWorld || sound.bodies[static_cast<std::size_t>(j.b)]);
+  return sound.bodies[index(j.a)] && (j.b == kWorld || sound.bodies[index(j.b)]);
 }
 
 /// The two bodies of a joint, lower first; all that does not move is kWorld.
 std::pair<int, int> sides(const Scene& scene, const JointBase& joint) {
   int b = joint.b;
-  if (b != kWorld && scene.bodies[static_cast<std::size_t>(b)].is_static) b = kWorld;
+  if (b != kWorld && scene.bodies[index(b)].is_static) b = kWorld;
   return std::minmax(joint.a, b);
 }
 

@@ -125,8 +125,8 @@ void Simulator::Impl::schedule_islands(FrameReport& report) {
   const auto r_of = [&](std::span<const int> bodies) {
     double most = 0.0;
     for (const int body : bodies) {
-      if (!scene->bodies[static_cast<std::size_t>(body)].is_static) {
-        most = std::max(most, state.own[static_cast<std::size_t>(body)].r);
+      if (!scene->bodies[index(body)].is_static) {
+        most = std::max(most, state.own[index(body)].r);
       }
     }
     return most;

@@ -19,19 +19,19 @@ bool Simulator::Impl::is_at_rest(std::span<const int> island) const {
   if (!settings.sleep || state.rest.empty()) return false;
   return std::all_of(island.begin(), island.end(), [&](int body) {
     const bool held = grab && grab->body == body;
-    return !held && state.rest[static_cast<std::size_t>(body)] > kRestTime - 0.5 * scene->frame;
+    return !held && state.rest[index(body)] > kRestTime - 0.5 * scene->frame;
   });
 }
 
 void Simulator::Impl::put_to_rest(std::span<const int> island) {
   for (const int body : island) {
-    state.u[static_cast<std::size_t>(body)].setZero();
-    state.u_synchronised[static_cast<std::size_t>(body)].setZero();
+    state.u[index(body)].setZero();
+    state.u_synchronised[index(body)].setZero();
     for (auto* of_bodies : {&state.acceleration, &state.acceleration_change}) {
-      if (!of_bodies->empty()) (*of_bodies)[static_cast<std::size_t>(body)].setZero();
+      if (!of_bodies->empty()) (*of_bodies)[index(body)].setZero();
     }
     for (auto* of_bodies : {&state.torque, &state.torque_change}) {
-      if (!of_bodies->empty()) (*of_bodies)[static_cast<std::size_t>(body)].setZero();
+      if (!of_bodies->empty()) (*of_bodies)[index(body)].setZero();
     }
   }
 }
@@ -39,7 +39,7 @@ void Simulator::Impl::put_to_rest(std::span<const int> island) {
 // Sleeping bodies keep their forces for waking.
 void Simulator::Impl::keep_forces_at_rest() {
   const auto sleeps = [&](int body) {
-    return !scene->bodies[static_cast<std::size_t>(body)].is_static && !schedule.moves(body);
+    return !scene->bodies[index(body)].is_static && !schedule.moves(body);
   };
   for (const StoredForce& force : state.forces) {
     if (force.id < scene->joints.size()) {

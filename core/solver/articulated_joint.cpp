@@ -96,7 +96,7 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, const Vec6* u_s
   const Vec3& r = child_is_a ? joint.r_a : joint.r_b;
   const Vec3& r_parent = child_is_a ? joint.r_b : joint.r_a;
 
-  const double* u = u_star[static_cast<std::size_t>(child)].data();
+  const double* u = u_star[index(child)].data();
   double speed[6];  // of the child at the pivot, from the parent
   cross(u + 3, r.data(), speed);
   for (int i = 0; i < 3; ++i) {
@@ -104,7 +104,7 @@ void ArticulatedJoint::read(const Block& joint, bool child_is_a, const Vec6* u_s
     speed[3 + i] = u[3 + i];
   }
   if (parent >= 0) {
-    const double* u_parent = u_star[static_cast<std::size_t>(parent)].data();
+    const double* u_parent = u_star[index(parent)].data();
     double at_pivot[3];
     cross(u_parent + 3, r_parent.data(), at_pivot);
     for (int i = 0; i < 3; ++i) {

@@ -56,7 +56,7 @@ void Newton::move_bodies(std::span<const Vec6> u, double dt) {
 }
 
 const Motion& Newton::motion_of(int body) const {
-  return body < 0 ? motions_.back() : motions_[static_cast<std::size_t>(body)];
+  return body < 0 ? motions_.back() : motions_[index(body)];
 }
 
 void Newton::read_rows(const System& system, Forces forces) {

@@ -184,7 +184,7 @@ void pack_block(const Block& block, std::span<const InverseMass> inverse_mass, b
   }
   for (const bool is_a : {true, false}) {
     const int body = is_a ? block.a : block.b;
-    if (body >= 0) pack_side(block, is_a, inverse_mass[static_cast<std::size_t>(body)], visit);
+    if (body >= 0) pack_side(block, is_a, inverse_mass[index(body)], visit);
   }
   for (int i = 0; i < V::Rows; ++i) {
     visit.bias[i] = block.bias[i];

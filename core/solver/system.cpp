@@ -74,8 +74,8 @@ void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed)
 }
 
 void row_speeds(const Block& block, std::span<const Vec6> u, double* speed) {
-  row_speeds(block, block.a < 0 ? nullptr : &u[static_cast<std::size_t>(block.a)],
-             block.b < 0 ? nullptr : &u[static_cast<std::size_t>(block.b)], speed);
+  row_speeds(block, block.a < 0 ? nullptr : &u[index(block.a)],
+             block.b < 0 ? nullptr : &u[index(block.b)], speed);
 }
 
 void push(const Block& block, const double* x, Vec6* a, Vec6* b) {
@@ -89,11 +89,11 @@ void apply_impulse(const Block& block, const double* impulse,
   Vec6 on_b = Vec6::Zero();
   push(block, impulse, &on_a, &on_b);
   if (block.a >= 0) {
-    const auto a = static_cast<std::size_t>(block.a);
+    const auto a = index(block.a);
     kick(on_a, inverse_mass[a], u[a]);
   }
   if (block.b >= 0) {
-    const auto b = static_cast<std::size_t>(block.b);
+    const auto b = index(block.b);
     kick(on_b, inverse_mass[b], u[b]);
   }
 }

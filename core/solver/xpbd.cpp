@@ -58,7 +58,7 @@ void Xpbd::reserve(std::size_t bodies, std::size_t blocks) {
 }
 
 const Motion& Xpbd::motion_of(int body) const {
-  return body < 0 ? motions_.back() : motions_[static_cast<std::size_t>(body)];
+  return body < 0 ? motions_.back() : motions_[index(body)];
 }
 
 bool Xpbd::stays_open(const System& system, const Block& block) const {
@@ -85,12 +85,12 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
   Vec6 du_b = Vec6::Zero();
   if (block.a >= 0) {
     const Vec6 g = gradient(moved, rows, true, direction);
-    du_a = response(system.inverse_mass[static_cast<std::size_t>(block.a)], g);
+    du_a = response(system.inverse_mass[index(block.a)], g);
     w += g.dot(du_a);
   }
   if (block.b >= 0) {
     const Vec6 g = gradient(moved, rows, false, direction);
-    du_b = response(system.inverse_mass[static_cast<std::size_t>(block.b)], g);
+    du_b = response(system.inverse_mass[index(block.b)], g);
     w += g.dot(du_b);
   }
   double p = -left / w;
@@ -119,7 +119,7 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
   for (int i = 0; i < rows.count; ++i) block.impulse[rows.first + i] += p * direction[i];
   const auto move = [&](int body, const Vec6& du) {
     if (body < 0) return;
-    const auto i = static_cast<std::size_t>(body);
+    const auto i = index(body);
     push(p * du, system.dt, system.u[i]);
     motions_[i] = motion(system.u[i], system.dt);
   };

@@ -31,9 +31,7 @@ const Vec6 kRest = Vec6::Zero();
 
 /// phi'' of a joint's rows at constant velocities [m/s^2, 1/s^2].
 void curvature_of(const Block& block, std::span<const Vec6> u, double* curvature) {
-  const auto velocity = [&](int body) -> const Vec6& {
-    return body < 0 ? kRest : u[static_cast<std::size_t>(body)];
-  };
+  const auto velocity = [&](int body) -> const Vec6& { return body < 0 ? kRest : u[index(body)]; };
   with_joint_rows(block.kind, [&](auto joint) {
     joint.curvature(block, velocity(block.a), velocity(block.b), curvature);
   });

@@ -27,6 +27,11 @@ std::string_view solver_title(std::string_view name) {
   return solver ? entry_of(*solver).title : name;
 }
 
+std::string_view integrator_title(std::string_view name) {
+  const auto integrator = value_of<Integrator>(name);
+  return integrator ? entry_of(*integrator).title : name;
+}
+
 }  // namespace
 
 Overrides differences(const Settings& of, const Settings& from) {
@@ -102,8 +107,10 @@ std::string overrides_title(const Overrides& overrides) {
       title += solver_title(o.value);
     } else if (o.key == "n") {
       title += "constant " + o.value;
+    } else if (o.key == "integrator") {
+      title += integrator_title(o.value);
     } else {
-      title += o.key == "mode" || o.key == "integrator" ? o.value : o.key + " " + o.value;
+      title += o.key == "mode" ? o.value : o.key + " " + o.value;
     }
   }
   return title;

@@ -73,9 +73,9 @@ std::span<const TourStep> tour_steps() {
        {.title = "A load that changes while it runs",
         .text =
             "Balls of 10, 100 and 1,000 kg roll over a bridge of light planks, and N follows each "
-            "of them. The orange ghost takes {n} in every frame. Fourteen is the best constant "
-            "number, known only after the run: as accurate as the adaptive sub-steps, but more "
-            "expensive.",
+            "of them. The orange ghost takes {n} in every frame. Fourteen is the smallest constant "
+            "number whose largest joint gap is as small, known only after the run, and it takes "
+            "more sub-steps in all.",
         .watch = "Watch [the plot of N](substeps) under each ball, and [the joint error](error).",
         .task = "Tear the ghost's bridge: set seven sub-steps.",
         .link = "scene=convoy&mode=adaptive&policy=substep&alpha=0.25&solver=bpp&integrator=euler"

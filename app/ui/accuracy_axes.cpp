@@ -1,5 +1,7 @@
 #include "app/ui/accuracy_axes.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "app/text/format.hpp"
@@ -29,6 +31,14 @@ LogRange range_of(const std::vector<Point>& a, const std::vector<Point>& b,
   if (range.low > range.high) return {-1.0, 1.0};
   const double room = std::max(margin * (range.high - range.low), 0.05);
   return {range.low - room, range.high + room};
+}
+
+// Widened to hold two labels of powers of ten.
+LogRange with_two_decades(LogRange range) {
+  if (std::floor(range.high) - std::ceil(range.low) >= 1.0) return range;
+  constexpr double kMargin = 0.08;  // so that labels stay clear of the edges
+  const double decade = std::floor(range.low + kMargin);
+  return {std::min(range.low, decade - kMargin), std::max(range.high, decade + 1.0 + kMargin)};
 }
 
 void draw_errors(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawList& draw) {
@@ -74,7 +84,7 @@ AccuracyAxes accuracy_axes(const Accuracy& accuracy, const std::vector<Point>& p
   AccuracyAxes axes{{origin.x + kErrorGutter, origin.y + kRail + 8.0F},
                     {origin.x + size.x - 12.0F, origin.y + size.y - kFootHeight},
                     range_of(points, failed, &CostAndError::cost, 0.04),
-                    range_of(points, {}, &CostAndError::error, 0.05)};
+                    with_two_decades(range_of(points, {}, &CostAndError::error, 0.05))};
   const double floor = accuracy.floor();
   if (floor > 0.0 && std::log10(floor) > axes.error.low) {
     const double share =

@@ -32,7 +32,9 @@ void ring_label(const Look& look, ImDrawList& draw, ImVec2 centre, float radius,
   if (at.x < least) {
     at = {std::clamp(centre.x - 0.5F * size.x, least, most), centre.y - radius - kGap - size.y};
   }
-  draw_over(look, draw, look.fonts.medium, at, look.theme->text, text.c_str());
+  draw.AddRectFilled({at.x - 6.0F, at.y - 3.0F}, {at.x + size.x + 6.0F, at.y + size.y + 3.0F},
+                     fade(look.theme->panel, 0.8F), look.m.radius);
+  draw_text(draw, look.fonts.medium, at, look.theme->text, text.c_str());
 }
 
 void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Failure& failure,

@@ -41,7 +41,7 @@ void draw_plot(const PlotContext& in, Plot which, const PlotSpec& spec, float he
   }
 }
 
-std::optional<int> smallest_stable_n(const History& history, const Settings& settings) {
+std::optional<int> n_at_limit(const History& history, const Settings& settings) {
   const bool varies = settings.mode == Mode::kAdaptive;
   if (!varies || entry_of(settings.solver).sweeps) return std::nullopt;
   const Extent least = history.samples(Channel::kLimit).extent(0, history.size());
@@ -69,8 +69,9 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
                 [](double v) { return fixed(v, 0); });
   tooltip(
       look, "Sub-steps per frame",
-      "The N of each frame (Eq. 11). Dashed: the smallest constant N that would have been "
-      "stable so far, which is N at alpha = 1 of the stiffest frame. It is known only after "
+      "The N of each frame (Eq. 11). Dashed: N at alpha = 1, where the criterion puts the limit of "
+      "stability, of the stiffest frame so far. A chain needs about as many constant sub-steps; "
+      "contacts often hold with fewer. It is known only after "
       "the run, and less accurate than the N of a smaller alpha. With islands: the largest N of an "
       "island, and the mean of the bodies.");
 
@@ -85,9 +86,9 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   spec.series.push_back({&h, Channel::kSubsteps, t.blue, name, true, !several});
   if (islands) spec.series.push_back({&h, Channel::kMean, t.teal, "mean", true});
   add_compared(in, spec, Channel::kSubsteps, true);
-  if (const auto n = smallest_stable_n(h, s); n && !several) {
-    spec.levels.push_back({static_cast<double>(*n), "Constant " + grouped(*n) + ": barely stable",
-                           "N = " + grouped(*n) + ": barely stable", t.amber});
+  if (const auto n = n_at_limit(h, s); n && !several) {
+    spec.levels.push_back({static_cast<double>(*n), "Limit (α = 1): N = " + grouped(*n),
+                           "α = 1: N = " + grouped(*n), t.amber});
   }
   // A cap is drawn once N comes near it.
   const int cap = reads(s, "n_max") ? s.n_max : reads(s, "n_cap") ? s.n_cap : 0;

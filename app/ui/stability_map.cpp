@@ -24,7 +24,7 @@ constexpr float kCell = 22.0F;       // height
 constexpr float kCellGap = 2.0F;     // between cells
 constexpr float kWidest = 96.0F;     // of a cell
 constexpr float kMapFoot = 36.0F;    // mass ratios and their title
-constexpr float kBesideWidth = 640.0F;
+constexpr float kBesideWidth = 540.0F;
 constexpr float kBetween = 28.0F;  // between maps
 
 /// Position and sizes of a map.

@@ -39,7 +39,8 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   const Verdict& verdict = lab.session.verdict();
   if (verdict.holds() || desk.dismissed_failure == lab.run_count) return;
   const bool stopped = lab.session.stopped();
-  if (desk.tour >= 0 && !stopped) return;  // the tour's card explains the failure
+  if (lab.session.playing() && !stopped) return;  // the user has seen it and goes on
+  if (desk.tour >= 0 && !stopped) return;         // the tour's card explains the failure
   const ViewRect& v = viewport.view_rect;
   if (desk.failure_run != lab.run_count) desk.failure_place = -1;
   desk.failure_run = lab.run_count;

@@ -47,6 +47,19 @@ std::string cap_note(const FrameReport& report) {
   return grouped(report.n_wanted) + " required, " + grouped(report.n_substeps) + " used";
 }
 
+// Δt max; in a mode that does not use it, the N that it would mean beside the one taken.
+std::string limit_note(const Session& session, const Criterion& criterion) {
+  const FrameReport& report = session.report();
+  if (!std::isfinite(report.dt_stable)) return "";
+  const std::string at_alpha = " at α " + plain_number(session.settings().alpha);
+  if (entry_of(session.settings().mode).takes == nullptr) {
+    return "Δt max " + duration(report.dt_stable) + at_alpha;
+  }
+  const double r =
+      criterion.set_by == CriterionTerm::kRotation ? criterion.r_rotation : criterion.stiffness.r;
+  return grouped(substeps_for(session, r)) + at_alpha + ", " + grouped(report.n_substeps) + " used";
+}
+
 // One column per body in scene order, with height proportional to k/M.
 void body_columns(const Look& look, const Session& session, float height) {
   const Scene& scene = session.scene();
@@ -231,11 +244,7 @@ void why_summary(const Look& look, const Session& session, Desk& desk) {
   const Theme& t = *look.theme;
   const FrameReport& report = session.report();
   const Criterion criterion = criterion_of(session);
-  const std::string note = report.capped ? cap_note(report)
-                           : std::isfinite(report.dt_stable)
-                               ? "Δt max " + duration(report.dt_stable) + " at α " +
-                                     plain_number(session.settings().alpha)
-                               : "";
+  const std::string note = report.capped ? cap_note(report) : limit_note(session, criterion);
   section(look, "Why this N", note.c_str(), report.capped ? t.orange : t.text);
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;

@@ -196,7 +196,7 @@ Scene convoy() {
       "1 kg each.";
   scene.look_for =
       "The load changes, and the number of sub-steps follows it: about 4 on the empty bridge, 10 "
-      "under 100 kg, 25 under 1000 kg. A constant number must be chosen for the heaviest ball.";
+      "under 100 kg, 25 under 1,000 kg. A constant number must be chosen for the heaviest ball.";
   // Per sub-step, because the load changes within a few frames.
   scene.settings.policy = Policy::kSubstep;
   scene.settings.alpha = 0.25;

@@ -122,7 +122,7 @@ TEST(Compare, TitlesNameOnlyWhatARunReads) {
   Headless h;
   h.app->compare.start(h.app->session,
                        {{{"mode", "const"}, {"n", "6"}, {"integrator", "leapfrog"}}});
-  EXPECT_EQ(ui::run_title(h.app->session, h.app->compare), "adaptive, euler (this run)");
+  EXPECT_EQ(ui::run_title(h.app->session, h.app->compare), "adaptive, Euler (this run)");
 }
 
 // The compared run has the session's own method: after every action on both they must agree bit for

@@ -84,15 +84,15 @@ TEST(SmallestStableN, IsGivenOnlyWhereNVaries) {
   for (int i = 0; i < 120; ++i) h.app->session.step();  // past the lowest point
   const History& history = h.app->session.history();
   Settings settings = h.app->session.settings();
-  EXPECT_EQ(ui::smallest_stable_n(history, settings), 7) << "what const needs, see the README";
+  EXPECT_EQ(ui::n_at_limit(history, settings), 7) << "what const needs, see the README";
   for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kDamping, Mode::kCapped,
                           Mode::kStiffness, Mode::kInertia, Mode::kBlend}) {
     settings.mode = mode;
-    EXPECT_FALSE(ui::smallest_stable_n(history, settings)) << static_cast<int>(mode);
+    EXPECT_FALSE(ui::n_at_limit(history, settings)) << static_cast<int>(mode);
   }
   settings.mode = Mode::kAdaptive;
   settings.solver = SolverKind::kPgs;
-  EXPECT_FALSE(ui::smallest_stable_n(history, settings)) << "sweeps need more than that";
+  EXPECT_FALSE(ui::n_at_limit(history, settings)) << "sweeps need more than that";
 }
 
 TEST(SmallestStableN, IsNotGivenWhereOneStepWouldDo) {
@@ -101,7 +101,7 @@ TEST(SmallestStableN, IsNotGivenWhereOneStepWouldDo) {
   for (int i = 0; i < 30; ++i) h.app->session.step();
   Settings settings = h.app->session.settings();
   settings.mode = Mode::kAdaptive;
-  EXPECT_FALSE(ui::smallest_stable_n(h.app->session.history(), settings));
+  EXPECT_FALSE(ui::n_at_limit(h.app->session.history(), settings));
 }
 
 TEST(TimeAxis, TheCursorIsThePointerOrElseThePastThatIsShown) {

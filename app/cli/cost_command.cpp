@@ -68,7 +68,7 @@ void print_rows(const Work& work) {
   if (work.criterion.evaluations == 0) return;
   const auto criterion = static_cast<double>(work.criterion.flops);
   std::printf(
-      "\nThe criterion: %.4g operations in %lld evaluations, %.1f %% beside the solver's %.4g.\n",
+      "\nThe criterion: %.4g operations in %lld evaluations, %.1f %% of the solver's %.4g.\n",
       criterion, static_cast<long long>(work.criterion.evaluations),
       100.0 * criterion / static_cast<double>(work.flops), static_cast<double>(work.flops));
 }
@@ -113,14 +113,15 @@ void add_cost(CLI::App& app, int& exit_code) {
       "cost", "Print the cost of stages, rows, effects and the criterion in a scene");
   command->add_option("scene", options->scene, "name or file of a scene, - for standard input")
       ->required();
-  command->add_option("--json", options->json, "write it to this file, - for stdout")
+  command
+      ->add_option("--json", options->json, "write the costs to this file, - for standard output")
       ->check(named());
   options->length.add_to(*command);
   options->settings.add_to(*command);
   command->footer(
-      "The cost of an effect is the difference to a second step of every frame from the same\n"
-      "state without it, with the same number of sub-steps. Operations and updates are counted\n"
-      "and the same on every machine; times are of this machine.\n"
+      "Each frame is repeated from the same state, with the same number of sub-steps, without the\n"
+      "effect; the difference is the cost of the effect. Operations and updates are counted and\n"
+      "the same on every machine; times are measured on this machine.\n"
       "Examples:\n"
       "  substep cost bridge\n"
       "  substep cost bridge --solver pgs --seconds 2 --json costs.json");

@@ -61,15 +61,15 @@ class HardTable {
   static void print_heading() {
     std::printf(
         "# The hard set, scene by scene\n\n"
-        "`substep check --hard` prints this file; README.md describes it. Work beside\n"
-        "const 32 is the geometric mean over the scenes that both hold of the solver's\n"
-        "floating-point operations per frame. A number is the sub-steps per frame of a scene that\n"
-        "holds, an *italic* one the time at which it failed.\n\n");
+        "`substep check --hard` prints this file; README.md describes it. Work relative to\n"
+        "const 32 is the geometric mean of the solver's operations per frame over the scenes that\n"
+        "both settings hold. In the second table plain numbers are sub-steps per frame, and\n"
+        "*italic* ones are times of failure.\n\n");
   }
 
   void print_settings() const {
     std::printf(
-        "| setting | holds | sub-steps per frame | work beside const 32 | does not hold |\n"
+        "| setting | holds | sub-steps per frame | work relative to const 32 | does not hold |\n"
         "|---|---|---|---|---|\n");
     const std::size_t reference = candidates_.size() - 1;
     for (std::size_t j = 0; j < candidates_.size(); ++j) {
@@ -102,7 +102,7 @@ class HardTable {
   /// A line per scene: the stable setting with the least work, and for every setting the sub-steps
   /// per frame or the time of failure.
   void print_scenes() const {
-    std::printf("\n| family | scene | least work that holds | kflop per frame |");
+    std::printf("\n| family | scene | cheapest setting that holds | kflop per frame |");
     for (const Candidate& candidate : candidates_) std::printf(" %s |", candidate.name.c_str());
     std::printf("\n|---|---|---|---|");
     for (std::size_t j = 0; j < candidates_.size(); ++j) std::printf("---|");

@@ -61,9 +61,9 @@ int parse_and_run(int argc, char** argv) {
       "  substep generate rope --links 100 | substep run -\n"
       "  substep sweep swinging_box\n"
       "  substep check --all\n"
-      "Exit code: 0 success, 1 a verdict is not as expected, 2 bad input, 3 the state "
-      "stopped\n"
-      "being finite, 4 not enough memory or a defect of this program, 130 cancelled.");
+      "Exit code: 0 success, 1 a verdict is not as expected, 2 bad input, 3 non-finite "
+      "state,\n"
+      "4 out of memory or internal error, 130 cancelled.");
   int exit_code = kOk;
   add_run(app, exit_code);
   add_sweep(app, exit_code);
@@ -93,7 +93,7 @@ int parse_and_run(int argc, char** argv) {
 [[noreturn]] void end_without_memory() {
   std::set_new_handler(nullptr);
   end_outputs(false);
-  constexpr std::string_view kText = "substep: there is not enough memory for this\n";
+  constexpr std::string_view kText = "substep: out of memory\n";
   [[maybe_unused]] const auto n = ::write(STDERR_FILENO, kText.data(), kText.size());
   std::_Exit(kInternalError);
 }

@@ -24,6 +24,10 @@ struct Criterion {
   int n_stiffness = 1;         // N required by each term alone
   int n_rotation = 1;
 
+  /// The r that sets N [1/s^2].
+  [[nodiscard]] double r() const {
+    return set_by == CriterionTerm::kRotation ? r_rotation : stiffness.r;
+  }
   /// The body that sets N, or -1.
   [[nodiscard]] int body() const;
 };

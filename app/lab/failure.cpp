@@ -47,7 +47,7 @@ std::optional<Failure> failure_of(const Scene& scene, const Poses& poses, const 
     if (report.failed_body >= 0) failure = failed_body(scene, poses, report.failed_body);
     return failure;
   }
-  if (report.joint_gap_joint >= 0 && report.joint_gap > criteria.joint_gap) {
+  if (exceeded && exceeded->what == Exceeded::What::kJointGap && report.joint_gap_joint >= 0) {
     failure = torn_joint(scene, poses, report.joint_gap_joint);
   } else if (exceeded && exceeded->what == Exceeded::What::kMoved) {
     failure = failed_body(scene, poses, criteria.displacement->body);

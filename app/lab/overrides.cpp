@@ -32,6 +32,16 @@ std::string_view integrator_title(std::string_view name) {
   return integrator ? entry_of(*integrator).title : name;
 }
 
+// Whether a setting belongs to another solver or mode than those of these settings.
+bool belongs_to_another(const Settings& s, std::string_view setting) {
+  const auto reads_it = [setting](const auto& entry) {
+    return std::find(entry.reads.begin(), entry.reads.end(), setting) != entry.reads.end();
+  };
+  const bool by_some = std::any_of(kSolvers.begin(), kSolvers.end(), reads_it) ||
+                       std::any_of(kModes.begin(), kModes.end(), reads_it);
+  return by_some && !reads(s, setting);
+}
+
 }  // namespace
 
 Overrides differences(const Settings& of, const Settings& from) {
@@ -95,12 +105,14 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
   return runs;
 }
 
-std::string overrides_title(const Overrides& overrides) {
+std::string overrides_title(const Overrides& overrides, const Settings& session) {
   if (overrides.empty()) return "the same";
+  const Settings effective = with_overrides(session, overrides);
   const bool has_n = std::any_of(overrides.begin(), overrides.end(),
                                  [](const Override& o) { return o.key == "n"; });
   std::string title;
   for (const Override& o : overrides) {
+    if (belongs_to_another(effective, o.key)) continue;
     if (o.key == "mode" && o.value == "const" && has_n) continue;  // "constant 6" implies it
     if (!title.empty()) title += ", ";
     if (o.key == "solver") {

@@ -25,7 +25,8 @@ Settings with_overrides(Settings settings, const Overrides& overrides);
 std::string overrides_text(const std::vector<Overrides>& runs);
 /// Parses such text. @param problem error message, or ""
 std::vector<Overrides> parse_overrides(std::string_view text, std::string& problem);
-/// The overrides as a title: "no sub-steps, PGS"; "the same" if there are none.
-std::string overrides_title(const Overrides& overrides);
+/// The overrides as a title, without settings that the run does not read: "no sub-steps, PGS"; "the
+/// same" if there are none. @param session the settings to which they are applied
+std::string overrides_title(const Overrides& overrides, const Settings& session);
 
 }  // namespace substep

@@ -41,7 +41,7 @@ std::string number(double value) {
   return text.data();
 }
 
-// A name as one CSV field, quoted if necessary.
+// A name as one CSV field, quoted.
 std::string quoted(const std::string& name) {
   std::string text = "\"";
   for (const char c : name) {

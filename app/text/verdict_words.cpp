@@ -42,8 +42,9 @@ std::string exceeded_label(const Exceeded& e) {
 }
 
 std::string exceeded_sentence(const Exceeded& e) {
-  const std::string value = quantity(e.value, e.what);
   const std::string limit = quantity(e.limit, e.what);
+  std::string value = quantity(e.value, e.what);
+  if (value == limit) value = "just over " + limit;
   switch (e.what) {
     case Exceeded::What::kJointGap:
       return e.name + " has a gap of " + value + ". Above " + limit + " a joint counts as torn.";

@@ -98,8 +98,8 @@ bool other(const Look& look, const Session& session, Compare& compare, Desk& des
   const float row = look.m.row;
   const bool opened = desk.compare_open == static_cast<int>(i);
   draw_line(look,
-            {overrides_title(run.overrides), compare_color(look, i), &*run.verdict,
-             session.judged(), &run.cost},
+            {overrides_title(run.overrides, session.settings()), compare_color(look, i),
+             &*run.verdict, session.judged(), &run.cost},
             origin.x + width);
   label(look.fonts.small, look.theme->dim, divergence_text(session, run).c_str());
   if (button(look, "change", Icon::kNone, opened ? "Done" : "Change", ButtonKind::kPlain, 0.0F, row,
@@ -150,16 +150,6 @@ void restart_buttons(const Look& look, Lab& lab) {
   }
 }
 
-// Whether a setting belongs to another solver or mode than those of these settings.
-bool belongs_to_another(const Settings& s, std::string_view setting) {
-  const auto reads_it = [setting](const auto& entry) {
-    return std::find(entry.reads.begin(), entry.reads.end(), setting) != entry.reads.end();
-  };
-  const bool by_some = std::any_of(kSolvers.begin(), kSolvers.end(), reads_it) ||
-                       std::any_of(kModes.begin(), kModes.end(), reads_it);
-  return by_some && !reads(s, setting);
-}
-
 // Overlaid, or in separate views.
 void views_row(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kViews{
@@ -180,13 +170,11 @@ std::string run_title(const Session& session, const Compare& compare) {
       const bool known = std::any_of(own.begin(), own.end(),
                                      [&](const auto& other) { return other.key == o.key; });
       const SettingField* field = find_setting(o.key);
-      if (known || field == nullptr || belongs_to_another(session.settings(), o.key)) {
-        continue;
-      }
+      if (known || field == nullptr) continue;
       own.push_back({o.key, setting_text(*field, session.settings())});
     }
   }
-  return own.empty() ? "this run" : overrides_title(own) + " (this run)";
+  return own.empty() ? "this run" : overrides_title(own, session.settings()) + " (this run)";
 }
 
 void compare_menu(const Look& look, const Session& session, Compare& compare, const char* name,

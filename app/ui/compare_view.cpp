@@ -31,8 +31,8 @@ std::vector<Entry> entries(const Look& look, const Session& session, const Compa
                            session.report().n_substeps, session.judged()}};
   for (std::size_t i = 0; i < compare.runs().size(); ++i) {
     const Compare::Run& run = compare.runs()[i];
-    list.push_back({overrides_title(run.overrides), compare_color(look, i), &*run.verdict,
-                    run.report.n_substeps, session.judged()});
+    list.push_back({overrides_title(run.overrides, session.settings()), compare_color(look, i),
+                    &*run.verdict, run.report.n_substeps, session.judged()});
   }
   desk.shown_ns.resize(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {

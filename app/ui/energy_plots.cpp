@@ -126,15 +126,15 @@ void energy_plot(const PlotContext& in, float height, bool last) {
     add_compared(in, spec, Channel::kKinetic);
   } else {
     tooltip(look, "Energy",
-            gravity ? "Kinetic + potential = total, on one scale. The potential energy of gravity "
-                      "is zero at its lowest value so far. Where energy is conserved the total is "
+            gravity ? "Kinetic + potential = total, on one scale. The zero of the potential energy "
+                      "of gravity is chosen so that it is not negative. Where energy is conserved "
+                      "the total is "
                       "a flat line; the plot of the drift shows changes too small to see here."
                     : "Kinetic energy. There is no gravity, so it is also the total.");
     std::vector<EnergyLegend> shown;
     if (gravity) {
       shown.push_back({"total", "total", "total", Channel::kTotal, t.orange, zero});
-      shown.push_back(
-          {"pot. (lowest = 0)", "pot. ≥ 0:", "pot. ≥ 0", Channel::kPotential, t.purple, zero});
+      shown.push_back({"pot.", "pot.", "pot.", Channel::kPotential, t.purple, zero});
     }
     shown.push_back({"kin.", "kin.", "kin.", Channel::kKinetic, t.teal, 0.0});
     energy_legend(in, origin, left, unit, shown);

@@ -128,7 +128,7 @@ void draw_levels(const Look& look, const PlotSpec& spec, double from, const Plot
     const float over = y - size.y - 1.0F;
     const float right = f.max.x - size.x - 6.0F;
     ImVec2 at{right > taken ? right : f.min.x + 6.0F, below + size.y > f.max.y ? over : below};
-    if (covers_name(look, ends, at, size)) at.y = over;
+    if (over >= f.min.y && covers_name(look, ends, at, size)) at.y = over;
     draw_on_ground(look, draw, at, level.color, name);
   }
 }

@@ -24,8 +24,9 @@ void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool s
   for (std::size_t i = 0; i < in.compare.runs().size(); ++i) {
     const Compare::Run& run = in.compare.runs()[i];
     const ImU32 color = compare_color(in.look, i);
-    spec.series.push_back(
-        {&run.history, channel, color, overrides_title(run.overrides), steps, false, 1.25F});
+    spec.series.push_back({&run.history, channel, color,
+                           overrides_title(run.overrides, in.session.settings()), steps, false,
+                           1.25F});
     if (run.divergence) spec.marks.push_back({run.divergence->time, named ? "differs" : "", color});
   }
 }
@@ -293,7 +294,7 @@ void save_table(const Lab& lab, Desk& desk) {
   }
   std::vector<ExportedRun> runs{{file_stem(lab.session), &lab.session.history()}};
   for (const Compare::Run& run : lab.compare.runs()) {
-    runs.push_back({overrides_title(run.overrides), &run.history});
+    runs.push_back({overrides_title(run.overrides, lab.session.settings()), &run.history});
   }
   lab.host.save_file(file_stem(lab.session) + ".csv",
                      history_csv(lab.session.scene(), runs, channels, desk.time.from));

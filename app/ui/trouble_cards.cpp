@@ -39,8 +39,8 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   const Verdict& verdict = lab.session.verdict();
   if (verdict.holds() || desk.dismissed_failure == lab.run_count) return;
   const bool stopped = lab.session.stopped();
-  if (lab.session.playing() && !stopped) return;  // the user has seen it and goes on
-  if (desk.tour >= 0 && !stopped) return;         // the tour's card explains the failure
+  if (lab.session.playing() && !stopped && !lab.frozen()) return;  // the user continues
+  if (desk.tour >= 0 && !stopped) return;  // the tour's card explains the failure
   const ViewRect& v = viewport.view_rect;
   if (desk.failure_run != lab.run_count) desk.failure_place = -1;
   desk.failure_run = lab.run_count;
@@ -55,7 +55,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
     std::string what = verdict.text();
     if (const std::size_t colon = what.find(": "); colon != std::string::npos)
       what.erase(0, colon + 2);
-    if (verdict.exceeded()) what = exceeded_sentence(*verdict.exceeded());
+    if (verdict.exceeded() && !stopped) what = exceeded_sentence(*verdict.exceeded());
     if (report.status == StepStatus::kNotFinite) {
       what = "The motion";
       if (report.failed_body >= 0) {

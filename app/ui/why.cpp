@@ -49,15 +49,14 @@ std::string cap_note(const FrameReport& report) {
 
 // Δt max; in a mode that does not use it, the N that it would mean beside the one taken.
 std::string limit_note(const Session& session, const Criterion& criterion) {
-  const FrameReport& report = session.report();
-  if (!std::isfinite(report.dt_stable)) return "";
-  const std::string at_alpha = " at α " + plain_number(session.settings().alpha);
+  const double alpha = session.settings().alpha;
+  if (!(criterion.r() > 0.0)) return "";
+  const std::string at_alpha = " at α " + plain_number(alpha);
   if (entry_of(session.settings().mode).takes == nullptr) {
-    return "Δt max " + duration(report.dt_stable) + at_alpha;
+    return "Δt max " + duration(stable_step(alpha, criterion.r())) + at_alpha;
   }
-  const double r =
-      criterion.set_by == CriterionTerm::kRotation ? criterion.r_rotation : criterion.stiffness.r;
-  return grouped(substeps_for(session, r)) + at_alpha + ", " + grouped(report.n_substeps) + " used";
+  return "N = " + grouped(substeps_for(session, criterion.r())) + at_alpha + ", " +
+         grouped(session.report().n_substeps) + " used";
 }
 
 // One column per body in scene order, with height proportional to k/M.
@@ -118,7 +117,7 @@ void law(const Look& look, const Session& session, const Criterion& criterion) {
   const double alpha = session.settings().alpha;
   const bool rotates = criterion.set_by == CriterionTerm::kRotation;
   const StiffnessLeader& leader = criterion.stiffness;
-  const double r = rotates ? criterion.r_rotation : leader.r;
+  const double r = criterion.r();
   const double dt = stable_step(alpha, r);
   if (rotates) {
     law_line(look, "r = rotation term = " + short_number(r) + " s⁻²",

@@ -150,16 +150,18 @@ void place_tooltip(ImVec2 size) {
                            above ? std::max(8.0F, mouse.y - 8.0F - size.y) : mouse.y + 20.0F});
 }
 
-// Whether the last item was clicked since the pointer came to it, or something was clicked and the
-// pointer rests since: a tooltip would cover what the click has changed.
+// Whether the last item was clicked since the pointer came to it, or appeared under the resting
+// pointer after a click: a tooltip would cover what the click has changed. A finger shows a tooltip
+// while it presses, and the focus of the keyboard while the pointer rests.
 bool clicked_here() {
   const ImGuiIO& io = ImGui::GetIO();
   const ImGuiContext& g = *ImGui::GetCurrentContext();
+  const bool by_keyboard = g.NavDisableMouseHover && !g.NavDisableHighlight;
+  if (io.MouseSource == ImGuiMouseSource_TouchScreen || by_keyboard) return false;
   constexpr float kSlack = 0.1F;  // Dear ImGui's timers lag by some frames [s]
   const auto ago = static_cast<float>(g.Time - io.MouseClickedTime[0]);
-  const bool on_item = g.LastItemData.Rect.Contains(io.MouseClickedPos[0]);
-  return io.MouseClickedTime[0] > 0.0 && (ago < g.MouseStationaryTimer + kSlack ||
-                                          (on_item && ago < g.HoverItemDelayTimer + kSlack));
+  return io.MouseClickedTime[0] > 0.0 && g.LastItemData.Rect.Contains(io.MouseClickedPos[0]) &&
+         ago < std::max(g.MouseStationaryTimer, g.HoverItemDelayTimer) + kSlack;
 }
 
 }  // namespace

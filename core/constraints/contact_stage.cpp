@@ -130,7 +130,7 @@ Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
 // The friction box has axes, which must not depend on the order of bodies in a file, nor on the
 // rotation of a shape about the normal. On a static body they point down the slope, or on level
 // ground along one of its axes; between moving bodies along the line of centres, or if that is the
-// normal, along a direction common to both bodies' axes. All rotate with the scene.
+// normal, along the sum of both bodies' x or z axes. All rotate with the scene.
 void FrictionStage::append(const Scene& scene, std::span<const Mat3> R_WB,
                            std::span<Block> blocks) const {
   const Vec3 slope = scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero());

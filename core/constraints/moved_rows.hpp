@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "core/constraints/block.hpp"
 #include "core/constraints/joint_geometry.hpp"
 #include "core/math/turn.hpp"

@@ -145,7 +145,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reads = {"alpha", "probe"}},
     {.value = Mode::kAdaptive,
      .name = "adaptive",
-     .line = "N is proportional to 1/√α: quartering α doubles N.",
+     .line = "N ~ 1/√α: quartering α doubles N.",
      .about = "As many sub-steps as the stiffest degree of freedom needs: r = max k/M (Eq. 9), "
               "dt max = 2 √(α/r) (Eq. 10), N = h/dt max, rounded up (Eq. 11).",
      .reference = "The paper's: Giles and Andrews 2024",

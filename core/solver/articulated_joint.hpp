@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "core/constraints/block.hpp"
 #include "core/solver/symmetric6.hpp"
 #include "core/solver/system.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // The cost model: floating-point operations of all kernels. Additions, multiplications, divisions
-// and roots count one each. The counts follow from numbers of rows, bodies and pivots alone, so
-// they are the same on every machine and known before the work is done. A new joint or solver uses
+// and roots count one each. The counts depend only on numbers of rows, bodies, pivots, corrections
+// and contacts that carry force, so they are the same on every machine. A new joint or solver uses
 // the formulas that are here; joints need none of their own.
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/model/methods.hpp"
 #include "core/model/settings.hpp"
 
 namespace substep {
@@ -15,8 +16,7 @@ namespace substep {
 /// Sweeps of a sub-step. Newton steps are not shared.
 /// @param share dt over frame length, in (0, 1]
 inline int iterations_of(const Settings& settings, double share) {
-  const bool sweeps = settings.solver == SolverKind::kPgs || settings.solver == SolverKind::kXpbd;
-  if (!settings.share_iterations || !sweeps) return settings.iterations;
+  if (!settings.share_iterations || !entry_of(settings.solver).sweeps) return settings.iterations;
   return std::max(1, static_cast<int>(settings.iterations * share + 0.5));
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "core/constraints/block.hpp"
 #include "core/math/types.hpp"

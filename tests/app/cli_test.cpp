@@ -389,7 +389,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"AnchorOfTwoNumbers", "generate rope --anchor 1 2", "--anchor"}),
     kind_of);
 
-TEST(CommandLine, RunTellsAnInconsistentStartAndWhatBecameOfIt) {
+TEST(CommandLine, RunReportsAnInconsistentStart) {
   const auto run_start = [](const std::string& start) {
     Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json").scene;
     scene.bodies[0].velocity = {1.2, 0.0, 0.0};

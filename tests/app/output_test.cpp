@@ -117,7 +117,7 @@ const char* const kCommands[] = {"--help",
                                  "generate rope",
                                  "generate rope --out -"};
 
-TEST(Output, StandardOutputThatTakesNothingIsAnError) {
+TEST(Output, UnwritableStandardOutputIsAnError) {
   const fs::path list = folder() / "list";
   std::ofstream(list) << "{\"scene\": \"free_fall\", \"seconds\": 0.1}\n";
   for (std::string command : kCommands) {
@@ -135,7 +135,7 @@ TEST(Output, StandardOutputThatTakesNothingIsAnError) {
   }
 }
 
-TEST(Output, APipeThatIsClosedIsAnErrorToTell) {
+TEST(Output, ClosedPipeIsReported) {
   // The reader exits before anything is written.
   const Outcome run = scripted("run pendulum --seconds 1000 --csv -",
                                "{ sleep 0.3; RUN; } | true; exit ${PIPESTATUS[0]}");
@@ -183,7 +183,7 @@ TEST(Output, IsWholeBehindLinksAndKeepsItsRights) {
   EXPECT_NE(text_of(at / "not_yet").find("verdict"), std::string::npos);
 }
 
-TEST(Output, AFolderOrALongNameIsToldBeforeTheRun) {
+TEST(Output, AFolderIsReportedBeforeTheRun) {
   const fs::path at = with_scene();
   const Outcome into = substep("run pendulum --seconds 80000 --csv " + at.string());
   EXPECT_EQ(into.exit_code, 2);
@@ -200,7 +200,7 @@ TEST(Output, OtherNamesOfStandardOutputAreStandardOutput) {
   EXPECT_NE(run.err.find("\nholds\n"), std::string::npos) << run.err;
 }
 
-TEST(Output, WhatIsNoNumberIsWrittenAsTheReadmeSays) {
+TEST(Output, NonFiniteValuesAreWrittenAsDocumented) {
   const std::string csv = substep("run free_fall --frames 1 --csv -").out;
   const std::string json = substep("run free_fall --frames 1 --json -").out;
   EXPECT_NE(csv.find(",inf,"), std::string::npos) << csv;

@@ -13,7 +13,7 @@
 namespace substep::test {
 namespace {
 
-TEST(GoingOn, FromASnapshotIsTheSameBitForBit) {
+TEST(Resume, FromASnapshotIsBitIdentical) {
   for (const Scene& scene :
        {scenes::swinging_box(), scenes::bridge(), scenes::heavy_stack_stress()}) {
     for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
@@ -57,7 +57,7 @@ void expect_same_motion(const State& a, const State& b) {
 
 // With forces, stiffness and the last sub-step, which determine N, the bounds of friction, warm
 // starts and the kicks of leapfrog.
-TEST(GoingOn, FromASceneFileIsTheSameBitForBit) {
+TEST(Resume, FromASceneFileIsBitIdentical) {
   for (const Scene& scene : scenes::shipped()) {
     const auto shared = std::make_shared<const Scene>(scene);
     const bool small = scene.bodies.size() < 40;
@@ -136,7 +136,7 @@ Carrying by_stormer(Scene scene) {
 
 class WhatIsCarried : public testing::TestWithParam<Carrying> {};
 
-INSTANTIATE_TEST_SUITE_P(GoingOn, WhatIsCarried,
+INSTANTIATE_TEST_SUITE_P(Resume, WhatIsCarried,
                          testing::Values(by_numerov(scenes::swinging_box()),
                                          by_numerov(scenes::bridge()),
                                          by_stormer(scenes::swinging_box())),
@@ -160,7 +160,7 @@ TEST_P(WhatIsCarried, GoesOnFromASceneFileBitForBit) {
   }
 }
 
-TEST(GoingOn, AnotherLoadOrStartIsAnotherRun) {
+TEST(Resume, AnotherLoadOrStartIsAnotherRun) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   for (int i = 0; i < 3; ++i) simulator.step();
   const Scene saved = saved_scene(simulator.scene(), simulator.state(), simulator.settings());
@@ -169,7 +169,7 @@ TEST(GoingOn, AnotherLoadOrStartIsAnotherRun) {
   EXPECT_FALSE(start_of(saved, 1.0, 7).carried.has_value());
 }
 
-TEST(GoingOn, ResetIsTheStart) {
+TEST(Resume, ResetIsTheStart) {
   const auto shared = std::make_shared<const Scene>(scenes::bridge());
   Simulator simulator(shared);
   for (int i = 0; i < 30; ++i) simulator.step();

@@ -40,7 +40,7 @@ TEST(Experiment, JsonComesBackTheSame) {
   EXPECT_EQ(experiment_id(*input.experiment), experiment_id(experiment));
 }
 
-TEST(Experiment, WhatIsLeftOutIsTheScenesOwn) {
+TEST(Experiment, OmittedValuesDefaultToTheScene) {
   const auto scene = shared(scenes::heavy_stack_tall());
   Problems problems;
   const auto input = read_experiment(
@@ -50,7 +50,7 @@ TEST(Experiment, WhatIsLeftOutIsTheScenesOwn) {
   EXPECT_EQ(input.experiment->duration, scene->criteria.duration);
 }
 
-TEST(Experiment, AllThatIsWrongIsToldAtOnce) {
+TEST(Experiment, ReportsAllProblemsAtOnce) {
   const auto scene = shared(scenes::pendulum());
   Problems problems;
   const Json json{{"scene", "pendulum"}, {"scene_hash", "0"}, {"settings", {{"alpha", 3.0}}},
@@ -73,7 +73,7 @@ TEST(Experiment, AllThatIsWrongIsToldAtOnce) {
       << "the id belongs to another duration";
 }
 
-TEST(Experiment, IdDependsOnAllThatMakesTheRunAndOnNothingElse) {
+TEST(Experiment, IdDependsOnlyOnWhatAffectsTheRun) {
   const Scene scene = scenes::pendulum();
   const std::string id = experiment_id(experiment_of(scene, Settings{}));
   EXPECT_EQ(id.size(), 16U);
@@ -100,7 +100,7 @@ TEST(Experiment, IdDependsOnAllThatMakesTheRunAndOnNothingElse) {
   EXPECT_EQ(experiment_id(experiment_of(reworded, Settings{})), id);
 }
 
-// Stored results of years use it as their key.
+// Stored results use the id as their key, so it must not change.
 TEST(Experiment, IdOfTheScenesFileStaysWhatItIs) {
   const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/free_fall.json").scene;
   ASSERT_TRUE(scene);
@@ -121,7 +121,7 @@ TEST(Experiment, ALoadScalesTheHeaviestBodyAlone) {
   EXPECT_EQ(mass_ratio(loaded), 3000.0);
 }
 
-TEST(Experiment, ASeedNudgesEveryMovingBodyAndNoMore) {
+TEST(Experiment, SeedPerturbsOnlyMovingBodies) {
   const Scene scene = scenes::swinging_box();
   EXPECT_EQ(start_of(scene, 1.0, 0).bodies[1].velocity, scene.bodies[1].velocity);
   const Scene nudged = start_of(scene, 1.0, 5);

@@ -119,8 +119,8 @@ TEST(CarriedContacts, OnPlanesAreWhereFreshOnesAre) {
   }
 }
 
-// To second order: the error of phi with the cube of the distance, of n with its square, the
-// curvature in proportion.
+// The prediction is of second order: the errors of phi, J and H are cubic, quadratic and linear in
+// the distance moved.
 TEST(CarriedContacts, OfSpheresAreOfSecondOrder) {
   for (const double by : {1e-2, 1e-3}) {
     Random random(13);

@@ -186,7 +186,7 @@ double largest_growth(const Settings& settings, double kappa) {
 
 // The model of Eq. 5 and the derivations in damping.hpp and geometric_inertia.hpp: predicted and
 // measured limits.
-TEST(Oscillator, EveryModeIsStableJustAsFarAsItsArgumentSays) {
+TEST(Oscillator, StabilityLimitsMatchTheDerivation) {
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     for (const double kappa : {0.5, 5.0, 300.0}) {  // dt^2 k/M; without a mode 4 is the limit
       const auto expect = [&](Mode mode, double Mt, double kept) {

@@ -112,10 +112,11 @@ TEST(Compare, WhatCannotBeReadIsNoRunAndTheSameIsOne) {
 }
 
 TEST(Compare, SolversAreCalledByTheirNames) {
-  EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}), "Newton, none");
-  EXPECT_EQ(overrides_title({{"solver", "xpbd"}}), "XPBD");
-  EXPECT_EQ(overrides_title({{"mode", "const"}, {"n", "6"}}), "constant 6");
-  EXPECT_EQ(overrides_title({{"mode", "const"}}), "const");
+  EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}, Settings{}), "Newton, none");
+  EXPECT_EQ(overrides_title({{"solver", "xpbd"}}, Settings{}), "XPBD");
+  EXPECT_EQ(overrides_title({{"mode", "const"}, {"n", "6"}}, Settings{}), "constant 6");
+  EXPECT_EQ(overrides_title({{"mode", "const"}}, Settings{}), "const");
+  EXPECT_EQ(overrides_title({{"mode", "damping"}, {"n", "6"}}, Settings{}), "damping");
 }
 
 TEST(Compare, TitlesNameOnlyWhatARunReads) {

@@ -57,7 +57,7 @@ double depth_of(const RoundedBoxMesh& mesh) {
   return deepest;
 }
 
-TEST(Detail, MeshesAreAsTrueAsTheyAreSaidToBe) {
+TEST(Detail, OutlineErrorMatchesTheMesh) {
   for (const int segments : kBallSegments) {
     const RoundedBoxMesh mesh = rounded_box(segments, segments == 0);
     EXPECT_EQ(mesh.vertices.size(), static_cast<std::size_t>(vertices_of(segments, false)));
@@ -91,14 +91,13 @@ TEST(Detail, ManyBodiesAreCoarserThanOne) {
   const std::vector<Instance> many(600, ball(1.0));
   bodies.choose({}, many, {&picture, 1280, 720, 0.5, 100000});
   EXPECT_LE(bodies.vertices(), 100000U);
-  // The minimum number of vertices, even if that is still too many; and a large ball is not a
-  // cube.
+  // Large balls are never drawn as cubes, even if level 1 exceeds the limit of vertices.
   const std::vector<Instance> more(20000, ball(1.0));
   bodies.choose({}, more, {&picture, 1280, 720, 0.5, 100000});
   EXPECT_EQ(bodies.balls[1].size(), more.size());
 }
 
-TEST(Detail, OfSpecksOneIsDrawnPerPixel) {
+TEST(Detail, DrawsOneSpeckPerPixel) {
   const Picture picture = seen_from(20.0);
   DetailedBodies bodies;
   std::vector<Instance> dust;

@@ -56,7 +56,7 @@ TEST(EnergyPlot, KineticAndPotentialMakeTheTotalInEverySampleOfEveryScene) {
       const double p = plotted(*potential, i);
       const double sum = plotted(*total, i);
       ASSERT_NEAR(k + p, sum, rounding(k, p - potential->offset, sum)) << scene->name << ", " << i;
-      ASSERT_GE(p, 0.0) << scene->name << ": the lowest is zero";
+      ASSERT_GE(p, 0.0) << scene->name << ": none is negative";
     }
   }
 }

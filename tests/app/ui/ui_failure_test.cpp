@@ -1,6 +1,7 @@
 // What a person sees of a failure: the broken joint in a ring, the camera turned to it, and a
 // picture that stands still.
 #include <gtest/gtest.h>
+#include <imgui_internal.h>
 
 #include <cmath>
 
@@ -135,7 +136,7 @@ TEST(FailureRing, IsAroundTheBrokenJoint) {
   EXPECT_EQ(drawn_near(torn.h, failure->centre(), 0, torn.h.app->look.theme->orange, 100.0F), 0);
 }
 
-TEST(FrozenRun, StandsStillWhileTheOthersGoOn) {
+TEST(FrozenRun, FreezesWhileOthersContinue) {
   Torn torn;
   App& app = *torn.h.app;
   ASSERT_EQ(app.set("compare", "mode:adaptive;n:2,mode:const"), "");
@@ -151,6 +152,8 @@ TEST(FrozenRun, StandsStillWhileTheOthersGoOn) {
   EXPECT_GT(app.session.state().time, then + 0.5);
   EXPECT_EQ(app.poses_in(0).x, shown);
   EXPECT_EQ(app.poses_in(2).x, other);
+  const ImGuiWindow* card = ImGui::FindWindowByName("##failure");
+  EXPECT_TRUE(card != nullptr && card->WasActive) << "with its remedies";
   EXPECT_TRUE(app.compare.runs()[0].verdict->holds());
   EXPECT_FALSE(app.failure_in(1).has_value());
   for (const std::size_t pane : {0U, 2U}) {

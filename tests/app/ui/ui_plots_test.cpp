@@ -78,7 +78,7 @@ TEST(Names, ThoseWithoutRoomAreNotShownTheLastFirst) {
   EXPECT_GE(std::abs(places[0].y - places[1].y), 12.0F);
 }
 
-TEST(SmallestStableN, IsGivenOnlyWhereNVaries) {
+TEST(NAtLimit, IsGivenOnlyWhereNVaries) {
   Headless h;
   h.app->run(shipped("swinging_box"));
   for (int i = 0; i < 120; ++i) h.app->session.step();  // past the lowest point
@@ -95,7 +95,7 @@ TEST(SmallestStableN, IsGivenOnlyWhereNVaries) {
   EXPECT_FALSE(ui::n_at_limit(history, settings)) << "sweeps need more than that";
 }
 
-TEST(SmallestStableN, IsNotGivenWhereOneStepWouldDo) {
+TEST(NAtLimit, IsNotGivenWhereOneStepWouldDo) {
   Headless h;
   h.app->run(shipped("free_fall"));
   for (int i = 0; i < 30; ++i) h.app->session.step();

@@ -25,6 +25,8 @@ TEST(VerdictWords, NameTheValueTheLimitAndWhatTheyMean) {
             "The run has gained 36.9 kJ of energy from nowhere. The scene allows 5.15 kJ.");
   EXPECT_EQ(exceeded_sentence({What::kMoved, 0.31, 0.25, "box"}),
             "box has moved by 0.31 m. The scene allows 0.25 m.");
+  EXPECT_EQ(exceeded_sentence({What::kMoved, 0.1003, 0.1, "box"}),
+            "box has moved by just over 0.1 m. The scene allows 0.1 m.");
   EXPECT_EQ(exceeded_label({What::kEnergyGain, 0.05, 0.01, ""}), "energy gain 50 mJ");
 }
 

@@ -124,7 +124,7 @@ bool Compare::step(Run& run, FrameSlices::Clock::time_point until) {
   run.report = *ended;
   run.verdict->add(*run.scene, state, run.report);
   if (run.report.status != StepStatus::kOk) return true;
-  run.history.add(run.report);
+  run.history.add(run.report, run.verdict->holds());
   add_frame(run.cost, run.report);
   if (state.frame % kCheckpointFrames != 0) return true;
   if (run.checkpoints.size() >= kMostCheckpoints) {

@@ -85,9 +85,11 @@ void History::start(const FrameReport& report, double frame, double exchanged) {
   energy_at_start_ = report.energy;
   potential_at_start_ = report.potential;
   exchanged_ = exchanged;
+  failed_at_.reset();
 }
 
-void History::add(const FrameReport& report) {
+void History::add(const FrameReport& report, bool holds) {
+  if (!holds && !failed_at_) failed_at_ = report.time;
   // A tenth is dropped at a time: samples stay contiguous and adding one stays cheap.
   if (size() >= kCapacity) {
     constexpr std::size_t kBlock = Samples::kLargestBlock;
@@ -118,7 +120,8 @@ void History::add(const FrameReport& report) {
 }
 
 double History::potential_offset() const {
-  const Extent all = samples(Channel::kPotential).extent(0, size());
+  const std::size_t last = failed_at_ ? count_until(*failed_at_) : size();
+  const Extent all = samples(Channel::kPotential).extent(0, last);
   const double lowest = all.empty() ? 0.0 : static_cast<double>(all.low);
   return std::max(exchanged_, -lowest);
 }
@@ -133,10 +136,15 @@ double History::largest_kinetic() const {
   return all.empty() ? 0.0 : static_cast<double>(all.high);
 }
 
-void History::cut(double time) {
+std::size_t History::count_until(double time) const {
   const double count = std::floor((time - first_time_) / frame_ + 0.5) + 1.0;
-  const auto kept = static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(size())));
+  return static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(size())));
+}
+
+void History::cut(double time) {
+  const std::size_t kept = count_until(time);
   for (Samples& samples : channels_) samples.truncate(kept);
+  if (failed_at_ && end_time() < *failed_at_ - 0.5 * frame_) failed_at_.reset();
 }
 
 History::Slice History::between(double t0, double t1) const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,7 +76,8 @@ class History {
   /// @param frame duration of a frame [s]
   /// @param exchanged energy that the motion is known to exchange [J], 0 if it is not known
   void start(const FrameReport& report, double frame, double exchanged = 0.0);
-  void add(const FrameReport& report);
+  /// @param holds false from the frame on at which the run fails: the zero of the potential stays
+  void add(const FrameReport& report, bool holds = true);
   /// Discards samples later than `time` [s].
   void cut(double time);
 
@@ -103,7 +105,7 @@ class History {
   /// Offset added to the potential and to the total so that the lowest potential is 0 [J], or that
   /// of the start is the energy that the motion is known to exchange if this is more. The zero of a
   /// potential is arbitrary; this one keeps kinetic, potential and total energy on one readable
-  /// scale, which does not change during the first fall.
+  /// scale, which does not change during the first fall, nor after a failure.
   [[nodiscard]] double potential_offset() const;
   /// Largest absolute change of the total energy so far [J].
   [[nodiscard]] double largest_drift() const;
@@ -114,6 +116,9 @@ class History {
   [[nodiscard]] double frame() const { return frame_; }
 
  private:
+  /// Number of samples up to a time, included.
+  [[nodiscard]] std::size_t count_until(double time) const;
+
   std::array<Samples, static_cast<std::size_t>(Channel::kCount)> channels_;
   double frame_ = 1.0 / 60.0;
   double start_time_ = 0.0;
@@ -121,6 +126,7 @@ class History {
   double energy_at_start_ = 0.0;
   double potential_at_start_ = 0.0;
   double exchanged_ = 0.0;
+  std::optional<double> failed_at_;  // [s]
 };
 
 }  // namespace substep

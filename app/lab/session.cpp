@@ -188,7 +188,7 @@ bool Session::end_frame() {
   if (stopped()) {
     hold();
   } else {
-    history_.add(report_);
+    history_.add(report_, verdict_->holds());
     extend_trail();
     smooth_times();
     timeline_.add(moment());

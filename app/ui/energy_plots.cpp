@@ -125,12 +125,13 @@ void energy_plot(const PlotContext& in, float height, bool last) {
     spec.series.push_back({&h, Channel::kKinetic, t.blue, kThisRun});
     add_compared(in, spec, Channel::kKinetic);
   } else {
-    tooltip(look, "Energy",
-            gravity ? "Kinetic + potential = total, on one scale. The zero of the potential energy "
-                      "of gravity is chosen so that it is not negative. Where energy is conserved "
-                      "the total is "
-                      "a flat line; the plot of the drift shows changes too small to see here."
-                    : "Kinetic energy. There is no gravity, so it is also the total.");
+    tooltip(
+        look, "Energy",
+        gravity
+            ? "Kinetic + potential = total, on one scale. The potential energy of gravity is zero "
+              "near its lowest value; the zero stays when the run fails. Where energy is conserved "
+              "the total is a flat line; the plot of the drift shows changes too small to see here."
+            : "Kinetic energy. There is no gravity, so it is also the total.");
     std::vector<EnergyLegend> shown;
     if (gravity) {
       shown.push_back({"total", "total", "total", Channel::kTotal, t.orange, zero});

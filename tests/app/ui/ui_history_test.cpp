@@ -33,6 +33,28 @@ TEST(History, KeepsOneSampleAFrameWithItsTime) {
   EXPECT_FLOAT_EQ(history[Channel::kDrift][9], 10.0F);
 }
 
+TEST(History, TheZeroOfThePotentialStaysAfterAFailure) {
+  const auto falling = [](int frame) {
+    FrameReport report = report_at(frame);
+    report.potential = 97.0 - frame;
+    return report;
+  };
+  History history;
+  history.start(report_at(0), 1.0 / 60.0);
+  for (int i = 1; i <= 10; ++i) history.add(falling(i), i < 10);
+  EXPECT_DOUBLE_EQ(history.potential_offset(), 10.0) << "lowest at the failure";
+  for (int i = 11; i <= 20; ++i) history.add(falling(i), false);
+  EXPECT_DOUBLE_EQ(history.potential_offset(), 10.0);
+  history.cut(5.0 / 60.0);
+  EXPECT_DOUBLE_EQ(history.potential_offset(), 5.0);
+  for (int i = 6; i <= 12; ++i) history.add(falling(i));
+  EXPECT_DOUBLE_EQ(history.potential_offset(), 12.0) << "the run holds now";
+  History known;
+  known.start(report_at(0), 1.0 / 60.0, 15.0);
+  known.add(falling(1));
+  EXPECT_DOUBLE_EQ(known.potential_offset(), 15.0);
+}
+
 TEST(History, ForgetsTheOldestAndKeepsItsTimes) {
   History history;
   history.start(report_at(0), 1.0 / 60.0);

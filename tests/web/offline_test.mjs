@@ -89,9 +89,13 @@ test("a new version replaces the stored one", async () => {
   // A page in use is not replaced: the new version is used at the next start.
   await writeFile(list, old);
   await writeFile(index, (await readFile(index, "utf8")).replace('"new"', '"newer"'));
+  await page.addInitScript(() => { // a key before anything else can happen
+    window.addEventListener("DOMContentLoaded", () => {
+      window.dispatchEvent(new KeyboardEvent("keydown", { key: "Shift" }));
+    });
+  });
   await page.goto("about:blank");
   await page.goto(session.address, { waitUntil: "domcontentloaded" });
-  await page.keyboard.press("Shift");
   await running(page);
   await page.waitForFunction(async () => (await caches.keys()).length === 2, null, { timeout: 30000 });
   assert.equal(await page.evaluate(() => document.head.dataset.version), "new");

@@ -61,8 +61,7 @@ int parse_and_run(int argc, char** argv) {
       "  substep generate rope --links 100 | substep run -\n"
       "  substep sweep swinging_box\n"
       "  substep check --all\n"
-      "Exit code: 0 success, 1 a verdict is not as expected, 2 bad input, 3 non-finite "
-      "state,\n"
+      "Exit code: 0 success, 1 a verdict is not as expected, 2 bad input, 3 non-finite state,\n"
       "4 out of memory or internal error, 130 cancelled.");
   int exit_code = kOk;
   add_run(app, exit_code);

@@ -37,7 +37,7 @@ std::vector<Overrides> Compare::overrides() const {
 void Compare::start(const Session& session, std::vector<Overrides> runs) {
   runs_.clear();
   for (Overrides& overrides : runs) {
-    if (runs_.size() == kMost) break;
+    if (runs_.size() == kMostCompared) break;
     runs_.emplace_back().overrides = std::move(overrides);
   }
   restart(session);

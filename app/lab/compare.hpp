@@ -29,7 +29,6 @@ struct Divergence {
 /// same place, a ball is thrown into each.
 class Compare {
  public:
-  static constexpr std::size_t kMost = 3;     // beside the session itself
   static constexpr double kThreshold = 0.01;  // [m]
 
   /// One of the other methods.

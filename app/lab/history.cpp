@@ -85,11 +85,11 @@ void History::start(const FrameReport& report, double frame, double exchanged) {
   energy_at_start_ = report.energy;
   potential_at_start_ = report.potential;
   exchanged_ = exchanged;
+  lowest_ = 0.0;
   failed_at_.reset();
 }
 
 void History::add(const FrameReport& report, bool holds) {
-  if (!holds && !failed_at_) failed_at_ = report.time;
   // A tenth is dropped at a time: samples stay contiguous and adding one stays cheap.
   if (size() >= kCapacity) {
     constexpr std::size_t kBlock = Samples::kLargestBlock;
@@ -105,6 +105,10 @@ void History::add(const FrameReport& report, bool holds) {
   add_to(Channel::kLimit, 0.5 * frame_ * std::sqrt(report.leader.r));  // Eqs. 10, 11, alpha = 1
   add_to(Channel::kKinetic, report.kinetic);
   add_to(Channel::kPotential, report.potential - potential_at_start_);
+  if (!failed_at_) {
+    lowest_ = std::min(lowest_, static_cast<double>((*this)[Channel::kPotential].back()));
+  }
+  if (!holds && !failed_at_) failed_at_ = report.time;
   add_to(Channel::kTotal, report.kinetic + (report.potential - potential_at_start_));
   // Subtract in double precision: a drift is many orders smaller than the energies.
   add_to(Channel::kDrift, report.energy - energy_at_start_);
@@ -119,12 +123,7 @@ void History::add(const FrameReport& report, bool holds) {
   add_to(Channel::kTimeStiffness, 1e3 * report.times.stiffness);
 }
 
-double History::potential_offset() const {
-  const std::size_t last = failed_at_ ? count_until(*failed_at_) : size();
-  const Extent all = samples(Channel::kPotential).extent(0, last);
-  const double lowest = all.empty() ? 0.0 : static_cast<double>(all.low);
-  return std::max(exchanged_, -lowest);
-}
+double History::potential_offset() const { return std::max(exchanged_, -lowest_); }
 
 double History::largest_drift() const {
   const Extent all = samples(Channel::kDrift).extent(0, size());
@@ -136,15 +135,14 @@ double History::largest_kinetic() const {
   return all.empty() ? 0.0 : static_cast<double>(all.high);
 }
 
-std::size_t History::count_until(double time) const {
-  const double count = std::floor((time - first_time_) / frame_ + 0.5) + 1.0;
-  return static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(size())));
-}
-
 void History::cut(double time) {
-  const std::size_t kept = count_until(time);
+  const double count = std::floor((time - first_time_) / frame_ + 0.5) + 1.0;
+  const auto kept = static_cast<std::size_t>(std::clamp(count, 0.0, static_cast<double>(size())));
   for (Samples& samples : channels_) samples.truncate(kept);
-  if (failed_at_ && end_time() < *failed_at_ - 0.5 * frame_) failed_at_.reset();
+  if (failed_at_ && end_time() > *failed_at_ - 0.5 * frame_) return;  // the zero stays
+  failed_at_.reset();
+  const Extent all = samples(Channel::kPotential).extent(0, size());
+  lowest_ = all.empty() ? 0.0 : std::min(0.0, static_cast<double>(all.low));
 }
 
 History::Slice History::between(double t0, double t1) const {

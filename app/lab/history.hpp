@@ -116,16 +116,14 @@ class History {
   [[nodiscard]] double frame() const { return frame_; }
 
  private:
-  /// Number of samples up to a time, included.
-  [[nodiscard]] std::size_t count_until(double time) const;
-
   std::array<Samples, static_cast<std::size_t>(Channel::kCount)> channels_;
   double frame_ = 1.0 / 60.0;
   double start_time_ = 0.0;
   double first_time_ = 0.0;
   double energy_at_start_ = 0.0;
   double potential_at_start_ = 0.0;
-  double exchanged_ = 0.0;
+  double exchanged_ = 0.0;           // energy that the motion is known to exchange [J]
+  double lowest_ = 0.0;              // potential before a failure, minus that at the start [J]
   std::optional<double> failed_at_;  // [s]
 };
 

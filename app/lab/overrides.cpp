@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "app/lab/compare.hpp"
 #include "core/model/names.hpp"
 #include "core/model/setting_fields.hpp"
 
@@ -98,9 +97,9 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
     }
     if (!overrides.empty()) runs.push_back(std::move(overrides));  // else it is invalid
   }
-  if (runs.size() > Compare::kMost) {
-    problem = "more than " + std::to_string(Compare::kMost) + " methods beside the run";
-    runs.resize(Compare::kMost);
+  if (runs.size() > kMostCompared) {
+    problem = "more than " + std::to_string(kMostCompared) + " methods beside the run";
+    runs.resize(kMostCompared);
   }
   return runs;
 }

@@ -22,7 +22,7 @@ struct TourStep {
   const char* title;
   const char* text;
   const char* watch;  // where to look
-  const char* task;   // suggestion to try, or ""
+  const char* task;   // suggestion to try
   const char* link;   // the experiment, as links spell it
   RunLoop::Plan loop;
   TourReply (*reply)(const Lab& lab, const RunLoop::Outcome& outcome);

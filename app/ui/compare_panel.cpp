@@ -212,7 +212,7 @@ void compare(const Look& look, Lab& lab, Desk& desk) {
     ImGui::PopID();
   }
   space(look.m.section + 4.0F);
-  if (lab.compare.runs().size() < Compare::kMost)
+  if (lab.compare.runs().size() < kMostCompared)
     compare_menu(look, lab.session, lab.compare, "Add another …", width);
   if (button(look, "close", Icon::kNone, "End the comparison", ButtonKind::kGhost, width,
              look.m.row, "")) {

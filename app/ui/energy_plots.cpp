@@ -50,12 +50,10 @@ void compared_energies(const PlotContext& in, ImVec2 heading, float left, Channe
       [&](double joules) { return in_unit(joules, unit, 99.0, 1); });
 }
 
-/// Names with values, right-aligned in a heading; short names if there is little room, and only
-/// values if there is less: the curves are labelled in the same colours.
+/// Names with values, right-aligned in a heading; only values if there is little room: the curves
+/// are labelled in the same colours.
 struct EnergyLegend {
   const char* name;
-  const char* brief;
-  const char* alone;
   Channel channel;
   ImU32 color;
   double offset;
@@ -63,23 +61,19 @@ struct EnergyLegend {
 void energy_legend(const PlotContext& in, ImVec2 heading, float left, const Unit& unit,
                    const std::vector<EnergyLegend>& shown) {
   const float end = heading.x + ImGui::GetContentRegionAvail().x;
-  const auto text = [&](const EnergyLegend& one, int detail) {
+  const auto text = [&](const EnergyLegend& one, bool named) {
     const double value = shown_value(in.session.history(), one.channel, in.desk.time) + one.offset;
-    if (!std::isfinite(value)) return std::string(one.alone);
-    if (detail == 0) return in_unit(value, unit, 9999.0, 2);
-    return (detail == 2 ? one.name : one.brief) + (" " + in_unit(value, unit, 9999.0, 2));
+    if (!std::isfinite(value)) return std::string(one.name);
+    return (named ? one.name + std::string(" ") : "") + in_unit(value, unit, 9999.0, 2);
   };
-  const auto width = [&](int detail) {
-    float sum = 0.0F;
-    for (const EnergyLegend& one : shown) {
-      sum += text_size(in.look.fonts.small, text(one, detail).c_str()).x + 22.0F;
-    }
-    return sum;
-  };
-  const int detail = end - width(2) >= left ? 2 : end - width(1) >= left ? 1 : 0;
+  float width = 0.0F;
+  for (const EnergyLegend& one : shown) {
+    width += text_size(in.look.fonts.small, text(one, true).c_str()).x + 22.0F;
+  }
+  const bool named = end - width >= left;
   float right = end;
   for (const EnergyLegend& one : shown) {
-    right = legend(in.look, right, heading.y, one.color, text(one, detail));
+    right = legend(in.look, right, heading.y, one.color, text(one, named));
   }
 }
 
@@ -134,10 +128,10 @@ void energy_plot(const PlotContext& in, float height, bool last) {
             : "Kinetic energy. There is no gravity, so it is also the total.");
     std::vector<EnergyLegend> shown;
     if (gravity) {
-      shown.push_back({"total", "total", "total", Channel::kTotal, t.orange, zero});
-      shown.push_back({"pot.", "pot.", "pot.", Channel::kPotential, t.purple, zero});
+      shown.push_back({"total", Channel::kTotal, t.orange, zero});
+      shown.push_back({"pot.", Channel::kPotential, t.purple, zero});
     }
-    shown.push_back({"kin.", "kin.", "kin.", Channel::kKinetic, t.teal, 0.0});
+    shown.push_back({"kin.", Channel::kKinetic, t.teal, 0.0});
     energy_legend(in, origin, left, unit, shown);
     spec.series = energy_series(t, h, gravity);
   }

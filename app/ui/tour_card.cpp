@@ -61,9 +61,7 @@ void steps_row(const Look& look, Desk& desk, int step, int count) {
 // The task and the feedback from the run.
 void task(const Look& look, const TourWords& words) {
   const Theme& t = *look.theme;
-  if (!words.task.empty()) {
-    label(look.fonts.medium, t.text, tour_sentence(words.task, words.numbers).c_str());
-  }
+  label(look.fonts.medium, t.text, tour_sentence(words.task, words.numbers).c_str());
   const bool answered = !words.reply.text.empty();
   label(look.fonts.small, words.reply.done ? t.teal : t.dim,
         answered ? words.reply.text.c_str() : words.now.c_str());

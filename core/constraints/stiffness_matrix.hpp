@@ -36,6 +36,7 @@ class StiffnessMatrix {
                     std::span<Vec6> k) const;
 
   [[nodiscard]] std::size_t bodies() const { return bodies_; }
+  /// Number of blocks, zero ones on the diagonal included.
   [[nodiscard]] std::size_t blocks() const { return pairs_.size(); }
   /// Rows of a block: 3 if only the angular parts are kept.
   [[nodiscard]] std::int64_t block_size() const { return whole_.empty() ? 3 : 6; }

@@ -66,7 +66,7 @@ std::int64_t correction_flops(const Block& block, std::int64_t rows);
 /// Rows of a block at other poses: phi and J.
 std::int64_t move_flops(const Block& block, std::int64_t rows);
 
-// Newton and Stoermer.
+// Newton and Störmer.
 
 /// A Newton step without its linear solve.
 std::int64_t relinearise_flops(std::span<const Block> blocks, std::int64_t bodies, Forces forces);

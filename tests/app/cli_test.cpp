@@ -322,73 +322,6 @@ TEST(CommandLine, HashIsThatOfTheState) {
   EXPECT_NE(substep("hash bridge --frames 20 --mode const --n 15").out, hash.data());
 }
 
-struct BadCall {
-  const char* kind;
-  std::string arguments;
-  std::string message;  // somewhere on stderr
-};
-void PrintTo(const BadCall& call, std::ostream* out) { *out << call.kind; }
-
-class BadCommandLine : public testing::TestWithParam<BadCall> {};
-
-TEST_P(BadCommandLine, EndsWithTwoAndSaysWhatIsAllowed) {
-  const Outcome run = substep(GetParam().arguments);
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_NE(run.err.find(GetParam().message), std::string::npos) << run.err;
-  EXPECT_EQ(run.out, "");
-}
-
-std::string kind_of(const testing::TestParamInfo<BadCall>& call) { return call.param.kind; }
-
-INSTANTIATE_TEST_SUITE_P(
-    Calls, BadCommandLine,
-    testing::Values(
-        BadCall{"AlphaBeyondRange", "run bridge --alpha 3",
-                "--alpha: must be above 0 and at most 1, not 3"},
-        BadCall{"AlphaNoNumber", "run bridge --alpha much",
-                "--alpha: must be above 0 and at most 1, not much"},
-        BadCall{"CountZero", "run bridge --n-max 0",
-                "--n-max: 0 is not a whole number from 1 to 10000"},
-        BadCall{"SolverOfNoKind", "run bridge --solver admm",
-                "--solver: admm is not pgs, bpp, xpbd or newton"},
-        BadCall{"ModeOfNoKind", "hash bridge --mode fast",
-                "--mode: fast is not none, const, damping, adaptive, capped, stiffness, "
-                "inertia or blend"},
-        BadCall{"NegativeSeconds", "run bridge --seconds -1", "not in range"},
-        BadCall{"SecondsNoNumber", "run bridge --seconds nan", "not in range"},
-        BadCall{"LoadNoNumber", "run bridge --load nan", "not in range"},
-        BadCall{"ErrorNoNumber", "recommend pendulum --error nan", "not in range"},
-        BadCall{"AngleNoNumber", "generate rope --angle nan", "not in range"},
-        BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
-        BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
-        BadCall{
-            "UnknownCommand", "chek",
-            "chek is not run, sweep, cost, recommend, merge, reproduce, check, exam, hash, scenes, "
-            "generate or "
-            "map (did "
-            "you mean \"check\"?)"},
-        BadCall{"NoCommand", "", "subcommand"},
-        BadCall{"NoScene", "run", "scene or --experiments is required"},
-        BadCall{"NoSceneToCheck", "check", "scene or --all is required"},
-        BadCall{"TwoResultsOnStandardOutput", "run bridge --csv - --json -",
-                "already used by --csv"},
-        BadCall{"StatesAndJointsOnStandardOutput", "run bridge --states - --joints -",
-                "--joints: standard output is already used by --states"},
-        BadCall{"StatesInNoFolder", "run bridge --frames 1 --states /no/such/folder/a.csv",
-                "/no/such/folder/a.csv: No such file or directory"},
-        BadCall{"UnknownScene", "run brigde",
-                "brigde: no such scene or file (did you mean \"bridge\"?)"},
-        BadCall{"SceneIsAFolder", "run /", "/: cannot read /: "},
-        BadCall{"CsvInNoFolder", "run bridge --frames 1 --csv /no/such/folder/a.csv",
-                "/no/such/folder/a.csv: No such file or directory"},
-        BadCall{"AngleBeyondRange", "generate rope --angle 100", "not in range"},
-        BadCall{"LinkWithoutWidth", "generate rope --link-width 0", "not in range"},
-        BadCall{"LinkMassNegative", "generate rope --link-mass -1", "not in range"},
-        BadCall{"BoxSizeNoNumber", "generate rope --box-size nan", "not in range"},
-        BadCall{"AnchorTooFar", "generate rope --anchor 0 2e5 0", "not in range"},
-        BadCall{"AnchorOfTwoNumbers", "generate rope --anchor 1 2", "--anchor"}),
-    kind_of);
-
 TEST(CommandLine, RunReportsAnInconsistentStart) {
   const auto run_start = [](const std::string& start) {
     Scene scene = *read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json").scene;
@@ -411,20 +344,6 @@ TEST(CommandLine, RunReportsAnInconsistentStart) {
   EXPECT_NE(refused.err.find("/joints/0: \"start\" is \"refuse\""), std::string::npos)
       << refused.err;
   EXPECT_EQ(substep("run pendulum --seconds 0.1").out.find("inconsistent"), std::string::npos);
-}
-
-TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
-  const fs::path path = folder() / "bad.json";
-  std::string text = text_of(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json");
-  text.replace(text.find("\"mass\": 1"), 9, "\"mass\": -1");
-  text.replace(text.find("\"type\": \"hinge\""), 15, "\"type\": \"hnige\"");
-  std::ofstream(path) << text;
-  const Outcome run = substep("run \"" + path.string() + "\"");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_EQ(run.out, "");
-  EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: must be above 0 (kg), not -1\n" +
-                         path.string() +
-                         ": /joints/0/type: \"hnige\" is not ball, hinge or prismatic\n");
 }
 
 TEST(CommandLine, MapIsATableAndAPicture) {
@@ -489,56 +408,6 @@ TEST(CommandLine, TakesScenesFromTheFolderInTheEnvironment) {
   const Outcome run =
       substep("run mine --frames 1", "SUBSTEP_SCENES=\"" + folder().string() + "\"");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-}
-
-TEST(CommandLine, GeneratesTheShippedFiles) {
-  for (const char* name : {"swinging_box", "bridge", "heavy_stack", "sliding_box"}) {
-    const auto shipped =
-        read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/" + std::string(name) + ".json").scene;
-    ASSERT_NE(shipped, nullptr);
-    Scene plain = *shipped;
-    plain.verdicts.clear();  // they apply to the shipped start; a variant has others
-    plain.settings = own_settings(plain);
-    plain.recommended.reset();
-    EXPECT_TRUE(substep("generate " + std::string(name)).out == write_scene(plain)) << name;
-  }
-}
-
-TEST(CommandLine, GeneratesRopesOfOtherSizesMassesAndPlaces) {
-  const fs::path path = folder() / "rope.json";
-  const Outcome made = substep(
-      "generate rope --links 3 --angle 30 --link-length 0.5 --link-width 0.05 "
-      "--link-mass 0.2 --box-size 0.8 --end-mass 40 --anchor 1 7.5 -2 --out \"" +
-      path.string() + "\"");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
-  const auto scene = read_scene_file(path.string()).scene;
-  ASSERT_NE(scene, nullptr);
-  ASSERT_EQ(scene->bodies.size(), 4U);
-  EXPECT_EQ(std::get<Box>(scene->bodies[0].shape).half_extents, Vec3(0.25, 0.025, 0.025));
-  EXPECT_EQ(scene->bodies[0].mass, 0.2);
-  EXPECT_EQ(std::get<Box>(scene->bodies[3].shape).half_extents, Vec3(0.4, 0.4, 0.4));
-  EXPECT_EQ(scene->bodies[3].mass, 40.0);
-  const Vec3 anchor(1.0, 7.5, -2.0);
-  EXPECT_EQ(base(scene->joints[0]).anchor_b, anchor);
-  const Vec3 down(0.5, -std::sqrt(0.75), 0.0);
-  EXPECT_LT((scene->bodies[3].position - anchor - 1.9 * down).norm(), 1e-14);
-  EXPECT_LT(Simulator(scene).observe().joint_gap, 1e-14);
-  // The energy released by falling straight down, and a tenth of it, independent of the anchor's
-  // height.
-  EXPECT_NEAR(*scene->criteria.energy_gain,
-              0.1 * 9.81 * (40.0 * 1.9 + 0.2 * (0.25 + 0.75 + 1.25)) * (1.0 - std::sqrt(0.75)),
-              1e-12);
-  EXPECT_EQ(lines_of(substep("run \"" + path.string() + "\" --seconds 1").out).back(), "holds");
-}
-
-TEST(CommandLine, RunsAGeneratedRopeFromStandardInput) {
-  const fs::path path = folder() / "rope.json";
-  ASSERT_EQ(
-      substep("generate rope --links 40 --angle 30 --out \"" + path.string() + "\"").exit_code, 0);
-  const Outcome run = substep("run - --frames 10", "cat \"" + path.string() + "\" |");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_EQ(run.out.find("rope_of_40: "), 0U) << run.out;
-  EXPECT_EQ(lines_of(run.out).back(), "holds");
 }
 
 TEST(CommandLine, HelpHasExamples) {

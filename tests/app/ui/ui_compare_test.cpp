@@ -90,7 +90,7 @@ TEST(Compare, WhatCannotBeReadIsTold) {
   EXPECT_NE(h.app->set("compare", "mode:warp"), "");
   EXPECT_NE(h.app->set("compare", "speed:2"), "");
   EXPECT_NE(h.app->set("compare", "n:1;n:2;n:3;n:4"), "");
-  EXPECT_EQ(h.app->compare.runs().size(), Compare::kMost);
+  EXPECT_EQ(h.app->compare.runs().size(), kMostCompared);
   EXPECT_EQ(h.app->set("compare", "off"), "");
   EXPECT_FALSE(h.app->compare.open());
 }

@@ -178,19 +178,26 @@ TEST(Hand, APressFarFromThePointerDoesNotTurnTheView) {
   EXPECT_LT((h.app->view.camera.eye(h.app->view_rect) - eye).norm(), 1e-9);
 }
 
-TEST(Tooltips, StayClosedOverWhatWasClicked) {
-  Headless h;
+bool tooltip_open() {
+  const auto& windows = ImGui::GetCurrentContext()->Windows;
+  return std::any_of(windows.begin(), windows.end(), [](const ImGuiWindow* w) {
+    return (w->Flags & ImGuiWindowFlags_Tooltip) != 0 && w->WasActive && !w->Hidden;
+  });
+}
+
+// The middle of a control of the Lab.
+ImVec2 middle_of(Headless& h, std::string_view label) {
   h.app->set("level", "lab");
   h.frames(3);
-  const ui::Handle* tab = find_handle("Why N");
-  ASSERT_NE(tab, nullptr);
-  const ImVec2 at{0.5F * (tab->min.x + tab->max.x), 0.5F * (tab->min.y + tab->max.y)};
-  const auto tooltip_open = [] {
-    for (const ImGuiWindow* w : ImGui::GetCurrentContext()->Windows) {
-      if ((w->Flags & ImGuiWindowFlags_Tooltip) != 0 && w->WasActive && !w->Hidden) return true;
-    }
-    return false;
-  };
+  const ui::Handle* handle = find_handle(label);
+  EXPECT_NE(handle, nullptr) << label;
+  if (handle == nullptr) return {};
+  return {0.5F * (handle->min.x + handle->max.x), 0.5F * (handle->min.y + handle->max.y)};
+}
+
+TEST(Tooltips, StayClosedOverWhatWasClicked) {
+  Headless h;
+  const ImVec2 at = middle_of(h, "Why N");
   point_at(h, at);
   h.frames(60);
   EXPECT_TRUE(tooltip_open()) << "the pointer rests";
@@ -202,6 +209,30 @@ TEST(Tooltips, StayClosedOverWhatWasClicked) {
   point_at(h, at);
   h.frames(60);
   EXPECT_TRUE(tooltip_open()) << "the pointer has come back";
+}
+
+TEST(Tooltips, OpenUnderAFinger) {
+  Headless h;
+  const ImVec2 at = middle_of(h, "Why N");
+  ImGui::GetIO().AddMouseSourceEvent(ImGuiMouseSource_TouchScreen);
+  point_at(h, at);
+  press(h, true);
+  h.frames(60);
+  EXPECT_TRUE(tooltip_open());
+  press(h, false);
+}
+
+TEST(Tooltips, OpenAtTheFocusOfTheKeyboardAfterAClick) {
+  Headless h;
+  const ImVec2 at = middle_of(h, "Why N");
+  h.click(at.x, at.y);
+  h.frames(60);
+  ASSERT_FALSE(tooltip_open());
+  for (int i = 0; i < 40 && !tooltip_open(); ++i) {
+    key(h, ImGuiKey_Tab);
+    h.frames(40);
+  }
+  EXPECT_TRUE(tooltip_open());
 }
 
 TEST(Hand, BallFliesAtThePointer) {

@@ -237,7 +237,7 @@ TEST(Tour, NFollowsTheLoadsOfTheConvoyAndSevenTearItsBridge) {
   TourReply reply = task.answer();
   EXPECT_FALSE(reply.done) << reply.text;
   EXPECT_TRUE(contains(reply.text, "N from 2 to ")) << reply.text;
-  EXPECT_TRUE(contains(reply.text, "With 14 constant sub-steps it takes 7,056, 1.7 times as many."))
+  EXPECT_TRUE(contains(reply.text, "With 13 constant sub-steps it takes 6,552, 1.6 times as many."))
       << reply.text;
   reply = task.answer("n", "7");
   EXPECT_TRUE(reply.done) << reply.text;

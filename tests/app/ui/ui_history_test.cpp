@@ -49,6 +49,10 @@ TEST(History, TheZeroOfThePotentialStaysAfterAFailure) {
   EXPECT_DOUBLE_EQ(history.potential_offset(), 5.0);
   for (int i = 6; i <= 12; ++i) history.add(falling(i));
   EXPECT_DOUBLE_EQ(history.potential_offset(), 12.0) << "the run holds now";
+  for (int i = 13; i <= 13 + static_cast<int>(History::kCapacity); ++i) {
+    history.add(falling(i), false);
+  }
+  EXPECT_DOUBLE_EQ(history.potential_offset(), 13.0) << "after its samples were dropped";
   History known;
   known.start(report_at(0), 1.0 / 60.0, 15.0);
   known.add(falling(1));

@@ -119,15 +119,15 @@ struct Stand {
     }
     const Vec3 u = direction_of(box, q, floor.normal);
     const Vec3 v = floor.normal.cross(u);
-    Eigen::Vector2d least = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Vector2d most = -least;
+    Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity());
+    Vec2 most = -least;
     for (const Vec3& p : lower_part(corners, floor, low + kLowestPart * (high - low))) {
-      const Eigen::Vector2d at(u.dot(p - x), v.dot(p - x));
+      const Vec2 at(u.dot(p - x), v.dot(p - x));
       least = least.cwiseMin(at);
       most = most.cwiseMax(at);
     }
-    const Eigen::Vector2d middle = 0.5 * (least + most);
-    const Eigen::Vector2d half = 0.5 * (most - least);
+    const Vec2 middle = 0.5 * (least + most);
+    const Vec2 half = 0.5 * (most - least);
     return Footprint{floor.below(x + middle.x() * u + middle.y() * v),
                      u,
                      half.x(),

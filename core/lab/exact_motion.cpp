@@ -49,7 +49,7 @@ ExactPendulum::Motion ExactPendulum::at(double t) const {
 Attitude free_symmetric_body(double transverse, double axial, const Attitude& start, double t) {
   const auto turned = [](const Vec3& by) -> Quat {
     const double angle = by.norm();
-    return angle > 0.0 ? Quat(Eigen::AngleAxisd(angle, by / angle)) : Quat::Identity();
+    return angle > 0.0 ? Quat(Eigen::AngleAxisd(angle, by / angle)) : Quat(Quat::Identity());
   };
   const Vec3 axis = start.q_WB * Vec3::UnitZ();
   const double spin = start.w.dot(axis);

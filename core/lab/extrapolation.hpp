@@ -3,16 +3,17 @@
 // to zero step length, has order 16 and an error estimate. For exact references, not for
 // simulations.
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "core/math/types.hpp"
 
 namespace substep {
 
 class Extrapolation {
  public:
-  using Vector = Eigen::VectorXd;
+  using Vector = VecX;
 
   /// @param tolerance of one step, relative to 1 + |y| [-]
   explicit Extrapolation(double tolerance) : tolerance_(tolerance) {}

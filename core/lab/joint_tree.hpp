@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -63,7 +62,7 @@ class JointTree {
   static constexpr double kTolerance = 1e-12;  // [-]
 
  private:
-  using Vector = Eigen::VectorXd;
+  using Vector = VecX;
   enum class Kind { kFree, kBall, kHinge };
   /// A moving body and the joint that leads to it from the root. Parents come first.
   struct Node {

@@ -177,7 +177,7 @@ class JointTree::Builder {
     node.angular_compliance = hinge.angular_compliance;
     const Quat& own = tree_.at_start_[index(node.body)].second;
     node.at_start =
-        is_fixed(parent) ? own : tree_.at_start_[index(parent)].second.conjugate() * own;
+        is_fixed(parent) ? own : Quat(tree_.at_start_[index(parent)].second.conjugate() * own);
     return apart.norm() <= kTreeParallel;
   }
 

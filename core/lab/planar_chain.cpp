@@ -7,8 +7,6 @@ namespace {
 
 constexpr double kPlanar = 1e-9;  // sine of the angle that still counts as none [-]
 
-using Vec2 = Eigen::Vector2d;
-
 /// R(theta) v, sine and cosine given.
 Vec2 turned(const Vec2& v, double sine, double cosine) {
   return {cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()};
@@ -161,7 +159,7 @@ void PlanarChain::advance(double seconds, double tolerance) {
   integrator_->advance([this](const Vector& y, Vector& dy) { slope(y, dy); }, seconds, y_);
 }
 
-PlanarChain::Vec2 PlanarChain::centre_in_plane(std::size_t link, const Vector& y) const {
+Vec2 PlanarChain::centre_in_plane(std::size_t link, const Vector& y) const {
   Vec2 at = Vec2::Zero();
   for (std::size_t j = 0; j <= link; ++j) {
     const double theta = y[static_cast<Eigen::Index>(j)];

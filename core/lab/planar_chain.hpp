@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <optional>
 #include <vector>
 
@@ -40,8 +39,7 @@ class PlanarChain {
   [[nodiscard]] int size() const { return static_cast<int>(links_.size()); }
 
  private:
-  using Vec2 = Eigen::Vector2d;
-  using Vector = Eigen::VectorXd;
+  using Vector = VecX;
   struct Link {
     int body = 0;           // index into Scene::bodies
     double mass = 0.0;      // [kg]

@@ -11,11 +11,16 @@
 
 namespace substep {
 
+// DontAlign: Eigen aligns types by the compiler's flags, and a program that uses the library may have
+// flags of its own. (Vec3 and Mat3 are of sizes that Eigen never aligns.)
+using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Vec3 = Eigen::Vector3d;
-using Vec6 = Eigen::Matrix<double, 6, 1>;  ///< linear part first, then angular
+using Vec6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;  ///< linear part first, then angular
+using VecX = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::DontAlign>;
 using Mat3 = Eigen::Matrix3d;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
-using Quat = Eigen::Quaterniond;
+using Mat6 = Eigen::Matrix<double, 6, 6, Eigen::DontAlign>;
+using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
+static_assert(alignof(Vec3) == alignof(double) && alignof(Mat3) == alignof(double));
 
 /// Container index. Elsewhere -1 means none.
 inline std::size_t index(int i) { return static_cast<std::size_t>(i); }

@@ -88,7 +88,7 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
       const SettingField* field = find_setting(key);
       Settings scratch;
       if (field == nullptr) {
-        problem = "'" + key + "' is not a setting";
+        problem = "no setting is called '" + key + "'";
       } else if (const auto wrong = set_setting(*field, value, scratch)) {
         problem = key + " " + *wrong;
       } else {

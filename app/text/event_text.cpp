@@ -258,7 +258,7 @@ std::vector<RunEvent> read_events(std::string_view text, const Scene& scene, con
   if (text.size() > kMostEventText) {
     problem = "has more than " + std::to_string(kMostEventText) + " characters";
   } else if (!bytes || bytes->empty()) {
-    problem = "is not a list of events: was the link truncated?";
+    problem = "cannot be decoded: was the link truncated?";
   } else if (bytes->front() != kVersion) {
     problem = "is of a later version of this program";
   }

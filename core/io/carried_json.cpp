@@ -86,7 +86,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
     const char* end = id.data() + id.size();
     const auto [read, error] = std::from_chars(id.data(), end, force.id, 16);
     if (read != end || error != std::errc{}) {
-      in.problem("id", value_text(id) + " is not a hexadecimal number of up to 16 digits");
+      in.problem("id", must_be("a hexadecimal number of at most 16 digits", value_text(id)));
     }
   }
   const auto rows = [&](std::string_view key, const Range& range, double* numbers,
@@ -94,7 +94,8 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
     const Json* list = in.member(key, presence);
     if (!list) return;
     if (!list->is_array() || list->size() > kRows) {
-      in.problem(key, value_text(*list) + " is not a list of up to " + std::to_string(kRows));
+      in.problem(key, must_be("a list of at most " + std::to_string(kRows) + " numbers",
+                              value_text(*list)));
     } else {
       in.numbers(key, range, numbers, list->size(), presence);
     }
@@ -109,7 +110,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
     for (std::size_t row = 0; row < tight.size(); ++row) {
       const std::size_t side = kSides.find(tight[row]);
       if (side == std::string_view::npos) {
-        in.problem("tight", value_text(tight) + " is not made of -, 0, + and ?");
+        in.problem("tight", must_be("made of -, 0, + and ?", value_text(tight)));
         break;
       }
       force.active_set[row] = static_cast<std::int8_t>(static_cast<int>(side) - 1);
@@ -172,8 +173,8 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   if (in.numbers("rest", not_negative(1.0, "s"), rest.data(), n, kOptional)) carried.rest = rest;
   if (const Json* forces = in.member("forces", kOptional)) {
     if (!forces->is_array() || forces->size() > kMaxForces) {
-      in.problem("forces",
-                 value_text(*forces) + " is not a list of up to " + std::to_string(kMaxForces));
+      in.problem("forces", must_be("a list of at most " + std::to_string(kMaxForces) + " items",
+                                   value_text(*forces)));
     } else {
       for (std::size_t i = 0; i < forces->size() && problems.size() <= kMaxProblems; ++i) {
         carried.forces.push_back(

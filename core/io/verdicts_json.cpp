@@ -18,7 +18,7 @@ std::optional<Enum> read_name(ObjectReader& in, std::string_view key, Presence p
   if (!value) {
     std::vector<std::string_view> names;
     for (const auto& entry : NameTable<Enum>::entries) names.push_back(entry.name);
-    in.problem(key, value_text(text) + " is not " + one_of(names));
+    in.problem(key, must_be(one_of(names), value_text(text)));
   }
   return value;
 }
@@ -59,10 +59,9 @@ Expectations read_verdicts(ObjectReader& scene, Problems& problems) {
   const Json* list = scene.member("verdicts", kOptional);
   if (!list) return rules;
   if (!list->is_array()) {
-    scene.problem("verdicts", value_text(*list) + " is not a list");
+    scene.problem("verdicts", must_be("a list", value_text(*list)));
   } else if (list->size() > kMaxVerdictRules) {
-    scene.problem("verdicts", std::to_string(list->size()) + " are more than " +
-                                  std::to_string(kMaxVerdictRules));
+    scene.problem("verdicts", too_many(list->size(), kMaxVerdictRules, "items"));
   } else {
     for (std::size_t i = 0; i < list->size(); ++i) {
       rules.push_back(read_rule((*list)[i], pointer_to(scene.pointer("verdicts"), i), problems));

@@ -85,7 +85,7 @@ TEST(Recommended, NamesPlaceValueAndRangeOfWhatIsWrong) {
     return problems_of(with(kSettings, with(passage, replacement, kRecommended)));
   };
   EXPECT_EQ(problems(R"("of": "path")", R"("of": "speed")"),
-            List{"/recommended/of: \"speed\" is not path, energy, gap or overlap"});
+            List{"/recommended/of: must be path, energy, gap or overlap, not \"speed\""});
   EXPECT_EQ(problems(R"("within": 0.001)", R"("within": 0)"),
             List{"/recommended/within: must be above 0 (m, J), not 0"});
   EXPECT_EQ(problems(R"("reached": 0.0005)", R"("reached": 0.002)"),
@@ -98,11 +98,11 @@ TEST(Recommended, NamesPlaceValueAndRangeOfWhatIsWrong) {
             List{"/recommended/because: unknown key (known here: of, within, reached, operations, "
                  "seconds, why or settings)"});
   EXPECT_EQ(problems(R"("n": 7)", R"("n": 0)"),
-            List{"/recommended/settings/n: 0 is not a whole number from 1 to 10000"});
+            List{"/recommended/settings/n: must be a whole number from 1 to 10000, not 0"});
   EXPECT_EQ(problems(R"(, "settings": {"mode": "const", "n": 7})", ""),
             List{"/recommended/settings: missing"});
   EXPECT_EQ(problems_of(with(kSettings, R"("recommended": 3)")),
-            List{"/recommended: 3 is not an object"});
+            List{"/recommended: must be an object, not 3"});
 }
 
 TEST(Recommended, IsNotInTheHashOfWhatTheSceneHolds) {

@@ -31,10 +31,10 @@ TEST(SceneReader, TellsAllProblemsAtOnce) {
   EXPECT_EQ(problems_of(text),
             (List{"/bodies/2/shape/radius: 1e999 is beyond the range of numbers (1.8e308)",
                   "/settings/alpha: the key occurs twice in this object",
-                  "/bodies/0/shape/type: \"disc\" is not sphere, box or plane",
+                  "/bodies/0/shape/type: must be sphere, box or plane, not \"disc\"",
                   "/bodies/1/mass: must be above 0 (kg), not -2",
                   "/criteria/trakc: unknown key (did you mean \"track\"?)",
-                  "/joints/1/a: no body is named \"bal\" (did you mean \"ball\"?)"}));
+                  "/joints/1/a: no body is called \"bal\" (did you mean \"ball\"?)"}));
 }
 
 TEST(SceneReader, NamesLineAndColumnOfASyntaxError) {
@@ -57,8 +57,8 @@ TEST(SceneReader, RefusesTextsThatAreNoScenes) {
   };
   EXPECT_EQ(only(""), "the file is empty");
   EXPECT_EQ(only(" \n\t"), "the file is empty");
-  EXPECT_EQ(only("[1, 2]"), "[1,2] is not an object");
-  EXPECT_EQ(only("3"), "3 is not an object");
+  EXPECT_EQ(only("[1, 2]"), "must be an object, not [1,2]");
+  EXPECT_EQ(only("3"), "must be an object, not 3");
   EXPECT_EQ(only(std::string("\x7f"
                              "ELF\0\0",
                              6)),
@@ -72,7 +72,7 @@ TEST(SceneReader, RefusesTextsThatAreNoScenes) {
   EXPECT_EQ(only(std::string(100, '[')),
             "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0: nested deeper than 16 levels");
   EXPECT_EQ(only(std::string(kMaxTextSize + 1, ' ')),
-            "33554433 bytes are more than 33554432 (32 MiB)");
+            "must have at most 33554432 bytes (32 MiB), not 33554433");
 }
 
 TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
@@ -81,7 +81,7 @@ TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
   const List problems = problems_of(
       R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
       bodies + "]}");
-  EXPECT_EQ(problems, List{"/bodies: 20001 are more than 20000"});
+  EXPECT_EQ(problems, List{"/bodies: must have at most 20000 items, not 20001"});
 }
 
 TEST(SceneReader, CutsALongListOfProblems) {
@@ -162,7 +162,8 @@ TEST(SceneReader, TakesAPrismaticJointAndWritesItBack) {
 
 TEST(SceneReader, RefusesAPrismaticJointThatIsOffItsAxisOrHasNone) {
   EXPECT_EQ(problems_of(with_slider("[0, 0.6, 0.8]", "[-0.5, 3, 0]")),
-            List{"/joints/0/across_a: is not across the axis: the cosine of their angle is 0.6, "
+            List{"/joints/0/across_a: must be perpendicular to the axis: the cosine of their angle "
+                 "is 0.6, "
                  "which is more than 1e-6"});
   EXPECT_EQ(problems_of(with_slider("[0, 0, 1]", "[-0.5, 3, 0.5]")),
             List{"/joints/0: the anchors start 0.5 apart, which is more than 0.1 (m)"});
@@ -261,7 +262,7 @@ TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
                   "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
                   "apart at 2 m/s"}));
   EXPECT_EQ(problems_of(with_start("mend", kGood)),
-            List{"/start: \"mend\" is not project, keep or refuse"});
+            List{"/start: must be project, keep or refuse, not \"mend\""});
   EXPECT_EQ(problems_of(with(R"("position": [1, 3, 0])", R"("position": [1.25, 3, 0])")),
             List{"/joints/1: the anchors start 0.25 apart, which is more than 0.1 (m)"})
       << "for every start policy";

@@ -175,7 +175,7 @@ TEST(Validate, NamesThePlaceAsCodeSpellsIt) {
   Scene scene = sound_scene();
   link_of(scene).b = 77;
   EXPECT_EQ(texts(validate(scene)),
-            "joints[1].b: 77 is not a body: must be from 0 to 3, or -1 for the world\n");
+            "joints[1].b: must be the index of a body, from 0 to 3, or -1 for the world, not 77\n");
   scene = sound_scene();
   scene.bodies[1].mass = 0.0;
   EXPECT_EQ(texts(validate(scene)), "bodies[1].mass: must be above 0 (kg), not 0\n");

@@ -202,7 +202,7 @@ test("createSubstep reports a missing element, and can be removed", async () => 
       return error.message;
     }
   });
-  assert.match(message, /not an element/);
+  assert.match(message, /must be an element/);
   assert.equal(await other.evaluate(() => {
     window.laboratories.none.remove();
     return document.querySelector("#none").children.length;

@@ -57,7 +57,7 @@ TEST(BudgetFlags, SetTheBudget) {
   EXPECT_NE(idle.err.find("the budget is 1e+06"), std::string::npos) << idle.err;
 }
 
-TEST(BudgetFlags, RefuseWhatIsOutOfRange) {
+TEST(BudgetFlags, RefuseValuesOutOfRange) {
   for (const char* flag : {"--memory-budget 0", "--memory-budget nan", "--memory-budget 1e9",
                            "--work-budget 0", "--work-budget inf"}) {
     const Outcome run = substep(std::string("run pendulum --frames 1 ") + flag);

@@ -19,7 +19,7 @@ void PrintTo(const BadCall& call, std::ostream* out) { *out << call.kind; }
 
 class BadCommandLine : public testing::TestWithParam<BadCall> {};
 
-TEST_P(BadCommandLine, EndsWithTwoAndSaysWhatIsAllowed) {
+TEST_P(BadCommandLine, EndsWithTwoAndNamesTheAllowedValues) {
   const Outcome run = substep(GetParam().arguments);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_NE(run.err.find(GetParam().message), std::string::npos) << run.err;

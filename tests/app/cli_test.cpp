@@ -185,7 +185,7 @@ TEST(CommandLine, JsonHasSettingsFramesAndVerdict) {
   EXPECT_EQ(json["hash"].get<std::string>().size(), 16U);
 }
 
-TEST(CommandLine, CostTellsStagesRowsEffectsAndTheCriterion) {
+TEST(CommandLine, CostReportsStagesRowsEffectsAndTheCriterion) {
   const Outcome people = substep("cost bridge --seconds 0.5");
   ASSERT_EQ(people.exit_code, 0) << people.err;
   for (const char* line : {"\njoint rows ", "\nsolve ", "\ncriterion ", "\nfriction ",
@@ -204,7 +204,7 @@ TEST(CommandLine, CostTellsStagesRowsEffectsAndTheCriterion) {
   EXPECT_FALSE(json["effects"].contains("restitution"));
 }
 
-TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACost) {
+TEST(CommandLine, RecommendFindsTheCheapestWithinAnErrorAndTheMostExactWithinACost) {
   const Outcome error = substep("recommend pendulum --error 1e-2 --seconds 2");
   EXPECT_EQ(error.exit_code, 0) << error.err;
   EXPECT_NE(error.out.find("The cheapest within 0.01 m: "), std::string::npos) << error.out;

@@ -144,7 +144,7 @@ TEST(Output, ClosedPipeIsReported) {
       << run.err;
 }
 
-TEST(Output, AFullDiskLeavesTheOldFileAndNoHalfOne) {
+TEST(Output, AFullDiskLeavesTheOldFileAndNoPartialOne) {
   for (const std::string command :
        {"run pendulum --frames 600 --csv FILE", "run pendulum --frames 600 --json FILE",
         "run pendulum --frames 600 --states FILE", "run pendulum --frames 600 --joints FILE",
@@ -165,7 +165,7 @@ TEST(Output, AFullDiskLeavesTheOldFileAndNoHalfOne) {
   }
 }
 
-TEST(Output, IsWholeBehindLinksAndKeepsItsRights) {
+TEST(Output, FollowsLinksAndKeepsPermissions) {
   const fs::path at = with_scene();
   std::ofstream(at / "target") << "old";
   fs::permissions(at / "target", fs::perms::owner_read | fs::perms::owner_write);

@@ -186,7 +186,7 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-TEST(RandomInput, EndsInAWordAndLosesNothing) {
+TEST(RandomInput, EndsWithAMessageAndLosesNothing) {
   const std::uint64_t first = number_from("SUBSTEP_HOSTILE_SEED", 1);
   const std::uint64_t count = number_from("SUBSTEP_HOSTILE_INPUTS", 100);
   std::map<int, int> endings;  // count of each exit code

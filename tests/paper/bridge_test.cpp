@@ -186,7 +186,7 @@ Settings leapfrog(Settings settings) {
 // it moves 200 of them. So no method stays within half a per cent of the exchanged energy of such a
 // run, start by start: neither a finer one nor the exact motion. Rounding is a different matter: a
 // nanometre changes next to nothing, so the runs are reproducible and not noise.
-TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
+TEST(BridgeEnergy, SingleStartsDependOnMicrometres) {
   const Settings fine = leapfrog(with(SolverKind::kBpp, Mode::kConst, 256));
   const Settings finer = leapfrog(with(SolverKind::kBpp, Mode::kConst, 1024));
   const auto starts = scenes::bridge_starts();
@@ -207,7 +207,7 @@ TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
 
 // The energy that the ball loses on landing, relative to leapfrog with 128 sub-steps, as the mean
 // over the starts and as a share of the exchanged energy.
-TEST(BridgeEnergy, FewSubstepsArePaidForWhereTheBallLands) {
+TEST(BridgeEnergy, FewSubstepsLoseMoreEnergyWhereTheBallLands) {
   const auto up_to = [](Mode mode, int n_cap) {
     Settings settings = with(SolverKind::kBpp, mode);
     settings.n_cap = n_cap;

@@ -77,7 +77,7 @@ TEST(FreeFall, LeapfrogIsExactAndEulerFallsHalfAStepAhead) {
   }
 }
 
-TEST(FreeFall, NothingAsksForSubsteps) {
+TEST(FreeFall, NeedsNoSubsteps) {
   const Outcome r = run(scenes::free_fall(), Settings{}, 1.0);
   EXPECT_EQ(r.n_max(), 1);
 }
@@ -97,7 +97,7 @@ std::vector<double> apexes(std::size_t body, const Settings& settings, double se
 }
 
 // A lossless bounce reverses u at the same x: the upward steps retrace the downward ones.
-TEST(Restitution, ABallThatLosesNothingComesBackToItsHeightForEver) {
+TEST(Restitution, ALosslessBallReturnsToItsHeightForEver) {
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     for (const int n : {1, 4}) {
       const auto heights = apexes(1, constant(n, integrator), 30.0);
@@ -201,7 +201,7 @@ TEST(NewtonsCradle, ImplicitEulerDampsItsSwingAtFirstOrder) {
 }
 
 // Impacts propagate within the sub-step, whatever its length.
-TEST(NewtonsCradle, InOneStepAFrameTheBlowPassesThroughTheRowToo) {
+TEST(NewtonsCradle, TheImpactPassesThroughTheRowInOneStepPerFrame) {
   const Cradle cradle = swing({.mode = Mode::kNone}, 2.0);
   ASSERT_FALSE(cradle.last.empty());
   EXPECT_NEAR(cradle.last.front(), 0.2, 0.02);
@@ -209,7 +209,7 @@ TEST(NewtonsCradle, InOneStepAFrameTheBlowPassesThroughTheRowToo) {
 }
 
 // Two balls head on: momentum is conserved, and they separate with e times their approach speed.
-TEST(Restitution, PartsAtETimesTheSpeedOfApproach) {
+TEST(Restitution, SeparationIsETimesTheSpeedOfApproach) {
   for (const SolverKind solver :
        {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd, SolverKind::kNewton}) {
     for (const double e : {0.0, 0.3, 1.0}) {

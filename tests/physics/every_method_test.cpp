@@ -158,7 +158,7 @@ TEST(EveryMethod, KeepsTheMomentumOfAFreeChain) {
   }
 }
 
-TEST(EveryMethod, GoesOnFromASnapshot) {
+TEST(EveryMethod, ContinuesFromASnapshot) {
   for (const Scene& scene : {scenes::swinging_box(), scenes::ragdoll_drop()}) {
     const auto shared = std::make_shared<const Scene>(scene);
     for (const auto& [name, curve] : methods_of(scene)) {

@@ -97,7 +97,7 @@ TEST(Friction, IsTheSameForEveryOrderOfBodiesAndEveryYaw) {
 // Pushed across the slope, it curves downhill like a point with friction opposite to its sliding
 // velocity:
 //   v' = g_t - mu g_n v/|v|.
-TEST(Friction, OfTheConeIsAgainstTheSliding) {
+TEST(Friction, OfTheConeOpposesTheSliding) {
   const Vec3 start{0.0, 0.0, 2.0};
   Vec3 x = Vec3::Zero();
   Vec3 v = start;

@@ -39,7 +39,7 @@ TEST(CardHouse, FallsWithoutEnoughFriction) {
   EXPECT_FALSE(r.holds);
 }
 
-TEST(Wall, StandsUntilTheBallComesAndNotAfter) {
+TEST(Wall, StandsUntilTheBallHitsIt) {
   const Scene scene = scenes::wall();
   const auto ball = scene.bodies.size() - 1;
   const auto top = ball - 3;  // a brick in the middle of the last course

@@ -49,13 +49,13 @@ TEST(Sleep, AStackAtRestCostsNothing) {
   }
 }
 
-TEST(Sleep, IsOffUnlessAskedFor) {
+TEST(Sleep, IsOffByDefault) {
   Simulator simulator = simulator_of(scenes::heavy_stack(), {});
   for (int frame = 0; frame < 60; ++frame) EXPECT_EQ(simulator.step().asleep, 0);
   EXPECT_TRUE(simulator.state().rest.empty());
 }
 
-TEST(Sleep, WhatMovesDoesNot) {
+TEST(Sleep, MovingBodiesDoNot) {
   Simulator asked = simulator_of(scenes::swinging_box(), sleeping());
   Simulator plain = simulator_of(scenes::swinging_box(), {});
   for (int frame = 0; frame < 240; ++frame) {
@@ -106,7 +106,7 @@ TEST(Sleep, ATowerWakesBeforeTheBallTouchesIt) {
   EXPECT_GT(fastest, 1.0) << "and is struck";
 }
 
-TEST(Sleep, AHandOrOtherSettingsWake) {
+TEST(Sleep, EndsWithAGrabOrNewSettings) {
   Simulator simulator = simulator_of(scenes::heavy_stack(), sleeping());
   for (int frame = 0; frame < 40; ++frame) simulator.step();
   ASSERT_GT(simulator.step().asleep, 0);
@@ -178,7 +178,7 @@ TEST(Sleep, WakesWithTheForcesThatHeldIt) {
 }
 
 // A sleeping island also keeps its K, in every mode that reads it.
-TEST(Sleep, KeepsTheStiffnessThatItHad) {
+TEST(Sleep, KeepsTheStiffness) {
   const Scene scene = beside({transformed(scenes::swinging_box(), Quat::Identity(), {0, 0, -30.0}),
                               transformed(scenes::heavy_stack(), Quat::Identity(), {0, 0, 30.0})});
   Simulator simulator = simulator_of(scene, sleeping({.mode = Mode::kStiffness}));

@@ -45,7 +45,7 @@ TEST(Pareto, CheapestWithinIsOnTheFront) {
   }
 }
 
-TEST(Pareto, MostExactWithinIsTheSameWithTheAxesChanged) {
+TEST(Pareto, MostExactWithinIsCheapestWithinWithTheAxesSwapped) {
   std::mt19937 random(8);
   std::uniform_int_distribution<int> coarse(0, 12);
   for (int round = 0; round < 100; ++round) {

@@ -91,7 +91,7 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
   EXPECT_EQ(exact, 11);
 }
 
-TEST(Sweep, DefaultHasEachRunOnceWhateverASceneAsksForItself) {
+TEST(Sweep, DefaultHasEachRunOnceForAnySettingsOfAScene) {
   Scene scene = scenes::swinging_box();
   scene.settings.iterations = 1;
   std::set<std::string> ids;

@@ -16,7 +16,7 @@ std::shared_ptr<const Scene> shared(const Scene& scene) {
   return std::make_shared<const Scene>(scene);
 }
 
-TEST(Metrics, AFreeTopKeepsItsMomentumAndAPendulumIsNotAsked) {
+TEST(Metrics, MomentumIsMeasuredForAFreeTopAndNotForAPendulum) {
   const auto metrics = [](const Scene& scene) {
     const auto held = shared(scene);
     Experiment experiment = experiment_of(scene, scene.settings);
@@ -106,7 +106,7 @@ TEST(Work, GaussSeidelVisitsEveryRowOnceAnIteration) {
   EXPECT_EQ(work_of(scenes::swinging_box(), settings, 0.1).rows.joint % 130, 0);
 }
 
-TEST(Work, AHandHasRowsOfItsOwn) {
+TEST(Work, AGrabAddsItsOwnRows) {
   const Scene scene = scenes::rope_of_n({.n = 4});
   Simulator simulator(shared(scene));
   const auto rows = [&] { return simulator.step().work.rows; };
@@ -122,7 +122,7 @@ TEST(Work, AHandHasRowsOfItsOwn) {
   EXPECT_EQ(held.joint, free.joint);
 }
 
-TEST(Work, TheCriterionIsCountedAsOftenAsItsPolicyAsks) {
+TEST(Work, TheCriterionIsCountedOncePerEvaluation) {
   const Scene scene = scenes::swinging_box();
   Settings settings;
   settings.mode = Mode::kConst;

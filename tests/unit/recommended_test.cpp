@@ -46,7 +46,7 @@ std::shared_ptr<const Scene> scene_of(const std::string& text) {
   return read_scene(text).scene;
 }
 
-TEST(Recommended, IsWhatASceneWithoutSettingsStartsWith) {
+TEST(Recommended, IsTheStartOfASceneWithoutSettings) {
   const auto scene = scene_of(with(kSettings, kRecommended));
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->recommended, some_recommended());
@@ -54,7 +54,7 @@ TEST(Recommended, IsWhatASceneWithoutSettingsStartsWith) {
   EXPECT_EQ(own_settings(*scene), Settings{});
 }
 
-TEST(Recommended, LeavesASceneWithSettingsItsOwn) {
+TEST(Recommended, DoesNotReplaceTheSettingsOfAScene) {
   const std::string own = R"("settings": {"solver": "pgs"}, )";
   const auto scene = scene_of(with(kSettings, own + kRecommended));
   ASSERT_NE(scene, nullptr);
@@ -80,7 +80,7 @@ TEST(Recommended, IsWrittenBackToTheSameBytes) {
   }
 }
 
-TEST(Recommended, NamesPlaceValueAndRangeOfWhatIsWrong) {
+TEST(Recommended, NamesPlaceValueAndRangeOfAProblem) {
   const auto problems = [](const std::string& passage, const std::string& replacement) {
     return problems_of(with(kSettings, with(passage, replacement, kRecommended)));
   };
@@ -105,14 +105,14 @@ TEST(Recommended, NamesPlaceValueAndRangeOfWhatIsWrong) {
             List{"/recommended: must be an object, not 3"});
 }
 
-TEST(Recommended, IsNotInTheHashOfWhatTheSceneHolds) {
+TEST(Recommended, IsNotInTheHashOfTheScene) {
   Scene scene = scenes::pendulum();
   const std::uint64_t before = scene_hash(scene);
   scene = with_recommended(std::move(scene), some_recommended());
   EXPECT_EQ(scene_hash(scene), before);
 }
 
-TEST(Recommended, TakesTheStartOfASceneThatHasNoSettingsOfItsOwn) {
+TEST(Recommended, SetsTheStartOfASceneWithoutSettings) {
   Scene scene = with_recommended(scenes::pendulum(), some_recommended());
   EXPECT_EQ(scene.settings, some_recommended().settings);
   // An earlier recommendation does not count as the scene's own settings.
@@ -125,7 +125,7 @@ TEST(Recommended, TakesTheStartOfASceneThatHasNoSettingsOfItsOwn) {
 }
 
 // Otherwise a recommendation would change the sweep, and thereby the next recommendation.
-TEST(Recommended, ChangesNothingOfWhatIsTriedOut) {
+TEST(Recommended, DoesNotChangeTheSweep) {
   Scene plain = scenes::bridge();
   plain.verdicts = {Expectation{}};
   Recommended recommended = some_recommended();
@@ -206,7 +206,7 @@ TEST(Recommended, IsThePresetOfItsScene) {
   EXPECT_EQ(generic[1].about, find_preset("recommended")->about);
 }
 
-TEST(Recommended, IsThereForEveryShippedSceneInWhichSomethingIsSolved) {
+TEST(Recommended, ExistsForEveryShippedSceneWithConstraints) {
   Problems problems;
   const auto kept = scenes::recommendations(problems);
   for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
@@ -231,7 +231,7 @@ TEST(Recommended, IsThereForEveryShippedSceneInWhichSomethingIsSolved) {
 
 // The scenes of the paper show its settings; the small and the playground scenes start with their
 // recommendation, except for the two that demonstrate a setting of their own.
-TEST(Recommended, IsWhatTheSmallAndThePlayfulScenesStartWith) {
+TEST(Recommended, IsTheStartOfTheSmallAndThePlaygroundScenes) {
   std::set<std::string> own;
   for (const Scene& scene : scenes::shipped()) {
     if (!scene.recommended) continue;

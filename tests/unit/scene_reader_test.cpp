@@ -19,9 +19,9 @@ using test::List;
 using test::problems_of;
 using test::with;
 
-TEST(SceneReader, TakesTheGoodScene) { EXPECT_EQ(problems_of(kGood), List{}); }
+TEST(SceneReader, AcceptsAValidScene) { EXPECT_EQ(problems_of(kGood), List{}); }
 
-TEST(SceneReader, TellsAllProblemsAtOnce) {
+TEST(SceneReader, ReportsAllProblemsAtOnce) {
   std::string text = with(R"("mass": 2)", R"("mass": -2)");
   text = with(R"("radius": 0.5)", R"("radius": 1e999)", text);
   text = with(R"("alpha": 0.1)", R"("alpha": 7, "alpha": 8)", text);
@@ -84,7 +84,7 @@ TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
   EXPECT_EQ(problems, List{"/bodies: must have at most 20000 items, not 20001"});
 }
 
-TEST(SceneReader, CutsALongListOfProblems) {
+TEST(SceneReader, TruncatesALongListOfProblems) {
   std::string bodies;
   for (std::size_t i = 0; i < kMaxBodies; ++i) bodies += i == 0 ? "0" : ",0";
   const List problems = problems_of(
@@ -94,7 +94,7 @@ TEST(SceneReader, CutsALongListOfProblems) {
   EXPECT_EQ(problems.back(), "and more: the rest of the file was not checked");
 }
 
-TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
+TEST(SceneReader, TruncatesTheProblemsOfOneObject) {
   std::string keys;
   for (int i = 0; i < 5000; ++i) keys += "\"key_" + std::to_string(i) + "\": 0, \"twice\": 1, ";
   const List problems = problems_of(with(R"("mass": 2)", keys + R"("mass": 2)"));
@@ -112,7 +112,7 @@ TEST(SceneReader, RefusesAnObjectOfVeryManyKeys) {
   EXPECT_EQ(problems.front(), "/k77: the key occurs twice in this object");
 }
 
-TEST(SceneReader, ReadsInPartsWhatItReadsAtOnce) {
+TEST(SceneReader, ReadingInPartsGivesTheSameScene) {
   const auto text_of = [](int balls, double last_mass) {
     std::string bodies;
     for (int i = 0; i < balls; ++i) {
@@ -150,7 +150,7 @@ std::string with_slider(const std::string& across, const std::string& anchor_b) 
                           across + R"(, "across_b": [0, 0, 1], "angular_compliance": 1e-6)");
 }
 
-TEST(SceneReader, TakesAPrismaticJointAndWritesItBack) {
+TEST(SceneReader, ReadsAPrismaticJointAndWritesItBack) {
   const SceneResult result = read_scene(with_slider("[0, 0, 1]", "[-0.5, 1, 0]"));
   ASSERT_TRUE(result.scene) << to_string(result.problems.front());
   const auto& slider = std::get<PrismaticJoint>(result.scene->joints[0]);
@@ -178,7 +178,7 @@ TEST(SceneReader, NeedsABodyThatMoves) {
             List{"/bodies: no body moves"});
 }
 
-TEST(SceneReader, TellsThatAFileCannotBeRead) {
+TEST(SceneReader, ReportsThatAFileCannotBeRead) {
   for (const char* path : {"/no/such/scene.json", "/"}) {
     const SceneResult result = read_scene_file(path);
     EXPECT_EQ(result.scene, nullptr);
@@ -201,7 +201,7 @@ TEST(SceneReader, NeverCrashesOnADamagedFile) {
   }
 }
 
-TEST(SceneReader, TakesRedundantStiffJointsUnderRegularisation) {
+TEST(SceneReader, AcceptsRedundantStiffJointsWithRegularisation) {
   const std::string text = with(R"("frame": 0.01)", R"("regularisation": 1e-6)",
                                 with(R"("compliance": 1e-9)", R"("compliance": 0)"));
   EXPECT_EQ(problems_of(text), List{});
@@ -238,7 +238,7 @@ TEST(SceneReader, InfersExternalForcesFromBodies) {
   }
 }
 
-TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
+TEST(SceneReader, RefusesAnInconsistentStartUnderPolicyRefuse) {
   // The ball is 5 cm too far and moves at 2 m/s; the arm rotates at 3 rad/s across its hinge's
   // axis.
   const std::string apart =
@@ -274,7 +274,7 @@ TEST(SceneReader, LeavesOrientationsAsTheyAreWritten) {
   EXPECT_EQ(scene->bodies[1].orientation.w(), 0.9999995);
 }
 
-TEST(SceneReader, TakesTheInertiaOfTheShapeWhereNoneIsGiven) {
+TEST(SceneReader, DerivesAMissingInertiaFromTheShape) {
   const auto scene = read_scene(kGood).scene;
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->bodies[1].inertia, Vec3(0.1, 0.2, 0.2));

@@ -15,7 +15,7 @@
 namespace substep {
 namespace {
 
-TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
+TEST(Accuracy, TheSweepAdvancesWhileTheWindowResponds) {
   Headless h;
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
@@ -44,7 +44,7 @@ TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
   EXPECT_GE(series.size(), 12U);
 }
 
-TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
+TEST(Accuracy, TheCheapestWithinAnErrorRunsOnAClick) {
   Headless h;
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
@@ -75,7 +75,7 @@ TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
   EXPECT_FALSE(accuracy.best(points).has_value());
 }
 
-TEST(Accuracy, TheMostExactWithinACostIsLookedForAtAPress) {
+TEST(Accuracy, TheMostExactWithinACostIsFoundOnAClick) {
   Headless h;
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
@@ -127,7 +127,7 @@ TEST(Accuracy, TakesAShareOfSlowFramesAndLetsOthersRecover) {
   }
 }
 
-TEST(Accuracy, FindsThePapersAlphaForWhatIsWanted) {
+TEST(Accuracy, FindsThePapersAlphaForTheLimit) {
   Headless h;
   h.app->open("pendulum");
   EXPECT_NE(h.app->set("accuracy", "alpha"), "") << "there is no reference";
@@ -164,7 +164,7 @@ TEST(Accuracy, FindsThePapersAlphaForWhatIsWanted) {
   EXPECT_EQ(accuracy.alpha_search(), nullptr);
 }
 
-TEST(Accuracy, WhatIsFoundIsKeptForTheScene) {
+TEST(Accuracy, TheCheapestSettingIsStoredForTheScene) {
   Headless h;
   h.app->open("pendulum");
   std::string remembered;
@@ -219,7 +219,7 @@ TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {
   EXPECT_NE(h.app->set("accuracy", "perhaps"), "");
 }
 
-TEST(Accuracy, AChosenPointGivesItsFiguresAgain) {
+TEST(Accuracy, AClickedPointReproducesItsFigures) {
   Headless h;
   h.app->open("pendulum");
   h.app->set("accuracy", "run");
@@ -256,7 +256,7 @@ TEST(Accuracy, PointsAreFoundUnderThePointer) {
   EXPECT_GT(chosen.size(), 10U);
 }
 
-TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
+TEST(Accuracy, NoPointOfTheFrontIsDominated) {
   Headless h;
   h.app->open("pendulum");
   h.app->set("accuracy", "run");
@@ -279,7 +279,7 @@ TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
 }
 
 // The top does not move and nothing is solved: energy over sub-steps is the only available chart.
-TEST(Accuracy, WhereNothingIsSolvedThePictureIsOfWhatThereIs) {
+TEST(Accuracy, WithoutConstraintsTheChartIsEnergyOverSubsteps) {
   Headless h;
   Scene scene = *shipped("spinning_top");
   scene.criteria.duration = 0.2;

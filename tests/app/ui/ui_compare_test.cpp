@@ -26,7 +26,7 @@ TEST(Compare, EachRunsAsItWouldAlone) {
   }
 }
 
-TEST(Compare, TheSameMethodNeverParts) {
+TEST(Compare, TheSameMethodNeverDiverges) {
   Headless h;
   h.app->compare.start(h.app->session, {Overrides{}});
   for (int i = 0; i < 120; ++i) h.app->session.step();
@@ -35,7 +35,7 @@ TEST(Compare, TheSameMethodNeverParts) {
   EXPECT_EQ(h.app->compare.runs()[0].cost.substeps, h.app->compare.cost(h.app->session).substeps);
 }
 
-TEST(Compare, ARunWithoutSubstepsPartsAndFails) {
+TEST(Compare, ARunWithoutSubstepsDivergesAndFails) {
   Headless h;
   h.app->open_link("scene=swinging_box&mode=adaptive&compare=mode:none");
   for (int i = 0; i < 60; ++i) h.app->session.step();
@@ -50,7 +50,7 @@ TEST(Compare, ARunWithoutSubstepsPartsAndFails) {
   EXPECT_FALSE(h.renderer->picture.ghost_boxes.empty());
 }
 
-TEST(Compare, SettingsOfTheRunReachTheOthersWhereTheyDoNotDiffer) {
+TEST(Compare, SettingsOfTheRunApplyToTheOthersUnlessOverridden) {
   Headless h;
   h.app->open_link("scene=swinging_box&compare=mode:damping");
   ASSERT_EQ(h.app->set("alpha", "0.3"), "");
@@ -61,7 +61,7 @@ TEST(Compare, SettingsOfTheRunReachTheOthersWhereTheyDoNotDiffer) {
   EXPECT_EQ(other.mode, Mode::kDamping);
 }
 
-TEST(Compare, ResetStartsAllOfThemAnew) {
+TEST(Compare, ResetRestartsAllOfThem) {
   Headless h;
   h.app->open_link("scene=bridge&compare=mode:damping");
   for (int i = 0; i < 40; ++i) h.app->session.step();
@@ -73,7 +73,7 @@ TEST(Compare, ResetStartsAllOfThemAnew) {
   EXPECT_EQ(hash_of(h.app->compare.runs()[0]), first);
 }
 
-TEST(Compare, LinkBringsItBack) {
+TEST(Compare, ALinkRestoresIt) {
   Headless h;
   h.app->open_link("scene=bridge&mode=adaptive&compare=mode:none;solver:pgs,alpha:0.2");
   EXPECT_TRUE(h.app->trouble.title.empty());
@@ -85,7 +85,7 @@ TEST(Compare, LinkBringsItBack) {
   EXPECT_EQ(h.app->link(), link);
 }
 
-TEST(Compare, WhatCannotBeReadIsTold) {
+TEST(Compare, InvalidOverridesAreReported) {
   Headless h;
   EXPECT_NE(h.app->set("compare", "mode:warp"), "");
   EXPECT_NE(h.app->set("compare", "speed:2"), "");
@@ -95,7 +95,7 @@ TEST(Compare, WhatCannotBeReadIsTold) {
   EXPECT_FALSE(h.app->compare.open());
 }
 
-TEST(Compare, WhatCannotBeReadIsNoRunAndTheSameIsOne) {
+TEST(Compare, InvalidOverridesAddNoRun) {
   Headless h;
   h.app->open_link("#scene=bridge&compare=mode:const;nothing:3;same");
   EXPECT_FALSE(h.app->trouble.title.empty());
@@ -128,7 +128,7 @@ TEST(Compare, TitlesNameOnlyWhatARunReads) {
 
 // The compared run has the session's own method: after every action on both they must agree bit for
 // bit, also after going back and forth in time.
-TEST(Compare, AHandAndABallReachAllOfThem) {
+TEST(Compare, AGrabAndABallAffectAllOfThem) {
   Headless h;
   Session& session = h.app->session;
   h.app->open_link("scene=bridge&mode=const&n=2&compare=mode:const;mode:damping");
@@ -237,7 +237,7 @@ TEST(CompareSplit, EachRunHasAPaneOfItsOwn) {
   }
 }
 
-TEST(CompareSplit, APaneIsAsWideAsSuitsTheScene) {
+TEST(CompareSplit, PanesOfAWideSceneAreStacked) {
   Headless phone(390.0F, 844.0F);
   phone.app->open_link("scene=bridge&compare=mode:damping&views=split");
   phone.frames(2);

@@ -14,7 +14,7 @@ std::shared_ptr<const Scene> short_bridge() {
   return std::make_shared<const Scene>(std::move(scene));
 }
 
-TEST(EffectCosts, SlicesGiveWhatOneGoGives) {
+TEST(EffectCosts, SlicesGiveTheResultOfOneCall) {
   Headless h;
   h.app->run(short_bridge());
   h.app->session.pause();
@@ -41,7 +41,7 @@ TEST(EffectCosts, SlicesGiveWhatOneGoGives) {
 }
 
 // As for the alpha search: a running measurement is visible and can be cancelled from any panel.
-TEST(EffectCosts, TheSweepThatRunsIsSeenBesideThem) {
+TEST(EffectCosts, ARunningSweepIsShownBesideThem) {
   Headless h;
   h.app->open("swinging_box");  // its sweep takes a minute, so it is still running
   h.app->session.pause();
@@ -58,7 +58,7 @@ TEST(EffectCosts, TheSweepThatRunsIsSeenBesideThem) {
   EXPECT_EQ(find_handle("Run it again"), nullptr) << "a sweep begins beside its picture";
 }
 
-TEST(EffectCosts, NoSliceRunsAheadAndTheyAreOfOneSettingAlone) {
+TEST(EffectCosts, SlicesAreBoundedAndResultsBelongToTheirSettings) {
   Headless h;
   h.app->open("swinging_box");
   h.app->session.pause();

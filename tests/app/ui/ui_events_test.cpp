@@ -71,7 +71,7 @@ TEST(Events, ABallThrownByItsKeyIsInTheLink) {
   expect_same_run(h, "thrown by key");
 }
 
-TEST(Events, APullIsDoneAgain) {
+TEST(Events, APullIsRepeated) {
   Headless h;
   Session& session = h.app->session;
   session.pause();
@@ -89,7 +89,7 @@ TEST(Events, APullIsDoneAgain) {
   expect_same_run(h, "a pull");
 }
 
-TEST(Events, EffectsSettingsAndASeedAreDoneAgain) {
+TEST(Events, EffectsSettingsAndASeedAreRepeated) {
   Headless h;
   h.app->open_link("scene=bridge&load=2&seed=3&alpha=0.3");
   h.app->session.pause();
@@ -120,7 +120,7 @@ TEST(Events, SettingsAloneAreNoEvents) {
   EXPECT_NE(h.app->link().find("alpha=0.25"), std::string::npos);
 }
 
-TEST(Events, AnOwnSceneHasThemBesideIt) {
+TEST(Events, TheLinkOfAUsersSceneHasBoth) {
   Scene scene = *shipped("pendulum");
   scene.name = "mine";
   Headless h;
@@ -140,7 +140,7 @@ TEST(Events, AnOwnSceneHasThemBesideIt) {
   EXPECT_EQ(other.app->session.hash(), h.app->session.hash());
 }
 
-TEST(Events, ThePastForgetsWhatCameLater) {
+TEST(Events, GoingBackDropsLaterOnes) {
   Headless h;
   Session& session = h.app->session;
   session.pause();
@@ -162,7 +162,7 @@ TEST(Events, ThePastForgetsWhatCameLater) {
   expect_same_run(h, "on from the past");
 }
 
-TEST(Events, AScriptIsFollowedFromThePastToo) {
+TEST(Events, AScriptContinuesFromThePast) {
   Headless h;
   h.app->session.pause();
   step(h.app->session, 20);
@@ -188,7 +188,7 @@ TEST(Events, AScriptIsFollowedFromThePastToo) {
   EXPECT_EQ(session.hash(), h.app->session.hash()) << "a reset is the link's run again";
 }
 
-TEST(Events, NewSettingsStayAndTheRestOfTheScriptGoesOn) {
+TEST(Events, NewSettingsStayAndTheScriptContinues) {
   Headless h;
   h.app->session.pause();
   step(h.app->session, 5);
@@ -204,7 +204,7 @@ TEST(Events, NewSettingsStayAndTheRestOfTheScriptGoesOn) {
   EXPECT_EQ(other.app->session.balls(), 1U);
 }
 
-TEST(Events, TooMuchForALinkIsTheEditedScene) {
+TEST(Events, TooManyForALinkAreReplacedByTheEditedScene) {
   Headless h;
   Session& session = h.app->session;
   session.pause();
@@ -219,7 +219,7 @@ TEST(Events, TooMuchForALinkIsTheEditedScene) {
   EXPECT_TRUE(is_own(h.app->link_scene())) << "as before there were events";
 }
 
-TEST(Events, WhatCannotBeReadIsTold) {
+TEST(Events, InvalidTextIsReported) {
   const auto scene = shipped("swinging_box");
   const Settings settings = scene->settings;
   const auto problem = [&](const std::string& text) {
@@ -267,7 +267,7 @@ TEST(Events, ALinkWithBadEventsRunsTheRest) {
 }
 
 // The maximum number of events before one frame is applied at once; the run continues.
-TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
+TEST(Events, TheMaximumAtOnceIsAccepted) {
   const auto scene = shipped("wall");
   std::vector<RunEvent> events;
   for (int i = 0; fits_link(events, *scene); ++i) {
@@ -288,7 +288,7 @@ TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
 }
 
 // Each ball copies the scene, so a scene of many bodies allows only a few.
-TEST(Events, AreFewInALargeScene) {
+TEST(Events, AreLimitedInALargeScene) {
   Scene large = *shipped("pendulum");
   large.bodies.resize(2000, large.bodies.back());
   std::vector<RunEvent> events(40, RunEvent{0, odd_ball(0)});

@@ -50,7 +50,7 @@ bool is_open(const char* window) {
   return w != nullptr && w->WasActive && !w->Hidden;
 }
 
-TEST(Picking, RayMeetsWhatIsSeenThere) {
+TEST(Picking, RayHitsTheVisibleBody) {
   for (const char* scene : {"swinging_box", "bridge", "heavy_stack"}) {
     Headless h;
     h.app->open(scene);
@@ -75,7 +75,7 @@ TEST(Picking, RayMeetsWhatIsSeenThere) {
   }
 }
 
-TEST(Picking, PassesByWhatItMisses) {
+TEST(Picking, RayMissesBodiesBesideIt) {
   Scene scene;
   scene.bodies.resize(2);
   scene.bodies[0].shape = Sphere{1.0};
@@ -303,7 +303,7 @@ TEST(Scrubber, DragLooksBackAndPausesTheRun) {
   }
 }
 
-TEST(Failure, GoesBackToTheLastGoodStateAndGoesOn) {
+TEST(Failure, ReturnsToTheLastGoodStateAndContinues) {
   Headless h;
   ASSERT_EQ(h.app->set("mode", "none"), "");
   for (int i = 0; i < 40; ++i) h.app->session.step();
@@ -319,7 +319,7 @@ TEST(Failure, GoesBackToTheLastGoodStateAndGoesOn) {
   EXPECT_TRUE(h.app->session.verdict().holds()) << h.app->session.verdict().text();
 }
 
-TEST(Failure, OffersWhatWouldHaveHelped) {
+TEST(Failure, OffersRemedies) {
   Headless h;
   ASSERT_EQ(h.app->set("mode", "none"), "");
   for (int i = 0; i < 40; ++i) h.app->session.step();

@@ -111,7 +111,7 @@ TEST(Introduction, TourGoesToItsFirstStep) {
   EXPECT_EQ(visit.h.app->session.settings().mode, Mode::kNone);
 }
 
-TEST(Introduction, ALinkASceneOrASettingGoesPastIt) {
+TEST(Introduction, ALinkASceneOrASettingSkipsIt) {
   {
     Visit visit;
     visit.h.app->open_link("scene=bridge&mode=none");
@@ -134,7 +134,7 @@ TEST(Introduction, ALinkASceneOrASettingGoesPastIt) {
   EXPECT_EQ(visit.h.app->session.settings().mode, Mode::kDamping);
 }
 
-TEST(Introduction, KeysOfTheLaboratoryWait) {
+TEST(Introduction, KeysOfTheLaboratoryAreInactive) {
   Visit visit;
   const auto before = visit.h.app->session.state().frame;
   visit.h.type(" rb13.?h");
@@ -175,7 +175,7 @@ TEST(Introduction, AboutLeadsBackToItAndTheRunStartsAgain) {
   EXPECT_TRUE(h.app->session.playing());
 }
 
-TEST(Introduction, AShellThatRemembersNothingDoesNotShowIt) {
+TEST(Introduction, WithoutStorageItIsNotShown) {
   Headless h;
   h.app->introduction.offer(*h.app);
   EXPECT_FALSE(h.app->introduction.open());

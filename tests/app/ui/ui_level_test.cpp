@@ -144,7 +144,7 @@ TEST(Explore, ABallIsThrown) {
   EXPECT_EQ(h.app->session.scene().bodies.size(), before + 1);
 }
 
-TEST(Explore, ShowsWhatSetsNOnlyWhileItIsLookedAt) {
+TEST(Explore, ShowsWhatSetsNOnlyInItsPanel) {
   Headless h;
   explore(h);
   h.app->session.step();

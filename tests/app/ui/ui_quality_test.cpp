@@ -69,7 +69,7 @@ TEST(Quality, FourVerySlowFramesAreEnough) {
 }
 
 // At its start a page compiles shaders and uploads textures to the graphics processor.
-TEST(Quality, AStutterAtTheStartSaysNothing) {
+TEST(Quality, AStutterAtTheStartIsIgnored) {
   QualityGovernor governor;
   observe(governor, 0.5, 1.5);
   observe(governor, kQuick, 60.0);
@@ -106,13 +106,13 @@ TEST(Quality, ManyBodiesAreDrawnCoarselyByAProcessor) {
   EXPECT_EQ(finest_in_software(10000), Quality::kSketch);
 }
 
-TEST(Quality, TabThatSleptSaysNothing) {
+TEST(Quality, ASuspendedTabIsIgnored) {
   QualityGovernor governor;
   for (int i = 0; i < 100; ++i) governor.observe(60.0, 0.0);
   EXPECT_EQ(governor.quality(), Quality::kFine);
 }
 
-TEST(Handles, ControlIsWhereItsNameSaysAtAnyScale) {
+TEST(Handles, ControlsAreFoundByNameAtAnyScale) {
   Headless h;
   for (const double scale : {1.0, 1.3}) {
     h.app->desk.scale = scale;

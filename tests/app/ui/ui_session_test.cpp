@@ -95,7 +95,7 @@ void take(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.step();
 }
 
-TEST(Past, RunGoesOnFromItBitForBit) {
+TEST(Past, RunContinuesFromItBitForBit) {
   for (const char* scene : {"swinging_box", "bridge", "heavy_stack"}) {
     Session straight(shipped(scene));
     take(straight, 40);
@@ -119,7 +119,7 @@ TEST(Past, RunGoesOnFromItBitForBit) {
   }
 }
 
-TEST(Past, VerdictThatFellIsTakenBackAndFallsAgain) {
+TEST(Past, VerdictIsWithdrawnAndReachedAgain) {
   Session session(shipped("swinging_box"));
   Settings s = session.settings();
   s.mode = Mode::kNone;
@@ -202,7 +202,7 @@ TEST(Past, IsFoundByTime) {
   EXPECT_EQ(past.at_time(100.0), 60U);
 }
 
-TEST(Substep, GoesOnToTheSameFrame) {
+TEST(Substep, ContinuesToTheSameFrame) {
   Session whole(shipped("swinging_box"));
   Session pieces(shipped("swinging_box"));
   take(whole, 3);
@@ -239,7 +239,7 @@ TEST(Hand, HoldingABodyDisturbsTheRunAndAResetBringsItBack) {
   EXPECT_EQ(session.verdict().text(), "holds");
 }
 
-TEST(Hand, EnergyThatItBringsIsNoFailure) {
+TEST(Hand, EnergyFromItIsNoFailure) {
   Scene scene = *shipped("swinging_box");
   scene.criteria.energy_gain = 10.0;
   Session session(std::make_shared<const Scene>(scene));
@@ -332,7 +332,7 @@ TEST(Slices, AHandActsFromTheNextFrameOn) {
   EXPECT_TRUE(session.held());
 }
 
-TEST(HeavyStart, ALinkToOneWaitsForAPerson) {
+TEST(HeavyStart, ALinkToOneWaitsForConfirmation) {
   Headless h;
   h.app->session.play();
   h.app->open_link("scene=swinging_box&solver=pgs&iterations=400&mode=const&n=10000");
@@ -380,7 +380,7 @@ TEST(HeavyStart, ASceneInsideALinkIsOneWithItsSettings) {
   EXPECT_NE(h.app->session.settings().alpha, 0.3);
 }
 
-TEST(HeavyStart, WhatWouldStopAtOnceIsSaid) {
+TEST(HeavyStart, ARunThatWouldStopAtOnceIsReported) {
   Headless h;
   h.app->open_link("scene=swinging_box&solver=pgs&iterations=100000&mode=const&n=10000");
   EXPECT_FALSE(h.app->session.playing());
@@ -398,7 +398,7 @@ Ball ball_at(const Vec3& position, const Vec3& velocity) {
   return ball;
 }
 
-TEST(Hand, ThrownBallHitsWhatNeverTouchedAnything) {
+TEST(Hand, ThrownBallHitsBodiesOfASceneWithoutContact) {
   Session session(shipped("swinging_box"));
   ASSERT_FALSE(session.scene().effects.contact);
   take(session, 10);
@@ -461,7 +461,7 @@ TEST(Hand, ABallIsThrownInEveryMode) {
   }
 }
 
-TEST(Hand, TheOldestBallGoes) {
+TEST(Hand, TheOldestBallIsRemoved) {
   Session session(shipped("heavy_stack"));
   const std::size_t bodies = session.scene().bodies.size();
   for (int i = 0; i < Ball::kMost + 3; ++i) {

@@ -95,7 +95,7 @@ TEST(Thumbnail, OfAHugeSceneStaysSmall) {
 }
 
 // The colours drawn in the open menu, over what is drawn while it is closed.
-TEST(SceneMenu, ShowsPicturesOfScenesAlsoOfAPersonsOwn) {
+TEST(SceneMenu, ShowsPicturesOfShippedAndUsersScenes) {
   Headless h(1280.0F, 1200.0F);
   Scene own = *h.app->library.find("bridge");
   own.name = "mine";

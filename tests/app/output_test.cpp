@@ -14,7 +14,7 @@
 namespace substep {
 namespace {
 
-/// A folder of the test with a copy of a scene and nothing else.
+/// A folder for the running test that contains only a copy of a scene.
 fs::path with_scene() {
   const fs::path at = folder() / "files";
   fs::remove_all(at);

@@ -82,7 +82,7 @@ std::size_t steering(const std::string& text) {
 
 void expect_an_orderly_end(const HostileInput& input, const Call& call) {
   const Ending& end = call.ending;
-  EXPECT_FALSE(end.hung) << "did not even end when it was interrupted";
+  EXPECT_FALSE(end.hung) << "did not end when it was interrupted";
   EXPECT_EQ(end.signal, 0) << end.err;
   const bool known = (end.exit_code >= 0 && end.exit_code <= 3) || end.exit_code == 130;
   EXPECT_TRUE(known) << "exit code " << end.exit_code << ": " << end.err;
@@ -98,7 +98,7 @@ void expect_an_orderly_end(const HostileInput& input, const Call& call) {
   EXPECT_EQ(steering(end.err), end.err.size()) << "a control character is printed";
   EXPECT_EQ(steering(end.out), end.out.size()) << "a control character is printed";
   if (end.exit_code == 2) {
-    EXPECT_FALSE(end.err.empty()) << "it failed without a word";
+    EXPECT_FALSE(end.err.empty()) << "it failed without a message";
   }
   // Stop after many failures.
   EXPECT_LE(std::count(end.err.begin(), end.err.end(), '\n'), 1000);
@@ -115,7 +115,7 @@ bool may_fail_late(const HostileInput& input) {
 void expect_nothing_is_spoilt(const HostileInput& input, const Call& call) {
   for (const auto& [name, text] : call.before) {
     const auto now = call.after.find(name);
-    ASSERT_NE(now, call.after.end()) << name << " has gone";
+    ASSERT_NE(now, call.after.end()) << name << " is missing";
     // An output: `generate` reads no scene.
     const bool read = name != "old" && input.arguments[0] != "generate";
     if (!read && (call.ending.exit_code != 2 || may_fail_late(input))) continue;
@@ -125,13 +125,13 @@ void expect_nothing_is_spoilt(const HostileInput& input, const Call& call) {
     EXPECT_FALSE(name.ends_with(".new")) << name << " is left behind";
     const bool is_new = !call.before.contains(name) || call.before.at(name) != text;
     if (is_new && !text.empty()) {
-      EXPECT_EQ(text.back(), '\n') << name << " is cut";
+      EXPECT_EQ(text.back(), '\n') << name << " is truncated";
     }
   }
   if (call.ending.exit_code != 2 || may_fail_late(input)) return;
   const auto& arguments = input.arguments;
   if (arguments.empty() || arguments[0] == "merge" || arguments[0] == "sweep") return;
-  EXPECT_EQ(call.after.size(), call.before.size()) << "a half result of a call that failed";
+  EXPECT_EQ(call.after.size(), call.before.size()) << "a partial result of a failed call";
 }
 
 /// "--json" and the like, and the files that they name.

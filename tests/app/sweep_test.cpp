@@ -18,7 +18,7 @@ namespace {
 /// An exact and quick scene: a sweep of it takes about a second.
 constexpr const char* kSweep = "sweep pendulum --seconds 0.5 --quiet --jobs 2 ";
 
-/// An empty folder of the running test's own.
+/// An empty folder for the running test.
 fs::path fresh(const std::string& name) {
   const fs::path path = folder() / name;
   fs::remove_all(path);

@@ -100,7 +100,7 @@ TEST(PivotsThatRunOut, LeaveAHouseOfCardsStanding) {
   Simulator simulator = simulator_of(scenes::card_house(), {.mode = Mode::kNone});
   const double start = simulator.observe().energy;
   FrameReport report = simulator.step();
-  EXPECT_EQ(report.work.unsolved, 1) << "else this test shows nothing";
+  EXPECT_EQ(report.work.unsolved, 1) << "otherwise the test is vacuous";
   EXPECT_LT(report.energy, start + 1e-3);
   for (int frame = 1; frame < 240; ++frame) report = simulator.step();
   EXPECT_LT(report.energy, start);

@@ -1,5 +1,5 @@
 // Long runs: nothing drifts beyond its bound, and memory does not grow. 50,000 frames by default;
-// SUBSTEP_LONG_FRAMES=1000000 for a run overnight.
+// SUBSTEP_LONG_FRAMES=1000000 for an overnight run.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

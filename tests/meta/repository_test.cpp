@@ -139,8 +139,8 @@ TEST(Platform, ConditionalsAreOnlyInTheWebShellAndTheShaderHeader) {
 }
 
 TEST(Repository, HasNoPathOfOneMachine) {
-  // Home folders and working copies of one person or machine. The names are put together here so
-  // that this file does not find itself.
+  // Home folders and working copies of one person or machine. The names are concatenated here so
+  // that this file does not match.
   const std::regex path(std::string("(^|[^A-Za-z0-9_.])/(ho") + "me|wo" + "rk|ro" + "ot|Us" +
                         "ers)/[A-Za-z0-9_.]");
   EXPECT_EQ(places(path, [](const std::string&) { return true; }), "");

@@ -93,7 +93,8 @@ double below_the_plate(Detection detection, double speed) {
 }
 
 TEST(SmallSteps, StopFastBodies) {
-  EXPECT_GT(below_the_plate(Detection::kSubstep, 40.0), 1.0) << "what else would there be to show";
+  EXPECT_GT(below_the_plate(Detection::kSubstep, 40.0), 1.0)
+      << "detection per sub-step misses the contact";
   for (const double speed : {2.0, 10.0, 40.0, 200.0}) {
     const double pushed = 1e-10 * 60.0 * speed;  // by the compliance, while a frame stops it
     EXPECT_NEAR(below_the_plate(Detection::kFrame, speed), -0.022, 1.1 * pushed + 1e-12) << speed;
@@ -132,7 +133,7 @@ TEST(SmallSteps, DetectContactsOfAStruckBodyWithinTheFrame) {
   settings.n = 32;
   settings.detection = Detection::kFrame;
   const Outcome r = run(scene, settings, 0.02, {}, false);
-  EXPECT_GT(r.end.x[2].x() - r.end.x[1].x(), 0.0399) << "it would fly through the third";
+  EXPECT_GT(r.end.x[2].x() - r.end.x[1].x(), 0.0399) << "it does not pass through the third ball";
 }
 
 // The row of one edge does not predict the next edge. When only that row was moved along, boxes

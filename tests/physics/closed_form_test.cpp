@@ -53,7 +53,7 @@ TEST(Pendulum, SwingsWithThePeriodOfTheEllipticIntegral) {
   // A rod of length 1 about its end: I/(m d) with d = 0.5, box inertia about the hinge's axis.
   const double inertia = (1.0 + 0.05 * 0.05) / 12.0 + 0.25;
   const double exact = pendulum_period(inertia / 0.5, 0.8);
-  EXPECT_NEAR(exact, 1.682, 5e-4) << "what the scene says of itself";
+  EXPECT_NEAR(exact, 1.682, 5e-4) << "the scene's own description";
   const double interpolation =
       1e-4;  // of a sine sampled at 60 Hz, averaged over eleven periods [s]
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
@@ -160,7 +160,7 @@ Cradle swing(const Settings& settings, double seconds) {
   return cradle;
 }
 
-// Equal bodies exchange their velocities: each blow passes the first ball's velocity to the last.
+// Equal bodies exchange their velocities: each impact passes the first ball's velocity to the last.
 TEST(NewtonsCradle, OneBallInIsOneBallOut) {
   const Scene scene = scenes::newtons_cradle();
   struct Row {

@@ -117,7 +117,7 @@ TEST(Friction, OfTheConeOpposesTheSliding) {
         << name_of(solver) << ": " << cone.transpose() << " and " << x.transpose();
     settings.friction_cone = FrictionCone::kBox;
     EXPECT_GT((way_of(scene, settings) - x).norm(), 0.05 * x.norm())
-        << name_of(solver) << ": a box holds each of its axes by itself";
+        << name_of(solver) << ": the box bounds each tangent separately";
   }
 }
 

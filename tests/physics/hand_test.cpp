@@ -158,7 +158,7 @@ TEST(InterruptedFrame, ShowsForcesAndVelocitiesOfItsLastSubstep) {
       const Vec3 expected = gained - m * scene.gravity;
       EXPECT_LT((sign * pulled - expected).norm(), 1e-5 * expected.norm()) << i;
       for (std::size_t body = 0; body < after.u.size(); ++body) {
-        // Turns go with the joints' forces where they act at the new poses.
+        // Only translations: the torques of joint forces are evaluated at the new poses.
         const Vec3 now = (after.u[body] + 0.5 * (after.u[body] - before.u[body])).head<3>();
         EXPECT_LT((after.u_synchronised[body].head<3>() - now).norm(), 1e-9 * (1.0 + now.norm()))
             << i;
@@ -212,7 +212,7 @@ struct Yank {
   int body;
 };
 
-// The pointer jumps from side to side, up and down, far beyond reach, in the worst rhythm.
+// The pointer jumps from side to side, up and down, far beyond reach, at several periods.
 TEST(Grab, ViolentPullingTearsNoJoint) {
   const Scene box = scenes::swinging_box();
   const Scene bridge = scenes::bridge();

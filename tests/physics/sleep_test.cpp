@@ -38,7 +38,7 @@ TEST(Sleep, AStackAtRestCostsNothing) {
         EXPECT_EQ(report.n_mean, 0.0);
         EXPECT_EQ(report.work.flops + report.work.solves + report.criterion.flops, 0);
         EXPECT_EQ(report.contact_rows, 0);
-        EXPECT_EQ(report.asleep, 26) << "all of it";
+        EXPECT_EQ(report.asleep, 26) << "the whole stack";
         EXPECT_EQ(report.kinetic, 0.0);
         EXPECT_EQ(report.frame, frame + 1);
       }
@@ -141,7 +141,7 @@ TEST(Sleep, OneIslandSleepsWhileAnotherSwings) {
       alone = box.step();
     }
     EXPECT_EQ(report.asleep, 26);
-    EXPECT_EQ(report.n_substeps, alone.n_substeps) << "by the box, and not the stack";
+    EXPECT_EQ(report.n_substeps, alone.n_substeps) << "of the box only: the stack sleeps";
     EXPECT_EQ(report.work.flops, alone.work.flops);
   }
 }

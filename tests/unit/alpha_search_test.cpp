@@ -76,7 +76,7 @@ TEST(AlphaSearch, IsEmptyWhereNoAlphaMeetsTheLimit) {
   EXPECT_FALSE(found(chain.within_substeps(0.5)));
   Chain capped;
   capped.experiment.settings.n_max = 4;
-  EXPECT_FALSE(found(capped.within(1e-6))) << "the whole way down";
+  EXPECT_FALSE(found(capped.within(1e-6))) << "down to the smallest alpha";
 }
 
 // With so few sub-steps the chain tears; a failing run is not a valid result, however cheap.
@@ -92,7 +92,7 @@ TEST(AlphaSearch, IsTheSmallestWithinAMeasuredTime) {
   const auto choice = found(AlphaSearch::smallest_within(chain.scene, chain.experiment,
                                                          chain.reference, CostAxis::kTime, 1e12));
   ASSERT_TRUE(choice.has_value());
-  EXPECT_EQ(choice->alpha, AlphaSearch::kLeast) << "there is room for all of them";
+  EXPECT_EQ(choice->alpha, AlphaSearch::kLeast) << "every alpha is within it";
 }
 
 TEST(AlphaSearch, UsesTheSettingsOfTheSweepsCurve) {

@@ -233,7 +233,7 @@ TEST(Exam, ForcesBelongToTheStateThatTheyAreShownWith) {
   EXPECT_EQ(expected, 51) << "the start and 50 frames";
 }
 
-TEST(Exam, MotionsAgreeWithTheScenesAtTheStart) {
+TEST(Exam, MotionsMatchTheScenes) {
   int seen = 0;
   for (const ExamEntry& entry : scenes::exam()) {
     if (!entry.build || !entry.not_reached.empty()) continue;

@@ -282,7 +282,7 @@ TEST(JointTree, StaticBodiesAreWorld) {
   EXPECT_EQ(b.velocity(joint.b), Vec6(Vec6::Zero()));
 }
 
-// The code uses nothing beyond sqrt. A change of the integrator changes the numbers on purpose.
+// The code calls no function but sqrt. A change of the integrator changes these numbers.
 TEST(JointTree, BitsAreTheSameWithEveryCompiler) {
   JointTree tree = tree_of(scenes::whirling_chain());
   tree.advance(1.0);

@@ -90,7 +90,7 @@ TEST(Work, FlopsFollowFromSizesAlone) {
     EXPECT_EQ(twice.row_updates, 2 * once.row_updates);
     EXPECT_EQ(once.substeps, 18);
   }
-  EXPECT_EQ(work(settings, 0.1), work(settings, 0.1)) << "run to run";
+  EXPECT_EQ(work(settings, 0.1), work(settings, 0.1)) << "the work is reproducible";
 }
 
 TEST(Work, GaussSeidelVisitsEveryRowOnceAnIteration) {
@@ -129,7 +129,7 @@ TEST(Work, TheCriterionIsCountedOncePerEvaluation) {
   EXPECT_EQ(work_of(scene, settings, 0.5).criterion, CriterionWork{});
   settings.mode = Mode::kAdaptive;
   const Work by_frame = work_of(scene, settings, 0.5);
-  EXPECT_EQ(by_frame.criterion.evaluations, by_frame.frames + 1) << "and the probe's";
+  EXPECT_EQ(by_frame.criterion.evaluations, by_frame.frames + 1) << "including the probe";
   settings.policy = Policy::kSubstep;
   const Work by_substep = work_of(scene, settings, 0.5);
   EXPECT_EQ(by_substep.criterion.evaluations, by_substep.substeps + 1);

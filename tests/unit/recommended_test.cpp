@@ -60,7 +60,7 @@ TEST(Recommended, DoesNotReplaceTheSettingsOfAScene) {
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->recommended, some_recommended());
   EXPECT_EQ(scene->settings, Settings{.solver = SolverKind::kPgs})
-      << "what they leave out is the default, not the recommended";
+      << "omitted settings have the default, not the recommended value";
   EXPECT_EQ(own_settings(*scene), scene->settings);
   // Explicit settings equal to the defaults are a choice too: the paper's.
   EXPECT_EQ(scene_of(with(kSettings, R"("settings": {}, )" + kRecommended))->settings, Settings{});

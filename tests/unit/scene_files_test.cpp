@@ -232,7 +232,7 @@ TEST(HeavyStack, JitterStaysWithinTwoMillimetres) {
   EXPECT_GT(largest, 0.001);
 }
 
-TEST(SwingingBox, HasTheChainOfTheDesign) {
+TEST(SwingingBox, HasTheDesignedChain) {
   const Scene scene = scenes::swinging_box();
   EXPECT_EQ(scene.bodies.size(), 27U);
   EXPECT_EQ(scene.joints.size(), 26U);

@@ -21,7 +21,7 @@ struct BadFile {
   List problems;
 };
 
-// Printed by GoogleTest in place of the bytes.
+// GoogleTest prints this instead of the bytes.
 void PrintTo(const BadFile& file, std::ostream* out) { *out << file.kind; }
 
 class BadScene : public testing::TestWithParam<BadFile> {};

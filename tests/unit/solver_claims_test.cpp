@@ -88,7 +88,7 @@ double factorisations(int balls) {
 TEST(BppClaims, TakesFewPivotsAtAnySize) {
   const double ten = factorisations(10);
   const double many = factorisations(500);
-  EXPECT_GT(ten, 1.5) << "the first guess was right";
+  EXPECT_GT(ten, 1.5) << "the first active set was correct";
   EXPECT_LT(many, 2.5 * ten);
 }
 

@@ -20,7 +20,7 @@ TEST(Accuracy, TheSweepAdvancesWhileTheWindowResponds) {
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
   h.frames(3);
-  EXPECT_FALSE(h.app->accuracy.running()) << "nothing runs unasked";
+  EXPECT_FALSE(h.app->accuracy.running()) << "nothing runs without a request";
   ASSERT_EQ(h.app->set("accuracy", "run"), "");
   EXPECT_TRUE(h.app->accuracy.running());
   double before = 0.0;
@@ -35,7 +35,7 @@ TEST(Accuracy, TheSweepAdvancesWhileTheWindowResponds) {
   }
   EXPECT_EQ(h.app->accuracy.progress(), 1.0);
   EXPECT_EQ(h.app->accuracy.results().size(), h.app->accuracy.planned());
-  EXPECT_GT(stages, 5U) << "the picture grows, it does not come at once";
+  EXPECT_GT(stages, 5U) << "results arrive in several frames";
   EXPECT_GT(h.app->accuracy.points().size(), 50U);
   std::set<std::string> series;
   for (const Result& r : h.app->accuracy.results()) {
@@ -113,7 +113,7 @@ TEST(Accuracy, TakesAShareOfSlowFramesAndLetsOthersRecover) {
   for (const bool plays : {false, true}) {
     const double least = Accuracy::slice(plays, 1.0 / 60.0);
     for (const double drawing : {0.002, 0.005, 0.008}) {
-      double wall = 0.1;  // a hiccup
+      double wall = 0.1;  // one slow frame
       double own = least;
       for (int i = 0; i < 10; ++i) {
         own = Accuracy::slice(plays, wall - own);
@@ -123,7 +123,7 @@ TEST(Accuracy, TakesAShareOfSlowFramesAndLetsOthersRecover) {
     }
     EXPECT_GT(Accuracy::slice(plays, 0.1), 0.015) << "a page without a graphics processor";
     EXPECT_LT(Accuracy::slice(plays, 0.1), 0.1);
-    EXPECT_LT(Accuracy::slice(plays, 1e6), 0.2) << "a tab that slept";
+    EXPECT_LT(Accuracy::slice(plays, 1e6), 0.2) << "a suspended tab";
   }
 }
 
@@ -199,7 +199,7 @@ TEST(Accuracy, TheCheapestSettingIsStoredForTheScene) {
   EXPECT_EQ(settings, found->settings);
 }
 
-TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {
+TEST(Accuracy, SlicesAreBoundedAndCancelStopsAtOnce) {
   Headless h;
   h.app->open("swinging_box");
   h.app->set("accuracy", "run");

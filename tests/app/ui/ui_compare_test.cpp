@@ -192,7 +192,7 @@ TEST(Compare, AnEffectSwitchedOffIsOffInAllOfThem) {
   for (int i = 0; i < 10; ++i) session.step();
   EXPECT_EQ(hash_of(h.app->compare.runs()[0]), session.hash());
   h.frames(1);
-  EXPECT_EQ(h.app->compare.runs()[0].history.size(), 15U) << "what was before is kept";
+  EXPECT_EQ(h.app->compare.runs()[0].history.size(), 15U) << "earlier samples are kept";
 }
 
 // A point of the world in the clip space of a pane's picture, as shares of the window.
@@ -228,7 +228,7 @@ TEST(CompareSplit, EachRunHasAPaneOfItsOwn) {
         EXPECT_TRUE(h.renderer->pictures[i].ghost_boxes.empty());
         EXPECT_EQ(h.renderer->pictures[i].boxes.size(), h.renderer->pictures[0].boxes.size());
       }
-      EXPECT_GT(area, 0.75F * v.width * v.height) << "no place is wasted";
+      EXPECT_GT(area, 0.75F * v.width * v.height) << "the panes fill the view";
       ASSERT_EQ(h.app->set("views", "ghosts"), "");
       h.frames(1);
       EXPECT_EQ(h.renderer->pictures.size(), 1U);
@@ -242,7 +242,7 @@ TEST(CompareSplit, PanesOfAWideSceneAreStacked) {
   phone.app->open_link("scene=bridge&compare=mode:damping&views=split");
   phone.frames(2);
   ASSERT_EQ(phone.app->panes.size(), 2U);
-  EXPECT_GT(phone.app->panes[1].y, phone.app->panes[0].y) << "one over the other";
+  EXPECT_GT(phone.app->panes[1].y, phone.app->panes[0].y) << "one above the other";
 }
 
 TEST(CompareSplit, ABodyIsPulledInThePaneThatShowsIt) {

@@ -33,11 +33,11 @@ void expect_same_run(Headless& h, const char* what) {
   Headless other;
   other.app->open_link(link);
   EXPECT_EQ(other.app->trouble.title, "") << what << ": " << link;
-  EXPECT_EQ(other.app->link(), link) << what << ": the link of a run that begins is the same";
+  EXPECT_EQ(other.app->link(), link) << what << ": the link is the same at the start";
   other.app->session.pause();
   step(other.app->session, static_cast<int>(h.app->session.state().frame));
   EXPECT_EQ(other.app->session.hash(), h.app->session.hash()) << what;
-  EXPECT_EQ(other.app->link(), link) << what << ": and so is that of one that is over";
+  EXPECT_EQ(other.app->link(), link) << what << ": the link is the same at the end";
   other.app->reset();
   step(other.app->session, static_cast<int>(h.app->session.state().frame));
   EXPECT_EQ(other.app->session.hash(), h.app->session.hash()) << what << ", after a reset";
@@ -104,12 +104,12 @@ TEST(Events, EffectsSettingsAndASeedAreRepeated) {
   step(h.app->session, 5);
   h.app->session.throw_ball(odd_ball(1));
   step(h.app->session, 5);
-  EXPECT_NE(h.app->link().find("&alpha=0.3&"), std::string::npos) << "that it began with";
+  EXPECT_NE(h.app->link().find("&alpha=0.3&"), std::string::npos) << "the initial setting";
   EXPECT_LT(h.app->link().size(), 400U);
   expect_same_run(h, "effects, settings, a seed");
 }
 
-// Without interactions a link has the current settings: people tune them before they share.
+// Without interactions a link has the current settings: users adjust them before they share.
 TEST(Events, SettingsAloneAreNoEvents) {
   Headless h;
   h.app->session.pause();
@@ -154,12 +154,12 @@ TEST(Events, GoingBackDropsLaterOnes) {
   const std::string first = h.app->link();
   EXPECT_LT(first.size(), all.size());
   session.go_to(session.timeline().size() - 1);
-  EXPECT_EQ(h.app->link(), all) << "nothing was done meanwhile";
+  EXPECT_EQ(h.app->link(), all) << "going back alone drops no event";
   session.go_to(15);
   session.throw_ball(odd_ball(7));
   step(session, 10);
   EXPECT_EQ(session.balls(), 2U);
-  expect_same_run(h, "on from the past");
+  expect_same_run(h, "continued from the past");
 }
 
 TEST(Events, AScriptContinuesFromThePast) {
@@ -216,7 +216,7 @@ TEST(Events, TooManyForALinkAreReplacedByTheEditedScene) {
     if (session.stopped()) break;
   }
   EXPECT_EQ(h.app->link().find("events="), std::string::npos);
-  EXPECT_TRUE(is_own(h.app->link_scene())) << "as before there were events";
+  EXPECT_TRUE(is_own(h.app->link_scene())) << "the link of an edited scene";
 }
 
 TEST(Events, InvalidTextIsReported) {

@@ -107,7 +107,7 @@ TEST(Selection, ClickShowsABodyAndAClickBesideHidesIt) {
   EXPECT_EQ(h.app->desk.selected, box);
   h.frames(2);
   EXPECT_TRUE(is_open("##selection"));
-  EXPECT_EQ(h.app->session.state().frame, 0) << "looking changes nothing";
+  EXPECT_EQ(h.app->session.state().frame, 0) << "a selection does not change the run";
   EXPECT_FALSE(h.app->session.verdict().disturbed());
   h.click(640.0F, 560.0F);
   EXPECT_EQ(h.app->desk.selected, -1);

@@ -56,7 +56,7 @@ TEST(Introduction, OneChainTearsInSlowMotionAndTheOtherHolds) {
   EXPECT_TRUE(words.torn.note.starts_with("Torn at 0.35 s")) << words.torn.note;
   EXPECT_NE(words.held.title.find("now 1"), std::string::npos) << words.held.title;
   visit.h.frames(260);
-  EXPECT_EQ(visit.h.app->session.speed(), 1.0) << "slow while it tears only";
+  EXPECT_EQ(visit.h.app->session.speed(), 1.0) << "slow only while it tears";
   EXPECT_GT(visit.h.app->session.state().time, 1.0);
   EXPECT_TRUE(visit.h.app->session.verdict().holds());
 }

@@ -91,7 +91,7 @@ std::string file_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(About, CopiesThePapersEntryAsTheReferencesHaveIt) {
+TEST(About, CopiesThePapersReferenceEntry) {
   Headless h;
   h.app->desk.help = true;
   h.frames(4);

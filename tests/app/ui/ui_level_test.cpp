@@ -171,7 +171,7 @@ TEST(Level, IsInTheLinkWhereItIsExplore) {
   EXPECT_NE(h.app->set("level", "expert"), "");
 }
 
-TEST(Level, ALinkThatSetsWhatOnlyTheLabShowsOpensIt) {
+TEST(Level, ALinkWithSettingsOfTheLabOpensIt) {
   Headless h;
   for (const char* link :
        {"scene=bridge&integrator=leapfrog", "scene=bridge&sleep=true", "scene=bridge&seed=3",

@@ -89,7 +89,7 @@ TEST(Link, AnyTextIsAccepted) {
     EXPECT_NO_THROW(parse_link(text)) << text;
   }
   EXPECT_EQ(parse_link("scene=a%00%1f%7F%41")[0].value, "a%00%1f%7FA")
-      << "control characters stay as they are written, or a complaint would end with them";
+      << "control characters stay escaped, so that they cannot truncate a message";
   const auto parts = parse_link("#scene=my%20scene&x");
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].value, "my scene");

@@ -67,7 +67,7 @@ TEST(Names, AreSeparatedByTheSmallestMoves) {
   EXPECT_EQ(places[1].y, 10.0F) << "far from the others it stays at its curve";
   EXPECT_EQ(places[0].y, 50.0F);
   EXPECT_EQ(places[2].y, 62.0F) << "a line below the one that it would cover";
-  EXPECT_EQ(places[3].y, 94.0F) << "all of it is in the plot";
+  EXPECT_EQ(places[3].y, 94.0F) << "it lies within the plot";
 }
 
 TEST(Names, TheLastOnesAreHiddenWithoutRoom) {
@@ -92,7 +92,7 @@ TEST(NAtLimit, IsGivenOnlyWhereNVaries) {
   }
   settings.mode = Mode::kAdaptive;
   settings.solver = SolverKind::kPgs;
-  EXPECT_FALSE(ui::n_at_limit(history, settings)) << "sweeps need more than that";
+  EXPECT_FALSE(ui::n_at_limit(history, settings)) << "iterative solvers need more";
 }
 
 TEST(NAtLimit, IsNotGivenWhereOneStepWouldDo) {

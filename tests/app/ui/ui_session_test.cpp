@@ -106,7 +106,7 @@ TEST(Past, RunContinuesFromItBitForBit) {
     EXPECT_EQ(session.state().frame, 10);
     EXPECT_EQ(session.report().frame, 10);
     EXPECT_FALSE(session.timeline().at_end());
-    EXPECT_EQ(session.history().size(), history) << "looking cuts nothing";
+    EXPECT_EQ(session.history().size(), history) << "viewing the past drops nothing";
     session.play();
     while (session.state().frame < 40) session.advance(kFrame, 10.0);
     EXPECT_EQ(session.hash(), straight.hash()) << scene;
@@ -155,7 +155,7 @@ TEST(Past, OneForwardIsTheFrameThatFollowedUnlessSomethingChanged) {
   session.step_back();
   session.step();
   EXPECT_EQ(session.state().frame, 19);
-  EXPECT_TRUE(session.timeline().at_end()) << "what was taken with another alpha is forgotten";
+  EXPECT_TRUE(session.timeline().at_end()) << "frames of another alpha are dropped";
   EXPECT_EQ(session.history().size(), 19U);
 }
 
@@ -210,7 +210,7 @@ TEST(Substep, ContinuesToTheSameFrame) {
     pieces.substep();
     ASSERT_GT(pieces.substeps_left(), 0);
     EXPECT_EQ(pieces.state().frame, frame);
-    EXPECT_EQ(pieces.timeline().last().state.frame, frame) << "the past knows whole frames only";
+    EXPECT_EQ(pieces.timeline().last().state.frame, frame) << "the past has whole frames only";
     pieces.step();
   }
   EXPECT_EQ(pieces.hash(), whole.hash());
@@ -220,7 +220,7 @@ TEST(Substep, ContinuesToTheSameFrame) {
   EXPECT_EQ(pieces.hash(), whole.hash()) << "back to the start of the frame";
 }
 
-TEST(Hand, HoldingABodyDisturbsTheRunAndAResetBringsItBack) {
+TEST(Hand, HoldingABodyDisturbsTheRunUntilAReset) {
   Session session(shipped("swinging_box"));
   take(session, 5);
   const auto box = session.scene().bodies.size() - 1;
@@ -274,7 +274,7 @@ TEST(Slices, OfAFrameAreTheSameBits) {
   EXPECT_EQ(state_hash(session.state()), state_hash(whole.state()));
 }
 
-TEST(Slices, OfAFrameThatIsLeftChangeNothing) {
+TEST(Slices, OfAnAbandonedFrameChangeNothing) {
   Session session(shipped("swinging_box"));
   take(session, 3);
   const std::uint64_t before = session.hash();
@@ -361,7 +361,7 @@ TEST(HeavyStart, GoesBackToTheRunBefore) {
   h.frames(2);
   ASSERT_NE(find_handle("Go back"), nullptr);
   h.press("Go back");
-  EXPECT_EQ(h.app->link(), before) << "the last run that a person saw";
+  EXPECT_EQ(h.app->link(), before) << "the last run that the user saw";
   EXPECT_TRUE(h.app->session.playing());
   EXPECT_FALSE(h.app->held());
 }

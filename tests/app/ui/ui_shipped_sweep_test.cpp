@@ -94,7 +94,7 @@ TEST(ShippedSweep, MatchesTheCurrentScene) {
     Scene edited = *scene;
     edited.bodies.back().position.x() += 0.25;
     EXPECT_FALSE(read_sweep(text, edited)) << scene->name;
-    EXPECT_FALSE(read_sweep(text.substr(0, text.size() / 2), *scene)) << "cut short";
+    EXPECT_FALSE(read_sweep(text.substr(0, text.size() / 2), *scene)) << "truncated";
   }
   EXPECT_EQ(scenes::sweep_of("nowhere"), "");
 }
@@ -112,7 +112,7 @@ TEST(ShippedSweep, TheChartIsThereWhenThePanelOpens) {
   }
   h.frames(2);
   EXPECT_NE(find_handle("Run again"), nullptr);
-  EXPECT_EQ(find_handle("Time"), nullptr) << "no file knows the times of this machine";
+  EXPECT_EQ(find_handle("Time"), nullptr) << "files have no times of this machine";
   h.press("Run again");
   EXPECT_TRUE(h.app->accuracy.running());
   EXPECT_FALSE(h.app->accuracy.shipped());

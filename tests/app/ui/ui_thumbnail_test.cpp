@@ -76,7 +76,7 @@ TEST(Thumbnail, NearerFacesAreDrawnLater) {
   scene.bodies.push_back(body);
   body.color = 0x00ff00;
   body.position.z() = 3.0;
-  scene.bodies.insert(scene.bodies.begin(), body);  // the nearer one first
+  scene.bodies.insert(scene.bodies.begin(), body);  // the nearer one is first
   const Thumbnail picture = thumbnail_of(scene, ui::dark_theme().view);
   ASSERT_GE(picture.polygons.size(), 4U);
   EXPECT_GT(picture.polygons.front().color.r, picture.polygons.front().color.g);

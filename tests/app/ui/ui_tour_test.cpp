@@ -72,7 +72,7 @@ TEST(TourMarkup, PiecesComeInOrder) {
   EXPECT_TRUE(tour_parts("").empty());
 }
 
-TEST(TourMarkup, WhatIsNotClosedIsText) {
+TEST(TourMarkup, UnclosedMarkupIsText) {
   for (const char* text : {"a { b", "[a](b", "[a] (b)", "a [b", "}"}) {
     const std::vector<TourPart> parts = tour_parts(text);
     ASSERT_EQ(parts.size(), 1U) << text;

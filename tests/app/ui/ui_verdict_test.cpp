@@ -60,7 +60,7 @@ TEST(FailedRun, PausesAtItsFailureAndContinuesOnRequest) {
   EXPECT_EQ(h.app->session.state().time, h.app->session.verdict().failed_at());
   h.app->session.play();
   h.frames(30);
-  EXPECT_TRUE(h.app->session.playing()) << "a second time nothing fails";
+  EXPECT_TRUE(h.app->session.playing()) << "it does not fail a second time";
 }
 
 TEST(FailedRun, ContinuesBesideComparedRuns) {
@@ -80,7 +80,7 @@ TEST(FailedRun, PlaysAgainFromItsStartOnlyIfItPlayed) {
   for (int i = 0; i < 40; ++i) session.step();
   ASSERT_FALSE(session.verdict().holds());
   session.reset();
-  EXPECT_FALSE(session.playing()) << "it went by single frames";
+  EXPECT_FALSE(session.playing()) << "it advanced by single frames";
   session.play();
   for (int i = 0; i < 40; ++i) session.advance(kFrame, 1.0);
   ASSERT_FALSE(session.verdict().holds());

@@ -23,7 +23,7 @@ std::string spheres_at_one_point(int count) {
   return "\"" + path.string() + "\"";
 }
 
-TEST(BudgetFlags, ARunOverBudgetSaysWhyAndStops) {
+TEST(BudgetFlags, ARunOverBudgetStopsWithTheReason) {
   const std::string scene = spheres_at_one_point(300);
   const std::string sentence =
       "44850 contacts of 300 bodies would need 2.4 GiB for the direct solver; the budget is 512 "

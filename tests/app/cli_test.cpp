@@ -43,7 +43,7 @@ TEST(CommandLine, RunEndsWithTheVerdict) {
   EXPECT_EQ(lines_of(fails.out).back().find("fails at 0.3"), 0U) << fails.out;
 }
 
-TEST(CommandLine, RunSaysWhatWasSimulated) {
+TEST(CommandLine, RunPrintsTheMethod) {
   const Outcome run =
       substep("run swinging_box --frames 6 --solver pgs --iterations 7 --mode capped --n-cap 3");
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -114,7 +114,7 @@ TEST(CommandLine, StatesAndJointsHaveEveryBodyAndFrameInFullPrecision) {
   EXPECT_EQ(forces[0], "frame,time,joint,fx,fy,fz,tx,ty,tz,gap");
   const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json").scene;
   ASSERT_NE(scene, nullptr);
-  ASSERT_EQ(poses.size(), 1 + 4 * scene->bodies.size()) << "the start, and the floor, are included";
+  ASSERT_EQ(poses.size(), 1 + 4 * scene->bodies.size()) << "the start and the floor are included";
   ASSERT_EQ(forces.size(), 1 + 3 * scene->joints.size());
   EXPECT_EQ(cells_of(poses[1])[2], "floor");
   Simulator simulator(scene);

@@ -80,7 +80,7 @@ std::size_t steering(const std::string& text) {
                                   text.begin());
 }
 
-void expect_an_orderly_end(const HostileInput& input, const Call& call) {
+void expect_orderly_end(const HostileInput& input, const Call& call) {
   const Ending& end = call.ending;
   EXPECT_FALSE(end.hung) << "did not end when it was interrupted";
   EXPECT_EQ(end.signal, 0) << end.err;
@@ -112,7 +112,7 @@ bool may_fail_late(const HostileInput& input) {
 }
 
 /// Earlier files: an input is unchanged, and so is the old file of a failed call.
-void expect_nothing_is_spoilt(const HostileInput& input, const Call& call) {
+void expect_files_are_intact(const HostileInput& input, const Call& call) {
   for (const auto& [name, text] : call.before) {
     const auto now = call.after.find(name);
     ASSERT_NE(now, call.after.end()) << name << " is missing";
@@ -146,7 +146,7 @@ std::map<std::string, std::string> outputs_of(const HostileInput& input) {
   return outputs;
 }
 
-void expect_all_is_there(const HostileInput& input, const Call& call) {
+void expect_output_is_complete(const HostileInput& input, const Call& call) {
   for (const auto& [flag, file] : outputs_of(input)) {
     if (file == "-" || file.starts_with("/dev/")) {
       EXPECT_NE(file, "/dev/full");
@@ -195,9 +195,9 @@ TEST(RandomInput, EndsWithAMessageAndLosesNothing) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + in_words(input));
     const Call made = call(input);
     ++endings[made.ending.exit_code];
-    expect_an_orderly_end(input, made);
-    expect_nothing_is_spoilt(input, made);
-    if (made.ending.exit_code == 0) expect_all_is_there(input, made);
+    expect_orderly_end(input, made);
+    expect_files_are_intact(input, made);
+    if (made.ending.exit_code == 0) expect_output_is_complete(input, made);
   }
   // Coverage: many inputs pass the readers, and many do not.
   if (count >= 100) {

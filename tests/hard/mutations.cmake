@@ -31,7 +31,7 @@ substep_mutation(outer_friction_passes core/solver/bpp.cpp "kPasses = [0-9]+" "k
   physics_tests Solves.AreAllComplementary)
 substep_mutation(compliance_on_redundant_rows core/sim/substep.cpp
   "block\\.C\\[row\\] \\* per_dt2" "0.0 * per_dt2"
-  paper_tests HeavyStack.ContactComplianceFallsWhateverTheSteps)
+  paper_tests HeavyStack.FallsWithContactComplianceAtAnyStep)
 substep_mutation(soft_drift_with_PGS core/stepping/drift.cpp "law == Drift::kSoft && dt < tau" "false"
   paper_tests SwingingBoxPgs.AdaptiveHoldsWithTheSoftDriftLaw)
 substep_mutation(the_diagonal_in_Newtons_mass core/solver/newton.cpp

@@ -99,7 +99,7 @@ TEST(Bridge, TheBallLeavesAtTheSameTimeInEveryResolvedRun) {
   }
 }
 
-// Fig. 2, lower row. The prototype had 13 to 32 and 2 to 9.
+// Fig. 2, lower row. In the prototype N was 13 to 32 and 2 to 9.
 TEST(Bridge, SubstepsRiseUnderTheBallAndFallOnceItHasLeft) {
   const Crossing c = cross(scenes::BridgeOptions{}, with(SolverKind::kBpp, Mode::kAdaptive), 10.0);
   constexpr std::size_t kWindow = 15;  // frames in 0.25 s

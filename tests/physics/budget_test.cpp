@@ -90,7 +90,7 @@ Settings long_sweeps(SolverKind solver) {
 }
 
 // The work of moving bodies alone uses up the budget: the reported requirement exceeds it.
-TEST(Budget, TheWorkOfBodiesCountsInWhatIsNeeded) {
+TEST(Budget, TheRequirementIncludesTheWorkOfBodies) {
   SceneBuilder builder("chain");
   for (int i = 0; i < 10000; ++i) {
     builder.add_body(Sphere{0.1}, 1.0, {0.3 * i, 0, 0});

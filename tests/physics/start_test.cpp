@@ -269,7 +269,7 @@ TEST(Start, LeavesTheStretchOfASpring) {
   scene.joints = {between<BallJoint>(0, Vec3::Zero(), kWorld, Vec3::Zero())};
   base(scene.joints[0]).compliance = 1e-5;
   EXPECT_TRUE(start_of_run(scene).report.found.consistent()) << "it hangs in equilibrium";
-  base(scene.joints[0]).compliance = 1e-9;  // 500 Hz: stands for an exact joint
+  base(scene.joints[0]).compliance = 1e-9;  // 500 Hz: represents an exact joint
   EXPECT_TRUE(start_of_run(scene).report.projected);
 }
 

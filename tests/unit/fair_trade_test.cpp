@@ -1,4 +1,4 @@
-// Adaptive sub-stepping beside the best constant N in hindsight.
+// Adaptive sub-stepping compared with the best constant N in hindsight.
 
 #include "core/lab/fair_trade.hpp"
 

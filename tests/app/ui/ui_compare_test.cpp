@@ -201,7 +201,7 @@ ImVec2 seen_at(const Picture& picture, const Vec3& x) {
   return {0.5F + 0.5F * p.x() / p.w(), 0.5F - 0.5F * p.y() / p.w()};
 }
 
-TEST(CompareSplit, EachRunHasAPaneOfItsOwn) {
+TEST(CompareSplit, EachRunHasItsOwnPane) {
   for (const ImVec2 display :
        {ImVec2(1280, 720), ImVec2(1920, 1080), ImVec2(390, 844), ImVec2(844, 390)}) {
     for (const char* others :

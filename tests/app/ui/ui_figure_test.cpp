@@ -86,7 +86,7 @@ TEST(Figure, PlotsHaveTheirTextsCurvesAndExperiment) {
             std::string::npos);
 }
 
-TEST(Figure, TakesTheChartAndLeavesTheWindowAsItWas) {
+TEST(Figure, CapturesTheChartAndDoesNotChangeTheWindow) {
   Headless h;
   h.app->session.pause();
   h.app->desk.tab = Tab::kAccuracy;

@@ -340,7 +340,7 @@ TEST(Failure, OffersRemedies) {
 
 int vertices_over_the_picture() { return ImGui::GetBackgroundDrawList()->VtxBuffer.Size; }
 
-TEST(Show, DrawsWhatIsSwitchedOnAndNothingElse) {
+TEST(Show, DrawsOnlyWhatIsSwitchedOn) {
   Headless h;
   h.app->open("bridge");
   ASSERT_EQ(h.app->set("tint", "off"), "");

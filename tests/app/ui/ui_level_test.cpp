@@ -158,7 +158,7 @@ TEST(Explore, ShowsWhatSetsNOnlyInItsPanel) {
   EXPECT_EQ(find_handle("Why N"), nullptr);
 }
 
-TEST(Level, IsInTheLinkWhereItIsExplore) {
+TEST(Level, IsInTheLinkOnlyIfItIsExplore) {
   Headless h;
   EXPECT_EQ(h.app->link().find("level"), std::string::npos);
   explore(h);

@@ -140,7 +140,7 @@ TEST(TimeAxis, FollowsTheRunAndFillsFromTheLeft) {
   EXPECT_EQ(axis.window(25.0), std::make_pair(15.0, 25.0));
 }
 
-TEST(TimeAxis, ZoomKeepsWhatThePointerIsOn) {
+TEST(TimeAxis, ZoomKeepsTheTimeUnderThePointer) {
   TimeAxis axis;
   axis.show(20.0, 30.0);
   EXPECT_FALSE(axis.follow);

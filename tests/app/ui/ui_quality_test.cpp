@@ -18,9 +18,9 @@ void observe(QualityGovernor& governor, double dt, double seconds, double own = 
   for (double t = 0.0; t < seconds; t += dt) governor.observe(dt, own);
 }
 
-// A machine with a given drawing time at each quality, for a while.
+// Simulates a machine with a given drawing time at each quality [s].
 // @return the number of quality changes
-int live_with(QualityGovernor& governor, double coarse, double plain, double fine, double seconds) {
+int simulate(QualityGovernor& governor, double coarse, double plain, double fine, double seconds) {
   int changes = 0;
   for (double t = 0.0; t < seconds;) {
     const Quality before = governor.quality();
@@ -92,9 +92,9 @@ TEST(Quality, ComesBackWhenFramesAreQuickAgain) {
 
 TEST(Quality, SettlesWhereOnlyACoarserPictureIsQuick) {
   QualityGovernor governor;
-  live_with(governor, kQuick, kQuick, kSlow, 60.0);
+  simulate(governor, kQuick, kQuick, kSlow, 60.0);
   // Attempts at a finer picture become rare.
-  EXPECT_LE(live_with(governor, kQuick, kQuick, kSlow, 600.0), 10);
+  EXPECT_LE(simulate(governor, kQuick, kQuick, kSlow, 600.0), 10);
 }
 
 TEST(Quality, ManyBodiesAreDrawnCoarselyByAProcessor) {

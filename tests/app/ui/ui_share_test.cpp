@@ -242,7 +242,7 @@ TEST(OpenText, HugeBinaryOrBrokenFilesLeaveTheRunUnchanged) {
   }
 }
 
-TEST(ShareMenu, OpensAndOffersOnlyWhatTheHostCanDo) {
+TEST(ShareMenu, OffersOnlyWhatTheHostSupports) {
   Headless h;
   h.app->session.pause();
   bool copied = false;

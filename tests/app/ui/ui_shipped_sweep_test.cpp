@@ -99,7 +99,7 @@ TEST(ShippedSweep, MatchesTheCurrentScene) {
   EXPECT_EQ(scenes::sweep_of("nowhere"), "");
 }
 
-TEST(ShippedSweep, TheChartIsThereWhenThePanelOpens) {
+TEST(ShippedSweep, TheChartIsAvailableWhenThePanelOpens) {
   Headless h;
   for (const char* name : {"swinging_box", "bridge", "pendulum"}) {
     ASSERT_EQ(h.app->set("scene", name), "");

@@ -16,7 +16,7 @@ export function show(value) {
       if (typeof text === "string") return text.length > 80 ? `${text.slice(0, 80)}...` : text;
     } catch { /* try the other way */ }
   }
-  return "what was given";
+  return "the given value";
 }
 
 /** The message for an invalid value. */

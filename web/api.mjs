@@ -131,7 +131,7 @@ function makeListeners(report, trouble) {
     on(event, listener) {
       const known = typeof event === "string" && Object.hasOwn(listeners, event);
       const problem = trouble() || (known && typeof listener === "function" ? ""
-        : `events are ${Object.keys(listeners).join(", ")}, each with a function`);
+        : `the event must be ${Object.keys(listeners).join(" or ")}, with a function`);
       if (problem) {
         console.error(`substep.on(${show(event)}): ${problem}`);
         return Object.assign(() => {}, wrong("", problem));

@@ -172,7 +172,7 @@ class EventReader {
         event.what = settings_;
         break;
       default:
-        problem = "is of an unknown kind";
+        problem = "has an unknown kind";
     }
     return event;
   }
@@ -183,7 +183,7 @@ class EventReader {
     ++balls_;
     Ball ball = ball_of(ballistics_);
     const Problems wrong = check_values(with_ball(Scene{}, ball, 0));
-    if (in_.ok() && !wrong.empty()) problem = "is a ball: " + to_string(wrong.front());
+    if (in_.ok() && !wrong.empty()) problem = "has an invalid ball: " + to_string(wrong.front());
     return ball;
   }
   Effects effects() {

@@ -49,7 +49,7 @@ void read_own(ObjectReader& in, std::size_t bodies, std::vector<OwnSubstep>& own
   const bool has_r = in.numbers("own_r", kStiffnessOverMassRange, r.data(), bodies, kOptional);
   if ((in.member("own_r", kOptional) == nullptr) !=
       (in.member("own_dt_previous", kOptional) == nullptr)) {
-    in.problem("own_r", "own_r and own_dt_previous need each other");
+    in.problem("own_r", "own_r and own_dt_previous must be given together");
   }
   if (!has_dt || !has_r) return;
   for (std::size_t i = 0; i < bodies; ++i) own.push_back({dt[i], r[i]});
@@ -66,7 +66,7 @@ void read_rotation(ObjectReader& in, std::size_t bodies, Carried& carried) {
   in.number("rotation_age", not_negative(10.0, "s"), carried.rotation_age, kOptional);
   if ((in.member("rotation_before", kOptional) == nullptr) !=
       (in.member("rotation_now", kOptional) == nullptr)) {
-    in.problem("rotation_now", "rotation_now and rotation_before need each other");
+    in.problem("rotation_now", "rotation_now and rotation_before must be given together");
   }
   if (!has_before || !has_now) return;
   for (std::size_t i = 0; i < bodies; ++i) carried.rotation.push_back({before[i], now[i]});
@@ -164,10 +164,10 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   read_own(in, n, carried.own);
   read_rotation(in, n, carried);
   for (const char* key : {"k", "k_resisting"}) {
-    if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "needs r");
+    if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "requires r");
   }
   if (in.member("k_resisting", kOptional) && !in.member("k", kOptional)) {
-    in.problem("k_resisting", "needs k");
+    in.problem("k_resisting", "requires k");
   }
   std::vector<double> rest(n);
   if (in.numbers("rest", not_negative(1.0, "s"), rest.data(), n, kOptional)) carried.rest = rest;

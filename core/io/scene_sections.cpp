@@ -43,7 +43,7 @@ void read_camera(ObjectReader& parent, Scene& scene, Problems& problems) {
   const bool eye = in.vector("eye", kPositionRange, scene.camera.eye, kRequired);
   const bool target = in.vector("target", kPositionRange, scene.camera.target, kRequired);
   if (eye && target && scene.camera.eye == scene.camera.target) {
-    in.problem("target", "the same point as eye");
+    in.problem("target", "must be a different point from eye");
   }
   double width = 0.0;
   if (in.number("width", kDistanceRange, width, kOptional)) scene.camera.width = width;

@@ -33,7 +33,7 @@ Expectation read_rule(const Json& json, const std::string& pointer, Problems& pr
   int n = 0;
   if (in.integer("n", n_field.least, n_field.most, n, kOptional)) {
     rule.n = n;
-    if (rule.mode != Mode::kConst) in.problem("n", "is for mode const only");
+    if (rule.mode != Mode::kConst) in.problem("n", "is allowed in mode const only");
   }
   rule.integrator = read_name<Integrator>(in, "integrator", kOptional);
   const auto verdict = read_name<Expected>(in, "verdict", kRequired);
@@ -42,7 +42,7 @@ Expectation read_rule(const Json& json, const std::string& pointer, Problems& pr
   if (in.number("before", kDurationRange, before, kOptional)) {
     rule.before = before;
     if (verdict && *verdict != Expected::kFails)
-      in.problem("before", "is for the verdict fails only");
+      in.problem("before", "is allowed with verdict fails only");
   }
   in.text("why", kMaxProse, rule.why, kOptional);
   if (verdict == Expected::kDepends && rule.why.empty()) {

@@ -120,14 +120,14 @@ std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int 
   };
   if (bodies.empty()) return SideFault{"a", "the scene has no bodies"};
   if (a == kWorld) {
-    return SideFault{"a", "\"world\" never moves: a must move, b may be static or \"world\""};
+    return SideFault{"a", "must be a moving body, not \"world\"; b may be static or \"world\""};
   }
   if (unknown(a)) return SideFault{"a", no_body(a, "")};
   if (unknown(b)) return SideFault{"b", no_body(b, ", or -1 for the world")};
   if (bodies[index(a)].is_static) {
-    return SideFault{"a", "this body is static: a must move, b may be static or \"world\""};
+    return SideFault{"a", "must be a moving body, not a static one; b may be static or \"world\""};
   }
-  if (a == b) return SideFault{"b", "the same body as a"};
+  if (a == b) return SideFault{"b", "must be a different body from a"};
   return std::nullopt;
 }
 

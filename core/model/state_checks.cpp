@@ -108,7 +108,7 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
   lists.optional("rotation", carried.rotation);
   lists.optional("rest", carried.rest);
   if (carried.k.empty() && !carried.K_resisting.empty()) {
-    problems.push_back({pointer_to(pointer, "k_resisting"), "needs k"});
+    problems.push_back({pointer_to(pointer, "k_resisting"), "requires k"});
   }
   const std::string forces = pointer_to(pointer, "forces");
   if (carried.forces.size() > kMaxForces) {
@@ -148,7 +148,7 @@ void check_grab(const Grab& grab, const Scene& scene, Problems& problems) {
   if (auto fault = body_fault(grab.body, scene)) {
     problems.push_back({"/grab/body", std::move(*fault)});
   } else if (scene.bodies[index(grab.body)].is_static) {
-    problems.push_back({"/grab/body", "this body is static: what is held can move"});
+    problems.push_back({"/grab/body", "must be a moving body, not a static one"});
   }
   if (!grab.anchor.allFinite()) problems.push_back({"/grab/anchor", "must be finite"});
   if (!grab.target.allFinite()) problems.push_back({"/grab/target", "must be finite"});

@@ -9,14 +9,18 @@ export const tooLong = (pointer) => wrong(pointer, `has more than ${largest} cha
 
 /** Any value as a short text. */
 export function show(value) {
-  for (const spell of [JSON.stringify, String]) {
+  const spells = typeof value === "number" ? [String] : [JSON.stringify, String]; // NaN, Infinity
+  for (const spell of spells) {
     try {
       const text = spell(value);
       if (typeof text === "string") return text.length > 80 ? `${text.slice(0, 80)}...` : text;
     } catch { /* try the other way */ }
   }
-  return "what was given";
+  return "the given value";
 }
+
+/** The message for an invalid value. */
+export const mustBe = (allowed, value) => `must be ${allowed}, not ${show(value)}`;
 
 /** The message of a thrown value of any type. */
 export function messageOf(error) {
@@ -35,7 +39,7 @@ export const isText = (value) => typeof value === "string" && !value.includes("\
 /** An option by name; options may be undefined. Reads it once. */
 export function optionOf(options, name, otherwise) {
   if (options === undefined || options === null) return otherwise;
-  if (!isObject(options)) throw new Error(`${show(options)} is not an object with ${name}`);
+  if (!isObject(options)) throw new Error(mustBe(`an object with ${name}`, options));
   return options[name] ?? otherwise;
 }
 

@@ -86,7 +86,7 @@ const char* substep_open_text(const char* text, const char* from) {
 
 const char* substep_set(const char* text) {
   const json object = json::parse(text, nullptr, false);
-  if (!object.is_object()) return keep(outcome({{"", "is not an object of settings"}}));
+  if (!object.is_object()) return keep(outcome({{"", "must be an object of settings"}}));
   std::vector<Problem> problems;
   if (object.contains("scene")) {  // first: it resets the settings
     const std::string problem = app().set("scene", text_of(object["scene"]));

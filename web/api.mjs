@@ -1,7 +1,7 @@
 // The API of a laboratory: window.substep, and the result of createSubstep, documented in
 // README.md. Nothing throws: errors are returned, and the run continues.
-import { isObject, isText, largest, makeGuards, messageOf, optionOf, right, show, tooLong, wrong }
-  from "./answers.mjs";
+import { isObject, isText, largest, makeGuards, messageOf, mustBe, optionOf, right, show, tooLong,
+  wrong } from "./answers.mjs";
 
 const longest = 100_000; // frames per call
 const gone = "this laboratory was removed: createSubstep opens a new one";
@@ -10,7 +10,7 @@ const parse = (text) => JSON.parse(text);
 
 function load(wasm, scene, from) {
   if (!isText(scene) && !isObject(scene)) {
-    return wrong("scene", `${show(scene)} is not the name of a scene, JSON text or an object`);
+    return wrong("scene", mustBe("the name of a scene, JSON text or an object", scene));
   }
   const name = typeof from === "string" ? from.slice(0, 200) : show(from);
   let text = scene;
@@ -24,11 +24,11 @@ function load(wasm, scene, from) {
 }
 
 function set(wasm, settings) {
-  if (!isObject(settings)) return wrong("", `${show(settings)} is not an object of settings`);
+  if (!isObject(settings)) return wrong("", mustBe("an object of settings", settings));
   const entries = Object.entries(settings); // a getter may return a different value the next time
   for (const [key, value] of entries) {
     if (!["string", "number", "boolean"].includes(typeof value)) {
-      return wrong(key, `${show(value)} is not a text, a number, true or false`);
+      return wrong(key, mustBe("a string, a number, true or false", value));
     }
   }
   const text = JSON.stringify(Object.fromEntries(entries));
@@ -43,7 +43,7 @@ function makeChanging(wasm, report) {
     set: (settings) => set(wasm, settings),
     step(frames = 1) {
       if (!Number.isInteger(frames) || frames < 0 || frames > longest) {
-        return wrong("frames", `${show(frames)} is not a whole number from 0 to ${longest}`);
+        return wrong("frames", mustBe(`a whole number from 0 to ${longest}`, frames));
       }
       wasm.step(frames);
       return done();
@@ -53,7 +53,9 @@ function makeChanging(wasm, report) {
       return done();
     },
     goTo(time) {
-      if (!Number.isFinite(time) || time < 0) return wrong("time", `${show(time)} is not a time in s`);
+      if (!Number.isFinite(time) || time < 0) {
+        return wrong("time", mustBe("a number of at least 0 (s)", time));
+      }
       wasm.play(0);
       wasm.goTo(time);
       return done();
@@ -93,7 +95,7 @@ const makePromised = (address, capture, report) => ({
   screenshot(options) {
     const part = optionOf(options, "part", "window");
     if (part !== "window" && part !== "view") {
-      throw new Error(`part: ${show(part)} is not "window" or "view"`);
+      throw new Error(`part: ${mustBe('"window" or "view"', part)}`);
     }
     const [x, y, width, height] = report().view;
     return capture.picture(part === "view" ? { x, y, width, height } : undefined);
@@ -101,7 +103,7 @@ const makePromised = (address, capture, report) => ({
   record(options) {
     const seconds = optionOf(options, "seconds", 5);
     if (typeof seconds !== "number" || !(seconds > 0 && seconds <= 600)) {
-      throw new Error(`seconds: ${show(seconds)} is not above 0 and at most 600`);
+      throw new Error(`seconds: ${mustBe("above 0 and at most 600 (s)", seconds)}`);
     }
     const video = capture.begin();
     if (!video) throw new Error("a video is already being recorded, or this browser cannot record");
@@ -129,7 +131,7 @@ function makeListeners(report, trouble) {
     on(event, listener) {
       const known = typeof event === "string" && Object.hasOwn(listeners, event);
       const problem = trouble() || (known && typeof listener === "function" ? ""
-        : `events are ${Object.keys(listeners).join(", ")}, each with a function`);
+        : `the event must be ${Object.keys(listeners).join(" or ")}, with a function`);
       if (problem) {
         console.error(`substep.on(${show(event)}): ${problem}`);
         return Object.assign(() => {}, wrong("", problem));
@@ -167,7 +169,7 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
   const calls = {
     on: listeners.on,
     openLink: telling(waking((link) => {
-      if (!isText(link)) return wrong("link", `${show(link)} is not a text`);
+      if (!isText(link)) return wrong("link", mustBe("a string without NUL", link));
       if (link.length > largest) return tooLong("link");
       return address.open(link.includes("#") ? link.slice(link.indexOf("#")) : link);
     })),

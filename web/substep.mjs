@@ -66,7 +66,7 @@ async function load(frame) {
  */
 export async function createSubstep(element, options = {}) {
   if (!(element instanceof HTMLElement)) {
-    throw new TypeError("createSubstep: the first argument is not an element of the page");
+    throw new TypeError("createSubstep: the first argument must be an element of the page");
   }
   const frame = makeFrame(element, options.wholePage === true);
   const { lacking, renderer } = inspect();

@@ -9,6 +9,7 @@
 #include "app/cli/hard_table.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
+#include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/json.hpp"
 #include "core/model/names.hpp"
@@ -117,9 +118,9 @@ void add_check(CLI::App& app, int& exit_code) {
   command
       ->add_option("--seed", options->seed,
                    "seed of a perturbation of the start by up to 1e-9 m/s; 0: none")
-      ->check(CLI::Range(0, kMostSeed));
+      ->check(whole(0, kMostSeed));
   command->add_option("--jobs", options->jobs, "parallel runs; 0: one per processor")
-      ->check(CLI::Range(0, 1000));
+      ->check(whole(0, 1000));
   command->add_flag("--json", options->json, "print JSON");
   command->footer(
       "Columns: as expected or not; scene; run; expected; observed; margin, the unused\n"

@@ -66,7 +66,7 @@ void add_generate(CLI::App& app, int& exit_code) {
         rope_options.anchor = Vec3(from.anchor.data());
         return scenes::rope_of_n(rope_options);
       });
-  rope->add_option("-n,--links", o.rope.n, "links")->check(CLI::Range(1, 19999));
+  rope->add_option("-n,--links", o.rope.n, "links")->check(whole(1, 19999));
   rope->add_option("--angle", o.angle_deg, "initial angle from the vertical [deg]")->check(angle);
   rope->add_option("--anchor", o.anchor, "suspension point: x y z [m]")->check(within(-1e5, 1e5));
   rope->add_option("--link-length", o.rope.link_length, "[m]")->check(within(1e-3, 10.0));
@@ -98,7 +98,7 @@ void add_generate(CLI::App& app, int& exit_code) {
   CLI::App* stack =
       add("heavy_stack", "layers of balls and plates under a heavy box",
           [](const GenerateOptions& from) { return scenes::heavy_stack(from.stack); });
-  stack->add_option("--layers", o.stack.layers, "layers")->check(CLI::Range(1, 1000));
+  stack->add_option("--layers", o.stack.layers, "layers")->check(whole(1, 1000));
   stack->add_option("--top-mass", o.stack.top_mass, "of the box [kg]")->check(within(1e-3, 1e9));
   stack->add_option("--alpha", o.stack.alpha, "of the settings")->check(within(1e-6, 1.0));
   stack->add_option("--compliance", o.stack.compliance, "of the contacts [m/N]")

@@ -12,7 +12,7 @@ void LengthFlags::add_to(CLI::App& command) {
   auto* by_time = command.add_option("--seconds", seconds, "how long to run [s]")
                       ->check(within(0.0, kMostSeconds));
   auto* by_count = command.add_option("--frames", frames, "how many frames to run")
-                       ->check(CLI::Range(std::int64_t{0}, kMostFrames));
+                       ->check(whole(0, kMostFrames));
   by_time->excludes(by_count);
 }
 

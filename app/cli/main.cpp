@@ -19,7 +19,7 @@
 namespace substep::cli {
 namespace {
 
-/// Whether the first word is a command or a flag. If not, prints suggestions; the library would
+/// Whether the first word is a command or a flag. If not, prints the commands; the library would
 /// only report a missing command.
 bool knows_command(const CLI::App& app, const std::string& word) {
   std::vector<std::string_view> names;
@@ -29,8 +29,10 @@ bool knows_command(const CLI::App& app, const std::string& word) {
     names.push_back(command->get_name());
   }
   if (word.empty() || word.front() == '-') return true;
-  complain("%s is not %s%s", word.c_str(), one_of(names).c_str(),
-           did_you_mean(word, names).c_str());
+  complain("no command is called %s%s", word.c_str(), did_you_mean(word, names).c_str());
+  std::string list;
+  for (const std::string_view name : names) (list += ' ') += name;
+  complain("Commands:%s", list.c_str());
   complain("Run with --help for more information.");
   return false;
 }

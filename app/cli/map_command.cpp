@@ -134,7 +134,7 @@ void add_map(CLI::App& app, int& exit_code) {
                    "simulated time of each run; default: that of the shipped map, 4 or 5 s")
       ->check(within(0.01, 3600.0));
   command->add_option("--jobs", options->jobs, "parallel runs; 0: one per processor")
-      ->check(CLI::Range(0, 1000));
+      ->check(whole(0, 1000));
   command->footer(
       "Columns: what is varied and its value; alpha; solver; whether it holds; how long it ran "
       "[s];\n"

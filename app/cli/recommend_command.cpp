@@ -188,7 +188,7 @@ void add_recommend(CLI::App& app, int& exit_code) {
       command
           ->add_option("--of", options->of,
                        "error of: path (of the body that the scene tracks), energy, gap or overlap")
-          ->check(CLI::IsMember({"path", "energy", "gap", "overlap"}));
+          ->check(among({"path", "energy", "gap", "overlap"}));
   CLI::Option* ms =
       command->add_option("--ms", options->ms, "maximum of the median time per frame [ms]")
           ->check(positive)
@@ -216,7 +216,7 @@ void add_recommend(CLI::App& app, int& exit_code) {
       ->excludes(of)
       ->excludes(ms)
       ->excludes(operations);
-  command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
+  command->add_option("--jobs", options->jobs, "threads")->check(whole(1, 1024));
   options->length.add_to(*command);
   command->footer(
       "For comparison, it prints the paper's method with the largest alpha within the error, or\n"

@@ -104,7 +104,7 @@ void add_reproduce(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "reproduce", "Recompute the paper's figures and claims and compare them with the paper");
   command->add_option("--out", options->out, "folder for report.html")->check(named());
-  command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
+  command->add_option("--jobs", options->jobs, "threads")->check(whole(1, 1024));
   command->add_flag("--quiet", options->quiet, "no progress, no summary");
   command->footer("Exit code 1 if a result differs from the recorded one.");
   command->callback([options, &exit_code] { exit_code = run(*options); });

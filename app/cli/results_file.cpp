@@ -90,7 +90,7 @@ bool ResultsFile::take_lock() {
   }
   struct stat about {};
   if (::fstat(descriptor_, &about) != 0 || !S_ISREG(about.st_mode)) {
-    tell(path_, "is not a regular file");
+    tell(path_, "not a regular file");
     return false;
   }
   if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
@@ -120,7 +120,7 @@ bool ResultsFile::read() {
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   const std::string header = results_header();
   if (whole == 0 && text != header.substr(0, text.size())) {
-    tell(path_, "is not a results file of substep; it is unchanged");
+    tell(path_, "not a results file of substep; it is unchanged");
     return false;
   }
   if (whole > 0) {
@@ -128,7 +128,7 @@ bool ResultsFile::read() {
     check_results_header(text.substr(0, text.find('\n')), problems);
     tell(path_, 1, problems);
     if (!problems.empty() || !read_results(path_, text.substr(0, whole), lines_, order_)) {
-      tell(path_, "is not a results file of substep, or is damaged; it is unchanged");
+      tell(path_, "not a results file of substep, or damaged; it is unchanged");
       return false;
     }
   }

@@ -148,7 +148,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(within(kLoadRange.least, kLoadRange.most));
   command
       ->add_option("--seed", options->seed, "seed of a perturbation of the start by up to 1e-9 m/s")
-      ->check(CLI::Range(0, kMostSeed));
+      ->check(whole(0, kMostSeed));
   command
       ->add_option("--experiments", options->experiments,
                    "run the experiments of this file, one JSON object per line, - for standard "

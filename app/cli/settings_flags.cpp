@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/model/methods.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep::cli {
 namespace {
@@ -35,7 +36,7 @@ void SettingsFlags::add_to(CLI::App& command) {
           [this](const std::string& name) {
             preset_ = find_preset(name);
             if (preset_ == nullptr) {
-              throw CLI::ValidationError("--preset", name + " is not " + preset_names());
+              throw CLI::ValidationError("--preset", must_be(preset_names(), name));
             }
           },
           "All settings at once, before the others; `recommended` is the scene's own if it has "

@@ -202,15 +202,15 @@ void add_sweep(CLI::App& app, int& exit_code) {
       ->required();
   auto* out = command->add_option("--out", options->out, "folder for results.jsonl and report.html")
                   ->check(named());
-  command->add_option("--jobs", options->jobs, "threads")->check(CLI::Range(1, 1024));
+  command->add_option("--jobs", options->jobs, "threads")->check(whole(1, 1024));
   command
       ->add_option("--seeds", options->seeds,
                    "runs of each experiment, from starts that differ by 1e-9 m/s")
-      ->check(CLI::Range(1, kMostSeeds));
+      ->check(whole(1, kMostSeeds));
   command
       ->add_option("--shard", options->shard, "i/n: only the i-th of n parts; `merge` merges them")
       ->check([](const std::string& text) -> std::string {
-        return parse_shard(text) ? "" : text + " is not i/n with 1 <= i <= n";
+        return parse_shard(text) ? "" : must_be("i/n with 1 <= i <= n", text);
       });
   command
       ->add_flag("--list", options->list,

@@ -251,7 +251,7 @@ int embed(int argc, char** argv) {
   const Bytes source{std::istreambuf_iterator<char>(in), {}};
   stbtt_fontinfo font{};
   if (source.empty() || stbtt_InitFont(&font, source.data(), 0) == 0) {
-    std::fprintf(stderr, "embed_font: %s is not a font that can be read\n", argv[1]);
+    std::fprintf(stderr, "embed_font: %s cannot be read as a font\n", argv[1]);
     return 2;
   }
   const Bytes file = font_file(font, source);

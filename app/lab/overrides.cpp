@@ -88,7 +88,7 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
       const SettingField* field = find_setting(key);
       Settings scratch;
       if (field == nullptr) {
-        problem = "'" + key + "' is not a setting";
+        problem = "no setting is called '" + key + "'";
       } else if (const auto wrong = set_setting(*field, value, scratch)) {
         problem = key + " " + *wrong;
       } else {
@@ -98,7 +98,7 @@ std::vector<Overrides> parse_overrides(std::string_view text, std::string& probl
     if (!overrides.empty()) runs.push_back(std::move(overrides));  // else it is invalid
   }
   if (runs.size() > kMostCompared) {
-    problem = "more than " + std::to_string(kMostCompared) + " methods beside the run";
+    problem = "must have at most " + std::to_string(kMostCompared) + " methods";
     runs.resize(kMostCompared);
   }
   return runs;

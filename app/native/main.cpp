@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "app/app.hpp"
+#include "app/cli/within.hpp"
 #include "app/native/host.hpp"
 #include "app/render/gl_renderer.hpp"
 #include "app/shell/arrangement.hpp"
@@ -244,15 +245,17 @@ int start(int argc, char** argv) {
   cli.add_flag("--bare", options.bare, "start with the panels hidden");
   cli.add_option("--screenshot", options.screenshot, "write a PNG after --frames frames and exit");
   cli.add_option("--frames", options.frames, "frames before the screenshot")
-      ->check(CLI::Range(1, 100000));
+      ->check(cli::whole(1, 100000));
   std::string size = "1280x800";
   cli.add_option("--size", size, "of the window, WxH in logical pixels");
-  cli.add_option("--scale", options.scale, "pixels per logical pixel")->check(CLI::Range(0.5, 4.0));
+  cli.add_option("--scale", options.scale, "pixels per logical pixel")
+      ->check(cli::within(0.5, 4.0));
   CLI11_PARSE(cli, argc, argv);
   if (std::sscanf(size.c_str(), "%dx%d", &options.width, &options.height) != 2 ||
       options.width < 200 || options.height < 200 || options.width > 8192 ||
       options.height > 8192) {
-    std::fprintf(stderr, "substep: --size %s is not WxH\n", size.c_str());
+    std::fprintf(stderr, "substep: --size: must be WxH, each from 200 to 8192, not %s\n",
+                 size.c_str());
     return 2;
   }
   return run(options);

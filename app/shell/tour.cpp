@@ -30,7 +30,7 @@ std::string Tour::go(App& app, std::string_view value) {
   const auto count = static_cast<double>(steps.size());
   const bool whole = number && *number == std::round(*number);
   if (value != "off" && (!whole || *number < 1.0 || *number > count)) {
-    return "is not off or a whole number from 1 to " + std::to_string(steps.size());
+    return must_be("off or a whole number from 1 to " + std::to_string(steps.size()), value);
   }
   app.desk.tour_hint = false;
   if (value == "off") {

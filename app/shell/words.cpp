@@ -25,8 +25,7 @@ constexpr double kLongestLink = 16384.0;  // [characters]; without an embedded s
 // One of two words. @return error message, or ""
 std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
   if (value != words[0] && value != words[1]) {
-    return "'" + std::string(value) + "' is not " + std::string(words[0]) + " or " +
-           std::string(words[1]);
+    return must_be(std::string(words[0]) + " or " + std::string(words[1]), value);
   }
   on = value == words[1];
   return "";
@@ -37,7 +36,7 @@ std::string choose_panel(std::string_view value, Desk& desk) {
                                                           "accuracy"};
   const auto* const found = std::find(kNames.begin(), kNames.end(), value);
   if (found == kNames.end()) {
-    return "'" + std::string(value) + "' is not controls, plots, why, compare or accuracy";
+    return must_be("controls, plots, why, compare or accuracy", value);
   }
   desk.tab = static_cast<Tab>(found - kNames.begin());
   const bool lab_only = desk.tab == Tab::kCompare || desk.tab == Tab::kAccuracy;
@@ -51,7 +50,7 @@ std::string select_body(App& app, std::string_view name) {
   const auto found =
       std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.name == name; });
   if (name != "none" && found == bodies.end()) {
-    return "there is no body named '" + std::string(name) + "'";
+    return "no body is called '" + std::string(name) + "'";
   }
   app.desk.selected = name == "none" ? -1 : static_cast<int>(found - bodies.begin());
   return "";
@@ -67,7 +66,7 @@ std::string choose_plots(std::string_view value, Desk& desk) {
     rest.remove_prefix(std::min(name.size() + 1, rest.size()));
     const auto* const found = std::find(kNames.begin(), kNames.end(), name);
     if (found == kNames.end()) {
-      return "'" + std::string(name) + "' is not substeps, energy, drift, error or time";
+      return must_be("substeps, energy, drift, error or time", name);
     }
     shown.at(static_cast<std::size_t>(found - kNames.begin())) = true;
   }
@@ -83,7 +82,7 @@ std::optional<std::string> set_window(App& app, std::string_view key, std::strin
     const auto number = parse_number(value);
     const Range range = key == "speed" ? Range{0.01, 16.0} : Range{0.8, 1.5};
     if (!number || !range.contains(*number)) {
-      return "must be " + range.text() + ", not " + std::string(value);
+      return must_be(range.text(), value);
     }
     if (key == "speed") app.session.set_speed(*number);
     if (key == "scale") desk.scale = *number;
@@ -130,9 +129,8 @@ std::string set_experiment(Lab& lab, std::string_view key, std::string_view valu
   const Range range = key == "load"   ? kLoadRange
                       : key == "seed" ? Range{0.0, static_cast<double>(kMostSeed)}
                                       : kDurationRange;
-  if (!number || !range.contains(*number))
-    return "must be " + range.text() + ", not " + std::string(value);
-  if (key == "seed" && *number != std::round(*number)) return "is not a whole number";
+  if (!number || !range.contains(*number)) return must_be(range.text(), value);
+  if (key == "seed" && *number != std::round(*number)) return must_be("a whole number", value);
   if (key == "load") lab.vary(*number, lab.seed);
   if (key == "seed") lab.vary(lab.load, static_cast<int>(*number));
   if (key == "seconds") lab.pause_at = *number;
@@ -163,8 +161,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
   } else if (value == "measure") {
     lab.measure_costs();
   } else {
-    return "'" + std::string(value) +
-           "' is not run, cancel, alpha, measure, error, trade, map or stages";
+    return must_be("run, cancel, alpha, measure, error, trade, map or stages", value);
   }
   return "";
 }
@@ -173,7 +170,7 @@ std::string set_accuracy(Lab& lab, std::string_view value) {
 
 std::string App::set(std::string_view key, std::string_view value) {
   if (key == "scene") {
-    return open(value) ? "" : "there is no scene named '" + std::string(value) + "'";
+    return open(value) ? "" : "no scene is called '" + std::string(value) + "'";
   }
   if (auto problem = set_window(*this, key, value)) return *std::move(problem);
   introduction.leave(*this);  // the following commands are for the run in the laboratory
@@ -204,13 +201,13 @@ std::string App::set(std::string_view key, std::string_view value) {
   }
   if (key == "preset") {
     const Preset* preset = find_preset(value);
-    if (preset == nullptr) return "'" + std::string(value) + "' is not " + preset_names();
+    if (preset == nullptr) return must_be(preset_names(), value);
     change(settings_for(*preset, session.scene()));
     if (needs_lab(*this)) desk.level = DeskLevel::kLab;
     return "";
   }
   const SettingField* field = find_setting(key);
-  if (field == nullptr) return "is not a setting";
+  if (field == nullptr) return "no such setting";
   Settings s = session.settings();
   if (const auto problem = set_setting(*field, value, s)) return *problem;
   change(s);

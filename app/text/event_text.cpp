@@ -172,7 +172,7 @@ class EventReader {
         event.what = settings_;
         break;
       default:
-        problem = "is of an unknown kind";
+        problem = "has an unknown kind";
     }
     return event;
   }
@@ -183,7 +183,7 @@ class EventReader {
     ++balls_;
     Ball ball = ball_of(ballistics_);
     const Problems wrong = check_values(with_ball(Scene{}, ball, 0));
-    if (in_.ok() && !wrong.empty()) problem = "is a ball: " + to_string(wrong.front());
+    if (in_.ok() && !wrong.empty()) problem = "has an invalid ball: " + to_string(wrong.front());
     return ball;
   }
   Effects effects() {
@@ -258,7 +258,7 @@ std::vector<RunEvent> read_events(std::string_view text, const Scene& scene, con
   if (text.size() > kMostEventText) {
     problem = "has more than " + std::to_string(kMostEventText) + " characters";
   } else if (!bytes || bytes->empty()) {
-    problem = "is not a list of events: was the link truncated?";
+    problem = "cannot be decoded: was the link truncated?";
   } else if (bytes->front() != kVersion) {
     problem = "is of a later version of this program";
   }

@@ -10,13 +10,13 @@ BodyNames::BodyNames(const std::vector<Body>& bodies, Problems& problems) : bodi
     const std::string pointer = pointer_to(pointer_to("/bodies", i), "name");
     if (name.empty()) continue;  // reported when it was read
     if (name == kWorldName) {
-      problems.push_back({pointer, "\"world\" is not a name for a body: it is the fixed world"});
+      problems.push_back({pointer, "must not be \"world\", the name of the fixed world"});
       continue;
     }
     const auto [first, is_new] = index_.emplace(name, static_cast<int>(i));
     if (!is_new) {
-      problems.push_back({pointer, value_text(name) + " is the name of /bodies/" +
-                                       std::to_string(first->second) + " already"});
+      problems.push_back({pointer, value_text(name) + " is already the name of /bodies/" +
+                                       std::to_string(first->second)});
     }
   }
 }
@@ -29,7 +29,7 @@ std::optional<int> BodyNames::read(ObjectReader& in, std::string_view key,
   if (const auto found = index_.find(name); found != index_.end()) return found->second;
   std::vector<std::string_view> names;
   for (const auto& entry : index_) names.push_back(entry.first);
-  in.problem(key, "no body is named " + value_text(name) + in.guess(name, names));
+  in.problem(key, "no body is called " + value_text(name) + in.guess(name, names));
   return std::nullopt;
 }
 

@@ -28,7 +28,7 @@ Shape read_shape(const Json& json, const std::string& pointer, bool is_static, P
     if (!is_static) in.problem("type", std::string(kMovingPlane));
     shape = Plane{};
   } else {
-    in.problem("type", value_text(type) + " is not sphere, box or plane");
+    in.problem("type", must_be("sphere, box or plane", value_text(type)));
     return shape;
   }
   in.finish();
@@ -70,7 +70,7 @@ void read_color(ObjectReader& in, Body& body) {
   const char* end = text.data() + text.size();
   const bool shaped = text.size() == 7 && text[0] == '#';
   if (!shaped || std::from_chars(begin, end, value, 16).ptr != end) {
-    in.problem("color", value_text(text) + " is not a color like \"#ff8800\"");
+    in.problem("color", must_be("a colour like \"#ff8800\"", value_text(text)));
     return;
   }
   body.color = value;

@@ -49,7 +49,7 @@ void read_own(ObjectReader& in, std::size_t bodies, std::vector<OwnSubstep>& own
   const bool has_r = in.numbers("own_r", kStiffnessOverMassRange, r.data(), bodies, kOptional);
   if ((in.member("own_r", kOptional) == nullptr) !=
       (in.member("own_dt_previous", kOptional) == nullptr)) {
-    in.problem("own_r", "own_r and own_dt_previous need each other");
+    in.problem("own_r", "own_r and own_dt_previous must be given together");
   }
   if (!has_dt || !has_r) return;
   for (std::size_t i = 0; i < bodies; ++i) own.push_back({dt[i], r[i]});
@@ -66,7 +66,7 @@ void read_rotation(ObjectReader& in, std::size_t bodies, Carried& carried) {
   in.number("rotation_age", not_negative(10.0, "s"), carried.rotation_age, kOptional);
   if ((in.member("rotation_before", kOptional) == nullptr) !=
       (in.member("rotation_now", kOptional) == nullptr)) {
-    in.problem("rotation_now", "rotation_now and rotation_before need each other");
+    in.problem("rotation_now", "rotation_now and rotation_before must be given together");
   }
   if (!has_before || !has_now) return;
   for (std::size_t i = 0; i < bodies; ++i) carried.rotation.push_back({before[i], now[i]});
@@ -86,7 +86,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
     const char* end = id.data() + id.size();
     const auto [read, error] = std::from_chars(id.data(), end, force.id, 16);
     if (read != end || error != std::errc{}) {
-      in.problem("id", value_text(id) + " is not a hexadecimal number of up to 16 digits");
+      in.problem("id", must_be("a hexadecimal number of at most 16 digits", value_text(id)));
     }
   }
   const auto rows = [&](std::string_view key, const Range& range, double* numbers,
@@ -94,7 +94,8 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
     const Json* list = in.member(key, presence);
     if (!list) return;
     if (!list->is_array() || list->size() > kRows) {
-      in.problem(key, value_text(*list) + " is not a list of up to " + std::to_string(kRows));
+      in.problem(key, must_be("a list of at most " + std::to_string(kRows) + " numbers",
+                              value_text(*list)));
     } else {
       in.numbers(key, range, numbers, list->size(), presence);
     }
@@ -109,7 +110,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
     for (std::size_t row = 0; row < tight.size(); ++row) {
       const std::size_t side = kSides.find(tight[row]);
       if (side == std::string_view::npos) {
-        in.problem("tight", value_text(tight) + " is not made of -, 0, + and ?");
+        in.problem("tight", must_be("made of -, 0, + and ?", value_text(tight)));
         break;
       }
       force.active_set[row] = static_cast<std::int8_t>(static_cast<int>(side) - 1);
@@ -163,17 +164,17 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   read_own(in, n, carried.own);
   read_rotation(in, n, carried);
   for (const char* key : {"k", "k_resisting"}) {
-    if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "needs r");
+    if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "requires r");
   }
   if (in.member("k_resisting", kOptional) && !in.member("k", kOptional)) {
-    in.problem("k_resisting", "needs k");
+    in.problem("k_resisting", "requires k");
   }
   std::vector<double> rest(n);
   if (in.numbers("rest", not_negative(1.0, "s"), rest.data(), n, kOptional)) carried.rest = rest;
   if (const Json* forces = in.member("forces", kOptional)) {
     if (!forces->is_array() || forces->size() > kMaxForces) {
-      in.problem("forces",
-                 value_text(*forces) + " is not a list of up to " + std::to_string(kMaxForces));
+      in.problem("forces", must_be("a list of at most " + std::to_string(kMaxForces) + " items",
+                                   value_text(*forces)));
     } else {
       for (std::size_t i = 0; i < forces->size() && problems.size() <= kMaxProblems; ++i) {
         carried.forces.push_back(

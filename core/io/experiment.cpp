@@ -100,7 +100,7 @@ ExperimentInput read_experiment(const Json& json, const SceneFinder& find, Probl
   std::string hash;
   if (in.text("scene", kLongest, experiment.scene, kRequired)) {
     input.scene = find(experiment.scene);
-    if (!input.scene) in.problem("scene", value_text(experiment.scene) + " is not known");
+    if (!input.scene) in.problem("scene", "no scene is called " + value_text(experiment.scene));
   }
   if (input.scene) experiment = experiment_of(*input.scene, input.scene->settings);
   read_settings(in, experiment.settings, problems);
@@ -109,13 +109,13 @@ ExperimentInput read_experiment(const Json& json, const SceneFinder& find, Probl
   in.integer("seed", 0, kMostSeed, experiment.seed, kOptional);
   if (in.text("scene_hash", kLongest, hash, kOptional) && input.scene &&
       hash != hex_text(experiment.scene_hash)) {
-    in.problem("scene_hash", value_text(hash) + " is not " + hex_text(experiment.scene_hash) +
+    in.problem("scene_hash", must_be(hex_text(experiment.scene_hash), value_text(hash)) +
                                  ": the scene has changed");
   }
   if (in.text("id", kLongest, id, kOptional) && problems.size() == before &&
       id != experiment_id(experiment)) {
-    in.problem("id", value_text(id) + " is not " + experiment_id(experiment) +
-                         ", the id of this experiment");
+    in.problem("id",
+               must_be(experiment_id(experiment) + ", the id of this experiment", value_text(id)));
   }
   in.finish();
   if (problems.size() == before) input.experiment = std::move(experiment);

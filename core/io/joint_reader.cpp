@@ -59,7 +59,7 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   std::optional<Joint> joint = make_joint(type);
   if (!joint) {
     const std::vector<std::string_view> known(kJointTypes.begin(), kJointTypes.end());
-    in.problem("type", value_text(type) + " is not " + one_of(known));
+    in.problem("type", must_be(one_of(known), value_text(type)));
     return {};
   }
   base(*joint).name = name;

@@ -175,8 +175,7 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
     return std::nullopt;
   };
   if (text.size() > kMaxTextSize) {
-    return fail(std::to_string(text.size()) + " bytes are more than " +
-                std::to_string(kMaxTextSize) + " (32 MiB)");
+    return fail(too_many(text.size(), kMaxTextSize, "bytes (32 MiB)"));
   }
   if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return fail("the file is empty");
   if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
@@ -207,7 +206,8 @@ std::string value_text(const Json& value) {
   constexpr std::size_t kLongest = 60;
   if (const auto* number = value.get_ptr<const double*>()) return number_text(*number);
   if (value.is_object()) return "an object";
-  if (value.is_array() && value.size() > 8) return "a list of " + std::to_string(value.size());
+  if (value.is_array() && value.size() > 8)
+    return "a list of " + std::to_string(value.size()) + " items";
   std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (text.size() > kLongest) text = text.substr(0, kLongest - 3) + "...";
   return text;

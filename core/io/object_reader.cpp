@@ -56,7 +56,7 @@ ObjectReader::ObjectReader(const Json& json, std::string pointer, Problems& prob
   if (json.is_object()) {
     json_ = &json;
   } else {
-    problem("", value_text(json) + " is not an object");
+    problem("", must_be("an object", value_text(json)));
   }
 }
 
@@ -83,9 +83,9 @@ const Json* ObjectReader::member(std::string_view key, Presence presence) {
 
 std::optional<std::string> ObjectReader::number_fault(const Json& value, const Range& range,
                                                       double& target) {
-  if (!value.is_number()) return value_text(value) + " is not a number" + range.unit_text();
+  if (!value.is_number()) return must_be("a number" + range.unit_text(), value_text(value));
   const auto x = value.get<double>();
-  if (!range.contains(x)) return "must be " + range.violated_by(x) + ", not " + value_text(value);
+  if (!range.contains(x)) return must_be(range.violated_by(x), value_text(value));
   target = x;
   return std::nullopt;
 }
@@ -105,8 +105,9 @@ bool ObjectReader::integer(std::string_view key, int least, int most, int& targe
   if (!value) return false;
   const double x = value->is_number() ? value->get<double>() : std::nan("");
   if (!(x >= least && x <= most) || x != std::floor(x)) {
-    problem(key, value_text(*value) + " is not a whole number from " + std::to_string(least) +
-                     " to " + std::to_string(most));
+    problem(key,
+            must_be("a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+                    value_text(*value)));
     return false;
   }
   target = static_cast<int>(x);
@@ -117,7 +118,7 @@ bool ObjectReader::flag(std::string_view key, bool& target, Presence presence) {
   const Json* value = member(key, presence);
   if (!value) return false;
   if (!value->is_boolean()) {
-    problem(key, value_text(*value) + " is not true or false");
+    problem(key, must_be("true or false", value_text(*value)));
     return false;
   }
   target = value->get<bool>();
@@ -130,14 +131,14 @@ bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& 
   if (!value) return false;
   const auto* words = value->get_ptr<const std::string*>();
   if (!words) {
-    problem(key, value_text(*value) + " is not a text");
+    problem(key, must_be("a string", value_text(*value)));
     return false;
   }
   const auto is_control = [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; };
   if (words->size() > longest) {
-    problem(key, std::to_string(words->size()) + " bytes are more than " + std::to_string(longest));
+    problem(key, too_many(words->size(), longest, "bytes"));
   } else if (presence == kRequired && words->empty()) {
-    problem(key, "\"\" is empty");
+    problem(key, "must not be empty");
   } else if (std::any_of(words->begin(), words->end(), is_control)) {
     problem(key, value_text(*value) + " has a control character");
   } else {
@@ -151,8 +152,8 @@ template <class Pointer>
 bool ObjectReader::row(const Json& value, const Pointer& pointer, const Range& range,
                        double* target, std::size_t size) {
   if (!value.is_array() || value.size() != size) {
-    problems_.push_back({pointer(), value_text(value) + " is not a list of " +
-                                        std::to_string(size) + " numbers" + range.unit_text()});
+    const std::string list = "a list of " + std::to_string(size) + " numbers";
+    problems_.push_back({pointer(), must_be(list + range.unit_text(), value_text(value))});
     return false;
   }
   std::vector<double> read(size);
@@ -178,7 +179,7 @@ bool ObjectReader::table(std::string_view key, const Range& range, double* targe
   const Json* value = member(key, presence);
   if (!value) return false;
   if (!value->is_array() || value->size() != rows) {
-    problem(key, value_text(*value) + " is not a list of " + std::to_string(rows) + " lists");
+    problem(key, must_be("a list of " + std::to_string(rows) + " lists", value_text(*value)));
     return false;
   }
   bool ok = true;

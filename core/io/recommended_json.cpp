@@ -20,7 +20,7 @@ void read_axis(ObjectReader& in, ErrorAxis& axis) {
   }
   std::vector<std::string_view> names;
   for (const auto& entry : NameTable<ErrorAxis>::entries) names.push_back(entry.name);
-  in.problem("of", value_text(Json(name)) + " is not " + one_of(names));
+  in.problem("of", must_be(one_of(names), value_text(Json(name))));
 }
 
 }  // namespace

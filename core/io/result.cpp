@@ -103,12 +103,12 @@ void check_results_header(std::string_view line, Problems& problems) {
   ObjectReader in(*json, "", problems);
   const Json* format = in.member("format", kRequired);
   if (format && *format != "substep-results") {
-    in.problem("format", value_text(*format) + " is not \"substep-results\"");
+    in.problem("format", must_be("\"substep-results\"", value_text(*format)));
   }
   const Json* version = in.member("version", kRequired);
   if (version && *version != kResultsVersion) {
-    in.problem("version", value_text(*version) + " is not " + std::to_string(kResultsVersion) +
-                              ", the only known version");
+    in.problem("version", must_be(std::to_string(kResultsVersion) + ", the only known version",
+                                  value_text(*version)));
   }
 }
 
@@ -137,7 +137,7 @@ std::optional<std::string> result_id(const Json& line, Problems& problems) {
   if (in.is_object()) {
     for (const char* part : {"settings", "errors", "work", "timing"}) {
       const Json* json = in.member(part, kRequired);
-      if (json && !json->is_object()) in.problem(part, value_text(*json) + " is not an object");
+      if (json && !json->is_object()) in.problem(part, must_be("an object", value_text(*json)));
     }
   }
   if (problems.size() != before) return std::nullopt;

@@ -144,9 +144,9 @@ SceneReading::Part SceneReading::Impl::read_joints() {
     const std::string& name = base(scene->joints.back()).name;
     const auto [other, is_new] = joint_names.emplace(name, item);
     if (!is_new && !name.empty()) {
-      found.push_back({pointer_to(pointer, "name"), value_text(name) + " is the name of /joints/" +
-                                                        std::to_string(other->second) +
-                                                        " already"});
+      found.push_back(
+          {pointer_to(pointer, "name"),
+           value_text(name) + " is already the name of /joints/" + std::to_string(other->second)});
     }
   }
   return part_continues(joints, joints == nullptr ? 0 : joints->size()) ? Part::kJoints

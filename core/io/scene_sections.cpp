@@ -16,10 +16,10 @@ bool read_version(ObjectReader& in, Problems& problems) {
   const std::size_t before = problems.size();
   std::string format;
   if (in.text("format", kMaxProse, format, kRequired) && format != "substep-scene") {
-    in.problem("format", value_text(format) + " is not \"substep-scene\"");
+    in.problem("format", must_be("\"substep-scene\"", value_text(format)));
   }
   if (const Json* version = in.member("version", kRequired); version && *version != 1) {
-    in.problem("version", value_text(*version) + " is not 1, the only known version");
+    in.problem("version", must_be("1, the only known version", value_text(*version)));
   }
   return problems.size() == before;
 }
@@ -28,7 +28,7 @@ void read_about(ObjectReader& in, Scene& scene) {
   constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789_-";
   if (in.text("name", kMaxNameSize, scene.name, kRequired) &&
       scene.name.find_first_not_of(kLetters) != std::string::npos) {
-    in.problem("name", value_text(scene.name) + " is not made of a-z, 0-9, _ and - only");
+    in.problem("name", must_be("made of a-z, 0-9, _ and -", value_text(scene.name)));
   }
   in.text("title", kMaxTitle, scene.title, kRequired);
   in.text("group", kMaxTitle, scene.group, kOptional);
@@ -43,7 +43,7 @@ void read_camera(ObjectReader& parent, Scene& scene, Problems& problems) {
   const bool eye = in.vector("eye", kPositionRange, scene.camera.eye, kRequired);
   const bool target = in.vector("target", kPositionRange, scene.camera.target, kRequired);
   if (eye && target && scene.camera.eye == scene.camera.target) {
-    in.problem("target", "the same point as eye");
+    in.problem("target", "must be a different point from eye");
   }
   double width = 0.0;
   if (in.number("width", kDistanceRange, width, kOptional)) scene.camera.width = width;
@@ -76,7 +76,7 @@ void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, P
   const auto read_body_name = [&](ObjectReader& reader, std::string_view key, Presence presence) {
     auto body = names.read(reader, key, presence);
     if (body == kWorld) {
-      reader.problem(key, "\"world\" is not a body");
+      reader.problem(key, "must be a body of the scene, not \"world\"");
       body.reset();
     }
     return body;
@@ -94,7 +94,7 @@ void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, P
   std::string expected = "holds";
   if (in.text("expected", kMaxNameSize, expected, kOptional)) {
     if (expected != "holds" && expected != "fails") {
-      in.problem("expected", value_text(expected) + " is not holds or fails");
+      in.problem("expected", must_be("holds or fails", value_text(expected)));
     }
     criteria.holds = expected == "holds";
   }
@@ -106,11 +106,11 @@ const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, 
   const Json* list = in.member(key, presence);
   if (!list) return nullptr;
   if (!list->is_array()) {
-    in.problem(key, value_text(*list) + " is not a list");
+    in.problem(key, must_be("a list", value_text(*list)));
     return nullptr;
   }
   if (list->size() > most) {
-    in.problem(key, std::to_string(list->size()) + " are more than " + std::to_string(most));
+    in.problem(key, too_many(list->size(), most, "items"));
     return nullptr;
   }
   return list;
@@ -127,7 +127,7 @@ bool read_effects(ObjectReader& in, Scene& scene) {
     const auto found = std::find_if(kEffectNames.begin(), kEffectNames.end(),
                                     [&](const NamedEffect& effect) { return name == effect.name; });
     if (found == kEffectNames.end()) {
-      in.item_problem("effects", i, value_text(name) + " is not " + one_of(names));
+      in.item_problem("effects", i, must_be(one_of(names), value_text(name)));
     } else if (scene.effects.*found->member) {
       in.item_problem("effects", i, value_text(name) + " is listed twice");
     } else {
@@ -142,7 +142,7 @@ void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& proble
   const Effects& listed = scene.effects;
   const auto missing = [&](std::string_view effect, const std::string& why) {
     std::string message = value_text(effect);
-    message += " is missing, and ";
+    message += " is missing, but ";
     message += why;
     in.problem("effects", message);
   };
@@ -160,7 +160,7 @@ void read_start(ObjectReader& in, Scene& scene) {
   }
   std::vector<std::string_view> names;
   for (const auto& entry : NameTable<StartPolicy>::entries) names.push_back(entry.name);
-  in.problem("start", value_text(name) + " is not " + one_of(names));
+  in.problem("start", must_be(one_of(names), value_text(name)));
 }
 
 }  // namespace substep

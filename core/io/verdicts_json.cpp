@@ -18,7 +18,7 @@ std::optional<Enum> read_name(ObjectReader& in, std::string_view key, Presence p
   if (!value) {
     std::vector<std::string_view> names;
     for (const auto& entry : NameTable<Enum>::entries) names.push_back(entry.name);
-    in.problem(key, value_text(text) + " is not " + one_of(names));
+    in.problem(key, must_be(one_of(names), value_text(text)));
   }
   return value;
 }
@@ -33,7 +33,7 @@ Expectation read_rule(const Json& json, const std::string& pointer, Problems& pr
   int n = 0;
   if (in.integer("n", n_field.least, n_field.most, n, kOptional)) {
     rule.n = n;
-    if (rule.mode != Mode::kConst) in.problem("n", "is for mode const only");
+    if (rule.mode != Mode::kConst) in.problem("n", "is allowed in mode const only");
   }
   rule.integrator = read_name<Integrator>(in, "integrator", kOptional);
   const auto verdict = read_name<Expected>(in, "verdict", kRequired);
@@ -42,7 +42,7 @@ Expectation read_rule(const Json& json, const std::string& pointer, Problems& pr
   if (in.number("before", kDurationRange, before, kOptional)) {
     rule.before = before;
     if (verdict && *verdict != Expected::kFails)
-      in.problem("before", "is for the verdict fails only");
+      in.problem("before", "is allowed with verdict fails only");
   }
   in.text("why", kMaxProse, rule.why, kOptional);
   if (verdict == Expected::kDepends && rule.why.empty()) {
@@ -59,10 +59,9 @@ Expectations read_verdicts(ObjectReader& scene, Problems& problems) {
   const Json* list = scene.member("verdicts", kOptional);
   if (!list) return rules;
   if (!list->is_array()) {
-    scene.problem("verdicts", value_text(*list) + " is not a list");
+    scene.problem("verdicts", must_be("a list", value_text(*list)));
   } else if (list->size() > kMaxVerdictRules) {
-    scene.problem("verdicts", std::to_string(list->size()) + " are more than " +
-                                  std::to_string(kMaxVerdictRules));
+    scene.problem("verdicts", too_many(list->size(), kMaxVerdictRules, "items"));
   } else {
     for (std::size_t i = 0; i < list->size(); ++i) {
       rules.push_back(read_rule((*list)[i], pointer_to(scene.pointer("verdicts"), i), problems));

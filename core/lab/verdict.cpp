@@ -35,10 +35,9 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   if (failed_) return;
   const Criteria& criteria = scene.criteria;
   std::string why = stop_text(scene, report);
-  // The first criterion exceeded is the reason; all contribute to strain_, the largest value
-  // relative to its limit.
+  // The first criterion exceeded is the reason; all contribute to utilisation_.
   const auto judge = [&](What what, double value, double limit, const std::string& name) {
-    strain_ = std::max(strain_, value / limit);
+    utilisation_ = std::max(utilisation_, value / limit);
     if (!(value > limit) || !why.empty()) return;
     exceeded_ = {what, value, limit, name};
     why = text_of(*exceeded_);

@@ -37,8 +37,8 @@ class Verdict {
   [[nodiscard]] double failed_at() const { return failed_at_; }  ///< [s], for a failed run
   /// True if the simulator cannot continue: StepStatus.
   [[nodiscard]] bool stopped() const { return stopped_; }
-  /// Largest value so far relative to its criterion's limit [-].
-  [[nodiscard]] double strain() const { return strain_; }
+  /// The largest ratio of a criterion's value to its limit so far [-].
+  [[nodiscard]] double utilisation() const { return utilisation_; }
   /// The criterion that failed the run; empty if it holds or cannot continue.
   [[nodiscard]] const std::optional<Exceeded>& exceeded() const { return exceeded_; }
   /// "holds", "disturbed at 1.20 s", or "fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)".
@@ -49,7 +49,7 @@ class Verdict {
   bool disturbed_ = false;
   bool stopped_ = false;
   double failed_at_ = 0.0;
-  double strain_ = 0.0;
+  double utilisation_ = 0.0;
   double energy_at_start_ = 0.0;
   Vec3 watched_start_ = Vec3::Zero();
   std::optional<Exceeded> exceeded_;

@@ -73,8 +73,8 @@ Judgement judge(const Scene& scene, const Expectation& expected, const Experimen
   const Verdict& verdict = run.verdict();
   Judgement judgement;
   const double latest = expected.before.value_or(scene.criteria.duration);
-  judgement.margin =
-      verdict.holds() ? 1.0 - verdict.strain() : std::max(0.0, 1.0 - verdict.failed_at() / latest);
+  judgement.margin = verdict.holds() ? 1.0 - verdict.utilisation()
+                                     : std::max(0.0, 1.0 - verdict.failed_at() / latest);
   switch (expected.verdict) {
     case Expected::kHolds:
       judgement.as_expected = verdict.holds();

@@ -11,7 +11,8 @@ namespace substep {
 namespace {
 
 std::string not_unit_text(double length) {
-  return "length " + number_text(length) + " is not 1 within " + number_text(kUnitTolerance);
+  return "must have length 1 within " + number_text(kUnitTolerance) + ", not " +
+         number_text(length);
 }
 
 struct ShapeCheck {
@@ -97,13 +98,13 @@ std::optional<DirectionFault> across_fault(const Joint& joint) {
   if (!axes || !across) return std::nullopt;
   const auto fault = [](std::string_view key, const Vec3& axis, const Vec3& v) {
     const double cosine = std::abs(axis.dot(v));
-    return cosine <= kUnitTolerance
-               ? std::nullopt
-               : std::optional<DirectionFault>({key,
-                                                "is not across the axis: the cosine of their "
-                                                "angle is " +
-                                                    number_text(cosine) + ", which is more than " +
-                                                    number_text(kUnitTolerance)});
+    return cosine <= kUnitTolerance ? std::nullopt
+                                    : std::optional<DirectionFault>(
+                                          {key,
+                                           "must be perpendicular to the axis: the cosine of their "
+                                           "angle is " +
+                                               number_text(cosine) + ", which is more than " +
+                                               number_text(kUnitTolerance)});
   };
   if (auto of_a = fault("across_a", axes->a, across->a)) return of_a;
   return fault("across_b", axes->b, across->b);
@@ -114,19 +115,19 @@ std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int 
     return side != kWorld && (side < 0 || index(side) >= bodies.size());
   };
   const auto no_body = [&](int side, const char* world) {
-    return std::to_string(side) + " is not a body: must be from 0 to " +
-           std::to_string(bodies.size() - 1) + world;
+    return must_be("the index of a body, from 0 to " + std::to_string(bodies.size() - 1) + world,
+                   std::to_string(side));
   };
   if (bodies.empty()) return SideFault{"a", "the scene has no bodies"};
   if (a == kWorld) {
-    return SideFault{"a", "\"world\" never moves: a must move, b may be static or \"world\""};
+    return SideFault{"a", "must be a moving body, not \"world\"; b may be static or \"world\""};
   }
   if (unknown(a)) return SideFault{"a", no_body(a, "")};
   if (unknown(b)) return SideFault{"b", no_body(b, ", or -1 for the world")};
   if (bodies[index(a)].is_static) {
-    return SideFault{"a", "this body is static: a must move, b may be static or \"world\""};
+    return SideFault{"a", "must be a moving body, not a static one; b may be static or \"world\""};
   }
-  if (a == b) return SideFault{"b", "the same body as a"};
+  if (a == b) return SideFault{"b", "must be a different body from a"};
   return std::nullopt;
 }
 
@@ -142,8 +143,9 @@ void check_body(const Body& body, const DataPlace& place, Problems& problems) {
   check_number(body.restitution, kRestitutionRange, place.at("restitution"), problems);
   if (body.collision_group < -1 || body.collision_group > kMaxCollisionGroup) {
     problems.push_back({place.at("collision_group").pointer(),
-                        std::to_string(body.collision_group) + " is not a whole number from 0 to " +
-                            std::to_string(kMaxCollisionGroup) + ", or -1 for none"});
+                        must_be("a whole number from 0 to " + std::to_string(kMaxCollisionGroup) +
+                                    ", or -1 for none",
+                                std::to_string(body.collision_group))});
   }
 }
 

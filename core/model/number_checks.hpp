@@ -14,8 +14,7 @@ namespace substep {
 inline void check_number(double value, const Range& range, const DataPlace& place,
                          Problems& problems) {
   if (range.contains(value)) return;
-  problems.push_back(
-      {place.pointer(), "must be " + range.violated_by(value) + ", not " + number_text(value)});
+  problems.push_back({place.pointer(), must_be(range.violated_by(value), number_text(value))});
 }
 
 /// The same for each component of a vector.

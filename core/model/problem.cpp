@@ -23,6 +23,16 @@ std::string pointer_to(std::string_view parent, std::size_t index) {
   return std::string(parent) + "/" + std::to_string(index);
 }
 
+std::string must_be(std::string_view allowed, std::string_view value) {
+  if (value.empty()) value = "\"\"";
+  return "must be " + std::string(allowed) + ", not " + std::string(value);
+}
+
+std::string too_many(std::size_t count, std::size_t most, std::string_view what) {
+  return "must have at most " + std::to_string(most) + " " + std::string(what) + ", not " +
+         std::to_string(count);
+}
+
 std::string to_string(const Problem& problem) {
   return problem.pointer.empty() ? problem.message : problem.pointer + ": " + problem.message;
 }

@@ -24,6 +24,12 @@ std::string to_string(const Problem& problem);
 /// The same with the location in C++ syntax: "bodies[3].mass: must be above 0 (kg), not -1"
 std::string to_code(const Problem& problem);
 
+/// The message for an invalid value: "must be true or false, not 3".
+std::string must_be(std::string_view allowed, std::string_view value);
+
+/// The message for too many of something: "must have at most 5 bytes, not 6".
+std::string too_many(std::size_t count, std::size_t most, std::string_view what);
+
 /// The pointer of a member: "/bodies" and "a/b" give "/bodies/a~1b" (RFC 6901).
 std::string pointer_to(std::string_view parent, std::string_view key);
 std::string pointer_to(std::string_view parent, std::size_t index);

@@ -110,7 +110,7 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
 void check_effects(const Scene& scene, Problems& problems) {
   const Effects& listed = scene.effects;
   const auto missing = [&](const std::string& effect, const std::string& why) {
-    problems.push_back({"/effects", '"' + effect + "\" is missing, and " + why});
+    problems.push_back({"/effects", '"' + effect + "\" is missing, but " + why});
   };
   if (!listed.joints && !scene.joints.empty()) {
     missing("joints", "/joints has " + std::to_string(scene.joints.size()));

@@ -5,6 +5,7 @@
 
 #include "core/model/names.hpp"
 #include "core/model/number_text.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep {
 namespace {
@@ -129,10 +130,7 @@ std::string allowed_values(const SettingField& field) {
 }
 
 std::string refusal(const SettingField& field, const std::string& value) {
-  const std::string allowed = allowed_values(field);
-  return std::holds_alternative<NumberSetting>(field.member)
-             ? "must be " + allowed + ", not " + value
-             : value + " is not " + allowed;
+  return must_be(allowed_values(field), value);
 }
 
 bool is_choice(const SettingField& field) {

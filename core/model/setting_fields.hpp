@@ -52,8 +52,7 @@ const SettingField* find_setting(std::string_view name);
 /// "above 0 and at most 1".
 std::string allowed_values(const SettingField& field);
 
-/// The message for an invalid value: "must be above 0 and at most 1, not 3", "admm is not pgs or
-/// bpp".
+/// The message for an invalid value: "must be pgs or bpp, not admm".
 std::string refusal(const SettingField& field, const std::string& value);
 
 /// True if its values are names, not numbers or booleans.

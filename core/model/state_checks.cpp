@@ -34,9 +34,10 @@ class Lists {
   template <class Item>
   bool sized(const char* key, const std::vector<Item>& items) {
     if (items.size() == bodies_) return true;
-    problems_.push_back({pointer_to(pointer_, key), std::to_string(items.size()) + " are not " +
-                                                        std::to_string(bodies_) +
-                                                        ", one for each body of the scene"});
+    problems_.push_back(
+        {pointer_to(pointer_, key), "must have " + std::to_string(bodies_) +
+                                        " items, one for each body of the scene, not " +
+                                        std::to_string(items.size())});
     return false;
   }
   /// Reports only the first item that is not finite.
@@ -83,8 +84,8 @@ bool has_sound_numbers(const StoredForce& force) {
 std::optional<std::string> body_fault(int body, const Scene& scene) {
   if (body >= 0 && index(body) < scene.bodies.size()) return std::nullopt;
   if (scene.bodies.empty()) return "the scene has no bodies";
-  return std::to_string(body) + " is not a body: must be from 0 to " +
-         std::to_string(scene.bodies.size() - 1);
+  return must_be("the index of a body, from 0 to " + std::to_string(scene.bodies.size() - 1),
+                 std::to_string(body));
 }
 
 void check_carried(const Carried& carried, const Scene& scene, const std::string& pointer,
@@ -107,12 +108,11 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
   lists.optional("rotation", carried.rotation);
   lists.optional("rest", carried.rest);
   if (carried.k.empty() && !carried.K_resisting.empty()) {
-    problems.push_back({pointer_to(pointer, "k_resisting"), "needs k"});
+    problems.push_back({pointer_to(pointer, "k_resisting"), "requires k"});
   }
   const std::string forces = pointer_to(pointer, "forces");
   if (carried.forces.size() > kMaxForces) {
-    problems.push_back({forces, std::to_string(carried.forces.size()) + " are more than " +
-                                    std::to_string(kMaxForces)});
+    problems.push_back({forces, too_many(carried.forces.size(), kMaxForces, "items")});
     return;
   }
   const auto bad =
@@ -138,7 +138,7 @@ void check_state(const State& state, const Scene& scene, Problems& problems) {
   }
   if (state.frame < 0) {
     problems.push_back(
-        {pointer_to(pointer, "frame"), "must be at least 0, not " + std::to_string(state.frame)});
+        {pointer_to(pointer, "frame"), must_be("at least 0", std::to_string(state.frame))});
   }
   constexpr Range kTime = not_negative(std::numeric_limits<double>::max(), "s");
   check_number(state.time, kTime, pointer_to(pointer, "time"), problems);
@@ -148,13 +148,12 @@ void check_grab(const Grab& grab, const Scene& scene, Problems& problems) {
   if (auto fault = body_fault(grab.body, scene)) {
     problems.push_back({"/grab/body", std::move(*fault)});
   } else if (scene.bodies[index(grab.body)].is_static) {
-    problems.push_back({"/grab/body", "this body is static: what is held can move"});
+    problems.push_back({"/grab/body", "must be a moving body, not a static one"});
   }
   if (!grab.anchor.allFinite()) problems.push_back({"/grab/anchor", "must be finite"});
   if (!grab.target.allFinite()) problems.push_back({"/grab/target", "must be finite"});
   if (!(grab.mass > 0.0) || !std::isfinite(grab.mass)) {
-    problems.push_back(
-        {"/grab/mass", "must be above 0 and finite (kg), not " + number_text(grab.mass)});
+    problems.push_back({"/grab/mass", must_be("above 0 and finite (kg)", number_text(grab.mass))});
   }
 }
 

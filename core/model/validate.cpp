@@ -41,7 +41,7 @@ void check_settings(const Settings& settings, const std::string& pointer, Proble
 
 void check_count(std::size_t count, std::size_t most, const char* pointer, Problems& problems) {
   if (count <= most) return;
-  problems.push_back({pointer, std::to_string(count) + " are more than " + std::to_string(most)});
+  problems.push_back({pointer, too_many(count, most, "items")});
 }
 
 void check_contact(const ContactModel& contact, Problems& problems) {
@@ -93,7 +93,7 @@ Problems check_all_values(const Scene& scene, SoundParts& sound) {
   check_contact(scene.contact, problems);
   check_number(scene.regularisation, kRegularisationRange, "/regularisation", problems);
   if (!value_of<StartPolicy>(name_of(scene.start))) {
-    problems.push_back({"/start", "is not project, keep or refuse"});
+    problems.push_back({"/start", "must be project, keep or refuse"});
   }
   check_settings(scene.settings, "/settings", problems);
   if (scene.recommended) check_recommended(*scene.recommended, problems);

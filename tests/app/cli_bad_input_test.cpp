@@ -19,7 +19,7 @@ void PrintTo(const BadCall& call, std::ostream* out) { *out << call.kind; }
 
 class BadCommandLine : public testing::TestWithParam<BadCall> {};
 
-TEST_P(BadCommandLine, EndsWithTwoAndSaysWhatIsAllowed) {
+TEST_P(BadCommandLine, EndsWithTwoAndNamesTheAllowedValues) {
   const Outcome run = substep(GetParam().arguments);
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_NE(run.err.find(GetParam().message), std::string::npos) << run.err;
@@ -36,25 +36,31 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"AlphaNoNumber", "run bridge --alpha much",
                 "--alpha: must be above 0 and at most 1, not much"},
         BadCall{"CountZero", "run bridge --n-max 0",
-                "--n-max: 0 is not a whole number from 1 to 10000"},
+                "--n-max: must be a whole number from 1 to 10000, not 0"},
         BadCall{"SolverOfNoKind", "run bridge --solver admm",
-                "--solver: admm is not pgs, bpp, xpbd or newton"},
+                "--solver: must be pgs, bpp, xpbd or newton, not admm"},
         BadCall{"ModeOfNoKind", "hash bridge --mode fast",
-                "--mode: fast is not none, const, damping, adaptive, capped, stiffness, "
-                "inertia or blend"},
-        BadCall{"NegativeSeconds", "run bridge --seconds -1", "not in range"},
-        BadCall{"SecondsNoNumber", "run bridge --seconds nan", "not in range"},
-        BadCall{"LoadNoNumber", "run bridge --load nan", "not in range"},
-        BadCall{"ErrorNoNumber", "recommend pendulum --error nan", "not in range"},
-        BadCall{"AngleNoNumber", "generate rope --angle nan", "not in range"},
+                "--mode: must be none, const, damping, adaptive, capped, stiffness, inertia or "
+                "blend, not fast"},
+        BadCall{"NegativeSeconds", "run bridge --seconds -1",
+                "--seconds: must be from 0 to 86400, not -1"},
+        BadCall{"SecondsNoNumber", "run bridge --seconds nan",
+                "--seconds: must be from 0 to 86400, not nan"},
+        BadCall{"LoadNoNumber", "run bridge --load nan", "--load: must be from "},
+        BadCall{"ErrorNoNumber", "recommend pendulum --error nan",
+                "--error: must be from 1e-15 to 1e15, not nan"},
+        BadCall{"AngleNoNumber", "generate rope --angle nan",
+                "--angle: must be from -89 to 89, not nan"},
         BadCall{"SecondsAndFrames", "run bridge --seconds 1 --frames 1", "excludes"},
         BadCall{"UnknownFlag", "run bridge --speed 3", "--speed"},
-        BadCall{
-            "UnknownCommand", "chek",
-            "chek is not run, sweep, cost, recommend, merge, reproduce, check, exam, hash, scenes, "
-            "generate or "
-            "map (did "
-            "you mean \"check\"?)"},
+        BadCall{"UnknownCommand", "chek",
+                "no command is called chek (did you mean \"check\"?)\n"
+                "Commands: run sweep cost recommend merge reproduce check exam hash scenes "
+                "generate map\n"},
+        BadCall{"JobsZero", "sweep pendulum --jobs 0",
+                "--jobs: must be a whole number from 1 to 1024, not 0"},
+        BadCall{"ErrorOfNoKind", "recommend pendulum --of speed",
+                "--of: must be path, energy, gap or overlap, not speed"},
         BadCall{"NoCommand", "", "subcommand"},
         BadCall{"NoScene", "run", "scene or --experiments is required"},
         BadCall{"NoSceneToCheck", "check", "scene or --all is required"},
@@ -69,11 +75,13 @@ INSTANTIATE_TEST_SUITE_P(
         BadCall{"SceneIsAFolder", "run /", "/: cannot read /: "},
         BadCall{"CsvInNoFolder", "run bridge --frames 1 --csv /no/such/folder/a.csv",
                 "/no/such/folder/a.csv: No such file or directory"},
-        BadCall{"AngleBeyondRange", "generate rope --angle 100", "not in range"},
-        BadCall{"LinkWithoutWidth", "generate rope --link-width 0", "not in range"},
-        BadCall{"LinkMassNegative", "generate rope --link-mass -1", "not in range"},
-        BadCall{"BoxSizeNoNumber", "generate rope --box-size nan", "not in range"},
-        BadCall{"AnchorTooFar", "generate rope --anchor 0 2e5 0", "not in range"},
+        BadCall{"AngleBeyondRange", "generate rope --angle 100",
+                "--angle: must be from -89 to 89, not 100"},
+        BadCall{"LinkWithoutWidth", "generate rope --link-width 0", "--link-width: must be from "},
+        BadCall{"LinkMassNegative", "generate rope --link-mass -1", "--link-mass: must be from "},
+        BadCall{"BoxSizeNoNumber", "generate rope --box-size nan", "--box-size: must be from "},
+        BadCall{"AnchorTooFar", "generate rope --anchor 0 2e5 0",
+                "--anchor: must be from -100000 to 100000, not 2e5"},
         BadCall{"AnchorOfTwoNumbers", "generate rope --anchor 1 2", "--anchor"}),
     kind_of);
 
@@ -88,7 +96,7 @@ TEST(CommandLine, BadSceneFileEndsWithTwoAndAllProblems) {
   EXPECT_EQ(run.out, "");
   EXPECT_EQ(run.err, path.string() + ": /bodies/0/mass: must be above 0 (kg), not -1\n" +
                          path.string() +
-                         ": /joints/0/type: \"hnige\" is not ball, hinge or prismatic\n");
+                         ": /joints/0/type: must be ball, hinge or prismatic, not \"hnige\"\n");
 }
 
 }  // namespace

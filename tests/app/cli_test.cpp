@@ -43,7 +43,7 @@ TEST(CommandLine, RunEndsWithTheVerdict) {
   EXPECT_EQ(lines_of(fails.out).back().find("fails at 0.3"), 0U) << fails.out;
 }
 
-TEST(CommandLine, RunSaysWhatWasSimulated) {
+TEST(CommandLine, RunPrintsTheMethod) {
   const Outcome run =
       substep("run swinging_box --frames 6 --solver pgs --iterations 7 --mode capped --n-cap 3");
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -114,7 +114,7 @@ TEST(CommandLine, StatesAndJointsHaveEveryBodyAndFrameInFullPrecision) {
   EXPECT_EQ(forces[0], "frame,time,joint,fx,fy,fz,tx,ty,tz,gap");
   const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json").scene;
   ASSERT_NE(scene, nullptr);
-  ASSERT_EQ(poses.size(), 1 + 4 * scene->bodies.size()) << "the start, and the floor, are included";
+  ASSERT_EQ(poses.size(), 1 + 4 * scene->bodies.size()) << "the start and the floor are included";
   ASSERT_EQ(forces.size(), 1 + 3 * scene->joints.size());
   EXPECT_EQ(cells_of(poses[1])[2], "floor");
   Simulator simulator(scene);
@@ -185,7 +185,7 @@ TEST(CommandLine, JsonHasSettingsFramesAndVerdict) {
   EXPECT_EQ(json["hash"].get<std::string>().size(), 16U);
 }
 
-TEST(CommandLine, CostTellsStagesRowsEffectsAndTheCriterion) {
+TEST(CommandLine, CostReportsStagesRowsEffectsAndTheCriterion) {
   const Outcome people = substep("cost bridge --seconds 0.5");
   ASSERT_EQ(people.exit_code, 0) << people.err;
   for (const char* line : {"\njoint rows ", "\nsolve ", "\ncriterion ", "\nfriction ",
@@ -204,7 +204,7 @@ TEST(CommandLine, CostTellsStagesRowsEffectsAndTheCriterion) {
   EXPECT_FALSE(json["effects"].contains("restitution"));
 }
 
-TEST(CommandLine, RecommendTellsTheCheapestWithinAnErrorAndTheMostExactWithinACost) {
+TEST(CommandLine, RecommendFindsTheCheapestWithinAnErrorAndTheMostExactWithinACost) {
   const Outcome error = substep("recommend pendulum --error 1e-2 --seconds 2");
   EXPECT_EQ(error.exit_code, 0) << error.err;
   EXPECT_NE(error.out.find("The cheapest within 0.01 m: "), std::string::npos) << error.out;

@@ -14,7 +14,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(ExamCommand, ListsEveryCaseThoseNotReachedIncluded) {
+TEST(ExamCommand, ListsEveryCaseIncludingThoseNotReached) {
   const Outcome list = substep("exam --list");
   EXPECT_EQ(list.exit_code, 0) << list.err;
   EXPECT_GE(lines_of(list.out).size(), 17U);
@@ -33,7 +33,7 @@ TEST(ExamCommand, PrintsEveryRunItsTolerancesAndASummary) {
   }
 }
 
-TEST(ExamCommand, JsonHasEveryRunAndTheExitCodeGoesByIt) {
+TEST(ExamCommand, JsonHasEveryRunAndDeterminesTheExitCode) {
   for (const char* name : {"revolute", "symmetric_body"}) {
     const Outcome run = substep("exam --json - --case " + std::string(name));
     const Json json = Json::parse(run.out, nullptr, false);
@@ -55,7 +55,7 @@ TEST(ExamCommand, JsonHasEveryRunAndTheExitCodeGoesByIt) {
   }
 }
 
-TEST(ExamCommand, PageStandsAloneAndHasEveryCase) {
+TEST(ExamCommand, PageIsSelfContainedAndHasEveryCase) {
   const fs::path page = folder() / "exam.html";
   const Outcome run =
       substep("exam --quiet --case revolute --case squeezer --html \"" + page.string() + "\"");
@@ -68,7 +68,7 @@ TEST(ExamCommand, PageStandsAloneAndHasEveryCase) {
   EXPECT_FALSE(has(html, "src=") || has(html, "<script")) << "nothing is fetched or run";
 }
 
-TEST(ExamCommand, BadInputIsToldWithExitCode2) {
+TEST(ExamCommand, BadInputIsReportedWithExitCode2) {
   const Outcome run = substep("exam --case revolut");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_TRUE(has(run.err, "revolut: no such case (did you mean \"revolute\"?)")) << run.err;

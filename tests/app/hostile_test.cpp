@@ -40,7 +40,7 @@ TEST(Hostile, AFlagWithAValueIsRefused) {
   }
 }
 
-TEST(Hostile, ASceneOfFiveThousandLettersIsNotThere) {
+TEST(Hostile, ANameOfFiveThousandLettersIsNotFound) {
   const std::string name(5000, 'a');
   for (const char* command : {"run ", "hash ", "check ", "cost ", "sweep ", "recommend "}) {
     expect_refused(substep(command + name), "no such scene or file");
@@ -55,7 +55,7 @@ TEST(Hostile, AFolderIsNoFile) {
   expect_refused(substep("run - <" + at.string()), "standard input: Is a directory");
 }
 
-TEST(Hostile, WithoutMemoryItSaysSo) {
+TEST(Hostile, LackOfMemoryIsReported) {
   const fs::path at = fresh();
   ASSERT_EQ(substep("generate rope --links 19999 --out " + (at / "rope.json").string()).exit_code,
             0);
@@ -65,7 +65,7 @@ TEST(Hostile, WithoutMemoryItSaysSo) {
 }
 
 // The test limits the address space: unbounded reading would exceed it.
-TEST(Hostile, WhatNeverEndsIsNotReadToItsEnd) {
+TEST(Hostile, EndlessInputIsNotReadToItsEnd) {
   const std::string bound = "ulimit -v 1000000;";
   const fs::path at = fresh();
   expect_refused(substep("run - </dev/zero", bound), "standard input");
@@ -78,7 +78,7 @@ TEST(Hostile, WhatNeverEndsIsNotReadToItsEnd) {
   EXPECT_EQ(lines_of(yes.err).size(), 101U);
 }
 
-TEST(Hostile, WhatWouldBeIgnoredBesideExperimentsIsNamed) {
+TEST(Hostile, FlagsWithoutEffectBesideExperimentsAreRefused) {
   const fs::path list = folder() / "list";
   std::ofstream(list) << "{\"scene\": \"free_fall\", \"seconds\": 0.1}\n";
   const std::string run = "run --experiments " + list.string();
@@ -94,7 +94,7 @@ TEST(Hostile, WhatWouldBeIgnoredBesideExperimentsIsNamed) {
   EXPECT_EQ(substep("run free_fall" + run.substr(3)).exit_code, 0) << "its scene";
 }
 
-TEST(Hostile, WhatWouldBeIgnoredBesideAListIsNamed) {
+TEST(Hostile, FlagsWithoutEffectBesideAListAreRefused) {
   for (const std::string command :
        {"exam --list --json new", "exam --list --html new", "exam --list --case revolute",
         "sweep pendulum --list --out new"}) {
@@ -104,7 +104,7 @@ TEST(Hostile, WhatWouldBeIgnoredBesideAListIsNamed) {
   }
 }
 
-TEST(Hostile, AnEmptyNameOfAFileIsRefused) {
+TEST(Hostile, AnEmptyFileNameIsRefused) {
   for (const std::string command :
        {"run pendulum --frames 1 --csv \"\"", "run pendulum --frames 1 --json \"\"",
         "run pendulum --frames 1 --states \"\"", "run pendulum --frames 1 --joints \"\"",
@@ -142,7 +142,7 @@ TEST(Hostile, AnEditedSceneDoesNotMixIntoAnOldSweep) {
   EXPECT_EQ(text_of(at / "s" / "results.jsonl"), results);
 }
 
-TEST(Hostile, NoMessageSteersTheTerminal) {
+TEST(Hostile, MessagesHaveNoControlCharacters) {
   const fs::path at = fresh();
   Json scene = Json::parse(text_of(SUBSTEP_SOURCE_DIR "/scenes/pendulum.json"));
   scene["\x1b[31mred\x07\xc2\x9b"] = 1;
@@ -190,7 +190,7 @@ std::pair<Outcome, double> interrupted(const std::string& command, const char* s
   return soonest;
 }
 
-TEST(Hostile, InterruptedItEndsAtOnceWithWhatWasFinished) {
+TEST(Hostile, InterruptedItEndsAtOnceWithTheFinishedResults) {
   const fs::path at = fresh();
   const std::string csv = (at / "run.csv").string();
   const std::string json = (at / "run.json").string();

@@ -14,7 +14,7 @@
 namespace substep {
 namespace {
 
-/// A folder of the test with a copy of a scene and nothing else.
+/// A folder for the running test that contains only a copy of a scene.
 fs::path with_scene() {
   const fs::path at = folder() / "files";
   fs::remove_all(at);
@@ -144,7 +144,7 @@ TEST(Output, ClosedPipeIsReported) {
       << run.err;
 }
 
-TEST(Output, AFullDiskLeavesTheOldFileAndNoHalfOne) {
+TEST(Output, AFullDiskLeavesTheOldFileAndNoPartialOne) {
   for (const std::string command :
        {"run pendulum --frames 600 --csv FILE", "run pendulum --frames 600 --json FILE",
         "run pendulum --frames 600 --states FILE", "run pendulum --frames 600 --joints FILE",
@@ -165,7 +165,7 @@ TEST(Output, AFullDiskLeavesTheOldFileAndNoHalfOne) {
   }
 }
 
-TEST(Output, IsWholeBehindLinksAndKeepsItsRights) {
+TEST(Output, FollowsLinksAndKeepsPermissions) {
   const fs::path at = with_scene();
   std::ofstream(at / "target") << "old";
   fs::permissions(at / "target", fs::perms::owner_read | fs::perms::owner_write);

@@ -80,9 +80,9 @@ std::size_t steering(const std::string& text) {
                                   text.begin());
 }
 
-void expect_an_orderly_end(const HostileInput& input, const Call& call) {
+void expect_orderly_end(const HostileInput& input, const Call& call) {
   const Ending& end = call.ending;
-  EXPECT_FALSE(end.hung) << "did not even end when it was interrupted";
+  EXPECT_FALSE(end.hung) << "did not end when it was interrupted";
   EXPECT_EQ(end.signal, 0) << end.err;
   const bool known = (end.exit_code >= 0 && end.exit_code <= 3) || end.exit_code == 130;
   EXPECT_TRUE(known) << "exit code " << end.exit_code << ": " << end.err;
@@ -98,7 +98,7 @@ void expect_an_orderly_end(const HostileInput& input, const Call& call) {
   EXPECT_EQ(steering(end.err), end.err.size()) << "a control character is printed";
   EXPECT_EQ(steering(end.out), end.out.size()) << "a control character is printed";
   if (end.exit_code == 2) {
-    EXPECT_FALSE(end.err.empty()) << "it failed without a word";
+    EXPECT_FALSE(end.err.empty()) << "it failed without a message";
   }
   // Stop after many failures.
   EXPECT_LE(std::count(end.err.begin(), end.err.end(), '\n'), 1000);
@@ -112,10 +112,10 @@ bool may_fail_late(const HostileInput& input) {
 }
 
 /// Earlier files: an input is unchanged, and so is the old file of a failed call.
-void expect_nothing_is_spoilt(const HostileInput& input, const Call& call) {
+void expect_files_are_intact(const HostileInput& input, const Call& call) {
   for (const auto& [name, text] : call.before) {
     const auto now = call.after.find(name);
-    ASSERT_NE(now, call.after.end()) << name << " has gone";
+    ASSERT_NE(now, call.after.end()) << name << " is missing";
     // An output: `generate` reads no scene.
     const bool read = name != "old" && input.arguments[0] != "generate";
     if (!read && (call.ending.exit_code != 2 || may_fail_late(input))) continue;
@@ -125,13 +125,13 @@ void expect_nothing_is_spoilt(const HostileInput& input, const Call& call) {
     EXPECT_FALSE(name.ends_with(".new")) << name << " is left behind";
     const bool is_new = !call.before.contains(name) || call.before.at(name) != text;
     if (is_new && !text.empty()) {
-      EXPECT_EQ(text.back(), '\n') << name << " is cut";
+      EXPECT_EQ(text.back(), '\n') << name << " is truncated";
     }
   }
   if (call.ending.exit_code != 2 || may_fail_late(input)) return;
   const auto& arguments = input.arguments;
   if (arguments.empty() || arguments[0] == "merge" || arguments[0] == "sweep") return;
-  EXPECT_EQ(call.after.size(), call.before.size()) << "a half result of a call that failed";
+  EXPECT_EQ(call.after.size(), call.before.size()) << "a partial result of a failed call";
 }
 
 /// "--json" and the like, and the files that they name.
@@ -146,7 +146,7 @@ std::map<std::string, std::string> outputs_of(const HostileInput& input) {
   return outputs;
 }
 
-void expect_all_is_there(const HostileInput& input, const Call& call) {
+void expect_output_is_complete(const HostileInput& input, const Call& call) {
   for (const auto& [flag, file] : outputs_of(input)) {
     if (file == "-" || file.starts_with("/dev/")) {
       EXPECT_NE(file, "/dev/full");
@@ -186,7 +186,7 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
   return text && *text ? std::strtoull(text, nullptr, 10) : otherwise;
 }
 
-TEST(RandomInput, EndsInAWordAndLosesNothing) {
+TEST(RandomInput, EndsWithAMessageAndLosesNothing) {
   const std::uint64_t first = number_from("SUBSTEP_HOSTILE_SEED", 1);
   const std::uint64_t count = number_from("SUBSTEP_HOSTILE_INPUTS", 100);
   std::map<int, int> endings;  // count of each exit code
@@ -195,9 +195,9 @@ TEST(RandomInput, EndsInAWordAndLosesNothing) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ": " + in_words(input));
     const Call made = call(input);
     ++endings[made.ending.exit_code];
-    expect_an_orderly_end(input, made);
-    expect_nothing_is_spoilt(input, made);
-    if (made.ending.exit_code == 0) expect_all_is_there(input, made);
+    expect_orderly_end(input, made);
+    expect_files_are_intact(input, made);
+    if (made.ending.exit_code == 0) expect_output_is_complete(input, made);
   }
   // Coverage: many inputs pass the readers, and many do not.
   if (count >= 100) {

@@ -18,7 +18,7 @@ namespace {
 /// An exact and quick scene: a sweep of it takes about a second.
 constexpr const char* kSweep = "sweep pendulum --seconds 0.5 --quiet --jobs 2 ";
 
-/// An empty folder of the running test's own.
+/// An empty folder for the running test.
 fs::path fresh(const std::string& name) {
   const fs::path path = folder() / name;
   fs::remove_all(path);
@@ -56,7 +56,7 @@ constexpr const char* kCharts = "the chart library: npm ci --prefix app/report, 
 constexpr const char* kParallel = "GNU Parallel";
 
 // One complete sweep; of the others a sample is recomputed by the tests of the panel.
-TEST(SweepCommand, ShipsWhatIsInTheFolderOfScenes) {
+TEST(SweepCommand, ShipsTheFilesOfTheScenesFolder) {
   const fs::path out = fresh("free_fall.txt");
   ASSERT_EQ(substep("sweep free_fall --ship " + out.string()).exit_code, 0);
   EXPECT_EQ(text_of(out), text_of(fs::path(SUBSTEP_SOURCE_DIR) / "scenes/sweeps/free_fall.txt"));
@@ -98,7 +98,7 @@ std::string signalled(const std::string& signal, const fs::path& file, std::size
          " $pid 2>/dev/null; wait $pid' \"" + file.string() + "\"";
 }
 
-TEST(SweepCommand, KilledAtAnyMomentItEndsTheSame) {
+TEST(SweepCommand, KilledAtAnyMomentItGivesTheSameResults) {
   // Long enough that the file can be watched as it grows.
   const std::string sweep = "sweep pendulum --seconds 5 --quiet --jobs 2 --out ";
   const fs::path all = fresh("all");
@@ -130,7 +130,7 @@ TEST(SweepCommand, KilledAtAnyMomentItEndsTheSame) {
   EXPECT_EQ(figures(file), whole);
 }
 
-TEST(SweepCommand, InterruptedItSaysSoAndGoesOn) {
+TEST(SweepCommand, InterruptedItReportsThatAndContinues) {
   const fs::path out = fresh("interrupted");
   const Outcome run = substep("sweep swinging_box --seconds 5 --jobs 2 --out " + out.string(),
                               signalled("TERM", out / "results.jsonl", 2));
@@ -139,7 +139,7 @@ TEST(SweepCommand, InterruptedItSaysSoAndGoesOn) {
   EXPECT_NE(run.err.find("continues from there"), std::string::npos);
 }
 
-TEST(SweepCommand, ALineThatWasCutShortIsRunAgain) {
+TEST(SweepCommand, ATruncatedLineIsRunAgain) {
   const fs::path out = fresh("cut");
   ASSERT_EQ(substep(kSweep + ("--out " + out.string())).exit_code, 0);
   const fs::path file = out / "results.jsonl";
@@ -148,7 +148,7 @@ TEST(SweepCommand, ALineThatWasCutShortIsRunAgain) {
   EXPECT_EQ(figures(file), whole_sweep());
 }
 
-TEST(SweepCommand, FilesThatAreNotItsOwnAreRefusedAndLeftAsTheyAre) {
+TEST(SweepCommand, ForeignFilesAreRefusedAndUnchanged) {
   const fs::path out = fresh("foreign");
   fs::create_directories(out);
   const std::string good = R"({"format":"substep-results","version":1})";
@@ -178,7 +178,7 @@ TEST(SweepCommand, TwoDoNotWriteOneFile) {
   close(other);
 }
 
-TEST(SweepCommand, WhereNothingCanBeWrittenItSaysSo) {
+TEST(SweepCommand, AnUnwritableFolderIsReported) {
   const fs::path file = folder() / "a_file";
   std::ofstream(file) << "x";
   const Outcome sweep = substep(kSweep + ("--out " + (file / "out").string()));
@@ -187,13 +187,13 @@ TEST(SweepCommand, WhereNothingCanBeWrittenItSaysSo) {
 }
 
 // Reading /dev/full never ends: it returns zeros for ever and rejects writes.
-TEST(SweepCommand, WhatIsNoFileIsRefused) {
+TEST(SweepCommand, AResultsFileThatIsNotRegularIsRefused) {
   const fs::path out = fresh("device");
   fs::create_directories(out);
   fs::create_symlink("/dev/full", out / "results.jsonl");
   const Outcome sweep = substep(kSweep + ("--out " + out.string()));
   EXPECT_EQ(sweep.exit_code, 2);
-  EXPECT_NE(sweep.err.find("results.jsonl: is not a regular file"), std::string::npos) << sweep.err;
+  EXPECT_NE(sweep.err.find("results.jsonl: not a regular file"), std::string::npos) << sweep.err;
   EXPECT_TRUE(fs::is_symlink(out / "results.jsonl"));
 }
 
@@ -264,7 +264,7 @@ TEST(SweepCommand, AListSpreadWithSplitMergesToTheWhole) {
   EXPECT_EQ(figures(out / "results.jsonl"), whole_sweep());
 }
 
-TEST(SweepCommand, WrongExperimentsAreToldByLineAndTheOthersRun) {
+TEST(SweepCommand, InvalidExperimentsAreReportedByLineAndTheOthersRun) {
   const fs::path out = folder() / "list";
   std::ofstream(out) << "{\"scene\": \"free_fall\", \"seconds\": 0.1}\n"
                         "{\"scene\": \"nowhere\"}\n"

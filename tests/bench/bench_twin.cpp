@@ -1,6 +1,7 @@
 // The cases of substep_bench as a program that is the same everywhere: native, under Node.js and in
-// a browser, where Google Benchmark is not at hand. Of some rounds the best, so that other programs
-// disturb it least; every round is whole turns of the scene, and so the same work.
+// a browser, where Google Benchmark is not available. The result is the best of some rounds, to
+// exclude disturbances by other programs. Every round repeats the scene a whole number of times,
+// which is always the same work.
 
 #include <algorithm>
 #include <chrono>

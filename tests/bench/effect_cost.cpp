@@ -1,4 +1,4 @@
-// Runs a scene with one effect switched off, for a counter of instructions to look at.
+// Runs a scene with one effect switched off, to be measured by an instruction counter.
 //   effect_cost SCENE EFFECT off|absent
 // off: the scene does not need the effect, but still has the data that only the effect reads
 // (joints, friction coefficients, ...). absent: the scene has none of that data either, as if the
@@ -61,7 +61,7 @@ int main(int argc, char** argv) {
       if (!(scene.effects.*effect.listed)) return 2;
       scene.effects.*effect.listed = false;
       if (effect.listed == &Effects::contact) {
-        scene.effects.friction = scene.effects.restitution = false;  // they stand on it
+        scene.effects.friction = scene.effects.restitution = false;  // they depend on it
       }
       if (argv[3] == std::string("absent")) effect.remove(scene);
       Simulator simulator(std::make_shared<const Scene>(std::move(scene)));

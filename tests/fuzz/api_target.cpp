@@ -1,4 +1,4 @@
-// Lines of text as calls of the page's API, one a line: the name of the call, a space, its
+// Lines of text as calls of the page's API, one per line: the name of the call, a space, its
 // argument. After any of them the application still works and has a readable report, settings, link
 // and saved scene.
 
@@ -83,7 +83,7 @@ void call(const std::string& line) {
     substep_read(text.c_str());
     while (substep_read_some() != 0) {
     }
-    require(is_json(substep_open_read("input")), "what was read is opened");
+    require(is_json(substep_open_read("input")), "openRead answers in JSON");
   } else if (name == "set") {
     require(is_json(substep_set(text.c_str())), "set answers in JSON");
   } else if (name == "link") {
@@ -113,7 +113,7 @@ void call(const std::string& line) {
 
 /// Queries that a user may make after any action.
 void look() {
-  require(imgui::complaints() == 0, "Dear ImGui is called as it asks to be");
+  require(imgui::complaints() == 0, "Dear ImGui is called correctly");
   require(is_json(substep_report()), "report is JSON");
   require(is_json(substep_settings()), "settings are JSON");
   require(is_json(substep_scenes()), "scenes are JSON");
@@ -132,9 +132,9 @@ void look() {
   // The page packs a user's scene into the link; the engine receives the two separately.
   if (own.empty()) {
     substep_open_link(link.c_str());
-    require(app().trouble.problems.empty(), "a link that was made can be read");
+    require(app().trouble.problems.empty(), "a written link can be read");
     const std::string again = substep_link();
-    require(again == link, "a link that was made is the same experiment: " + link + " " + again);
+    require(again == link, "a written link is the same experiment: " + link + " " + again);
   } else {
     require(read_scene(own).scene != nullptr, "the link's own scene can be read");
   }

@@ -26,9 +26,9 @@ void read_and_write_experiment(const std::string& fragment) {
   if (!read.experiment) return;
   const std::string link = make_link(*read.scene, *read.experiment);
   const ExperimentInput again = read_experiment_link(link, find, problems);
-  require(again.experiment.has_value(), "a link that was made can be read");
+  require(again.experiment.has_value(), "a written link can be read");
   require(experiment_id(*again.experiment) == experiment_id(*read.experiment),
-          "a link that was made is the same experiment");
+          "a written link is the same experiment");
 }
 
 void read_and_write_events(const std::string& fragment) {
@@ -40,11 +40,12 @@ void read_and_write_events(const std::string& fragment) {
     require(problem.empty() || events.empty(), "either events or a problem");
     if (!problem.empty()) continue;
     const std::string text = events_text(events, scene->settings);
-    require(text.size() <= 2 * kMostEventText, "what was read takes little room");
+    require(text.size() <= 2 * kMostEventText,
+            "the events that were read are written in little space");
     if (text.size() > kMostEventText) continue;
     const auto again = read_events(text, *scene, scene->settings, problem);
-    require(problem.empty(), "events that were written can be read");
-    require(events_text(again, scene->settings) == text, "they are the same events");
+    require(problem.empty(), "written events can be read");
+    require(events_text(again, scene->settings) == text, "written events are the same events");
   }
 }
 

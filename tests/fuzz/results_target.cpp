@@ -19,14 +19,15 @@ void read_file(const std::string& text) {
   std::map<std::string, std::string> lines;
   std::vector<std::string> order;
   if (!cli::read_results("input", text, lines, order)) return;
-  require(lines.size() == order.size(), "every result has its place");
+  require(lines.size() == order.size(), "every result has a place in the order");
   // The results are written as `sweep` does and read again.
   std::string file = results_header();
   for (const std::string& id : order) file += lines.at(id) + '\n';
   std::map<std::string, std::string> lines_again;
   std::vector<std::string> order_again;
-  require(cli::read_results("output", file, lines_again, order_again), "a file can be read again");
-  require(lines_again == lines && order_again == order, "a file is read to the same results");
+  require(cli::read_results("output", file, lines_again, order_again),
+          "a written file can be read");
+  require(lines_again == lines && order_again == order, "a written file has the same results");
 }
 
 void read_experiments(const std::string& text) {

@@ -18,8 +18,8 @@ constexpr int kSubsteps = 4;
 void write_and_read_back(const Scene& scene) {
   const std::string written = write_scene(scene);
   const SceneResult again = read_scene(written);
-  require(again.scene != nullptr, "what was read and written can be read");
-  require(write_scene(*again.scene) == written, "what is written is read to the same bits");
+  require(again.scene != nullptr, "a written scene can be read");
+  require(write_scene(*again.scene) == written, "a written scene is read back bit for bit");
 }
 
 void run_for_a_moment(const std::shared_ptr<const Scene>& scene) {
@@ -42,7 +42,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const SceneResult read = read_scene(fuzz::text_of(data, size));
   fuzz::require((read.scene == nullptr) == !read.problems.empty(), "either a scene or problems");
   for (const Problem& problem : read.problems) {
-    fuzz::require(!problem.message.empty(), "a problem says what is wrong");
+    fuzz::require(!problem.message.empty(), "a problem has a message");
   }
   if (!read.scene) return 0;
   fuzz::write_and_read_back(*read.scene);

@@ -34,7 +34,7 @@ TEST(Divergence, StopsAtTheLastFiniteState) {
   EXPECT_GE(report.failed_body, 0);
 }
 
-TEST(Divergence, WithinAFrameTellsTheTimeOfItsPoses) {
+TEST(Divergence, WithinAFrameReportsTheTimeOfItsPoses) {
   const auto scene = std::make_shared<const Scene>(scenes::swinging_box());
   Simulator simulator = simulator_of(scene, {.mode = Mode::kConst, .n = 16});
   simulator.step();
@@ -52,7 +52,7 @@ TEST(Divergence, WithinAFrameTellsTheTimeOfItsPoses) {
   EXPECT_NEAR(report.time, (1.0 + 3.0 / 16.0) * scene->frame, 1e-14);
 }
 
-TEST(TooManyContacts, StopTheRunBeforeTheyTakeMemory) {
+TEST(TooManyContacts, StopTheRunBeforeMemoryIsAllocated) {
   Scene scene;
   scene.name = "crowd";
   scene.effects = {.gravity = true, .joints = true, .contact = true};
@@ -100,7 +100,7 @@ TEST(PivotsThatRunOut, LeaveAHouseOfCardsStanding) {
   Simulator simulator = simulator_of(scenes::card_house(), {.mode = Mode::kNone});
   const double start = simulator.observe().energy;
   FrameReport report = simulator.step();
-  EXPECT_EQ(report.work.unsolved, 1) << "else this test shows nothing";
+  EXPECT_EQ(report.work.unsolved, 1) << "otherwise the test is vacuous";
   EXPECT_LT(report.energy, start + 1e-3);
   for (int frame = 1; frame < 240; ++frame) report = simulator.step();
   EXPECT_LT(report.energy, start);
@@ -145,12 +145,12 @@ TEST(Remedies, TheImplicitTorqueHelpsATopThatExplodes) {
   expect_helped(scene, {.mode = Mode::kNone, .gyroscopic = Gyroscopic::kExplicit});
 }
 
-TEST(Remedies, EndWhereNothingIsLeftToTurn) {
+TEST(Remedies, AreEmptyWhenNoSettingIsLeftToChange) {
   const Settings settings{.alpha = 1e-3, .policy = Policy::kSubstep};
   EXPECT_TRUE(remedies(settings, {}).empty());
 }
 
-TEST(Remedies, ThereAreNoneForTooManyContacts) {
+TEST(Remedies, AreEmptyForTooManyContacts) {
   FrameReport failed;
   failed.status = StepStatus::kTooManyContacts;
   EXPECT_TRUE(remedies({}, failed).empty());

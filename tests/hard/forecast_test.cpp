@@ -11,7 +11,7 @@
 namespace substep::test {
 namespace {
 
-TEST(Forecast, AtTheStartIsWhatTheFirstFrameAsksFor) {
+TEST(Forecast, AtTheStartIsTheNOfTheFirstFrame) {
   for (const Scene& scene : {scenes::swinging_box(), scenes::bridge(), scenes::heavy_stack()}) {
     Simulator simulator(std::make_shared<const Scene>(scene));
     const FrameReport report = simulator.step();
@@ -31,7 +31,7 @@ TEST(Forecast, OfAChainThatHangsStillIsItsN) {
   }
 }
 
-TEST(Forecast, OfASwingIsWithinSqrtThreeOfItsMost) {
+TEST(Forecast, OfASwingIsWithinSqrtThreeOfItsMaximum) {
   const Scene scene = scenes::swinging_box();
   const int predicted = forecast(scene, scene.settings).hanging;
   const Outcome swing = run(scene, scene.settings, 10.0);
@@ -39,7 +39,7 @@ TEST(Forecast, OfASwingIsWithinSqrtThreeOfItsMost) {
   EXPECT_LE(swing.n_max(), 1.7320508 * predicted + 1.0);
 }
 
-TEST(Forecast, GoesWithTheRootOfTheLoadAndOfAlpha) {
+TEST(Forecast, ScalesWithTheSquareRootOfLoadOverAlpha) {
   const auto predicted = [](double mass, double alpha) {
     return forecast(scenes::rope_of_n({.end_mass = mass}), {.alpha = alpha}).hanging;
   };
@@ -54,7 +54,7 @@ TEST(Forecast, OfALoopSharesTheLoadBetweenItsTwoSides) {
   EXPECT_LT(bridge.hanging, bridge.at_start);
 }
 
-TEST(Forecast, IsThereForEveryHardCase) {
+TEST(Forecast, ExistsForEveryHardCase) {
   for (const scenes::HardCase& hard : scenes::hard_set()) {
     const Forecast predicted = forecast(hard.scene, hard.scene.settings);
     EXPECT_GE(predicted.n(), 1) << hard.scene.name;

@@ -20,7 +20,7 @@ namespace {
 
 const Settings& recommended() { return find_preset("recommended")->settings; }
 
-TEST(HardSet, EveryCaseIsASceneThatTheLoaderTakes) {
+TEST(HardSet, EveryCaseIsAValidScene) {
   std::set<std::string> names;
   for (const scenes::HardCase& hard : scenes::hard_set()) {
     EXPECT_TRUE(names.insert(hard.scene.name).second) << hard.scene.name;
@@ -92,7 +92,7 @@ TEST(SlackStarts, HoldAMinuteWithBoundedN) {
   EXPECT_LE(paper, 1);
 }
 
-TEST(HardSet, AStepAFrameHoldsHardlyAnyChain) {
+TEST(HardSet, OneStepPerFrameHoldsHardlyAnyChain) {
   const Settings none{.mode = Mode::kNone};
   int held = 0;
   int cases = 0;

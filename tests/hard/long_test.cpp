@@ -1,5 +1,5 @@
 // Long runs: nothing drifts beyond its bound, and memory does not grow. 50,000 frames by default;
-// SUBSTEP_LONG_FRAMES=1000000 for a run overnight.
+// SUBSTEP_LONG_FRAMES=1000000 for an overnight run.
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -88,7 +88,7 @@ TEST(LongRun, TheBridgeComesToRestWithCappedDamping) {
 // With the paper's scheme the empty bridge does not come to rest: the full drift law corrects the
 // error of a long sub-step in a short one, and with N changing from frame to frame the planks keep
 // shaking at some hundred joules. They stay intact, and the energy stays bounded.
-TEST(LongRun, TheEmptyBridgeShakesOnWithThePapersScheme) {
+TEST(LongRun, TheEmptyBridgeKeepsShakingWithThePapersScheme) {
   const Scene scene = scenes::bridge();
   const LongRun r = run_long(scene, scene.settings, 600);
   ASSERT_EQ(r.status, StepStatus::kOk);

@@ -26,12 +26,12 @@ substep_mutation(the_probe core/sim/frame.cpp "if \\(probe_due\\(\\)\\) probe\\(
   paper_tests HeavyStackStress.SixteenAndAdaptiveStandTenSeconds)
 substep_mutation(the_cap_of_N core/stepping/substep_clock.cpp
   "std::min\\((wanted_substeps\\(rest_, dt_max\\)), limit_ - taken_\\)" "\\1"
-  unit_tests SubstepClock.NeverPassesTheCapWhateverItIs)
+  unit_tests SubstepClock.NeverExceedsTheCap)
 substep_mutation(outer_friction_passes core/solver/bpp.cpp "kPasses = [0-9]+" "kPasses = 1"
   physics_tests Solves.AreAllComplementary)
 substep_mutation(compliance_on_redundant_rows core/sim/substep.cpp
   "block\\.C\\[row\\] \\* per_dt2" "0.0 * per_dt2"
-  paper_tests HeavyStack.ContactComplianceFallsWhateverTheSteps)
+  paper_tests HeavyStack.FallsWithContactComplianceAtAnyStep)
 substep_mutation(soft_drift_with_PGS core/stepping/drift.cpp "law == Drift::kSoft && dt < tau" "false"
   paper_tests SwingingBoxPgs.AdaptiveHoldsWithTheSoftDriftLaw)
 substep_mutation(the_diagonal_in_Newtons_mass core/solver/newton.cpp

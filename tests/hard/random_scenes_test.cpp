@@ -1,5 +1,5 @@
 // Any valid scene stays finite or stops with a status, within its bounds of work. A few hundred
-// scenes by default, always the same; RC_PARAMS="max_success=100000 seed=1" for a run overnight. A
+// scenes by default, always the same; RC_PARAMS="max_success=100000 seed=1" for an overnight run. A
 // failure prints the seed that reproduces it.
 
 #include "tests/hard/random_scenes.hpp"

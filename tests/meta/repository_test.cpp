@@ -103,7 +103,7 @@ std::string arrows_back(const std::string& file, const std::vector<std::string>&
   return out.str();
 }
 
-TEST(ModuleOrder, NoArrowRunsBack) {
+TEST(ModuleOrder, NoModuleIncludesAgainstTheOrder) {
   int seen = 0;
   for (const std::string& file : files()) {
     if (!file.starts_with("core/") || !is_cpp(file)) continue;
@@ -113,7 +113,7 @@ TEST(ModuleOrder, NoArrowRunsBack) {
   EXPECT_GT(seen, 10);
 }
 
-TEST(ModuleOrder, AnArrowThatRunsBackIsSeen) {
+TEST(ModuleOrder, AnIncludeAgainstTheOrderIsDetected) {
   const std::vector<std::string> lines{R"(#include "core/sim/simulator.hpp")"};
   EXPECT_NE(arrows_back("core/math/types.hpp", lines), "");
   EXPECT_NE(arrows_back("core/solver/bpp.cpp", lines), "");
@@ -122,12 +122,12 @@ TEST(ModuleOrder, AnArrowThatRunsBackIsSeen) {
   EXPECT_NE(arrows_back("core/sim/report.hpp", {R"(#include "app/ui/app.hpp")"}), "");
 }
 
-TEST(ModuleOrder, CoreKnowsNoGraphics) {
+TEST(ModuleOrder, CoreIncludesNoGraphics) {
   const std::regex graphics(R"(#\s*include\s+["<](imgui|GLFW|epoxy|GL/|GLES|emscripten))");
   EXPECT_EQ(places(graphics, [](const auto& file) { return file.starts_with("core/"); }), "");
 }
 
-TEST(Platform, ConditionalsStandOnlyInTheWebShellAndTheShaderHeader) {
+TEST(Platform, ConditionalsAreOnlyInTheWebShellAndTheShaderHeader) {
   const std::regex conditional(R"(^\s*#.*(__EMSCRIPTEN__|_WIN32|__APPLE__|__linux__))");
   EXPECT_EQ(places(conditional,
                    [](const std::string& file) {
@@ -138,9 +138,9 @@ TEST(Platform, ConditionalsStandOnlyInTheWebShellAndTheShaderHeader) {
             "");
 }
 
-TEST(Repository, SpeaksOfNoMachine) {
-  // Home folders and working copies of one person or machine. The names are put together here so
-  // that this file does not find itself.
+TEST(Repository, HasNoPathOfOneMachine) {
+  // Home folders and working copies of one person or machine. The names are concatenated here so
+  // that this file does not match.
   const std::regex path(std::string("(^|[^A-Za-z0-9_.])/(ho") + "me|wo" + "rk|ro" + "ot|Us" +
                         "ers)/[A-Za-z0-9_.]");
   EXPECT_EQ(places(path, [](const std::string&) { return true; }), "");

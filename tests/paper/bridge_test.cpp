@@ -99,7 +99,7 @@ TEST(Bridge, TheBallLeavesAtTheSameTimeInEveryResolvedRun) {
   }
 }
 
-// Fig. 2, lower row. The prototype had 13 to 32 and 2 to 9.
+// Fig. 2, lower row. In the prototype N was 13 to 32 and 2 to 9.
 TEST(Bridge, SubstepsRiseUnderTheBallAndFallOnceItHasLeft) {
   const Crossing c = cross(scenes::BridgeOptions{}, with(SolverKind::kBpp, Mode::kAdaptive), 10.0);
   constexpr std::size_t kWindow = 15;  // frames in 0.25 s
@@ -183,10 +183,10 @@ Settings leapfrog(Settings settings) {
 }
 
 // The ball hops, and its next landing point depends on micrometres; in a sub-step of 256 per frame
-// it moves 200 of them. So no method stays within half a per cent of the exchanged energy of such a
-// run, start by start: neither a finer one nor the exact motion. Rounding is a different matter: a
-// nanometre changes next to nothing, so the runs are reproducible and not noise.
-TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
+// it moves 200 of them. For some starts even a finer run differs by more than one per cent of the
+// exchanged energy. Rounding has no such effect: a start moved by a nanometre changes the loss by
+// less than 0.1 %.
+TEST(BridgeEnergy, SingleStartsDependOnMicrometres) {
   const Settings fine = leapfrog(with(SolverKind::kBpp, Mode::kConst, 256));
   const Settings finer = leapfrog(with(SolverKind::kBpp, Mode::kConst, 1024));
   const auto starts = scenes::bridge_starts();
@@ -207,7 +207,7 @@ TEST(BridgeEnergy, SingleStartsHangOnMicrometres) {
 
 // The energy that the ball loses on landing, relative to leapfrog with 128 sub-steps, as the mean
 // over the starts and as a share of the exchanged energy.
-TEST(BridgeEnergy, FewSubstepsArePaidForWhereTheBallLands) {
+TEST(BridgeEnergy, FewSubstepsLoseMoreEnergyWhereTheBallLands) {
   const auto up_to = [](Mode mode, int n_cap) {
     Settings settings = with(SolverKind::kBpp, mode);
     settings.n_cap = n_cap;
@@ -243,7 +243,7 @@ TEST(BridgeEnergy, FewSubstepsArePaidForWhereTheBallLands) {
       most = std::max(most, share);
     }
     EXPECT_NEAR(mean, more, within) << name_of(settings.mode);
-    EXPECT_GT(most - least, 2.0) << "or the starts would tell more than their mean";
+    EXPECT_GT(most - least, 2.0) << "the starts differ too much to be compared singly";
   }
 }
 

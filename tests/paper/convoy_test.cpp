@@ -1,6 +1,6 @@
-// Adaptive sub-stepping where the load changes during a run, beside the smallest constant N that is
-// as accurate (joint gap at most 5 % larger), which is known only after trying. With the scene's
-// own settings: alpha 0.25, N decided per sub-step.
+// Adaptive sub-stepping where the load changes during a run, compared with the smallest constant N
+// that is as accurate (joint gap at most 5 % larger), which is known only after trying. With the
+// scene's own settings: alpha 0.25, N decided per sub-step.
 
 #include <gtest/gtest.h>
 

@@ -94,7 +94,7 @@ double off_after_return(const Settings& settings) {
   return off;
 }
 
-TEST(NewtonAtTheMean, IsTheSameForwardsAndBackwardsInTime) {
+TEST(NewtonAtTheMean, IsReversibleInTime) {
   EXPECT_LT(off_after_return(newton(Forces::kMean, 1)), 1e-5);
   EXPECT_GT(off_after_return(newton(Forces::kEnd, 1)), 1e-2);
 }
@@ -137,7 +137,7 @@ double growth_of_rod(Forces forces, double kappa, int steps = 100, int first_ste
 }
 
 // The derivations in newton.hpp, on one body: predicted limits against measured ones.
-TEST(NewtonOnOneBody, IsStableJustAsFarAsItsArgumentSays) {
+TEST(NewtonOnOneBody, IsStableUpToTheDerivedLimit) {
   for (const double kappa : {0.5, 5.9, 50.0, 500.0}) {
     EXPECT_NEAR(growth_of_rod(Forces::kMean, kappa), 1.0, 0.05) << kappa;
     EXPECT_LT(growth_of_rod(Forces::kEnd, kappa), 0.01) << kappa;
@@ -188,7 +188,7 @@ TEST(Numerov, FollowsTheSwingingBoxToAMicrometreWithOneSolveASubstep) {
 }
 
 // The weight of a neighbour is 1/12: stable while dt^2 k < 6 M, i.e. from N = 6 on here.
-TEST(Numerov, StandsAsFarAsItsArgumentSays) {
+TEST(Numerov, IsStableUpToTheDerivedLimit) {
   EXPECT_TRUE(swing(newton(Forces::kNumerov, 6)).holds);
   EXPECT_FALSE(swing(newton(Forces::kNumerov, 4)).holds);
 }

@@ -279,7 +279,7 @@ TEST(Stormer, KeepsItsOrderWhereNChanges) {
 }
 
 // A file may contain accelerations without the sub-step that they belong to.
-TEST(Stormer, StartsWithoutASubstepBefore) {
+TEST(Stormer, StartsWithoutAPreviousSubstep) {
   auto scene = scenes::swinging_box();
   Simulator simulator(std::make_shared<const Scene>(scene));
   simulator.set_settings(stormer(16));

@@ -26,7 +26,7 @@ Outcome swing(const Settings& settings) {
   return run(scenes::rope_of_n({.n = 10}), settings, 2.0, {}, false);
 }
 
-TEST(SmallSteps, ShareOutTheSameSweeps) {
+TEST(SmallSteps, DistributeTheSameSweeps) {
   const auto scene = std::make_shared<const Scene>(scenes::rope_of_n({.n = 10}));
   for (const SolverKind kind : {SolverKind::kPgs, SolverKind::kXpbd}) {
     std::int64_t of_one = 0;
@@ -44,7 +44,7 @@ TEST(SmallSteps, ShareOutTheSameSweeps) {
 }
 
 // The claim: when sweeps move bodies, joints stretch less the more sub-steps share the sweeps.
-TEST(SmallSteps, SpendTheSameSweepsBetter) {
+TEST(SmallSteps, StretchLessWithTheSameSweeps) {
   double before = 1.0;
   for (const int n : {1, 2, 4, 8, 16, 32}) {
     const double gap = swing(small_steps(SolverKind::kXpbd, n)).joint_gap;
@@ -56,7 +56,7 @@ TEST(SmallSteps, SpendTheSameSweepsBetter) {
 
 // When sweeps compute forces from zero, as Gauss-Seidel does here, a few sweeps no longer reach the
 // end of the chain: the optimum is in between.
-TEST(SmallSteps, OfForcesHaveTheirBestInBetween) {
+TEST(SmallSteps, WithForcesHaveAnOptimumInBetween) {
   const double gap_8 = swing(small_steps(SolverKind::kPgs, 8)).joint_gap;
   EXPECT_GT(swing(small_steps(SolverKind::kPgs, 4)).joint_gap, 10.0 * gap_8);
   EXPECT_GT(swing(small_steps(SolverKind::kPgs, 32)).joint_gap, 2.0 * gap_8);
@@ -92,8 +92,9 @@ double below_the_plate(Detection detection, double speed) {
   return -lowest;
 }
 
-TEST(SmallSteps, NothingFastGetsThrough) {
-  EXPECT_GT(below_the_plate(Detection::kSubstep, 40.0), 1.0) << "what else would there be to show";
+TEST(SmallSteps, StopFastBodies) {
+  EXPECT_GT(below_the_plate(Detection::kSubstep, 40.0), 1.0)
+      << "detection per sub-step misses the contact";
   for (const double speed : {2.0, 10.0, 40.0, 200.0}) {
     const double pushed = 1e-10 * 60.0 * speed;  // by the compliance, while a frame stops it
     EXPECT_NEAR(below_the_plate(Detection::kFrame, speed), -0.022, 1.1 * pushed + 1e-12) << speed;
@@ -112,7 +113,7 @@ double deepest_overlap(const Scene& scene, const Settings& settings, double seco
 }
 
 // A ball at rest is struck, and hits a third one that it could not have reached by itself.
-TEST(SmallSteps, WhatIsStruckIsFollowedWithinTheFrame) {
+TEST(SmallSteps, DetectContactsOfAStruckBodyWithinTheFrame) {
   Scene scene;
   scene.effects.contact = true;
   const auto ball = [&](double x, double mass, double speed) {
@@ -132,12 +133,12 @@ TEST(SmallSteps, WhatIsStruckIsFollowedWithinTheFrame) {
   settings.n = 32;
   settings.detection = Detection::kFrame;
   const Outcome r = run(scene, settings, 0.02, {}, false);
-  EXPECT_GT(r.end.x[2].x() - r.end.x[1].x(), 0.0399) << "it would fly through the third";
+  EXPECT_GT(r.end.x[2].x() - r.end.x[1].x(), 0.0399) << "it does not pass through the third ball";
 }
 
 // The row of one edge does not predict the next edge. When only that row was moved along, boxes
 // rotated about it into each other, and the chain's light links were ejected at 60 rad/s.
-TEST(SmallSteps, BoxesAreLookedAtAgainAsTheyTurn) {
+TEST(SmallSteps, DetectBoxesAgainAsTheyRotate) {
   Settings settings;
   EXPECT_GT(deepest_overlap(scenes::ragdoll_drop(), settings, 3.0), 0.02) << "found too late";
   settings.detection = Detection::kFrame;
@@ -156,7 +157,7 @@ TEST(SmallSteps, BoxesAreLookedAtAgainAsTheyTurn) {
 
 // The bridge from all starts, a stack and two playground scenes, with contacts that were detected
 // up to a frame ago.
-TEST(SmallSteps, CarriedContactsHoldWhatFreshOnesHold) {
+TEST(SmallSteps, CarriedContactsHoldTheSameScenes) {
   Settings settings;
   settings.detection = Detection::kFrame;
   for (const scenes::BridgeOptions& options : scenes::bridge_starts()) {

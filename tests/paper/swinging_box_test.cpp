@@ -22,11 +22,11 @@ Outcome swing(const Settings& settings, double seconds, double compliance = 1e-1
   return run(scenes::swinging_box({scenes::kSixtyDegrees, compliance}), settings, seconds);
 }
 
-TEST(SwingingBox, TheReferenceIsThere) { ASSERT_EQ(reference().size(), 601U); }
+TEST(SwingingBox, TheReferenceExists) { ASSERT_EQ(reference().size(), 601U); }
 
 // Rounding determines which link fails first, and the exact time; that the runs fail, and their
 // order, does not depend on it.
-TEST(SwingingBox, FewerThanSevenSubstepsFailTheFewerTheSooner) {
+TEST(SwingingBox, FewerThanSevenSubstepsFailAndSoonerWithFewer) {
   double before = 0.0;
   for (const int n : {1, 2, 4, 5, 6}) {
     const Outcome r = swing(constant(n), 10.0);

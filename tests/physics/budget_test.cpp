@@ -40,7 +40,7 @@ FrameReport first_frame(const Scene& scene, const Settings& settings, const Budg
 
 class AtOnePoint : public testing::TestWithParam<int> {};
 
-TEST_P(AtOnePoint, SpheresAreRefusedByTheFactorThatTheyWouldNeed) {
+TEST_P(AtOnePoint, SpheresAreRefusedByTheSizeOfTheirFactor) {
   const int n = GetParam();
   const FrameReport report = first_frame(spheres(n, 0.0), Settings{});
   ASSERT_EQ(report.status, StepStatus::kOverBudget);
@@ -55,14 +55,14 @@ TEST_P(AtOnePoint, SpheresAreRefusedByTheFactorThatTheyWouldNeed) {
 }
 INSTANTIATE_TEST_SUITE_P(Counts, AtOnePoint, testing::Values(200, 300, 600));
 
-TEST(Budget, SaysWhatAskedForHowMuch) {
+TEST(Budget, ReportsWhatNeedsHowMuch) {
   const FrameReport report = first_frame(spheres(300, 0.0), Settings{});
   EXPECT_EQ(overrun_text(report.overrun),
             "44850 contacts of 300 bodies would need 2.4 GiB for the direct solver; the budget is "
             "512 MiB");
 }
 
-TEST(Budget, AMarginThatReachesEverybodyIsRefusedLikeOverlaps) {
+TEST(Budget, AMarginThatReachesAllBodiesIsRefusedLikeOverlaps) {
   Scene scene = spheres(300, 0.01);
   scene.contact.margin = 10.0;
   const FrameReport report = first_frame(scene, Settings{});
@@ -71,7 +71,7 @@ TEST(Budget, AMarginThatReachesEverybodyIsRefusedLikeOverlaps) {
   EXPECT_GT(report.overrun.memory, Budget{}.memory);
 }
 
-TEST(Budget, ALargerOneIsTakenAndASmallerOneRefuses) {
+TEST(Budget, AFrameMustFitIntoIt) {
   const Scene scene = spheres(40, 0.0);
   const Settings settings;
   EXPECT_EQ(first_frame(scene, settings).status, StepStatus::kOk);
@@ -90,7 +90,7 @@ Settings long_sweeps(SolverKind solver) {
 }
 
 // The work of moving bodies alone uses up the budget: the reported requirement exceeds it.
-TEST(Budget, TheWorkOfBodiesCountsInWhatIsNeeded) {
+TEST(Budget, TheRequirementIncludesTheWorkOfBodies) {
   SceneBuilder builder("chain");
   for (int i = 0; i < 10000; ++i) {
     builder.add_body(Sphere{0.1}, 1.0, {0.3 * i, 0, 0});
@@ -125,7 +125,7 @@ TEST(Budget, TheProductOfSubstepsIterationsAndRowsIsBounded) {
   }
 }
 
-TEST(Budget, TheForecastOfSweepsIsWhatTheyTake) {
+TEST(Budget, TheForecastOfSweepsIsTheirWork) {
   SceneBuilder builder("pendulum");
   builder.add_body(Sphere{0.1}, 1.0, {1, 0, 0});
   builder.add_ball_joint(0, kWorld, {0, 0, 0});
@@ -154,7 +154,7 @@ TEST(Budget, ManyFreeBodiesInManySubstepsAreRefusedToo) {
   EXPECT_EQ(report.overrun.rows, 0);
 }
 
-TEST(Budget, ADirectSolveStopsWhereItsPivotsHaveTakenIt) {
+TEST(Budget, ADirectSolveStopsWhenItsPivotsHaveUsedItUp) {
   Settings settings;
   settings.mode = Mode::kConst;
   settings.n = 100;
@@ -172,7 +172,7 @@ TEST(Budget, IsKeptByNewtonToo) {
   EXPECT_GT(report.overrun.memory, Budget{}.memory);
 }
 
-TEST(Budget, AFrameGoesOnFromTheLastStateWithAnotherSolver) {
+TEST(Budget, AFrameContinuesFromTheLastStateWithAnotherSolver) {
   Simulator simulator(std::make_shared<const Scene>(spheres(200, 0.0)));
   ASSERT_EQ(simulator.step().status, StepStatus::kOverBudget);
   Settings settings;

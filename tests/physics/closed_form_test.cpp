@@ -53,7 +53,7 @@ TEST(Pendulum, SwingsWithThePeriodOfTheEllipticIntegral) {
   // A rod of length 1 about its end: I/(m d) with d = 0.5, box inertia about the hinge's axis.
   const double inertia = (1.0 + 0.05 * 0.05) / 12.0 + 0.25;
   const double exact = pendulum_period(inertia / 0.5, 0.8);
-  EXPECT_NEAR(exact, 1.682, 5e-4) << "what the scene says of itself";
+  EXPECT_NEAR(exact, 1.682, 5e-4) << "the scene's own description";
   const double interpolation =
       1e-4;  // of a sine sampled at 60 Hz, averaged over eleven periods [s]
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
@@ -77,7 +77,7 @@ TEST(FreeFall, LeapfrogIsExactAndEulerFallsHalfAStepAhead) {
   }
 }
 
-TEST(FreeFall, NothingAsksForSubsteps) {
+TEST(FreeFall, NeedsNoSubsteps) {
   const Outcome r = run(scenes::free_fall(), Settings{}, 1.0);
   EXPECT_EQ(r.n_max(), 1);
 }
@@ -97,7 +97,7 @@ std::vector<double> apexes(std::size_t body, const Settings& settings, double se
 }
 
 // A lossless bounce reverses u at the same x: the upward steps retrace the downward ones.
-TEST(Restitution, ABallThatLosesNothingComesBackToItsHeightForEver) {
+TEST(Restitution, ALosslessBallReturnsToItsHeightForEver) {
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     for (const int n : {1, 4}) {
       const auto heights = apexes(1, constant(n, integrator), 30.0);
@@ -160,7 +160,7 @@ Cradle swing(const Settings& settings, double seconds) {
   return cradle;
 }
 
-// Equal bodies exchange their velocities: each blow passes the first ball's velocity to the last.
+// Equal bodies exchange their velocities: each impact passes the first ball's velocity to the last.
 TEST(NewtonsCradle, OneBallInIsOneBallOut) {
   const Scene scene = scenes::newtons_cradle();
   struct Row {
@@ -201,7 +201,7 @@ TEST(NewtonsCradle, ImplicitEulerDampsItsSwingAtFirstOrder) {
 }
 
 // Impacts propagate within the sub-step, whatever its length.
-TEST(NewtonsCradle, InOneStepAFrameTheBlowPassesThroughTheRowToo) {
+TEST(NewtonsCradle, TheImpactPassesThroughTheRowInOneStepPerFrame) {
   const Cradle cradle = swing({.mode = Mode::kNone}, 2.0);
   ASSERT_FALSE(cradle.last.empty());
   EXPECT_NEAR(cradle.last.front(), 0.2, 0.02);
@@ -209,7 +209,7 @@ TEST(NewtonsCradle, InOneStepAFrameTheBlowPassesThroughTheRowToo) {
 }
 
 // Two balls head on: momentum is conserved, and they separate with e times their approach speed.
-TEST(Restitution, PartsAtETimesTheSpeedOfApproach) {
+TEST(Restitution, SeparationIsETimesTheSpeedOfApproach) {
   for (const SolverKind solver :
        {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd, SolverKind::kNewton}) {
     for (const double e : {0.0, 0.3, 1.0}) {

@@ -51,7 +51,7 @@ constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, Solver
 
 // Released at its equilibrium, the weight stays there. The soft law once multiplied the compliance
 // by (tau/dt)^2: 603 mm at 64 sub-steps per frame.
-TEST(Compliance, SagsByWhatItIsWhateverTheSubsteps) {
+TEST(Compliance, SagsEquallyAtAnyNumberOfSubsteps) {
   const double C = 1e-5;
   const double sag = C * kMass * kGravity;
   for (const SolverKind solver : kAllSolvers) {
@@ -179,7 +179,7 @@ EnergyRange energy_in_flight(const Settings& settings) {
 
 // Implicit Euler removes three quarters of the energy in eleven bounces. A mean force that acted
 // before the ball touched the ground would add some.
-TEST(Compliance, AContactGivesBackWhatItTakes) {
+TEST(Compliance, AContactReturnsItsEnergy) {
   const auto lost = [](Settings settings) {
     double shares[2];
     for (int i = 0; i < 2; ++i) {

@@ -128,7 +128,7 @@ TEST(EveryMethod, KeepsTheEnergyOfASpinningTop) {
           best.method.integrator == Integrator::kStormer || best.method.forces == Forces::kNumerov;
       EXPECT_LT(best.error, fourth_order ? 1e-11 : 1e-12) << name;
     } else {
-      EXPECT_GT(best.error, 1e-2) << "what the implicit torque is for";
+      EXPECT_GT(best.error, 1e-2) << "the purpose of the implicit torque";
     }
   }
 }
@@ -158,7 +158,7 @@ TEST(EveryMethod, KeepsTheMomentumOfAFreeChain) {
   }
 }
 
-TEST(EveryMethod, GoesOnFromASnapshot) {
+TEST(EveryMethod, ContinuesFromASnapshot) {
   for (const Scene& scene : {scenes::swinging_box(), scenes::ragdoll_drop()}) {
     const auto shared = std::make_shared<const Scene>(scene);
     for (const auto& [name, curve] : methods_of(scene)) {

@@ -96,7 +96,7 @@ TEST(ExternalForce, TorqueAboutAPrincipalAxisSpinsUpLinearly) {
   }
 }
 
-TEST(ExternalForce, TorqueIsWhatAngularMomentumGains) {
+TEST(ExternalForce, TorqueIsTheRateOfAngularMomentum) {
   const Vec3 torque{0.2, -0.1, 0.4};
   Scene scene = pushed(Vec3::Zero(), torque);
   scene.effects.gyroscopic = true;
@@ -112,7 +112,7 @@ TEST(ExternalForce, TorqueIsWhatAngularMomentumGains) {
   for (const double e : error) EXPECT_LT(e, 1e-12) << "momentum is what torques change, exactly";
 }
 
-TEST(ExternalForce, OfAllSolversHoldsAPendulumAside) {
+TEST(ExternalForce, HoldsAPendulumAsideWithEverySolver) {
   // Pulled by F = (3, 0, 4) in addition to its weight, a rod on a ball joint rests along F + m g.
   for (const SolverKind solver :
        {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton, SolverKind::kXpbd}) {
@@ -138,7 +138,7 @@ TEST(ExternalForce, OfAllSolversHoldsAPendulumAside) {
   }
 }
 
-TEST(ExternalForce, ThatIsNotCalledForHasNoStage) {
+TEST(ExternalForce, HasNoStageUnlessItIsListed) {
   Scene scene = pushed({3.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
   EXPECT_TRUE(simulator_of(scene, {}).step().stages.external);
   scene.effects.external = false;
@@ -149,7 +149,7 @@ TEST(ExternalForce, ThatIsNotCalledForHasNoStage) {
   EXPECT_EQ(Vec3(simulator.state().u[0].head<3>()), scene.bodies[0].velocity);
 }
 
-TEST(ExternalForce, CountsWhereContactsAreLookedForAFrameAhead) {
+TEST(ExternalForce, IsIncludedInThePredictionOfContacts) {
   // At rest 0.3 m above a thin plate, and pushed down with 4,000 m/s^2: 0.55 m in a frame.
   for (const Detection detection : {Detection::kSubstep, Detection::kFrame}) {
     Scene scene;
@@ -169,7 +169,7 @@ TEST(ExternalForce, CountsWhereContactsAreLookedForAFrameAhead) {
   }
 }
 
-TEST(ExternalForce, IsInTheClosedFormsOrTheyAreNotClaimed) {
+TEST(ExternalForce, IsInTheClosedFormsOrThereAreNone) {
   Scene scene = pushed({5.0, 0.0, 0.0}, Vec3::Zero());
   scene.effects.gravity = true;
   scene.criteria.track = 0;

@@ -97,7 +97,7 @@ TEST(Friction, IsTheSameForEveryOrderOfBodiesAndEveryYaw) {
 // Pushed across the slope, it curves downhill like a point with friction opposite to its sliding
 // velocity:
 //   v' = g_t - mu g_n v/|v|.
-TEST(Friction, OfTheConeIsAgainstTheSliding) {
+TEST(Friction, OfTheConeOpposesTheSliding) {
   const Vec3 start{0.0, 0.0, 2.0};
   Vec3 x = Vec3::Zero();
   Vec3 v = start;
@@ -117,7 +117,7 @@ TEST(Friction, OfTheConeIsAgainstTheSliding) {
         << name_of(solver) << ": " << cone.transpose() << " and " << x.transpose();
     settings.friction_cone = FrictionCone::kBox;
     EXPECT_GT((way_of(scene, settings) - x).norm(), 0.05 * x.norm())
-        << name_of(solver) << ": a box holds each of its axes by itself";
+        << name_of(solver) << ": the box bounds each tangent separately";
   }
 }
 

@@ -67,7 +67,7 @@ TEST_P(Growth, StacksAreNearlyLinear) {
 
 // The bricks of a wall are a planar graph. With n contacts its elimination takes n^1.5 in the best
 // order, and n^2 course by course; the work of Gauss-Seidel is proportional to the contacts.
-TEST_P(Growth, WallsAreAsAPlanarGraphIs) {
+TEST_P(Growth, WallsGrowLikeAPlanarGraph) {
   const auto work = [&](int courses) {
     return work_of(scenes::wall({.courses = courses, .bricks = 2 * courses}), GetParam());
   };

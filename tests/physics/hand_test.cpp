@@ -11,7 +11,7 @@
 namespace substep::test {
 namespace {
 
-TEST(InterruptedFrame, EndsInTheBitsOfAnUninterruptedOne) {
+TEST(InterruptedFrame, EqualsAnUninterruptedOneBitForBit) {
   for (const Scene& scene : {scenes::swinging_box(), scenes::bridge()}) {
     for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kAdaptive, Mode::kCapped}) {
       for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
@@ -44,7 +44,7 @@ TEST(InterruptedFrame, EndsInTheBitsOfAnUninterruptedOne) {
   }
 }
 
-TEST(InterruptedFrame, IsDroppedWhereAStateIsSet) {
+TEST(InterruptedFrame, IsDroppedWhenAStateIsSet) {
   const Scene scene = scenes::swinging_box();
   Simulator simulator = simulator_of(scene, scene.settings);
   simulator.step();
@@ -96,7 +96,7 @@ TEST(Grab, PullsAsADampedSpring) {
   }
 }
 
-TEST(Grab, LetGoLeavesNoTrace) {
+TEST(Grab, LeavesNoTraceAfterItsRelease) {
   const Scene scene = scenes::swinging_box();
   Simulator plain = simulator_of(scene, scene.settings);
   Simulator touched = simulator_of(scene, scene.settings);
@@ -111,7 +111,7 @@ TEST(Grab, LetGoLeavesNoTrace) {
   EXPECT_EQ(state_hash(plain.state()), state_hash(touched.state()));
 }
 
-TEST(Grab, AsksForSubsteps) {
+TEST(Grab, RaisesTheNumberOfSubsteps) {
   const Scene scene = scenes::swinging_box();
   Simulator plain = simulator_of(scene, scene.settings);
   Simulator pulled = simulator_of(scene, scene.settings);
@@ -158,7 +158,7 @@ TEST(InterruptedFrame, ShowsForcesAndVelocitiesOfItsLastSubstep) {
       const Vec3 expected = gained - m * scene.gravity;
       EXPECT_LT((sign * pulled - expected).norm(), 1e-5 * expected.norm()) << i;
       for (std::size_t body = 0; body < after.u.size(); ++body) {
-        // Turns go with the joints' forces where they act at the new poses.
+        // Only translations: the torques of joint forces are evaluated at the new poses.
         const Vec3 now = (after.u[body] + 0.5 * (after.u[body] - before.u[body])).head<3>();
         EXPECT_LT((after.u_synchronised[body].head<3>() - now).norm(), 1e-9 * (1.0 + now.norm()))
             << i;
@@ -167,7 +167,7 @@ TEST(InterruptedFrame, ShowsForcesAndVelocitiesOfItsLastSubstep) {
   }
 }
 
-TEST(ConstraintForces, OfAJointCarryWhatHangsFromIt) {
+TEST(ConstraintForces, OfAJointCarryTheBodiesBelowIt) {
   Scene scene;
   scene.effects = {.gravity = true, .joints = true};
   for (int i = 0; i < 2; ++i) {
@@ -191,7 +191,7 @@ TEST(ConstraintForces, OfAJointCarryWhatHangsFromIt) {
   EXPECT_LT((forces.joints[1].force - Vec3(0.0, 68.67, 0.0)).norm(), 1e-3);
 }
 
-TEST(ConstraintForces, OfContactsCarryWhatStandsOnThem) {
+TEST(ConstraintForces, OfContactsCarryTheBodiesAboveThem) {
   const Scene scene = scenes::heavy_stack();
   double weight = 0.0;
   for (const Body& body : scene.bodies) weight += body.is_static ? 0.0 : 9.81 * body.mass;
@@ -212,8 +212,8 @@ struct Yank {
   int body;
 };
 
-// The pointer jumps from side to side, up and down, far beyond reach, in the worst rhythm.
-TEST(Grab, RoughYankingTearsNothing) {
+// The pointer jumps from side to side, up and down, far beyond reach, at several periods.
+TEST(Grab, ViolentPullingTearsNoJoint) {
   const Scene box = scenes::swinging_box();
   const Scene bridge = scenes::bridge();
   std::vector<Yank> yanks{{box, heaviest(box)}, {bridge, heaviest(bridge)}};

@@ -84,7 +84,7 @@ TEST(Impacts, KeepMomentumAndEnergyOfUnequalBalls) {
 
 // With e < 1 a ball keeps (1 - e)/2 of its speed, strikes the next one again, and so on until all
 // approach speeds are below the threshold; pair by pair, as in closed form.
-TEST(Impacts, LoseWithEveryBlowWhatItsRestitutionSays) {
+TEST(Impacts, LoseEnergyByTheirRestitution) {
   constexpr double e = 0.8;
   constexpr double kSlow = 1e-3;  // [m/s]
   std::vector<double> expected{kSpeed, 0.0, 0.0, 0.0};
@@ -111,7 +111,7 @@ TEST(Impacts, LoseWithEveryBlowWhatItsRestitutionSays) {
 }
 
 // Two balls side by side, struck midway, separate symmetrically, whichever is listed first.
-TEST(Impacts, KeepWhatIsSymmetricSo) {
+TEST(Impacts, KeepSymmetry) {
   const double side = 2.0 * kRadius * std::sqrt(0.75);
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kNewton}) {
     Balls balls(1.0);
@@ -152,7 +152,7 @@ TEST(Impacts, PassThroughBodiesOnJoints) {
 }
 
 // A landing column loses no energy, however many of its balls strike at once.
-TEST(Impacts, AColumnThatLandsLosesNothing) {
+TEST(Impacts, OfALandingColumnLoseNoEnergy) {
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
     Balls balls(1.0);
     for (int i = 0; i < 4; ++i) {

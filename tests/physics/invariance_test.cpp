@@ -137,7 +137,7 @@ Scene in_units(Scene scene, double mass, double length, double time) {
 }
 
 // Units that are powers of 4 shift exponents only, under square roots too: where no constant of the
-// code has a unit the motion is the same to the last bit. The pivoting tolerance of contacts (an
+// code has a unit, the motion is the same to the last bit. The pivoting tolerance of contacts (an
 // impulse) and the lengths by which box faces are preferred have one; there it is the same up to
 // the growth of rounding.
 TEST(Invariance, TheUnitOfMassDoesNotMatter) {
@@ -160,7 +160,7 @@ TEST(Invariance, TheUnitsOfLengthAndTimeDoNotMatter) {
     c.scene.regularisation = 0.0;  // the same number on rows in 1/kg and in 1/(kg m^2)
     const bool joints_only = !c.scene.effects.contact;
     const Outcome here = run(c.scene, c.scene.settings, c.seconds);
-    // As large as a house at a stable's pace, and the two apart.
+    // Both units changed at once, then each alone.
     for (const Units u : {Units{16.0, 4.0}, Units{0.25, 1.0}, Units{1.0, 0.25}}) {
       const Scene scene = in_units(c.scene, 1.0, u.length, u.time);
       Case scaled = c;

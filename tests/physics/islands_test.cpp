@@ -171,7 +171,7 @@ TEST(Islands, AStruckBodyMayStrikeTheNextWithinTheFrame) {
 
 // Free flight is exact with leapfrog for any sub-steps: they follow a chain's until islands are
 // switched on, and again afterwards.
-TEST(Islands, LeapfrogKeepsItsOrderWhereTheyComeAndGo) {
+TEST(Islands, LeapfrogKeepsItsOrderWhenTheyAreSwitched) {
   Scene flying = scenes::free_fall();
   flying.bodies.resize(1);
   flying.bodies[0].velocity = Vec3{3.0, 20.0, 0.0};
@@ -213,7 +213,7 @@ TEST(Islands, SubstepsTakenOneByOneMakeTheSameFrames) {
   }
 }
 
-TEST(Islands, AHandHoldsOnlyItsOwn) {
+TEST(Islands, AGrabAffectsOnlyItsOwn) {
   const Scene scene =
       beside({aside(scenes::swinging_box(), -30.0), aside(scenes::heavy_stack(), 30.0)});
   const int box = *scenes::swinging_box().criteria.track;
@@ -261,7 +261,7 @@ TEST(Islands, TheHardSetHoldsAsWithoutThem) {
   EXPECT_GT(fewer, 3) << "scenes in which some bodies took fewer";
 }
 
-TEST(Islands, TheDollThatOthersCarriedTearsAlone) {
+TEST(Islands, TheRagdollThatNeededOthersSubstepsTearsAlone) {
   const Scene heap = scenes::ragdoll_drop();
   Scene alone = heap;
   const auto is_other = [](const Body& body) {

@@ -189,7 +189,7 @@ TEST(Loops, JointsStayClosed) {
 
 // Contradictory rows: a coupler 1 mm too long for its pins. The error that no impulse can correct
 // remains in the bounded pivots, and no correction increases the force.
-TEST(Loops, RowsThatContradictEachOtherDoNotRunAway) {
+TEST(Loops, ContradictoryRowsStayBounded) {
   Scene scene = swing();
   base(scene.joints[3]).anchor_a.z() = 1e-3;  // out of the plane, where there is no compliance
   scene.start = StartPolicy::kKeep;

@@ -285,7 +285,7 @@ BallChain standing_top() {
   return {{top}, kGravity};
 }
 
-TEST(RotationCriterion, KeepsATopUpThatTheStiffnessKnowsNothingOf) {
+TEST(RotationCriterion, KeepsATopUprightWithoutStiffness) {
   const Scene scene = standing_top().scene();
   const auto lowest = [&](const Settings& settings, int& n) {
     double y = scene.bodies[0].position.y();

@@ -39,7 +39,7 @@ TEST(CardHouse, FallsWithoutEnoughFriction) {
   EXPECT_FALSE(r.holds);
 }
 
-TEST(Wall, StandsUntilTheBallComesAndNotAfter) {
+TEST(Wall, StandsUntilTheBallHitsIt) {
   const Scene scene = scenes::wall();
   const auto ball = scene.bodies.size() - 1;
   const auto top = ball - 3;  // a brick in the middle of the last course
@@ -53,7 +53,7 @@ TEST(Wall, StandsUntilTheBallComesAndNotAfter) {
   EXPECT_LT(moved_before, 0.005);
   EXPECT_GT(moved, 0.5);
   EXPECT_LT(r.energy_end, r.energy_start);
-  EXPECT_GT(lowest(r.end, 1), 0.0) << "something fell through the floor";
+  EXPECT_GT(lowest(r.end, 1), 0.0) << "a body fell through the floor";
 }
 
 TEST(WreckingBall, BringsTheTowerDownAndItsChainHolds) {

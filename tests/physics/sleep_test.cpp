@@ -38,7 +38,7 @@ TEST(Sleep, AStackAtRestCostsNothing) {
         EXPECT_EQ(report.n_mean, 0.0);
         EXPECT_EQ(report.work.flops + report.work.solves + report.criterion.flops, 0);
         EXPECT_EQ(report.contact_rows, 0);
-        EXPECT_EQ(report.asleep, 26) << "all of it";
+        EXPECT_EQ(report.asleep, 26) << "the whole stack";
         EXPECT_EQ(report.kinetic, 0.0);
         EXPECT_EQ(report.frame, frame + 1);
       }
@@ -49,13 +49,13 @@ TEST(Sleep, AStackAtRestCostsNothing) {
   }
 }
 
-TEST(Sleep, IsOffUnlessAskedFor) {
+TEST(Sleep, IsOffByDefault) {
   Simulator simulator = simulator_of(scenes::heavy_stack(), {});
   for (int frame = 0; frame < 60; ++frame) EXPECT_EQ(simulator.step().asleep, 0);
   EXPECT_TRUE(simulator.state().rest.empty());
 }
 
-TEST(Sleep, WhatMovesDoesNot) {
+TEST(Sleep, MovingBodiesDoNot) {
   Simulator asked = simulator_of(scenes::swinging_box(), sleeping());
   Simulator plain = simulator_of(scenes::swinging_box(), {});
   for (int frame = 0; frame < 240; ++frame) {
@@ -106,7 +106,7 @@ TEST(Sleep, ATowerWakesBeforeTheBallTouchesIt) {
   EXPECT_GT(fastest, 1.0) << "and is struck";
 }
 
-TEST(Sleep, AHandOrOtherSettingsWake) {
+TEST(Sleep, EndsWithAGrabOrNewSettings) {
   Simulator simulator = simulator_of(scenes::heavy_stack(), sleeping());
   for (int frame = 0; frame < 40; ++frame) simulator.step();
   ASSERT_GT(simulator.step().asleep, 0);
@@ -141,7 +141,7 @@ TEST(Sleep, OneIslandSleepsWhileAnotherSwings) {
       alone = box.step();
     }
     EXPECT_EQ(report.asleep, 26);
-    EXPECT_EQ(report.n_substeps, alone.n_substeps) << "by the box, and not the stack";
+    EXPECT_EQ(report.n_substeps, alone.n_substeps) << "of the box only: the stack sleeps";
     EXPECT_EQ(report.work.flops, alone.work.flops);
   }
 }
@@ -178,7 +178,7 @@ TEST(Sleep, WakesWithTheForcesThatHeldIt) {
 }
 
 // A sleeping island also keeps its K, in every mode that reads it.
-TEST(Sleep, KeepsTheStiffnessThatItHad) {
+TEST(Sleep, KeepsTheStiffness) {
   const Scene scene = beside({transformed(scenes::swinging_box(), Quat::Identity(), {0, 0, -30.0}),
                               transformed(scenes::heavy_stack(), Quat::Identity(), {0, 0, 30.0})});
   Simulator simulator = simulator_of(scene, sleeping({.mode = Mode::kStiffness}));

@@ -15,7 +15,7 @@ FrameReport first_frame(const Scene& scene, const Settings& settings = {}) {
   return simulator_of(scene, settings).step();
 }
 
-TEST(Stages, AnEffectNotCalledForLeavesNoRowsAndNoTime) {
+TEST(Stages, AnUnlistedEffectHasNoRowsAndNoTime) {
   const FrameReport chain = first_frame(scenes::swinging_box());
   EXPECT_TRUE(chain.stages.gravity && chain.stages.joints);
   EXPECT_FALSE(chain.stages.contact || chain.stages.friction || chain.stages.gyroscopic);
@@ -56,7 +56,7 @@ TEST(Stages, FrictionRowsOnlyWhereBothBodiesHaveFriction) {
   EXPECT_EQ(first_frame(scene).friction_rows, 0);
 }
 
-TEST(Report, WhatIsNotMeasuredIsNoNumberAndDoesNotChangeTheMotion) {
+TEST(Report, UnmeasuredValuesAreNaNAndDoNotChangeTheMotion) {
   for (const Scene& scene : {scenes::swinging_box(), scenes::heavy_stack()}) {
     Simulator all(std::make_shared<const Scene>(scene));
     Simulator none(std::make_shared<const Scene>(scene));
@@ -80,7 +80,7 @@ TEST(Report, WhatIsNotMeasuredIsNoNumberAndDoesNotChangeTheMotion) {
   }
 }
 
-TEST(Report, NamesWhoSetR) {
+TEST(Report, NamesTheBodyThatSetsR) {
   const Scene scene = scenes::swinging_box();
   Simulator simulator(std::make_shared<const Scene>(scene));
   FrameReport report;
@@ -96,7 +96,7 @@ TEST(Report, NamesWhoSetR) {
   EXPECT_DOUBLE_EQ(report.dt_stable, 2.0 * std::sqrt(0.1 / who.r));
 }
 
-TEST(Report, TheCapIsReportedWhenItBites) {
+TEST(Report, TheCapIsReportedWhenItIsInForce) {
   Settings settings;
   settings.n_max = 8;
   const FrameReport report = first_frame(scenes::swinging_box(), settings);
@@ -126,7 +126,7 @@ TEST(Report, TheFirstNDoesNotDependOnTheIntegrator) {
   }
 }
 
-TEST(Report, WithoutStiffnessNobodySetR) {
+TEST(Report, WithoutStiffnessNoBodySetsR) {
   Simulator simulator(std::make_shared<const Scene>(scenes::swinging_box()));
   EXPECT_GE(simulator.step().leader.body, 0);
   Settings settings;
@@ -151,7 +151,7 @@ TEST(Report, TheProbeRunsAgainWhenAModeThatReadsStiffnessIsSwitchedOn) {
 }
 
 // A rigid joint given twice is a singular but redundant system: equivalent to one joint.
-TEST(Failure, ARigidJointGivenTwiceIsNone) {
+TEST(Failure, ADuplicateRigidJointIsNone) {
   Scene scene = scenes::swinging_box({scenes::kSixtyDegrees, 0.0});
   scene.joints.push_back(scene.joints[3]);
   const Outcome r = run(scene, scene.settings, 2.0);
@@ -160,7 +160,7 @@ TEST(Failure, ARigidJointGivenTwiceIsNone) {
 }
 
 // A speed whose square overflows.
-TEST(Failure, StopsAtTheLastFiniteStateAndSaysWho) {
+TEST(Failure, StopsAtTheLastFiniteStateAndNamesTheBody) {
   const Scene scene = scenes::swinging_box({scenes::kSixtyDegrees, 0.0});
   Simulator simulator(std::make_shared<const Scene>(scene));
   State thrown = simulator.state();
@@ -183,7 +183,7 @@ TEST(Failure, StopsAtTheLastFiniteStateAndSaysWho) {
 
 // An explicit gyroscopic torque at this speed gains energy without bound. Velocities stay finite
 // for some time after their squares overflow.
-TEST(Failure, EndsWhileItsEnergyIsANumber) {
+TEST(Failure, StopsWhileTheEnergyIsFinite) {
   Scene scene = scenes::spinning_top();
   for (Body& body : scene.bodies) body.angular_velocity = {300.0, 2000.0, 100.0};
   scene.settings.gyroscopic = Gyroscopic::kExplicit;

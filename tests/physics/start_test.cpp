@@ -247,7 +247,7 @@ TEST(Start, OfALoopIsClosedThoughItsRowsAreRedundant) {
   EXPECT_LT(std::abs(start.state.u[1].z()), 1e-11);
 }
 
-TEST(Start, ThatNoNearOneClosesIsKeptAndSaysSo) {
+TEST(Start, WithoutANearbyConsistentOneIsKeptAndReported) {
   Scene scene;  // a rod of 1 m between two points 1.1 m apart
   scene.effects.joints = true;
   scene.bodies = {box_at({0.0, 0.0, 0.0}, {0.5, 0.05, 0.05}, 1.0)};
@@ -269,7 +269,7 @@ TEST(Start, LeavesTheStretchOfASpring) {
   scene.joints = {between<BallJoint>(0, Vec3::Zero(), kWorld, Vec3::Zero())};
   base(scene.joints[0]).compliance = 1e-5;
   EXPECT_TRUE(start_of_run(scene).report.found.consistent()) << "it hangs in equilibrium";
-  base(scene.joints[0]).compliance = 1e-9;  // 500 Hz: stands for an exact joint
+  base(scene.joints[0]).compliance = 1e-9;  // 500 Hz: represents an exact joint
   EXPECT_TRUE(start_of_run(scene).report.projected);
 }
 
@@ -296,7 +296,7 @@ TEST(Start, AgreesWithExactJointsBesideASpring) {
   EXPECT_LT((after.angular - before.angular).norm(), 1e-10 * before.angular.norm());
 }
 
-TEST(Start, OfASavedRunGoesOnAsItWas) {
+TEST(Start, OfASavedRunIsUnchanged) {
   Scene scene = open_chain(0.09);
   scene.carried.emplace(static_cast<const Carried&>(initial_state(scene)));
   const Start start = start_of_run(scene);
@@ -341,7 +341,7 @@ TEST(Start, ThatIsTooLargeToProjectIsKept) {
   EXPECT_NE(start_text(scene, start.report).find("too large to project"), std::string::npos);
 }
 
-TEST(Start, IsToldInALine) {
+TEST(Start, IsReportedInOneLine) {
   const Scene scene = scattered();
   StartReport report = start_of_run(scene).report;
   report.found.gap = 0.09;

@@ -114,7 +114,7 @@ test("pictures and data can be saved", async () => {
   };
   const svg = (await saved("SVG")).toString();
   assert.match(svg, /^<svg/);
-  assert.ok(!svg.includes("var(--"), "colours of the page mean nothing outside of it");
+  assert.ok(!svg.includes("var(--"), "the variables of the page are undefined outside of it");
   assert.deepEqual([...(await saved("PNG")).subarray(0, 4)], [0x89, 0x50, 0x4e, 0x47]);
   const rows = (await saved("CSV")).toString().trim().split("\n");
   assert.equal(rows.length, plain.length + 1);

@@ -54,7 +54,8 @@ struct Outcome {
 
 using EveryFrame = std::function<void(const Simulator&, const FrameReport&)>;
 
-/// Runs to the end time, or stops at the verdict unless told to continue.
+/// Runs to the end time, or until the run fails.
+/// @param stop_when_failed false: a failed run continues to the end time
 inline Outcome run(const Scene& scene, const Settings& settings, double seconds,
                    const EveryFrame& every_frame = {}, bool stop_when_failed = true) {
   const auto shared = std::make_shared<const Scene>(scene);

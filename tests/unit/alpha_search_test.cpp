@@ -71,31 +71,31 @@ TEST(AlphaSearch, IsTheSmallestWithinACost) {
   }
 }
 
-TEST(AlphaSearch, IsNothingWhereNothingServes) {
+TEST(AlphaSearch, IsEmptyWhereNoAlphaMeetsTheLimit) {
   const Chain chain;
   EXPECT_FALSE(found(chain.within_substeps(0.5)));
   Chain capped;
   capped.experiment.settings.n_max = 4;
-  EXPECT_FALSE(found(capped.within(1e-6))) << "the whole way down";
+  EXPECT_FALSE(found(capped.within(1e-6))) << "down to the smallest alpha";
 }
 
 // With so few sub-steps the chain tears; a failing run is not a valid result, however cheap.
-TEST(AlphaSearch, IsNothingWhereTheRunFails) {
+TEST(AlphaSearch, IsEmptyWhereTheRunFails) {
   Chain chain;
   chain.experiment.settings.n_max = 1;
   EXPECT_FALSE(chain.run(1.0).metrics.holds);
   EXPECT_FALSE(found(chain.within_substeps(3.0)));
 }
 
-TEST(AlphaSearch, KeepsWithinTheTimeThatRunsTook) {
+TEST(AlphaSearch, IsTheSmallestWithinAMeasuredTime) {
   const Chain chain;
   const auto choice = found(AlphaSearch::smallest_within(chain.scene, chain.experiment,
                                                          chain.reference, CostAxis::kTime, 1e12));
   ASSERT_TRUE(choice.has_value());
-  EXPECT_EQ(choice->alpha, AlphaSearch::kLeast) << "there is room for all of them";
+  EXPECT_EQ(choice->alpha, AlphaSearch::kLeast) << "every alpha is within it";
 }
 
-TEST(AlphaSearch, GoesByTheSettingsOfTheSweepsCurve) {
+TEST(AlphaSearch, UsesTheSettingsOfTheSweepsCurve) {
   Scene own = scenes::rope_of_n({.n = 4});
   own.settings.drift_order = 2;
   own.settings.refinements = 3;
@@ -123,7 +123,7 @@ TEST(AlphaSearch, EndsWhereTheRangeDoes) {
   EXPECT_EQ(choice->alpha, AlphaSearch::kLeast);
 }
 
-TEST(AlphaSearch, GoesOnByAFrameAndTellsWhatItTries) {
+TEST(AlphaSearch, AdvancesByAFrameAndReportsItsTrial) {
   const Chain chain;
   AlphaSearch search = chain.within(1e-3);
   EXPECT_EQ(search.alpha(), 1.0);

@@ -139,7 +139,7 @@ TEST(BoxBox, FeaturesKeepTheirIdsWhileABoxSlides) {
 }
 
 // Equal boxes exactly above each other: rounding must neither add nor rename corners.
-TEST(BoxBox, FlushFacesHaveTheSameFourPointsWhateverTheLastBit) {
+TEST(BoxBox, FlushFacesHaveTheSameFourPointsDespiteRounding) {
   std::vector<std::uint64_t> first;
   for (const double yaw : {0.0, 1e-15, -1e-15}) {
     for (const double shift : {0.0, 1e-16, -1e-16}) {
@@ -240,7 +240,7 @@ double separation(const Scene& scene) {
   return best;
 }
 
-TEST(BoxBox, OverlappingBoxesAlwaysTouchAndAsDeepAsTheyOverlap) {
+TEST(BoxBox, OverlappingBoxesTouchWithTheDepthOfTheOverlap) {
   Random random(8);
   int edges = 0;
   constexpr int kTrials = 4000;
@@ -276,7 +276,7 @@ TEST(BoxBox, OverlappingBoxesAlwaysTouchAndAsDeepAsTheyOverlap) {
   EXPECT_GT(edges, kTrials / 20);
 }
 
-TEST(Contact, ApartByMoreThanTheMarginThereIsNoRow) {
+TEST(Contact, HasNoRowBeyondTheMargin) {
   for (const double gap : {0.019, 0.021}) {
     Scene scene = pair_of(moving(Sphere{0.5}), fixed(Plane{}));
     scene.contact.margin = 0.02;
@@ -287,7 +287,7 @@ TEST(Contact, ApartByMoreThanTheMarginThereIsNoRow) {
   }
 }
 
-TEST(Contact, TheSphereTurnsNothingInTheExactFormButInThePapersItDoes) {
+TEST(Contact, OnlyThePapersFormGivesASphereAngularStiffness) {
   Scene scene = pair_of(moving(Sphere{0.5}), fixed(Plane{}));
   scene.bodies[0].position.y() = 0.5;
   const State state = initial_state(scene);

@@ -28,7 +28,7 @@ TEST(Detector, BodiesOfOneGroupAndJoinedBodiesDoNotTouch) {
   EXPECT_EQ(points(ghost), 0U);
 }
 
-TEST(Detector, FindsWhatEveryPairTestedAloneFinds) {
+TEST(Detector, FindsThePairsOfAnExhaustiveSearch) {
   Random random(8);
   for (int trial = 0; trial < 50; ++trial) {
     Scene scene;
@@ -60,7 +60,7 @@ TEST(Detector, FindsWhatEveryPairTestedAloneFinds) {
 }
 
 // Data cached between sub-steps must not change the result: bodies drift, rotate, jump or stay.
-TEST(Detector, FindsWhatOneWithoutAMemoryFinds) {
+TEST(Detector, FindsTheSamePairsWithoutItsCache) {
   Random random(9);
   for (int trial = 0; trial < 20; ++trial) {
     Scene scene;

@@ -15,7 +15,7 @@
 namespace substep::test {
 namespace {
 
-TEST(EffectCost, WhatAnEffectAddsIsWhatItsAbsenceSpares) {
+TEST(EffectCost, IsTheCostSavedByLeavingTheEffectOut) {
   Scene scene = scenes::bridge();
   Experiment experiment = experiment_of(scene, scene.settings);
   experiment.settings.solver = SolverKind::kPgs;
@@ -37,7 +37,7 @@ TEST(EffectCost, WhatAnEffectAddsIsWhatItsAbsenceSpares) {
   }
 }
 
-TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
+TEST(EffectCost, OfJointsAloneIsEveryRowUpdate) {
   const Scene scene = scenes::swinging_box();
   Experiment experiment = experiment_of(scene, scene.settings);
   experiment.settings.solver = SolverKind::kPgs;
@@ -56,7 +56,7 @@ TEST(EffectCost, WhereThereAreJointsAloneTheyCostAllRowUpdates) {
 
 // Each simulator keeps its own totals: the run, the unchanged scene, and the scenes without gravity
 // and contact.
-TEST(EffectCost, ItsSimulatorsTogetherTakeNoMoreMemoryThanOneMay) {
+TEST(EffectCost, ItsSimulatorsShareOneMemoryBudget) {
   SceneBuilder builder("spheres");
   for (int i = 0; i < 130; ++i) builder.add_body(Sphere{0.1}, 1.0, {0, 0, 0});
   const std::shared_ptr<const Scene> scene = builder.build();
@@ -72,7 +72,7 @@ TEST(EffectCost, ItsSimulatorsTogetherTakeNoMoreMemoryThanOneMay) {
 }
 
 // Until the ball hits the tower, its chain takes 12 sub-steps per frame and the tower one.
-TEST(EffectCost, OfIslandsIsPartOfWhatTheyCost) {
+TEST(EffectCost, OfAnEffectIsAtMostTheWholeCostWithIslands) {
   const Scene scene = scenes::wrecking_ball();
   Experiment experiment = experiment_of(scene, scene.settings);
   experiment.settings.islands = true;

@@ -84,7 +84,7 @@ TEST(EliminationOrder, BallsGoBeforeThePlatesBetweenThem) {
   }
 }
 
-TEST(EliminationOrder, MoreContactPointsOfAPairLeaveItAsItIs) {
+TEST(EliminationOrder, DoesNotDependOnTheNumberOfContactPointsOfAPair) {
   std::vector<Block> blocks{between(0, 1), between(1, 2, BlockKind::kContact)};
   EliminationOrder order;
   EXPECT_TRUE(order.update(blocks, 3));

@@ -124,7 +124,7 @@ TEST(HeavyTop, MinimalCoordinatesGiveThePublishedEulerParameters) {
   EXPECT_NEAR(q.z(), 0.0894, 1e-5);
 }
 
-TEST(Bricard, LoopClosesAndEnergyStays) {
+TEST(Bricard, LoopClosesAndEnergyIsConserved) {
   for (const double angle : {0.0, 0.3, 1.5, 3.0}) {
     EXPECT_LT(scenes::Bricard::closure_error(angle), 1e-14) << angle;
   }
@@ -182,7 +182,7 @@ ExamCase made_up(double power, std::optional<double> order) {
   return exam;
 }
 
-TEST(Exam, PassesWhereARunIsWithinAndOrdersAreKept) {
+TEST(Exam, PassesIfARunIsWithinToleranceAndOrdersHold) {
   const ExamResult second = run_exam(made_up(2.0, 2.0));
   ASSERT_EQ(second.rows.size(), 3U);
   EXPECT_FALSE(second.rows[1].passes);
@@ -200,7 +200,7 @@ TEST(Exam, PassesWhereARunIsWithinAndOrdersAreKept) {
   EXPECT_TRUE(first.kept);
 }
 
-TEST(Exam, WhatIsForEveryRunFailsTheCaseWhereOneExceedsIt) {
+TEST(Exam, AToleranceForEveryRunFailsIfOneRunExceedsIt) {
   ExamCase exam = made_up(2.0, std::nullopt);
   exam.quantities[0].for_every_run = true;
   const ExamResult result = run_exam(exam);
@@ -208,7 +208,7 @@ TEST(Exam, WhatIsForEveryRunFailsTheCaseWhereOneExceedsIt) {
   EXPECT_FALSE(result.passed());
 }
 
-TEST(Exam, AnErrorThatIsNoNumberFails) {
+TEST(Exam, ANonFiniteErrorFails) {
   ExamCase exam = made_up(2.0, std::nullopt);
   exam.measure = [] {
     return [](const ExamView&, std::span<double> errors) {
@@ -233,7 +233,7 @@ TEST(Exam, ForcesBelongToTheStateThatTheyAreShownWith) {
   EXPECT_EQ(expected, 51) << "the start and 50 frames";
 }
 
-TEST(Exam, MotionsStartAndGoAsTheScenesDo) {
+TEST(Exam, MotionsMatchTheScenes) {
   int seen = 0;
   for (const ExamEntry& entry : scenes::exam()) {
     if (!entry.build || !entry.not_reached.empty()) continue;

@@ -18,14 +18,14 @@ std::shared_ptr<const Scene> shared(const Scene& scene) {
   return std::make_shared<const Scene>(scene);
 }
 
-TEST(Experiment, EverySettingOfTheTestIsUnusual) {
+TEST(Experiment, EverySettingOfTheTestDiffersFromItsDefault) {
   for (const SettingField& field : setting_fields()) {
     if (field.name == "watch_stiffness") continue;
     EXPECT_NE(setting_text(field, unusual()), setting_text(field, Settings{})) << field.name;
   }
 }
 
-TEST(Experiment, JsonComesBackTheSame) {
+TEST(Experiment, JsonRoundTripIsExact) {
   const auto scene = shared(scenes::swinging_box());
   Experiment experiment = experiment_of(*scene, unusual(), 3);
   experiment.duration = 1.0 / 3.0;
@@ -101,7 +101,7 @@ TEST(Experiment, IdDependsOnlyOnWhatAffectsTheRun) {
 }
 
 // Stored results use the id as their key, so it must not change.
-TEST(Experiment, IdOfTheScenesFileStaysWhatItIs) {
+TEST(Experiment, IdOfASceneFileIsStable) {
   const auto scene = read_scene_file(SUBSTEP_SOURCE_DIR "/scenes/free_fall.json").scene;
   ASSERT_TRUE(scene);
   EXPECT_EQ(experiment_id(experiment_of(*scene, Settings{})),

@@ -1,4 +1,4 @@
-// Adaptive sub-stepping beside the best constant N in hindsight.
+// Adaptive sub-stepping compared with the best constant N in hindsight.
 
 #include "core/lab/fair_trade.hpp"
 
@@ -99,7 +99,7 @@ TEST(FairTrade, NoConstantNIsAsCheapForTheConvoy) {
   ASSERT_EQ(trade.rows.size(), 1U);
   ASSERT_TRUE(trade.holds());
   EXPECT_GT(trade.rows[0].too_few, 1.3 * trade.rows[0].n())
-      << "even an N that is not enough takes a third more sub-steps";
+      << "even the largest insufficient N takes a third more sub-steps";
 }
 
 TEST(FairTrade, OneConstantForAllLoadsOfTheSwingingBoxCostsTwice) {
@@ -107,7 +107,7 @@ TEST(FairTrade, OneConstantForAllLoadsOfTheSwingingBoxCostsTwice) {
   ASSERT_TRUE(stored);
   const FairTrade trade = fair_trade(chain(), stored->results, Policy::kFrame, 0.45);
   EXPECT_EQ(trade.alphas, (std::vector<double>{0.05, 0.1, 0.25, 0.5, 1.0}));
-  EXPECT_EQ(trade.alpha, 0.5) << "the nearest";
+  EXPECT_EQ(trade.alpha, 0.5) << "the alpha nearest to 0.45";
   ASSERT_EQ(trade.rows.size(), 6U);
   ASSERT_TRUE(trade.holds());
   for (std::size_t i = 1; i < trade.rows.size(); ++i) {

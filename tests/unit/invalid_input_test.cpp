@@ -211,7 +211,7 @@ StepStatus ask_all(test::Random& random, Simulator& simulator) {
   return report.status;
 }
 
-TEST(InvalidInput, OfAThousandRandomScenesAndStatesNothingIsReadOutOfBounds) {
+TEST(InvalidInput, AThousandRandomScenesAndStatesReadNothingOutOfBounds) {
   test::Random random(31);
   int refused = 0;
   int stepped = 0;

@@ -59,7 +59,7 @@ struct WithoutCouple : HingeRows {
   static void torque(const Block&, const double*) {}
 };
 
-TEST(JointTable, AnEntryThatLeavesAnOperationOutDoesNotCompile) {
+TEST(JointTable, AnEntryWithoutAnOperationDoesNotCompile) {
   static_assert(JointRows<BallRows, BallJoint>);
   static_assert(JointRows<HingeRows, HingeJoint>);
   static_assert(JointRows<PrismaticRows, PrismaticJoint>);
@@ -165,9 +165,9 @@ void pushes() {
   }
 }
 
-TEST(BallJoint, PushesAndTheirChangesAreThoseOfTheGradients) { pushes<BallJoint>(); }
-TEST(HingeJoint, PushesAndTheirChangesAreThoseOfTheGradients) { pushes<HingeJoint>(); }
-TEST(PrismaticJoint, PushesAndTheirChangesAreThoseOfTheGradients) { pushes<PrismaticJoint>(); }
+TEST(BallJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<BallJoint>(); }
+TEST(HingeJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<HingeJoint>(); }
+TEST(PrismaticJoint, ForcesAndTheirChangesMatchTheGradients) { pushes<PrismaticJoint>(); }
 
 TEST(HingeJoint, VectorsAcrossTheAxisAreOrthonormal) {
   Random random(2);

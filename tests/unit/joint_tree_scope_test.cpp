@@ -11,7 +11,7 @@
 namespace substep::test {
 namespace {
 
-TEST(JointTree, WhatIsNoTreeOfRigidJointsIsRefused) {
+TEST(JointTree, OnlyTreesOfRigidJointsAreAccepted) {
   EXPECT_FALSE(JointTree::of(scenes::bridge())) << "contact";
   EXPECT_FALSE(JointTree::of(scenes::pendulum())) << "unequal moments, no gyroscopic effect";
   const Scene good = six_boxes();

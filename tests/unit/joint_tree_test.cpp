@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(JointTree, Trees,
                                          scenes::whirling_chain(), six_boxes(), branching_tree()),
                          [](const auto& scene) { return scene.param.name; });
 
-TEST_P(Trees, EnergyAndVerticalAngularMomentumStayForTenSeconds) {
+TEST_P(Trees, EnergyAndVerticalAngularMomentumAreConservedForTenSeconds) {
   JointTree tree = tree_of(GetParam());
   const Vec3 pivot = base(GetParam().joints[0]).anchor_b;
   const double before = energy(tree);
@@ -163,7 +163,7 @@ TEST_P(Trees, ErrorFollowsTheTolerance) {
 
 // Newton's and Euler's equations of every body, from velocities alone: the forces of its own joint
 // and of its children's joints change its momentum.
-TEST_P(Trees, ReactionsAreWhatChangesTheMomenta) {
+TEST_P(Trees, ReactionsEqualTheRatesOfMomentum) {
   const Scene& scene = GetParam();
   constexpr double kStep = 1e-4;  // [s]
   JointTree before = tree_of(scene);
@@ -282,7 +282,7 @@ TEST(JointTree, StaticBodiesAreWorld) {
   EXPECT_EQ(b.velocity(joint.b), Vec6(Vec6::Zero()));
 }
 
-// The code uses nothing beyond sqrt. A change of the integrator changes the numbers on purpose.
+// The code calls no function but sqrt. A change of the integrator changes these numbers.
 TEST(JointTree, BitsAreTheSameWithEveryCompiler) {
   JointTree tree = tree_of(scenes::whirling_chain());
   tree.advance(1.0);
@@ -295,7 +295,7 @@ TEST(JointTree, BitsAreTheSameWithEveryCompiler) {
 }
 
 // The steps of one call end at the requested time; the motion is the same.
-TEST(JointTree, AttemptsAddUpToAnAdvance) {
+TEST(JointTree, AttemptsEqualOneAdvance) {
   JointTree whole = tree_of(scenes::whirling_chain());
   JointTree sliced = whole;
   whole.advance(0.5);

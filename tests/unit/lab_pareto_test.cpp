@@ -34,8 +34,8 @@ TEST(Pareto, CheapestWithinIsOnTheFront) {
   const std::vector<CostAndError> points{{1.0, 1.0}, {2.0, 0.1},  {2.0, 0.05},
                                          {3.0, 0.2}, {4.0, 0.01}, {9.0, 0.01}};
   EXPECT_EQ(cheapest_within(points, 2.0), 0U);
-  EXPECT_EQ(cheapest_within(points, 0.5), 2U) << "of equal costs the more exact one";
-  EXPECT_EQ(cheapest_within(points, 0.05), 2U) << "no more than this is this too";
+  EXPECT_EQ(cheapest_within(points, 0.5), 2U) << "the more accurate one at equal cost";
+  EXPECT_EQ(cheapest_within(points, 0.05), 2U) << "the limit is inclusive";
   EXPECT_EQ(cheapest_within(points, 0.02), 4U);
   EXPECT_EQ(cheapest_within(points, 0.001), std::nullopt);
   EXPECT_EQ(cheapest_within({}, 1.0), std::nullopt);
@@ -45,7 +45,7 @@ TEST(Pareto, CheapestWithinIsOnTheFront) {
   }
 }
 
-TEST(Pareto, MostExactWithinIsTheSameWithTheAxesChanged) {
+TEST(Pareto, MostExactWithinIsCheapestWithinWithTheAxesSwapped) {
   std::mt19937 random(8);
   std::uniform_int_distribution<int> coarse(0, 12);
   for (int round = 0; round < 100; ++round) {

@@ -141,7 +141,7 @@ TEST(PlanarChain, ATurnedSceneMovesTheSame) {
   EXPECT_LT((turn * a->centre(3) - b->centre(3)).norm(), 1e-11);
 }
 
-TEST(PlanarChain, WhatIsNoPlanarChainIsRefused) {
+TEST(PlanarChain, OtherScenesAreRefused) {
   EXPECT_FALSE(PlanarChain::of(scenes::bridge()));
   EXPECT_FALSE(PlanarChain::of(scenes::free_fall()));
   EXPECT_FALSE(PlanarChain::of(scenes::spinning_top()));
@@ -168,7 +168,7 @@ TEST(ClosedForm, BoxOnASlopeSlidesOrStays) {
   EXPECT_EQ(stays->acceleration.norm(), 0.0);
 }
 
-TEST(ClosedForm, WhatHasNoneIsRefused) {
+TEST(ClosedForm, OtherScenesAreRefused) {
   EXPECT_FALSE(closed_form(scenes::heavy_stack()));
   EXPECT_FALSE(closed_form(scenes::pendulum()));
   Scene thrown = scenes::sliding_box();

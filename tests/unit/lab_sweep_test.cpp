@@ -56,7 +56,8 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
                            "xpbd 64 per frame, const, euler"}) {
     EXPECT_TRUE(series.contains(name)) << name;
   }
-  EXPECT_EQ(std::count_if(series.begin(), series.end(), by_island), 0) << "which joints make one";
+  EXPECT_EQ(std::count_if(series.begin(), series.end(), by_island), 0)
+      << "joints connect all bodies";
   for (const Scene& apart : {scenes::wrecking_ball(), scenes::bridge(), scenes::heavy_stack()}) {
     int islands = 0;
     int explicit_torques = 0;
@@ -85,13 +86,13 @@ TEST(Sweep, DefaultHasEveryMethodOnce) {
   }
   int exact = 0;
   for (const SweepPoint& point : default_sweep(scenes::bridge())) {
-    EXPECT_NE(point.settings.forces, Forces::kNumerov) << "which is for joints alone";
+    EXPECT_NE(point.settings.forces, Forces::kNumerov) << "it is for joints only";
     if (series_name(point.settings).ends_with("exact contact block")) ++exact;
   }
   EXPECT_EQ(exact, 11);
 }
 
-TEST(Sweep, DefaultHasEachRunOnceWhateverASceneAsksForItself) {
+TEST(Sweep, DefaultHasEachRunOnceForAnySettingsOfAScene) {
   Scene scene = scenes::swinging_box();
   scene.settings.iterations = 1;
   std::set<std::string> ids;

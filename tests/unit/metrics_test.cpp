@@ -16,7 +16,7 @@ std::shared_ptr<const Scene> shared(const Scene& scene) {
   return std::make_shared<const Scene>(scene);
 }
 
-TEST(Metrics, AFreeTopKeepsItsMomentumAndAPendulumIsNotAsked) {
+TEST(Metrics, MomentumIsMeasuredForAFreeTopAndNotForAPendulum) {
   const auto metrics = [](const Scene& scene) {
     const auto held = shared(scene);
     Experiment experiment = experiment_of(scene, scene.settings);
@@ -90,7 +90,7 @@ TEST(Work, FlopsFollowFromSizesAlone) {
     EXPECT_EQ(twice.row_updates, 2 * once.row_updates);
     EXPECT_EQ(once.substeps, 18);
   }
-  EXPECT_EQ(work(settings, 0.1), work(settings, 0.1)) << "run to run";
+  EXPECT_EQ(work(settings, 0.1), work(settings, 0.1)) << "the work is reproducible";
 }
 
 TEST(Work, GaussSeidelVisitsEveryRowOnceAnIteration) {
@@ -106,7 +106,7 @@ TEST(Work, GaussSeidelVisitsEveryRowOnceAnIteration) {
   EXPECT_EQ(work_of(scenes::swinging_box(), settings, 0.1).rows.joint % 130, 0);
 }
 
-TEST(Work, AHandHasRowsOfItsOwn) {
+TEST(Work, AGrabAddsItsOwnRows) {
   const Scene scene = scenes::rope_of_n({.n = 4});
   Simulator simulator(shared(scene));
   const auto rows = [&] { return simulator.step().work.rows; };
@@ -122,14 +122,14 @@ TEST(Work, AHandHasRowsOfItsOwn) {
   EXPECT_EQ(held.joint, free.joint);
 }
 
-TEST(Work, TheCriterionIsCountedAsOftenAsItsPolicyAsks) {
+TEST(Work, TheCriterionIsCountedOncePerEvaluation) {
   const Scene scene = scenes::swinging_box();
   Settings settings;
   settings.mode = Mode::kConst;
   EXPECT_EQ(work_of(scene, settings, 0.5).criterion, CriterionWork{});
   settings.mode = Mode::kAdaptive;
   const Work by_frame = work_of(scene, settings, 0.5);
-  EXPECT_EQ(by_frame.criterion.evaluations, by_frame.frames + 1) << "and the probe's";
+  EXPECT_EQ(by_frame.criterion.evaluations, by_frame.frames + 1) << "including the probe";
   settings.policy = Policy::kSubstep;
   const Work by_substep = work_of(scene, settings, 0.5);
   EXPECT_EQ(by_substep.criterion.evaluations, by_substep.substeps + 1);

@@ -44,7 +44,7 @@ TEST(MotionCsv, JointForceAndTorqueAreThoseOnBodyAAboutItsAnchor) {
   EXPECT_LT((on_a.torque - Vec3(-0.5 * 2.0 * 9.81, 0.0, 0.0)).norm(), 1e-10);
 }
 
-TEST(MotionCsv, NamesAreQuotedAndNumbersAreWhole) {
+TEST(MotionCsv, NamesAreQuotedAndNumbersAreExact) {
   const Scene scene = cantilever();
   Simulator simulator = simulator_of(scene, {.mode = Mode::kConst, .n = 4});
   EXPECT_EQ(joints_lines(scene, simulator.state(), simulator.constraint_forces()),

@@ -10,7 +10,7 @@
 namespace substep::test {
 namespace {
 
-TEST(Turn, IsTheOneOfTheQuaternion) {
+TEST(Turn, EqualsTheRotationOfTheQuaternion) {
   Random random(31);
   for (int trial = 0; trial < 100; ++trial) {
     const Vec3 c = 0.7 * random_vector(random);
@@ -77,7 +77,7 @@ Body somewhere(Random& random, Body body) {
   return body;
 }
 
-TEST(MovedRows, OfJointsAreThoseOfTheEnd) {
+TEST(MovedRows, OfJointsMatchThoseOfTheEnd) {
   Random random(32);
   for (int trial = 0; trial < 40; ++trial) {
     Scene scene;
@@ -110,7 +110,7 @@ TEST(MovedRows, OfJointsAreThoseOfTheEnd) {
   }
 }
 
-TEST(MovedRows, SomeRowsAreThoseOfAll) {
+TEST(MovedRows, ASubsetOfRowsMatchesAllRows) {
   Random random(36);
   static_assert(kJointKinds == 3);
   for (int trial = 0; trial < 40; ++trial) {
@@ -157,7 +157,7 @@ Scene touching(const Body& a, const Body& b, bool friction) {
   return scene;
 }
 
-TEST(MovedRows, OfPointsOnFacesAreThoseOfTheEnd) {
+TEST(MovedRows, OfPointsOnFacesMatchThoseOfTheEnd) {
   Random random(33);
   for (int trial = 0; trial < 40; ++trial) {
     const Shape shape = trial % 2 == 0 ? Shape(Sphere{0.4}) : Shape(Box{Vec3{0.3, 0.2, 0.5}});
@@ -189,7 +189,7 @@ TEST(MovedRows, OfSpheresAreOfSecondOrder) {
 }
 
 // Friction measures the sliding distance of the material points since the start.
-TEST(MovedRows, OfFrictionCountTheWaySlid) {
+TEST(MovedRows, OfFrictionMeasureTheSlidingDistance) {
   Random random(35);
   for (int trial = 0; trial < 20; ++trial) {
     Scene scene = touching(somewhere(random, moving(Box{Vec3{0.3, 0.2, 0.5}})),

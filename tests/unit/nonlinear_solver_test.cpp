@@ -154,7 +154,7 @@ TEST(Newton, ConvergesInAFewSteps) {
   }
 }
 
-TEST(Newton, OnBodiesThatDoNotTurnIsTheLinearSolve) {
+TEST(Newton, WithoutRotationIsTheLinearSolve) {
   Random random(43);
   Chain chain(random, 1, 1.0);
   BallJoint ball;
@@ -203,7 +203,7 @@ TEST(Xpbd, ConvergesToTheEndOfTheSubstepAndNearlyToNewton) {
   EXPECT_LT(half, 0.6 * whole);
 }
 
-TEST(Xpbd, ImpulsesAreThoseThatTheCentresFeel) {
+TEST(Xpbd, ImpulsesMatchTheVelocitiesOfTheCentres) {
   Random random(45);
   Chain chain(random, 5, 20.0);
   std::vector<Vec6> u = chain.state.u;

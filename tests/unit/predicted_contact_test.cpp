@@ -105,7 +105,7 @@ Difference after_a_motion(const Body& a, const Body& b, double by, Random& rando
   return worst;
 }
 
-TEST(CarriedContacts, OnPlanesAreWhereFreshOnesAre) {
+TEST(CarriedContacts, OnPlanesMatchNewlyDetectedOnes) {
   Random random(12);
   for (const Shape& shape : {Shape(Sphere{0.3}), Shape(Box{Vec3{0.2, 0.3, 0.1}})}) {
     Body body = moving(shape);
@@ -136,7 +136,7 @@ TEST(CarriedContacts, OfSpheresAreOfSecondOrder) {
   }
 }
 
-TEST(CarriedContacts, TurnTheirCurvatureWithTheBody) {
+TEST(CarriedContacts, RotateTheirCurvatureWithTheBody) {
   Random random(14);
   Body box = fixed(Box{Vec3{0.2, 0.2, 2.0}});
   box.is_static = false;

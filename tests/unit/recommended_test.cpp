@@ -46,7 +46,7 @@ std::shared_ptr<const Scene> scene_of(const std::string& text) {
   return read_scene(text).scene;
 }
 
-TEST(Recommended, IsWhatASceneWithoutSettingsStartsWith) {
+TEST(Recommended, IsTheStartOfASceneWithoutSettings) {
   const auto scene = scene_of(with(kSettings, kRecommended));
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->recommended, some_recommended());
@@ -54,13 +54,13 @@ TEST(Recommended, IsWhatASceneWithoutSettingsStartsWith) {
   EXPECT_EQ(own_settings(*scene), Settings{});
 }
 
-TEST(Recommended, LeavesASceneWithSettingsItsOwn) {
+TEST(Recommended, DoesNotReplaceTheSettingsOfAScene) {
   const std::string own = R"("settings": {"solver": "pgs"}, )";
   const auto scene = scene_of(with(kSettings, own + kRecommended));
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->recommended, some_recommended());
   EXPECT_EQ(scene->settings, Settings{.solver = SolverKind::kPgs})
-      << "what they leave out is the default, not the recommended";
+      << "omitted settings have the default, not the recommended value";
   EXPECT_EQ(own_settings(*scene), scene->settings);
   // Explicit settings equal to the defaults are a choice too: the paper's.
   EXPECT_EQ(scene_of(with(kSettings, R"("settings": {}, )" + kRecommended))->settings, Settings{});
@@ -80,12 +80,12 @@ TEST(Recommended, IsWrittenBackToTheSameBytes) {
   }
 }
 
-TEST(Recommended, NamesPlaceValueAndRangeOfWhatIsWrong) {
+TEST(Recommended, NamesPlaceValueAndRangeOfAProblem) {
   const auto problems = [](const std::string& passage, const std::string& replacement) {
     return problems_of(with(kSettings, with(passage, replacement, kRecommended)));
   };
   EXPECT_EQ(problems(R"("of": "path")", R"("of": "speed")"),
-            List{"/recommended/of: \"speed\" is not path, energy, gap or overlap"});
+            List{"/recommended/of: must be path, energy, gap or overlap, not \"speed\""});
   EXPECT_EQ(problems(R"("within": 0.001)", R"("within": 0)"),
             List{"/recommended/within: must be above 0 (m, J), not 0"});
   EXPECT_EQ(problems(R"("reached": 0.0005)", R"("reached": 0.002)"),
@@ -98,21 +98,21 @@ TEST(Recommended, NamesPlaceValueAndRangeOfWhatIsWrong) {
             List{"/recommended/because: unknown key (known here: of, within, reached, operations, "
                  "seconds, why or settings)"});
   EXPECT_EQ(problems(R"("n": 7)", R"("n": 0)"),
-            List{"/recommended/settings/n: 0 is not a whole number from 1 to 10000"});
+            List{"/recommended/settings/n: must be a whole number from 1 to 10000, not 0"});
   EXPECT_EQ(problems(R"(, "settings": {"mode": "const", "n": 7})", ""),
             List{"/recommended/settings: missing"});
   EXPECT_EQ(problems_of(with(kSettings, R"("recommended": 3)")),
-            List{"/recommended: 3 is not an object"});
+            List{"/recommended: must be an object, not 3"});
 }
 
-TEST(Recommended, IsNotInTheHashOfWhatTheSceneHolds) {
+TEST(Recommended, IsNotInTheHashOfTheScene) {
   Scene scene = scenes::pendulum();
   const std::uint64_t before = scene_hash(scene);
   scene = with_recommended(std::move(scene), some_recommended());
   EXPECT_EQ(scene_hash(scene), before);
 }
 
-TEST(Recommended, TakesTheStartOfASceneThatHasNoSettingsOfItsOwn) {
+TEST(Recommended, SetsTheStartOfASceneWithoutSettings) {
   Scene scene = with_recommended(scenes::pendulum(), some_recommended());
   EXPECT_EQ(scene.settings, some_recommended().settings);
   // An earlier recommendation does not count as the scene's own settings.
@@ -125,7 +125,7 @@ TEST(Recommended, TakesTheStartOfASceneThatHasNoSettingsOfItsOwn) {
 }
 
 // Otherwise a recommendation would change the sweep, and thereby the next recommendation.
-TEST(Recommended, ChangesNothingOfWhatIsTriedOut) {
+TEST(Recommended, DoesNotChangeTheSweep) {
   Scene plain = scenes::bridge();
   plain.verdicts = {Expectation{}};
   Recommended recommended = some_recommended();
@@ -206,7 +206,7 @@ TEST(Recommended, IsThePresetOfItsScene) {
   EXPECT_EQ(generic[1].about, find_preset("recommended")->about);
 }
 
-TEST(Recommended, IsThereForEveryShippedSceneInWhichSomethingIsSolved) {
+TEST(Recommended, ExistsForEveryShippedSceneWithConstraints) {
   Problems problems;
   const auto kept = scenes::recommendations(problems);
   for (const Problem& problem : problems) ADD_FAILURE() << to_string(problem);
@@ -231,7 +231,7 @@ TEST(Recommended, IsThereForEveryShippedSceneInWhichSomethingIsSolved) {
 
 // The scenes of the paper show its settings; the small and the playground scenes start with their
 // recommendation, except for the two that demonstrate a setting of their own.
-TEST(Recommended, IsWhatTheSmallAndThePlayfulScenesStartWith) {
+TEST(Recommended, IsTheStartOfTheSmallAndThePlaygroundScenes) {
   std::set<std::string> own;
   for (const Scene& scene : scenes::shipped()) {
     if (!scene.recommended) continue;

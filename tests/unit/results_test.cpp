@@ -18,7 +18,7 @@ Json result_schema() {
   return Json::parse(file, nullptr, false);
 }
 
-TEST(Results, LinesKeepToTheirSchema) {
+TEST(Results, LinesConformToTheirSchema) {
   const Json schema = result_schema();
   ASSERT_TRUE(schema.is_object());
   EXPECT_EQ(schema_errors(schema, schema, Json::parse(results_header())),

@@ -36,7 +36,7 @@ TEST(SceneBuilder, KeepsTheInertiaThatIsGiven) {
   EXPECT_EQ(builder.build()->bodies[0].inertia, Vec3(1, 2, 2.5));
 }
 
-TEST(SceneBuilder, JoinsTurnedBodiesWhereTheyMeet) {
+TEST(SceneBuilder, JoinsRotatedBodiesAtACommonPoint) {
   SceneBuilder builder;
   const int a = builder.add_body(Box{}, 1.0, {1, 2, 3});
   const int b = builder.add_body(Box{}, 1.0, {-1, 0, 1});
@@ -50,7 +50,7 @@ TEST(SceneBuilder, JoinsTurnedBodiesWhereTheyMeet) {
   EXPECT_EQ(simulator.step().status, StepStatus::kOk);
 }
 
-TEST(SceneBuilder, LeavesWhatIsWrongToTheChecks) {
+TEST(SceneBuilder, LeavesProblemsToTheChecks) {
   SceneBuilder builder;
   builder.add_body(Sphere{0.5}, 0.0, {0, 0, 0});
   builder.add_ball_joint(0, 77, {0, 0, 0});

@@ -149,7 +149,7 @@ TEST(NumberText, IsShort) {
   EXPECT_EQ(number_text(1.0 / 3.0), "0.3333333333333333");
 }
 
-TEST(NumberText, TakesNothingButFiniteDecimals) {
+TEST(NumberText, AcceptsOnlyFiniteDecimals) {
   for (const char* text : {"", " 1", "1 ", "0x10", "inf", "nan", "1e999", "1,5", "one", "1e"}) {
     EXPECT_FALSE(parse_number(text).has_value()) << text;
   }
@@ -232,7 +232,7 @@ TEST(HeavyStack, JitterStaysWithinTwoMillimetres) {
   EXPECT_GT(largest, 0.001);
 }
 
-TEST(SwingingBox, HasTheChainOfTheDesign) {
+TEST(SwingingBox, HasTheDesignedChain) {
   const Scene scene = scenes::swinging_box();
   EXPECT_EQ(scene.bodies.size(), 27U);
   EXPECT_EQ(scene.joints.size(), 26U);

@@ -19,9 +19,9 @@ using test::List;
 using test::problems_of;
 using test::with;
 
-TEST(SceneReader, TakesTheGoodScene) { EXPECT_EQ(problems_of(kGood), List{}); }
+TEST(SceneReader, AcceptsAValidScene) { EXPECT_EQ(problems_of(kGood), List{}); }
 
-TEST(SceneReader, TellsAllProblemsAtOnce) {
+TEST(SceneReader, ReportsAllProblemsAtOnce) {
   std::string text = with(R"("mass": 2)", R"("mass": -2)");
   text = with(R"("radius": 0.5)", R"("radius": 1e999)", text);
   text = with(R"("alpha": 0.1)", R"("alpha": 7, "alpha": 8)", text);
@@ -31,10 +31,10 @@ TEST(SceneReader, TellsAllProblemsAtOnce) {
   EXPECT_EQ(problems_of(text),
             (List{"/bodies/2/shape/radius: 1e999 is beyond the range of numbers (1.8e308)",
                   "/settings/alpha: the key occurs twice in this object",
-                  "/bodies/0/shape/type: \"disc\" is not sphere, box or plane",
+                  "/bodies/0/shape/type: must be sphere, box or plane, not \"disc\"",
                   "/bodies/1/mass: must be above 0 (kg), not -2",
                   "/criteria/trakc: unknown key (did you mean \"track\"?)",
-                  "/joints/1/a: no body is named \"bal\" (did you mean \"ball\"?)"}));
+                  "/joints/1/a: no body is called \"bal\" (did you mean \"ball\"?)"}));
 }
 
 TEST(SceneReader, NamesLineAndColumnOfASyntaxError) {
@@ -57,8 +57,8 @@ TEST(SceneReader, RefusesTextsThatAreNoScenes) {
   };
   EXPECT_EQ(only(""), "the file is empty");
   EXPECT_EQ(only(" \n\t"), "the file is empty");
-  EXPECT_EQ(only("[1, 2]"), "[1,2] is not an object");
-  EXPECT_EQ(only("3"), "3 is not an object");
+  EXPECT_EQ(only("[1, 2]"), "must be an object, not [1,2]");
+  EXPECT_EQ(only("3"), "must be an object, not 3");
   EXPECT_EQ(only(std::string("\x7f"
                              "ELF\0\0",
                              6)),
@@ -72,7 +72,7 @@ TEST(SceneReader, RefusesTextsThatAreNoScenes) {
   EXPECT_EQ(only(std::string(100, '[')),
             "/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0/0: nested deeper than 16 levels");
   EXPECT_EQ(only(std::string(kMaxTextSize + 1, ' ')),
-            "33554433 bytes are more than 33554432 (32 MiB)");
+            "must have at most 33554432 bytes (32 MiB), not 33554433");
 }
 
 TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
@@ -81,10 +81,10 @@ TEST(SceneReader, RefusesMoreBodiesThanAllowed) {
   const List problems = problems_of(
       R"({"format": "substep-scene", "version": 1, "name": "a", "title": "A", "bodies": [)" +
       bodies + "]}");
-  EXPECT_EQ(problems, List{"/bodies: 20001 are more than 20000"});
+  EXPECT_EQ(problems, List{"/bodies: must have at most 20000 items, not 20001"});
 }
 
-TEST(SceneReader, CutsALongListOfProblems) {
+TEST(SceneReader, TruncatesALongListOfProblems) {
   std::string bodies;
   for (std::size_t i = 0; i < kMaxBodies; ++i) bodies += i == 0 ? "0" : ",0";
   const List problems = problems_of(
@@ -94,7 +94,7 @@ TEST(SceneReader, CutsALongListOfProblems) {
   EXPECT_EQ(problems.back(), "and more: the rest of the file was not checked");
 }
 
-TEST(SceneReader, CutsTheProblemsOfOneObjectToo) {
+TEST(SceneReader, TruncatesTheProblemsOfOneObject) {
   std::string keys;
   for (int i = 0; i < 5000; ++i) keys += "\"key_" + std::to_string(i) + "\": 0, \"twice\": 1, ";
   const List problems = problems_of(with(R"("mass": 2)", keys + R"("mass": 2)"));
@@ -112,7 +112,7 @@ TEST(SceneReader, RefusesAnObjectOfVeryManyKeys) {
   EXPECT_EQ(problems.front(), "/k77: the key occurs twice in this object");
 }
 
-TEST(SceneReader, ReadsInPartsWhatItReadsAtOnce) {
+TEST(SceneReader, ReadingInPartsGivesTheSameScene) {
   const auto text_of = [](int balls, double last_mass) {
     std::string bodies;
     for (int i = 0; i < balls; ++i) {
@@ -150,7 +150,7 @@ std::string with_slider(const std::string& across, const std::string& anchor_b) 
                           across + R"(, "across_b": [0, 0, 1], "angular_compliance": 1e-6)");
 }
 
-TEST(SceneReader, TakesAPrismaticJointAndWritesItBack) {
+TEST(SceneReader, ReadsAPrismaticJointAndWritesItBack) {
   const SceneResult result = read_scene(with_slider("[0, 0, 1]", "[-0.5, 1, 0]"));
   ASSERT_TRUE(result.scene) << to_string(result.problems.front());
   const auto& slider = std::get<PrismaticJoint>(result.scene->joints[0]);
@@ -162,7 +162,8 @@ TEST(SceneReader, TakesAPrismaticJointAndWritesItBack) {
 
 TEST(SceneReader, RefusesAPrismaticJointThatIsOffItsAxisOrHasNone) {
   EXPECT_EQ(problems_of(with_slider("[0, 0.6, 0.8]", "[-0.5, 3, 0]")),
-            List{"/joints/0/across_a: is not across the axis: the cosine of their angle is 0.6, "
+            List{"/joints/0/across_a: must be perpendicular to the axis: the cosine of their angle "
+                 "is 0.6, "
                  "which is more than 1e-6"});
   EXPECT_EQ(problems_of(with_slider("[0, 0, 1]", "[-0.5, 3, 0.5]")),
             List{"/joints/0: the anchors start 0.5 apart, which is more than 0.1 (m)"});
@@ -177,7 +178,7 @@ TEST(SceneReader, NeedsABodyThatMoves) {
             List{"/bodies: no body moves"});
 }
 
-TEST(SceneReader, TellsThatAFileCannotBeRead) {
+TEST(SceneReader, ReportsThatAFileCannotBeRead) {
   for (const char* path : {"/no/such/scene.json", "/"}) {
     const SceneResult result = read_scene_file(path);
     EXPECT_EQ(result.scene, nullptr);
@@ -200,7 +201,7 @@ TEST(SceneReader, NeverCrashesOnADamagedFile) {
   }
 }
 
-TEST(SceneReader, TakesRedundantStiffJointsUnderRegularisation) {
+TEST(SceneReader, AcceptsRedundantStiffJointsWithRegularisation) {
   const std::string text = with(R"("frame": 0.01)", R"("regularisation": 1e-6)",
                                 with(R"("compliance": 1e-9)", R"("compliance": 0)"));
   EXPECT_EQ(problems_of(text), List{});
@@ -237,7 +238,7 @@ TEST(SceneReader, InfersExternalForcesFromBodies) {
   }
 }
 
-TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
+TEST(SceneReader, RefusesAnInconsistentStartUnderPolicyRefuse) {
   // The ball is 5 cm too far and moves at 2 m/s; the arm rotates at 3 rad/s across its hinge's
   // axis.
   const std::string apart =
@@ -261,7 +262,7 @@ TEST(SceneReader, RefusesAStartThatTheJointsContradictWhereItIsTold) {
                   "/joints/1: \"start\" is \"refuse\", and this joint is open by 5 cm, moving "
                   "apart at 2 m/s"}));
   EXPECT_EQ(problems_of(with_start("mend", kGood)),
-            List{"/start: \"mend\" is not project, keep or refuse"});
+            List{"/start: must be project, keep or refuse, not \"mend\""});
   EXPECT_EQ(problems_of(with(R"("position": [1, 3, 0])", R"("position": [1.25, 3, 0])")),
             List{"/joints/1: the anchors start 0.25 apart, which is more than 0.1 (m)"})
       << "for every start policy";
@@ -273,7 +274,7 @@ TEST(SceneReader, LeavesOrientationsAsTheyAreWritten) {
   EXPECT_EQ(scene->bodies[1].orientation.w(), 0.9999995);
 }
 
-TEST(SceneReader, TakesTheInertiaOfTheShapeWhereNoneIsGiven) {
+TEST(SceneReader, DerivesAMissingInertiaFromTheShape) {
   const auto scene = read_scene(kGood).scene;
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->bodies[1].inertia, Vec3(0.1, 0.2, 0.2));

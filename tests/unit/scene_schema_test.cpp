@@ -86,7 +86,7 @@ TEST(SceneSchema, EveryKeyHasADescriptionAndEveryNumberAUnit) {
   EXPECT_GT(seen, 70);
 }
 
-TEST(SceneSchema, KnowsTheKeysThatTheReaderKnows) {
+TEST(SceneSchema, HasTheKeysOfTheReader) {
   Scene scene = scenes::bridge();
   scene.criteria.displacement = Criteria::Displacement{1, 0.1};
   scene.verdicts = {Expectation{}};

@@ -108,7 +108,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EverySolverOfRigidBodies,
 constexpr double kShort = 3e-7;   // rows rotate by as many radians [s]
 constexpr double kTurned = 1e-4;  // upper bound of its effect on velocities and impulses
 
-TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {
+TEST_P(EverySolverOfRigidBodies, SolutionsOfShortStepsAreComplementary) {
   Random random(51);
   const auto solver = make_solver(GetParam().solver);
   int closed = 0;
@@ -134,7 +134,7 @@ TEST_P(EverySolverOfRigidBodies, InAShortStepTheAnswerIsComplementary) {
 }
 
 // With this much softness the solution is unique.
-TEST_P(EverySolverOfRigidBodies, InAShortStepAllHaveTheSameAnswer) {
+TEST_P(EverySolverOfRigidBodies, SolutionsOfShortStepsAgree) {
   Random random(52);
   const auto solver = make_solver(GetParam().solver);
   const auto direct = make_solver(SolverKind::kBpp);
@@ -149,7 +149,7 @@ TEST_P(EverySolverOfRigidBodies, InAShortStepAllHaveTheSameAnswer) {
   }
 }
 
-TEST_P(EverySolverOfRigidBodies, NoBlocksLeaveTheVelocitiesAlone) {
+TEST_P(EverySolverOfRigidBodies, WithoutBlocksVelocitiesAreUnchanged) {
   Random random(53);
   Pile pile(random, 3, 0, 0.0, 0.01);
   pile.blocks.clear();

@@ -85,10 +85,10 @@ double factorisations(int balls) {
 
 // Whole blocks of rows change sets at once, so the number of systems hardly grows with the problem:
 // 2.9 for ten rows, 4.7 for a hundred, 5.5 for 500; one row at a time would take hundreds.
-TEST(BppClaims, TakesFewPivotsWhateverTheSize) {
+TEST(BppClaims, TakesFewPivotsAtAnySize) {
   const double ten = factorisations(10);
   const double many = factorisations(500);
-  EXPECT_GT(ten, 1.5) << "the first guess was right";
+  EXPECT_GT(ten, 1.5) << "the first active set was correct";
   EXPECT_LT(many, 2.5 * ten);
 }
 

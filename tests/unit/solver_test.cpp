@@ -325,7 +325,7 @@ double left_of_regularisation(const Problem& problem, double regularisation, int
   return worst;
 }
 
-TEST(Bpp, RefinementsTakeTheRegularisationBack) {
+TEST(Bpp, RefinementsRemoveTheRegularisation) {
   Random random(23);
   for (const ProblemSize& size :
        {ProblemSize{5, 4, 0}, ProblemSize{5, 0, 4}, ProblemSize{5, 3, 4}}) {
@@ -369,7 +369,7 @@ TEST_P(EverySolver, VelocitiesAreThoseOfTheImpulses) {
   }
 }
 
-TEST(System, SpeedsAndPushesGoByTheGradients) {
+TEST(System, SpeedsAndForcesMatchTheGradients) {
   Random random(16);
   for (int trial = 0; trial < 50; ++trial) {
     const Problem problem = random_problem(random, {4, 4, 3, 0.5});
@@ -396,7 +396,7 @@ TEST(System, SpeedsAndPushesGoByTheGradients) {
   }
 }
 
-TEST_P(EverySolver, WhatABlockDoesNotUseDoesNotMatter) {
+TEST_P(EverySolver, UnusedFieldsOfABlockDoNotMatter) {
   Random random(15);
   const auto solver = make_solver(GetParam());
   for (int trial = 0; trial < 50; ++trial) {
@@ -423,7 +423,7 @@ TEST_P(EverySolver, WhatABlockDoesNotUseDoesNotMatter) {
   }
 }
 
-TEST_P(EverySolver, NoBlocksLeaveTheVelocitiesAlone) {
+TEST_P(EverySolver, WithoutBlocksVelocitiesAreUnchanged) {
   Random random(16);
   Problem problem = random_problem(random, {3, 0, 0, 0.0});
   const std::vector<Vec6> u = problem.u;
@@ -445,7 +445,7 @@ TEST(Solvers, AgreeWithEachOtherOnLargerProblems) {
 }
 
 // The initial active set must not change the result, to the last bit.
-TEST(Bpp, ForgetsWhereItStarted) {
+TEST(Bpp, DoesNotDependOnTheInitialActiveSet) {
   Random random(18);
   Bpp solver;
   for (int trial = 0; trial < 300; ++trial) {
@@ -465,7 +465,7 @@ TEST(Bpp, ForgetsWhereItStarted) {
 }
 
 // reserve() may be called with a larger size at any time.
-TEST(Bpp, GoesOnAfterRoomIsMade) {
+TEST(Bpp, ContinuesAfterMemoryIsReserved) {
   Random random(22);
   Bpp solver;
   for (int trial = 0; trial < 20; ++trial) {
@@ -479,7 +479,7 @@ TEST(Bpp, GoesOnAfterRoomIsMade) {
   }
 }
 
-TEST(Bpp, OneRowAtATimeAlsoArrives) {
+TEST(Bpp, SingleRowPivotsAlsoConverge) {
   Random random(19);
   Bpp solver;
   Settings settings = settings_for(SolverKind::kBpp);
@@ -492,7 +492,7 @@ TEST(Bpp, OneRowAtATimeAlsoArrives) {
   }
 }
 
-TEST(Bpp, EveryRowTightIsAnAnswer) {
+TEST(Bpp, EveryRowMayBeAtItsBound) {
   Random random(20);
   Problem problem = random_problem(random, {3, 0, 3, 0.5});
   for (Block& block : problem.blocks) block.bias[0] = 100.0;  // all separate

@@ -30,7 +30,7 @@ int deal(const Settings& settings, double r, double* sum = nullptr) {
   return n;
 }
 
-TEST(SubstepClock, DealsOutTheWholeFrame) {
+TEST(SubstepClock, FillsTheWholeFrame) {
   Random random(1);
   for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kDamping, Mode::kAdaptive, Mode::kCapped,
                           Mode::kStiffness, Mode::kInertia, Mode::kBlend}) {
@@ -66,7 +66,7 @@ TEST(SubstepClock, TakesTheCeilingOfEq11) {
   }
 }
 
-TEST(SubstepClock, NeverPassesTheCapWhateverItIs) {
+TEST(SubstepClock, NeverExceedsTheCap) {
   for (const Mode mode : {Mode::kAdaptive, Mode::kCapped, Mode::kInertia, Mode::kBlend}) {
     for (const Policy policy : {Policy::kFrame, Policy::kSubstep}) {
       for (int limit = 1; limit <= 512; ++limit) {
@@ -82,7 +82,7 @@ TEST(SubstepClock, NeverPassesTheCapWhateverItIs) {
   }
 }
 
-TEST(SubstepClock, PerSubstepTheMemoryFades) {
+TEST(SubstepClock, PerSubstepTheMemoryDecays) {
   Settings settings;
   settings.policy = Policy::kSubstep;
   settings.memory = 0.5;
@@ -214,7 +214,7 @@ TEST(Oscillator, StabilityLimitsMatchTheDerivation) {
 
 // Eqs. 10 and 11: the clock's step leaves a margin for a force 1/alpha times as large, none at
 // alpha 1. Beyond its cap the damped mass covers the rest.
-TEST(Oscillator, TheClocksStepLeavesTheRoomThatAlphaSays) {
+TEST(Oscillator, TheStepOfTheClockLeavesTheMarginOfAlpha) {
   constexpr double kRate = 1e8;  // r = k/M [1/s^2], of hundreds of sub-steps
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
     for (const double alpha : {0.1, 0.5, 1.0}) {

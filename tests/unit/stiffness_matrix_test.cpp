@@ -47,7 +47,7 @@ TEST(StiffnessMatrix, SumsBlocksOfBothKindsBeforeItTakesNorms) {
 }
 
 // The part of K that Newton uses.
-TEST(TurningStiffness, IsTheDiagonalOfTheWhole) {
+TEST(TurningStiffness, IsTheDiagonalOfTheFullMatrix) {
   Random random(11);
   for (int trial = 0; trial < 60; ++trial) {
     Block block;

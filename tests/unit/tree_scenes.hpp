@@ -17,7 +17,7 @@
 
 namespace substep::test {
 
-/// The trees of a scene, which must have some.
+/// The joint trees of a scene; fails the test if it has none.
 inline JointTree tree_of(const Scene& scene) {
   auto tree = JointTree::of(scene);
   EXPECT_TRUE(tree.has_value()) << scene.name;

@@ -110,14 +110,14 @@ std::vector<Break> breaks_of_files() {
   };
 }
 
-TEST(Validate, ASoundSceneHasNoProblems) {
+TEST(Validate, AValidSceneHasNoProblems) {
   EXPECT_EQ(texts(validate(sound_scene())), "");
   Simulator simulator(std::make_shared<const Scene>(sound_scene()));
   EXPECT_TRUE(simulator.problems().empty());
   EXPECT_EQ(simulator.step().status, StepStatus::kOk);
 }
 
-TEST(Validate, SaysWhatTheReaderSaysOfTheSameScene) {
+TEST(Validate, ReportsTheProblemsOfTheReader) {
   for (const Break& broken : breaks_of_files()) {
     Scene scene = sound_scene();
     broken.apply(scene);
@@ -156,7 +156,7 @@ std::vector<Break> breaks_of_code() {
   };
 }
 
-TEST(Validate, FindsWhatOnlyCodeCanBreak) {
+TEST(Validate, FindsProblemsThatOnlyCodeCanHave) {
   for (const Break& broken : breaks_of_code()) {
     Scene scene = sound_scene();
     broken.apply(scene);
@@ -171,17 +171,17 @@ TEST(Validate, FindsWhatOnlyCodeCanBreak) {
   }
 }
 
-TEST(Validate, NamesThePlaceAsCodeSpellsIt) {
+TEST(Validate, NamesThePlaceInCodeSyntax) {
   Scene scene = sound_scene();
   link_of(scene).b = 77;
   EXPECT_EQ(texts(validate(scene)),
-            "joints[1].b: 77 is not a body: must be from 0 to 3, or -1 for the world\n");
+            "joints[1].b: must be the index of a body, from 0 to 3, or -1 for the world, not 77\n");
   scene = sound_scene();
   scene.bodies[1].mass = 0.0;
   EXPECT_EQ(texts(validate(scene)), "bodies[1].mass: must be above 0 (kg), not 0\n");
 }
 
-TEST(Validate, TellsNoMoreThanAThousandProblems) {
+TEST(Validate, ReportsAtMostAThousandProblems) {
   Scene scene = sound_scene();
   scene.bodies.resize(5000);
   for (Body& body : scene.bodies) body.mass = -1.0;
@@ -200,7 +200,7 @@ TEST(Simulator, WithoutASceneRefusesEveryCall) {
   EXPECT_NE(texts(simulator.problems()).find("there is no scene"), std::string::npos);
 }
 
-TEST(Simulator, RefusesStatesOfOtherScenesAndGoesOnWithItsOwn) {
+TEST(Simulator, RefusesStatesOfOtherScenesAndKeepsItsOwn) {
   Simulator simulator(std::make_shared<const Scene>(sound_scene()));
   simulator.step();
   const State kept = simulator.state();
@@ -237,7 +237,7 @@ TEST(Simulator, RefusesStatesOfOtherScenesAndGoesOnWithItsOwn) {
   EXPECT_EQ(simulator.step().status, StepStatus::kOk);
 }
 
-TEST(Simulator, RefusesSettingsOutOfRangeUntilItIsGivenOthers) {
+TEST(Simulator, RefusesSettingsOutOfRangeUntilTheyAreReplaced) {
   Simulator simulator(std::make_shared<const Scene>(sound_scene()));
   Settings settings;
   settings.alpha = 0.0;
@@ -251,7 +251,7 @@ TEST(Simulator, RefusesSettingsOutOfRangeUntilItIsGivenOthers) {
   EXPECT_EQ(simulator.step().status, StepStatus::kOk);
 }
 
-TEST(Simulator, RefusesAHandOnABodyThatIsNotThereOrCannotMove) {
+TEST(Simulator, RefusesAGrabOfAMissingOrStaticBody) {
   Simulator simulator(std::make_shared<const Scene>(sound_scene()));
   for (const int body : {99, -1, 4, 0}) {
     Grab grab;

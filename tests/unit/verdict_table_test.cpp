@@ -53,7 +53,7 @@ TEST(VerdictTable, ALaterRuleOverridesAnEarlierOne) {
   EXPECT_EQ(expected(scene, "pgs const 4 leapfrog"), Expected::kFails);
 }
 
-TEST(VerdictTable, WhatNoRuleSelectsIsNotInIt) {
+TEST(VerdictTable, OmitsRunsThatNoRuleSelects) {
   Scene scene = scenes::pendulum();
   scene.verdicts = {{.solver = SolverKind::kBpp, .mode = Mode::kAdaptive}};
   EXPECT_EQ(verdict_table(scene).size(), 2U);
@@ -71,7 +71,7 @@ Judgement judged(const Expectation& expectation, double limit) {
   return judge(scene, expectation, run);
 }
 
-TEST(VerdictTable, ARunMustFailInTimeAndForNoLongerThanTold) {
+TEST(VerdictTable, AFailureIsExpectedOnlyBeforeItsTime) {
   const Expectation holds;
   const Expectation fails{.verdict = Expected::kFails};
   Expectation at_once = fails;
@@ -87,7 +87,7 @@ TEST(VerdictTable, ARunMustFailInTimeAndForNoLongerThanTold) {
   EXPECT_TRUE(judged({.verdict = Expected::kDepends, .why = "Chance."}, 0.3).as_expected);
 }
 
-TEST(VerdictTable, EveryShippedSceneHasOneAndAlmostNothingDepends) {
+TEST(VerdictTable, EveryShippedSceneHasOneAndFewVerdictsDepend) {
   std::size_t cells = 0;
   std::size_t depends = 0;
   for (const Scene& scene : scenes::shipped()) {
@@ -114,7 +114,7 @@ TEST(VerdictTable, EveryShippedSceneHasOneAndAlmostNothingDepends) {
   EXPECT_LE(20 * depends, cells) << depends << " of " << cells;
 }
 
-TEST(VerdictTable, IsNotInTheHashOfWhatTheSceneHolds) {
+TEST(VerdictTable, IsNotInTheHashOfTheScene) {
   Scene scene = scenes::pendulum();
   const std::uint64_t before = scene_hash(scene);
   scene.verdicts = {Expectation{}};

@@ -115,7 +115,7 @@ test("everything is operable by keyboard, and the focus can leave", async () => 
   await save(page, "keyboard-controls");
   assert.equal((await page.locator(".substep-view").boundingBox()).y, 0, "the page was scrolled");
   assert.ok(difference(part(plain, { x: 0, y: 0, width: 1280, height: 56 }),
-    part(await picture(page), { x: 0, y: 0, width: 1280, height: 56 })) > 0.2, "they are not seen");
+    part(await picture(page), { x: 0, y: 0, width: 1280, height: 56 })) > 0.2, "they are not visible");
   await page.keyboard.press("Tab");
   assert.equal(await focused(page), "mode");
   await page.keyboard.press("n");

@@ -111,7 +111,7 @@ test("the run continues from an earlier frame, bit for bit", async () => {
 test("an unknown event is reported", async () => {
   const other = await openPage(session);
   await other.evaluate(() => window.substep.on("explosion", () => {}));
-  assert.match(other.complaints.join(), /events are frame, verdict/);
+  assert.match(other.complaints.join(), /the event must be frame or verdict/);
   await other.context().close();
 });
 
@@ -202,7 +202,7 @@ test("createSubstep reports a missing element, and can be removed", async () => 
       return error.message;
     }
   });
-  assert.match(message, /not an element/);
+  assert.match(message, /must be an element/);
   assert.equal(await other.evaluate(() => {
     window.laboratories.none.remove();
     return document.querySelector("#none").children.length;

@@ -141,7 +141,7 @@ test("calls after remove() report that the laboratory was removed", async () => 
     return { first, picture: await picture, answers };
   });
   assert.deepEqual(first, { ok: true, problems: [] });
-  assert.match(picture, /was removed/, "a picture that was waited for");
+  assert.match(picture, /was removed/, "a pending picture");
   assert.ok(Object.keys(answers).length >= 22, Object.keys(answers).join());
   for (const [name, { ok, problems }] of Object.entries(answers)) {
     assert.equal(ok, false, name);

@@ -78,7 +78,7 @@ for (const scene of ["swinging_box", "bridge", "heavy_stack"]) {
     await call(page, "set", { accuracy: "cancel" });
     const waited = performance.now() - asked;
     console.log(`a sweep beside it: ${beside.toFixed(1)} of ${without.toFixed(1)} pictures/s; ` +
-      `cancelled ${waited.toFixed(0)} ms after it was asked to be`);
+      `cancelled ${waited.toFixed(0)} ms after the request`);
   }
   await page.context().close();
 }

@@ -85,7 +85,7 @@ for (const scene of scenes) {
       const now = await picture(page);
       assert.equal(report.scene, scene);
       assert.equal(report.mode, mode);
-      // Some fail, as the paper says; the others have reached 5 s.
+      // Some fail, as in the paper; the others have reached 5 s.
       assert.ok(report.stopped || Math.abs(report.time - 5) < 1e-9, `${report.time} s`);
       if (mode === "adaptive") assert.equal(report.verdict, "holds");
       assert.ok(report.substeps >= 1);

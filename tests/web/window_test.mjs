@@ -31,7 +31,7 @@ test("opens, draws the scene, and its plots move", () => {
   const late = shot("late", ...args, "--frames", "60");
   assert.deepEqual([late.width, late.height], [1280, 720]);
   assert.ok(variance(part(late, view)) > 120, "the picture is blank");
-  assert.ok(difference(part(early, view), part(late, view)) > 0.005, "nothing swings");
+  assert.ok(difference(part(early, view), part(late, view)) > 0.005, "the box does not swing");
   assert.ok(difference(part(early, plots), part(late, plots)) > 0.005, "the plots do not move");
 });
 

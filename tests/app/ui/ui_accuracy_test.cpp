@@ -15,12 +15,12 @@
 namespace substep {
 namespace {
 
-TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
+TEST(Accuracy, TheSweepAdvancesWhileTheWindowResponds) {
   Headless h;
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
   h.frames(3);
-  EXPECT_FALSE(h.app->accuracy.running()) << "nothing runs unasked";
+  EXPECT_FALSE(h.app->accuracy.running()) << "nothing runs without a request";
   ASSERT_EQ(h.app->set("accuracy", "run"), "");
   EXPECT_TRUE(h.app->accuracy.running());
   double before = 0.0;
@@ -35,7 +35,7 @@ TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
   }
   EXPECT_EQ(h.app->accuracy.progress(), 1.0);
   EXPECT_EQ(h.app->accuracy.results().size(), h.app->accuracy.planned());
-  EXPECT_GT(stages, 5U) << "the picture grows, it does not come at once";
+  EXPECT_GT(stages, 5U) << "results arrive in several frames";
   EXPECT_GT(h.app->accuracy.points().size(), 50U);
   std::set<std::string> series;
   for (const Result& r : h.app->accuracy.results()) {
@@ -44,7 +44,7 @@ TEST(Accuracy, TheSweepGrowsWhileTheWindowLives) {
   EXPECT_GE(series.size(), 12U);
 }
 
-TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
+TEST(Accuracy, TheCheapestWithinAnErrorRunsOnAClick) {
   Headless h;
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
@@ -75,7 +75,7 @@ TEST(Accuracy, TheCheapestWithinAnErrorRunsAtAPress) {
   EXPECT_FALSE(accuracy.best(points).has_value());
 }
 
-TEST(Accuracy, TheMostExactWithinACostIsLookedForAtAPress) {
+TEST(Accuracy, TheMostExactWithinACostIsFoundOnAClick) {
   Headless h;
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
@@ -113,7 +113,7 @@ TEST(Accuracy, TakesAShareOfSlowFramesAndLetsOthersRecover) {
   for (const bool plays : {false, true}) {
     const double least = Accuracy::slice(plays, 1.0 / 60.0);
     for (const double drawing : {0.002, 0.005, 0.008}) {
-      double wall = 0.1;  // a hiccup
+      double wall = 0.1;  // one slow frame
       double own = least;
       for (int i = 0; i < 10; ++i) {
         own = Accuracy::slice(plays, wall - own);
@@ -123,11 +123,11 @@ TEST(Accuracy, TakesAShareOfSlowFramesAndLetsOthersRecover) {
     }
     EXPECT_GT(Accuracy::slice(plays, 0.1), 0.015) << "a page without a graphics processor";
     EXPECT_LT(Accuracy::slice(plays, 0.1), 0.1);
-    EXPECT_LT(Accuracy::slice(plays, 1e6), 0.2) << "a tab that slept";
+    EXPECT_LT(Accuracy::slice(plays, 1e6), 0.2) << "a suspended tab";
   }
 }
 
-TEST(Accuracy, FindsThePapersAlphaForWhatIsWanted) {
+TEST(Accuracy, FindsThePapersAlphaForTheLimit) {
   Headless h;
   h.app->open("pendulum");
   EXPECT_NE(h.app->set("accuracy", "alpha"), "") << "there is no reference";
@@ -164,7 +164,7 @@ TEST(Accuracy, FindsThePapersAlphaForWhatIsWanted) {
   EXPECT_EQ(accuracy.alpha_search(), nullptr);
 }
 
-TEST(Accuracy, WhatIsFoundIsKeptForTheScene) {
+TEST(Accuracy, TheCheapestSettingIsStoredForTheScene) {
   Headless h;
   h.app->open("pendulum");
   std::string remembered;
@@ -199,7 +199,7 @@ TEST(Accuracy, WhatIsFoundIsKeptForTheScene) {
   EXPECT_EQ(settings, found->settings);
 }
 
-TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {
+TEST(Accuracy, SlicesAreBoundedAndCancelStopsAtOnce) {
   Headless h;
   h.app->open("swinging_box");
   h.app->set("accuracy", "run");
@@ -219,7 +219,7 @@ TEST(Accuracy, NoSliceRunsAheadAndCancelStopsAtOnce) {
   EXPECT_NE(h.app->set("accuracy", "perhaps"), "");
 }
 
-TEST(Accuracy, AChosenPointGivesItsFiguresAgain) {
+TEST(Accuracy, AClickedPointReproducesItsFigures) {
   Headless h;
   h.app->open("pendulum");
   h.app->set("accuracy", "run");
@@ -256,7 +256,7 @@ TEST(Accuracy, PointsAreFoundUnderThePointer) {
   EXPECT_GT(chosen.size(), 10U);
 }
 
-TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
+TEST(Accuracy, NoPointOfTheFrontIsDominated) {
   Headless h;
   h.app->open("pendulum");
   h.app->set("accuracy", "run");
@@ -279,7 +279,7 @@ TEST(Accuracy, TheFrontHasNoPointThatAnotherBeats) {
 }
 
 // The top does not move and nothing is solved: energy over sub-steps is the only available chart.
-TEST(Accuracy, WhereNothingIsSolvedThePictureIsOfWhatThereIs) {
+TEST(Accuracy, WithoutConstraintsTheChartIsEnergyOverSubsteps) {
   Headless h;
   Scene scene = *shipped("spinning_top");
   scene.criteria.duration = 0.2;

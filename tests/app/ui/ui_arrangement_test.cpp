@@ -47,7 +47,7 @@ TEST(Arrangement, APanelIsDraggedWiderAndFoldsAway) {
   EXPECT_NEAR(window("##plots").GetWidth(), before + 60.0F, 4.0F);
 }
 
-TEST(Arrangement, PanelsLeaveThePictureItsPlaceHoweverFarTheyAreDragged) {
+TEST(Arrangement, DraggedPanelsLeaveRoomForThePicture) {
   Headless h;
   for (const char* name : {"##left_edge", "##right_edge"}) {
     const ImVec2 edge = window(name).GetCenter();
@@ -59,7 +59,7 @@ TEST(Arrangement, PanelsLeaveThePictureItsPlaceHoweverFarTheyAreDragged) {
   EXPECT_GE(h.app->view_rect.width, 300.0F);
 }
 
-TEST(Arrangement, ComesBackOnTheNextVisit) {
+TEST(Arrangement, IsRestoredOnTheNextVisit) {
   std::map<std::string, std::string> kept;
   const auto keeps = [&](Headless& h) {
     h.app->host.remember = [&](const std::string& k, const std::string& v) { kept[k] = v; };
@@ -97,7 +97,7 @@ TEST(Arrangement, ComesBackOnTheNextVisit) {
   }
 }
 
-TEST(Arrangement, AScaledInterfaceIsHitWhereItIsSeen) {
+TEST(Arrangement, AScaledInterfaceRespondsWhereItIsDrawn) {
   Headless h;
   ASSERT_EQ(h.app->set("scale", "1.25"), "");
   h.frames(3);

@@ -26,7 +26,7 @@ TEST(Compare, EachRunsAsItWouldAlone) {
   }
 }
 
-TEST(Compare, TheSameMethodNeverParts) {
+TEST(Compare, TheSameMethodNeverDiverges) {
   Headless h;
   h.app->compare.start(h.app->session, {Overrides{}});
   for (int i = 0; i < 120; ++i) h.app->session.step();
@@ -35,7 +35,7 @@ TEST(Compare, TheSameMethodNeverParts) {
   EXPECT_EQ(h.app->compare.runs()[0].cost.substeps, h.app->compare.cost(h.app->session).substeps);
 }
 
-TEST(Compare, ARunWithoutSubstepsPartsAndFails) {
+TEST(Compare, ARunWithoutSubstepsDivergesAndFails) {
   Headless h;
   h.app->open_link("scene=swinging_box&mode=adaptive&compare=mode:none");
   for (int i = 0; i < 60; ++i) h.app->session.step();
@@ -50,7 +50,7 @@ TEST(Compare, ARunWithoutSubstepsPartsAndFails) {
   EXPECT_FALSE(h.renderer->picture.ghost_boxes.empty());
 }
 
-TEST(Compare, SettingsOfTheRunReachTheOthersWhereTheyDoNotDiffer) {
+TEST(Compare, SettingsOfTheRunApplyToTheOthersUnlessOverridden) {
   Headless h;
   h.app->open_link("scene=swinging_box&compare=mode:damping");
   ASSERT_EQ(h.app->set("alpha", "0.3"), "");
@@ -61,7 +61,7 @@ TEST(Compare, SettingsOfTheRunReachTheOthersWhereTheyDoNotDiffer) {
   EXPECT_EQ(other.mode, Mode::kDamping);
 }
 
-TEST(Compare, ResetStartsAllOfThemAnew) {
+TEST(Compare, ResetRestartsAllOfThem) {
   Headless h;
   h.app->open_link("scene=bridge&compare=mode:damping");
   for (int i = 0; i < 40; ++i) h.app->session.step();
@@ -73,7 +73,7 @@ TEST(Compare, ResetStartsAllOfThemAnew) {
   EXPECT_EQ(hash_of(h.app->compare.runs()[0]), first);
 }
 
-TEST(Compare, LinkBringsItBack) {
+TEST(Compare, ALinkRestoresIt) {
   Headless h;
   h.app->open_link("scene=bridge&mode=adaptive&compare=mode:none;solver:pgs,alpha:0.2");
   EXPECT_TRUE(h.app->trouble.title.empty());
@@ -85,7 +85,7 @@ TEST(Compare, LinkBringsItBack) {
   EXPECT_EQ(h.app->link(), link);
 }
 
-TEST(Compare, WhatCannotBeReadIsTold) {
+TEST(Compare, InvalidOverridesAreReported) {
   Headless h;
   EXPECT_NE(h.app->set("compare", "mode:warp"), "");
   EXPECT_NE(h.app->set("compare", "speed:2"), "");
@@ -95,7 +95,7 @@ TEST(Compare, WhatCannotBeReadIsTold) {
   EXPECT_FALSE(h.app->compare.open());
 }
 
-TEST(Compare, WhatCannotBeReadIsNoRunAndTheSameIsOne) {
+TEST(Compare, InvalidOverridesAddNoRun) {
   Headless h;
   h.app->open_link("#scene=bridge&compare=mode:const;nothing:3;same");
   EXPECT_FALSE(h.app->trouble.title.empty());
@@ -128,7 +128,7 @@ TEST(Compare, TitlesNameOnlyWhatARunReads) {
 
 // The compared run has the session's own method: after every action on both they must agree bit for
 // bit, also after going back and forth in time.
-TEST(Compare, AHandAndABallReachAllOfThem) {
+TEST(Compare, AGrabAndABallAffectAllOfThem) {
   Headless h;
   Session& session = h.app->session;
   h.app->open_link("scene=bridge&mode=const&n=2&compare=mode:const;mode:damping");
@@ -192,7 +192,7 @@ TEST(Compare, AnEffectSwitchedOffIsOffInAllOfThem) {
   for (int i = 0; i < 10; ++i) session.step();
   EXPECT_EQ(hash_of(h.app->compare.runs()[0]), session.hash());
   h.frames(1);
-  EXPECT_EQ(h.app->compare.runs()[0].history.size(), 15U) << "what was before is kept";
+  EXPECT_EQ(h.app->compare.runs()[0].history.size(), 15U) << "earlier samples are kept";
 }
 
 // A point of the world in the clip space of a pane's picture, as shares of the window.
@@ -201,7 +201,7 @@ ImVec2 seen_at(const Picture& picture, const Vec3& x) {
   return {0.5F + 0.5F * p.x() / p.w(), 0.5F - 0.5F * p.y() / p.w()};
 }
 
-TEST(CompareSplit, EachRunHasAPaneOfItsOwn) {
+TEST(CompareSplit, EachRunHasItsOwnPane) {
   for (const ImVec2 display :
        {ImVec2(1280, 720), ImVec2(1920, 1080), ImVec2(390, 844), ImVec2(844, 390)}) {
     for (const char* others :
@@ -228,7 +228,7 @@ TEST(CompareSplit, EachRunHasAPaneOfItsOwn) {
         EXPECT_TRUE(h.renderer->pictures[i].ghost_boxes.empty());
         EXPECT_EQ(h.renderer->pictures[i].boxes.size(), h.renderer->pictures[0].boxes.size());
       }
-      EXPECT_GT(area, 0.75F * v.width * v.height) << "no place is wasted";
+      EXPECT_GT(area, 0.75F * v.width * v.height) << "the panes fill the view";
       ASSERT_EQ(h.app->set("views", "ghosts"), "");
       h.frames(1);
       EXPECT_EQ(h.renderer->pictures.size(), 1U);
@@ -237,12 +237,12 @@ TEST(CompareSplit, EachRunHasAPaneOfItsOwn) {
   }
 }
 
-TEST(CompareSplit, APaneIsAsWideAsSuitsTheScene) {
+TEST(CompareSplit, PanesOfAWideSceneAreStacked) {
   Headless phone(390.0F, 844.0F);
   phone.app->open_link("scene=bridge&compare=mode:damping&views=split");
   phone.frames(2);
   ASSERT_EQ(phone.app->panes.size(), 2U);
-  EXPECT_GT(phone.app->panes[1].y, phone.app->panes[0].y) << "one over the other";
+  EXPECT_GT(phone.app->panes[1].y, phone.app->panes[0].y) << "one above the other";
 }
 
 TEST(CompareSplit, ABodyIsPulledInThePaneThatShowsIt) {

@@ -37,7 +37,7 @@ TEST(Cover, IsLittleWhereNoPanelIsOpen) {
   EXPECT_LT(area, 1280 * 720 / 10);
 }
 
-TEST(Cover, LeavesUncoveredWhatNoneCovers) {
+TEST(Cover, LeavesTheRestUncovered) {
   std::mt19937 random(7);
   const auto upto = [&](int most) {
     return static_cast<int>(random() % static_cast<unsigned>(most));

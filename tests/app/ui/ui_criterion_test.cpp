@@ -62,7 +62,7 @@ TEST_F(TwoTerms, TheLargerOneSetsN) {
   EXPECT_GE(c.n_rotation, c.n_stiffness);
 }
 
-TEST_F(TwoTerms, ItIsSaidWhichBodyAndHowFast) {
+TEST_F(TwoTerms, TheTextNamesTheBodyAndItsRate) {
   spin(16.0);
   const Criterion c = criterion();
   const std::string& name = scene().bodies[static_cast<std::size_t>(c.rotation_body)].name;

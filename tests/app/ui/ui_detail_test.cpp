@@ -68,7 +68,7 @@ TEST(Detail, OutlineErrorMatchesTheMesh) {
   EXPECT_EQ(rounded_box(0, true).indices.size(), 36U);
 }
 
-TEST(Detail, WhatIsLargeOnTheScreenIsFine) {
+TEST(Detail, BodiesLargeOnTheScreenAreFine) {
   DetailedBodies bodies;
   std::size_t last = kBallSegments.size() - 1;
   for (const double distance : {4.0, 40.0, 400.0, 4000.0}) {

@@ -14,14 +14,14 @@ std::shared_ptr<const Scene> short_bridge() {
   return std::make_shared<const Scene>(std::move(scene));
 }
 
-TEST(EffectCosts, SlicesGiveWhatOneGoGives) {
+TEST(EffectCosts, SlicesGiveTheResultOfOneCall) {
   Headless h;
   h.app->run(short_bridge());
   h.app->session.pause();
   h.app->set("panel", "accuracy");
   h.frames(3);
   h.press("Stages");
-  EXPECT_FALSE(h.app->accuracy.effects.running()) << "nothing runs unasked";
+  EXPECT_FALSE(h.app->accuracy.effects.running()) << "nothing runs without a request";
   h.press("Measure this run");
   ASSERT_TRUE(h.app->accuracy.effects.running());
   finish_costs(h);
@@ -41,7 +41,7 @@ TEST(EffectCosts, SlicesGiveWhatOneGoGives) {
 }
 
 // As for the alpha search: a running measurement is visible and can be cancelled from any panel.
-TEST(EffectCosts, TheSweepThatRunsIsSeenBesideThem) {
+TEST(EffectCosts, ARunningSweepIsShownBesideThem) {
   Headless h;
   h.app->open("swinging_box");  // its sweep takes a minute, so it is still running
   h.app->session.pause();
@@ -58,7 +58,7 @@ TEST(EffectCosts, TheSweepThatRunsIsSeenBesideThem) {
   EXPECT_EQ(find_handle("Run it again"), nullptr) << "a sweep begins beside its picture";
 }
 
-TEST(EffectCosts, NoSliceRunsAheadAndTheyAreOfOneSettingAlone) {
+TEST(EffectCosts, SlicesAreBoundedAndResultsBelongToTheirSettings) {
   Headless h;
   h.app->open("swinging_box");
   h.app->session.pause();
@@ -68,7 +68,7 @@ TEST(EffectCosts, NoSliceRunsAheadAndTheyAreOfOneSettingAlone) {
     EXPECT_LE(h.app->accuracy.effects.progress(), (i + 3.0) / 3.0 / 600.0);
   }
   EXPECT_GT(h.app->accuracy.effects.progress(), 0.0);
-  EXPECT_NE(h.app->costs(), nullptr) << "the picture grows";
+  EXPECT_NE(h.app->costs(), nullptr) << "partial results are shown";
   h.app->set("alpha", "0.2");
   EXPECT_EQ(h.app->costs(), nullptr) << "of other settings";
   h.app->set("alpha", "0.1");
@@ -92,7 +92,7 @@ TEST(EffectCosts, SwitchesMeasureTheirOwn) {
   finish_costs(h);
   ASSERT_NE(h.app->costs(), nullptr);
   h.frames(2);
-  EXPECT_EQ(find_handle("Measure cost per effect"), nullptr) << "it is known";
+  EXPECT_EQ(find_handle("Measure cost per effect"), nullptr) << "the costs are known";
   h.press("friction");
   EXPECT_FALSE(h.app->session.scene().effects.friction);
   h.press("friction");

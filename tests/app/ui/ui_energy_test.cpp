@@ -61,7 +61,7 @@ TEST(EnergyPlot, KineticAndPotentialMakeTheTotalInEverySampleOfEveryScene) {
   }
 }
 
-TEST(EnergyPlot, TheTotalIsTheReportedEnergyButForTheZeroOfThePotential) {
+TEST(EnergyPlot, TheTotalIsTheReportedEnergyUpToTheZeroOfThePotential) {
   Headless h;
   for (const auto& scene : h.app->library.scenes()) {
     h.app->run(scene);
@@ -81,7 +81,7 @@ TEST(EnergyPlot, TheTotalIsTheReportedEnergyButForTheZeroOfThePotential) {
   }
 }
 
-TEST(EnergyPlot, AnOffsetMovesTheExtentAndKeepsNothingEmptyFull) {
+TEST(EnergyPlot, AnOffsetMovesTheExtent) {
   Extent extent;
   EXPECT_TRUE(ui::shifted(extent, 3.0).empty());
   extent.add(-2.0F);
@@ -124,7 +124,7 @@ TEST(EnergyDrift, NoSceneShowsMoreThanAHundredPerCent) {
   }
 }
 
-TEST(EnergyDrift, PercentagesAreOfAnEnergyThatIsThere) {
+TEST(EnergyDrift, PercentagesAreOfASignificantEnergy) {
   // 1 mJ in a card house at rest: its kinetic energy is noise.
   EXPECT_EQ(energy_change(-1e-3, energy_scale(std::nullopt, 2e-5, 1e-3)), "−1.00 mJ");
   // A kinetic energy hardly larger than the drift is itself drift.

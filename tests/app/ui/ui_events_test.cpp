@@ -33,11 +33,11 @@ void expect_same_run(Headless& h, const char* what) {
   Headless other;
   other.app->open_link(link);
   EXPECT_EQ(other.app->trouble.title, "") << what << ": " << link;
-  EXPECT_EQ(other.app->link(), link) << what << ": the link of a run that begins is the same";
+  EXPECT_EQ(other.app->link(), link) << what << ": the link is the same at the start";
   other.app->session.pause();
   step(other.app->session, static_cast<int>(h.app->session.state().frame));
   EXPECT_EQ(other.app->session.hash(), h.app->session.hash()) << what;
-  EXPECT_EQ(other.app->link(), link) << what << ": and so is that of one that is over";
+  EXPECT_EQ(other.app->link(), link) << what << ": the link is the same at the end";
   other.app->reset();
   step(other.app->session, static_cast<int>(h.app->session.state().frame));
   EXPECT_EQ(other.app->session.hash(), h.app->session.hash()) << what << ", after a reset";
@@ -71,7 +71,7 @@ TEST(Events, ABallThrownByItsKeyIsInTheLink) {
   expect_same_run(h, "thrown by key");
 }
 
-TEST(Events, APullIsDoneAgain) {
+TEST(Events, APullIsRepeated) {
   Headless h;
   Session& session = h.app->session;
   session.pause();
@@ -89,7 +89,7 @@ TEST(Events, APullIsDoneAgain) {
   expect_same_run(h, "a pull");
 }
 
-TEST(Events, EffectsSettingsAndASeedAreDoneAgain) {
+TEST(Events, EffectsSettingsAndASeedAreRepeated) {
   Headless h;
   h.app->open_link("scene=bridge&load=2&seed=3&alpha=0.3");
   h.app->session.pause();
@@ -104,12 +104,12 @@ TEST(Events, EffectsSettingsAndASeedAreDoneAgain) {
   step(h.app->session, 5);
   h.app->session.throw_ball(odd_ball(1));
   step(h.app->session, 5);
-  EXPECT_NE(h.app->link().find("&alpha=0.3&"), std::string::npos) << "that it began with";
+  EXPECT_NE(h.app->link().find("&alpha=0.3&"), std::string::npos) << "the initial setting";
   EXPECT_LT(h.app->link().size(), 400U);
   expect_same_run(h, "effects, settings, a seed");
 }
 
-// Without interactions a link has the current settings: people tune them before they share.
+// Without interactions a link has the current settings: users adjust them before they share.
 TEST(Events, SettingsAloneAreNoEvents) {
   Headless h;
   h.app->session.pause();
@@ -120,7 +120,7 @@ TEST(Events, SettingsAloneAreNoEvents) {
   EXPECT_NE(h.app->link().find("alpha=0.25"), std::string::npos);
 }
 
-TEST(Events, AnOwnSceneHasThemBesideIt) {
+TEST(Events, TheLinkOfAUsersSceneHasBoth) {
   Scene scene = *shipped("pendulum");
   scene.name = "mine";
   Headless h;
@@ -140,7 +140,7 @@ TEST(Events, AnOwnSceneHasThemBesideIt) {
   EXPECT_EQ(other.app->session.hash(), h.app->session.hash());
 }
 
-TEST(Events, ThePastForgetsWhatCameLater) {
+TEST(Events, GoingBackDropsLaterOnes) {
   Headless h;
   Session& session = h.app->session;
   session.pause();
@@ -154,15 +154,15 @@ TEST(Events, ThePastForgetsWhatCameLater) {
   const std::string first = h.app->link();
   EXPECT_LT(first.size(), all.size());
   session.go_to(session.timeline().size() - 1);
-  EXPECT_EQ(h.app->link(), all) << "nothing was done meanwhile";
+  EXPECT_EQ(h.app->link(), all) << "going back alone drops no event";
   session.go_to(15);
   session.throw_ball(odd_ball(7));
   step(session, 10);
   EXPECT_EQ(session.balls(), 2U);
-  expect_same_run(h, "on from the past");
+  expect_same_run(h, "continued from the past");
 }
 
-TEST(Events, AScriptIsFollowedFromThePastToo) {
+TEST(Events, AScriptContinuesFromThePast) {
   Headless h;
   h.app->session.pause();
   step(h.app->session, 20);
@@ -188,7 +188,7 @@ TEST(Events, AScriptIsFollowedFromThePastToo) {
   EXPECT_EQ(session.hash(), h.app->session.hash()) << "a reset is the link's run again";
 }
 
-TEST(Events, NewSettingsStayAndTheRestOfTheScriptGoesOn) {
+TEST(Events, NewSettingsStayAndTheScriptContinues) {
   Headless h;
   h.app->session.pause();
   step(h.app->session, 5);
@@ -204,7 +204,7 @@ TEST(Events, NewSettingsStayAndTheRestOfTheScriptGoesOn) {
   EXPECT_EQ(other.app->session.balls(), 1U);
 }
 
-TEST(Events, TooMuchForALinkIsTheEditedScene) {
+TEST(Events, TooManyForALinkAreReplacedByTheEditedScene) {
   Headless h;
   Session& session = h.app->session;
   session.pause();
@@ -216,10 +216,10 @@ TEST(Events, TooMuchForALinkIsTheEditedScene) {
     if (session.stopped()) break;
   }
   EXPECT_EQ(h.app->link().find("events="), std::string::npos);
-  EXPECT_TRUE(is_own(h.app->link_scene())) << "as before there were events";
+  EXPECT_TRUE(is_own(h.app->link_scene())) << "the link of an edited scene";
 }
 
-TEST(Events, WhatCannotBeReadIsTold) {
+TEST(Events, InvalidTextIsReported) {
   const auto scene = shipped("swinging_box");
   const Settings settings = scene->settings;
   const auto problem = [&](const std::string& text) {
@@ -267,7 +267,7 @@ TEST(Events, ALinkWithBadEventsRunsTheRest) {
 }
 
 // The maximum number of events before one frame is applied at once; the run continues.
-TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
+TEST(Events, TheMaximumAtOnceIsAccepted) {
   const auto scene = shipped("wall");
   std::vector<RunEvent> events;
   for (int i = 0; fits_link(events, *scene); ++i) {
@@ -288,7 +288,7 @@ TEST(Events, AsManyAsMayBeAtOnceAreTaken) {
 }
 
 // Each ball copies the scene, so a scene of many bodies allows only a few.
-TEST(Events, AreFewInALargeScene) {
+TEST(Events, AreLimitedInALargeScene) {
   Scene large = *shipped("pendulum");
   large.bodies.resize(2000, large.bodies.back());
   std::vector<RunEvent> events(40, RunEvent{0, odd_ball(0)});

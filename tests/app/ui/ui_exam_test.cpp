@@ -6,7 +6,7 @@
 namespace substep {
 namespace {
 
-TEST(ExamGhost, ScenesStandInAGroupOfTheirOwn) {
+TEST(ExamGhost, ScenesHaveTheirOwnGroup) {
   Library library = shipped();
   const std::size_t before = library.scenes().size();
   const std::string first = library.scenes().front()->name;
@@ -41,7 +41,7 @@ TEST(ExamGhost, MovesAsTheSceneShould) {
   EXPECT_LT((exact->x[0] - h.app->session.poses().x[0]).norm(), 1e-9) << "back in time as well";
 }
 
-TEST(ExamGhost, IsThereOnlyForASceneAsItStands) {
+TEST(ExamGhost, ExistsOnlyForAnUnchangedScene) {
   Headless h;
   add_exam(h.app->library);
   h.frames(2);

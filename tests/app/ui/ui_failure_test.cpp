@@ -1,5 +1,5 @@
-// What a person sees of a failure: the broken joint in a ring, the camera turned to it, and a
-// picture that stands still.
+// What a user sees of a failure: the broken joint in a ring, the camera turned to it, and a frozen
+// picture.
 #include <gtest/gtest.h>
 #include <imgui_internal.h>
 
@@ -84,7 +84,7 @@ TEST(FailureCamera, TurnsToWhatFailedAndBackAtTheNextStart) {
   EXPECT_LT((torn.eye() - torn.eye_before()).norm(), 0.1);
 }
 
-TEST(FailureCamera, LeavesTheViewToAPersonWhoHasMovedIt) {
+TEST(FailureCamera, KeepsAViewThatTheUserMoved) {
   Torn torn;
   torn.h.app->view.camera.orbit(0.3, 0.1);
   torn.h.frames(60);
@@ -96,7 +96,7 @@ TEST(FailureCamera, LeavesTheViewToAPersonWhoHasMovedIt) {
   EXPECT_LT((torn.eye() - chosen).norm(), 1e-3);
 }
 
-TEST(FailureCamera, DoesNotTakeBackAViewChosenAtTheFailure) {
+TEST(FailureCamera, KeepsAViewChosenAtTheFailure) {
   Torn torn;
   torn.fail();
   torn.h.app->view.camera.orbit(0.5, 0.0);
@@ -111,7 +111,7 @@ TEST(FailureCamera, DoesNotTakeBackAViewChosenAtTheFailure) {
 TEST(FailureCamera, DoesNotMoveWithReducedMotion) {
   Torn torn(true);
   torn.fail();
-  ASSERT_TRUE(torn.h.app->failure_in(0).has_value()) << "the ring is there all the same";
+  ASSERT_TRUE(torn.h.app->failure_in(0).has_value()) << "the ring is still shown";
   EXPECT_LT((torn.eye() - torn.eye_before()).norm(), 1e-9);
 }
 

@@ -86,7 +86,7 @@ TEST(Figure, PlotsHaveTheirTextsCurvesAndExperiment) {
             std::string::npos);
 }
 
-TEST(Figure, TakesTheChartAndLeavesTheWindowAsItWas) {
+TEST(Figure, CapturesTheChartAndDoesNotChangeTheWindow) {
   Headless h;
   h.app->session.pause();
   h.app->desk.tab = Tab::kAccuracy;
@@ -104,7 +104,7 @@ TEST(Figure, TakesTheChartAndLeavesTheWindowAsItWas) {
   EXPECT_EQ(again.text, figure.text);
 }
 
-TEST(Figure, IsWholeWhereThePanelIsScrolled) {
+TEST(Figure, IsCompleteWhereThePanelIsScrolled) {
   Headless h;
   h.app->host.save_file = [](const std::string&, const std::string&) {};
   h.app->session.pause();
@@ -127,7 +127,7 @@ TEST(Figure, IsWholeWhereThePanelIsScrolled) {
   EXPECT_GT(height, panel->Size.y - 100.0F);
 }
 
-TEST(Figure, EscapesWhatASceneSays) {
+TEST(Figure, EscapesTheTextsOfAScene) {
   Headless h;
   auto scene = std::make_shared<Scene>(*h.app->library.scenes().front());
   scene->title = "<script>alert(1)</script> & \"quoted\"";

@@ -57,7 +57,7 @@ TEST(FileBrowser, ListsFoldersAndSceneFilesAndNothingElse) {
   EXPECT_EQ(browser.entries()[2].name, "good.json");
 }
 
-TEST(FileBrowser, FollowsWhatIsTyped) {
+TEST(FileBrowser, FollowsTheTypedPath) {
   const Folder folder;
   FileBrowser browser;
   browser.show(folder.path());
@@ -90,7 +90,7 @@ void click_entry(Headless& h, const char* name) {
   FAIL() << name << " is not listed";
 }
 
-TEST(FileBrowser, AFileIsOpenedByAClickAndABadOneIsTold) {
+TEST(FileBrowser, AFileIsOpenedByAClickAndABadOneIsReported) {
   const Folder folder;
   for (const float width : {1280.0F, 390.0F}) {
     Headless h(width, width > 900.0F ? 720.0F : 844.0F);

@@ -46,7 +46,7 @@ class Headless {
     frames(3);
   }
   ~Headless() {
-    EXPECT_EQ(imgui::complaints(), complaints) << "Dear ImGui says what, on the error output";
+    EXPECT_EQ(imgui::complaints(), complaints) << "Dear ImGui prints the cause to stderr";
   }
   Headless(const Headless&) = delete;
   Headless& operator=(const Headless&) = delete;

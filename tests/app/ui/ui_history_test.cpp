@@ -59,7 +59,7 @@ TEST(History, TheZeroOfThePotentialStaysAfterAFailure) {
   EXPECT_DOUBLE_EQ(known.potential_offset(), 15.0);
 }
 
-TEST(History, ForgetsTheOldestAndKeepsItsTimes) {
+TEST(History, DropsTheOldestSamplesAndKeepsTheTimes) {
   History history;
   history.start(report_at(0), 1.0 / 60.0);
   const int frames = static_cast<int>(History::kCapacity) + 5000;
@@ -70,7 +70,7 @@ TEST(History, ForgetsTheOldestAndKeepsItsTimes) {
   EXPECT_FLOAT_EQ(history[Channel::kSubsteps].back(), static_cast<float>(frames % 7));
 }
 
-TEST(History, IsCutAndGoesOnAsIfItHadNeverBeenLonger) {
+TEST(History, TruncatedItContinuesLikeAShorterOne) {
   History straight;
   History rewound;
   straight.start(report_at(0), 1.0 / 60.0);

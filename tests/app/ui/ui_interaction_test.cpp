@@ -50,7 +50,7 @@ bool is_open(const char* window) {
   return w != nullptr && w->WasActive && !w->Hidden;
 }
 
-TEST(Picking, RayMeetsWhatIsSeenThere) {
+TEST(Picking, RayHitsTheVisibleBody) {
   for (const char* scene : {"swinging_box", "bridge", "heavy_stack"}) {
     Headless h;
     h.app->open(scene);
@@ -75,7 +75,7 @@ TEST(Picking, RayMeetsWhatIsSeenThere) {
   }
 }
 
-TEST(Picking, PassesByWhatItMisses) {
+TEST(Picking, RayMissesBodiesBesideIt) {
   Scene scene;
   scene.bodies.resize(2);
   scene.bodies[0].shape = Sphere{1.0};
@@ -107,7 +107,7 @@ TEST(Selection, ClickShowsABodyAndAClickBesideHidesIt) {
   EXPECT_EQ(h.app->desk.selected, box);
   h.frames(2);
   EXPECT_TRUE(is_open("##selection"));
-  EXPECT_EQ(h.app->session.state().frame, 0) << "looking changes nothing";
+  EXPECT_EQ(h.app->session.state().frame, 0) << "a selection does not change the run";
   EXPECT_FALSE(h.app->session.verdict().disturbed());
   h.click(640.0F, 560.0F);
   EXPECT_EQ(h.app->desk.selected, -1);
@@ -303,7 +303,7 @@ TEST(Scrubber, DragLooksBackAndPausesTheRun) {
   }
 }
 
-TEST(Failure, GoesBackToTheLastGoodStateAndGoesOn) {
+TEST(Failure, ReturnsToTheLastGoodStateAndContinues) {
   Headless h;
   ASSERT_EQ(h.app->set("mode", "none"), "");
   for (int i = 0; i < 40; ++i) h.app->session.step();
@@ -319,7 +319,7 @@ TEST(Failure, GoesBackToTheLastGoodStateAndGoesOn) {
   EXPECT_TRUE(h.app->session.verdict().holds()) << h.app->session.verdict().text();
 }
 
-TEST(Failure, OffersWhatWouldHaveHelped) {
+TEST(Failure, OffersRemedies) {
   Headless h;
   ASSERT_EQ(h.app->set("mode", "none"), "");
   for (int i = 0; i < 40; ++i) h.app->session.step();
@@ -340,7 +340,7 @@ TEST(Failure, OffersWhatWouldHaveHelped) {
 
 int vertices_over_the_picture() { return ImGui::GetBackgroundDrawList()->VtxBuffer.Size; }
 
-TEST(Show, DrawsWhatIsSwitchedOnAndNothingElse) {
+TEST(Show, DrawsOnlyWhatIsSwitchedOn) {
   Headless h;
   h.app->open("bridge");
   ASSERT_EQ(h.app->set("tint", "off"), "");

@@ -56,7 +56,7 @@ TEST(Introduction, OneChainTearsInSlowMotionAndTheOtherHolds) {
   EXPECT_TRUE(words.torn.note.starts_with("Torn at 0.35 s")) << words.torn.note;
   EXPECT_NE(words.held.title.find("now 1"), std::string::npos) << words.held.title;
   visit.h.frames(260);
-  EXPECT_EQ(visit.h.app->session.speed(), 1.0) << "slow while it tears only";
+  EXPECT_EQ(visit.h.app->session.speed(), 1.0) << "slow only while it tears";
   EXPECT_GT(visit.h.app->session.state().time, 1.0);
   EXPECT_TRUE(visit.h.app->session.verdict().holds());
 }
@@ -111,7 +111,7 @@ TEST(Introduction, TourGoesToItsFirstStep) {
   EXPECT_EQ(visit.h.app->session.settings().mode, Mode::kNone);
 }
 
-TEST(Introduction, ALinkASceneOrASettingGoesPastIt) {
+TEST(Introduction, ALinkASceneOrASettingSkipsIt) {
   {
     Visit visit;
     visit.h.app->open_link("scene=bridge&mode=none");
@@ -134,7 +134,7 @@ TEST(Introduction, ALinkASceneOrASettingGoesPastIt) {
   EXPECT_EQ(visit.h.app->session.settings().mode, Mode::kDamping);
 }
 
-TEST(Introduction, KeysOfTheLaboratoryWait) {
+TEST(Introduction, KeysOfTheLaboratoryAreInactive) {
   Visit visit;
   const auto before = visit.h.app->session.state().frame;
   visit.h.type(" rb13.?h");
@@ -175,7 +175,7 @@ TEST(Introduction, AboutLeadsBackToItAndTheRunStartsAgain) {
   EXPECT_TRUE(h.app->session.playing());
 }
 
-TEST(Introduction, AShellThatRemembersNothingDoesNotShowIt) {
+TEST(Introduction, WithoutStorageItIsNotShown) {
   Headless h;
   h.app->introduction.offer(*h.app);
   EXPECT_FALSE(h.app->introduction.open());

@@ -32,7 +32,7 @@ std::string look_of(App& app) {
   return text;
 }
 
-TEST(Keys, EveryKeyOfTheListDoesSomethingAndNoneTwoThings) {
+TEST(Keys, EveryListedKeyHasItsOwnEffect) {
   std::set<char> known;
   for (const ui::KeyAction& action : ui::key_actions()) {
     EXPECT_FALSE(action.shown.empty());
@@ -91,7 +91,7 @@ std::string file_text(const std::string& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(About, CopiesThePapersEntryAsTheReferencesHaveIt) {
+TEST(About, CopiesThePapersReferenceEntry) {
   Headless h;
   h.app->desk.help = true;
   h.frames(4);
@@ -111,7 +111,7 @@ TEST(About, CopiesThePapersEntryAsTheReferencesHaveIt) {
   EXPECT_NE(copied.find(kPaperDoi), std::string::npos);
 }
 
-TEST(About, TellsTheLicenceThatTheRepositoryHas) {
+TEST(About, ShowsTheLicenceOfTheRepository) {
   const std::string licence = file_text("LICENSE");
   EXPECT_TRUE(licence.starts_with("MIT License"));
   EXPECT_NE(licence.find("2026 The substep authors"), std::string::npos);

@@ -144,7 +144,7 @@ TEST(Explore, ABallIsThrown) {
   EXPECT_EQ(h.app->session.scene().bodies.size(), before + 1);
 }
 
-TEST(Explore, ShowsWhatSetsNOnlyWhileItIsLookedAt) {
+TEST(Explore, ShowsWhatSetsNOnlyInItsPanel) {
   Headless h;
   explore(h);
   h.app->session.step();
@@ -158,7 +158,7 @@ TEST(Explore, ShowsWhatSetsNOnlyWhileItIsLookedAt) {
   EXPECT_EQ(find_handle("Why N"), nullptr);
 }
 
-TEST(Level, IsInTheLinkWhereItIsExplore) {
+TEST(Level, IsInTheLinkOnlyIfItIsExplore) {
   Headless h;
   EXPECT_EQ(h.app->link().find("level"), std::string::npos);
   explore(h);
@@ -171,7 +171,7 @@ TEST(Level, IsInTheLinkWhereItIsExplore) {
   EXPECT_NE(h.app->set("level", "expert"), "");
 }
 
-TEST(Level, ALinkThatSetsWhatOnlyTheLabShowsOpensIt) {
+TEST(Level, ALinkWithSettingsOfTheLabOpensIt) {
   Headless h;
   for (const char* link :
        {"scene=bridge&integrator=leapfrog", "scene=bridge&sleep=true", "scene=bridge&seed=3",

@@ -41,20 +41,20 @@ TEST(Link, OpensEverySetting) {
   EXPECT_EQ(h.app->session.settings(), wanted);
 }
 
-TEST(Link, AlwaysNamesWhatPeopleAskFor) {
+TEST(Link, AlwaysNamesTheMethod) {
   const auto scene = shipped("swinging_box");
   EXPECT_EQ(make_link(*scene, scene->settings),
             "scene=swinging_box&solver=bpp&mode=adaptive&alpha=0.1&n=16&integrator=euler");
 }
 
-TEST(Link, SceneComesFirstWhereverItStands) {
+TEST(Link, SceneIsAppliedFirstInAnyOrder) {
   Headless h;
   h.app->open_link("mode=damping&scene=heavy_stack");
   EXPECT_EQ(h.app->session.scene().name, "heavy_stack");
   EXPECT_EQ(h.app->session.settings().mode, Mode::kDamping);
 }
 
-TEST(Link, WhatCannotBeReadIsToldAndTheRestHolds) {
+TEST(Link, InvalidPartsAreReportedAndTheRestApplies) {
   Headless h;
   h.app->open_link("mode=warp&alpha=7&n=5&nonsense&scene=nowhere");
   EXPECT_EQ(h.app->trouble.problems.size(), 4U);
@@ -63,7 +63,7 @@ TEST(Link, WhatCannotBeReadIsToldAndTheRestHolds) {
 }
 
 // The card states what was applied, and lists every invalid part.
-TEST(Link, WhatBecameOfTheSceneAndTheRestIsTold) {
+TEST(Link, TheOutcomeOfEveryPartIsReported) {
   const std::string rest = "The rest of the link was applied.";
   Headless h;
   const auto aftermath = [&](const char* link) {
@@ -84,19 +84,19 @@ TEST(Link, WhatBecameOfTheSceneAndTheRestIsTold) {
   EXPECT_EQ(h.app->trouble.problems[0].pointer, "=5");
 }
 
-TEST(Link, AnyTextIsTaken) {
+TEST(Link, AnyTextIsAccepted) {
   for (const char* text : {"", "#", "&&&", "=", "%", "%4", "%zz=%00", "a=b=c", "\xff\xfe"}) {
     EXPECT_NO_THROW(parse_link(text)) << text;
   }
   EXPECT_EQ(parse_link("scene=a%00%1f%7F%41")[0].value, "a%00%1f%7FA")
-      << "control characters stay as they are written, or a complaint would end with them";
+      << "control characters stay escaped, so that they cannot truncate a message";
   const auto parts = parse_link("#scene=my%20scene&x");
   ASSERT_EQ(parts.size(), 2U);
   EXPECT_EQ(parts[0].value, "my scene");
   EXPECT_EQ(parts[1].key, "x");
 }
 
-TEST(Link, AnExperimentComesBackTheSame) {
+TEST(Link, RoundTripKeepsEveryPartOfAnExperiment) {
   const auto scene = shipped("bridge");
   Experiment experiment = experiment_of(*scene, scene->settings, 7);
   experiment.settings.mode = Mode::kCapped;
@@ -113,7 +113,7 @@ TEST(Link, AnExperimentComesBackTheSame) {
   EXPECT_EQ(experiment_id(*input.experiment), experiment_id(experiment));
 }
 
-TEST(Link, WhatIsWrongWithAnExperimentIsTold) {
+TEST(Link, ProblemsOfAnExperimentAreReported) {
   Problems problems;
   const auto input = read_experiment_link(
       "scene=bridge&alpha=7&seconds=x&load=-1&seed=0.5",

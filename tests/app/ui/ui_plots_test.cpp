@@ -31,7 +31,7 @@ float between(const std::vector<ui::Column>& columns, float x) {
   return a.last + (x - a.x) / (b.x - a.x) * (b.last - a.last);
 }
 
-TEST(Thinned, CurveIsTheSameAsFarAsCanBeSeen) {
+TEST(Thinned, CurveLooksTheSame) {
   std::vector<ui::Column> wave;
   for (int i = 0; i < 600; ++i) {
     const float x = 0.4F * static_cast<float>(i);
@@ -44,7 +44,7 @@ TEST(Thinned, CurveIsTheSameAsFarAsCanBeSeen) {
   for (const ui::Column& c : wave) ASSERT_NEAR(between(kept, c.x), c.last, 0.1001F) << c.x;
 }
 
-TEST(Thinned, GapsAndStepsStay) {
+TEST(Thinned, GapsAndStepsAreKept) {
   std::vector<ui::Column> line;
   for (int i = 0; i < 100; ++i) line.push_back(sample(static_cast<float>(i), 7.0F));
   line[40].gap = true;
@@ -60,17 +60,17 @@ TEST(Thinned, GapsAndStepsStay) {
   EXPECT_EQ(steps[3].x, 80.0F);
 }
 
-TEST(Names, StandApartAsLittleAsItTakes) {
+TEST(Names, AreSeparatedByTheSmallestMoves) {
   const auto places = ui::apart({50.0F, 10.0F, 52.0F, 99.0F}, 12.0F, 0.0F, 100.0F);
   ASSERT_EQ(places.size(), 4U);
   for (const auto& place : places) EXPECT_TRUE(place.shown);
   EXPECT_EQ(places[1].y, 10.0F) << "far from the others it stays at its curve";
   EXPECT_EQ(places[0].y, 50.0F);
   EXPECT_EQ(places[2].y, 62.0F) << "a line below the one that it would cover";
-  EXPECT_EQ(places[3].y, 94.0F) << "all of it is in the plot";
+  EXPECT_EQ(places[3].y, 94.0F) << "it lies within the plot";
 }
 
-TEST(Names, ThoseWithoutRoomAreNotShownTheLastFirst) {
+TEST(Names, TheLastOnesAreHiddenWithoutRoom) {
   const auto places = ui::apart({5.0F, 5.0F, 5.0F}, 12.0F, 0.0F, 30.0F);
   EXPECT_TRUE(places[0].shown);
   EXPECT_TRUE(places[1].shown);
@@ -92,7 +92,7 @@ TEST(NAtLimit, IsGivenOnlyWhereNVaries) {
   }
   settings.mode = Mode::kAdaptive;
   settings.solver = SolverKind::kPgs;
-  EXPECT_FALSE(ui::n_at_limit(history, settings)) << "sweeps need more than that";
+  EXPECT_FALSE(ui::n_at_limit(history, settings)) << "iterative solvers need more";
 }
 
 TEST(NAtLimit, IsNotGivenWhereOneStepWouldDo) {
@@ -140,7 +140,7 @@ TEST(TimeAxis, FollowsTheRunAndFillsFromTheLeft) {
   EXPECT_EQ(axis.window(25.0), std::make_pair(15.0, 25.0));
 }
 
-TEST(TimeAxis, ZoomKeepsWhatThePointerIsOn) {
+TEST(TimeAxis, ZoomKeepsTheTimeUnderThePointer) {
   TimeAxis axis;
   axis.show(20.0, 30.0);
   EXPECT_FALSE(axis.follow);
@@ -270,7 +270,7 @@ TEST(Export, PictureHasThePixelsOfItsArea) {
   EXPECT_FALSE(h.app->desk.capture.has_value());
 }
 
-TEST(Why, TheFirstOfTheListIsWhoSetsN) {
+TEST(Why, TheFirstBodyOfTheListSetsN) {
   Headless h;
   h.app->desk.tab = Tab::kWhy;
   for (const auto& scene : h.app->library.scenes()) {

@@ -18,9 +18,9 @@ void observe(QualityGovernor& governor, double dt, double seconds, double own = 
   for (double t = 0.0; t < seconds; t += dt) governor.observe(dt, own);
 }
 
-// A machine with a given drawing time at each quality, for a while.
+// Simulates a machine with a given drawing time at each quality [s].
 // @return the number of quality changes
-int live_with(QualityGovernor& governor, double coarse, double plain, double fine, double seconds) {
+int simulate(QualityGovernor& governor, double coarse, double plain, double fine, double seconds) {
   int changes = 0;
   for (double t = 0.0; t < seconds;) {
     const Quality before = governor.quality();
@@ -69,7 +69,7 @@ TEST(Quality, FourVerySlowFramesAreEnough) {
 }
 
 // At its start a page compiles shaders and uploads textures to the graphics processor.
-TEST(Quality, AStutterAtTheStartSaysNothing) {
+TEST(Quality, AStutterAtTheStartIsIgnored) {
   QualityGovernor governor;
   observe(governor, 0.5, 1.5);
   observe(governor, kQuick, 60.0);
@@ -92,9 +92,9 @@ TEST(Quality, ComesBackWhenFramesAreQuickAgain) {
 
 TEST(Quality, SettlesWhereOnlyACoarserPictureIsQuick) {
   QualityGovernor governor;
-  live_with(governor, kQuick, kQuick, kSlow, 60.0);
+  simulate(governor, kQuick, kQuick, kSlow, 60.0);
   // Attempts at a finer picture become rare.
-  EXPECT_LE(live_with(governor, kQuick, kQuick, kSlow, 600.0), 10);
+  EXPECT_LE(simulate(governor, kQuick, kQuick, kSlow, 600.0), 10);
 }
 
 TEST(Quality, ManyBodiesAreDrawnCoarselyByAProcessor) {
@@ -106,13 +106,13 @@ TEST(Quality, ManyBodiesAreDrawnCoarselyByAProcessor) {
   EXPECT_EQ(finest_in_software(10000), Quality::kSketch);
 }
 
-TEST(Quality, TabThatSleptSaysNothing) {
+TEST(Quality, ASuspendedTabIsIgnored) {
   QualityGovernor governor;
   for (int i = 0; i < 100; ++i) governor.observe(60.0, 0.0);
   EXPECT_EQ(governor.quality(), Quality::kFine);
 }
 
-TEST(Handles, ControlIsWhereItsNameSaysAtAnyScale) {
+TEST(Handles, ControlsAreFoundByNameAtAnyScale) {
   Headless h;
   for (const double scale : {1.0, 1.3}) {
     h.app->desk.scale = scale;

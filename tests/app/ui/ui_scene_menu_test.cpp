@@ -47,7 +47,7 @@ TEST(SceneMenu, AVariantIsUnfoldedAndChosen) {
   EXPECT_NE(find_handle("stress"), nullptr) << "unfolded where one of them runs";
 }
 
-TEST(SceneMenu, APersonsOwnSceneIsNoVariant) {
+TEST(SceneMenu, AUsersSceneIsNoVariant) {
   Headless h;
   Scene own = *h.app->library.find("bridge");
   own.name = "bridge_mine";

@@ -95,7 +95,7 @@ void take(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.step();
 }
 
-TEST(Past, RunGoesOnFromItBitForBit) {
+TEST(Past, RunContinuesFromItBitForBit) {
   for (const char* scene : {"swinging_box", "bridge", "heavy_stack"}) {
     Session straight(shipped(scene));
     take(straight, 40);
@@ -106,7 +106,7 @@ TEST(Past, RunGoesOnFromItBitForBit) {
     EXPECT_EQ(session.state().frame, 10);
     EXPECT_EQ(session.report().frame, 10);
     EXPECT_FALSE(session.timeline().at_end());
-    EXPECT_EQ(session.history().size(), history) << "looking cuts nothing";
+    EXPECT_EQ(session.history().size(), history) << "viewing the past drops nothing";
     session.play();
     while (session.state().frame < 40) session.advance(kFrame, 10.0);
     EXPECT_EQ(session.hash(), straight.hash()) << scene;
@@ -119,7 +119,7 @@ TEST(Past, RunGoesOnFromItBitForBit) {
   }
 }
 
-TEST(Past, VerdictThatFellIsTakenBackAndFallsAgain) {
+TEST(Past, VerdictIsWithdrawnAndReachedAgain) {
   Session session(shipped("swinging_box"));
   Settings s = session.settings();
   s.mode = Mode::kNone;
@@ -155,7 +155,7 @@ TEST(Past, OneForwardIsTheFrameThatFollowedUnlessSomethingChanged) {
   session.step_back();
   session.step();
   EXPECT_EQ(session.state().frame, 19);
-  EXPECT_TRUE(session.timeline().at_end()) << "what was taken with another alpha is forgotten";
+  EXPECT_TRUE(session.timeline().at_end()) << "frames of another alpha are dropped";
   EXPECT_EQ(session.history().size(), 19U);
 }
 
@@ -202,7 +202,7 @@ TEST(Past, IsFoundByTime) {
   EXPECT_EQ(past.at_time(100.0), 60U);
 }
 
-TEST(Substep, GoesOnToTheSameFrame) {
+TEST(Substep, ContinuesToTheSameFrame) {
   Session whole(shipped("swinging_box"));
   Session pieces(shipped("swinging_box"));
   take(whole, 3);
@@ -210,7 +210,7 @@ TEST(Substep, GoesOnToTheSameFrame) {
     pieces.substep();
     ASSERT_GT(pieces.substeps_left(), 0);
     EXPECT_EQ(pieces.state().frame, frame);
-    EXPECT_EQ(pieces.timeline().last().state.frame, frame) << "the past knows whole frames only";
+    EXPECT_EQ(pieces.timeline().last().state.frame, frame) << "the past has whole frames only";
     pieces.step();
   }
   EXPECT_EQ(pieces.hash(), whole.hash());
@@ -220,7 +220,7 @@ TEST(Substep, GoesOnToTheSameFrame) {
   EXPECT_EQ(pieces.hash(), whole.hash()) << "back to the start of the frame";
 }
 
-TEST(Hand, HoldingABodyDisturbsTheRunAndAResetBringsItBack) {
+TEST(Hand, HoldingABodyDisturbsTheRunUntilAReset) {
   Session session(shipped("swinging_box"));
   take(session, 5);
   const auto box = session.scene().bodies.size() - 1;
@@ -239,7 +239,7 @@ TEST(Hand, HoldingABodyDisturbsTheRunAndAResetBringsItBack) {
   EXPECT_EQ(session.verdict().text(), "holds");
 }
 
-TEST(Hand, EnergyThatItBringsIsNoFailure) {
+TEST(Hand, EnergyFromItIsNoFailure) {
   Scene scene = *shipped("swinging_box");
   scene.criteria.energy_gain = 10.0;
   Session session(std::make_shared<const Scene>(scene));
@@ -274,7 +274,7 @@ TEST(Slices, OfAFrameAreTheSameBits) {
   EXPECT_EQ(state_hash(session.state()), state_hash(whole.state()));
 }
 
-TEST(Slices, OfAFrameThatIsLeftChangeNothing) {
+TEST(Slices, OfAnAbandonedFrameChangeNothing) {
   Session session(shipped("swinging_box"));
   take(session, 3);
   const std::uint64_t before = session.hash();
@@ -332,7 +332,7 @@ TEST(Slices, AHandActsFromTheNextFrameOn) {
   EXPECT_TRUE(session.held());
 }
 
-TEST(HeavyStart, ALinkToOneWaitsForAPerson) {
+TEST(HeavyStart, ALinkToOneWaitsForConfirmation) {
   Headless h;
   h.app->session.play();
   h.app->open_link("scene=swinging_box&solver=pgs&iterations=400&mode=const&n=10000");
@@ -361,7 +361,7 @@ TEST(HeavyStart, GoesBackToTheRunBefore) {
   h.frames(2);
   ASSERT_NE(find_handle("Go back"), nullptr);
   h.press("Go back");
-  EXPECT_EQ(h.app->link(), before) << "the last run that a person saw";
+  EXPECT_EQ(h.app->link(), before) << "the last run that the user saw";
   EXPECT_TRUE(h.app->session.playing());
   EXPECT_FALSE(h.app->held());
 }
@@ -380,7 +380,7 @@ TEST(HeavyStart, ASceneInsideALinkIsOneWithItsSettings) {
   EXPECT_NE(h.app->session.settings().alpha, 0.3);
 }
 
-TEST(HeavyStart, WhatWouldStopAtOnceIsSaid) {
+TEST(HeavyStart, ARunThatWouldStopAtOnceIsReported) {
   Headless h;
   h.app->open_link("scene=swinging_box&solver=pgs&iterations=100000&mode=const&n=10000");
   EXPECT_FALSE(h.app->session.playing());
@@ -398,7 +398,7 @@ Ball ball_at(const Vec3& position, const Vec3& velocity) {
   return ball;
 }
 
-TEST(Hand, ThrownBallHitsWhatNeverTouchedAnything) {
+TEST(Hand, ThrownBallHitsBodiesOfASceneWithoutContact) {
   Session session(shipped("swinging_box"));
   ASSERT_FALSE(session.scene().effects.contact);
   take(session, 10);
@@ -461,7 +461,7 @@ TEST(Hand, ABallIsThrownInEveryMode) {
   }
 }
 
-TEST(Hand, TheOldestBallGoes) {
+TEST(Hand, TheOldestBallIsRemoved) {
   Session session(shipped("heavy_stack"));
   const std::size_t bodies = session.scene().bodies.size();
   for (int i = 0; i < Ball::kMost + 3; ++i) {

@@ -8,7 +8,7 @@
 namespace substep {
 namespace {
 
-TEST(Settings, WhatActsAtAStartAloneSaysSo) {
+TEST(Settings, ThoseThatActOnlyAtTheStartSaySo) {
   Headless h;
   h.app->open("swinging_box");
   h.app->session.pause();
@@ -22,7 +22,7 @@ TEST(Settings, WhatActsAtAStartAloneSaysSo) {
 }
 
 // The controls show it below the box; the caption of the picture names the active effects.
-TEST(Settings, StormerIsToldToBeLeapfrogWhereItIs) {
+TEST(Settings, StormerIsShownAsLeapfrogWhereItIsReplaced) {
   Headless h;
   h.app->open("pendulum");
   ASSERT_EQ(h.app->set("integrator", "stormer"), "");

@@ -147,7 +147,7 @@ TEST(SavedScene, StartsWhereTheRunIs) {
   }
 }
 
-TEST(SavedScene, AgainAndAgainKeepsOneMark) {
+TEST(SavedScene, SavedRepeatedlyKeepsOneMark) {
   const auto scene = shipped("pendulum");
   Session session(scene);
   session.step();
@@ -158,7 +158,7 @@ TEST(SavedScene, AgainAndAgainKeepsOneMark) {
   EXPECT_EQ(saved.title.find(", from"), saved.title.rfind(", from"));
 }
 
-TEST(SavedScene, AStateBeyondWhatFilesHoldIsToldAndNotSaved) {
+TEST(SavedScene, AStateBeyondTheLimitsOfFilesIsReportedAndNotSaved) {
   Headless h;
   Kept kept;
   kept.serve(*h.app);
@@ -176,7 +176,7 @@ TEST(SavedScene, AStateBeyondWhatFilesHoldIsToldAndNotSaved) {
   }
 }
 
-TEST(OwnScenes, AreThereAtTheNextVisit) {
+TEST(OwnScenes, AreKeptForTheNextVisit) {
   Kept kept;
   {
     Headless h;
@@ -195,7 +195,7 @@ TEST(OwnScenes, AreThereAtTheNextVisit) {
   EXPECT_TRUE(is_own(h.app->session.scene()));
 }
 
-TEST(OwnScenes, LeaveTheShippedOnesAlone) {
+TEST(OwnScenes, DoNotReplaceShippedOnes) {
   Headless h;
   const std::size_t count = h.app->library.scenes().size();
   Scene changed = *shipped("bridge");
@@ -208,7 +208,7 @@ TEST(OwnScenes, LeaveTheShippedOnesAlone) {
   EXPECT_EQ(h.app->session.scene().frame, shipped("bridge")->frame);
 }
 
-TEST(OwnScenes, AreFew) {
+TEST(OwnScenes, AreLimitedInNumber) {
   Headless h;
   for (int i = 0; i < 12; ++i) {
     ASSERT_TRUE(h.app->open_text(renamed(*shipped("pendulum"), "mine" + std::to_string(i)), ""));
@@ -217,7 +217,7 @@ TEST(OwnScenes, AreFew) {
   EXPECT_EQ(h.app->own.scenes().front()->name, "mine11");
 }
 
-TEST(OwnScenes, WhatCannotBeReadIsLeftOut) {
+TEST(OwnScenes, InvalidOnesAreSkipped) {
   const std::string sound = OwnScenes().text();
   for (const char* text : {"", "{", "7", "[1, null, {}]", "[\"no scene\"]", "\xff"}) {
     EXPECT_TRUE(OwnScenes::read(text).scenes().empty()) << text;
@@ -225,7 +225,7 @@ TEST(OwnScenes, WhatCannotBeReadIsLeftOut) {
   EXPECT_EQ(sound, "[]");
 }
 
-TEST(OpenText, HugeBinaryOrBrokenFilesLeaveTheRunAlone) {
+TEST(OpenText, HugeBinaryOrBrokenFilesLeaveTheRunUnchanged) {
   Headless h;
   for (int i = 0; i < 10; ++i) h.app->session.step();
   const auto hash = h.app->session.hash();
@@ -242,7 +242,7 @@ TEST(OpenText, HugeBinaryOrBrokenFilesLeaveTheRunAlone) {
   }
 }
 
-TEST(ShareMenu, OpensAndOffersOnlyWhatTheHostCanDo) {
+TEST(ShareMenu, OffersOnlyWhatTheHostSupports) {
   Headless h;
   h.app->session.pause();
   bool copied = false;
@@ -260,7 +260,7 @@ TEST(ShareMenu, OpensAndOffersOnlyWhatTheHostCanDo) {
   EXPECT_TRUE(copied);
 }
 
-TEST(Notice, GoesAwayByItself) {
+TEST(Notice, DisappearsByItself) {
   Headless h;
   h.app->tell("Link copied");
   h.frames(2);

@@ -46,7 +46,7 @@ constexpr std::size_t kHeadLines = 4;
 
 // A daily sample of the experiments of each scene reproduces the bits in its file. References of
 // 256 sub-steps take longest: each day one scene computes its own.
-TEST(ShippedSweep, ASampleComesToTheSameBits) {
+TEST(ShippedSweep, ASampleReproducesItsBits) {
   const auto day = std::chrono::duration_cast<std::chrono::hours>(
                        std::chrono::system_clock::now().time_since_epoch())
                        .count() /
@@ -85,7 +85,7 @@ TEST(ShippedSweep, ASampleComesToTheSameBits) {
   }
 }
 
-TEST(ShippedSweep, IsOfTheSceneAsItStands) {
+TEST(ShippedSweep, MatchesTheCurrentScene) {
   const Library library = shipped();
   for (const auto& scene : library.scenes()) {
     const std::string text(scenes::sweep_of(scene->name));
@@ -94,12 +94,12 @@ TEST(ShippedSweep, IsOfTheSceneAsItStands) {
     Scene edited = *scene;
     edited.bodies.back().position.x() += 0.25;
     EXPECT_FALSE(read_sweep(text, edited)) << scene->name;
-    EXPECT_FALSE(read_sweep(text.substr(0, text.size() / 2), *scene)) << "cut short";
+    EXPECT_FALSE(read_sweep(text.substr(0, text.size() / 2), *scene)) << "truncated";
   }
   EXPECT_EQ(scenes::sweep_of("nowhere"), "");
 }
 
-TEST(ShippedSweep, TheChartIsThereWhenThePanelOpens) {
+TEST(ShippedSweep, TheChartIsAvailableWhenThePanelOpens) {
   Headless h;
   for (const char* name : {"swinging_box", "bridge", "pendulum"}) {
     ASSERT_EQ(h.app->set("scene", name), "");
@@ -112,7 +112,7 @@ TEST(ShippedSweep, TheChartIsThereWhenThePanelOpens) {
   }
   h.frames(2);
   EXPECT_NE(find_handle("Run again"), nullptr);
-  EXPECT_EQ(find_handle("Time"), nullptr) << "no file knows the times of this machine";
+  EXPECT_EQ(find_handle("Time"), nullptr) << "files have no times of this machine";
   h.press("Run again");
   EXPECT_TRUE(h.app->accuracy.running());
   EXPECT_FALSE(h.app->accuracy.shipped());
@@ -131,7 +131,7 @@ TEST(ShippedSweep, AnOwnSceneHasNone) {
   EXPECT_NE(find_handle("Run all methods"), nullptr);
 }
 
-TEST(ShippedSweep, WhatRanStaysUntilTheShippedOneIsAskedFor) {
+TEST(ShippedSweep, OwnResultsStayUntilTheShippedOnesAreRequested) {
   Headless h;
   sweep_a_rope(h);
   const std::size_t runs = h.app->accuracy.results().size();
@@ -146,7 +146,7 @@ TEST(ShippedSweep, WhatRanStaysUntilTheShippedOneIsAskedFor) {
 }
 
 // The conclusion, derived from the points by hand.
-TEST(ShippedSweep, TheConclusionIsTrue) {
+TEST(ShippedSweep, TheConclusionFollowsFromThePoints) {
   Headless h;
   for (const char* name : {"swinging_box", "bridge", "heavy_stack"}) {
     ASSERT_EQ(h.app->set("scene", name), "");
@@ -182,7 +182,7 @@ TEST(ShippedSweep, TheConclusionIsTrue) {
   }
 }
 
-TEST(ShippedSweep, WhatTheReferenceCannotTellIsOnTheFloor) {
+TEST(ShippedSweep, ErrorsBelowTheUncertaintyAreOnTheFloor) {
   Headless h;
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
   h.frames(1);
@@ -195,7 +195,7 @@ TEST(ShippedSweep, WhatTheReferenceCannotTellIsOnTheFloor) {
                           [&](const auto& p) { return p.error == accuracy.floor(); }));
 }
 
-TEST(ShippedSweep, FiveCurvesAreNamedAndAllAtAPress) {
+TEST(ShippedSweep, FiveCurvesAreNamedAndAllOnAClick) {
   Headless h(1280.0F, 1100.0F);
   ASSERT_EQ(h.app->set("panel", "accuracy"), "");
   h.frames(2);
@@ -213,7 +213,7 @@ TEST(ShippedSweep, FiveCurvesAreNamedAndAllAtAPress) {
 }
 
 // Tooltips are complete at every point: no lines of two characters, nothing outside the display.
-TEST(ShippedSweep, WhatIsReadOffAPointIsWhole) {
+TEST(ShippedSweep, TooltipsOfPointsAreComplete) {
   for (const bool large : {false, true}) {
     Headless h;
     ASSERT_EQ(h.app->set("panel", "accuracy"), "");

@@ -13,7 +13,7 @@
 namespace substep {
 namespace {
 
-TEST(Accuracy, TheMapComesLastAndACellGivesItsFiguresAgain) {
+TEST(Accuracy, TheMapComesLastAndACellReproducesItsFigures) {
   Headless h;
   sweep_a_rope(h);
   ASSERT_TRUE(h.app->accuracy.has_map());

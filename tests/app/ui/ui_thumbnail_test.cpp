@@ -76,7 +76,7 @@ TEST(Thumbnail, NearerFacesAreDrawnLater) {
   scene.bodies.push_back(body);
   body.color = 0x00ff00;
   body.position.z() = 3.0;
-  scene.bodies.insert(scene.bodies.begin(), body);  // the nearer one first
+  scene.bodies.insert(scene.bodies.begin(), body);  // the nearer one is first
   const Thumbnail picture = thumbnail_of(scene, ui::dark_theme().view);
   ASSERT_GE(picture.polygons.size(), 4U);
   EXPECT_GT(picture.polygons.front().color.r, picture.polygons.front().color.g);
@@ -95,7 +95,7 @@ TEST(Thumbnail, OfAHugeSceneStaysSmall) {
 }
 
 // The colours drawn in the open menu, over what is drawn while it is closed.
-TEST(SceneMenu, ShowsPicturesOfScenesAlsoOfAPersonsOwn) {
+TEST(SceneMenu, ShowsPicturesOfShippedAndUsersScenes) {
   Headless h(1280.0F, 1200.0F);
   Scene own = *h.app->library.find("bridge");
   own.name = "mine";

@@ -72,7 +72,7 @@ TEST(TourMarkup, PiecesComeInOrder) {
   EXPECT_TRUE(tour_parts("").empty());
 }
 
-TEST(TourMarkup, WhatIsNotClosedIsText) {
+TEST(TourMarkup, UnclosedMarkupIsText) {
   for (const char* text : {"a { b", "[a](b", "[a] (b)", "a [b", "}"}) {
     const std::vector<TourPart> parts = tour_parts(text);
     ASSERT_EQ(parts.size(), 1U) << text;
@@ -137,7 +137,7 @@ TEST(Tour, EveryPlaceIsInTheWindowThatItsStepOpens) {
   }
 }
 
-TEST(Tour, NoneTearsWhenItSays) {
+TEST(Tour, NoneTearsAtTheStatedTime) {
   Step step(1, 60);
   EXPECT_FALSE(step.session().verdict().holds());
   EXPECT_NEAR(step.session().verdict().failed_at(), 0.35, 0.005);
@@ -255,7 +255,7 @@ TEST(Tour, LeapfrogKeepsTheEnergyToAMillionthAtTheSameCost) {
   EXPECT_TRUE(reply.done) << reply.text;
 }
 
-TEST(Tour, TearsAgainAndAgainInSlowMotion) {
+TEST(Tour, RepeatsTheFailureInSlowMotion) {
   Task task(1);
   task.h.frames(60);
   EXPECT_NEAR(task.h.app->session.state().time, 0.25, 0.05) << "it is not slow";
@@ -292,7 +292,7 @@ TEST(Tour, ANumberThatIsChangedAfterAFailureStartsTheRunAgain) {
   EXPECT_LT(task.h.app->session.state().time, 0.1);
 }
 
-TEST(Tour, GivesBackWhatWasThereBefore) {
+TEST(Tour, RestoresThePreviousRun) {
   Headless h;
   ASSERT_TRUE(h.app->open("bridge"));
   h.app->set("mode", "damping");
@@ -327,7 +327,7 @@ TEST(Tour, GivesBackWhatWasThereBefore) {
   }
 }
 
-TEST(Tour, GivesBackEventsAndTheEndOfAnExperiment) {
+TEST(Tour, RestoresEventsAndTheEndOfAnExperiment) {
   Headless h;
   h.app->session.pause();
   ASSERT_EQ(h.app->set("n", "9"), "");
@@ -370,7 +370,7 @@ TEST(Tour, AnotherSceneEndsIt) {
   EXPECT_EQ(task.h.app->session.speed(), 1.0);
 }
 
-TEST(Tour, WhatItArrangesIsNotKeptForTheNextVisit) {
+TEST(Tour, ItsArrangementIsNotStored) {
   Headless h;
   std::string kept;
   h.app->host.remember = [&](const std::string&, const std::string& value) { kept = value; };

@@ -1,4 +1,4 @@
-// The fair trade: adaptive sub-stepping beside the best constant N, in the window.
+// The fair trade: adaptive sub-stepping compared with the best constant N, in the window.
 
 #include <gtest/gtest.h>
 
@@ -111,7 +111,7 @@ TEST(FairTrade, GrowsWithASweep) {
   EXPECT_EQ(h.app->accuracy.trade().rows.size(), all);
 }
 
-TEST(FairTrade, SaysHowManyAndHowSurely) {
+TEST(FairTrade, StatesTheSavingAndItsUncertainty) {
   Result adaptive;
   adaptive.experiment.settings.alpha = 0.1;
   adaptive.metrics.work.frames = 10;

@@ -10,7 +10,7 @@
 namespace substep {
 namespace {
 
-TEST(VerdictWords, SayWhatTheJudgeSays) {
+TEST(VerdictWords, AgreeWithTheVerdict) {
   EXPECT_EQ(verdict_words("holds"), "Stable");
   EXPECT_EQ(verdict_words("fails at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)"),
             "Failed at 0.352 s: joint gap 0.13 m > 0.1 m (link_3)");
@@ -30,7 +30,7 @@ TEST(VerdictWords, NameTheValueTheLimitAndWhatTheyMean) {
   EXPECT_EQ(exceeded_label({What::kEnergyGain, 0.05, 0.01, ""}), "energy gain 50 mJ");
 }
 
-TEST(Verdict, NothingIsSaidBeforeAFrameWasJudged) {
+TEST(Verdict, NothingIsShownBeforeTheFirstFrame) {
   Session session(shipped("swinging_box"));
   EXPECT_FALSE(session.judged());
   EXPECT_EQ(verdict_note(session.verdict(), session.judged()), "Ready");
@@ -49,7 +49,7 @@ Settings without_substeps(const Session& session) {
   return settings;
 }
 
-TEST(FailedRun, PausesAtItsFailureAndGoesOnWhenAsked) {
+TEST(FailedRun, PausesAtItsFailureAndContinuesOnRequest) {
   Headless h;
   h.app->run(shipped("swinging_box"));
   h.app->change(without_substeps(h.app->session));
@@ -60,10 +60,10 @@ TEST(FailedRun, PausesAtItsFailureAndGoesOnWhenAsked) {
   EXPECT_EQ(h.app->session.state().time, h.app->session.verdict().failed_at());
   h.app->session.play();
   h.frames(30);
-  EXPECT_TRUE(h.app->session.playing()) << "a second time nothing fails";
+  EXPECT_TRUE(h.app->session.playing()) << "it does not fail a second time";
 }
 
-TEST(FailedRun, GoesOnBesideOthersThatItIsComparedWith) {
+TEST(FailedRun, ContinuesBesideComparedRuns) {
   Headless h;
   h.app->run(shipped("swinging_box"));
   ASSERT_EQ(h.app->set("mode", "none"), "");
@@ -80,7 +80,7 @@ TEST(FailedRun, PlaysAgainFromItsStartOnlyIfItPlayed) {
   for (int i = 0; i < 40; ++i) session.step();
   ASSERT_FALSE(session.verdict().holds());
   session.reset();
-  EXPECT_FALSE(session.playing()) << "it went by single frames";
+  EXPECT_FALSE(session.playing()) << "it advanced by single frames";
   session.play();
   for (int i = 0; i < 40; ++i) session.advance(kFrame, 1.0);
   ASSERT_FALSE(session.verdict().holds());
@@ -89,7 +89,7 @@ TEST(FailedRun, PlaysAgainFromItsStartOnlyIfItPlayed) {
   EXPECT_TRUE(session.playing());
 }
 
-TEST(FailedRun, WhatIsLoadedAfterThePastWasLookedAtPlays) {
+TEST(FailedRun, ARunLoadedWhileThePastIsShownPlays) {
   Session session(shipped("swinging_box"));
   session.play();
   for (int i = 0; i < 40; ++i) session.advance(kFrame, 1.0);

@@ -249,7 +249,7 @@ TEST(Trouble, ManyAndLongProblemsStayOnTheDisplay) {
   }
 }
 
-TEST(ReadOut, IsWholeOnTheDisplayAndAsWideAsItsLines) {
+TEST(ReadOut, FitsOnTheDisplayAndIsAsWideAsItsLines) {
   Headless h;
   const std::vector<ui::ReadOutLine> lines{{"BPP, adaptive per frame", 0, true},
                                            {"alpha = 0.1 and a sentence that is longer", 0},
@@ -274,7 +274,7 @@ TEST(ReadOut, IsWholeOnTheDisplayAndAsWideAsItsLines) {
 }
 
 // Dear ImGui's assertions are reported in every build and end no run.
-TEST(Window, AWrongCallOfDearImguiIsToldAndEndsNothing) {
+TEST(Window, AnInvalidCallOfDearImguiIsReportedAndEndsNothing) {
   Headless h;
   ImGui::NewFrame();
   ImGui::Begin("wrong");

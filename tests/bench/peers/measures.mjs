@@ -66,7 +66,7 @@ function penetration(scene, poses) {
 const largest = (frames, measure) => frames.reduce((most, f) => Math.max(most, measure(f.poses)), 0);
 const indexOf = (scene, name) => scene.bodies.findIndex((body) => body.name === name);
 
-/** How a scene failed by its own criteria, in a word; null if it did not. */
+/** How a scene failed by its own criteria, as one word; null if it did not. */
 export function broken(scene, poses) {
   const { joint_gap, displacement } = scene.criteria;
   if (!poses.every((x) => Math.abs(x) < 1e6)) return "explodes";

@@ -28,7 +28,7 @@ PeerArguments read_peer_arguments(int argc, char** argv) {
   for (int i = 4; i < argc; ++i) {
     const std::string text = argv[i];
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) refuse("'" + text + "' is not SETTING=VALUE");
+    if (equals == std::string::npos) refuse("must be SETTING=VALUE, not '" + text + "'");
     arguments.settings.emplace_back(text.substr(0, equals), text.substr(equals + 1));
   }
   return arguments;

@@ -14,7 +14,7 @@ class World {
     Settings settings = arguments.scene->settings;
     for (const auto& [name, value] : arguments.settings) {
       const SettingField* field = find_setting(name);
-      if (!field) bench::refuse("there is no setting '" + name + "'");
+      if (!field) bench::refuse("no setting is called '" + name + "'");
       const auto problem = set_setting(*field, value, settings);
       if (problem) bench::refuse(name + ": " + *problem);
     }

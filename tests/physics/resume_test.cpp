@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(Resume, WhatIsCarried,
                                          by_stormer(scenes::swinging_box())),
                          [](const auto& of) { return of.param.name + "_" + of.param.scene.name; });
 
-TEST_P(WhatIsCarried, GoesOnFromASceneFileBitForBit) {
+TEST_P(WhatIsCarried, ContinuesFromASceneFileBitForBit) {
   const auto& [name, scene, choose, carries] = GetParam();
   Settings settings = own_settings(scene);
   choose(settings);

@@ -52,24 +52,19 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   const std::size_t before = problems.size();
   ObjectReader in(json, pointer, problems);
   std::string name;
-  std::string type;
   if (!in.is_object()) return {};
   in.text("name", kMaxNameSize, name, kRequired);
-  if (!in.text("type", kMaxNameSize, type, kRequired)) return {};
-  std::optional<Joint> joint = make_joint(type);
-  if (!joint) {
-    const std::vector<std::string_view> known(kJointTypes.begin(), kJointTypes.end());
-    in.problem("type", value_text(type) + " is not " + one_of(known));
-    return {};
-  }
-  base(*joint).name = name;
-  read_base(in, bodies, base(*joint));
-  std::visit([&](auto& own) { own_fields(own, OwnFieldReader{in}); }, *joint);
+  const auto type = in.choice("type", kJointTypes, kRequired);
+  if (!type) return {};
+  Joint joint = make_joint(*type);
+  base(joint).name = name;
+  read_base(in, bodies, base(joint));
+  std::visit([&](auto& own) { own_fields(own, OwnFieldReader{in}); }, joint);
   if (problems.size() == before) {
-    if (const auto fault = across_fault(*joint)) in.problem(fault->key, fault->message);
+    if (const auto fault = across_fault(joint)) in.problem(fault->key, fault->message);
   }
   in.finish();
-  return *std::move(joint);
+  return joint;
 }
 
 }  // namespace substep

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/model/scene_limits.hpp"
+
 namespace substep {
 namespace {
 
@@ -40,15 +42,6 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
     }
   }
   return best.empty() ? "" : " (did you mean \"" + std::string(best) + "\"?)";
-}
-
-std::string one_of(const std::vector<std::string_view>& names) {
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
-    list += names[i];
-  }
-  return list;
 }
 
 ObjectReader::ObjectReader(const Json& json, std::string pointer, Problems& problems)
@@ -147,6 +140,17 @@ bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& 
   return false;
 }
 
+std::optional<std::size_t> ObjectReader::choice(std::string_view key,
+                                                std::span<const std::string_view> names,
+                                                Presence presence) {
+  std::string name;
+  if (!text(key, kMaxNameSize, name, presence)) return std::nullopt;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  problem(key, value_text(name) + " is not " + one_of(names));
+  return std::nullopt;
+}
+
 template <class Pointer>
 bool ObjectReader::row(const Json& value, const Pointer& pointer, const Range& range,
                        double* target, std::size_t size) {
@@ -192,6 +196,20 @@ bool ObjectReader::table(std::string_view key, const Range& range, double* targe
 bool ObjectReader::vector(std::string_view key, const Range& range, Vec3& target,
                           Presence presence) {
   return numbers(key, range, target.data(), 3, presence);
+}
+
+const Json* ObjectReader::list(std::string_view key, std::size_t most, Presence presence) {
+  const Json* list = member(key, presence);
+  if (!list) return nullptr;
+  if (!list->is_array()) {
+    problem(key, value_text(*list) + " is not a list");
+    return nullptr;
+  }
+  if (list->size() > most) {
+    problem(key, std::to_string(list->size()) + " are more than " + std::to_string(most));
+    return nullptr;
+  }
+  return list;
 }
 
 void ObjectReader::finish() {

@@ -108,7 +108,7 @@ SceneReading::Part SceneReading::Impl::read_head() {
     scene->recommended = read_recommended(*recommended, in->pointer("recommended"), found);
     if (!has_settings) scene->settings = scene->recommended->settings;
   }
-  bodies = read_list(*in, "bodies", kMaxBodies, kRequired);
+  bodies = in->list("bodies", kMaxBodies, kRequired);
   return Part::kBodies;
 }
 
@@ -130,7 +130,7 @@ SceneReading::Part SceneReading::Impl::read_names() {
   names.emplace(scene->bodies, found);
   read_criteria(*in, *names, *scene, found);
   scene->verdicts = read_verdicts(*in, found);
-  joints = read_list(*in, "joints", kMaxJoints, kOptional);
+  joints = in->list("joints", kMaxJoints, kOptional);
   item = 0;
   return Part::kJoints;
 }

@@ -11,7 +11,6 @@
 
 namespace substep {
 
-/// True if the version is supported. If not, no further problems are reported.
 bool read_version(ObjectReader& in, Problems& problems) {
   const std::size_t before = problems.size();
   std::string format;
@@ -91,34 +90,14 @@ void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, P
     criteria.displacement = displacement;
   }
   criteria.track = read_body_name(in, "track", kOptional);
-  std::string expected = "holds";
-  if (in.text("expected", kMaxNameSize, expected, kOptional)) {
-    if (expected != "holds" && expected != "fails") {
-      in.problem("expected", value_text(expected) + " is not holds or fails");
-    }
-    criteria.holds = expected == "holds";
-  }
+  constexpr std::string_view kOutcomes[] = {"holds", "fails"};
+  const auto expected = in.choice("expected", kOutcomes, kOptional);
+  criteria.holds = !expected || kOutcomes[*expected] == "holds";
   in.finish();
 }
 
-/// The items of a list, or nothing if it is missing, not a list or too long.
-const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, Presence presence) {
-  const Json* list = in.member(key, presence);
-  if (!list) return nullptr;
-  if (!list->is_array()) {
-    in.problem(key, value_text(*list) + " is not a list");
-    return nullptr;
-  }
-  if (list->size() > most) {
-    in.problem(key, std::to_string(list->size()) + " are more than " + std::to_string(most));
-    return nullptr;
-  }
-  return list;
-}
-
-/// The list as it is written. @return whether there is one
 bool read_effects(ObjectReader& in, Scene& scene) {
-  const Json* list = read_list(in, "effects", 100, kOptional);
+  const Json* list = in.list("effects", 100, kOptional);
   if (!list) return in.member("effects", kOptional) != nullptr;
   std::vector<std::string_view> names;
   for (const NamedEffect& effect : kEffectNames) names.push_back(effect.name);
@@ -137,7 +116,6 @@ bool read_effects(ObjectReader& in, Scene& scene) {
   return true;
 }
 
-/// A listed scene must list all that its content needs.
 void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& problems) {
   const Effects& listed = scene.effects;
   const auto missing = [&](std::string_view effect, const std::string& why) {
@@ -152,15 +130,7 @@ void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& proble
 }
 
 void read_start(ObjectReader& in, Scene& scene) {
-  std::string name;
-  if (!in.text("start", kMaxNameSize, name, kOptional)) return;
-  if (const auto policy = value_of<StartPolicy>(name)) {
-    scene.start = *policy;
-    return;
-  }
-  std::vector<std::string_view> names;
-  for (const auto& entry : NameTable<StartPolicy>::entries) names.push_back(entry.name);
-  in.problem("start", value_text(name) + " is not " + one_of(names));
+  scene.start = in.choice<StartPolicy>("start", kOptional).value_or(scene.start);
 }
 
 }  // namespace substep

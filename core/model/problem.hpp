@@ -2,6 +2,7 @@
 // Problems in input data, by location.
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,9 @@ std::string to_string(const Problem& problem);
 
 /// The same with the location in C++ syntax: "bodies[3].mass: must be above 0 (kg), not -1"
 std::string to_code(const Problem& problem);
+
+/// "ball, box or plane"
+std::string one_of(std::span<const std::string_view> names);
 
 /// The pointer of a member: "/bodies" and "a/b" give "/bodies/a~1b" (RFC 6901).
 std::string pointer_to(std::string_view parent, std::string_view key);

@@ -5,6 +5,7 @@
 
 #include "core/model/names.hpp"
 #include "core/model/number_text.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep {
 namespace {
@@ -94,17 +95,6 @@ constexpr std::array kFields{
                  FlagSetting{&S::watch_stiffness}},
 };
 
-template <class Enum>
-std::string list_names() {
-  constexpr auto& entries = NameTable<Enum>::entries;
-  std::string list;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i > 0) list += i + 1 == entries.size() ? " or " : ", ";
-    list += entries[i].name;
-  }
-  return list;
-}
-
 }  // namespace
 
 std::span<const SettingField> setting_fields() { return kFields; }
@@ -124,7 +114,7 @@ std::string allowed_values(const SettingField& field) {
                      std::to_string(f.most);
             },
             [](const NumberSetting& f) { return f.range.text(); },
-            []<class Enum>(const ChoiceSetting<Enum>&) { return list_names<Enum>(); }},
+            []<class Enum>(const ChoiceSetting<Enum>&) { return one_of(kNames<Enum>); }},
       field.member);
 }
 

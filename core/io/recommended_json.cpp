@@ -6,6 +6,7 @@
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
+
 Json recommended_json(const Recommended& recommended) {
   Json json;
   json["of"] = name_of(recommended.of);

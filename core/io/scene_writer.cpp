@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/io/carried_json.hpp"
-#include "core/io/effect_names.hpp"
 #include "core/io/json_print.hpp"
 #include "core/io/recommended_json.hpp"
 #include "core/io/settings_json.hpp"

@@ -13,16 +13,6 @@
 namespace substep {
 namespace {
 
-struct NamedEffect {
-  std::string_view name;
-  bool Effects::*effect;
-};
-constexpr NamedEffect kEffects[] = {
-    {"gravity", &Effects::gravity},   {"gyroscopic", &Effects::gyroscopic},
-    {"joints", &Effects::joints},     {"contact", &Effects::contact},
-    {"friction", &Effects::friction}, {"restitution", &Effects::restitution},
-    {"external", &Effects::external}};
-
 std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) {
   Scene less = scene;
   less.effects.*effect = false;
@@ -33,8 +23,8 @@ std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) 
 /// Budget of each simulator: all keep their memory until the end, so together they share the budget
 /// of one. They are the run, the unchanged scene, and the scene without each effect.
 Budget shared_budget(const Effects& effects, Budget budget) {
-  const auto count = 2 + std::count_if(std::begin(kEffects), std::end(kEffects),
-                                       [&](const NamedEffect& e) { return effects.*e.effect; });
+  const auto count = 2 + std::count_if(kEffectNames.begin(), kEffectNames.end(),
+                                       [&](const NamedEffect& e) { return effects.*e.member; });
   budget.memory /= static_cast<double>(count);
   return budget;
 }
@@ -108,7 +98,7 @@ EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Bu
   const Scene& start = run_.simulator().scene();
   const Budget share = run_.simulator().budget();
   again_.emplace_back(std::make_shared<const Scene>(start), "", share);
-  for (const auto& [name, effect] : kEffects) {
+  for (const auto& [name, effect] : kEffectNames) {
     if (start.effects.*effect) again_.emplace_back(without(start, effect), name, share);
   }
   next_ = again_.size();

@@ -101,16 +101,12 @@ Body read_body(const Json& json, const std::string& pointer, Problems& problems)
   }
   in.vector("position", kPositionRange, body.position, kRequired);
   read_orientation(in, body.orientation);
-  if (body.is_static) {
-    refuse(in, "velocity", std::string(kStaticMoves));
-    refuse(in, "angular_velocity", std::string(kStaticMoves));
-    refuse(in, "force", std::string(kStaticMoves));
-    refuse(in, "torque", std::string(kStaticMoves));
-  } else {
-    in.vector("velocity", kVelocityRange, body.velocity, kOptional);
-    in.vector("angular_velocity", kAngularVelocityRange, body.angular_velocity, kOptional);
-    in.vector("force", kBodyForceRange, body.force, kOptional);
-    in.vector("torque", kBodyTorqueRange, body.torque, kOptional);
+  for (const auto& [key, member, range] : kMotionFields) {
+    if (body.is_static) {
+      refuse(in, key, std::string(kStaticMoves));
+    } else {
+      in.vector(key, range, body.*member, kOptional);
+    }
   }
   in.number("friction", kFrictionRange, body.friction, kOptional);
   in.number("restitution", kRestitutionRange, body.restitution, kOptional);

@@ -225,9 +225,7 @@ class JointTree::Builder {
       if (!b.is_static) fastest = std::max({fastest, b.velocity.norm(), b.angular_velocity.norm()});
     }
     for (const Node& node : tree_.nodes_) {
-      Vec6 apart = tree_.velocity(node.body);
-      apart.head<3>() -= body(node.body).velocity;
-      apart.tail<3>() -= body(node.body).angular_velocity;
+      const Vec6 apart = tree_.velocity(node.body) - velocity_of(body(node.body));
       if (!(apart.norm() <= kTreeConsistent * (1.0 + fastest))) return false;
     }
     return tree_.dy_.allFinite();

@@ -5,7 +5,6 @@
 
 #include "core/model/joint_fields.hpp"
 #include "core/model/number_checks.hpp"
-#include "core/model/scene_limits.hpp"
 
 namespace substep {
 namespace {
@@ -32,20 +31,11 @@ struct ShapeCheck {
 };
 
 void check_motion(const Body& body, const DataPlace& place, Problems& problems) {
-  struct Quantity {
-    const char* key;
-    const Vec3& value;
-    const Range& range;
-  };
-  const Quantity quantities[] = {{"velocity", body.velocity, kVelocityRange},
-                                 {"angular_velocity", body.angular_velocity, kAngularVelocityRange},
-                                 {"force", body.force, kBodyForceRange},
-                                 {"torque", body.torque, kBodyTorqueRange}};
-  for (const Quantity& quantity : quantities) {
-    const DataPlace there = place.at(quantity.key);
+  for (const auto& [key, member, range] : kMotionFields) {
+    const DataPlace there = place.at(key);
     if (!body.is_static) {
-      check_numbers(quantity.value, quantity.range, there, problems);
-    } else if (!(quantity.value == Vec3::Zero())) {
+      check_numbers(body.*member, range, there, problems);
+    } else if (!(body.*member == Vec3::Zero())) {
       problems.push_back({there.pointer(), std::string(kStaticMoves)});
     }
   }
@@ -59,6 +49,18 @@ void check_mass(const Body& body, const DataPlace& place, Problems& problems) {
   if (problems.size() > before) return;
   if (const auto fault = inertia_fault(body.inertia)) problems.push_back({there.pointer(), *fault});
 }
+
+struct OwnFieldCheck {
+  const DataPlace& place;
+  Problems& problems;
+
+  void operator()(const char* key, const Vec3& axis) const {
+    if (const auto fault = axis_fault(axis)) problems.push_back({place.at(key).pointer(), *fault});
+  }
+  void operator()(const char* key, double number, const Range& range) const {
+    check_number(number, range, place.at(key), problems);
+  }
+};
 
 }  // namespace
 
@@ -146,22 +148,6 @@ void check_body(const Body& body, const DataPlace& place, Problems& problems) {
                             std::to_string(kMaxCollisionGroup) + ", or -1 for none"});
   }
 }
-
-namespace {
-
-struct OwnFieldCheck {
-  const DataPlace& place;
-  Problems& problems;
-
-  void operator()(const char* key, const Vec3& axis) const {
-    if (const auto fault = axis_fault(axis)) problems.push_back({place.at(key).pointer(), *fault});
-  }
-  void operator()(const char* key, double number, const Range& range) const {
-    check_number(number, range, place.at(key), problems);
-  }
-};
-
-}  // namespace
 
 void check_joint(const Joint& joint, const std::vector<Body>& bodies, const DataPlace& place,
                  Problems& problems) {

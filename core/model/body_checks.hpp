@@ -10,6 +10,7 @@
 #include "core/model/joint.hpp"
 #include "core/model/place.hpp"
 #include "core/model/problem.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 
@@ -22,6 +23,18 @@ inline constexpr std::string_view kNoInertia =
 inline constexpr std::string_view kMovingPlane =
     "a plane cannot move: its body needs \"static\": true";
 inline constexpr std::string_view kStaticMoves = "a static body never moves";
+
+/// The members of a body that only a moving one has, besides mass and inertia.
+struct MotionField {
+  const char* key;
+  Vec3 Body::*member;
+  Range range;
+};
+inline constexpr MotionField kMotionFields[] = {
+    {"velocity", &Body::velocity, kVelocityRange},
+    {"angular_velocity", &Body::angular_velocity, kAngularVelocityRange},
+    {"force", &Body::force, kBodyForceRange},
+    {"torque", &Body::torque, kBodyTorqueRange}};
 
 /// A fault in the body references of a joint.
 struct SideFault {

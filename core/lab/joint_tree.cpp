@@ -118,21 +118,17 @@ void JointTree::normalise() {
   }
 }
 
-double JointTree::attempt(double most, double tolerance) {
-  if (!integrator_ || tolerance != tolerance_) {
-    integrator_.emplace(tolerance);
-    tolerance_ = tolerance;
-  }
+double JointTree::attempt(double most) {
   const double step =
-      integrator_->attempt([this](const Vector& y, Vector& dy) { slope(y, dy); }, most, y_);
+      integrator_.attempt([this](const Vector& y, Vector& dy) { slope(y, dy); }, most, y_);
   if (step > 0.0) normalise();
   slope(y_, dy_);
   return step;
 }
 
-void JointTree::advance(double seconds, double tolerance) {
+void JointTree::advance(double seconds) {
   double left = seconds;
-  while (left > Extrapolation::kRounding * seconds) left -= attempt(left, tolerance);
+  while (left > Extrapolation::kRounding * seconds) left -= attempt(left);
 }
 
 const JointTree::Motion* JointTree::motion_of(int body) const {

@@ -32,11 +32,12 @@ class JointTree {
   /// tolerance or a frame takes seconds.
   static std::optional<JointTree> of(const Scene& scene);
 
-  /// @param tolerance of a step of the integrator, relative to 1 + |coordinate| [-]
-  void advance(double seconds, double tolerance = kTolerance);
+  /// @param tolerance of the steps from now on, relative to 1 + |coordinate| [-]
+  void set_tolerance(double tolerance) { integrator_ = Extrapolation(tolerance); }
+  void advance(double seconds);
   /// One attempt at a step of the integrator, for callers that must return between steps.
   /// @param most [s] @return time advanced, 0 <= . <= most [s]
-  double attempt(double most, double tolerance = kTolerance);
+  double attempt(double most);
 
   /// Centre of a body of the scene, world [m].
   [[nodiscard]] Vec3 centre(int body) const;
@@ -119,8 +120,7 @@ class JointTree {
   int degrees_ = 0;
   Vector y_;
   Vector dy_;  // scratch
-  std::optional<Extrapolation> integrator_;
-  double tolerance_ = 0.0;
+  Extrapolation integrator_{kTolerance};
 };
 
 }  // namespace substep

@@ -49,7 +49,6 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
       next = static_cast<int>(j);
       Hinge hinge;
       hinge.child = a_is_child ? joint->a : joint->b;
-      hinge.parent = a_is_child ? joint->b : joint->a;
       if (is_fixed(scene, hinge.child)) return std::nullopt;
       hinge.at = at_start(scene, joint->a, joint->anchor_a);
       hinge.axis = body_of(scene, joint->a).orientation * joint->axis_a;
@@ -153,12 +152,8 @@ void PlanarChain::slope(const Vector& y, Vector& dy) const {
   dy.tail(n) = Eigen::LLT<Eigen::MatrixXd, Eigen::Lower>(M).solve(force);
 }
 
-void PlanarChain::advance(double seconds, double tolerance) {
-  if (!integrator_ || tolerance != tolerance_) {
-    integrator_.emplace(tolerance);
-    tolerance_ = tolerance;
-  }
-  integrator_->advance([this](const Vector& y, Vector& dy) { slope(y, dy); }, seconds, y_);
+void PlanarChain::advance(double seconds) {
+  integrator_.advance([this](const Vector& y, Vector& dy) { slope(y, dy); }, seconds, y_);
 }
 
 PlanarChain::Vec2 PlanarChain::centre_in_plane(std::size_t link, const Vector& y) const {

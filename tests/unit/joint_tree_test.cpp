@@ -152,7 +152,8 @@ TEST_P(Trees, ErrorFollowsTheTolerance) {
   const int body = start.bodies() - 1;
   const auto centre_at = [&](double tolerance) {
     JointTree tree = start;
-    tree.advance(1.5, tolerance);
+    tree.set_tolerance(tolerance);
+    tree.advance(1.5);
     return tree.centre(body);
   };
   const Vec3 finest = centre_at(1e-13);

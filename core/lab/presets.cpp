@@ -4,25 +4,13 @@
 #include <array>
 #include <cstdio>
 
+#include "core/model/methods.hpp"
+#include "core/model/problem.hpp"
+
 namespace substep {
 namespace {
 
 constexpr std::string_view kRecommended = "recommended";
-
-const std::array<Preset, 3>& all_presets() {
-  static const std::array<Preset, 3> all{
-      Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once per frame.", {}},
-      Preset{kRecommended,
-             "Up to four sub-steps, then damping: holds 48 of the 49 hard scenes at 15 % of the "
-             "operations of 32 constant sub-steps; damps motions slightly.",
-             {.mode = Mode::kCapped, .n_cap = 4}},
-      Preset{"robust",
-             "Newton's method, implicit, with four sub-steps: holds all 49 hard scenes at three "
-             "quarters of the operations of 32 constant sub-steps; damps motions slightly.",
-             {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
-  };
-  return all;
-}
 
 /// "0.858 mm", "1 m", "3.1 J"
 std::string error_text(double error, ErrorAxis of) {
@@ -46,28 +34,16 @@ std::string count_text(double count) {
   return text;
 }
 
-const char* noun(ErrorAxis of) {
-  switch (of) {
-    case ErrorAxis::kTrajectory:
-      return "the path";
-    case ErrorAxis::kEnergy:
-      return "energy";
-    case ErrorAxis::kGap:
-      return "gaps of joints";
-    case ErrorAxis::kPenetration:
-      return "overlaps";
-    case ErrorAxis::kCount:
-      break;
-  }
-  return "";
-}
+constexpr std::array<const char*, kCountOf<ErrorAxis>> kNouns{"the path", "energy",
+                                                              "gaps of joints", "overlaps"};
 
 /// "For this scene: keeps the path within 1 mm for 8.5 thousand solver operations per frame,
 /// over 10 s. The cheapest of ..."
 std::string about(const Recommended& r) {
   char seconds[40];
   std::snprintf(seconds, sizeof seconds, "%g", r.seconds);
-  std::string text = "For this scene: keeps " + std::string(noun(r.of)) + " within " +
+  std::string text = "For this scene: keeps " +
+                     std::string(kNouns[static_cast<std::size_t>(r.of)]) + " within " +
                      error_text(r.within, r.of) + " over " + seconds + " s, for " +
                      count_text(r.operations) + " solver operations per frame.";
   if (!r.why.empty()) text += " " + r.why;
@@ -76,7 +52,20 @@ std::string about(const Recommended& r) {
 
 }  // namespace
 
-std::span<const Preset> presets() { return all_presets(); }
+std::span<const Preset> presets() {
+  static const std::array all{
+      Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once per frame.", {}},
+      Preset{kRecommended,
+             "Up to four sub-steps, then damping: holds 48 of the 49 hard scenes at 15 % of the "
+             "operations of 32 constant sub-steps; damps motions slightly.",
+             {.mode = Mode::kCapped, .n_cap = 4}},
+      Preset{"robust",
+             "Newton's method, implicit, with four sub-steps: holds all 49 hard scenes at three "
+             "quarters of the operations of 32 constant sub-steps; damps motions slightly.",
+             {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
+  };
+  return all;
+}
 
 std::vector<Preset> presets_for(const Scene& scene) {
   std::vector<Preset> all(presets().begin(), presets().end());
@@ -88,8 +77,7 @@ std::vector<Preset> presets_for(const Scene& scene) {
 }
 
 const Preset* find_preset(std::string_view name) {
-  const auto found = std::find_if(presets().begin(), presets().end(),
-                                  [&](const Preset& preset) { return preset.name == name; });
+  const auto found = std::ranges::find(presets(), name, &Preset::name);
   return found == presets().end() ? nullptr : &*found;
 }
 
@@ -99,12 +87,9 @@ Settings settings_for(const Preset& preset, const Scene& scene) {
 }
 
 std::string preset_names() {
-  std::string names;
-  for (std::size_t i = 0; i < presets().size(); ++i) {
-    if (i > 0) names += i + 1 == presets().size() ? " or " : ", ";
-    names += presets()[i].name;
-  }
-  return names;
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return one_of(names);
 }
 
 }  // namespace substep

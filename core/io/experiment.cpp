@@ -1,10 +1,10 @@
 #include "core/io/experiment.hpp"
 
 #include <cinttypes>
-#include <cstdio>
 
 #include "core/io/scene_writer.hpp"
 #include "core/io/settings_json.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/scene_limits.hpp"
 #include "core/model/setting_fields.hpp"
@@ -26,11 +26,7 @@ bool is_view_only(const SettingField& field) { return field.name == "watch_stiff
 
 }  // namespace
 
-std::string hex_text(std::uint64_t value) {
-  char text[20];
-  std::snprintf(text, sizeof text, "%016" PRIx64, value);
-  return text;
-}
+std::string hex_text(std::uint64_t value) { return format_text("%016" PRIx64, value); }
 
 std::uint64_t scene_hash(const Scene& scene) {
   Scene bare = scene;

@@ -1,12 +1,12 @@
 #include "core/io/stored_sweep.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "core/io/experiment.hpp"
 #include "core/lab/sweep.hpp"
 #include "core/math/hash.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep {
@@ -23,11 +23,7 @@ int round_of(std::size_t along_curve) {
   return along_curve % 2 == 0 ? 1 : 2;
 }
 
-std::string four_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string four_digits(double value) { return format_text("%.4g", value); }
 
 std::string error_text(const std::optional<double>& error) {
   return error ? four_digits(*error) : "-";

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
+#include "core/model/format_text.hpp"
 #include "core/model/methods.hpp"
 #include "core/model/problem.hpp"
 
@@ -16,22 +16,14 @@ constexpr std::string_view kRecommended = "recommended";
 std::string error_text(double error, ErrorAxis of) {
   const bool small = of != ErrorAxis::kEnergy && error < 0.1;
   const char* unit = of == ErrorAxis::kEnergy ? "J" : small ? "mm" : "m";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g %s", small ? 1e3 * error : error, unit);
-  return text;
+  return format_text("%.3g %s", small ? 1e3 * error : error, unit);
 }
 
 /// "86.9 thousand"
 std::string count_text(double count) {
-  char text[40];
-  if (count >= 1e6) {
-    std::snprintf(text, sizeof text, "%.3g million", 1e-6 * count);
-  } else if (count >= 1e3) {
-    std::snprintf(text, sizeof text, "%.3g thousand", 1e-3 * count);
-  } else {
-    std::snprintf(text, sizeof text, "%.3g", count);
-  }
-  return text;
+  if (count >= 1e6) return format_text("%.3g million", 1e-6 * count);
+  if (count >= 1e3) return format_text("%.3g thousand", 1e-3 * count);
+  return format_text("%.3g", count);
 }
 
 constexpr std::array<const char*, kCountOf<ErrorAxis>> kNouns{"the path", "energy",
@@ -40,11 +32,9 @@ constexpr std::array<const char*, kCountOf<ErrorAxis>> kNouns{"the path", "energ
 /// "For this scene: keeps the path within 1 mm for 8.5 thousand solver operations per frame,
 /// over 10 s. The cheapest of ..."
 std::string about(const Recommended& r) {
-  char seconds[40];
-  std::snprintf(seconds, sizeof seconds, "%g", r.seconds);
   std::string text = "For this scene: keeps " +
                      std::string(kNouns[static_cast<std::size_t>(r.of)]) + " within " +
-                     error_text(r.within, r.of) + " over " + seconds + " s, for " +
+                     error_text(r.within, r.of) + format_text(" over %g s, for ", r.seconds) +
                      count_text(r.operations) + " solver operations per frame.";
   if (!r.why.empty()) text += " " + r.why;
   return text;

@@ -1,12 +1,12 @@
 #include "core/lab/recommendation.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <string>
 #include <tuple>
 
-#include "core/lab/three_digits.hpp"
+#include "core/model/format_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {
@@ -38,23 +38,15 @@ std::string reason(std::span<const RunPoint> points, std::span<const Result> res
   const auto runs = std::count_if(results.begin(), results.end(), plain);
   const auto held = std::count_if(results.begin(), results.end(),
                                   [&](const Result& r) { return plain(r) && r.metrics.holds; });
-  char text[200];
-  const int size =
-      std::snprintf(text, sizeof text, "The cheapest of %lld runs, %lld of which hold; ",
-                    static_cast<long long>(runs), static_cast<long long>(held));
-  char* rest = text + size;
-  const std::size_t room = sizeof text - static_cast<std::size_t>(size);
+  const std::string text = format_text("The cheapest of %lld runs, %lld of which hold; ",
+                                       static_cast<long long>(runs), static_cast<long long>(held));
   const auto paper = cheapest_within(of_paper(points, results), within);
-  if (!paper) {
-    std::snprintf(rest, room, "no run of the paper's method reaches this error.");
-  } else if (paper->result == best.result) {
-    std::snprintf(rest, room, "it is the paper's method.");
-  } else {
-    const double times = paper->cost / best.cost;
-    std::snprintf(rest, room, "the paper's method takes %.*f times the work, with alpha %g.",
-                  times < 10.0 ? 1 : 0, times, results[paper->result].experiment.settings.alpha);
-  }
-  return text;
+  if (!paper) return text + "no run of the paper's method reaches this error.";
+  if (paper->result == best.result) return text + "it is the paper's method.";
+  const double times = paper->cost / best.cost;
+  return text + format_text("the paper's method takes %.*f times the work, with alpha %g.",
+                            times < 10.0 ? 1 : 0, times,
+                            results[paper->result].experiment.settings.alpha);
 }
 
 }  // namespace

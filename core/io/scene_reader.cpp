@@ -10,9 +10,8 @@
 #include <utility>
 
 #include "core/io/body_names.hpp"
-#include "core/io/body_reader.hpp"
 #include "core/io/carried_json.hpp"
-#include "core/io/joint_reader.hpp"
+#include "core/io/item_reader.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/io/recommended_json.hpp"
 #include "core/io/scene_sections.hpp"

@@ -68,7 +68,7 @@ class JointTree::Builder {
 
  private:
   [[nodiscard]] const Body& body(int i) const { return scene_.bodies[index(i)]; }
-  [[nodiscard]] bool is_fixed(int i) const { return i == kWorld || body(i).is_static; }
+  [[nodiscard]] bool is_fixed(int i) const { return substep::is_fixed(scene_, i); }
   /// Indices of the joints per body; the world and all static bodies share one list.
   std::vector<std::size_t>& joints_of(int i) {
     return is_fixed(i) ? joints_of_.back() : joints_of_[index(i)];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/lab/energy_scale.hpp"
 
@@ -28,11 +29,8 @@ PeakAndMedian peak_and_median(const std::vector<double>& values) {
 /// True if no external forces act on the moving bodies.
 bool is_isolated(const Scene& scene) {
   if (scene.effects.gravity || scene.effects.external) return false;
-  const auto is_fixed = [&](int body) {
-    return body == kWorld || scene.bodies[index(body)].is_static;
-  };
   for (const Joint& joint : scene.joints) {
-    if (is_fixed(base(joint).a) || is_fixed(base(joint).b)) return false;
+    if (is_fixed(scene, base(joint).a) || is_fixed(scene, base(joint).b)) return false;
   }
   return !scene.effects.contact || std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                                 [](const Body& b) { return b.is_static; });
@@ -105,8 +103,7 @@ Timing Measure::timing(const Scene& scene) const {
   if (warm.size() > 2 * kWarmUp) warm.erase(warm.begin(), warm.begin() + kWarmUp);
   timing.ms_median = 1e3 * quantile(warm, 0.5);
   timing.ms_p95 = 1e3 * quantile(warm, 0.95);
-  double wall = 0.0;
-  for (const double s : warm) wall += s;
+  const double wall = std::accumulate(warm.begin(), warm.end(), 0.0);
   if (wall > 0.0) timing.real_time_factor = static_cast<double>(warm.size()) * scene.frame / wall;
   return timing;
 }

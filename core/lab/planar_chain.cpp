@@ -26,10 +26,6 @@ Vec3 at_start(const Scene& scene, int body, const Vec3& point) {
   return b.position + b.orientation * point;
 }
 
-bool is_fixed(const Scene& scene, int body) {
-  return body == kWorld || body_of(scene, body).is_static;
-}
-
 }  // namespace
 
 std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(const Scene& scene) {

@@ -34,9 +34,7 @@ bool is_sound(const Scene& scene, const SoundParts& sound, std::size_t joint) {
 
 /// The two bodies of a joint, lower first; all that does not move is kWorld.
 std::pair<int, int> sides(const Scene& scene, const JointBase& joint) {
-  int b = joint.b;
-  if (b != kWorld && scene.bodies[index(b)].is_static) b = kWorld;
-  return std::minmax(joint.a, b);
+  return std::minmax({joint.a, is_fixed(scene, joint.b) ? kWorld : joint.b});
 }
 
 /// The fault of two directions that a joint keeps parallel; nothing if they nearly are.

@@ -1,4 +1,4 @@
-#include "core/io/body_reader.hpp"
+#include "core/io/item_reader.hpp"
 
 #include <charconv>
 #include <cstdint>
@@ -6,6 +6,7 @@
 
 #include "core/io/object_reader.hpp"
 #include "core/model/body_checks.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
@@ -80,6 +81,34 @@ void refuse(ObjectReader& in, std::string_view key, const std::string& why) {
   if (in.member(key, kOptional)) in.problem(key, why);
 }
 
+void read_bodies(ObjectReader& in, const BodyNames& bodies, JointBase& joint) {
+  const auto a = bodies.read(in, "a", kRequired);
+  const auto b = bodies.read(in, "b", kRequired);
+  if (a) {
+    const auto fault = side_fault(bodies.bodies(), *a, b.value_or(kWorld));
+    if (fault) in.problem(fault->side, fault->message);
+  }
+  if (a && *a != kWorld) joint.a = *a;
+  if (b) joint.b = *b;
+}
+
+struct OwnFieldReader {
+  ObjectReader& in;
+
+  void operator()(std::string_view key, Vec3& target) const {
+    Vec3 axis;
+    if (!in.vector(key, symmetric(2.0, "-"), axis, kRequired)) return;
+    if (const auto fault = axis_fault(axis)) {
+      in.problem(key, *fault);
+    } else {
+      target = axis;
+    }
+  }
+  void operator()(std::string_view key, double& number, const Range& range) const {
+    in.number(key, range, number, kOptional);
+  }
+};
+
 }  // namespace
 
 Body read_body(const Json& json, const std::string& pointer, Problems& problems) {
@@ -115,6 +144,30 @@ Body read_body(const Json& json, const std::string& pointer, Problems& problems)
   read_color(in, body);
   in.finish();
   return body;
+}
+
+Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& bodies,
+                 Problems& problems) {
+  const std::size_t before = problems.size();
+  ObjectReader in(json, pointer, problems);
+  std::string name;
+  if (!in.is_object()) return {};
+  in.text("name", kMaxNameSize, name, kRequired);
+  const auto type = in.choice("type", kJointTypes, kRequired);
+  if (!type) return {};
+  Joint joint = make_joint(*type);
+  JointBase& j = base(joint);
+  j.name = name;
+  read_bodies(in, bodies, j);
+  in.vector("anchor_a", kPositionRange, j.anchor_a, kRequired);
+  in.vector("anchor_b", kPositionRange, j.anchor_b, kRequired);
+  in.number("compliance", kComplianceRange, j.compliance, kOptional);
+  std::visit([&](auto& own) { own_fields(own, OwnFieldReader{in}); }, joint);
+  if (problems.size() == before) {
+    if (const auto fault = across_fault(joint)) in.problem(fault->key, fault->message);
+  }
+  in.finish();
+  return joint;
 }
 
 }  // namespace substep

@@ -55,7 +55,7 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
     if (!has_mass || problems_of_shape > 0) return;
     body.inertia = solid_inertia(body.shape, body.mass);
     if (!(body.inertia.minCoeff() > 0.0) && !std::holds_alternative<Plane>(body.shape)) {
-      in.problem("inertia", std::string(kNoInertia));
+      in.problem("inertia", "mass and shape are so small that their inertia is 0");
     }
     return;
   }
@@ -86,7 +86,7 @@ void read_bodies(ObjectReader& in, const BodyNames& bodies, JointBase& joint) {
   const auto b = bodies.read(in, "b", kRequired);
   if (a) {
     const auto fault = side_fault(bodies.bodies(), *a, b.value_or(kWorld));
-    if (fault) in.problem(fault->side, fault->message);
+    if (fault) in.problem(fault->key, fault->message);
   }
   if (a && *a != kWorld) joint.a = *a;
   if (b) joint.b = *b;

@@ -151,19 +151,19 @@ std::optional<std::size_t> ObjectReader::choice(std::string_view key,
   return std::nullopt;
 }
 
-template <class Pointer>
-bool ObjectReader::row(const Json& value, const Pointer& pointer, const Range& range,
+bool ObjectReader::row(const Json& value, const DataPlace& place, const Range& range,
                        double* target, std::size_t size) {
   if (!value.is_array() || value.size() != size) {
-    problems_.push_back({pointer(), value_text(value) + " is not a list of " +
-                                        std::to_string(size) + " numbers" + range.unit_text()});
+    problems_.push_back({place.pointer(), value_text(value) + " is not a list of " +
+                                              std::to_string(size) + " numbers" +
+                                              range.unit_text()});
     return false;
   }
   std::vector<double> read(size);
   bool ok = true;
   for (std::size_t i = 0; i < size; ++i) {
     const auto fault = number_fault(value[i], range, read[i]);
-    if (fault) problems_.push_back({pointer_to(pointer(), i), *fault});
+    if (fault) problems_.push_back({place.at(i).pointer(), *fault});
     ok = ok && !fault;
   }
   if (ok) std::copy(read.begin(), read.end(), target);
@@ -173,8 +173,8 @@ bool ObjectReader::row(const Json& value, const Pointer& pointer, const Range& r
 bool ObjectReader::numbers(std::string_view key, const Range& range, double* target,
                            std::size_t size, Presence presence) {
   const Json* value = member(key, presence);
-  return value && row(
-                      *value, [&] { return pointer(key); }, range, target, size);
+  const DataPlace here(pointer_);
+  return value && row(*value, here.at(key), range, target, size);
 }
 
 bool ObjectReader::table(std::string_view key, const Range& range, double* target, std::size_t rows,
@@ -186,9 +186,10 @@ bool ObjectReader::table(std::string_view key, const Range& range, double* targe
     return false;
   }
   bool ok = true;
+  const DataPlace here(pointer_);
+  const DataPlace list = here.at(key);
   for (std::size_t i = 0; i < rows && problems_.size() <= kMaxProblems; ++i) {
-    const auto place = [&] { return pointer_to(pointer(key), i); };
-    ok = row((*value)[i], place, range, target + i * columns, columns) && ok;
+    ok = row((*value)[i], list.at(i), range, target + i * columns, columns) && ok;
   }
   return ok;
 }

@@ -11,6 +11,7 @@
 #include "core/io/json_text.hpp"
 #include "core/math/types.hpp"
 #include "core/model/names.hpp"
+#include "core/model/place.hpp"
 #include "core/model/problem.hpp"
 #include "core/model/range.hpp"
 
@@ -71,9 +72,7 @@ class ObjectReader {
   /// The fault of a number; sets the target if there is none.
   static std::optional<std::string> number_fault(const Json& value, const Range& range,
                                                  double& target);
-  /// @param pointer function returning the row's location, called only for problems
-  template <class Pointer>
-  bool row(const Json& value, const Pointer& pointer, const Range& range, double* target,
+  bool row(const Json& value, const DataPlace& place, const Range& range, double* target,
            std::size_t size);
 
   const Json* json_ = nullptr;

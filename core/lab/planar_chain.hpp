@@ -62,7 +62,6 @@ class PlanarChain {
   void derive();
   /// y = (theta, theta'), dy = (theta', theta'').
   void slope(const Vector& y, Vector& dy) const;
-  [[nodiscard]] Vec2 centre_in_plane(std::size_t link, const Vector& y) const;
 
   std::vector<Link> links_;
   Vec3 anchor_ = Vec3::Zero();  // world [m]

@@ -93,25 +93,23 @@ std::optional<std::string> axis_fault(const Vec3& axis) {
   return not_unit_text(length);
 }
 
-std::optional<DirectionFault> across_fault(const Joint& joint) {
+std::optional<JointFault> across_fault(const Joint& joint) {
   const auto axes = axes_of(joint);
   const auto across = across_of(joint);
   if (!axes || !across) return std::nullopt;
-  const auto fault = [](std::string_view key, const Vec3& axis, const Vec3& v) {
+  const auto fault = [](std::string_view key, const Vec3& axis,
+                        const Vec3& v) -> std::optional<JointFault> {
     const double cosine = std::abs(axis.dot(v));
-    return cosine <= kUnitTolerance
-               ? std::nullopt
-               : std::optional<DirectionFault>({key,
-                                                "is not across the axis: the cosine of their "
-                                                "angle is " +
-                                                    number_text(cosine) + ", which is more than " +
-                                                    number_text(kUnitTolerance)});
+    if (cosine <= kUnitTolerance) return std::nullopt;
+    return JointFault{key, "is not across the axis: the cosine of their angle is " +
+                               number_text(cosine) + ", which is more than " +
+                               number_text(kUnitTolerance)};
   };
   if (auto of_a = fault("across_a", axes->a, across->a)) return of_a;
   return fault("across_b", axes->b, across->b);
 }
 
-std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b) {
+std::optional<JointFault> side_fault(const std::vector<Body>& bodies, int a, int b) {
   const auto unknown = [&](int side) {
     return side != kWorld && (side < 0 || index(side) >= bodies.size());
   };
@@ -119,16 +117,16 @@ std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int 
     return std::to_string(side) + " is not a body: must be from 0 to " +
            std::to_string(bodies.size() - 1) + world;
   };
-  if (bodies.empty()) return SideFault{"a", "the scene has no bodies"};
+  if (bodies.empty()) return JointFault{"a", "the scene has no bodies"};
   if (a == kWorld) {
-    return SideFault{"a", "\"world\" never moves: a must move, b may be static or \"world\""};
+    return JointFault{"a", "\"world\" never moves: a must move, b may be static or \"world\""};
   }
-  if (unknown(a)) return SideFault{"a", no_body(a, "")};
-  if (unknown(b)) return SideFault{"b", no_body(b, ", or -1 for the world")};
+  if (unknown(a)) return JointFault{"a", no_body(a, "")};
+  if (unknown(b)) return JointFault{"b", no_body(b, ", or -1 for the world")};
   if (bodies[index(a)].is_static) {
-    return SideFault{"a", "this body is static: a must move, b may be static or \"world\""};
+    return JointFault{"a", "this body is static: a must move, b may be static or \"world\""};
   }
-  if (a == b) return SideFault{"b", "the same body as a"};
+  if (a == b) return JointFault{"b", "the same body as a"};
   return std::nullopt;
 }
 
@@ -153,7 +151,7 @@ void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Data
                  Problems& problems) {
   const JointBase& j = base(joint);
   if (const auto fault = side_fault(bodies, j.a, j.b)) {
-    problems.push_back({place.at(fault->side).pointer(), fault->message});
+    problems.push_back({place.at(fault->key).pointer(), fault->message});
   }
   check_numbers(j.anchor_a, kPositionRange, place.at("anchor_a"), problems);
   check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);

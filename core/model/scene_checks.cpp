@@ -93,16 +93,15 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
       note(stiff_turning, i, "angular_compliance", "rad/(N m)");
     }
   }
-  if (scene.effects.contact && scene.contact.compliance == 0.0) {
+  const auto check_contacts = [&](bool has_rows, double compliance, const char* pointer) {
+    if (!has_rows || compliance != 0.0) return;
     problems.push_back(
-        {"/contact/compliance",
+        {pointer,
          "must be above 0 (m/N), not 0: a box that lies on its face has redundant contacts"});
-  }
-  if (scene.effects.friction && scene.contact.friction_compliance == 0.0) {
-    problems.push_back(
-        {"/contact/friction_compliance",
-         "must be above 0 (m/N), not 0: a box that lies on its face has redundant contacts"});
-  }
+  };
+  check_contacts(scene.effects.contact, scene.contact.compliance, "/contact/compliance");
+  check_contacts(scene.effects.friction, scene.contact.friction_compliance,
+                 "/contact/friction_compliance");
 }
 
 void check_effects(const Scene& scene, Problems& problems) {

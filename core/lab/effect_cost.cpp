@@ -59,7 +59,7 @@ class EffectCostRun::Again {
   bool advance() {
     const FrameReport report = simulator_.step_some(kPartWork);
     if (simulator_.substeps_left() > 0) return false;
-    frames_.push_back({1e3 * report.times.total, static_cast<double>(report.work.flops),
+    frames_.push_back({without_, 1e3 * report.times.total, static_cast<double>(report.work.flops),
                        static_cast<double>(report.work.row_updates)});
     return true;
   }
@@ -68,29 +68,23 @@ class EffectCostRun::Again {
   [[nodiscard]] EffectCost spared(const Again& whole) const {
     EffectCost cost{without_};
     if (frames_.empty()) return cost;
-    const auto more = [&](double FrameCost::*part) {
+    const auto more = [&](double EffectCost::*part) {
       std::vector<double> list;
       for (std::size_t i = 0; i < frames_.size(); ++i) {
         list.push_back(whole.frames_[i].*part - frames_[i].*part);
       }
       return list;
     };
-    cost.ms = trimmed_mean(more(&FrameCost::ms));
-    cost.flops = mean_of(more(&FrameCost::flops));
-    cost.row_updates = mean_of(more(&FrameCost::row_updates));
+    cost.ms = trimmed_mean(more(&EffectCost::ms));
+    cost.flops = mean_of(more(&EffectCost::flops));
+    cost.row_updates = mean_of(more(&EffectCost::row_updates));
     return cost;
   }
 
  private:
-  struct FrameCost {
-    double ms = 0.0;  // [ms]
-    double flops = 0.0;
-    double row_updates = 0.0;
-  };
-
   Simulator simulator_;
-  std::string_view without_;  // the disabled effect, or ""
-  std::vector<FrameCost> frames_;
+  std::string_view without_;        // the disabled effect, or ""
+  std::vector<EffectCost> frames_;  // each the cost of the whole frame
 };
 
 EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Budget& budget)

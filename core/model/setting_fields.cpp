@@ -100,10 +100,8 @@ constexpr std::array kFields{
 std::span<const SettingField> setting_fields() { return kFields; }
 
 const SettingField* find_setting(std::string_view name) {
-  for (const SettingField& field : kFields) {
-    if (field.name == name) return &field;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(kFields, name, &SettingField::name);
+  return found == kFields.end() ? nullptr : &*found;
 }
 
 std::string allowed_values(const SettingField& field) {

@@ -54,15 +54,9 @@ void check_criteria(const Scene& scene, Problems& problems) {
   const Criteria& criteria = scene.criteria;
   check_number(criteria.duration, kDurationRange, "/criteria/duration", problems);
   check_number(criteria.joint_gap, kDistanceRange, "/criteria/joint_gap", problems);
-  if (criteria.energy_gain) {
-    check_number(*criteria.energy_gain, kEnergyRange, "/criteria/energy_gain", problems);
-  }
-  if (criteria.energy_scale) {
-    check_number(*criteria.energy_scale, kEnergyRange, "/criteria/energy_scale", problems);
-  }
-  if (criteria.window) {
-    check_number(*criteria.window, kDurationRange, "/criteria/window", problems);
-  }
+  check_number(criteria.energy_gain, kEnergyRange, "/criteria/energy_gain", problems);
+  check_number(criteria.energy_scale, kEnergyRange, "/criteria/energy_scale", problems);
+  check_number(criteria.window, kDurationRange, "/criteria/window", problems);
   const auto check_index = [&](int body, const char* pointer) {
     if (auto fault = body_fault(body, scene)) problems.push_back({pointer, std::move(*fault)});
   };
@@ -198,9 +192,7 @@ Problems check_all_values(const Scene& scene, SoundParts& sound) {
     sound.bodies.push_back(problems.size() == before);
   }
   check_criteria(scene, problems);
-  if (scene.camera.width) {
-    check_number(*scene.camera.width, kDistanceRange, "/camera/width", problems);
-  }
+  check_number(scene.camera.width, kDistanceRange, "/camera/width", problems);
   for (std::size_t i = 0; i < scene.joints.size() && problems.size() < kMaxProblems; ++i) {
     const std::size_t before = problems.size();
     check_joint(scene.joints[i], scene.bodies, joints.at(i), problems);

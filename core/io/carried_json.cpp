@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cinttypes>
 #include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "core/model/format_text.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
@@ -71,11 +73,6 @@ void write_pairs(const PairNames& names, const std::vector<Item>& items, Json& j
   json[names.second] = std::move(second);
 }
 
-std::string id_text(std::uint64_t id) {
-  char text[16];
-  return {text, std::to_chars(text, text + sizeof text, id, 16).ptr};
-}
-
 StoredForce read_force(const Json& json, const std::string& pointer, Problems& problems) {
   ObjectReader in(json, pointer, problems);
   StoredForce force;
@@ -129,7 +126,7 @@ Json force_json(const StoredForce& force) {
     tight += kSides[static_cast<std::size_t>(side + 1)];
   tight.erase(tight.find_last_not_of('0') + 1);
   Json json;
-  json["id"] = id_text(force.id);
+  json["id"] = format_text("%" PRIx64, force.id);
   json["lambda"] = rows(force.lambda);
   if (const auto rate = rows(force.rate); !rate.empty()) json["rate"] = rate;
   if (const auto change = rows(force.rate_change); !change.empty()) json["rate_change"] = change;

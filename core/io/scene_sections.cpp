@@ -118,10 +118,7 @@ bool read_effects(ObjectReader& in, Scene& scene) {
 void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& problems) {
   const Effects& listed = scene.effects;
   const auto missing = [&](std::string_view effect, const std::string& why) {
-    std::string message = value_text(effect);
-    message += " is missing, and ";
-    message += why;
-    in.problem("effects", message);
+    in.problem("effects", value_text(effect) + " is missing, and " + why);
   };
   if (!listed.gravity && in.member("gravity", kOptional)) missing("gravity", "/gravity is given");
   if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");

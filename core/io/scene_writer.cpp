@@ -11,6 +11,7 @@
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
 #include "core/model/body_checks.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/model/names.hpp"
 
@@ -32,13 +33,6 @@ struct ShapeWriter {
   }
   void operator()(const Plane&) const { json["type"] = "plane"; }
 };
-
-std::string color_text(std::uint32_t color) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text = "#";
-  for (int shift = 20; shift >= 0; shift -= 4) text += kDigits[(color >> shift) & 15U];
-  return text;
-}
 
 Json body_json(const Body& body) {
   Json json;
@@ -64,7 +58,7 @@ Json body_json(const Body& body) {
   if (body.restitution != 0.0) json["restitution"] = body.restitution;
   if (body.collision_group >= 0) json["collision_group"] = body.collision_group;
   if (!body.collides) json["collides"] = false;
-  if (body.color) json["color"] = color_text(*body.color);
+  if (body.color) json["color"] = format_text("#%06x", *body.color & 0xffffffU);
   return json;
 }
 

@@ -172,23 +172,6 @@ double JointTree::kinetic() const {
   return energy;
 }
 
-double JointTree::potential() const {
-  double energy = 0.0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    energy -= nodes_[i].mass * gravity_.dot(motion_[i].p + motion_[i].r);
-  }
-  return energy;
-}
-
-Vec3 JointTree::angular_momentum(const Vec3& about) const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Motion& m = motion_[i];
-    sum += m.I * m.omega + nodes_[i].mass * (m.p + m.r - about).cross(m.v + m.omega.cross(m.r));
-  }
-  return sum;
-}
-
 double JointTree::stretch() const {
   double sum = 0.0;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {

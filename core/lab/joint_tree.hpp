@@ -48,10 +48,7 @@ class JointTree {
   /// Force at the centre and torque about it with which the joint nearest to the root acts on a
   /// body, world [N, N m]; the joint's own point is not the centre. Zero for a free body.
   [[nodiscard]] Vec6 reaction(int body) const;
-  [[nodiscard]] double kinetic() const;    ///< [J]
-  [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
-  /// Sum of angular momenta about a point of the world [kg m^2/s].
-  [[nodiscard]] Vec3 angular_momentum(const Vec3& about) const;
+  [[nodiscard]] double kinetic() const;  ///< [J]
   /// At most how far the compliances of all joints open under the weights and the forces now [m].
   [[nodiscard]] double stretch() const;
   /// Length of all arms between joints and centres [m].

@@ -181,12 +181,6 @@ double PlanarChain::kinetic() const {
   return energy;
 }
 
-double PlanarChain::potential() const {
-  double energy = 0.0;
-  for (const Link& link : links_) energy -= link.mass * gravity_.dot(centre(link.body));
-  return energy;
-}
-
 double PlanarChain::length() const {
   double length = links_.back().e.norm();
   for (const Link& link : links_) length += link.L.norm();

@@ -30,8 +30,7 @@ class PlanarChain {
 
   /// Centre of a body of the scene, world [m].
   [[nodiscard]] Vec3 centre(int body) const;
-  [[nodiscard]] double kinetic() const;    ///< [J]
-  [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
+  [[nodiscard]] double kinetic() const;  ///< [J]
   /// Weight of all links [N]: how far a compliance can stretch a hinge.
   [[nodiscard]] double weight() const;
   /// Length from the fixed point to the last centre, fully extended [m].

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "core/model/names.hpp"
 #include "core/model/scene_checks.hpp"
 #include "core/model/scene_limits.hpp"
 

@@ -36,6 +36,10 @@ bool is_isolated(const Scene& scene) {
                                                 [](const Body& b) { return b.is_static; });
 }
 
+void raise_to(std::optional<double>& largest, double value) {
+  largest = std::max(largest.value_or(0.0), value);
+}
+
 void add_times(const StageTimes& frame, StageTimes& sum) {
   for (double StageTimes::*stage :
        {&StageTimes::joints, &StageTimes::contact, &StageTimes::friction, &StageTimes::grab,
@@ -84,15 +88,12 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
   if (frame < reference_.track.size() && scene.criteria.track) {
     const Vec3& x = state.x[index(*scene.criteria.track)];
     errors_.trajectory_final = (x - reference_.track[frame]).norm();
-    errors_.trajectory_peak =
-        std::max(errors_.trajectory_peak.value_or(0.0), *errors_.trajectory_final);
+    raise_to(errors_.trajectory_peak, *errors_.trajectory_final);
   }
   if (momentum_at_start_) {
     const Momenta now = momenta_of(scene, state);
-    errors_.linear_momentum_drift = std::max(errors_.linear_momentum_drift.value_or(0.0),
-                                             (now.linear - momentum_at_start_->linear).norm());
-    errors_.angular_momentum_drift = std::max(errors_.angular_momentum_drift.value_or(0.0),
-                                              (now.angular - momentum_at_start_->angular).norm());
+    raise_to(errors_.linear_momentum_drift, (now.linear - momentum_at_start_->linear).norm());
+    raise_to(errors_.angular_momentum_drift, (now.angular - momentum_at_start_->angular).norm());
   }
 }
 

@@ -10,13 +10,6 @@
 namespace substep {
 namespace {
 
-template <class... Cases>
-struct Match : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Match(Cases...) -> Match<Cases...>;
-
 using S = Settings;
 
 constexpr std::array kFields{
@@ -95,6 +88,44 @@ constexpr std::array kFields{
                  FlagSetting{&S::watch_stiffness}},
 };
 
+std::string allowed(const FlagSetting&) { return "true or false"; }
+std::string allowed(const CountSetting& f) {
+  return "a whole number from " + std::to_string(f.least) + " to " + std::to_string(f.most);
+}
+std::string allowed(const NumberSetting& f) { return f.range.text(); }
+template <class Enum>
+std::string allowed(const ChoiceSetting<Enum>&) {
+  return one_of(kNames<Enum>);
+}
+
+std::string written(bool value) { return value ? "true" : "false"; }
+std::string written(int value) { return std::to_string(value); }
+std::string written(double value) { return number_text(value); }
+template <class Enum>
+std::string written(Enum value) {
+  return std::string(name_of(value));
+}
+
+// The value that a text states, or nothing if it is not allowed.
+std::optional<bool> parsed(const FlagSetting&, std::string_view text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  return std::nullopt;
+}
+std::optional<int> parsed(const CountSetting& f, std::string_view text) {
+  const auto value = parse_integer(text);
+  if (!value || *value < f.least || *value > f.most) return std::nullopt;
+  return static_cast<int>(*value);
+}
+std::optional<double> parsed(const NumberSetting& f, std::string_view text) {
+  const auto value = parse_number(text);
+  return value && f.range.contains(*value) ? value : std::nullopt;
+}
+template <class Enum>
+std::optional<Enum> parsed(const ChoiceSetting<Enum>&, std::string_view text) {
+  return value_of<Enum>(text);
+}
+
 }  // namespace
 
 std::span<const SettingField> setting_fields() { return kFields; }
@@ -105,15 +136,7 @@ const SettingField* find_setting(std::string_view name) {
 }
 
 std::string allowed_values(const SettingField& field) {
-  return std::visit(
-      Match{[](const FlagSetting&) -> std::string { return "true or false"; },
-            [](const CountSetting& f) {
-              return "a whole number from " + std::to_string(f.least) + " to " +
-                     std::to_string(f.most);
-            },
-            [](const NumberSetting& f) { return f.range.text(); },
-            []<class Enum>(const ChoiceSetting<Enum>&) { return one_of(kNames<Enum>); }},
-      field.member);
+  return std::visit([](const auto& f) { return allowed(f); }, field.member);
 }
 
 std::string refusal(const SettingField& field, const std::string& value) {
@@ -130,44 +153,18 @@ bool is_choice(const SettingField& field) {
 }
 
 std::string setting_text(const SettingField& field, const Settings& settings) {
-  return std::visit(Match{[&](const FlagSetting& f) -> std::string {
-                            return settings.*f.member ? "true" : "false";
-                          },
-                          [&](const CountSetting& f) { return std::to_string(settings.*f.member); },
-                          [&](const NumberSetting& f) { return number_text(settings.*f.member); },
-                          [&]<class Enum>(const ChoiceSetting<Enum>& f) {
-                            return std::string(name_of(settings.*f.member));
-                          }},
-                    field.member);
+  return std::visit([&](const auto& f) { return written(settings.*f.member); }, field.member);
 }
 
 std::optional<std::string> set_setting(const SettingField& field, std::string_view text,
                                        Settings& settings) {
-  const bool ok = std::visit(Match{[&](const FlagSetting& f) {
-                                     if (text == "true") return settings.*f.member = true;
-                                     if (text == "false") return !(settings.*f.member = false);
-                                     return false;
-                                   },
-                                   [&](const CountSetting& f) {
-                                     const auto value = parse_integer(text);
-                                     if (!value || *value < f.least || *value > f.most)
-                                       return false;
-                                     settings.*f.member = static_cast<int>(*value);
-                                     return true;
-                                   },
-                                   [&](const NumberSetting& f) {
-                                     const auto value = parse_number(text);
-                                     if (!value || !f.range.contains(*value)) return false;
-                                     settings.*f.member = *value;
-                                     return true;
-                                   },
-                                   [&]<class Enum>(const ChoiceSetting<Enum>& f) {
-                                     const auto value = value_of<Enum>(text);
-                                     if (!value) return false;
-                                     settings.*f.member = *value;
-                                     return true;
-                                   }},
-                             field.member);
+  const bool ok = std::visit(
+      [&](const auto& f) {
+        const auto value = parsed(f, text);
+        if (value) settings.*f.member = *value;
+        return value.has_value();
+      },
+      field.member);
   if (ok) return std::nullopt;
   return refusal(field, std::string(text));
 }

@@ -88,13 +88,13 @@ constexpr std::array kFields{
                  FlagSetting{&S::watch_stiffness}},
 };
 
-std::string allowed(const FlagSetting&) { return "true or false"; }
-std::string allowed(const CountSetting& f) {
+std::string allowed_by(const FlagSetting&) { return "true or false"; }
+std::string allowed_by(const CountSetting& f) {
   return "a whole number from " + std::to_string(f.least) + " to " + std::to_string(f.most);
 }
-std::string allowed(const NumberSetting& f) { return f.range.text(); }
+std::string allowed_by(const NumberSetting& f) { return f.range.text(); }
 template <class Enum>
-std::string allowed(const ChoiceSetting<Enum>&) {
+std::string allowed_by(const ChoiceSetting<Enum>&) {
   return one_of(kNames<Enum>);
 }
 
@@ -136,7 +136,7 @@ const SettingField* find_setting(std::string_view name) {
 }
 
 std::string allowed_values(const SettingField& field) {
-  return std::visit([](const auto& f) { return allowed(f); }, field.member);
+  return std::visit([](const auto& f) { return allowed_by(f); }, field.member);
 }
 
 std::string refusal(const SettingField& field, const std::string& value) {

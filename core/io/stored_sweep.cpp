@@ -116,6 +116,15 @@ bool read_line(std::string_view line, std::int64_t frames, Metrics& m) {
   return in.ok();
 }
 
+/// Id of the experiments in this order.
+std::string plan_id(std::span<const Experiment> experiments) {
+  Hash hash;
+  for (const Experiment& experiment : experiments) {
+    for (const char c : experiment_id(experiment)) hash.add(static_cast<std::uint64_t>(c));
+  }
+  return hex_text(hash.value());
+}
+
 }  // namespace
 
 std::vector<Experiment> quick_sweep(const Scene& scene) {
@@ -134,14 +143,6 @@ std::vector<Experiment> quick_sweep(const Scene& scene) {
   std::vector<Experiment> all;
   for (const auto& round : rounds) all.insert(all.end(), round.begin(), round.end());
   return all;
-}
-
-std::string plan_id(std::span<const Experiment> experiments) {
-  Hash hash;
-  for (const Experiment& experiment : experiments) {
-    for (const char c : experiment_id(experiment)) hash.add(static_cast<std::uint64_t>(c));
-  }
-  return hex_text(hash.value());
 }
 
 std::string sweep_text(std::span<const Result> results, const ReferenceSummary& reference) {

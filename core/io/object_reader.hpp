@@ -18,8 +18,7 @@
 namespace substep {
 
 enum class Presence { kRequired, kOptional };
-inline constexpr Presence kRequired = Presence::kRequired;
-inline constexpr Presence kOptional = Presence::kOptional;
+using enum Presence;
 
 /// Members that are read are known; finish() reports all others. A missing or invalid member leaves
 /// its target unchanged. Each function returns true if it set its target.

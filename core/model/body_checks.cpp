@@ -109,20 +109,21 @@ std::optional<JointFault> across_fault(const Joint& joint) {
   return fault("across_b", axes->b, across->b);
 }
 
+std::optional<std::string> body_fault(const std::vector<Body>& bodies, int body) {
+  if (bodies.empty()) return "the scene has no bodies";
+  if (body >= 0 && index(body) < bodies.size()) return std::nullopt;
+  return std::to_string(body) + " is not a body: must be from 0 to " +
+         std::to_string(bodies.size() - 1);
+}
+
 std::optional<JointFault> side_fault(const std::vector<Body>& bodies, int a, int b) {
-  const auto unknown = [&](int side) {
-    return side != kWorld && (side < 0 || index(side) >= bodies.size());
-  };
-  const auto no_body = [&](int side, const char* world) {
-    return std::to_string(side) + " is not a body: must be from 0 to " +
-           std::to_string(bodies.size() - 1) + world;
-  };
-  if (bodies.empty()) return JointFault{"a", "the scene has no bodies"};
-  if (a == kWorld) {
+  if (a == kWorld && !bodies.empty()) {
     return JointFault{"a", "\"world\" never moves: a must move, b may be static or \"world\""};
   }
-  if (unknown(a)) return JointFault{"a", no_body(a, "")};
-  if (unknown(b)) return JointFault{"b", no_body(b, ", or -1 for the world")};
+  if (const auto fault = body_fault(bodies, a)) return JointFault{"a", *fault};
+  if (const auto fault = body_fault(bodies, b); fault && b != kWorld) {
+    return JointFault{"b", *fault + ", or -1 for the world"};
+  }
   if (bodies[index(a)].is_static) {
     return JointFault{"a", "this body is static: a must move, b may be static or \"world\""};
   }

@@ -34,6 +34,9 @@ inline constexpr MotionField kMotionFields[] = {
     {"force", &Body::force, kBodyForceRange},
     {"torque", &Body::torque, kBodyTorqueRange}};
 
+/// The fault of an index of a body, or nothing.
+std::optional<std::string> body_fault(const std::vector<Body>& bodies, int body);
+
 /// A fault of one member of a joint.
 struct JointFault {
   std::string_view key;

@@ -33,14 +33,6 @@ bool check_count(std::size_t count, std::size_t most, const std::string& pointer
   return false;
 }
 
-/// The fault of an index into Scene::bodies, or nothing.
-std::optional<std::string> body_fault(int body, const Scene& scene) {
-  if (body >= 0 && index(body) < scene.bodies.size()) return std::nullopt;
-  if (scene.bodies.empty()) return "the scene has no bodies";
-  return std::to_string(body) + " is not a body: must be from 0 to " +
-         std::to_string(scene.bodies.size() - 1);
-}
-
 void check_contact(const ContactModel& contact, Problems& problems) {
   check_number(contact.compliance, kComplianceRange, "/contact/compliance", problems);
   check_number(contact.friction_compliance, kComplianceRange, "/contact/friction_compliance",
@@ -58,7 +50,9 @@ void check_criteria(const Scene& scene, Problems& problems) {
   check_number(criteria.energy_scale, kEnergyRange, "/criteria/energy_scale", problems);
   check_number(criteria.window, kDurationRange, "/criteria/window", problems);
   const auto check_index = [&](int body, const char* pointer) {
-    if (auto fault = body_fault(body, scene)) problems.push_back({pointer, std::move(*fault)});
+    if (auto fault = body_fault(scene.bodies, body)) {
+      problems.push_back({pointer, std::move(*fault)});
+    }
   };
   if (criteria.displacement) {
     check_index(criteria.displacement->body, "/criteria/displacement/body");
@@ -269,7 +263,7 @@ Problems validate(const State& state, const Scene& scene) {
 
 Problems validate(const Grab& grab, const Scene& scene) {
   Problems problems;
-  if (auto fault = body_fault(grab.body, scene)) {
+  if (auto fault = body_fault(scene.bodies, grab.body)) {
     problems.push_back({"/grab/body", std::move(*fault)});
   } else if (scene.bodies[index(grab.body)].is_static) {
     problems.push_back({"/grab/body", "this body is static: what is held can move"});

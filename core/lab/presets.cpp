@@ -67,7 +67,8 @@ std::vector<Preset> presets_for(const Scene& scene) {
 }
 
 const Preset* find_preset(std::string_view name) {
-  const auto found = std::ranges::find(presets(), name, &Preset::name);
+  const auto found = std::find_if(presets().begin(), presets().end(),
+                                  [&](const Preset& preset) { return preset.name == name; });
   return found == presets().end() ? nullptr : &*found;
 }
 

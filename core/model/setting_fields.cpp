@@ -131,7 +131,8 @@ std::optional<Enum> parsed(const ChoiceSetting<Enum>&, std::string_view text) {
 std::span<const SettingField> setting_fields() { return kFields; }
 
 const SettingField* find_setting(std::string_view name) {
-  const auto found = std::ranges::find(kFields, name, &SettingField::name);
+  const auto found = std::find_if(kFields.begin(), kFields.end(),
+                                  [&](const SettingField& field) { return field.name == name; });
   return found == kFields.end() ? nullptr : &*found;
 }
 

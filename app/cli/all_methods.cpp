@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "app/cli/format_text.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/parallel_sweep.hpp"
 #include "app/cli/progress_line.hpp"
 #include "core/io/experiment.hpp"
+#include "core/model/format_text.hpp"
 
 namespace substep::cli {
 

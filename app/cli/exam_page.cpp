@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "app/cli/exam_report.hpp"
-#include "app/cli/format_text.hpp"
 #include "core/io/xml_text.hpp"
+#include "core/model/format_text.hpp"
 
 namespace substep::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/cli/format_text.hpp"
+#include "core/model/format_text.hpp"
 
 namespace substep::cli {
 namespace {

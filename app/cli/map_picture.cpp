@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/format_text.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep::cli {

@@ -11,7 +11,6 @@
 #include "app/cli/all_methods.hpp"
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/format_text.hpp"
 #include "app/cli/length_flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
@@ -23,6 +22,7 @@
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
 #include "core/lab/sweep.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/names.hpp"
 #include "core/model/setting_fields.hpp"
 

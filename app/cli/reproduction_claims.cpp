@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "app/cli/format_text.hpp"
 #include "app/cli/reproduction_cards.hpp"
 #include "app/cli/reproduction_runs.hpp"
+#include "core/model/format_text.hpp"
 #include "scenes/generator/scenes.hpp"
 
 namespace substep::cli {

@@ -6,7 +6,7 @@
 #include <system_error>
 #include <thread>
 
-#include "app/cli/format_text.hpp"
+#include "core/model/format_text.hpp"
 
 namespace substep::cli {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cinttypes>
 
-#include "app/cli/format_text.hpp"
 #include "core/lab/energy_scale.hpp"
 #include "core/lab/experiment.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/names.hpp"
 #include "core/model/number_text.hpp"
 #include "core/stepping/substep_clock.hpp"

@@ -4,8 +4,8 @@
 
 #include "app/cli/commands.hpp"
 #include "app/cli/scene_source.hpp"
-#include "core/io/effect_names.hpp"
 #include "core/io/json.hpp"
+#include "core/model/effects.hpp"
 
 namespace substep::cli {
 namespace {

@@ -19,7 +19,7 @@
 
 #include "app/text/byte_text.hpp"
 #include "app/text/letters.hpp"
-#include "core/io/effect_names.hpp"
+#include "core/model/effects.hpp"
 #include "core/model/scene_limits.hpp"
 #include "core/model/setting_fields.hpp"
 #include "core/model/validate.hpp"

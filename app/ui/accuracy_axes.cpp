@@ -18,8 +18,8 @@ constexpr float kFootHeight = 38.0F;   // labels of the costs, and the axis titl
 constexpr float kRail = 20.0F;         // the failed runs
 constexpr float kFloorHeight = 18.0F;  // minimum height of the shaded part
 
-LogRange range_of(const std::vector<Point>& a, const std::vector<Point>& b,
-                  double CostAndError::*value, double margin) {
+LogRange range_of(const std::vector<Point>& a, const std::vector<Point>& b, double RunPoint::*value,
+                  double margin) {
   LogRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const std::vector<Point>* list : {&a, &b}) {
     for (const Point& p : *list) {
@@ -83,8 +83,8 @@ AccuracyAxes accuracy_axes(const Accuracy& accuracy, const std::vector<Point>& p
                            const std::vector<Point>& failed, ImVec2 origin, ImVec2 size) {
   AccuracyAxes axes{{origin.x + kErrorGutter, origin.y + kRail + 8.0F},
                     {origin.x + size.x - 12.0F, origin.y + size.y - kFootHeight},
-                    range_of(points, failed, &CostAndError::cost, 0.04),
-                    with_two_decades(range_of(points, {}, &CostAndError::error, 0.05))};
+                    range_of(points, failed, &RunPoint::cost, 0.04),
+                    with_two_decades(range_of(points, {}, &RunPoint::error, 0.05))};
   const double floor = accuracy.floor();
   if (floor > 0.0 && std::log10(floor) > axes.error.low) {
     const double share =

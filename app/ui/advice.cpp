@@ -26,20 +26,20 @@ void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Po
                     "The limited quantity; the other one is minimised")) {
     accuracy.error_is_given = given == 0;
   }
-  const auto limits = [&](double CostAndError::*member) {
+  const auto limits = [&](double RunPoint::*member) {
     const auto [least, most] =
         std::minmax_element(points.begin(), points.end(),
                             [&](const auto& p, const auto& q) { return p.*member < q.*member; });
     return std::pair((*least).*member, (*most).*member);
   };
   if (accuracy.error_is_given) {
-    const auto [least, most] = limits(&CostAndError::error);
+    const auto [least, most] = limits(&RunPoint::error);
     power_slider(look, accuracy.error == ErrorAxis::kEnergy ? "Error, J" : "Error, m",
                  accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), least, most,
                  "The largest permitted error. The cheapest setting within it is below");
   } else {
     const auto cost = static_cast<std::size_t>(accuracy.cost);
-    const auto [least, most] = limits(&CostAndError::cost);
+    const auto [least, most] = limits(&RunPoint::cost);
     power_slider(
         look, kBudgetNames.at(cost), accuracy.budget.at(cost), least, most,
         "The largest permitted cost per frame. The most accurate setting within it is below");

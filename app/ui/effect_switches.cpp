@@ -9,7 +9,7 @@
 #include "app/text/format.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/io/effect_names.hpp"
+#include "core/model/effects.hpp"
 
 namespace substep::ui {
 namespace {

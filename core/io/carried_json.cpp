@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cinttypes>
 #include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "core/model/format_text.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
@@ -14,12 +16,6 @@ namespace {
 
 constexpr std::string_view kSides = "-0+?";  // of StoredForce::active_set from -1 on; ?: not known
 constexpr std::size_t kRows = std::size(StoredForce{}.lambda);
-
-Vec6 velocity_of(const Body& body) {
-  Vec6 u;
-  u << body.velocity, body.angular_velocity;
-  return u;
-}
 
 /// One item per body, with the numbers of an Item; matrices by columns.
 template <class Item>
@@ -40,41 +36,41 @@ Json items_json(const std::vector<Item>& items) {
   return list;
 }
 
-/// The last sub-step of every body, if islands have their own.
-void read_own(ObjectReader& in, std::size_t bodies, std::vector<OwnSubstep>& own) {
-  std::vector<double> dt(bodies);
-  std::vector<double> r(bodies);
-  const bool has_dt =
-      in.numbers("own_dt_previous", not_negative(1.0, "s"), dt.data(), bodies, kOptional);
-  const bool has_r = in.numbers("own_r", kStiffnessOverMassRange, r.data(), bodies, kOptional);
-  if ((in.member("own_r", kOptional) == nullptr) !=
-      (in.member("own_dt_previous", kOptional) == nullptr)) {
-    in.problem("own_r", "own_r and own_dt_previous must be given together");
+/// The names of two lists that belong together: an item of each per body.
+struct PairNames {
+  const char* first;
+  const char* second;
+};
+constexpr PairNames kOwn{"own_dt_previous", "own_r"};
+constexpr PairNames kRotation{"rotation_before", "rotation_now"};
+
+template <class Item>
+void read_pairs(ObjectReader& in, const PairNames& names, const Range& first_range,
+                std::size_t bodies, std::vector<Item>& items) {
+  std::vector<double> first(bodies);
+  std::vector<double> second(bodies);
+  const bool has_first = in.numbers(names.first, first_range, first.data(), bodies, kOptional);
+  const bool has_second =
+      in.numbers(names.second, kStiffnessOverMassRange, second.data(), bodies, kOptional);
+  if ((in.member(names.first, kOptional) == nullptr) !=
+      (in.member(names.second, kOptional) == nullptr)) {
+    in.problem(names.second,
+               std::string(names.second) + " and " + names.first + " must be given together");
   }
-  if (!has_dt || !has_r) return;
-  for (std::size_t i = 0; i < bodies; ++i) own.push_back({dt[i], r[i]});
+  if (!has_first || !has_second) return;
+  for (std::size_t i = 0; i < bodies; ++i) items.push_back({first[i], second[i]});
 }
 
-/// How fast every body has rotated lately.
-void read_rotation(ObjectReader& in, std::size_t bodies, Carried& carried) {
-  std::vector<double> before(bodies);
-  std::vector<double> now(bodies);
-  const bool has_before =
-      in.numbers("rotation_before", kStiffnessOverMassRange, before.data(), bodies, kOptional);
-  const bool has_now =
-      in.numbers("rotation_now", kStiffnessOverMassRange, now.data(), bodies, kOptional);
-  in.number("rotation_age", not_negative(10.0, "s"), carried.rotation_age, kOptional);
-  if ((in.member("rotation_before", kOptional) == nullptr) !=
-      (in.member("rotation_now", kOptional) == nullptr)) {
-    in.problem("rotation_now", "rotation_now and rotation_before must be given together");
+template <class Item>
+void write_pairs(const PairNames& names, const std::vector<Item>& items, Json& json) {
+  Json first = Json::array();
+  Json second = Json::array();
+  for (const auto& [a, b] : items) {
+    first.push_back(a);
+    second.push_back(b);
   }
-  if (!has_before || !has_now) return;
-  for (std::size_t i = 0; i < bodies; ++i) carried.rotation.push_back({before[i], now[i]});
-}
-
-std::string id_text(std::uint64_t id) {
-  char text[16];
-  return {text, std::to_chars(text, text + sizeof text, id, 16).ptr};
+  json[names.first] = std::move(first);
+  json[names.second] = std::move(second);
 }
 
 StoredForce read_force(const Json& json, const std::string& pointer, Problems& problems) {
@@ -131,7 +127,7 @@ Json force_json(const StoredForce& force) {
     tight += kSides[static_cast<std::size_t>(side + 1)];
   tight.erase(tight.find_last_not_of('0') + 1);
   Json json;
-  json["id"] = id_text(force.id);
+  json["id"] = format_text("%" PRIx64, force.id);
   json["lambda"] = rows(force.lambda);
   if (const auto rate = rows(force.rate); !rate.empty()) json["rate"] = rate;
   if (const auto change = rows(force.rate_change); !change.empty()) json["rate_change"] = change;
@@ -161,8 +157,9 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   read_items(in, "torque_change", kForceRange, n, carried.torque_change);
   read_items(in, "k", kStiffnessRange, n, carried.k);
   read_items(in, "k_resisting", kStiffnessRange, n, carried.K_resisting);
-  read_own(in, n, carried.own);
-  read_rotation(in, n, carried);
+  read_pairs(in, kOwn, not_negative(1.0, "s"), n, carried.own);
+  read_pairs(in, kRotation, kStiffnessOverMassRange, n, carried.rotation);
+  in.number("rotation_age", not_negative(10.0, "s"), carried.rotation_age, kOptional);
   for (const char* key : {"k", "k_resisting"}) {
     if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "requires r");
   }
@@ -201,25 +198,9 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
     if (!carried.k.empty()) json["k"] = items_json(carried.k);
     if (!carried.K_resisting.empty()) json["k_resisting"] = items_json(carried.K_resisting);
   }
-  if (!carried.own.empty()) {
-    Json dt = Json::array();
-    Json r = Json::array();
-    for (const OwnSubstep& last : carried.own) {
-      dt.push_back(last.dt_previous);
-      r.push_back(last.r);
-    }
-    json["own_dt_previous"] = std::move(dt);
-    json["own_r"] = std::move(r);
-  }
+  if (!carried.own.empty()) write_pairs(kOwn, carried.own, json);
   if (!carried.rotation.empty()) {
-    Json before = Json::array();
-    Json now = Json::array();
-    for (const RotationPeak& peak : carried.rotation) {
-      before.push_back(peak.before);
-      now.push_back(peak.now);
-    }
-    json["rotation_before"] = std::move(before);
-    json["rotation_now"] = std::move(now);
+    write_pairs(kRotation, carried.rotation, json);
     json["rotation_age"] = carried.rotation_age;
   }
   if (!carried.acceleration.empty()) json["acceleration"] = items_json(carried.acceleration);

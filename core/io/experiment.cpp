@@ -1,10 +1,10 @@
 #include "core/io/experiment.hpp"
 
 #include <cinttypes>
-#include <cstdio>
 
 #include "core/io/scene_writer.hpp"
 #include "core/io/settings_json.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/scene_limits.hpp"
 #include "core/model/setting_fields.hpp"
@@ -22,15 +22,9 @@ std::uint64_t text_hash(std::string_view text) {
   return value;
 }
 
-bool is_view_only(const SettingField& field) { return field.name == "watch_stiffness"; }
-
 }  // namespace
 
-std::string hex_text(std::uint64_t value) {
-  char text[20];
-  std::snprintf(text, sizeof text, "%016" PRIx64, value);
-  return text;
-}
+std::string hex_text(std::uint64_t value) { return format_text("%016" PRIx64, value); }
 
 std::uint64_t scene_hash(const Scene& scene) {
   Scene bare = scene;
@@ -43,8 +37,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   bare.settings = Settings{};
   bare.recommended.reset();
   // Not the text of settings either: a setting added later must leave the hash.
-  const auto json = Json::parse(write_scene(bare), nullptr, false);
-  Json content = json;
+  Json content = Json::parse(write_scene(bare), nullptr, false);
   content.erase("settings");
   content.erase("camera");
   return text_hash(content.dump(-1, ' ', false, Json::error_handler_t::replace));
@@ -65,8 +58,9 @@ std::string experiment_id(const Experiment& experiment) {
   std::string text = experiment.scene + ' ' + hex_text(experiment.scene_hash);
   const Settings defaults;
   for (const SettingField& field : setting_fields()) {
+    if (field.name == "watch_stiffness") continue;  // display only
     const std::string value = setting_text(field, experiment.settings);
-    if (is_view_only(field) || value == setting_text(field, defaults)) continue;
+    if (value == setting_text(field, defaults)) continue;
     text += ' ';
     text += field.name;
     text += '=' + value;

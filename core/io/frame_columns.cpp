@@ -50,59 +50,50 @@ std::string leader(const FrameView& f) {
   return body < 0 ? "" : f.scene.bodies[index(body)].name;
 }
 
-const std::vector<FrameColumn>& all_columns() {
-  static const std::vector<FrameColumn> columns{
-      {"frame", "completed frames [-]", nullptr, report<&FrameReport::frame>},
-      {"time", "at the end of the frame [s]", nullptr, report<&FrameReport::time>},
-      {"substeps", "sub-steps N of this frame [-]", nullptr, report<&FrameReport::n_substeps>},
-      {"substeps_mean", "mean of the sub-steps per body [-]", nullptr,
-       report<&FrameReport::n_mean>},
-      {"islands", "number of islands; 0: not determined [-]", nullptr,
-       report<&FrameReport::islands>},
-      {"asleep", "sleeping bodies, which no sub-step moves [-]", nullptr,
-       report<&FrameReport::asleep>},
-      {"substeps_wanted", "N by Eq. 11, before the cap [-]", nullptr,
-       report<&FrameReport::n_wanted>},
-      {"capped", "1 if the cap limited N [-]", nullptr, report<&FrameReport::capped>},
-      {"dt_min", "shortest sub-step [s]", nullptr, report<&FrameReport::dt_min>},
-      {"dt_max", "longest sub-step [s]", nullptr, report<&FrameReport::dt_max>},
-      {"dt_stable", "2 sqrt(alpha/r), Eq. 10 [s]", nullptr, report<&FrameReport::dt_stable>},
-      {"r", "largest k/M, Eq. 9 [1/s^2]", nullptr, leading<&StiffnessLeader::r>},
-      {"leader", "the body that determines r", nullptr, leader, false},
-      {"leader_dof", "its degree of freedom: 0-2 along x, y, z, 3-5 about its principal axes [-]",
-       nullptr, leading<&StiffnessLeader::dof>},
-      {"kinetic", "kinetic energy [J]", nullptr, report<&FrameReport::kinetic>},
-      {"potential", "potential energy of gravity and constant forces [J]", nullptr,
-       report<&FrameReport::potential>},
-      {"energy", "kinetic and potential energy [J]", nullptr, report<&FrameReport::energy>},
-      {"px", "momentum of all bodies [kg m/s]", nullptr, momentum<0>},
-      {"py", "momentum of all bodies [kg m/s]", nullptr, momentum<1>},
-      {"pz", "momentum of all bodies [kg m/s]", nullptr, momentum<2>},
-      {"lx", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<0>},
-      {"ly", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<1>},
-      {"lz", "angular momentum about the origin [kg m^2/s]", nullptr, angular_momentum<2>},
-      {"constraint_error", "sum of the errors of all joint rows [m, rad]", &Effects::joints,
-       report<&FrameReport::constraint_error>},
-      {"joint_gap", "largest gap of a joint [m]", &Effects::joints,
-       report<&FrameReport::joint_gap>},
-      {"joint_rows", "rows of joints [-]", &Effects::joints, report<&FrameReport::joint_rows>},
-      {"penetration", "deepest overlap [m]", &Effects::contact, report<&FrameReport::penetration>},
-      {"contact_rows", "normal rows [-]", &Effects::contact, report<&FrameReport::contact_rows>},
-      {"friction_rows", "friction rows [-]", &Effects::friction,
-       report<&FrameReport::friction_rows>},
-      {"iterations", "sweeps of PGS [-]", nullptr, work<&SolverWork::iterations>},
-      {"pivots", "changes of the active set of BPP [-]", nullptr, work<&SolverWork::pivots>},
-      {"unsolved", "solves of BPP given up [-]", nullptr, work<&SolverWork::unsolved>},
-      {"residual", "largest violation of bounds and complementarity [N s, m/s]", nullptr,
-       work<&SolverWork::residual>},
-      {"x", "the tracked body's centre [m]", nullptr, tracked<0>},
-      {"y", "the tracked body's centre [m]", nullptr, tracked<1>},
-      {"z", "the tracked body's centre [m]", nullptr, tracked<2>},
-      {"ms", "computing time of the frame [ms]", nullptr,
-       [](const FrameView& f) { return number(1e3 * f.report.times.total); }},
-  };
-  return columns;
-}
+constexpr FrameColumn kFrameColumns[] = {
+    {"frame", "completed frames [-]", report<&FrameReport::frame>},
+    {"time", "at the end of the frame [s]", report<&FrameReport::time>},
+    {"substeps", "sub-steps N of this frame [-]", report<&FrameReport::n_substeps>},
+    {"substeps_mean", "mean of the sub-steps per body [-]", report<&FrameReport::n_mean>},
+    {"islands", "number of islands; 0: not determined [-]", report<&FrameReport::islands>},
+    {"asleep", "sleeping bodies, which no sub-step moves [-]", report<&FrameReport::asleep>},
+    {"substeps_wanted", "N by Eq. 11, before the cap [-]", report<&FrameReport::n_wanted>},
+    {"capped", "1 if the cap limited N [-]", report<&FrameReport::capped>},
+    {"dt_min", "shortest sub-step [s]", report<&FrameReport::dt_min>},
+    {"dt_max", "longest sub-step [s]", report<&FrameReport::dt_max>},
+    {"dt_stable", "2 sqrt(alpha/r), Eq. 10 [s]", report<&FrameReport::dt_stable>},
+    {"r", "largest k/M, Eq. 9 [1/s^2]", leading<&StiffnessLeader::r>},
+    {"leader", "the body that determines r", leader, nullptr, false},
+    {"leader_dof", "its degree of freedom: 0-2 along x, y, z, 3-5 about its principal axes [-]",
+     leading<&StiffnessLeader::dof>},
+    {"kinetic", "kinetic energy [J]", report<&FrameReport::kinetic>},
+    {"potential", "potential energy of gravity and constant forces [J]",
+     report<&FrameReport::potential>},
+    {"energy", "kinetic and potential energy [J]", report<&FrameReport::energy>},
+    {"px", "momentum of all bodies [kg m/s]", momentum<0>},
+    {"py", "momentum of all bodies [kg m/s]", momentum<1>},
+    {"pz", "momentum of all bodies [kg m/s]", momentum<2>},
+    {"lx", "angular momentum about the origin [kg m^2/s]", angular_momentum<0>},
+    {"ly", "angular momentum about the origin [kg m^2/s]", angular_momentum<1>},
+    {"lz", "angular momentum about the origin [kg m^2/s]", angular_momentum<2>},
+    {"constraint_error", "sum of the errors of all joint rows [m, rad]",
+     report<&FrameReport::constraint_error>, &Effects::joints},
+    {"joint_gap", "largest gap of a joint [m]", report<&FrameReport::joint_gap>, &Effects::joints},
+    {"joint_rows", "rows of joints [-]", report<&FrameReport::joint_rows>, &Effects::joints},
+    {"penetration", "deepest overlap [m]", report<&FrameReport::penetration>, &Effects::contact},
+    {"contact_rows", "normal rows [-]", report<&FrameReport::contact_rows>, &Effects::contact},
+    {"friction_rows", "friction rows [-]", report<&FrameReport::friction_rows>, &Effects::friction},
+    {"iterations", "sweeps of PGS [-]", work<&SolverWork::iterations>},
+    {"pivots", "changes of the active set of BPP [-]", work<&SolverWork::pivots>},
+    {"unsolved", "solves of BPP given up [-]", work<&SolverWork::unsolved>},
+    {"residual", "largest violation of bounds and complementarity [N s, m/s]",
+     work<&SolverWork::residual>},
+    {"x", "the tracked body's centre [m]", tracked<0>},
+    {"y", "the tracked body's centre [m]", tracked<1>},
+    {"z", "the tracked body's centre [m]", tracked<2>},
+    {"ms", "computing time of the frame [ms]",
+     [](const FrameView& f) { return number(1e3 * f.report.times.total); }},
+};
 
 bool is_tracked_position(const FrameColumn& c) {
   return c.name == "x" || c.name == "y" || c.name == "z";
@@ -112,7 +103,7 @@ bool is_tracked_position(const FrameColumn& c) {
 
 std::vector<FrameColumn> frame_columns(const Scene& scene) {
   std::vector<FrameColumn> columns;
-  for (const FrameColumn& column : all_columns()) {
+  for (const FrameColumn& column : kFrameColumns) {
     if (column.effect && !(scene.effects.*column.effect)) continue;
     if (column.name == "potential" && !has_potential(scene.effects)) continue;
     if (is_tracked_position(column) && !scene.criteria.track) continue;

@@ -21,8 +21,8 @@ struct FrameView {
 struct FrameColumn {
   std::string_view name;
   std::string_view meaning;               // with its unit
-  bool Effects::*effect;                  // the column exists only with this effect; null: always
   std::string (*text)(const FrameView&);  // a lossless number, "inf", or a name of the scene
+  bool Effects::*effect = nullptr;        // the column exists only with this effect; null: always
   bool is_number = true;                  // otherwise a name
 };
 

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "core/model/scene_limits.hpp"
+
 namespace substep {
 namespace {
 
@@ -40,15 +42,6 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
     }
   }
   return best.empty() ? "" : " (did you mean \"" + std::string(best) + "\"?)";
-}
-
-std::string one_of(const std::vector<std::string_view>& names) {
-  std::string list;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
-    list += names[i];
-  }
-  return list;
 }
 
 ObjectReader::ObjectReader(const Json& json, std::string pointer, Problems& problems)
@@ -148,19 +141,29 @@ bool ObjectReader::text(std::string_view key, std::size_t longest, std::string& 
   return false;
 }
 
-template <class Pointer>
-bool ObjectReader::row(const Json& value, const Pointer& pointer, const Range& range,
+std::optional<std::size_t> ObjectReader::choice(std::string_view key,
+                                                std::span<const std::string_view> names,
+                                                Presence presence) {
+  std::string name;
+  if (!text(key, kMaxNameSize, name, presence)) return std::nullopt;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  problem(key, must_be(one_of(names), value_text(name)));
+  return std::nullopt;
+}
+
+bool ObjectReader::row(const Json& value, const DataPlace& place, const Range& range,
                        double* target, std::size_t size) {
   if (!value.is_array() || value.size() != size) {
     const std::string list = "a list of " + std::to_string(size) + " numbers";
-    problems_.push_back({pointer(), must_be(list + range.unit_text(), value_text(value))});
+    problems_.push_back({place.pointer(), must_be(list + range.unit_text(), value_text(value))});
     return false;
   }
   std::vector<double> read(size);
   bool ok = true;
   for (std::size_t i = 0; i < size; ++i) {
     const auto fault = number_fault(value[i], range, read[i]);
-    if (fault) problems_.push_back({pointer_to(pointer(), i), *fault});
+    if (fault) problems_.push_back({place.at(i).pointer(), *fault});
     ok = ok && !fault;
   }
   if (ok) std::copy(read.begin(), read.end(), target);
@@ -170,8 +173,8 @@ bool ObjectReader::row(const Json& value, const Pointer& pointer, const Range& r
 bool ObjectReader::numbers(std::string_view key, const Range& range, double* target,
                            std::size_t size, Presence presence) {
   const Json* value = member(key, presence);
-  return value && row(
-                      *value, [&] { return pointer(key); }, range, target, size);
+  const DataPlace here(pointer_);
+  return value && row(*value, here.at(key), range, target, size);
 }
 
 bool ObjectReader::table(std::string_view key, const Range& range, double* target, std::size_t rows,
@@ -183,9 +186,10 @@ bool ObjectReader::table(std::string_view key, const Range& range, double* targe
     return false;
   }
   bool ok = true;
+  const DataPlace here(pointer_);
+  const DataPlace list = here.at(key);
   for (std::size_t i = 0; i < rows && problems_.size() <= kMaxProblems; ++i) {
-    const auto place = [&] { return pointer_to(pointer(key), i); };
-    ok = row((*value)[i], place, range, target + i * columns, columns) && ok;
+    ok = row((*value)[i], list.at(i), range, target + i * columns, columns) && ok;
   }
   return ok;
 }
@@ -193,6 +197,20 @@ bool ObjectReader::table(std::string_view key, const Range& range, double* targe
 bool ObjectReader::vector(std::string_view key, const Range& range, Vec3& target,
                           Presence presence) {
   return numbers(key, range, target.data(), 3, presence);
+}
+
+const Json* ObjectReader::list(std::string_view key, std::size_t most, Presence presence) {
+  const Json* list = member(key, presence);
+  if (!list) return nullptr;
+  if (!list->is_array()) {
+    problem(key, must_be("a list", value_text(*list)));
+    return nullptr;
+  }
+  if (list->size() > most) {
+    problem(key, too_many(list->size(), most, "items"));
+    return nullptr;
+  }
+  return list;
 }
 
 void ObjectReader::finish() {

@@ -2,6 +2,7 @@
 // Reads the members of one JSON object and collects all problems.
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,14 +10,15 @@
 #include "core/io/json.hpp"
 #include "core/io/json_text.hpp"
 #include "core/math/types.hpp"
+#include "core/model/names.hpp"
+#include "core/model/place.hpp"
 #include "core/model/problem.hpp"
 #include "core/model/range.hpp"
 
 namespace substep {
 
 enum class Presence { kRequired, kOptional };
-inline constexpr Presence kRequired = Presence::kRequired;
-inline constexpr Presence kOptional = Presence::kOptional;
+using enum Presence;
 
 /// Members that are read are known; finish() reports all others. A missing or invalid member leaves
 /// its target unchanged. Each function returns true if it set its target.
@@ -30,6 +32,15 @@ class ObjectReader {
   bool flag(std::string_view key, bool& target, Presence presence);
   /// @param longest allowed [bytes]; control characters are not allowed
   bool text(std::string_view key, std::size_t longest, std::string& target, Presence presence);
+  /// The index of one of the names, or nothing.
+  std::optional<std::size_t> choice(std::string_view key, std::span<const std::string_view> names,
+                                    Presence presence);
+  /// The value of an enumeration by its name, or nothing.
+  template <class Enum>
+  std::optional<Enum> choice(std::string_view key, Presence presence) {
+    const auto index = choice(key, kNames<Enum>, presence);
+    return index ? std::optional(static_cast<Enum>(*index)) : std::nullopt;
+  }
   /// Three numbers, each in the range.
   bool vector(std::string_view key, const Range& range, Vec3& target, Presence presence);
   /// `size` numbers, each in the range.
@@ -38,6 +49,8 @@ class ObjectReader {
   /// `rows` lists of `columns` numbers each, one after the other.
   bool table(std::string_view key, const Range& range, double* target, std::size_t rows,
              std::size_t columns, Presence presence);
+  /// The member, or null if it is missing, not a list or longer than `most`.
+  const Json* list(std::string_view key, std::size_t most, Presence presence);
   /// The raw member, or null.
   const Json* member(std::string_view key, Presence presence);
 
@@ -58,9 +71,7 @@ class ObjectReader {
   /// The fault of a number; sets the target if there is none.
   static std::optional<std::string> number_fault(const Json& value, const Range& range,
                                                  double& target);
-  /// @param pointer function returning the row's location, called only for problems
-  template <class Pointer>
-  bool row(const Json& value, const Pointer& pointer, const Range& range, double* target,
+  bool row(const Json& value, const DataPlace& place, const Range& range, double* target,
            std::size_t size);
 
   const Json* json_ = nullptr;
@@ -71,8 +82,5 @@ class ObjectReader {
 
 /// The candidate within a small edit distance: `did you mean "mass"?` in brackets, or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
-
-/// "ball, box or plane"
-std::string one_of(const std::vector<std::string_view>& names);
 
 }  // namespace substep

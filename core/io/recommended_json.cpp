@@ -1,29 +1,11 @@
 #include "core/io/recommended_json.hpp"
 
-#include <string_view>
-#include <vector>
-
 #include "core/io/settings_json.hpp"
 #include "core/model/names.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
-namespace {
-
-void read_axis(ObjectReader& in, ErrorAxis& axis) {
-  std::string name;
-  if (!in.text("of", kMaxNameSize, name, kRequired)) return;
-  if (const auto value = value_of<ErrorAxis>(name)) {
-    axis = *value;
-    return;
-  }
-  std::vector<std::string_view> names;
-  for (const auto& entry : NameTable<ErrorAxis>::entries) names.push_back(entry.name);
-  in.problem("of", must_be(one_of(names), value_text(Json(name))));
-}
-
-}  // namespace
 
 Json recommended_json(const Recommended& recommended) {
   Json json;
@@ -41,7 +23,7 @@ Recommended read_recommended(const Json& json, const std::string& pointer, Probl
   ObjectReader in(json, pointer, problems);
   Recommended recommended;
   if (!in.is_object()) return recommended;
-  read_axis(in, recommended.of);
+  recommended.of = in.choice<ErrorAxis>("of", kRequired).value_or(recommended.of);
   const bool within = in.number("within", kErrorRange, recommended.within, kRequired);
   const bool reached = in.number("reached", kErrorRange, recommended.reached, kRequired);
   if (within && reached && recommended.reached > recommended.within) {

@@ -41,10 +41,6 @@ Json reference_json(const ReferenceSummary& r) {
           {"energy_scale_source", r.energy_scale_source}};
 }
 
-Json rows_json(const RowCounts& r) {
-  return {{"joint", r.joint}, {"contact", r.contact}, {"friction", r.friction}};
-}
-
 }  // namespace
 
 Json work_json(const Work& w) {
@@ -57,7 +53,8 @@ Json work_json(const Work& w) {
           {"unsettled", w.unsettled},
           {"unsolved", w.unsolved},
           {"flops", w.flops},
-          {"rows", rows_json(w.rows)},
+          {"rows",
+           {{"joint", w.rows.joint}, {"contact", w.rows.contact}, {"friction", w.rows.friction}}},
           {"criterion", {{"evaluations", w.criterion.evaluations}, {"flops", w.criterion.flops}}},
           {"n_min", w.n_min},
           {"n_median", w.n_median},

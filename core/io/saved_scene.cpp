@@ -1,10 +1,10 @@
 #include "core/io/saved_scene.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <utility>
 
+#include "core/model/format_text.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
@@ -38,10 +38,8 @@ Scene saved_scene(const Scene& scene, const State& state, const Settings& settin
   if (state.frame > 0) {
     saved.carried = state;
     const long long ms = std::llround(1e3 * state.time);
-    char seconds[32];
-    std::snprintf(seconds, sizeof seconds, "%.2f", state.time);
     append_date(saved.name, "_at_", std::to_string(ms) + "ms", kMaxNameSize);
-    append_date(saved.title, ", from ", std::string(seconds) + " s", kMaxTitle);
+    append_date(saved.title, ", from ", format_text("%.2f s", state.time), kMaxTitle);
   }
   return saved;
 }

@@ -4,14 +4,14 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "core/io/body_names.hpp"
-#include "core/io/body_reader.hpp"
 #include "core/io/carried_json.hpp"
-#include "core/io/joint_reader.hpp"
+#include "core/io/item_reader.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/io/recommended_json.hpp"
 #include "core/io/scene_sections.hpp"
@@ -27,6 +27,7 @@ namespace substep {
 namespace {
 
 constexpr std::size_t kItemsOfAPart = 1000;  // bodies or joints
+constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
 /// Every joint of a sound scene agrees with its poses and velocities, within the tolerances of
 /// sim/joint_starts.hpp. A scene that continues a saved run is not checked.
@@ -42,23 +43,15 @@ void check_refused(const Scene& scene, Problems& problems) {
 
 }  // namespace
 
-/// The next part for advance().
-enum class SceneReading::Part : unsigned char {
-  kParse,
-  kHead,
-  kBodies,
-  kNames,
-  kJoints,
-  kChecks,
-  kDone,
-};
-
 struct SceneReading::Impl {
   explicit Impl(std::string whole) : text(std::move(whole)) {}
 
+  /// Does a part, and sets the next one.
+  using Part = void (Impl::*)();
+
   std::string text;
-  Part next = Part::kParse;
-  std::size_t item = 0;  // of the list that is being read
+  Part next = &Impl::parse;  // null when done
+  std::size_t item = 0;      // of the list that is being read
   Json json;
   Problems problems;  // of the text itself
   Problems found;     // of its content
@@ -71,29 +64,30 @@ struct SceneReading::Impl {
   std::optional<BodyNames> names;
   std::map<std::string, std::size_t> joint_names;
 
-  Part parse();
-  Part read_head();
-  Part read_bodies();
-  Part read_names();
-  Part read_joints();
-  Part check();
+  void parse();
+  void read_head();
+  void read_bodies();
+  void read_names();
+  void read_joints();
+  void check();
   /// Whether another item of a list is to be read in this part.
   bool part_continues(const Json* list, std::size_t end) const {
     return list != nullptr && item < std::min(end, list->size()) && found.size() <= kMaxProblems;
   }
 };
 
-SceneReading::Part SceneReading::Impl::parse() {
+void SceneReading::Impl::parse() {
   std::optional<Json> document = parse_json(text, problems);
   text = {};
-  if (!document) return Part::kDone;
-  json = *std::move(document);
-  return Part::kHead;
+  next = document ? &Impl::read_head : nullptr;
+  if (document) json = *std::move(document);
 }
 
-SceneReading::Part SceneReading::Impl::read_head() {
+void SceneReading::Impl::read_head() {
   in.emplace(json, "", found);
-  if (!in->is_object() || !read_version(*in, found)) return Part::kDone;
+  next = nullptr;
+  if (!in->is_object() || !read_version(*in, found)) return;
+  next = &Impl::read_bodies;
   read_about(*in, *scene);
   read_camera(*in, *scene, found);
   in->number("frame", kFrameRange, scene->frame, kOptional);
@@ -108,21 +102,19 @@ SceneReading::Part SceneReading::Impl::read_head() {
     scene->recommended = read_recommended(*recommended, in->pointer("recommended"), found);
     if (!has_settings) scene->settings = scene->recommended->settings;
   }
-  bodies = read_list(*in, "bodies", kMaxBodies, kRequired);
-  return Part::kBodies;
+  bodies = in->list("bodies", kMaxBodies, kRequired);
 }
 
-SceneReading::Part SceneReading::Impl::read_bodies() {
+void SceneReading::Impl::read_bodies() {
   for (const std::size_t end = item + kItemsOfAPart; part_continues(bodies, end); ++item) {
     const std::size_t before = found.size();
     scene->bodies.push_back(read_body((*bodies)[item], pointer_to("/bodies", item), found));
     sound.bodies.push_back(found.size() == before);
   }
-  return part_continues(bodies, bodies == nullptr ? 0 : bodies->size()) ? Part::kBodies
-                                                                        : Part::kNames;
+  if (!part_continues(bodies, kAll)) next = &Impl::read_names;
 }
 
-SceneReading::Part SceneReading::Impl::read_names() {
+void SceneReading::Impl::read_names() {
   const auto moves = [](const Body& body) { return !body.is_static; };
   if (bodies && std::none_of(scene->bodies.begin(), scene->bodies.end(), moves)) {
     in->problem("bodies", "no body moves");
@@ -130,12 +122,12 @@ SceneReading::Part SceneReading::Impl::read_names() {
   names.emplace(scene->bodies, found);
   read_criteria(*in, *names, *scene, found);
   scene->verdicts = read_verdicts(*in, found);
-  joints = read_list(*in, "joints", kMaxJoints, kOptional);
+  joints = in->list("joints", kMaxJoints, kOptional);
   item = 0;
-  return Part::kJoints;
+  next = &Impl::read_joints;
 }
 
-SceneReading::Part SceneReading::Impl::read_joints() {
+void SceneReading::Impl::read_joints() {
   for (const std::size_t end = item + kItemsOfAPart; part_continues(joints, end); ++item) {
     const std::string pointer = pointer_to("/joints", item);
     const std::size_t before = found.size();
@@ -149,11 +141,10 @@ SceneReading::Part SceneReading::Impl::read_joints() {
            value_text(name) + " is already the name of /joints/" + std::to_string(other->second)});
     }
   }
-  return part_continues(joints, joints == nullptr ? 0 : joints->size()) ? Part::kJoints
-                                                                        : Part::kChecks;
+  if (!part_continues(joints, kAll)) next = &Impl::check;
 }
 
-SceneReading::Part SceneReading::Impl::check() {
+void SceneReading::Impl::check() {
   scene->carried = read_carried(*in, scene->bodies, found);
   in->finish();
   if (lists_effects) {
@@ -164,36 +155,15 @@ SceneReading::Part SceneReading::Impl::check() {
   check_joint_starts(*scene, sound, found);
   check_redundant_rows(*scene, sound, found);
   if (found.empty() && scene->start == StartPolicy::kRefuse) check_refused(*scene, found);
-  return Part::kDone;
+  next = nullptr;
 }
 
 SceneReading::SceneReading(std::string text) : impl_(std::make_unique<Impl>(std::move(text))) {}
 SceneReading::~SceneReading() = default;
 
 bool SceneReading::advance() {
-  switch (impl_->next) {
-    case Part::kParse:
-      impl_->next = impl_->parse();
-      break;
-    case Part::kHead:
-      impl_->next = impl_->read_head();
-      break;
-    case Part::kBodies:
-      impl_->next = impl_->read_bodies();
-      break;
-    case Part::kNames:
-      impl_->next = impl_->read_names();
-      break;
-    case Part::kJoints:
-      impl_->next = impl_->read_joints();
-      break;
-    case Part::kChecks:
-      impl_->next = impl_->check();
-      break;
-    case Part::kDone:
-      break;
-  }
-  return impl_->next != Part::kDone;
+  if (impl_->next) (*impl_.*impl_->next)();
+  return impl_->next != nullptr;
 }
 
 SceneResult SceneReading::result() {

@@ -29,7 +29,6 @@ class SceneReading {
   SceneResult result();
 
  private:
-  enum class Part : unsigned char;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

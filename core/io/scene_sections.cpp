@@ -4,14 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "core/io/effect_names.hpp"
-#include "core/model/names.hpp"
 #include "core/model/scene_checks.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
 
-/// True if the version is supported. If not, no further problems are reported.
 bool read_version(ObjectReader& in, Problems& problems) {
   const std::size_t before = problems.size();
   std::string format;
@@ -91,34 +88,14 @@ void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, P
     criteria.displacement = displacement;
   }
   criteria.track = read_body_name(in, "track", kOptional);
-  std::string expected = "holds";
-  if (in.text("expected", kMaxNameSize, expected, kOptional)) {
-    if (expected != "holds" && expected != "fails") {
-      in.problem("expected", must_be("holds or fails", value_text(expected)));
-    }
-    criteria.holds = expected == "holds";
-  }
+  constexpr std::string_view kOutcomes[] = {"holds", "fails"};
+  const auto expected = in.choice("expected", kOutcomes, kOptional);
+  criteria.holds = !expected || kOutcomes[*expected] == "holds";
   in.finish();
 }
 
-/// The items of a list, or nothing if it is missing, not a list or too long.
-const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, Presence presence) {
-  const Json* list = in.member(key, presence);
-  if (!list) return nullptr;
-  if (!list->is_array()) {
-    in.problem(key, must_be("a list", value_text(*list)));
-    return nullptr;
-  }
-  if (list->size() > most) {
-    in.problem(key, too_many(list->size(), most, "items"));
-    return nullptr;
-  }
-  return list;
-}
-
-/// The list as it is written. @return whether there is one
 bool read_effects(ObjectReader& in, Scene& scene) {
-  const Json* list = read_list(in, "effects", 100, kOptional);
+  const Json* list = in.list("effects", 100, kOptional);
   if (!list) return in.member("effects", kOptional) != nullptr;
   std::vector<std::string_view> names;
   for (const NamedEffect& effect : kEffectNames) names.push_back(effect.name);
@@ -137,14 +114,10 @@ bool read_effects(ObjectReader& in, Scene& scene) {
   return true;
 }
 
-/// A listed scene must list all that its content needs.
 void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& problems) {
   const Effects& listed = scene.effects;
   const auto missing = [&](std::string_view effect, const std::string& why) {
-    std::string message = value_text(effect);
-    message += " is missing, but ";
-    message += why;
-    in.problem("effects", message);
+    in.problem("effects", value_text(effect) + " is missing, but " + why);
   };
   if (!listed.gravity && in.member("gravity", kOptional)) missing("gravity", "/gravity is given");
   if (!listed.contact && in.member("contact", kOptional)) missing("contact", "/contact is given");
@@ -152,15 +125,7 @@ void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& proble
 }
 
 void read_start(ObjectReader& in, Scene& scene) {
-  std::string name;
-  if (!in.text("start", kMaxNameSize, name, kOptional)) return;
-  if (const auto policy = value_of<StartPolicy>(name)) {
-    scene.start = *policy;
-    return;
-  }
-  std::vector<std::string_view> names;
-  for (const auto& entry : NameTable<StartPolicy>::entries) names.push_back(entry.name);
-  in.problem("start", must_be(one_of(names), value_text(name)));
+  scene.start = in.choice<StartPolicy>("start", kOptional).value_or(scene.start);
 }
 
 }  // namespace substep

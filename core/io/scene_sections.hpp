@@ -20,7 +20,4 @@ bool read_effects(ObjectReader& in, Scene& scene);
 /// A scene that lists its effects must list all that its content needs.
 void check_listed_effects(ObjectReader& in, const Scene& scene, Problems& problems);
 
-/// The items of a list, or null if it is missing, not a list or longer than `most`.
-const Json* read_list(ObjectReader& in, std::string_view key, std::size_t most, Presence presence);
-
 }  // namespace substep

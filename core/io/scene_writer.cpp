@@ -4,12 +4,14 @@
 #include <cstdint>
 #include <string>
 
+#include "core/io/body_names.hpp"
 #include "core/io/carried_json.hpp"
-#include "core/io/effect_names.hpp"
 #include "core/io/json_print.hpp"
 #include "core/io/recommended_json.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
+#include "core/model/body_checks.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/joint_fields.hpp"
 #include "core/model/names.hpp"
 
@@ -32,13 +34,6 @@ struct ShapeWriter {
   void operator()(const Plane&) const { json["type"] = "plane"; }
 };
 
-std::string color_text(std::uint32_t color) {
-  constexpr char kDigits[] = "0123456789abcdef";
-  std::string text = "#";
-  for (int shift = 20; shift >= 0; shift -= 4) text += kDigits[(color >> shift) & 15U];
-  return text;
-}
-
 Json body_json(const Body& body) {
   Json json;
   json["name"] = body.name;
@@ -56,58 +51,48 @@ Json body_json(const Body& body) {
   if (q.coeffs() != Quat::Identity().coeffs()) {
     json["orientation"] = Json::array({q.w(), q.x(), q.y(), q.z()});
   }
-  if (body.velocity != Vec3::Zero()) json["velocity"] = vector_json(body.velocity);
-  if (body.angular_velocity != Vec3::Zero()) {
-    json["angular_velocity"] = vector_json(body.angular_velocity);
+  for (const MotionField& field : kMotionFields) {
+    if (body.*field.member != Vec3::Zero()) json[field.key] = vector_json(body.*field.member);
   }
-  if (body.force != Vec3::Zero()) json["force"] = vector_json(body.force);
-  if (body.torque != Vec3::Zero()) json["torque"] = vector_json(body.torque);
   if (body.friction != 0.0) json["friction"] = body.friction;
   if (body.restitution != 0.0) json["restitution"] = body.restitution;
   if (body.collision_group >= 0) json["collision_group"] = body.collision_group;
   if (!body.collides) json["collides"] = false;
-  if (body.color) json["color"] = color_text(*body.color);
+  if (body.color) json["color"] = format_text("#%06x", *body.color & 0xffffffU);
   return json;
 }
 
-struct AxisWriter {
-  Json& json;
-  void operator()(const char* key, const Vec3& axis) const { json[key] = vector_json(axis); }
-  void operator()(const char*, double, const Range&) const {}
+/// Writes axes at once, and numbers to where the compliance comes first.
+struct OwnFieldWriter {
+  Json& axes;
+  Json& numbers;
+
+  void operator()(const char* key, const Vec3& axis) const { axes[key] = vector_json(axis); }
+  void operator()(const char* key, double number, const Range&) const { numbers[key] = number; }
 };
 
-struct NumberWriter {
-  Json& json;
-  void operator()(const char*, const Vec3&) const {}
-  void operator()(const char* key, double number, const Range&) const { json[key] = number; }
-};
+/// @param body index, or kWorld
+std::string name_of_body(const Scene& scene, int body) {
+  return body == kWorld ? std::string(kWorldName) : scene.bodies[index(body)].name;
+}
 
 Json joint_json(const Scene& scene, const Joint& joint) {
-  const auto name_of_body = [&](int index) {
-    return index == kWorld ? std::string("world")
-                           : scene.bodies[static_cast<std::size_t>(index)].name;
-  };
   const JointBase& j = base(joint);
   Json json;
   json["name"] = j.name;
   json["type"] = kJointTypes[joint.index()];
-  json["a"] = name_of_body(j.a);
-  json["b"] = name_of_body(j.b);
+  json["a"] = name_of_body(scene, j.a);
+  json["b"] = name_of_body(scene, j.b);
   json["anchor_a"] = vector_json(j.anchor_a);
   json["anchor_b"] = vector_json(j.anchor_b);
-  const auto write = [&](const auto& field) {
-    std::visit([&](const auto& own) { own_fields(own, field); }, joint);
-  };
-  write(AxisWriter{json});
-  json["compliance"] = j.compliance;
-  write(NumberWriter{json});
+  Json numbers;
+  numbers["compliance"] = j.compliance;
+  std::visit([&](const auto& own) { own_fields(own, OwnFieldWriter{json, numbers}); }, joint);
+  json.update(numbers);
   return json;
 }
 
 Json criteria_json(const Scene& scene) {
-  const auto name_of_body = [&](int index) {
-    return scene.bodies[static_cast<std::size_t>(index)].name;
-  };
   const Criteria& c = scene.criteria;
   Json json;
   json["duration"] = c.duration;
@@ -115,10 +100,10 @@ Json criteria_json(const Scene& scene) {
   if (c.energy_gain) json["energy_gain"] = *c.energy_gain;
   if (c.energy_scale) json["energy_scale"] = *c.energy_scale;
   if (c.displacement) {
-    json["displacement"] = {{"body", name_of_body(c.displacement->body)},
+    json["displacement"] = {{"body", name_of_body(scene, c.displacement->body)},
                             {"distance", c.displacement->distance}};
   }
-  if (c.track) json["track"] = name_of_body(*c.track);
+  if (c.track) json["track"] = name_of_body(scene, *c.track);
   if (c.window) json["window"] = *c.window;
   json["expected"] = c.holds ? "holds" : "fails";
   return json;

@@ -1,12 +1,14 @@
 #include "core/io/stored_sweep.hpp"
 
 #include <algorithm>
-#include <cstdio>
+#include <array>
 #include <map>
 
 #include "core/io/experiment.hpp"
+#include "core/lab/axes.hpp"
 #include "core/lab/sweep.hpp"
 #include "core/math/hash.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep {
@@ -17,24 +19,16 @@ constexpr const char* kHolds = "holds";
 constexpr const char* kHash = " #";
 
 /// Every fourth value of a curve comes first, then every second, then the rest; the map last.
-constexpr int kMapRound = 3;
-int round_of(std::size_t along_curve) {
+constexpr std::size_t kMapRound = 3;
+std::size_t round_of(std::size_t along_curve) {
   if (along_curve % 4 == 0) return 0;
   return along_curve % 2 == 0 ? 1 : 2;
 }
 
-std::string four_digits(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
-}
+std::string four_digits(double value) { return format_text("%.4g", value); }
 
 std::string error_text(const std::optional<double>& error) {
   return error ? four_digits(*error) : "-";
-}
-
-std::optional<double> peak(const std::optional<PeakAndMedian>& error) {
-  return error ? std::optional(error->peak) : std::nullopt;
 }
 
 /// " #0123abcd", which the program is shipped without.
@@ -51,15 +45,19 @@ std::string hash_text(const Metrics& m) {
   return kHash + hex_text(hash.value()).substr(0, 8);
 }
 
-std::string line_of(const Metrics& m) {
+std::string line_of(const Result& result) {
+  const Metrics& m = result.metrics;
   const std::string work = std::to_string(m.work.substeps) + ' ' + std::to_string(m.work.flops);
   if (!m.holds) {
     return "! " + std::to_string(m.work.frames) + ' ' + work + ' ' + number_text(m.failed_at) +
            ' ' + m.verdict + hash_text(m);
   }
-  const Errors& e = m.errors;
-  return work + ' ' + error_text(e.trajectory_peak) + ' ' + four_digits(e.energy_drift_peak) + ' ' +
-         error_text(peak(e.joint_gap)) + ' ' + error_text(peak(e.penetration)) + hash_text(m);
+  std::string line = work;
+  for (const ErrorAxis axis :
+       {ErrorAxis::kTrajectory, ErrorAxis::kEnergy, ErrorAxis::kGap, ErrorAxis::kPenetration}) {
+    line += ' ' + error_text(error_of(result, axis));
+  }
+  return line + hash_text(m);
 }
 
 /// Parses the text; missing values or invalid numbers make ok() false.
@@ -75,25 +73,20 @@ class Fields {
     return field;
   }
   std::string_view line() { return until('\n'); }
-  double number() {
-    const auto value = parse_number(until(' '));
-    ok_ = ok_ && value.has_value();
-    return value.value_or(0.0);
-  }
-  std::int64_t count() {
-    const auto value = parse_integer(until(' '));
-    ok_ = ok_ && value.has_value();
-    return value.value_or(0);
-  }
+  double number() { return taken(parse_number(until(' '))); }
+  std::int64_t count() { return taken(parse_integer(until(' '))); }
   std::optional<double> error() {
     const std::string_view field = until(' ');
-    if (field == "-") return std::nullopt;
-    const auto value = parse_number(field);
-    ok_ = ok_ && value.has_value();
-    return value;
+    return field == "-" ? std::nullopt : std::optional(taken(parse_number(field)));
   }
 
  private:
+  template <class T>
+  T taken(const std::optional<T>& value) {
+    ok_ = ok_ && value.has_value();
+    return value.value_or(T{});
+  }
+
   std::string_view text_;
   bool ok_ = true;
 };
@@ -123,38 +116,33 @@ bool read_line(std::string_view line, std::int64_t frames, Metrics& m) {
   return in.ok();
 }
 
-}  // namespace
-
-std::vector<Experiment> quick_sweep(const Scene& scene) {
-  struct Step {
-    int round;
-    Experiment experiment;
-  };
-  Experiment plain = experiment_of(scene, scene.settings);
-  // Beyond its window a motion cannot be predicted, and people wait.
-  plain.duration = predictable_window(scene, scene.criteria.duration);
-  std::vector<Step> steps;
-  std::map<std::string, std::size_t> along;
-  for (const SweepPoint& point : default_sweep(scene)) {
-    const int round =
-        point.load == 1.0 ? round_of(along[series_name(point.settings)]++) : kMapRound;
-    Step& step = steps.emplace_back(Step{round, plain});
-    step.experiment.settings = point.settings;
-    step.experiment.load = point.load;
-  }
-  std::stable_sort(steps.begin(), steps.end(),
-                   [](const Step& a, const Step& b) { return a.round < b.round; });
-  std::vector<Experiment> experiments;
-  for (Step& step : steps) experiments.push_back(std::move(step.experiment));
-  return experiments;
-}
-
+/// Id of the experiments in this order.
 std::string plan_id(std::span<const Experiment> experiments) {
   Hash hash;
   for (const Experiment& experiment : experiments) {
     for (const char c : experiment_id(experiment)) hash.add(static_cast<std::uint64_t>(c));
   }
   return hex_text(hash.value());
+}
+
+}  // namespace
+
+std::vector<Experiment> quick_sweep(const Scene& scene) {
+  Experiment experiment = experiment_of(scene, scene.settings);
+  // Beyond its window a motion cannot be predicted, and people wait.
+  experiment.duration = predictable_window(scene, scene.criteria.duration);
+  std::array<std::vector<Experiment>, kMapRound + 1> rounds;
+  std::map<std::string, std::size_t> along;
+  for (const SweepPoint& point : default_sweep(scene)) {
+    experiment.settings = point.settings;
+    experiment.load = point.load;
+    const bool on_map = point.load != 1.0;
+    rounds[on_map ? kMapRound : round_of(along[series_name(point.settings)]++)].push_back(
+        experiment);
+  }
+  std::vector<Experiment> all;
+  for (const auto& round : rounds) all.insert(all.end(), round.begin(), round.end());
+  return all;
 }
 
 std::string sweep_text(std::span<const Result> results, const ReferenceSummary& reference) {
@@ -164,7 +152,7 @@ std::string sweep_text(std::span<const Result> results, const ReferenceSummary& 
   text += four_digits(reference.uncertainty) + ' ' + number_text(reference.window) + ' ' +
           four_digits(reference.energy_scale) + '\n';
   text += reference.source + '\n' + reference.energy_scale_source + '\n';
-  for (const Result& result : results) text += line_of(result.metrics) + '\n';
+  for (const Result& result : results) text += line_of(result) + '\n';
   return text;
 }
 

@@ -29,9 +29,6 @@ namespace substep {
 /// time of the motion. Ordered so that all curves grow evenly; the map of loads comes last.
 std::vector<Experiment> quick_sweep(const Scene& scene);
 
-/// Id of the experiments in this order.
-std::string plan_id(std::span<const Experiment> experiments);
-
 /// @param results results of all experiments of a quick_sweep(), in its order
 std::string sweep_text(std::span<const Result> results, const ReferenceSummary& reference);
 

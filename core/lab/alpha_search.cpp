@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/lab/slice.hpp"
-#include "core/lab/three_digits.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {

@@ -1,35 +1,22 @@
 #include "core/lab/axes.hpp"
 
+#include <array>
+
+#include "core/model/methods.hpp"
+
 namespace substep {
 
 const char* axis_name(ErrorAxis axis) {
-  switch (axis) {
-    case ErrorAxis::kTrajectory:
-      return "largest distance from the reference [m]";
-    case ErrorAxis::kEnergy:
-      return "largest energy drift [J]";
-    case ErrorAxis::kGap:
-      return "largest joint gap [m]";
-    case ErrorAxis::kPenetration:
-      return "deepest overlap [m]";
-    case ErrorAxis::kCount:
-      break;
-  }
-  return "";
+  constexpr std::array<const char*, kCountOf<ErrorAxis>> kNames{
+      "largest distance from the reference [m]", "largest energy drift [J]",
+      "largest joint gap [m]", "deepest overlap [m]"};
+  return kNames[static_cast<std::size_t>(axis)];
 }
 
 const char* axis_name(CostAxis axis) {
-  switch (axis) {
-    case CostAxis::kSubsteps:
-      return "sub-steps per frame";
-    case CostAxis::kOperations:
-      return "solver operations per frame";
-    case CostAxis::kTime:
-      return "median ms per frame, here";
-    case CostAxis::kCount:
-      break;
-  }
-  return "";
+  constexpr std::array<const char*, kCountOf<CostAxis>> kNames{
+      "sub-steps per frame", "solver operations per frame", "median ms per frame, here"};
+  return kNames[static_cast<std::size_t>(axis)];
 }
 
 const char* unit_of(ErrorAxis axis) { return axis == ErrorAxis::kEnergy ? "J" : "m"; }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -12,16 +11,6 @@
 
 namespace substep {
 namespace {
-
-struct NamedEffect {
-  std::string_view name;
-  bool Effects::*effect;
-};
-constexpr NamedEffect kEffects[] = {
-    {"gravity", &Effects::gravity},   {"gyroscopic", &Effects::gyroscopic},
-    {"joints", &Effects::joints},     {"contact", &Effects::contact},
-    {"friction", &Effects::friction}, {"restitution", &Effects::restitution},
-    {"external", &Effects::external}};
 
 std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) {
   Scene less = scene;
@@ -33,8 +22,8 @@ std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) 
 /// Budget of each simulator: all keep their memory until the end, so together they share the budget
 /// of one. They are the run, the unchanged scene, and the scene without each effect.
 Budget shared_budget(const Effects& effects, Budget budget) {
-  const auto count = 2 + std::count_if(std::begin(kEffects), std::end(kEffects),
-                                       [&](const NamedEffect& e) { return effects.*e.effect; });
+  const auto count = 2 + std::count_if(kEffectNames.begin(), kEffectNames.end(),
+                                       [&](const NamedEffect& e) { return effects.*e.member; });
   budget.memory /= static_cast<double>(count);
   return budget;
 }
@@ -69,7 +58,7 @@ class EffectCostRun::Again {
   bool advance() {
     const FrameReport report = simulator_.step_some(kPartWork);
     if (simulator_.substeps_left() > 0) return false;
-    frames_.push_back({1e3 * report.times.total, static_cast<double>(report.work.flops),
+    frames_.push_back({without_, 1e3 * report.times.total, static_cast<double>(report.work.flops),
                        static_cast<double>(report.work.row_updates)});
     return true;
   }
@@ -78,29 +67,23 @@ class EffectCostRun::Again {
   [[nodiscard]] EffectCost spared(const Again& whole) const {
     EffectCost cost{without_};
     if (frames_.empty()) return cost;
-    const auto more = [&](double FrameCost::*part) {
+    const auto more = [&](double EffectCost::*part) {
       std::vector<double> list;
       for (std::size_t i = 0; i < frames_.size(); ++i) {
         list.push_back(whole.frames_[i].*part - frames_[i].*part);
       }
       return list;
     };
-    cost.ms = trimmed_mean(more(&FrameCost::ms));
-    cost.flops = mean_of(more(&FrameCost::flops));
-    cost.row_updates = mean_of(more(&FrameCost::row_updates));
+    cost.ms = trimmed_mean(more(&EffectCost::ms));
+    cost.flops = mean_of(more(&EffectCost::flops));
+    cost.row_updates = mean_of(more(&EffectCost::row_updates));
     return cost;
   }
 
  private:
-  struct FrameCost {
-    double ms = 0.0;  // [ms]
-    double flops = 0.0;
-    double row_updates = 0.0;
-  };
-
   Simulator simulator_;
-  std::string_view without_;  // the disabled effect, or ""
-  std::vector<FrameCost> frames_;
+  std::string_view without_;        // the disabled effect, or ""
+  std::vector<EffectCost> frames_;  // each the cost of the whole frame
 };
 
 EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Budget& budget)
@@ -108,7 +91,7 @@ EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Bu
   const Scene& start = run_.simulator().scene();
   const Budget share = run_.simulator().budget();
   again_.emplace_back(std::make_shared<const Scene>(start), "", share);
-  for (const auto& [name, effect] : kEffects) {
+  for (const auto& [name, effect] : kEffectNames) {
     if (start.effects.*effect) again_.emplace_back(without(start, effect), name, share);
   }
   next_ = again_.size();

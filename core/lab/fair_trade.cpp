@@ -89,25 +89,9 @@ double nearest(const std::vector<double>& alphas, double wanted) {
                            [&](double a, double b) { return distance(a) < distance(b); });
 }
 
-Settings adaptive_of(const Scene& scene, Policy policy) {
-  Settings settings = paper_settings(scene);
-  settings.policy = policy;
-  return settings;
-}
-
-Settings constant_of(const Scene& scene) {
-  Settings settings = paper_settings(scene);
-  settings.mode = Mode::kConst;
-  return settings;
-}
-
 }  // namespace
 
-double TradeRow::n() const {
-  const Work& work = adaptive->metrics.work;
-  return work.frames > 0 ? static_cast<double>(work.substeps) / static_cast<double>(work.frames)
-                         : 0.0;
-}
+double TradeRow::n() const { return cost_of(*adaptive, CostAxis::kSubsteps); }
 
 double FairTrade::mean_n() const {
   double sum = 0.0;
@@ -122,8 +106,11 @@ bool FairTrade::holds() const {
 
 FairTrade fair_trade(const Scene& scene, std::span<const Result> results, Policy policy,
                      double alpha) {
-  const Columns adaptive = columns_of(results, adaptive_of(scene, policy));
-  const Columns constant = columns_of(results, constant_of(scene));
+  Settings method = paper_settings(scene);
+  method.policy = policy;
+  const Columns adaptive = columns_of(results, method);
+  method.mode = Mode::kConst;
+  const Columns constant = columns_of(results, method);
   FairTrade trade;
   trade.axis = axis_of(adaptive);
   trade.alphas = common(adaptive);

@@ -47,10 +47,7 @@ class JointGraph {
     double mass = 0.0;  // including its subtree [kg]
   };
 
-  [[nodiscard]] int node(int body) const {
-    if (body == kWorld || scene_.bodies[index(body)].is_static) return 0;
-    return body + 1;
-  }
+  [[nodiscard]] int node(int body) const { return is_fixed(scene_, body) ? 0 : body + 1; }
   [[nodiscard]] BodyPair pair_of(const Joint& joint) const {
     return std::minmax({node(base(joint).a), node(base(joint).b)});
   }

@@ -118,21 +118,17 @@ void JointTree::normalise() {
   }
 }
 
-double JointTree::attempt(double most, double tolerance) {
-  if (!integrator_ || tolerance != tolerance_) {
-    integrator_.emplace(tolerance);
-    tolerance_ = tolerance;
-  }
+double JointTree::attempt(double most) {
   const double step =
-      integrator_->attempt([this](const Vector& y, Vector& dy) { slope(y, dy); }, most, y_);
+      integrator_.attempt([this](const Vector& y, Vector& dy) { slope(y, dy); }, most, y_);
   if (step > 0.0) normalise();
   slope(y_, dy_);
   return step;
 }
 
-void JointTree::advance(double seconds, double tolerance) {
+void JointTree::advance(double seconds) {
   double left = seconds;
-  while (left > Extrapolation::kRounding * seconds) left -= attempt(left, tolerance);
+  while (left > Extrapolation::kRounding * seconds) left -= attempt(left);
 }
 
 const JointTree::Motion* JointTree::motion_of(int body) const {
@@ -174,23 +170,6 @@ double JointTree::kinetic() const {
               0.5 * m.omega.dot(m.I * m.omega);
   }
   return energy;
-}
-
-double JointTree::potential() const {
-  double energy = 0.0;
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    energy -= nodes_[i].mass * gravity_.dot(motion_[i].p + motion_[i].r);
-  }
-  return energy;
-}
-
-Vec3 JointTree::angular_momentum(const Vec3& about) const {
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Motion& m = motion_[i];
-    sum += m.I * m.omega + nodes_[i].mass * (m.p + m.r - about).cross(m.v + m.omega.cross(m.r));
-  }
-  return sum;
 }
 
 double JointTree::stretch() const {

@@ -31,11 +31,12 @@ class JointTree {
   /// tolerance or a frame takes seconds.
   static std::optional<JointTree> of(const Scene& scene);
 
-  /// @param tolerance of a step of the integrator, relative to 1 + |coordinate| [-]
-  void advance(double seconds, double tolerance = kTolerance);
+  /// @param tolerance of the steps from now on, relative to 1 + |coordinate| [-]
+  void set_tolerance(double tolerance) { integrator_ = Extrapolation(tolerance); }
+  void advance(double seconds);
   /// One attempt at a step of the integrator, for callers that must return between steps.
   /// @param most [s] @return time advanced, 0 <= . <= most [s]
-  double attempt(double most, double tolerance = kTolerance);
+  double attempt(double most);
 
   /// Centre of a body of the scene, world [m].
   [[nodiscard]] Vec3 centre(int body) const;
@@ -46,10 +47,7 @@ class JointTree {
   /// Force at the centre and torque about it with which the joint nearest to the root acts on a
   /// body, world [N, N m]; the joint's own point is not the centre. Zero for a free body.
   [[nodiscard]] Vec6 reaction(int body) const;
-  [[nodiscard]] double kinetic() const;    ///< [J]
-  [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
-  /// Sum of angular momenta about a point of the world [kg m^2/s].
-  [[nodiscard]] Vec3 angular_momentum(const Vec3& about) const;
+  [[nodiscard]] double kinetic() const;  ///< [J]
   /// At most how far the compliances of all joints open under the weights and the forces now [m].
   [[nodiscard]] double stretch() const;
   /// Length of all arms between joints and centres [m].
@@ -118,8 +116,7 @@ class JointTree {
   int degrees_ = 0;
   Vector y_;
   Vector dy_;  // scratch
-  std::optional<Extrapolation> integrator_;
-  double tolerance_ = 0.0;
+  Extrapolation integrator_{kTolerance};
 };
 
 }  // namespace substep

@@ -68,7 +68,7 @@ class JointTree::Builder {
 
  private:
   [[nodiscard]] const Body& body(int i) const { return scene_.bodies[index(i)]; }
-  [[nodiscard]] bool is_fixed(int i) const { return i == kWorld || body(i).is_static; }
+  [[nodiscard]] bool is_fixed(int i) const { return substep::is_fixed(scene_, i); }
   /// Indices of the joints per body; the world and all static bodies share one list.
   std::vector<std::size_t>& joints_of(int i) {
     return is_fixed(i) ? joints_of_.back() : joints_of_[index(i)];
@@ -225,9 +225,7 @@ class JointTree::Builder {
       if (!b.is_static) fastest = std::max({fastest, b.velocity.norm(), b.angular_velocity.norm()});
     }
     for (const Node& node : tree_.nodes_) {
-      Vec6 apart = tree_.velocity(node.body);
-      apart.head<3>() -= body(node.body).velocity;
-      apart.tail<3>() -= body(node.body).angular_velocity;
+      const Vec6 apart = tree_.velocity(node.body) - velocity_of(body(node.body));
       if (!(apart.norm() <= kTreeConsistent * (1.0 + fastest))) return false;
     }
     return tree_.dy_.allFinite();

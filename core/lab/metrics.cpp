@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/lab/energy_scale.hpp"
 
@@ -28,14 +29,15 @@ PeakAndMedian peak_and_median(const std::vector<double>& values) {
 /// True if no external forces act on the moving bodies.
 bool is_isolated(const Scene& scene) {
   if (scene.effects.gravity || scene.effects.external) return false;
-  const auto is_fixed = [&](int body) {
-    return body == kWorld || scene.bodies[index(body)].is_static;
-  };
   for (const Joint& joint : scene.joints) {
-    if (is_fixed(base(joint).a) || is_fixed(base(joint).b)) return false;
+    if (is_fixed(scene, base(joint).a) || is_fixed(scene, base(joint).b)) return false;
   }
   return !scene.effects.contact || std::none_of(scene.bodies.begin(), scene.bodies.end(),
                                                 [](const Body& b) { return b.is_static; });
+}
+
+void raise_to(std::optional<double>& largest, double value) {
+  largest = std::max(largest.value_or(0.0), value);
 }
 
 void add_times(const StageTimes& frame, StageTimes& sum) {
@@ -86,15 +88,12 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
   if (frame < reference_.track.size() && scene.criteria.track) {
     const Vec3& x = state.x[index(*scene.criteria.track)];
     errors_.trajectory_final = (x - reference_.track[frame]).norm();
-    errors_.trajectory_peak =
-        std::max(errors_.trajectory_peak.value_or(0.0), *errors_.trajectory_final);
+    raise_to(errors_.trajectory_peak, *errors_.trajectory_final);
   }
   if (momentum_at_start_) {
     const Momenta now = momenta_of(scene, state);
-    errors_.linear_momentum_drift = std::max(errors_.linear_momentum_drift.value_or(0.0),
-                                             (now.linear - momentum_at_start_->linear).norm());
-    errors_.angular_momentum_drift = std::max(errors_.angular_momentum_drift.value_or(0.0),
-                                              (now.angular - momentum_at_start_->angular).norm());
+    raise_to(errors_.linear_momentum_drift, (now.linear - momentum_at_start_->linear).norm());
+    raise_to(errors_.angular_momentum_drift, (now.angular - momentum_at_start_->angular).norm());
   }
 }
 
@@ -105,8 +104,7 @@ Timing Measure::timing(const Scene& scene) const {
   if (warm.size() > 2 * kWarmUp) warm.erase(warm.begin(), warm.begin() + kWarmUp);
   timing.ms_median = 1e3 * quantile(warm, 0.5);
   timing.ms_p95 = 1e3 * quantile(warm, 0.95);
-  double wall = 0.0;
-  for (const double s : warm) wall += s;
+  const double wall = std::accumulate(warm.begin(), warm.end(), 0.0);
   if (wall > 0.0) timing.real_time_factor = static_cast<double>(warm.size()) * scene.frame / wall;
   return timing;
 }

@@ -24,17 +24,13 @@ Vec3 at_start(const Scene& scene, int body, const Vec3& point) {
   return b.position + b.orientation * point;
 }
 
-bool is_fixed(const Scene& scene, int body) {
-  return body == kWorld || body_of(scene, body).is_static;
-}
-
 }  // namespace
 
 std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(const Scene& scene) {
   std::vector<Hinge> hinges;
   std::vector<bool> used(scene.joints.size(), false);
   while (hinges.size() < scene.joints.size()) {
-    int next = -1;
+    const std::size_t before = hinges.size();
     for (std::size_t j = 0; j < scene.joints.size(); ++j) {
       if (used[j]) continue;
       const auto* joint = std::get_if<HingeJoint>(&scene.joints[j]);
@@ -44,10 +40,8 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
       };
       const bool a_is_child = hangs_on(joint->b);
       if (!a_is_child && !hangs_on(joint->a)) continue;
-      next = static_cast<int>(j);
       Hinge hinge;
       hinge.child = a_is_child ? joint->a : joint->b;
-      hinge.parent = a_is_child ? joint->b : joint->a;
       if (is_fixed(scene, hinge.child)) return std::nullopt;
       hinge.at = at_start(scene, joint->a, joint->anchor_a);
       hinge.axis = body_of(scene, joint->a).orientation * joint->axis_a;
@@ -56,7 +50,7 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
       used[j] = true;
       break;
     }
-    if (next < 0) return std::nullopt;  // a fork, a loop, or a second chain
+    if (hinges.size() == before) return std::nullopt;  // a fork, a loop, or a second chain
   }
   return hinges;
 }
@@ -151,28 +145,18 @@ void PlanarChain::slope(const Vector& y, Vector& dy) const {
   dy.tail(n) = Eigen::LLT<Eigen::MatrixXd, Eigen::Lower>(M).solve(force);
 }
 
-void PlanarChain::advance(double seconds, double tolerance) {
-  if (!integrator_ || tolerance != tolerance_) {
-    integrator_.emplace(tolerance);
-    tolerance_ = tolerance;
-  }
-  integrator_->advance([this](const Vector& y, Vector& dy) { slope(y, dy); }, seconds, y_);
-}
-
-Vec2 PlanarChain::centre_in_plane(std::size_t link, const Vector& y) const {
-  Vec2 at = Vec2::Zero();
-  for (std::size_t j = 0; j <= link; ++j) {
-    const double theta = y[static_cast<Eigen::Index>(j)];
-    at += turned(j < link ? links_[j].L : links_[j].e, std::sin(theta), std::cos(theta));
-  }
-  return at;
+void PlanarChain::advance(double seconds) {
+  integrator_.advance([this](const Vector& y, Vector& dy) { slope(y, dy); }, seconds, y_);
 }
 
 Vec3 PlanarChain::centre(int body) const {
+  Vec2 at = Vec2::Zero();
   for (std::size_t i = 0; i < links_.size(); ++i) {
-    if (links_[i].body != body) continue;
-    const Vec2 at = centre_in_plane(i, y_);
-    return anchor_ + at.x() * e1_ + at.y() * e2_ + links_[i].across * axis_;
+    const Link& link = links_[i];
+    const double theta = y_[static_cast<Eigen::Index>(i)];
+    const bool is_last = link.body == body;
+    at += turned(is_last ? link.e : link.L, std::sin(theta), std::cos(theta));
+    if (is_last) return anchor_ + at.x() * e1_ + at.y() * e2_ + link.across * axis_;
   }
   return Vec3::Zero();
 }
@@ -192,12 +176,6 @@ double PlanarChain::kinetic() const {
               0.5 * link.inertia * omega * omega;
     at_hinge += speed(link.L);
   }
-  return energy;
-}
-
-double PlanarChain::potential() const {
-  double energy = 0.0;
-  for (const Link& link : links_) energy -= link.mass * gravity_.dot(centre(link.body));
   return energy;
 }
 

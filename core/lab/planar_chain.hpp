@@ -25,13 +25,11 @@ class PlanarChain {
   /// forces, non-parallel hinges, or a start with motion out of the plane.
   static std::optional<PlanarChain> of(const Scene& scene);
 
-  /// @param tolerance of a step of the integrator, relative [-]
-  void advance(double seconds, double tolerance = 1e-11);
+  void advance(double seconds);
 
   /// Centre of a body of the scene, world [m].
   [[nodiscard]] Vec3 centre(int body) const;
-  [[nodiscard]] double kinetic() const;    ///< [J]
-  [[nodiscard]] double potential() const;  ///< of gravity, zero at the world's origin [J]
+  [[nodiscard]] double kinetic() const;  ///< [J]
   /// Weight of all links [N]: how far a compliance can stretch a hinge.
   [[nodiscard]] double weight() const;
   /// Length from the fixed point to the last centre, fully extended [m].
@@ -52,8 +50,7 @@ class PlanarChain {
   };
   /// The hinge between a link and the one before it.
   struct Hinge {
-    int child = 0;
-    int parent = 0;             // index into Scene::bodies or kWorld
+    int child = 0;              // index into Scene::bodies
     Vec3 at = Vec3::Zero();     // world, at the start [m]
     Vec3 axis = Vec3::UnitZ();  // world, at the start
     Vec3 axis_in_child = Vec3::UnitZ();
@@ -62,15 +59,13 @@ class PlanarChain {
   void derive();
   /// y = (theta, theta'), dy = (theta', theta'').
   void slope(const Vector& y, Vector& dy) const;
-  [[nodiscard]] Vec2 centre_in_plane(std::size_t link, const Vector& y) const;
 
   std::vector<Link> links_;
   Vec3 anchor_ = Vec3::Zero();  // world [m]
   Vec3 e1_, e2_, axis_;         // the plane, and the hinges' axis
   Vec3 gravity_ = Vec3::Zero();
   Vector y_;
-  std::optional<Extrapolation> integrator_;
-  double tolerance_ = 0.0;
+  Extrapolation integrator_{1e-11};
 };
 
 }  // namespace substep

@@ -2,15 +2,48 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+
+#include "core/model/format_text.hpp"
+#include "core/model/methods.hpp"
+#include "core/model/problem.hpp"
 
 namespace substep {
 namespace {
 
 constexpr std::string_view kRecommended = "recommended";
 
-const std::array<Preset, 3>& all_presets() {
-  static const std::array<Preset, 3> all{
+/// "0.858 mm", "1 m", "3.1 J"
+std::string error_text(double error, ErrorAxis of) {
+  const bool small = of != ErrorAxis::kEnergy && error < 0.1;
+  const char* unit = of == ErrorAxis::kEnergy ? "J" : small ? "mm" : "m";
+  return format_text("%.3g %s", small ? 1e3 * error : error, unit);
+}
+
+/// "86.9 thousand"
+std::string count_text(double count) {
+  if (count >= 1e6) return format_text("%.3g million", 1e-6 * count);
+  if (count >= 1e3) return format_text("%.3g thousand", 1e-3 * count);
+  return format_text("%.3g", count);
+}
+
+constexpr std::array<const char*, kCountOf<ErrorAxis>> kNouns{"the path", "energy",
+                                                              "gaps of joints", "overlaps"};
+
+/// "For this scene: keeps the path within 1 mm for 8.5 thousand solver operations per frame,
+/// over 10 s. The cheapest of ..."
+std::string about(const Recommended& r) {
+  std::string text = "For this scene: keeps " +
+                     std::string(kNouns[static_cast<std::size_t>(r.of)]) + " within " +
+                     error_text(r.within, r.of) + format_text(" over %g s, for ", r.seconds) +
+                     count_text(r.operations) + " solver operations per frame.";
+  if (!r.why.empty()) text += " " + r.why;
+  return text;
+}
+
+}  // namespace
+
+std::span<const Preset> presets() {
+  static const std::array all{
       Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once per frame.", {}},
       Preset{kRecommended,
              "Up to four sub-steps, then damping: holds 48 of the 49 hard scenes at 15 % of the "
@@ -23,60 +56,6 @@ const std::array<Preset, 3>& all_presets() {
   };
   return all;
 }
-
-/// "0.858 mm", "1 m", "3.1 J"
-std::string error_text(double error, ErrorAxis of) {
-  const bool small = of != ErrorAxis::kEnergy && error < 0.1;
-  const char* unit = of == ErrorAxis::kEnergy ? "J" : small ? "mm" : "m";
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g %s", small ? 1e3 * error : error, unit);
-  return text;
-}
-
-/// "86.9 thousand"
-std::string count_text(double count) {
-  char text[40];
-  if (count >= 1e6) {
-    std::snprintf(text, sizeof text, "%.3g million", 1e-6 * count);
-  } else if (count >= 1e3) {
-    std::snprintf(text, sizeof text, "%.3g thousand", 1e-3 * count);
-  } else {
-    std::snprintf(text, sizeof text, "%.3g", count);
-  }
-  return text;
-}
-
-const char* noun(ErrorAxis of) {
-  switch (of) {
-    case ErrorAxis::kTrajectory:
-      return "the path";
-    case ErrorAxis::kEnergy:
-      return "energy";
-    case ErrorAxis::kGap:
-      return "gaps of joints";
-    case ErrorAxis::kPenetration:
-      return "overlaps";
-    case ErrorAxis::kCount:
-      break;
-  }
-  return "";
-}
-
-/// "For this scene: keeps the path within 1 mm for 8.5 thousand solver operations per frame,
-/// over 10 s. The cheapest of ..."
-std::string about(const Recommended& r) {
-  char seconds[40];
-  std::snprintf(seconds, sizeof seconds, "%g", r.seconds);
-  std::string text = "For this scene: keeps " + std::string(noun(r.of)) + " within " +
-                     error_text(r.within, r.of) + " over " + seconds + " s, for " +
-                     count_text(r.operations) + " solver operations per frame.";
-  if (!r.why.empty()) text += " " + r.why;
-  return text;
-}
-
-}  // namespace
-
-std::span<const Preset> presets() { return all_presets(); }
 
 std::vector<Preset> presets_for(const Scene& scene) {
   std::vector<Preset> all(presets().begin(), presets().end());
@@ -99,12 +78,9 @@ Settings settings_for(const Preset& preset, const Scene& scene) {
 }
 
 std::string preset_names() {
-  std::string names;
-  for (std::size_t i = 0; i < presets().size(); ++i) {
-    if (i > 0) names += i + 1 == presets().size() ? " or " : ", ";
-    names += presets()[i].name;
-  }
-  return names;
+  std::vector<std::string_view> names;
+  for (const Preset& preset : presets()) names.push_back(preset.name);
+  return one_of(names);
 }
 
 }  // namespace substep

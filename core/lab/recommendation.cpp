@@ -1,21 +1,27 @@
 #include "core/lab/recommendation.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
 #include <string>
+#include <tuple>
 
-#include "core/lab/three_digits.hpp"
+#include "core/model/format_text.hpp"
+#include "core/model/number_text.hpp"
 
 namespace substep {
 namespace {
 
-std::vector<CostAndError> values_of(std::span<const RunPoint> points) {
-  return {points.begin(), points.end()};
-}
-
-std::optional<RunPoint> at(std::span<const RunPoint> points, std::optional<std::size_t> index) {
-  return index ? std::optional(points[*index]) : std::nullopt;
+/// The point with the smallest `aim`, then `bound`, among those with `bound` within the limit.
+std::optional<RunPoint> least_within(std::span<const RunPoint> points, double RunPoint::*bound,
+                                     double limit, double RunPoint::*aim) {
+  std::optional<RunPoint> best;
+  for (const RunPoint& p : points) {
+    if (!(p.*bound <= limit)) continue;
+    if (!best || p.*aim < (*best).*aim || (p.*aim == (*best).*aim && p.*bound < (*best).*bound)) {
+      best = p;
+    }
+  }
+  return best;
 }
 
 bool is_paper(const Settings& s) {
@@ -32,26 +38,32 @@ std::string reason(std::span<const RunPoint> points, std::span<const Result> res
   const auto runs = std::count_if(results.begin(), results.end(), plain);
   const auto held = std::count_if(results.begin(), results.end(),
                                   [&](const Result& r) { return plain(r) && r.metrics.holds; });
-  char text[200];
-  const int size =
-      std::snprintf(text, sizeof text, "The cheapest of %lld runs, %lld of which hold; ",
-                    static_cast<long long>(runs), static_cast<long long>(held));
-  char* rest = text + size;
-  const std::size_t room = sizeof text - static_cast<std::size_t>(size);
+  const std::string text = format_text("The cheapest of %lld runs, %lld of which hold; ",
+                                       static_cast<long long>(runs), static_cast<long long>(held));
   const auto paper = cheapest_within(of_paper(points, results), within);
-  if (!paper) {
-    std::snprintf(rest, room, "no run of the paper's method reaches this error.");
-  } else if (paper->result == best.result) {
-    std::snprintf(rest, room, "it is the paper's method.");
-  } else {
-    const double times = paper->cost / best.cost;
-    std::snprintf(rest, room, "the paper's method takes %.*f times the work, with alpha %g.",
-                  times < 10.0 ? 1 : 0, times, results[paper->result].experiment.settings.alpha);
-  }
-  return text;
+  if (!paper) return text + "no run of the paper's method reaches this error.";
+  if (paper->result == best.result) return text + "it is the paper's method.";
+  const double times = paper->cost / best.cost;
+  return text + format_text("the paper's method takes %.*f times the work, with alpha %g.",
+                            times < 10.0 ? 1 : 0, times,
+                            results[paper->result].experiment.settings.alpha);
 }
 
 }  // namespace
+
+void mark_front(std::span<RunPoint> points) {
+  std::vector<RunPoint*> order;
+  for (RunPoint& point : points) order.push_back(&point);
+  std::sort(order.begin(), order.end(), [](const RunPoint* a, const RunPoint* b) {
+    return std::tie(a->cost, a->error) < std::tie(b->cost, b->error);
+  });
+  const RunPoint* best = nullptr;  // of all cheaper points
+  for (RunPoint* point : order) {
+    const bool equals = best && point->cost == best->cost && point->error == best->error;
+    point->front = !best || equals || point->error < best->error;
+    if (point->front) best = point;
+  }
+}
 
 std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost,
                                  double floor) {
@@ -61,19 +73,18 @@ std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis erro
     const auto value = error_of(results[i], error);
     const double price = cost_of(results[i], cost);
     if (!value || !(*value > 0.0) || !(price > 0.0)) continue;
-    points.push_back({{price, std::max(*value, floor)}, i});
+    points.push_back({price, std::max(*value, floor), i});
   }
-  const std::vector<bool> front = pareto_front(values_of(points));
-  for (std::size_t i = 0; i < points.size(); ++i) points[i].front = front[i];
+  mark_front(points);
   return points;
 }
 
 std::optional<RunPoint> cheapest_within(std::span<const RunPoint> points, double error) {
-  return at(points, cheapest_within(std::span<const CostAndError>(values_of(points)), error));
+  return least_within(points, &RunPoint::error, error, &RunPoint::cost);
 }
 
 std::optional<RunPoint> most_exact_within(std::span<const RunPoint> points, double cost) {
-  return at(points, most_exact_within(std::span<const CostAndError>(values_of(points)), cost));
+  return least_within(points, &RunPoint::cost, cost, &RunPoint::error);
 }
 
 std::vector<RunPoint> of_paper(std::span<const RunPoint> points, std::span<const Result> results) {
@@ -86,7 +97,7 @@ std::vector<RunPoint> of_paper(std::span<const RunPoint> points, std::span<const
 std::optional<Recommended> recommended_of(std::span<const Result> results, ErrorAxis of,
                                           double within) {
   const std::vector<RunPoint> points = run_points(results, of, CostAxis::kOperations);
-  const auto best = cheapest_within(std::span<const RunPoint>(points), within);
+  const auto best = cheapest_within(points, within);
   if (!best) return std::nullopt;
   const Experiment& experiment = results[best->result].experiment;
   return Recommended{.settings = experiment.settings,

@@ -6,24 +6,30 @@
 #include <vector>
 
 #include "core/lab/axes.hpp"
-#include "core/lab/pareto.hpp"
 #include "core/model/recommended.hpp"
 
 namespace substep {
 
 /// A run that holds, as a point in the plot of error against cost.
-struct RunPoint : CostAndError {
+struct RunPoint {
+  double cost = 0.0;
+  double error = 0.0;
   std::size_t result = 0;  // index into the results
   bool front = false;      // on the Pareto front
 };
+
+/// Marks the points on the Pareto front: no other has less cost at no more error, or less error at
+/// no more cost. Equal points are all marked. O(n log n).
+void mark_front(std::span<RunPoint> points);
 
 /// The runs of the unmodified scene that hold, with positive error and cost. @param floor lower
 /// bound: smaller errors are set to it
 std::vector<RunPoint> run_points(std::span<const Result> results, ErrorAxis error, CostAxis cost,
                                  double floor = 0.0);
 
-/// The cheapest run within an error, and the most accurate within a cost.
+/// The run of least cost whose error is no more than this; of equal costs the more exact one.
 std::optional<RunPoint> cheapest_within(std::span<const RunPoint> points, double error);
+/// The run of least error whose cost is no more than this; of equal errors the cheaper one.
 std::optional<RunPoint> most_exact_within(std::span<const RunPoint> points, double cost);
 
 /// The runs of the paper's method: the direct solver, Euler, N decided once per frame, the paper's

@@ -38,10 +38,10 @@ class ReferenceRun::Source {
   virtual ~Source() = default;
   [[nodiscard]] virtual std::string name() const = 0;
   /// The next frame, or nothing if it needs more calls: each call is short, to keep a page
-  /// responsive.
-  virtual std::optional<Sample> next() = 0;
-  /// Uncertainty of the positions so far [m].
-  [[nodiscard]] virtual double uncertainty() const = 0;
+  /// responsive. @param t at its end [s]
+  virtual std::optional<Sample> next(double t) = 0;
+  /// Uncertainty of the positions until t [m].
+  [[nodiscard]] virtual double uncertainty(double t) const = 0;
 };
 
 namespace {
@@ -51,8 +51,7 @@ class ClosedForm final : public ReferenceRun::Source {
   ClosedForm(const Scene& scene, const UniformAcceleration& motion)
       : scene_(scene), motion_(motion) {}
   [[nodiscard]] std::string name() const override { return "exact: closed form"; }
-  std::optional<Sample> next() override {
-    const double t = static_cast<double>(++frame_) * scene_.frame;
+  std::optional<Sample> next(double t) override {
     const Body& body = scene_.bodies[index(*scene_.criteria.track)];
     const Vec3 v = motion_.velocity + motion_.acceleration * t;
     // What spins freely keeps the energy of its spin.
@@ -60,12 +59,11 @@ class ClosedForm final : public ReferenceRun::Source {
     return Sample{motion_.at(t), 0.5 * body.mass * v.squaredNorm() +
                                      0.5 * omega.dot(body.inertia.cwiseProduct(omega))};
   }
-  [[nodiscard]] double uncertainty() const override { return 0.0; }
+  [[nodiscard]] double uncertainty(double) const override { return 0.0; }
 
  private:
   const Scene& scene_;
   UniformAcceleration motion_;
-  std::int64_t frame_ = 0;
 };
 
 class MinimalCoordinates final : public ReferenceRun::Source {
@@ -76,15 +74,13 @@ class MinimalCoordinates final : public ReferenceRun::Source {
     return "exact: minimal coordinates, " + std::to_string(chain_.size()) +
            (chain_.size() == 1 ? " angle" : " angles");
   }
-  std::optional<Sample> next() override {
+  std::optional<Sample> next(double) override {
     chain_.advance(scene_.frame);
-    ++frames_;
     return Sample{chain_.centre(*scene_.criteria.track), chain_.kinetic()};
   }
   // What a longer chain is late by grows with every swing.
-  [[nodiscard]] double uncertainty() const override {
-    const double swung = static_cast<double>(frames_) * scene_.frame *
-                         std::sqrt(scene_.gravity.norm() / chain_.length());
+  [[nodiscard]] double uncertainty(double t) const override {
+    const double swung = t * std::sqrt(scene_.gravity.norm() / chain_.length());
     return kChainUncertainty + stretch_ * (1.0 + swung);
   }
 
@@ -92,7 +88,6 @@ class MinimalCoordinates final : public ReferenceRun::Source {
   const Scene& scene_;
   PlanarChain chain_;
   double stretch_;  // of all hinges by their compliance [m]
-  std::int64_t frames_ = 0;
 };
 
 /// Trees in 3D can be chaotic: the integrator's error is estimated by a second tree with a larger
@@ -100,15 +95,17 @@ class MinimalCoordinates final : public ReferenceRun::Source {
 class TreeCoordinates final : public ReferenceRun::Source {
  public:
   TreeCoordinates(const Scene& scene, const JointTree& tree)
-      : scene_(scene), fine_(tree), coarse_(tree), stretch_(tree.stretch()), left_(scene.frame) {}
+      : scene_(scene), fine_(tree), coarse_(tree), stretch_(tree.stretch()), left_(scene.frame) {
+    coarse_.set_tolerance(100.0 * JointTree::kTolerance);
+  }
   [[nodiscard]] std::string name() const override {
     return "exact: minimal coordinates, " + std::to_string(fine_.size()) +
            (fine_.size() == 1 ? " degree of freedom" : " degrees of freedom");
   }
-  std::optional<Sample> next() override {
+  std::optional<Sample> next(double) override {
     for (int i = 0; i < std::max(1, kSlice / fine_.bodies()); ++i) {
       if (left_ > kNothingLeft * scene_.frame) {
-        left_ -= fine_done_ ? coarse_.attempt(left_, kCoarse) : fine_.attempt(left_);
+        left_ -= (fine_done_ ? coarse_ : fine_).attempt(left_);
         continue;
       }
       left_ = scene_.frame;
@@ -117,20 +114,18 @@ class TreeCoordinates final : public ReferenceRun::Source {
     }
     return std::nullopt;
   }
-  [[nodiscard]] double uncertainty() const override {
-    const double swung = static_cast<double>(frames_) * scene_.frame *
-                         std::sqrt(scene_.gravity.norm() / std::max(fine_.reach(), kLeastReach));
+  [[nodiscard]] double uncertainty(double t) const override {
+    const double swung =
+        t * std::sqrt(scene_.gravity.norm() / std::max(fine_.reach(), kLeastReach));
     return kChainUncertainty + apart_ + stretch_ * (1.0 + swung);
   }
 
  private:
   static constexpr int kSlice = 64;            // steps of single bodies in a call
   static constexpr double kLeastReach = 1e-3;  // of a tree that may have no arms [m]
-  static constexpr double kCoarse = 100.0 * JointTree::kTolerance;
   static constexpr double kNothingLeft = Extrapolation::kRounding;
 
   Sample sample() {
-    ++frames_;
     const int body = *scene_.criteria.track;
     apart_ = std::max(apart_, (fine_.centre(body) - coarse_.centre(body)).norm());
     stretch_ = std::max(stretch_, fine_.stretch());
@@ -144,7 +139,6 @@ class TreeCoordinates final : public ReferenceRun::Source {
   double left_;             // of the frame [s]
   double apart_ = 0.0;      // [m]
   bool fine_done_ = false;  // with the frame that the coarse one is at
-  std::int64_t frames_ = 0;
 };
 
 /// The scene itself, twice.
@@ -165,10 +159,9 @@ class FinestRun final : public ReferenceRun::Source {
     coarse_.set_settings(settings);
   }
   [[nodiscard]] std::string name() const override {
-    std::string text = "finest run: bpp, leapfrog, ";
-    return text.append(std::to_string(kFinest)).append(" sub-steps per frame");
+    return "finest run: bpp, leapfrog, " + std::to_string(kFinest) + " sub-steps per frame";
   }
-  std::optional<Sample> next() override {
+  std::optional<Sample> next(double) override {
     Simulator& simulator = fine_done_ ? coarse_ : fine_;
     const FrameReport report = simulator.step_some(kPartWork);
     if (simulator.substeps_left() > 0) return std::nullopt;
@@ -177,7 +170,7 @@ class FinestRun final : public ReferenceRun::Source {
     kinetic_ = report.kinetic;
     return std::nullopt;
   }
-  [[nodiscard]] double uncertainty() const override { return apart_; }
+  [[nodiscard]] double uncertainty(double) const override { return apart_; }
 
  private:
   Sample sample() {
@@ -239,15 +232,19 @@ ReferenceRun::~ReferenceRun() = default;
 ReferenceRun::ReferenceRun(ReferenceRun&&) noexcept = default;
 ReferenceRun& ReferenceRun::operator=(ReferenceRun&&) noexcept = default;
 
+double ReferenceRun::time_of(std::int64_t frame) const {
+  return static_cast<double>(frame) * scene_->frame;
+}
+
 bool ReferenceRun::advance() {
   if (frame_ < frames_) {
-    const std::optional<Sample> sample = source_->next();
+    const std::optional<Sample> sample = source_->next(time_of(frame_ + 1));
     if (!sample) return true;
     if (scene_->criteria.track) reference_.track.push_back(sample->x);
     kinetic_ = std::max(kinetic_, sample->kinetic);
     if (++frame_ < frames_) return true;
   }
-  reference_.uncertainty = source_->uncertainty();
+  reference_.uncertainty = source_->uncertainty(time_of(frame_));
   if (scene_->criteria.energy_scale) {
     reference_.energy_scale = *scene_->criteria.energy_scale;
     reference_.energy_scale_source = "stated by the scene";

@@ -54,6 +54,8 @@ class ReferenceRun {
   class Source;
 
  private:
+  [[nodiscard]] double time_of(std::int64_t frame) const;  // at its end [s]
+
   std::shared_ptr<const Scene> scene_;
   std::unique_ptr<Source> source_;
   Reference reference_;

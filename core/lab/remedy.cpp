@@ -1,7 +1,8 @@
 #include "core/lab/remedy.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "core/model/format_text.hpp"
 
 namespace substep {
 namespace {
@@ -31,8 +32,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   const bool adaptive = settings.mode == Mode::kAdaptive;
   const bool has_rows = last.joint_rows + last.contact_rows > 0;
   if (!adaptive && has_rows) {  // without rows N is 1
-    Settings& s = add("adaptive sub-steps");
-    s.mode = Mode::kAdaptive;
+    add("adaptive sub-steps").mode = Mode::kAdaptive;
   }
   if (adaptive && last.capped) {
     const int n_max = larger(settings.n_max, last.n_wanted);
@@ -53,9 +53,7 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   }
   if (adaptive && !last.capped && settings.alpha > kLeastOffered) {
     const double alpha = std::max(kLeastOffered, 0.5 * settings.alpha);
-    char text[40];
-    std::snprintf(text, sizeof text, "a smaller alpha, %.3g", alpha);
-    add(text).alpha = alpha;
+    add(format_text("a smaller alpha, %.3g", alpha)).alpha = alpha;
   }
   if (adaptive && settings.policy == Policy::kFrame) {
     add("a decision after every sub-step").policy = Policy::kSubstep;

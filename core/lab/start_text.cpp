@@ -1,16 +1,14 @@
 #include "core/lab/start_text.hpp"
 
-#include <array>
-#include <cstdio>
 #include <vector>
+
+#include "core/model/format_text.hpp"
 
 namespace substep {
 namespace {
 
 std::string short_text(double value, const char* unit) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.3g %s", value, unit);
-  return text.data();
+  return format_text("%.3g %s", value, unit);
 }
 
 std::string length_text(double metres) {
@@ -29,11 +27,7 @@ std::string turning_text(double turning) {
 }
 
 // Prints both energies: their difference may be a small part of either.
-std::string energy_text(double energy) {
-  std::array<char, 48> text{};
-  std::snprintf(text.data(), text.size(), "%.6g J", energy);
-  return text.data();
-}
+std::string energy_text(double energy) { return format_text("%.6g J", energy); }
 
 std::string joined(const std::vector<std::string>& parts) {
   std::string text;

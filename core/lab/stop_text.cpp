@@ -1,30 +1,18 @@
 #include "core/lab/stop_text.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "core/collision/detector.hpp"
 #include "core/model/budget.hpp"
+#include "core/model/format_text.hpp"
 
 namespace substep {
 namespace {
 
 std::string memory_text(double bytes) {
   constexpr double kGibibyte = 1024.0 * kMebibyte;
-  std::array<char, 40> text{};
-  if (bytes >= kGibibyte) {
-    std::snprintf(text.data(), text.size(), "%.1f GiB", bytes / kGibibyte);
-  } else {
-    std::snprintf(text.data(), text.size(), "%.0f MiB", bytes / kMebibyte);
-  }
-  return text.data();
-}
-
-std::string work_text(double operations) {
-  std::array<char, 40> text{};
-  std::snprintf(text.data(), text.size(), "%.2g", operations);
-  return text.data();
+  return bytes >= kGibibyte ? format_text("%.1f GiB", bytes / kGibibyte)
+                            : format_text("%.0f MiB", bytes / kMebibyte);
 }
 
 std::string counted(std::int64_t count, const std::string& what) {
@@ -45,8 +33,9 @@ std::string overrun_text(const Overrun& overrun) {
   std::string what = overrun.of_substep ? "A sub-step" : counted(overrun.substeps, "sub-step");
   if (overrun.iterations > 0) what += " of " + counted(overrun.iterations, "iteration");
   return what + " on " + counted(overrun.rows, "row") + of_bodies + " would need " +
-         work_text(overrun.work) + " operations" + (overrun.of_substep ? "" : " in a frame") +
-         "; the budget is " + work_text(overrun.budget);
+         format_text("%.2g", overrun.work) + " operations" +
+         (overrun.of_substep ? "" : " in a frame") + "; the budget is " +
+         format_text("%.2g", overrun.budget);
 }
 
 std::string stop_text(const Scene& scene, const FrameReport& report) {

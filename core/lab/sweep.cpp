@@ -7,9 +7,7 @@
 #include "core/lab/slice.hpp"
 #include "core/model/methods.hpp"
 #include "core/sim/islands.hpp"
-#include "core/stepping/effective_mass.hpp"
 #include "core/stepping/mode_rules.hpp"
-#include "core/stepping/substep_clock.hpp"
 
 namespace substep {
 namespace {
@@ -38,33 +36,35 @@ Settings direct(Settings settings, Integrator integrator) {
   return settings;
 }
 
+/// The settings with every value of one of their members.
+void append_along(Settings settings, const auto& values, auto member, std::vector<Settings>& all) {
+  for (const auto value : values) {
+    settings.*member = value;
+    all.push_back(settings);
+  }
+}
+
 /// Every value of a mode's own parameter.
 void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
   settings.mode = mode;
-  const auto along = [&](const auto& values, auto member) {
-    for (const auto value : values) {
-      settings.*member = value;
-      all.push_back(settings);
-    }
-  };
   const ModeRules rules = rules_of(mode);
   switch (rules.count) {
     case SubstepCount::kOne:
       if (rules.mass == StiffMass::kDamped) {
-        along(kDampingAlpha, &Settings::alpha);
+        append_along(settings, kDampingAlpha, &Settings::alpha, all);
       } else {
         all.push_back(settings);
       }
       break;
     case SubstepCount::kGiven:
-      along(kConstant, &Settings::n);
+      append_along(settings, kConstant, &Settings::n, all);
       break;
     case SubstepCount::kStableCapped:
-      along(kCaps, &Settings::n_cap);
+      append_along(settings, kCaps, &Settings::n_cap, all);
       break;
     case SubstepCount::kStable:
       settings.n_max = std::max(settings.n_max, kFreeCap);  // one of its own would hide the law
-      along(kAlpha, &Settings::alpha);
+      append_along(settings, kAlpha, &Settings::alpha, all);
       break;
   }
 }
@@ -79,10 +79,7 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
     settings.iterations = iterations;
     settings.forces = forces;
     settings.integrator = forces == Forces::kEnd ? Integrator::kEuler : Integrator::kLeapfrog;
-    for (const int n : kImplicit) {
-      settings.n = n;
-      all.push_back(settings);
-    }
+    append_along(settings, kImplicit, &Settings::n, all);
   };
   const int iterations = settings.iterations;  // along() changes them
   along(SolverKind::kXpbd, 1, Forces::kEnd);   // as published: sub-steps in place of sweeps
@@ -106,32 +103,8 @@ void append_small_steps(Settings settings, const Scene& scene, std::vector<Setti
   if (scene.effects.contact) settings.detection = Detection::kFrame;
   for (const SolverKind solver : {SolverKind::kPgs, SolverKind::kXpbd}) {
     settings.solver = solver;
-    for (const int n : kSmallSteps) {
-      settings.n = n;
-      all.push_back(settings);
-    }
+    append_along(settings, kSmallSteps, &Settings::n, all);
   }
-}
-
-/// Second-order drift correction of joints.
-void append_drift_order_2(const Settings& base, std::vector<Settings>& all) {
-  Settings settings = direct(base, Integrator::kLeapfrog);
-  settings.drift_order = 2;
-  append_curve(settings, Mode::kConst, all);
-}
-
-/// Poses corrected for the change of acceleration; derived for joints only.
-void append_stormer(const Settings& base, std::vector<Settings>& all) {
-  for (const Mode mode : {Mode::kConst, Mode::kAdaptive}) {
-    append_curve(direct(base, Integrator::kStormer), mode, all);
-  }
-}
-
-/// N by the true derivative of a contact.
-void append_exact_contacts(const Settings& base, std::vector<Settings>& all) {
-  Settings settings = direct(base, Integrator::kEuler);
-  settings.contact_stiffness = ContactStiffness::kExact;
-  append_curve(settings, Mode::kAdaptive, all);
 }
 
 /// Few sub-steps, with refinements that remove most of the regularisation.
@@ -140,18 +113,8 @@ void append_refined(const Settings& base, std::vector<Settings>& all) {
   settings.mode = Mode::kConst;
   for (const int refinements : kRefinements) {
     settings.refinements = refinements;
-    for (const int n : kFew) {
-      settings.n = n;
-      all.push_back(settings);
-    }
+    append_along(settings, kFew, &Settings::n, all);
   }
-}
-
-/// With the explicit gyroscopic torque.
-void append_explicit_gyroscopic(const Settings& base, std::vector<Settings>& all) {
-  Settings settings = direct(base, Integrator::kLeapfrog);
-  settings.gyroscopic = Gyroscopic::kExplicit;
-  append_curve(settings, Mode::kConst, all);
 }
 
 /// True if joints do not connect all moving bodies.
@@ -162,14 +125,6 @@ bool can_have_islands(const Scene& scene) {
   Islands islands(scene);
   islands.find(scene, whole(scene), state, R_WB, scene.frame, nullptr);
   return islands.count() > 1;
-}
-
-/// Each island with its own N.
-void append_islands(Settings base, std::vector<Settings>& all) {
-  base.islands = true;
-  append_curve(direct(base, Integrator::kEuler), Mode::kAdaptive, all);
-  append_curve(direct(base, Integrator::kLeapfrog), Mode::kAdaptive, all);
-  append_curve(direct(base, Integrator::kEuler), Mode::kCapped, all);
 }
 
 /// Constant N and adaptive along their parameter, with the direct solver, under every other load.
@@ -240,14 +195,33 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
     curves(solver, Integrator::kEuler);
     curves(solver, Integrator::kLeapfrog);
   }
-  if (scene.effects.joints) append_drift_order_2(base, all);
-  if (scene.effects.joints && !scene.effects.contact) append_stormer(base, all);
-  if (scene.effects.contact) append_exact_contacts(base, all);
+  const auto direct_curve = [&](Integrator integrator, Mode mode, auto member, auto value) {
+    Settings settings = direct(base, integrator);
+    settings.*member = value;
+    append_curve(settings, mode, all);
+  };
+  if (scene.effects.joints) {
+    direct_curve(Integrator::kLeapfrog, Mode::kConst, &Settings::drift_order, 2);
+  }
+  if (scene.effects.joints && !scene.effects.contact) {  // it is derived for joints only
+    append_curve(direct(base, Integrator::kStormer), Mode::kConst, all);
+    append_curve(direct(base, Integrator::kStormer), Mode::kAdaptive, all);
+  }
+  if (scene.effects.contact) {
+    direct_curve(Integrator::kEuler, Mode::kAdaptive, &Settings::contact_stiffness,
+                 ContactStiffness::kExact);
+  }
   append_implicit(base, scene, all);
   append_small_steps(base, scene, all);
   if (scene.regularisation > 0.0) append_refined(base, all);
-  if (scene.effects.gyroscopic) append_explicit_gyroscopic(base, all);
-  if (can_have_islands(scene)) append_islands(base, all);
+  if (scene.effects.gyroscopic) {
+    direct_curve(Integrator::kLeapfrog, Mode::kConst, &Settings::gyroscopic, Gyroscopic::kExplicit);
+  }
+  if (can_have_islands(scene)) {
+    direct_curve(Integrator::kEuler, Mode::kAdaptive, &Settings::islands, true);
+    direct_curve(Integrator::kLeapfrog, Mode::kAdaptive, &Settings::islands, true);
+    direct_curve(Integrator::kEuler, Mode::kCapped, &Settings::islands, true);
+  }
   std::vector<SweepPoint> points;
   for (auto s = all.begin(); s != all.end(); ++s) {  // a scene's own can be those of a curve
     if (std::find(all.begin(), s, *s) == s) points.push_back({*s, 1.0});
@@ -284,8 +258,6 @@ Sweep::Sweep(std::shared_ptr<const Scene> scene, std::vector<Experiment> experim
   }
   finding_reference_.emplace(scene_, longest, budget_);
 }
-
-const Reference* Sweep::reference() const { return reference_.get(); }
 
 void Sweep::advance_by_a_frame() {
   if (finding_reference_) {

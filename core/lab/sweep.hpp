@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,7 +47,7 @@ class Sweep {
   [[nodiscard]] const std::vector<Result>& results() const { return results_; }
   [[nodiscard]] const std::vector<Experiment>& experiments() const { return experiments_; }
   /// Nothing until it is known.
-  [[nodiscard]] const Reference* reference() const;
+  [[nodiscard]] const Reference* reference() const { return reference_.get(); }
 
  private:
   void advance_by_a_frame();

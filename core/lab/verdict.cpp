@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "core/lab/stop_text.hpp"
+#include "core/model/format_text.hpp"
 
 namespace substep {
 
@@ -18,9 +18,8 @@ std::string text_of(const Exceeded& e) {
   const char* what = e.what == What::kJointGap     ? "joint gap"
                      : e.what == What::kEnergyGain ? "energy gain"
                                                    : "moved";
-  char text[160];
-  std::snprintf(text, sizeof text, "%s %.4g %s > %.4g %s", what, e.value, unit, e.limit, unit);
-  return e.name.empty() ? text : text + (" (" + e.name + ")");
+  const std::string text = format_text("%s %.4g %s > %.4g %s", what, e.value, unit, e.limit, unit);
+  return e.name.empty() ? text : text + " (" + e.name + ")";
 }
 
 }  // namespace
@@ -60,17 +59,13 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   if (why.empty()) return;
   failed_ = true;
   failed_at_ = report.time;
-  char when[40];
-  std::snprintf(when, sizeof when, "fails at %.3f s: ", failed_at_);
-  text_ = when + why;
+  text_ = format_text("fails at %.3f s: ", failed_at_) + why;
 }
 
 void Verdict::disturb(double time) {
   if (failed_ || disturbed_) return;
   disturbed_ = true;
-  char text[40];
-  std::snprintf(text, sizeof text, "disturbed at %.2f s", time);
-  text_ = text;
+  text_ = format_text("disturbed at %.2f s", time);
 }
 
 }  // namespace substep

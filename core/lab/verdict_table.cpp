@@ -36,14 +36,13 @@ std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
   return all;
 }
 
-Expectation own_expectation(const Criteria& criteria) {
-  return {.verdict = criteria.holds ? Expected::kHolds : Expected::kFails};
-}
-
 }  // namespace
 
 std::vector<VerdictCell> verdict_table(const Scene& scene) {
-  if (scene.verdicts.empty()) return {{scene.settings, own_expectation(scene.criteria)}};
+  if (scene.verdicts.empty()) {
+    const Expected own = scene.criteria.holds ? Expected::kHolds : Expected::kFails;
+    return {{scene.settings, {.verdict = own}}};
+  }
   std::vector<VerdictCell> table;
   for (const SolverKind solver : listed_solvers()) {
     for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {

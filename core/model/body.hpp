@@ -30,6 +30,9 @@ struct Body {
   std::optional<std::uint32_t> color;  // 0xRRGGBB, display only; none: the view's default
 };
 
+/// Velocity and angular velocity, world [m/s, rad/s].
+Vec6 velocity_of(const Body& body);
+
 /// Upper bound on the acceleration of any point due to the body's constant force and torque
 /// [m/s^2]; 0 for a static body. Clamped to 1e9 to keep derived values finite.
 double fastest_gain(const Body& body);

@@ -5,7 +5,6 @@
 
 #include "core/model/joint_fields.hpp"
 #include "core/model/number_checks.hpp"
-#include "core/model/scene_limits.hpp"
 
 namespace substep {
 namespace {
@@ -33,20 +32,11 @@ struct ShapeCheck {
 };
 
 void check_motion(const Body& body, const DataPlace& place, Problems& problems) {
-  struct Quantity {
-    const char* key;
-    const Vec3& value;
-    const Range& range;
-  };
-  const Quantity quantities[] = {{"velocity", body.velocity, kVelocityRange},
-                                 {"angular_velocity", body.angular_velocity, kAngularVelocityRange},
-                                 {"force", body.force, kBodyForceRange},
-                                 {"torque", body.torque, kBodyTorqueRange}};
-  for (const Quantity& quantity : quantities) {
-    const DataPlace there = place.at(quantity.key);
+  for (const auto& [key, member, range] : kMotionFields) {
+    const DataPlace there = place.at(key);
     if (!body.is_static) {
-      check_numbers(quantity.value, quantity.range, there, problems);
-    } else if (!(quantity.value == Vec3::Zero())) {
+      check_numbers(body.*member, range, there, problems);
+    } else if (!(body.*member == Vec3::Zero())) {
       problems.push_back({there.pointer(), std::string(kStaticMoves)});
     }
   }
@@ -60,6 +50,18 @@ void check_mass(const Body& body, const DataPlace& place, Problems& problems) {
   if (problems.size() > before) return;
   if (const auto fault = inertia_fault(body.inertia)) problems.push_back({there.pointer(), *fault});
 }
+
+struct OwnFieldCheck {
+  const DataPlace& place;
+  Problems& problems;
+
+  void operator()(const char* key, const Vec3& axis) const {
+    if (const auto fault = axis_fault(axis)) problems.push_back({place.at(key).pointer(), *fault});
+  }
+  void operator()(const char* key, double number, const Range& range) const {
+    check_number(number, range, place.at(key), problems);
+  }
+};
 
 }  // namespace
 
@@ -92,42 +94,43 @@ std::optional<std::string> axis_fault(const Vec3& axis) {
   return not_unit_text(length);
 }
 
-std::optional<DirectionFault> across_fault(const Joint& joint) {
+std::optional<JointFault> across_fault(const Joint& joint) {
   const auto axes = axes_of(joint);
   const auto across = across_of(joint);
   if (!axes || !across) return std::nullopt;
-  const auto fault = [](std::string_view key, const Vec3& axis, const Vec3& v) {
+  const auto fault = [](std::string_view key, const Vec3& axis,
+                        const Vec3& v) -> std::optional<JointFault> {
     const double cosine = std::abs(axis.dot(v));
-    return cosine <= kUnitTolerance ? std::nullopt
-                                    : std::optional<DirectionFault>(
-                                          {key,
-                                           "must be perpendicular to the axis: the cosine of their "
-                                           "angle is " +
-                                               number_text(cosine) + ", which is more than " +
-                                               number_text(kUnitTolerance)});
+    if (cosine <= kUnitTolerance) return std::nullopt;
+    return JointFault{key, "must be perpendicular to the axis: the cosine of their angle is " +
+                               number_text(cosine) + ", which is more than " +
+                               number_text(kUnitTolerance)};
   };
   if (auto of_a = fault("across_a", axes->a, across->a)) return of_a;
   return fault("across_b", axes->b, across->b);
 }
 
-std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b) {
-  const auto unknown = [&](int side) {
-    return side != kWorld && (side < 0 || index(side) >= bodies.size());
-  };
-  const auto no_body = [&](int side, const char* world) {
-    return must_be("the index of a body, from 0 to " + std::to_string(bodies.size() - 1) + world,
-                   std::to_string(side));
-  };
-  if (bodies.empty()) return SideFault{"a", "the scene has no bodies"};
-  if (a == kWorld) {
-    return SideFault{"a", "must be a moving body, not \"world\"; b may be static or \"world\""};
+std::optional<std::string> body_fault(const std::vector<Body>& bodies, int body,
+                                      std::string_view or_else) {
+  if (bodies.empty()) return "the scene has no bodies";
+  if (body >= 0 && index(body) < bodies.size()) return std::nullopt;
+  const std::string last = std::to_string(bodies.size() - 1);
+  return must_be("the index of a body, from 0 to " + last + std::string(or_else),
+                 std::to_string(body));
+}
+
+std::optional<JointFault> side_fault(const std::vector<Body>& bodies, int a, int b) {
+  if (a == kWorld && !bodies.empty()) {
+    return JointFault{"a", "must be a moving body, not \"world\"; b may be static or \"world\""};
   }
-  if (unknown(a)) return SideFault{"a", no_body(a, "")};
-  if (unknown(b)) return SideFault{"b", no_body(b, ", or -1 for the world")};
+  if (const auto fault = body_fault(bodies, a)) return JointFault{"a", *fault};
+  if (const auto fault = body_fault(bodies, b, ", or -1 for the world"); fault && b != kWorld) {
+    return JointFault{"b", *fault};
+  }
   if (bodies[index(a)].is_static) {
-    return SideFault{"a", "must be a moving body, not a static one; b may be static or \"world\""};
+    return JointFault{"a", "must be a moving body, not a static one; b may be static or \"world\""};
   }
-  if (a == b) return SideFault{"b", "must be a different body from a"};
+  if (a == b) return JointFault{"b", "must be a different body from a"};
   return std::nullopt;
 }
 
@@ -149,27 +152,11 @@ void check_body(const Body& body, const DataPlace& place, Problems& problems) {
   }
 }
 
-namespace {
-
-struct OwnFieldCheck {
-  const DataPlace& place;
-  Problems& problems;
-
-  void operator()(const char* key, const Vec3& axis) const {
-    if (const auto fault = axis_fault(axis)) problems.push_back({place.at(key).pointer(), *fault});
-  }
-  void operator()(const char* key, double number, const Range& range) const {
-    check_number(number, range, place.at(key), problems);
-  }
-};
-
-}  // namespace
-
 void check_joint(const Joint& joint, const std::vector<Body>& bodies, const DataPlace& place,
                  Problems& problems) {
   const JointBase& j = base(joint);
   if (const auto fault = side_fault(bodies, j.a, j.b)) {
-    problems.push_back({place.at(fault->side).pointer(), fault->message});
+    problems.push_back({place.at(fault->key).pointer(), fault->message});
   }
   check_numbers(j.anchor_a, kPositionRange, place.at("anchor_a"), problems);
   check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);

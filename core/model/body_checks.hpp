@@ -10,6 +10,7 @@
 #include "core/model/joint.hpp"
 #include "core/model/place.hpp"
 #include "core/model/problem.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep {
 
@@ -17,26 +18,36 @@ namespace substep {
 std::optional<std::string> inertia_fault(const Vec3& inertia);  // moments of no rigid body
 std::optional<std::string> orientation_fault(const Quat& q);    // length
 std::optional<std::string> axis_fault(const Vec3& axis);        // length
-inline constexpr std::string_view kNoInertia =
-    "mass and shape are so small that their inertia is 0";
 inline constexpr std::string_view kMovingPlane =
     "a plane cannot move: its body needs \"static\": true";
 inline constexpr std::string_view kStaticMoves = "a static body never moves";
 
-/// A fault in the body references of a joint.
-struct SideFault {
-  std::string_view side;  // "a" or "b"
-  std::string message;
+/// The members of a body that only a moving one has, besides mass and inertia.
+struct MotionField {
+  const char* key;
+  Vec3 Body::*member;
+  Range range;
 };
-/// @param a, b indices into bodies, or kWorld; any other number is a fault
-std::optional<SideFault> side_fault(const std::vector<Body>& bodies, int a, int b);
+inline constexpr MotionField kMotionFields[] = {
+    {"velocity", &Body::velocity, kVelocityRange},
+    {"angular_velocity", &Body::angular_velocity, kAngularVelocityRange},
+    {"force", &Body::force, kBodyForceRange},
+    {"torque", &Body::torque, kBodyTorqueRange}};
 
-/// A joint direction that is not perpendicular to its axis.
-struct DirectionFault {
-  std::string_view key;  // "across_a" or "across_b"
+/// The fault of an index of a body, or nothing. @param or_else what else is allowed
+std::optional<std::string> body_fault(const std::vector<Body>& bodies, int body,
+                                      std::string_view or_else = "");
+
+/// A fault of one member of a joint.
+struct JointFault {
+  std::string_view key;
   std::string message;
 };
-std::optional<DirectionFault> across_fault(const Joint& joint);
+/// The fault of the body references, "a" or "b". @param a, b indices into bodies, or kWorld; any
+/// other number is a fault
+std::optional<JointFault> side_fault(const std::vector<Body>& bodies, int a, int b);
+/// The fault of a direction that is not perpendicular to its axis, "across_a" or "across_b".
+std::optional<JointFault> across_fault(const Joint& joint);
 
 /// Adds all problems of one body. @param place of the body, such as "/bodies/3"
 void check_body(const Body& body, const DataPlace& place, Problems& problems);

@@ -7,7 +7,6 @@
 namespace substep {
 
 double joined_mass(const Scene& scene, int body) {
-  const auto moves = [&](int i) { return i != kWorld && !scene.bodies[index(i)].is_static; };
   std::vector<bool> found(scene.bodies.size(), false);
   std::vector<int> open{body};
   found[index(body)] = true;
@@ -18,7 +17,8 @@ double joined_mass(const Scene& scene, int body) {
     mass += scene.bodies[static_cast<std::size_t>(at)].mass;
     for (const Joint& joint : scene.joints) {
       const JointBase& j = base(joint);
-      if ((j.a != at && j.b != at) || !moves(j.a) || !moves(j.b)) continue;
+      if (j.a != at && j.b != at) continue;
+      if (is_fixed(scene, j.a) || is_fixed(scene, j.b)) continue;
       const int other = j.a == at ? j.b : j.a;
       if (found[index(other)]) continue;
       found[index(other)] = true;

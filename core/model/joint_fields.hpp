@@ -24,11 +24,11 @@ inline constexpr auto kJointTypes = []<std::size_t... I>(std::index_sequence<I..
 }
 (std::make_index_sequence<std::variant_size_v<Joint>>{});
 
-/// A joint of the type with this name in files, or nothing.
-inline std::optional<Joint> make_joint(std::string_view type) {
-  std::optional<Joint> joint;
+/// A joint of a type of kJointTypes.
+inline Joint make_joint(std::size_t type) {
+  Joint joint;
   [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((kJointTypes[I] == type ? (void)joint.emplace(std::in_place_index<I>) : (void)0), ...);
+    ((I == type ? (void)joint.emplace<I>() : (void)0), ...);
   }
   (std::make_index_sequence<std::variant_size_v<Joint>>{});
   return joint;

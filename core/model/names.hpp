@@ -1,6 +1,7 @@
 #pragma once
 // The names of settings as scene files, the command line and links spell them: one table for all.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -14,110 +15,60 @@
 
 namespace substep {
 
+/// The names of an enumeration's values, in their order.
 template <class Enum>
-struct Named {
-  std::string_view name;
-  Enum value;
-};
+inline constexpr auto kNames = nullptr;  // specialised below for every enum with names
 
-template <class Enum>
-struct NameTable;  // specialised below for every enum with names
+template <std::size_t N>
+using NameList = std::array<std::string_view, N>;
 
 /// The names in a table of methods.
-template <class Enum, class Entry, std::size_t N>
-consteval std::array<Named<Enum>, N> names_in(const std::array<Entry, N>& table) {
-  std::array<Named<Enum>, N> names{};
-  for (std::size_t i = 0; i < N; ++i) names[i] = {table[i].name, table[i].value};
+template <class Entry, std::size_t N>
+consteval NameList<N> names_in(const std::array<Entry, N>& table) {
+  NameList<N> names;
+  std::transform(table.begin(), table.end(), names.begin(), [](const Entry& e) { return e.name; });
   return names;
 }
 
 template <>
-struct NameTable<SolverKind> {
-  static constexpr std::array entries = names_in<SolverKind>(kSolvers);
-};
+inline constexpr NameList<kCountOf<SolverKind>> kNames<SolverKind> = names_in(kSolvers);
 template <>
-struct NameTable<Mode> {
-  static constexpr std::array entries = names_in<Mode>(kModes);
-};
+inline constexpr NameList<kCountOf<Mode>> kNames<Mode> = names_in(kModes);
 template <>
-struct NameTable<Integrator> {
-  static constexpr std::array entries = names_in<Integrator>(kIntegrators);
-};
+inline constexpr NameList<kCountOf<Integrator>> kNames<Integrator> = names_in(kIntegrators);
 template <>
-struct NameTable<Policy> {
-  static constexpr std::array entries{Named<Policy>{"frame", Policy::kFrame},
-                                      Named<Policy>{"substep", Policy::kSubstep}};
-};
+inline constexpr NameList<2> kNames<Policy>{"frame", "substep"};
 template <>
-struct NameTable<Drift> {
-  static constexpr std::array entries{Named<Drift>{"auto", Drift::kAuto},
-                                      Named<Drift>{"full", Drift::kFull},
-                                      Named<Drift>{"soft", Drift::kSoft}};
-};
+inline constexpr NameList<3> kNames<Drift>{"auto", "full", "soft"};
 template <>
-struct NameTable<ContactStiffness> {
-  static constexpr std::array entries{Named<ContactStiffness>{"paper", ContactStiffness::kPaper},
-                                      Named<ContactStiffness>{"exact", ContactStiffness::kExact}};
-};
+inline constexpr NameList<2> kNames<ContactStiffness>{"paper", "exact"};
 template <>
-struct NameTable<FrictionCone> {
-  static constexpr std::array entries{Named<FrictionCone>{"box", FrictionCone::kBox},
-                                      Named<FrictionCone>{"cone", FrictionCone::kCone}};
-};
+inline constexpr NameList<2> kNames<FrictionCone>{"box", "cone"};
 template <>
-struct NameTable<Forces> {
-  static constexpr std::array entries{Named<Forces>{"end", Forces::kEnd},
-                                      Named<Forces>{"mean", Forces::kMean},
-                                      Named<Forces>{"numerov", Forces::kNumerov}};
-};
+inline constexpr NameList<3> kNames<Forces>{"end", "mean", "numerov"};
 template <>
-struct NameTable<Gyroscopic> {
-  static constexpr std::array entries{Named<Gyroscopic>{"explicit", Gyroscopic::kExplicit},
-                                      Named<Gyroscopic>{"implicit", Gyroscopic::kImplicit}};
-};
-
+inline constexpr NameList<2> kNames<Gyroscopic>{"explicit", "implicit"};
 template <>
-struct NameTable<Detection> {
-  static constexpr std::array entries{Named<Detection>{"substep", Detection::kSubstep},
-                                      Named<Detection>{"frame", Detection::kFrame}};
-};
-
+inline constexpr NameList<2> kNames<Detection>{"substep", "frame"};
 template <>
-struct NameTable<StartPolicy> {
-  static constexpr std::array entries{Named<StartPolicy>{"project", StartPolicy::kProject},
-                                      Named<StartPolicy>{"keep", StartPolicy::kKeep},
-                                      Named<StartPolicy>{"refuse", StartPolicy::kRefuse}};
-};
-
+inline constexpr NameList<3> kNames<StartPolicy>{"project", "keep", "refuse"};
 template <>
-struct NameTable<Expected> {
-  static constexpr std::array entries{Named<Expected>{"holds", Expected::kHolds},
-                                      Named<Expected>{"fails", Expected::kFails},
-                                      Named<Expected>{"depends", Expected::kDepends}};
-};
-
+inline constexpr NameList<3> kNames<Expected>{"holds", "fails", "depends"};
 template <>
-struct NameTable<ErrorAxis> {
-  static constexpr std::array entries{Named<ErrorAxis>{"path", ErrorAxis::kTrajectory},
-                                      Named<ErrorAxis>{"energy", ErrorAxis::kEnergy},
-                                      Named<ErrorAxis>{"gap", ErrorAxis::kGap},
-                                      Named<ErrorAxis>{"overlap", ErrorAxis::kPenetration}};
-};
+inline constexpr NameList<4> kNames<ErrorAxis>{"path", "energy", "gap", "overlap"};
 
 template <class Enum>
 constexpr std::string_view name_of(Enum value) {
-  for (const auto& entry : NameTable<Enum>::entries) {
-    if (entry.value == value) return entry.name;
-  }
-  return "?";
+  const auto i = static_cast<std::size_t>(value);
+  return i < kNames<Enum>.size() ? kNames<Enum>[i] : "?";
 }
 
 template <class Enum>
 constexpr std::optional<Enum> value_of(std::string_view name) {
-  for (const auto& entry : NameTable<Enum>::entries) {
-    if (entry.name == name) return entry.value;
-  }
-  return std::nullopt;
+  const auto& names = kNames<Enum>;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<Enum>(found - names.begin());
 }
 
 }  // namespace substep

@@ -2,6 +2,7 @@
 // Range checks of numbers, with the messages of the scene reader.
 
 #include <cstddef>
+#include <optional>
 
 #include "core/math/types.hpp"
 #include "core/model/place.hpp"
@@ -15,6 +16,12 @@ inline void check_number(double value, const Range& range, const DataPlace& plac
                          Problems& problems) {
   if (range.contains(value)) return;
   problems.push_back({place.pointer(), must_be(range.violated_by(value), number_text(value))});
+}
+
+/// The same for a number that may be missing.
+inline void check_number(const std::optional<double>& value, const Range& range,
+                         const DataPlace& place, Problems& problems) {
+  if (value) check_number(*value, range, place, problems);
 }
 
 /// The same for each component of a vector.

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/model/format_text.hpp"
+
 namespace substep {
 
 // Emscripten's library has no std::to_chars and std::from_chars for doubles: hence the C functions,
@@ -35,6 +37,10 @@ std::string number_text(double value) {
     }
   }
   return shortest;
+}
+
+double three_digits(double value) {
+  return std::strtod(format_text("%.3g", value).c_str(), nullptr);
 }
 
 std::optional<double> parse_number(std::string_view text) {

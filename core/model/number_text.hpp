@@ -1,5 +1,5 @@
 #pragma once
-// Lossless number formatting: text reads back to the same bits.
+// Numbers as text, and back.
 
 #include <cstdint>
 #include <optional>
@@ -10,6 +10,9 @@ namespace substep {
 
 /// The shortest decimal text that reads back to the same double. Not for NaN and infinity.
 std::string number_text(double value);
+
+/// The nearest number with three significant digits.
+double three_digits(double value);
 
 /// The whole text as a finite double, or nothing.
 std::optional<double> parse_number(std::string_view text);

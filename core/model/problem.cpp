@@ -53,4 +53,13 @@ std::string to_code(const Problem& problem) {
   return place + ": " + problem.message;
 }
 
+std::string one_of(std::span<const std::string_view> names) {
+  std::string list;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
+    list += names[i];
+  }
+  return list;
+}
+
 }  // namespace substep

@@ -2,6 +2,7 @@
 // Problems in input data, by location.
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,9 @@ std::string must_be(std::string_view allowed, std::string_view value);
 
 /// The message for too many of something: "must have at most 5 bytes, not 6".
 std::string too_many(std::size_t count, std::size_t most, std::string_view what);
+
+/// "ball, box or plane"
+std::string one_of(std::span<const std::string_view> names);
 
 /// The pointer of a member: "/bodies" and "a/b" give "/bodies/a~1b" (RFC 6901).
 std::string pointer_to(std::string_view parent, std::string_view key);

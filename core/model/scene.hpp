@@ -71,6 +71,11 @@ struct Scene {
   std::optional<Carried> carried;  // state of the run that this scene was saved from
 };
 
+/// True for the world and static bodies, which never move. @param body index, or kWorld
+inline bool is_fixed(const Scene& scene, int body) {
+  return body == kWorld || scene.bodies[index(body)].is_static;
+}
+
 /// The scene's own settings: the defaults if it starts with its recommendation. Sweeps start from
 /// these, independent of earlier recommendations.
 inline Settings own_settings(const Scene& scene) {

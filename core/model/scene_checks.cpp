@@ -34,9 +34,7 @@ bool is_sound(const Scene& scene, const SoundParts& sound, std::size_t joint) {
 
 /// The two bodies of a joint, lower first; all that does not move is kWorld.
 std::pair<int, int> sides(const Scene& scene, const JointBase& joint) {
-  int b = joint.b;
-  if (b != kWorld && scene.bodies[index(b)].is_static) b = kWorld;
-  return std::minmax(joint.a, b);
+  return std::minmax({joint.a, is_fixed(scene, joint.b) ? kWorld : joint.b});
 }
 
 /// The fault of two directions that a joint keeps parallel; nothing if they nearly are.
@@ -95,16 +93,15 @@ void check_redundant_rows(const Scene& scene, const SoundParts& sound, Problems&
       note(stiff_turning, i, "angular_compliance", "rad/(N m)");
     }
   }
-  if (scene.effects.contact && scene.contact.compliance == 0.0) {
+  const auto check_contacts = [&](bool has_rows, double compliance, const char* pointer) {
+    if (!has_rows || compliance != 0.0) return;
     problems.push_back(
-        {"/contact/compliance",
+        {pointer,
          "must be above 0 (m/N), not 0: a box that lies on its face has redundant contacts"});
-  }
-  if (scene.effects.friction && scene.contact.friction_compliance == 0.0) {
-    problems.push_back(
-        {"/contact/friction_compliance",
-         "must be above 0 (m/N), not 0: a box that lies on its face has redundant contacts"});
-  }
+  };
+  check_contacts(scene.effects.contact, scene.contact.compliance, "/contact/compliance");
+  check_contacts(scene.effects.friction, scene.contact.friction_compliance,
+                 "/contact/friction_compliance");
 }
 
 void check_effects(const Scene& scene, Problems& problems) {

@@ -10,13 +10,6 @@
 namespace substep {
 namespace {
 
-template <class... Cases>
-struct Match : Cases... {
-  using Cases::operator()...;
-};
-template <class... Cases>
-Match(Cases...) -> Match<Cases...>;
-
 using S = Settings;
 
 constexpr std::array kFields{
@@ -95,15 +88,42 @@ constexpr std::array kFields{
                  FlagSetting{&S::watch_stiffness}},
 };
 
+std::string allowed_by(const FlagSetting&) { return "true or false"; }
+std::string allowed_by(const CountSetting& f) {
+  return "a whole number from " + std::to_string(f.least) + " to " + std::to_string(f.most);
+}
+std::string allowed_by(const NumberSetting& f) { return f.range.text(); }
 template <class Enum>
-std::string list_names() {
-  constexpr auto& entries = NameTable<Enum>::entries;
-  std::string list;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (i > 0) list += i + 1 == entries.size() ? " or " : ", ";
-    list += entries[i].name;
-  }
-  return list;
+std::string allowed_by(const ChoiceSetting<Enum>&) {
+  return one_of(kNames<Enum>);
+}
+
+std::string written(bool value) { return value ? "true" : "false"; }
+std::string written(int value) { return std::to_string(value); }
+std::string written(double value) { return number_text(value); }
+template <class Enum>
+std::string written(Enum value) {
+  return std::string(name_of(value));
+}
+
+// The value that a text states, or nothing if it is not allowed.
+std::optional<bool> parsed(const FlagSetting&, std::string_view text) {
+  if (text == "true") return true;
+  if (text == "false") return false;
+  return std::nullopt;
+}
+std::optional<int> parsed(const CountSetting& f, std::string_view text) {
+  const auto value = parse_integer(text);
+  if (!value || *value < f.least || *value > f.most) return std::nullopt;
+  return static_cast<int>(*value);
+}
+std::optional<double> parsed(const NumberSetting& f, std::string_view text) {
+  const auto value = parse_number(text);
+  return value && f.range.contains(*value) ? value : std::nullopt;
+}
+template <class Enum>
+std::optional<Enum> parsed(const ChoiceSetting<Enum>&, std::string_view text) {
+  return value_of<Enum>(text);
 }
 
 }  // namespace
@@ -111,22 +131,13 @@ std::string list_names() {
 std::span<const SettingField> setting_fields() { return kFields; }
 
 const SettingField* find_setting(std::string_view name) {
-  for (const SettingField& field : kFields) {
-    if (field.name == name) return &field;
-  }
-  return nullptr;
+  const auto found = std::find_if(kFields.begin(), kFields.end(),
+                                  [&](const SettingField& field) { return field.name == name; });
+  return found == kFields.end() ? nullptr : &*found;
 }
 
 std::string allowed_values(const SettingField& field) {
-  return std::visit(
-      Match{[](const FlagSetting&) -> std::string { return "true or false"; },
-            [](const CountSetting& f) {
-              return "a whole number from " + std::to_string(f.least) + " to " +
-                     std::to_string(f.most);
-            },
-            [](const NumberSetting& f) { return f.range.text(); },
-            []<class Enum>(const ChoiceSetting<Enum>&) { return list_names<Enum>(); }},
-      field.member);
+  return std::visit([](const auto& f) { return allowed_by(f); }, field.member);
 }
 
 std::string refusal(const SettingField& field, const std::string& value) {
@@ -140,44 +151,18 @@ bool is_choice(const SettingField& field) {
 }
 
 std::string setting_text(const SettingField& field, const Settings& settings) {
-  return std::visit(Match{[&](const FlagSetting& f) -> std::string {
-                            return settings.*f.member ? "true" : "false";
-                          },
-                          [&](const CountSetting& f) { return std::to_string(settings.*f.member); },
-                          [&](const NumberSetting& f) { return number_text(settings.*f.member); },
-                          [&]<class Enum>(const ChoiceSetting<Enum>& f) {
-                            return std::string(name_of(settings.*f.member));
-                          }},
-                    field.member);
+  return std::visit([&](const auto& f) { return written(settings.*f.member); }, field.member);
 }
 
 std::optional<std::string> set_setting(const SettingField& field, std::string_view text,
                                        Settings& settings) {
-  const bool ok = std::visit(Match{[&](const FlagSetting& f) {
-                                     if (text == "true") return settings.*f.member = true;
-                                     if (text == "false") return !(settings.*f.member = false);
-                                     return false;
-                                   },
-                                   [&](const CountSetting& f) {
-                                     const auto value = parse_integer(text);
-                                     if (!value || *value < f.least || *value > f.most)
-                                       return false;
-                                     settings.*f.member = static_cast<int>(*value);
-                                     return true;
-                                   },
-                                   [&](const NumberSetting& f) {
-                                     const auto value = parse_number(text);
-                                     if (!value || !f.range.contains(*value)) return false;
-                                     settings.*f.member = *value;
-                                     return true;
-                                   },
-                                   [&]<class Enum>(const ChoiceSetting<Enum>& f) {
-                                     const auto value = value_of<Enum>(text);
-                                     if (!value) return false;
-                                     settings.*f.member = *value;
-                                     return true;
-                                   }},
-                             field.member);
+  const bool ok = std::visit(
+      [&](const auto& f) {
+        const auto value = parsed(f, text);
+        if (value) settings.*f.member = *value;
+        return value.has_value();
+      },
+      field.member);
   if (ok) return std::nullopt;
   return refusal(field, std::string(text));
 }

@@ -10,9 +10,7 @@ State initial_state(const Scene& scene) {
   for (const Body& body : scene.bodies) {
     state.x.push_back(body.position);
     state.q.push_back(body.orientation);
-    Vec6 u;
-    u << body.velocity, body.angular_velocity;
-    state.u.push_back(u);
+    state.u.push_back(velocity_of(body));
   }
   state.u_synchronised = state.u;
   if (scene.carried) static_cast<Carried&>(state) = *scene.carried;

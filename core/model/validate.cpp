@@ -1,7 +1,11 @@
 #include "core/model/validate.hpp"
 
 #include <algorithm>
-#include <type_traits>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
 
 #include "core/model/body_checks.hpp"
 #include "core/model/names.hpp"
@@ -9,39 +13,24 @@
 #include "core/model/scene_checks.hpp"
 #include "core/model/scene_limits.hpp"
 #include "core/model/setting_fields.hpp"
-#include "core/model/state_checks.hpp"
 
 namespace substep {
 namespace {
 
-bool is_allowed(const SettingField& field, const Settings& settings) {
-  return std::visit(
-      [&]<class Field>(const Field& f) {
-        const auto& value = settings.*f.member;
-        if constexpr (std::is_same_v<Field, CountSetting>) {
-          return f.least <= value && value <= f.most;
-        } else if constexpr (std::is_same_v<Field, NumberSetting>) {
-          return f.range.contains(value);
-        } else if constexpr (std::is_same_v<Field, FlagSetting>) {
-          return true;
-        } else {
-          return value_of<std::remove_cvref_t<decltype(value)>>(name_of(value)).has_value();
-        }
-      },
-      field.member);
-}
-
 void check_settings(const Settings& settings, const std::string& pointer, Problems& problems) {
+  Settings scratch;
   for (const SettingField& field : setting_fields()) {
-    if (is_allowed(field, settings)) continue;
-    problems.push_back(
-        {pointer_to(pointer, field.name), refusal(field, setting_text(field, settings))});
+    const auto fault = set_setting(field, setting_text(field, settings), scratch);
+    if (fault) problems.push_back({pointer_to(pointer, field.name), *fault});
   }
 }
 
-void check_count(std::size_t count, std::size_t most, const char* pointer, Problems& problems) {
-  if (count <= most) return;
+/// @return true if the count is allowed
+bool check_count(std::size_t count, std::size_t most, const std::string& pointer,
+                 Problems& problems) {
+  if (count <= most) return true;
   problems.push_back({pointer, too_many(count, most, "items")});
+  return false;
 }
 
 void check_contact(const ContactModel& contact, Problems& problems) {
@@ -57,17 +46,13 @@ void check_criteria(const Scene& scene, Problems& problems) {
   const Criteria& criteria = scene.criteria;
   check_number(criteria.duration, kDurationRange, "/criteria/duration", problems);
   check_number(criteria.joint_gap, kDistanceRange, "/criteria/joint_gap", problems);
-  if (criteria.energy_gain) {
-    check_number(*criteria.energy_gain, kEnergyRange, "/criteria/energy_gain", problems);
-  }
-  if (criteria.energy_scale) {
-    check_number(*criteria.energy_scale, kEnergyRange, "/criteria/energy_scale", problems);
-  }
-  if (criteria.window) {
-    check_number(*criteria.window, kDurationRange, "/criteria/window", problems);
-  }
+  check_number(criteria.energy_gain, kEnergyRange, "/criteria/energy_gain", problems);
+  check_number(criteria.energy_scale, kEnergyRange, "/criteria/energy_scale", problems);
+  check_number(criteria.window, kDurationRange, "/criteria/window", problems);
   const auto check_index = [&](int body, const char* pointer) {
-    if (auto fault = body_fault(body, scene)) problems.push_back({pointer, std::move(*fault)});
+    if (auto fault = body_fault(scene.bodies, body)) {
+      problems.push_back({pointer, std::move(*fault)});
+    }
   };
   if (criteria.displacement) {
     check_index(criteria.displacement->body, "/criteria/displacement/body");
@@ -83,6 +68,100 @@ void check_recommended(const Recommended& recommended, Problems& problems) {
   check_number(recommended.operations, kOperationsRange, "/recommended/operations", problems);
   check_number(recommended.seconds, kDurationRange, "/recommended/seconds", problems);
   check_settings(recommended.settings, "/recommended/settings", problems);
+}
+
+constexpr int kLeastSide = -1;  // of StoredForce::active_set
+constexpr int kMostSide = 2;    // not known yet
+
+bool is_not_negative(double x) { return std::isfinite(x) && x >= 0.0; }
+
+/// Checks lists that have an item for every body.
+class Lists {
+ public:
+  Lists(std::string pointer, std::size_t bodies, Problems& problems)
+      : pointer_(std::move(pointer)), bodies_(bodies), problems_(problems) {}
+
+  /// Reports only the first item that is not finite.
+  template <class Item>
+  void required(const char* key, const std::vector<Item>& items) {
+    if (!sized(key, items)) return;
+    const auto bad =
+        std::find_if(items.begin(), items.end(), [](const Item& item) { return !finite(item); });
+    if (bad == items.end()) return;
+    problems_.push_back(
+        {pointer_to(pointer_to(pointer_, key), static_cast<std::size_t>(bad - items.begin())),
+         "must be finite"});
+  }
+  template <class Item>
+  void optional(const char* key, const std::vector<Item>& items) {
+    if (!items.empty()) required(key, items);
+  }
+  template <class Item>
+  bool sized(const char* key, const std::vector<Item>& items) {
+    if (items.size() == bodies_) return true;
+    problems_.push_back(
+        {pointer_to(pointer_, key), "must have " + std::to_string(bodies_) +
+                                        " items, one for each body of the scene, not " +
+                                        std::to_string(items.size())});
+    return false;
+  }
+
+ private:
+  static bool finite(double item) { return std::isfinite(item); }
+  static bool finite(const OwnSubstep& item) {
+    return is_not_negative(item.dt_previous) && is_not_negative(item.r);
+  }
+  static bool finite(const RotationPeak& item) {
+    return is_not_negative(item.before) && is_not_negative(item.now);
+  }
+  static bool finite(const auto& item) { return item.allFinite(); }
+
+  std::string pointer_;
+  std::size_t bodies_;
+  Problems& problems_;
+};
+
+bool has_sound_numbers(const StoredForce& force) {
+  const auto all_finite = [](const auto& numbers) {
+    return std::all_of(std::begin(numbers), std::end(numbers),
+                       [](double x) { return std::isfinite(x); });
+  };
+  const auto side = [](std::int8_t tight) { return kLeastSide <= tight && tight <= kMostSide; };
+  return all_finite(force.lambda) && all_finite(force.rate) && is_not_negative(force.rate_age) &&
+         all_finite(force.rate_change) && all_finite(force.elastic) &&
+         std::all_of(std::begin(force.active_set), std::end(force.active_set), side);
+}
+
+/// @param pointer location of the carried state of a saved run, such as "/carried"
+void check_carried(const Carried& carried, const Scene& scene, const std::string& pointer,
+                   Problems& problems) {
+  check_number(carried.dt_previous, not_negative(1.0, "s"), pointer_to(pointer, "dt_previous"),
+               problems);
+  check_number(carried.r, not_negative(std::numeric_limits<double>::max(), "1/s^2"),
+               pointer_to(pointer, "r"), problems);
+  check_number(carried.rotation_age, not_negative(10.0, "s"), pointer_to(pointer, "rotation_age"),
+               problems);
+  Lists lists(pointer, scene.bodies.size(), problems);
+  lists.required("u", carried.u);
+  lists.optional("k", carried.k);
+  lists.optional("k_resisting", carried.K_resisting);
+  lists.optional("acceleration", carried.acceleration);
+  lists.optional("acceleration_change", carried.acceleration_change);
+  lists.optional("torque", carried.torque);
+  lists.optional("torque_change", carried.torque_change);
+  lists.optional("own", carried.own);
+  lists.optional("rotation", carried.rotation);
+  lists.optional("rest", carried.rest);
+  if (carried.k.empty() && !carried.K_resisting.empty()) {
+    problems.push_back({pointer_to(pointer, "k_resisting"), "requires k"});
+  }
+  const std::string forces = pointer_to(pointer, "forces");
+  if (!check_count(carried.forces.size(), kMaxForces, forces, problems)) return;
+  const auto bad =
+      std::find_if_not(carried.forces.begin(), carried.forces.end(), has_sound_numbers);
+  if (bad == carried.forces.end()) return;
+  problems.push_back({pointer_to(forces, static_cast<std::size_t>(bad - carried.forces.begin())),
+                      "must have finite numbers, and tight from -1 to 2"});
 }
 
 /// @param sound takes which bodies and joints are right by themselves
@@ -108,9 +187,7 @@ Problems check_all_values(const Scene& scene, SoundParts& sound) {
     sound.bodies.push_back(problems.size() == before);
   }
   check_criteria(scene, problems);
-  if (scene.camera.width) {
-    check_number(*scene.camera.width, kDistanceRange, "/camera/width", problems);
-  }
+  check_number(scene.camera.width, kDistanceRange, "/camera/width", problems);
   for (std::size_t i = 0; i < scene.joints.size() && problems.size() < kMaxProblems; ++i) {
     const std::size_t before = problems.size();
     check_joint(scene.joints[i], scene.bodies, joints.at(i), problems);
@@ -163,13 +240,40 @@ Problems validate(const Budget& budget) {
 
 Problems validate(const State& state, const Scene& scene) {
   Problems problems;
-  check_state(state, scene, problems);
+  const std::string pointer = "/state";
+  check_carried(state, scene, pointer, problems);
+  Lists lists(pointer, scene.bodies.size(), problems);
+  lists.required("x", state.x);
+  lists.required("u_synchronised", state.u_synchronised);
+  if (lists.sized("q", state.q)) {
+    for (std::size_t i = 0; i < state.q.size(); ++i) {
+      const auto fault = orientation_fault(state.q[i]);
+      if (!fault) continue;
+      problems.push_back({pointer_to(pointer_to(pointer, "q"), i), *fault});
+      break;
+    }
+  }
+  if (state.frame < 0) {
+    problems.push_back(
+        {pointer_to(pointer, "frame"), must_be("at least 0", std::to_string(state.frame))});
+  }
+  constexpr Range kTime = not_negative(std::numeric_limits<double>::max(), "s");
+  check_number(state.time, kTime, pointer_to(pointer, "time"), problems);
   return first_of(std::move(problems));
 }
 
 Problems validate(const Grab& grab, const Scene& scene) {
   Problems problems;
-  check_grab(grab, scene, problems);
+  if (auto fault = body_fault(scene.bodies, grab.body)) {
+    problems.push_back({"/grab/body", std::move(*fault)});
+  } else if (scene.bodies[index(grab.body)].is_static) {
+    problems.push_back({"/grab/body", "must be a moving body, not a static one"});
+  }
+  if (!grab.anchor.allFinite()) problems.push_back({"/grab/anchor", "must be finite"});
+  if (!grab.target.allFinite()) problems.push_back({"/grab/target", "must be finite"});
+  if (!(grab.mass > 0.0) || !std::isfinite(grab.mass)) {
+    problems.push_back({"/grab/mass", must_be("above 0 and finite (kg)", number_text(grab.mass))});
+  }
   return problems;
 }
 

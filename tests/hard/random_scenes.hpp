@@ -42,8 +42,7 @@ inline Quat orientation() {
 }
 template <class Enum>
 Enum any_of() {
-  const auto& entries = NameTable<Enum>::entries;
-  return entries[static_cast<std::size_t>(whole(0, static_cast<int>(entries.size()) - 1))].value;
+  return static_cast<Enum>(whole(0, static_cast<int>(kNames<Enum>.size()) - 1));
 }
 
 inline Shape any_shape() {

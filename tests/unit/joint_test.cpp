@@ -68,12 +68,9 @@ TEST(JointTable, AnEntryWithoutAnOperationDoesNotCompile) {
   EXPECT_EQ(kind_of(BallJoint{}), kind_of<BallJoint>());
   EXPECT_EQ(kind_of(HingeJoint{}), kind_of<HingeJoint>());
   EXPECT_EQ(kind_of(PrismaticJoint{}), kind_of<PrismaticJoint>());
-  for (const std::string_view type : kJointTypes) {
-    const auto joint = make_joint(type);
-    ASSERT_TRUE(joint.has_value()) << type;
-    EXPECT_EQ(kJointTypes[joint->index()], type);
+  for (std::size_t type = 0; type < kJointTypes.size(); ++type) {
+    EXPECT_EQ(make_joint(type).index(), type);
   }
-  EXPECT_FALSE(make_joint("slider").has_value());
 }
 
 TEST(BallJoint, GradientAndStiffnessMatchFiniteDifferences) { gradient_and_stiffness<BallJoint>(); }

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "core/lab/pareto.hpp"
+#include "core/lab/recommendation.hpp"
 
 namespace substep {
 namespace {
@@ -15,9 +15,9 @@ TEST(Pareto, IsTheFrontOfBruteForce) {
   std::mt19937 random(7);
   std::uniform_int_distribution<int> coarse(0, 12);  // ties in both
   for (int round = 0; round < 200; ++round) {
-    std::vector<CostAndError> points(static_cast<std::size_t>(round % 40));
+    std::vector<RunPoint> points(static_cast<std::size_t>(round % 40));
     for (auto& p : points) p = {double(coarse(random)), double(coarse(random))};
-    const std::vector<bool> front = pareto_front(points);
+    mark_front(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
       bool beaten = false;
       for (const auto& q : points) {
@@ -25,23 +25,23 @@ TEST(Pareto, IsTheFrontOfBruteForce) {
         beaten = beaten ||
                  (q.cost <= p.cost && q.error <= p.error && (q.cost < p.cost || q.error < p.error));
       }
-      EXPECT_EQ(front[i], !beaten) << round << " " << i;
+      EXPECT_EQ(points[i].front, !beaten) << round << " " << i;
     }
   }
 }
 
 TEST(Pareto, CheapestWithinIsOnTheFront) {
-  const std::vector<CostAndError> points{{1.0, 1.0}, {2.0, 0.1},  {2.0, 0.05},
-                                         {3.0, 0.2}, {4.0, 0.01}, {9.0, 0.01}};
-  EXPECT_EQ(cheapest_within(points, 2.0), 0U);
-  EXPECT_EQ(cheapest_within(points, 0.5), 2U) << "the more accurate one at equal cost";
-  EXPECT_EQ(cheapest_within(points, 0.05), 2U) << "the limit is inclusive";
-  EXPECT_EQ(cheapest_within(points, 0.02), 4U);
-  EXPECT_EQ(cheapest_within(points, 0.001), std::nullopt);
-  EXPECT_EQ(cheapest_within({}, 1.0), std::nullopt);
-  const std::vector<bool> front = pareto_front(points);
+  std::vector<RunPoint> points{{1.0, 1.0, 0}, {2.0, 0.1, 1},  {2.0, 0.05, 2},
+                               {3.0, 0.2, 3}, {4.0, 0.01, 4}, {9.0, 0.01, 5}};
+  mark_front(points);
+  EXPECT_EQ(cheapest_within(points, 2.0)->result, 0U);
+  EXPECT_EQ(cheapest_within(points, 0.5)->result, 2U) << "the more accurate one at equal cost";
+  EXPECT_EQ(cheapest_within(points, 0.05)->result, 2U) << "the limit is inclusive";
+  EXPECT_EQ(cheapest_within(points, 0.02)->result, 4U);
+  EXPECT_FALSE(cheapest_within(points, 0.001));
+  EXPECT_FALSE(cheapest_within({}, 1.0));
   for (const double error : {2.0, 0.5, 0.05, 0.02}) {
-    EXPECT_TRUE(front[*cheapest_within(points, error)]);
+    EXPECT_TRUE(cheapest_within(points, error)->front);
   }
 }
 
@@ -49,14 +49,19 @@ TEST(Pareto, MostExactWithinIsCheapestWithinWithTheAxesSwapped) {
   std::mt19937 random(8);
   std::uniform_int_distribution<int> coarse(0, 12);
   for (int round = 0; round < 100; ++round) {
-    std::vector<CostAndError> points(static_cast<std::size_t>(round % 20));
-    std::vector<CostAndError> turned;
+    std::vector<RunPoint> points(static_cast<std::size_t>(round % 20));
+    std::vector<RunPoint> turned;
     for (auto& p : points) {
-      p = {double(coarse(random)), double(coarse(random))};
-      turned.push_back({p.error, p.cost});
+      p = {double(coarse(random)), double(coarse(random)), turned.size()};
+      turned.push_back({p.error, p.cost, p.result});
     }
     for (double limit = -0.5; limit < 13.0; limit += 0.5) {
-      EXPECT_EQ(most_exact_within(points, limit), cheapest_within(turned, limit));
+      const auto exact = most_exact_within(points, limit);
+      const auto cheap = cheapest_within(turned, limit);
+      ASSERT_EQ(exact.has_value(), cheap.has_value());
+      if (exact) {
+        EXPECT_EQ(exact->result, cheap->result);
+      }
     }
   }
 }

@@ -24,6 +24,30 @@ inline JointTree tree_of(const Scene& scene) {
   return tree ? *tree : *JointTree::of(scenes::heavy_top());
 }
 
+/// Energy of gravity in a motion of a scene, zero at the world's origin [J].
+double potential(const Scene& scene, const auto& motion) {
+  double energy = 0.0;
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const Body& body = scene.bodies[index(i)];
+    if (!body.is_static) energy -= body.mass * scene.gravity.dot(motion.centre(i));
+  }
+  return energy;
+}
+
+/// Sum of the angular momenta about a point of the world [kg m^2/s].
+inline Vec3 angular_momentum(const Scene& scene, const JointTree& tree, const Vec3& about) {
+  Vec3 sum = Vec3::Zero();
+  for (int i = 0; i < static_cast<int>(scene.bodies.size()); ++i) {
+    const Body& body = scene.bodies[index(i)];
+    if (body.is_static) continue;
+    const Quat q = tree.orientation(i);
+    const Vec6 u = tree.velocity(i);
+    sum += q * body.inertia.cwiseProduct(q.conjugate() * Vec3(u.tail<3>())) +
+           body.mass * (tree.centre(i) - about).cross(Vec3(u.head<3>()));
+  }
+  return sum;
+}
+
 /// Adds bodies to a scene one by one, each on a joint to an existing one.
 class TreeMaker {
  public:

@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
 #include "app/text/link.hpp"
-#include "core/io/effect_names.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/lab/experiment_run.hpp"
+#include "core/model/effects.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
 #include "tests/unit/unusual_settings.hpp"
 

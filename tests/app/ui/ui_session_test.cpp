@@ -429,7 +429,7 @@ TEST(Hand, ThrownBallHitsBodiesOfASceneWithoutContact) {
 TEST(Hand, ABallIsThrownInEverySceneWithEveryIntegrator) {
   const Library library = shipped();
   for (const auto& scene : library.scenes()) {
-    for (const auto& integrator : NameTable<Integrator>::entries) {
+    for (const auto& integrator : kIntegrators) {
       Session session(scene);
       Settings settings = session.settings();
       settings.integrator = integrator.value;
@@ -447,7 +447,7 @@ TEST(Hand, ABallIsThrownInEverySceneWithEveryIntegrator) {
 
 // Every per-body array of the state also has an entry for the ball.
 TEST(Hand, ABallIsThrownInEveryMode) {
-  for (const auto& mode : NameTable<Mode>::entries) {
+  for (const auto& mode : kModes) {
     Session session(shipped("bridge"));
     Settings settings = session.settings();
     settings.mode = mode.value;

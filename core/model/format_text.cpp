@@ -1,9 +1,9 @@
-#include "app/cli/format_text.hpp"
+#include "core/model/format_text.hpp"
 
 #include <cstdarg>
 #include <cstdio>
 
-namespace substep::cli {
+namespace substep {
 
 std::string format_text(const char* pattern, ...) {
   char buffer[1000];
@@ -14,4 +14,4 @@ std::string format_text(const char* pattern, ...) {
   return buffer;
 }
 
-}  // namespace substep::cli
+}  // namespace substep

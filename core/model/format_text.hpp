@@ -2,9 +2,9 @@
 
 #include <string>
 
-namespace substep::cli {
+namespace substep {
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string format_text(const char* pattern, ...);
 
-}  // namespace substep::cli
+}  // namespace substep

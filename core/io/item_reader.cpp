@@ -1,4 +1,4 @@
-#include "core/io/body_reader.hpp"
+#include "core/io/item_reader.hpp"
 
 #include <charconv>
 #include <cstdint>
@@ -6,6 +6,7 @@
 
 #include "core/io/object_reader.hpp"
 #include "core/model/body_checks.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/model/scene_limits.hpp"
 
 namespace substep {
@@ -54,7 +55,7 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
     if (!has_mass || problems_of_shape > 0) return;
     body.inertia = solid_inertia(body.shape, body.mass);
     if (!(body.inertia.minCoeff() > 0.0) && !std::holds_alternative<Plane>(body.shape)) {
-      in.problem("inertia", std::string(kNoInertia));
+      in.problem("inertia", "mass and shape are so small that their inertia is 0");
     }
     return;
   }
@@ -80,6 +81,34 @@ void refuse(ObjectReader& in, std::string_view key, const std::string& why) {
   if (in.member(key, kOptional)) in.problem(key, why);
 }
 
+void read_bodies(ObjectReader& in, const BodyNames& bodies, JointBase& joint) {
+  const auto a = bodies.read(in, "a", kRequired);
+  const auto b = bodies.read(in, "b", kRequired);
+  if (a) {
+    const auto fault = side_fault(bodies.bodies(), *a, b.value_or(kWorld));
+    if (fault) in.problem(fault->key, fault->message);
+  }
+  if (a && *a != kWorld) joint.a = *a;
+  if (b) joint.b = *b;
+}
+
+struct OwnFieldReader {
+  ObjectReader& in;
+
+  void operator()(std::string_view key, Vec3& target) const {
+    Vec3 axis;
+    if (!in.vector(key, symmetric(2.0, "-"), axis, kRequired)) return;
+    if (const auto fault = axis_fault(axis)) {
+      in.problem(key, *fault);
+    } else {
+      target = axis;
+    }
+  }
+  void operator()(std::string_view key, double& number, const Range& range) const {
+    in.number(key, range, number, kOptional);
+  }
+};
+
 }  // namespace
 
 Body read_body(const Json& json, const std::string& pointer, Problems& problems) {
@@ -101,16 +130,12 @@ Body read_body(const Json& json, const std::string& pointer, Problems& problems)
   }
   in.vector("position", kPositionRange, body.position, kRequired);
   read_orientation(in, body.orientation);
-  if (body.is_static) {
-    refuse(in, "velocity", std::string(kStaticMoves));
-    refuse(in, "angular_velocity", std::string(kStaticMoves));
-    refuse(in, "force", std::string(kStaticMoves));
-    refuse(in, "torque", std::string(kStaticMoves));
-  } else {
-    in.vector("velocity", kVelocityRange, body.velocity, kOptional);
-    in.vector("angular_velocity", kAngularVelocityRange, body.angular_velocity, kOptional);
-    in.vector("force", kBodyForceRange, body.force, kOptional);
-    in.vector("torque", kBodyTorqueRange, body.torque, kOptional);
+  for (const auto& [key, member, range] : kMotionFields) {
+    if (body.is_static) {
+      refuse(in, key, std::string(kStaticMoves));
+    } else {
+      in.vector(key, range, body.*member, kOptional);
+    }
   }
   in.number("friction", kFrictionRange, body.friction, kOptional);
   in.number("restitution", kRestitutionRange, body.restitution, kOptional);
@@ -119,6 +144,30 @@ Body read_body(const Json& json, const std::string& pointer, Problems& problems)
   read_color(in, body);
   in.finish();
   return body;
+}
+
+Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& bodies,
+                 Problems& problems) {
+  const std::size_t before = problems.size();
+  ObjectReader in(json, pointer, problems);
+  std::string name;
+  if (!in.is_object()) return {};
+  in.text("name", kMaxNameSize, name, kRequired);
+  const auto type = in.choice("type", kJointTypes, kRequired);
+  if (!type) return {};
+  Joint joint = make_joint(*type);
+  JointBase& j = base(joint);
+  j.name = name;
+  read_bodies(in, bodies, j);
+  in.vector("anchor_a", kPositionRange, j.anchor_a, kRequired);
+  in.vector("anchor_b", kPositionRange, j.anchor_b, kRequired);
+  in.number("compliance", kComplianceRange, j.compliance, kOptional);
+  std::visit([&](auto& own) { own_fields(own, OwnFieldReader{in}); }, joint);
+  if (problems.size() == before) {
+    if (const auto fault = across_fault(joint)) in.problem(fault->key, fault->message);
+  }
+  in.finish();
+  return joint;
 }
 
 }  // namespace substep

@@ -12,22 +12,19 @@ Vec3 slid_rho(const Block& start, const Motion& a, const Motion& b) {
 
 /// J of some rows, from the arms and directions of a block.
 void set_gradients(Block& block, RowRange rows) {
-  const auto set = [&](int row, const Vec3& direction, const Vec3& on_a, const Vec3& on_b) {
-    for (int j = 0; j < 3; ++j) {
-      block.J_a[row][j] = direction[j];
-      block.J_b[row][j] = -direction[j];
-      block.J_a[row][3 + j] = on_a[j];
-      block.J_b[row][3 + j] = -on_b[j];
-    }
-  };
   if (rows.reaches(0, 2)) {
-    set(0, block.v1, block.r_a.cross(block.v1), block.r_b.cross(block.v1));
-    set(1, block.v2, block.r_a.cross(block.v2), block.r_b.cross(block.v2));
+    set_row(block, 0, block.v1);
+    set_row(block, 1, block.v2);
   }
   if (!rows.reaches(2, 5)) return;
   const Vec3 turn[3] = {block.axis.cross(block.v1), block.axis.cross(block.v2),
                         block.w.cross(block.v2)};
-  for (int k = 0; k < 3; ++k) set(2 + k, Vec3::Zero(), turn[k], turn[k]);
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 6; ++j) {
+      block.J_a[2 + k][j] = j < 3 ? 0.0 : turn[k][j - 3];
+      block.J_b[2 + k][j] = -block.J_a[2 + k][j];
+    }
+  }
 }
 
 /// Derivative of the torque on a of the angular rows by the rotation of a: the sum of l [t][s], as

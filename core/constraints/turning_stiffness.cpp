@@ -5,7 +5,7 @@
 namespace substep {
 namespace {
 
-// contact_stiffness_normal() has the derivation; N_b is the derivative of n by the rotation of b.
+// contact.cpp has the derivation; N_b is the derivative of n by the rotation of b.
 void add_of_contact(const Block& block, std::span<Mat3> K) {
   const double l = block.lambda[0];
   if (l == 0.0) return;

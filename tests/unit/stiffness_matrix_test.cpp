@@ -68,7 +68,7 @@ TEST(TurningStiffness, IsTheDiagonalOfTheWhole) {
     whole.clear(2);
     if (kind == 0) BallRows::stiffness(block, whole);
     if (kind == 1) HingeRows::stiffness(block, whole);
-    if (kind == 2) contact_stiffness_normal(block, whole);
+    if (kind == 2) contact_stiffness(block, ContactTerms::kNormal, whole);
     std::vector<Mat3> turning(2, Mat3::Zero());
     add_turning_stiffness(block, turning);
     for (int body = 0; body < 2; ++body) {

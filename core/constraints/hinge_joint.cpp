@@ -34,30 +34,6 @@ void HingeRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, 
   curvature[4] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
 }
 
-// Torque on a: l u x v. Rotating a: l (theta x u) x v = l [v][u] theta. Rotating b:
-// l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All terms are linear in v,
-// so both rows are combined: w = l_1 v_1 + l_2 v_2.
-void HingeRows::stiffness(const Block& block, StiffnessMatrix& K) {
-  BallRows::stiffness(block, K);
-  const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
-  const Mat3 WU = skew_product(w, block.axis);
-  const Mat3 UW = WU.transpose();
-  if (block.a >= 0) K.add_angular(block.a, block.a, WU);
-  if (block.b >= 0) K.add_angular(block.b, block.b, UW);
-  if (block.a >= 0 && block.b >= 0) {
-    K.add_angular(block.a, block.b, -UW);
-    K.add_angular(block.b, block.a, -WU);
-  }
-}
-
-void HingeRows::turning_stiffness(const Block& block, std::span<Mat3> K) {
-  BallRows::turning_stiffness(block, K);
-  const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
-  const Mat3 WU = skew_product(w, block.axis);
-  if (block.a >= 0) K[index(block.a)] += WU;
-  if (block.b >= 0) K[index(block.b)] += WU.transpose();
-}
-
 void HingeRows::move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
                      Block& moved) {
   BallRows::move(start, a, b, rows, moved);

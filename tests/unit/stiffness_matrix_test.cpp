@@ -52,8 +52,8 @@ TEST(TurningStiffness, IsTheDiagonalOfTheWhole) {
   for (int trial = 0; trial < 60; ++trial) {
     Block block;
     const int kind = trial % 3;
-    block.kind = kind == 0   ? kind_of<BallJoint>()
-                 : kind == 1 ? kind_of<HingeJoint>()
+    block.kind = kind == 0   ? kind_of(BallJoint{})
+                 : kind == 1 ? kind_of(HingeJoint{})
                              : BlockKind::kContact;
     block.a = trial % 5 == 3 ? -1 : 0;
     block.b = trial % 5 == 4 ? -1 : 1;

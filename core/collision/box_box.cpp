@@ -103,16 +103,10 @@ void face_points(const Placed& i, const Vec3& half_i, const Placed& r, const Vec
     const Corner& corner = polygon.corners[k];
     const double gap = face.sign * corner.p[face.axis] - half_r[face.axis];
     if (gap > margin) continue;
-    ContactPoint point;
-    point.a = i.body;
-    point.b = r.body;
-    point.id = contact_id(i.body, r.body, faces * 64U + corner.in * 8U + corner.out);
-    point.n = n;
-    point.gap = gap;
-    point.point_a = r.R * corner.p - (i.x - r.x);
-    point.point_b = r.R * corner.p - gap * n;
-    point.field_arm = point.point_a;
-    out.push_back(point);
+    const Vec3 arm = r.R * corner.p - (i.x - r.x);
+    ContactPoint& point = add_point(i, r, faces * 64U + corner.in * 8U + corner.out, n, gap, arm,
+                                    r.R * corner.p - gap * n, out);
+    point.field_arm = arm;
   }
 }
 

@@ -70,19 +70,13 @@ bool edge_point(const EdgePair& edges, const Placed& a, const Vec3& half_a, cons
   const double t = w.dot(B) + cosine * s;
   if (std::abs(s) > half_a[edges.axis_a] || std::abs(t) > half_b[edges.axis_b]) return false;
 
-  ContactPoint point;
-  point.a = a.body;
-  point.b = b.body;
   constexpr unsigned kFirstEdgePair = 1U << 14U;  // above all face features
-  point.id = contact_id(a.body, b.body, kFirstEdgePair + edge_a.index * 16U + edge_b.index);
-  point.n = edges.n;
-  point.gap = edges.gap;
-  point.point_a = edge_a.middle + s * A;
-  point.point_b = edge_b.middle + t * B;
+  const Vec3 arm = edge_a.middle + s * A;
+  ContactPoint& point = add_point(a, b, kFirstEdgePair + edge_a.index * 16U + edge_b.index, edges.n,
+                                  edges.gap, arm, edge_b.middle + t * B, out);
   // The exact contact stiffness treats n as fixed in b, as on a face: the curvature of the distance
   // between two lines is unbounded as they meet, and is not described by a field fixed in b.
-  point.field_arm = point.point_a;
-  out.push_back(point);
+  point.field_arm = arm;
   return true;
 }
 

@@ -25,7 +25,7 @@ SolverKind impact_solver(SolverKind chosen) {
 // preserves symmetry (Smith et al., Reflections on simultaneous impact, 2012).
 bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   if (!restitution || sub.probing) return true;
-  const bool spreads = restitution->spreads(*scene, sub.u_before, sub.dt, sub.rows);
+  const bool spreads = restitution->spreads(sub.u_before, sub.dt, sub.rows);
   sub.struck = restitution->struck();
   if (!spreads) return true;
   if (!impacts) impacts = make_solver(impact_solver(settings.solver));
@@ -36,10 +36,10 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
     masses = rigid_mass;
   }
   for (const int body : sub.part->moving) state.u[index(body)] -= sub.u_before[index(body)];
-  for (int i = 0;
-       restitution->set_impacts(*scene, sub.u_before, sub.dt, sub.rows) && i < kMostImpacts; ++i) {
+  for (int i = 0; restitution->set_impacts(sub.u_before, sub.dt, sub.rows) && i < kMostImpacts;
+       ++i) {
     System system{sub.rows, masses, sub.u_before, {}, sub.dt, sub.R_WB, scene->regularisation};
-    system.limits = limits_of_solve(progress(sub, report), settings, budget);
+    system.limits = limits_of_solve(sub, report);
     const SolveReport solved = impacts->find_velocities(system, settings);
     if (solved.status == SolveStatus::kOverLimits) {
       refuse_solve(sub, solved, report);

@@ -47,11 +47,11 @@ class NumerovCourses {
   /// Clears the forces; add_forces() accumulates them block by block.
   void clear_forces();
   /// @param here its rows at the start, with the impulse of the iterate  @param behind, ahead the
-  /// same rows moved by motion_behind() and motion_ahead()
+  /// same rows moved by behind() and ahead()
   void add_forces(const System& system, const Block& here, const Block& behind, const Block& ahead);
 
-  [[nodiscard]] const Motion& motion_behind(int body) const;
-  [[nodiscard]] const Motion& motion_ahead(int body) const;
+  [[nodiscard]] const Motions& behind() const { return behind_; }
+  [[nodiscard]] const Motions& ahead() const { return ahead_; }
   [[nodiscard]] PoseWeights weights_of(const System& system, const Block& block) const;
 
  private:
@@ -60,13 +60,12 @@ class NumerovCourses {
     Vec6 behind = Vec6::Zero();  // forces of constraints, world [N, N m]
     Vec6 here = Vec6::Zero();
     Vec6 ahead = Vec6::Zero();
-    Motion motion_behind;
-    Motion motion_ahead;
   };
 
   [[nodiscard]] BodyCourse course_of(const System& system, std::size_t body) const;
   std::vector<Course> courses_;
-  Motion none_;
+  Motions behind_;
+  Motions ahead_;
 };
 
 }  // namespace substep

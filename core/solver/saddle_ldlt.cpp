@@ -16,15 +16,6 @@ namespace substep {
 //   - B^T A^-1 g - (N - J A^-1 B)^T S^-1 (w + J A^-1 g).
 // Backwards  x = -S^-1 (w + J A^-1 g + (N - J A^-1 B) p),   v = A^-1 (g + J^T x - B p).
 
-namespace {
-
-/// y -= f x.
-void subtract6(const double* x, double f, double* y) {
-  for (int j = 0; j < 6; ++j) y[j] -= f * x[j];
-}
-
-}  // namespace
-
 void SaddleLdlt::touch(std::size_t block) { nodes_[index(node_of_block_[block])].dirty = true; }
 
 // Momenta from rows that are not unknowns: J^T x of active rows, -J^T w/s of folded ones.
@@ -179,7 +170,7 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, aut
     x[i] = -(f.S_inverse[i] * sum);
   }
   solve_upper(f.S, rows, x);
-  for (int i = 0; i < rows; ++i) subtract6(f.V + 6 * i, -x[i], change);
+  for (int i = 0; i < rows; ++i) subtract_row(f.V + 6 * i, -x[i], Known<6>{}, change);
   for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
     const int block = attached_[node.first_attached + index(row.attached)].block;
@@ -188,10 +179,10 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, aut
 }
 
 // Each node is factored just before its forward solve, so that the two overlap in the pipeline.
-bool SaddleLdlt::solve(const System& system) {
+void SaddleLdlt::solve(const System& system) {
   set_momenta(system.blocks);
   for (Node& node : nodes_) {
-    if (node.dirty && !factor_node(node, system)) return false;
+    if (node.dirty && !factor_node(node, system)) return;
     if (node.kind == NodeKind::kArticulated) {
       node.joint->forward(node.pushed ? v_[position(node)].data() : nullptr, node.handed_to);
     } else {
@@ -210,7 +201,6 @@ bool SaddleLdlt::solve(const System& system) {
     system.u[body] = u_star_[body] + v_[i];
   }
   find_spring_impulses(system.blocks, false);
-  return true;
 }
 
 void SaddleLdlt::find_impulses(std::span<Block> blocks) {

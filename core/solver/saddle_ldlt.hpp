@@ -48,11 +48,8 @@ class SaddleLdlt {
   /// Marks a block whose rows have become active or free.
   void touch(std::size_t block);
   /// Computes u+ and the impulses of free rows from those of active rows; refactors changed nodes.
-  /// @return false if that would exceed the work in System::limits; then only needed_work(), a
-  /// lower bound, is valid
-  bool solve(const System& system);
-  /// Since `begin` [floating-point operations].
-  [[nodiscard]] double needed_work() const { return static_cast<double>(flops_); }
+  /// If that would exceed the work in System::limits, only flops(), a lower bound, is valid.
+  void solve(const System& system);
   /// Computes the impulses that solve() skips because no velocity depends on them: those of
   /// articulated or folded joints.
   void find_impulses(std::span<Block> blocks);

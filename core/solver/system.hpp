@@ -85,6 +85,13 @@ struct SolveReport {
   double work_needed = 0.0;      // for kOverLimits [operations], 0 if the memory was exceeded
 };
 
+/// J Mt^-1 J^T of one row through one of its bodies, 0 through a static one [1/kg or 1/(kg m^2)].
+double mobility_on(const Block& block, int row, bool of_a,
+                   std::span<const InverseMass> inverse_mass);
+
+/// The longer of the times of a block's bodies. @param times per body [s]
+double longest_of(const Block& block, std::span<const double> times);
+
 /// J u of all rows of a block: relative speeds.
 /// @param speed out, one per row [m/s or rad/s]
 void row_speeds(const Block& block, std::span<const Vec6> u, double* speed);

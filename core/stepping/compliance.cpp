@@ -33,20 +33,6 @@ double resolved_weight(const Settings& settings) {
   return stormer ? 0.0 : 1.0 / 12.0;
 }
 
-/// (J Mt^-1 J^T)_ii of a row, over both bodies [1/kg or 1/(kg m^2)].
-double mobility(const Block& joint, int row, std::span<const InverseMass> inverse_mass) {
-  double sum = 0.0;
-  for (const bool of_a : {true, false}) {
-    const int body = of_a ? joint.a : joint.b;
-    if (body < 0) continue;
-    const InverseMass& W = inverse_mass[index(body)];
-    const Vec6 J = gradient(joint, row, of_a);
-    const Vec3 turn = J.tail<3>();
-    sum += W.linear * J.head<3>().squaredNorm() + turn.dot(W.angular * turn);
-  }
-  return sum;
-}
-
 /// True if compliant rows do not use implicit Euler.
 bool averages_springs(const Settings& settings) { return resolved_weight(settings) < 1.0; }
 
@@ -78,7 +64,8 @@ double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, cons
                     int first, int end) {
   double most = 0.0;
   for (int row = first; row < end; ++row) {
-    most = std::max(most, mobility(joint, row, inverse_mass));
+    most = std::max(most, mobility_on(joint, row, true, inverse_mass) +
+                              mobility_on(joint, row, false, inverse_mass));
   }
   return dt_t * most / joint.C[first];
 }

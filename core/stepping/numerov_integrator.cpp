@@ -131,9 +131,7 @@ void Numerov::synchronise(const Substep& sub, State& state) {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     const BodyCourse& by = courses_[i];
-    const Vec6 gained = sub.dt * (by.start / 6.0 + by.end / 3.0 - by.bend / 24.0);
-    state.u_synchronised[i] = state.u[i] + gained;
-    if (tumbles(sub, i)) synchronise_momentum(sub, i, gained.tail<3>(), state);
+    synchronise_by(sub, i, sub.dt * (by.start / 6.0 + by.end / 3.0 - by.bend / 24.0), state);
   }
 }
 

@@ -161,14 +161,10 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
     }
     motions_[i] = motion(w_guess, sub.dt);
   }
-  const Motion none;
-  const auto motion_of = [&](int body) -> const Motion& {
-    return body < 0 ? none : motions_[index(body)];
-  };
   for (Block& block : sub.rows) {
     if (block.is_contact()) continue;
     double gained[kMaxRows];
-    moved_errors(block, motion_of(block.a), motion_of(block.b), gained);
+    moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
     double speed[kMaxRows];
     row_speeds(block, u_guess_, speed);
     double per_g = 1.0;
@@ -261,9 +257,8 @@ void Stormer::synchronise(const Substep& sub, State& state) {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     const Changes& by = changes_[i];
-    const Vec6 gained = sub.dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before);
-    state.u_synchronised[i] = state.u[i] + gained;
-    if (tumbles(sub, i)) synchronise_momentum(sub, i, gained.tail<3>(), state);
+    synchronise_by(sub, i, sub.dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before),
+                   state);
   }
 }
 

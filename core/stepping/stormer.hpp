@@ -48,8 +48,8 @@ class Stormer : public Leapfrog {
   void store_changes(const Substep& sub, std::size_t body, const Vec6& a, State& state);
 
   const JointStage* joints_;
-  std::vector<Vec6> u_guess_;    // u^
-  std::vector<Motion> motions_;  // by w^
+  std::vector<Vec6> u_guess_;  // u^
+  Motions motions_;            // by w^
   std::vector<Vec6> w_;
   struct Changes {  // per body, over dt; of the torque for tumbling bodies
     Vec6 a = Vec6::Zero();

@@ -18,11 +18,7 @@ class Schedule {
   [[nodiscard]] bool running() const { return at_ < turns_.size(); }
   // Properties of the next sub-step; valid while running().
   [[nodiscard]] const Part& part() const { return *turns_[at_].part; }
-  [[nodiscard]] double dt() const { return turns_[at_].clock.dt(); }  ///< [s]
-  [[nodiscard]] bool first_of_part() const { return turns_[at_].clock.taken() == 0; }
-  [[nodiscard]] int number() const { return turns_[at_].clock.taken() + 1; }  ///< 1 is the first
-  [[nodiscard]] bool last_of_part() const { return turns_[at_].clock.left() == 1; }
-  [[nodiscard]] bool needs_stiffness() const { return turns_[at_].clock.needs_stiffness(); }
+  [[nodiscard]] const SubstepClock& clock() const { return turns_[at_].clock; }
   /// Advances to the next sub-step. @param r, r_rotation of the current one, if needed [1/s^2]
   void advance(double r, double r_rotation);
 

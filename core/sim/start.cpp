@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/model/validate.hpp"
-#include "core/sim/energy.hpp"
+#include "core/sim/conserved.hpp"
 #include "core/sim/start_projection.hpp"
 
 namespace substep {
@@ -16,11 +16,6 @@ Projection project(const Scene& scene, bool poses, State& state) {
   return closed == Projection::kDone ? match_velocities(scene, state) : closed;
 }
 
-double energy_at(const Scene& scene, const State& state) {
-  const Energies energies = energies_of(scene, state);
-  return energies.kinetic + energies.potential;
-}
-
 }  // namespace
 
 Start start_of_run(const Scene& scene) {
@@ -28,7 +23,7 @@ Start start_of_run(const Scene& scene) {
   StartReport& report = start.report;
   report.continued = scene.carried.has_value();
   report.found = report.left = start_errors(scene, start.state);
-  report.energy_found = report.energy_begun = energy_at(scene, start.state);
+  report.energy_found = report.energy_begun = energies_of(scene, start.state).sum();
   if (report.found.consistent() || report.continued || scene.start != StartPolicy::kProject) {
     return start;
   }
@@ -42,7 +37,7 @@ Start start_of_run(const Scene& scene) {
   start.state = std::move(state);
   report.projected = true;
   report.left = start_errors(scene, start.state);
-  report.energy_begun = energy_at(scene, start.state);
+  report.energy_begun = energies_of(scene, start.state).sum();
   return start;
 }
 

@@ -52,7 +52,7 @@ inline void touch(const Placed& a, const Box& box, const Placed& b, const Sphere
 void touch(const Placed& a, const Box& box, const Placed& b, const Plane& plane, double margin,
            ContactPoints& out);
 /// Face against face: the corners of the incident face clipped by the sides of the reference face.
-/// Edge against edge: one point (box_edges.hpp).
+/// Edge against edge: one point.
 void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
            ContactPoints& out);
 

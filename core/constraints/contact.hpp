@@ -6,7 +6,6 @@
 #include "core/constraints/block.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
 #include "core/model/scene.hpp"
-#include "core/model/state.hpp"
 
 namespace substep {
 

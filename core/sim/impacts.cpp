@@ -2,7 +2,6 @@
 
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
-#include "core/stepping/mode_rules.hpp"
 
 namespace substep {
 

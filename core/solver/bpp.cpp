@@ -78,12 +78,10 @@ void Bpp::centre(const System& system) {
 }
 
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
-  SolveReport report;
   if (!ldlt_.begin(system)) {
-    report.status = SolveStatus::kOverLimits;
-    report.memory_needed = ldlt_.needed_memory();
-    return report;
+    return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
+  SolveReport report;
   factor_valid_ = false;
   has_impulses_ = false;
   any_contact_ = std::any_of(system.blocks.begin(), system.blocks.end(),

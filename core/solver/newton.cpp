@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "core/constraints/moved_rows.hpp"
 #include "core/constraints/turning_stiffness.hpp"

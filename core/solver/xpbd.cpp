@@ -134,9 +134,7 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
     most += static_cast<double>(iterations) * static_cast<double>(sweep);
   }
   if (most > system.limits.work) {
-    report.status = SolveStatus::kOverLimits;
-    report.work_needed = most;
-    return report;
+    return {.status = SolveStatus::kOverLimits, .work_needed = most};
   }
   for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
   moved_.assign(system.blocks.begin(), system.blocks.end());

@@ -3,7 +3,6 @@
 #include <span>
 
 #include "core/constraints/block.hpp"
-#include "core/model/settings.hpp"
 #include "core/solver/system.hpp"
 #include "core/stepping/substep.hpp"
 

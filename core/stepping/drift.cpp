@@ -1,7 +1,5 @@
 #include "core/stepping/drift.hpp"
 
-#include <algorithm>
-
 #include "core/constraints/joint_rows.hpp"
 #include "core/stepping/compliance.hpp"
 

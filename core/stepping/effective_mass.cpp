@@ -60,18 +60,6 @@ bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6
   return Mt != I;
 }
 
-double beta_of(KeptVelocity kept, const Settings& settings) {
-  switch (kept) {
-    case KeptVelocity::kNothing:
-      return 0.0;
-    case KeptVelocity::kShare:
-      return settings.beta;
-    case KeptVelocity::kAll:
-      return 1.0;
-  }
-  return 0.0;
-}
-
 }  // namespace
 
 bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,
@@ -93,7 +81,7 @@ void effective_mass(const Scene& scene, const Part& part, const Settings& settin
                     std::span<const Vec6> u_start, double dt, State& state,
                     std::span<InverseMass> out) {
   const ModeRules rules = rules_of(settings.mode);
-  const double beta = beta_of(rules.kept, settings);
+  const double beta = rules.beta.value_or(settings.beta);
   const bool stiffens = rules.mass == StiffMass::kFull;
   const std::size_t known = stiffens ? state.K_resisting.size() : state.k.size();
   for (const int body : part.moving) {

@@ -1,7 +1,5 @@
 #include "core/stepping/euler.hpp"
 
-#include <algorithm>
-
 #include "core/constraints/joint_rows.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/math/gyroscopic.hpp"

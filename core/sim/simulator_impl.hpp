@@ -63,7 +63,6 @@ class StageClock {
 
 struct Simulator::Impl {
   explicit Impl(std::shared_ptr<const Scene> scene_in);
-  Impl(std::shared_ptr<const Scene> scene_in, Start start);
 
   /// The requested share of a frame.
   struct Share {

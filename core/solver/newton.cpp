@@ -96,7 +96,6 @@ void Newton::relinearise(const System& system, Forces forces) {
 
 void Newton::move_along_courses(const System& system) {
   numerov_.find_turns(system);
-  numerov_.clear_forces();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
     move_rows(start, numerov_.ahead().of(start.a), numerov_.ahead().of(start.b), rows_[i]);

@@ -73,14 +73,6 @@ void NumerovCourses::begin(const System& system, std::span<const Vec6> u_star) {
   }
 }
 
-void NumerovCourses::clear_forces() {
-  for (Course& course : courses_) {
-    course.behind.setZero();
-    course.here.setZero();
-    course.ahead.setZero();
-  }
-}
-
 PoseWeights NumerovCourses::weights_of(const System& system, const Block& block) const {
   const double time = longest_of(block, system.force_time);
   return numerov_weights(system.dt, previous(system.dt, time));
@@ -165,6 +157,7 @@ void NumerovCourses::find_turns(const System& system) {
         turn_in(system.inertia[i], system.R_WB[i], back.tail<3>(), start, before, bend, -reach),
         -reach);
     behind_[i] = motion(back, -reach);
+    courses_[i].clear_forces();
   }
 }
 

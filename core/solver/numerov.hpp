@@ -41,11 +41,10 @@ class NumerovCourses {
 
   /// Initialises without constraint forces. @param u_star per body: v before any impulse
   void begin(const System& system, std::span<const Vec6> u_star);
-  /// Motions under the current forces: rotations follow from the torques at both ends of the
-  /// sub-step (free_turn.hpp). Velocities are those passed to integrate().
+  /// Motions under the current forces, which are then cleared: rotations follow from the torques at
+  /// both ends of the sub-step (free_turn.hpp). Velocities are those passed to integrate().
   void find_turns(const System& system);
-  /// Clears the forces; add_forces() accumulates them block by block.
-  void clear_forces();
+  /// Accumulates the forces of the next iterate, block by block.
   /// @param here its rows at the start, with the impulse of the iterate  @param behind, ahead the
   /// same rows moved by behind() and ahead()
   void add_forces(const System& system, const Block& here, const Block& behind, const Block& ahead);
@@ -60,6 +59,8 @@ class NumerovCourses {
     Vec6 behind = Vec6::Zero();  // forces of constraints, world [N, N m]
     Vec6 here = Vec6::Zero();
     Vec6 ahead = Vec6::Zero();
+
+    void clear_forces() { behind = here = ahead = Vec6::Zero(); }
   };
 
   [[nodiscard]] BodyCourse course_of(const System& system, std::size_t body) const;

@@ -76,6 +76,8 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
 
 bool SaddleLdlt::begin(const System& system) {
   flops_ = 0;
+  factorisations_ = 0;
+  factored_ = false;
   held_ = false;
   inverse_mass_ = system.inverse_mass;
   u_star_.resize(system.u.size());

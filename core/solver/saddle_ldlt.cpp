@@ -1,5 +1,7 @@
 #include "core/solver/saddle_ldlt.hpp"
 
+#include <utility>
+
 #include "core/solver/body_products.hpp"
 #include "core/solver/dense_ldlt.hpp"
 
@@ -16,7 +18,10 @@ namespace substep {
 //   - B^T A^-1 g - (N - J A^-1 B)^T S^-1 (w + J A^-1 g).
 // Backwards  x = -S^-1 (w + J A^-1 g + (N - J A^-1 B) p),   v = A^-1 (g + J^T x - B p).
 
-void SaddleLdlt::touch(std::size_t block) { nodes_[index(node_of_block_[block])].dirty = true; }
+void SaddleLdlt::touch(std::size_t block) {
+  nodes_[index(node_of_block_[block])].dirty = true;
+  factored_ = false;
+}
 
 // Momenta from rows that are not unknowns: J^T x of active rows, -J^T w/s of folded ones.
 void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
@@ -180,6 +185,7 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, aut
 
 // Each node is factored just before its forward solve, so that the two overlap in the pipeline.
 void SaddleLdlt::solve(const System& system) {
+  if (!std::exchange(factored_, true)) ++factorisations_;
   set_momenta(system.blocks);
   for (Node& node : nodes_) {
     if (node.dirty && !factor_node(node, system)) return;

@@ -62,6 +62,8 @@ class SaddleLdlt {
 
   /// Floating-point operations since `begin`.
   [[nodiscard]] std::int64_t flops() const { return flops_; }
+  /// Solves since `begin` that changed the factor.
+  [[nodiscard]] int factorisations() const { return factorisations_; }
   [[nodiscard]] std::span<const Vec6> u_star() const { return u_star_; }
 
  private:
@@ -224,6 +226,8 @@ class SaddleLdlt {
   bool held_ = false;  // a pivot
   std::vector<double> values_;
   std::int64_t flops_ = 0;
+  int factorisations_ = 0;
+  bool factored_ = false;  // for the current free rows
   double needed_memory_ = 0.0;
 
   std::span<const InverseMass> inverse_mass_;  // of the system passed to begin()

@@ -7,59 +7,6 @@
 
 namespace substep {
 
-namespace {
-
-// Smallest compliance of a contact treated as a spring [m/N]. Stiffer ones model rigid bodies,
-// which land without rebound: implicit Euler dissipates the energy of the impact.
-constexpr double kSoftContact = 1e-6;
-// Largest kappa for which a contact spring is averaged: there its weights equal implicit Euler's to
-// 1e-3.
-constexpr double kResolvedContact = 100.0;
-
-/// w+ = w- of a resolved spring, or nothing if only the force at the end is used.
-double resolved_weight(const Settings& settings) {
-  if (settings.solver == SolverKind::kNewton) {
-    switch (settings.forces) {
-      case Forces::kEnd:
-        return 1.0;
-      case Forces::kMean:
-        return 1.0 / 4.0;
-      case Forces::kNumerov:
-        return 1.0 / 12.0;
-    }
-  }
-  if (settings.integrator == Integrator::kEuler) return 1.0;
-  const bool stormer = follows_accelerations(settings) && drift_law(settings) == Drift::kFull;
-  return stormer ? 0.0 : 1.0 / 12.0;
-}
-
-/// True if compliant rows do not use implicit Euler.
-bool averages_springs(const Settings& settings) { return resolved_weight(settings) < 1.0; }
-
-/// Weights of the poses ahead and behind, w+ and w-.
-struct SpringWeights {
-  double ahead = 1.0;
-  double behind = 0.0;
-};
-
-SpringWeights spring_weights(const Settings& settings, double kappa) {
-  const double resolved = resolved_weight(settings);
-  if (resolved == 1.0) return {1.0, 0.0};
-  const double square = kappa * kappa;
-  const double sigma = square < 1e12 ? square / (square + 4.0) : 1.0;
-  const double sum = 2.0 * resolved + (1.0 - 2.0 * resolved) * sigma;
-  if (resolved == 0.0 && kappa < kResolved) return {0.0, 0.0};
-  return {0.5 * (sum + sigma), 0.5 * (sum - sigma)};
-}
-
-const Settings kLeapfrog = [] {
-  Settings settings;
-  settings.integrator = Integrator::kLeapfrog;
-  return settings;
-}();
-
-}  // namespace
-
 double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, const Block& joint,
                     int first, int end) {
   double most = 0.0;
@@ -78,6 +25,50 @@ void give_force(Block& joint, int row, double impulse) {
 
 namespace {
 
+// Smallest compliance of a contact treated as a spring [m/N]. Stiffer ones model rigid bodies,
+// which land without rebound: implicit Euler dissipates the energy of the impact.
+constexpr double kSoftContact = 1e-6;
+// Largest kappa for which a contact spring is averaged: there its weights equal implicit Euler's to
+// 1e-3.
+constexpr double kResolvedContact = 100.0;
+
+constexpr double kNumerov = 1.0 / 12.0;
+
+/// w+ = w- of a resolved spring; 1 if only the force at the end is used.
+double resolved_weight(const Settings& settings) {
+  if (settings.solver == SolverKind::kNewton) {
+    switch (settings.forces) {
+      case Forces::kEnd:
+        return 1.0;
+      case Forces::kMean:
+        return 1.0 / 4.0;
+      case Forces::kNumerov:
+        return kNumerov;
+    }
+  }
+  if (settings.integrator == Integrator::kEuler) return 1.0;
+  const bool stormer = follows_accelerations(settings) && drift_law(settings) == Drift::kFull;
+  return stormer ? 0.0 : kNumerov;
+}
+
+/// True if compliant rows do not use implicit Euler.
+bool averages_springs(const Settings& settings) { return resolved_weight(settings) < 1.0; }
+
+/// Weights of the poses ahead and behind, w+ and w-.
+struct SpringWeights {
+  double ahead = 1.0;
+  double behind = 0.0;
+};
+
+SpringWeights spring_weights(double resolved, double kappa) {
+  if (resolved == 1.0) return {1.0, 0.0};
+  const double square = kappa * kappa;
+  const double sigma = square < 1e12 ? square / (square + 4.0) : 1.0;
+  const double sum = 2.0 * resolved + (1.0 - 2.0 * resolved) * sigma;
+  if (resolved == 0.0 && kappa < kResolved) return {0.0, 0.0};
+  return {0.5 * (sum + sigma), 0.5 * (sum - sigma)};
+}
+
 void set_joint_springs(const Substep& sub, const State& state, Block& joint) {
   const double rate = drift_rate(drift_law(sub.settings), sub.settings.drift_tau, sub.dt);
   const double dt_previous = dt_previous_of(state, joint);
@@ -92,8 +83,8 @@ void set_joint_springs(const Substep& sub, const State& state, Block& joint) {
     const double C = joint.C[first];
     for (int row = first; row < end; ++row) joint.spring_ahead[row] = joint.given[row] = 0.0;
     if (!(C > 0.0)) return;
-    const SpringWeights w =
-        spring_weights(sub.settings, spring_kappa(dt_t, sub.inverse_mass, joint, first, end));
+    const SpringWeights w = spring_weights(resolved_weight(sub.settings),
+                                           spring_kappa(dt_t, sub.inverse_mass, joint, first, end));
     for (int row = first; row < end; ++row) {
       const double elastic = joint.elastic[row];
       if (w.ahead == 0.0) {
@@ -120,8 +111,8 @@ void set_contact_spring(const Substep& sub, const State& state, Block& contact) 
   const double force_time = impulse_time_of(sub, contact);
   const double kappa = spring_kappa(sub.dt * force_time, sub.inverse_mass, contact, 0, 1);
   if (!(kappa < kResolvedContact)) return;
-  SpringWeights w = spring_weights(sub.settings, kappa);
-  if (w.ahead == 0.0) w = spring_weights(kLeapfrog, kappa);
+  SpringWeights w = spring_weights(resolved_weight(sub.settings), kappa);
+  if (w.ahead == 0.0) w = spring_weights(kNumerov, kappa);  // leapfrog's
   double speed[kMaxRows];
   row_speeds(contact, sub.u_start, speed);
   const double ahead = w.ahead * sub.dt;

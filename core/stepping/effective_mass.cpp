@@ -28,6 +28,16 @@ inline void turn(const Mat3& R, const InertiaInverse& own, InverseMass& out) {
   }
 }
 
+/// Mt about the principal axes of a body [kg m^2]. @return true if it differs from I
+bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6& k, double dt,
+                    Vec3& Mt) {
+  for (int j = 0; j < 3; ++j) {
+    Mt[j] = mass == StiffMass::kDamped ? damped_mass(I[j], k[3 + j], s.alpha, dt)
+                                       : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
+  }
+  return Mt != I;
+}
+
 }  // namespace
 
 std::vector<InertiaInverse> inertia_inverses(const Scene& scene) {
@@ -47,20 +57,6 @@ void inverse_mass(std::span<const InertiaInverse> own, const Part& part, std::sp
 }
 
 bool changes_mass(Mode mode) { return rules_of(mode).mass != StiffMass::kOwn; }
-
-namespace {
-
-/// Mt about the principal axes of a body [kg m^2]. @return true if it differs from I
-bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6& k, double dt,
-                    Vec3& Mt) {
-  for (int j = 0; j < 3; ++j) {
-    Mt[j] = mass == StiffMass::kDamped ? damped_mass(I[j], k[3 + j], s.alpha, dt)
-                                       : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
-  }
-  return Mt != I;
-}
-
-}  // namespace
 
 bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,
                      const State& state, double dt) {

@@ -38,16 +38,9 @@ void HingeRows::move(const Block& start, const Motion& a, const Motion& b, RowRa
                      Block& moved) {
   BallRows::move(start, a, b, rows, moved);
   if (!rows.reaches(3, 5)) return;
-  moved.axis = a.R * start.axis;
-  moved.v1 = b.R * start.v1;
-  moved.v2 = b.R * start.v2;
-  for (int k = 0; k < 2; ++k) {
-    const Vec3& v = k == 0 ? moved.v1 : moved.v2;
-    const Vec3& v_start = k == 0 ? start.v1 : start.v2;
-    const Vec3 J = moved.axis.cross(v);
-    moved.phi[3 + k] = moved.axis.dot(v) - start.axis.dot(v_start);
-    for (int j = 0; j < 3; ++j) moved.J_a[3 + k][3 + j] = J[j];
-  }
+  set_axes(moved, a.R * start.axis, b.R * start.v1, b.R * start.v2);
+  moved.phi[3] -= start.axis.dot(start.v1);
+  moved.phi[4] -= start.axis.dot(start.v2);
 }
 
 void HingeRows::moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {

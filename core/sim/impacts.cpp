@@ -11,10 +11,6 @@ namespace {
 // the rest is resolved at once, as a single impact.
 constexpr int kMostImpacts = 200;
 
-SolverKind impact_solver(SolverKind chosen) {
-  return chosen == SolverKind::kPgs ? SolverKind::kPgs : SolverKind::kBpp;
-}
-
 }  // namespace
 
 // Newton's restitution law uses speeds before the impact. It cannot propagate an impact through
@@ -27,7 +23,10 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   const bool spreads = restitution->spreads(sub.u_before, sub.dt, sub.rows);
   sub.struck = restitution->struck();
   if (!spreads) return true;
-  if (!impacts) impacts = make_solver(impact_solver(settings.solver));
+  if (!impacts) {
+    impacts =
+        make_solver(settings.solver == SolverKind::kPgs ? SolverKind::kPgs : SolverKind::kBpp);
+  }
   std::span<const InverseMass> masses = sub.inverse_mass;
   if (changes_mass(settings.mode)) {  // no time passes: no damping or geometric stiffness
     rigid_mass.resize(sub.inverse_mass.size());

@@ -7,16 +7,6 @@
 #include "core/sim/start_projection.hpp"
 
 namespace substep {
-namespace {
-
-/// @param poses true to correct poses as well
-/// On failure the state is invalid.
-Projection project(const Scene& scene, bool poses, State& state) {
-  const Projection closed = poses ? close_joints(scene, state) : Projection::kDone;
-  return closed == Projection::kDone ? match_velocities(scene, state) : closed;
-}
-
-}  // namespace
 
 Start start_of_run(const Scene& scene) {
   Start start{initial_state(scene), {}};
@@ -28,7 +18,9 @@ Start start_of_run(const Scene& scene) {
     return start;
   }
   State state = start.state;
-  const Projection projection = project(scene, report.found.beyond.poses(), state);
+  const bool poses = report.found.beyond.poses();
+  Projection projection = poses ? close_joints(scene, state) : Projection::kDone;
+  if (projection == Projection::kDone) projection = match_velocities(scene, state);
   if (projection != Projection::kDone) {
     report.failed = true;
     report.too_large = projection == Projection::kTooLarge;

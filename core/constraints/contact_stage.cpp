@@ -22,6 +22,20 @@ Mat3 turned_curvature(const Mat3& H, const Mat3& R) {
   return R * H * R.transpose();
 }
 
+// Minimum tangential fraction of a direction. Standing bodies rock, and with a direction close to
+// the normal rounding would rotate the friction axes.
+constexpr double kAcross = 0.05;
+
+/// The first direction not along the contact normal: a fixed preference, not a comparison subject
+/// to rounding.
+Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
+  for (const Vec3& d : directions) {
+    const double length = d.norm();
+    if (length > 0.0 && n.cross(d).norm() > kAcross * length) return d;
+  }
+  return n.unitOrthogonal();
+}
+
 }  // namespace
 
 void ContactStage::append(std::span<const ContactPoint> points, const Scene& scene,
@@ -108,24 +122,6 @@ double penetration(Detector& detector, const Scene& scene, const Part& part, con
 FrictionStage::FrictionStage(const Scene& scene) {
   for (const Body& body : scene.bodies) sqrt_mu_.push_back(std::sqrt(body.friction));
 }
-
-namespace {
-
-// Minimum tangential fraction of a direction. Standing bodies rock, and with a direction close to
-// the normal rounding would rotate the friction axes.
-constexpr double kAcross = 0.05;
-
-/// The first direction not along the contact normal: a fixed preference, not a comparison subject
-/// to rounding.
-Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
-  for (const Vec3& d : directions) {
-    const double length = d.norm();
-    if (length > 0.0 && n.cross(d).norm() > kAcross * length) return d;
-  }
-  return n.unitOrthogonal();
-}
-
-}  // namespace
 
 // The friction box has axes, which must not depend on the order of bodies in a file, nor on the
 // rotation of a shape about the normal. On a static body they point down the slope, or on level

@@ -52,7 +52,8 @@ struct HingeRows {
 
  private:
   /// Sets the axes of a block, and phi and J of its angular rows.
-  static void set_axes(Block& block, const Vec3& u, const Vec3& v1, const Vec3& v2) {
+  [[gnu::always_inline]] static void set_axes(Block& block, const Vec3& u, const Vec3& v1,
+                                              const Vec3& v2) {
     block.axis = u;
     block.v1 = v1;
     block.v2 = v2;

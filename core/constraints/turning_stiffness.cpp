@@ -5,7 +5,7 @@
 namespace substep {
 namespace {
 
-/// Of the blocks that are added, keeps what add_turning_stiffness() is about.
+/// In place of a StiffnessMatrix: keeps the angular parts of its diagonal blocks.
 struct TurningStiffness {
   std::span<Mat3> K;
 

@@ -199,13 +199,10 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
     stiffen(system, settings.forces);
     System linear{rows_, inverse_mass_, u_, system.u_before, system.dt};
     linear.limits = {system.limits.memory, system.limits.work - static_cast<double>(report.flops)};
-    const SolveReport step = linear_.solve(linear, settings);
+    SolveReport step = linear_.solve(linear, settings);
     if (step.status == SolveStatus::kOverLimits) {
-      report.status = step.status;
-      report.memory_needed = step.memory_needed;
-      report.work_needed =
-          step.work_needed > 0.0 ? step.work_needed + static_cast<double>(report.flops) : 0.0;
-      return report;
+      if (step.work_needed > 0.0) step.work_needed += static_cast<double>(report.flops);
+      return step;
     }
     change = take(system);
     ++report.iterations;

@@ -116,8 +116,7 @@ void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows, auto
   double* c = c_.data() + node.first_row;
   for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
-    const int block = attached_[node.first_attached + index(row.attached)].block;
-    c[i] = w_[index(block) * kMaxRows + index(row.row)] + dot6(f.V + 6 * i, weighted);
+    c[i] = w_[index(row.attached->block) * kMaxRows + index(row.row)] + dot6(f.V + 6 * i, weighted);
   }
   solve_lower(f.S, rows, Known<1>{}, c);
   for (int i = 0; i < rows; ++i) {
@@ -172,8 +171,7 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, aut
   for (int i = 0; i < rows; ++i) subtract_row(f.V + 6 * i, -x[i], Known<6>{}, change);
   for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
-    const int block = attached_[node.first_attached + index(row.attached)].block;
-    blocks[index(block)].impulse[row.row] = x[i];
+    blocks[index(row.attached->block)].impulse[row.row] = x[i];
   }
 }
 

@@ -111,7 +111,7 @@ class SaddleLdlt {
     bool pushed = false;
   };
   struct Row {
-    int attached = 0;
+    const Attached* attached = nullptr;  // one of attached_
     int row = 0;
   };
   struct Key {  // what the layout depends on
@@ -149,9 +149,10 @@ class SaddleLdlt {
     return static_cast<std::size_t>(&node - nodes_.data());
   }
   [[nodiscard]] bool foldable(const Block& block, const System& system) const;
-  void read_rows(const Node& node, std::span<const Block> blocks);
   bool layout_is_the_same(const System& system);
   bool lay_out(const System& system);
+  /// Makes room for a list per node, one after the other: counts become offsets.
+  void place_lists(std::size_t Node::*first, std::size_t Node::*count);
   void link_nodes();
   bool make_room(const System& system);
   void attach(std::span<const Block> blocks);

@@ -68,12 +68,6 @@ double mobility_on(const Block& block, int row, bool of_a,
   return W.linear * J.head<3>().squaredNorm() + turn.dot(W.angular * turn);
 }
 
-double longest_of(const Block& block, std::span<const double> times) {
-  const double a = block.a < 0 ? 0.0 : times[index(block.a)];
-  const double b = block.b < 0 ? 0.0 : times[index(block.b)];
-  return std::max(a, b);
-}
-
 // Sums stay in registers: `speed` may alias.
 void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed) {
   if (block.rows == 1) {  // most contacts

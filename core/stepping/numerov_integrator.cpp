@@ -9,14 +9,6 @@
 
 namespace substep {
 
-double Numerov::force_time(double dt_previous, double dt) const {
-  return as_euler_ ? Euler::force_time(dt_previous, dt) : Leapfrog::force_time(dt_previous, dt);
-}
-
-double Numerov::share_ahead(double dt_previous, double dt) const {
-  return as_euler_ ? Euler::share_ahead(dt_previous, dt) : Leapfrog::share_ahead(dt_previous, dt);
-}
-
 void Numerov::begin(const Substep& sub, State& state) {
   if (needs_first_changes(sub, state)) find_first_rates(sub, state);
   if (sub.settings.gyroscopic != Gyroscopic::kImplicit) return Leapfrog::begin(sub, state);

@@ -44,7 +44,6 @@ class Stormer : public Leapfrog {
  private:
   void find_first_changes(const Substep& sub, State& state) const;
   void aim_at_poses(const Substep& sub, State& state);
-  void find_pose_velocities(const Substep& sub, State& state);
   void store_changes(const Substep& sub, std::size_t body, const Vec6& a, State& state);
 
   const JointStage* joints_;

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include "core/collision/shape_pairs.hpp"
 
@@ -19,7 +18,7 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& bo
 
   Vec3 n;
   Mat3 H = Mat3::Zero();
-  int axis = 0;  // of the nearest face; unused at edges and corners
+  Eigen::Index axis = 0;  // of the nearest face; unused at edges and corners
   int outside = 0;
   for (int i = 0; i < 3; ++i) {
     if (d[i] == 0.0) continue;
@@ -41,14 +40,7 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& bo
     double side = d[axis] < 0.0 ? -1.0 : 1.0;
     distance = std::abs(d[axis]);
     if (outside == 0) {  // the centre is inside: push out through the nearest face
-      double depth = std::numeric_limits<double>::infinity();
-      for (int i = 0; i < 3; ++i) {
-        const double to_face = box.half_extents[i] - std::abs(c[i]);
-        if (to_face < depth) {
-          depth = to_face;
-          axis = i;
-        }
-      }
+      const double depth = (box.half_extents - c.cwiseAbs()).minCoeff(&axis);
       side = c[axis] < 0.0 ? -1.0 : 1.0;
       surface_B[axis] = side * box.half_extents[axis];
       distance = -depth;

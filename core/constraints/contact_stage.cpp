@@ -16,12 +16,6 @@ Vec3 half_turn(const Quat& q_then, const Quat& q) {
   return turn.vec() / turn.w();
 }
 
-/// R H R^T.
-Mat3 turned_curvature(const Mat3& H, const Mat3& R) {
-  if (H.isZero(0.0)) return H;
-  return R * H * R.transpose();
-}
-
 // Minimum tangential fraction of a direction. Standing bodies rock, and with a direction close to
 // the normal rounding would rotate the friction axes.
 constexpr double kAcross = 0.05;
@@ -104,7 +98,9 @@ bool ContactStage::append_predicted(const Scene& scene, const Part& part, const 
       blocks.keep(blocks.size() - 1);
       continue;
     }
-    block.H = turned_curvature(row.H, motion(row.b).R);
+    if (row.H.isZero(0.0)) continue;
+    const Mat3 R = motion(row.b).R;
+    block.H = R * row.H * R.transpose();
   }
   append(of_boxes, scene, state, blocks);
   return true;

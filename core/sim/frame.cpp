@@ -122,13 +122,9 @@ void Simulator::Impl::schedule_substeps(FrameReport& report) {
 }
 
 void Simulator::Impl::schedule_islands(FrameReport& report) {
-  const auto r_of = [&](std::span<const int> bodies) {
+  const auto r_of = [&](std::span<const int> bodies) {  // moving ones
     double most = 0.0;
-    for (const int body : bodies) {
-      if (!scene->bodies[index(body)].is_static) {
-        most = std::max(most, state.own[index(body)].r);
-      }
-    }
+    for (const int body : bodies) most = std::max(most, state.own[index(body)].r);
     return most;
   };
   islands->split(*scene, [&](std::span<const int> bodies) {
@@ -143,7 +139,7 @@ void Simulator::Impl::schedule_islands(FrameReport& report) {
   });
   for (const Part& one : islands->parts()) {
     schedule.add(
-        one, SubstepClock(settings, scene->frame, r_of(one.bodies), rotation_bound(one.bodies).r));
+        one, SubstepClock(settings, scene->frame, r_of(one.moving), rotation_bound(one.bodies).r));
   }
 }
 

@@ -5,14 +5,6 @@
 
 namespace substep {
 
-namespace {
-
-// Impacts among many bodies can continue indefinitely at decreasing speed. After this many passes
-// the rest is resolved at once, as a single impact.
-constexpr int kMostImpacts = 200;
-
-}  // namespace
-
 // Newton's restitution law uses speeds before the impact. It cannot propagate an impact through
 // touching bodies: a ball striking a row of balls would carry the whole row along and lose most of
 // its energy. Impacts are therefore resolved in passes within the sub-step, all pending ones
@@ -34,6 +26,9 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
     masses = rigid_mass;
   }
   for (const int body : sub.part->moving) state.u[index(body)] -= sub.u_before[index(body)];
+  // Impacts among many bodies can continue indefinitely at decreasing speed. After this many passes
+  // the rest is resolved at once, as a single impact.
+  constexpr int kMostImpacts = 200;
   for (int i = 0; restitution->set_impacts(sub.u_before, sub.dt, sub.rows) && i < kMostImpacts;
        ++i) {
     System system{sub.rows, masses, sub.u_before, {}, sub.dt, sub.R_WB, scene->regularisation};

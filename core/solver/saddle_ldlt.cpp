@@ -60,24 +60,19 @@ bool SaddleLdlt::factor_node(Node& node, const System& system) {
   if (static_cast<double>(flops_) > system.limits.work) return false;
   node.dirty = false;
   if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
-  if (node.kind == NodeKind::kArticulated) {
-    factor_articulated(node);
-  } else {
-    node.kind == NodeKind::kLeaf ? factor_leaf(node, system.blocks)
-                                 : factor_general(node, system.blocks);
-  }
-  return true;
-}
-
-void SaddleLdlt::factor_articulated(Node& node) {
   const InverseMass& inverse = inverse_mass_[index(node.body)];
-  if (node.carried != nullptr) {
+  if (node.kind == NodeKind::kLeaf) {
+    factor_leaf(node, system.blocks);
+  } else if (node.kind == NodeKind::kGeneral) {
+    factor_general(node, system.blocks);
+  } else if (node.carried != nullptr) {
     node.joint->eliminate(inverse, *node.carried);
   } else {
     Square6 sum;
     sum_carried(node, sum);
     node.joint->eliminate(inverse, sum);
   }
+  return true;
 }
 
 void SaddleLdlt::forward(const Node& node) {

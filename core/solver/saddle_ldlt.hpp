@@ -162,7 +162,6 @@ class SaddleLdlt {
   /// @return false if it would exceed the work limit
   bool factor_node(Node& node, const System& system);
   void count(Node& node) const;  // counts its operations
-  void factor_articulated(Node& node);
   void sum_carried(const Node& node, Square6& sum);
   /// Calls with the width of a node, as a compile-time size for the common cases in chains, bridges
   /// and stacks.

@@ -18,12 +18,6 @@ Vec6 gradient(const Block& block, RowRange rows, bool of_a, const double* direct
   return g;
 }
 
-Vec6 response(const InverseMass& mass, const Vec6& g) {
-  Vec6 out;
-  out << mass.linear * g.head<3>(), mass.angular * g.tail<3>();
-  return out;
-}
-
 /// Advances the motion of a body by du dt; u is the resulting velocity for integrate().
 void push(const Vec6& du, double dt, Vec6& u) {
   u.head<3>() += du.head<3>();
@@ -83,7 +77,8 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
     const int body = of_a ? block.a : block.b;
     if (body < 0) return 0.0;
     const Vec6 g = gradient(moved, rows, of_a, direction);
-    du = response(system.inverse_mass[index(body)], g);
+    const InverseMass& mass = system.inverse_mass[index(body)];
+    du << mass.linear * g.head<3>(), mass.angular * g.tail<3>();
     return g.dot(du);
   };
   w += respond(true, du_a);

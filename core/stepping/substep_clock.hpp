@@ -63,7 +63,6 @@ class SubstepClock {
   double r_;
   double r_rotation_;
   double dt_ = 0.0;
-  int limit_ = 1;  // maximum number of sub-steps per frame
   int left_ = 1;   // sub-steps planned for rest_
   int taken_ = 0;  // sub-steps taken in this frame
   int n_wanted_ = 1;

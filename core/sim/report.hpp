@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/stepping/stiffness_bound.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep {
 

@@ -8,17 +8,9 @@
 #include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep {
-
-/// The body and degree of freedom with the largest k/M. body = -1 if K is zero.
-struct StiffnessLeader {
-  int body = -1;
-  int dof = 0;        // 0..2 linear, 3..5 about the body's principal axes
-  double k = 0.0;     // K_d,i [N/m or N m/rad]
-  double mass = 0.0;  // M_ii [kg or kg m^2]
-  double r = 0.0;     // k / mass, Eq. 9 [1/s^2]
-};
 
 /// Evaluates K from the forces and arms of a sub-step (Eq. 1), and its diagonal (Eq. 4).
 class StiffnessStage {

@@ -14,15 +14,7 @@ void touch(const Placed& a, const Box& box, const Placed& b, const Plane&, doubl
     const Vec3 p = centre + r;
     const double gap = n.dot(p);
     if (gap > margin) continue;
-    ContactPoint& point = out.emplace_back();
-    point.a = a.body;
-    point.b = b.body;
-    point.id = contact_id(a.body, b.body, corner);
-    point.n = n;
-    point.gap = gap;
-    point.point_a = r;
-    point.point_b = p - gap * n;
-    point.field_arm = r;
+    add_point(a, b, corner, n, gap, r, p - gap * n, out).field_arm = r;
   }
 }
 

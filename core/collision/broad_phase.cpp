@@ -44,8 +44,6 @@ BroadPhase::BroadPhase(const Scene& scene) {
   pairs_.reserve(12 * n + 32);
 }
 
-bool BroadPhase::too_many() const { return pairs_.size() > kMaxPairs; }
-
 bool BroadPhase::may_touch(const Scene& scene, int i, int j) const {
   const Body& a = scene.bodies[index(i)];
   const Body& b = scene.bodies[index(j)];

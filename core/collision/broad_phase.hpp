@@ -35,7 +35,7 @@ class BroadPhase {
   /// Half extents of a solid's box, enlarged by half the scene's margin and its travel bound [m].
   [[nodiscard]] const Vec3& reach(int body) const { return reach_[index(body)]; }
   /// True if there are more pairs than kMaxPairs; then the list is incomplete.
-  [[nodiscard]] bool too_many() const;
+  [[nodiscard]] bool too_many() const { return pairs_.size() > kMaxPairs; }
 
   [[nodiscard]] std::span<const int> solids() const { return solids_; }
   /// True if collisions between two bodies are enabled.

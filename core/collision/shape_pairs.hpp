@@ -5,7 +5,6 @@
 #include <variant>
 #include <vector>
 
-#include "core/collision/contact_id.hpp"
 #include "core/collision/contact_point.hpp"
 #include "core/model/shape.hpp"
 
@@ -19,6 +18,22 @@ struct Placed {
 };
 
 using ContactPoints = std::vector<ContactPoint>;
+
+/// Appends a point. @param feature the touching features of the pair  @return the point, to set
+/// field_arm and H unless they are zero
+inline ContactPoint& add_point(const Placed& a, const Placed& b, std::uint64_t feature,
+                               const Vec3& n, double gap, const Vec3& point_a, const Vec3& point_b,
+                               ContactPoints& out) {
+  ContactPoint& point = out.emplace_back();
+  point.a = a.body;
+  point.b = b.body;
+  point.id = contact_id(a.body, b.body, feature);
+  point.n = n;
+  point.gap = gap;
+  point.point_a = point_a;
+  point.point_b = point_b;
+  return point;
+}
 
 // One overload of touch() for every pair of Shape alternatives; only the second may be a plane. A
 // missing overload is a compile error.
@@ -37,7 +52,7 @@ inline void touch(const Placed& a, const Box& box, const Placed& b, const Sphere
 void touch(const Placed& a, const Box& box, const Placed& b, const Plane& plane, double margin,
            ContactPoints& out);
 /// Face against face: the corners of the incident face clipped by the sides of the reference face.
-/// Edge against edge: one point (box_edges.hpp).
+/// Edge against edge: one point.
 void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
            ContactPoints& out);
 

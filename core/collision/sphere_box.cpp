@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/collision/shape_pairs.hpp"
 
@@ -18,8 +16,9 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& bo
   const double reach = sphere.radius + margin;
   if (squared > reach * reach) return;
 
-  ContactPoint& point = out.emplace_back();
-  int axis = 0;  // of the nearest face; unused at edges and corners
+  Vec3 n;
+  Mat3 H = Mat3::Zero();
+  Eigen::Index axis = 0;  // of the nearest face; unused at edges and corners
   int outside = 0;
   for (int i = 0; i < 3; ++i) {
     if (d[i] == 0.0) continue;
@@ -35,32 +34,20 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Box& bo
     for (int i = 0; i < 3; ++i) {
       if (d[i] != 0.0) H_B(i, i) += 1.0 / distance;
     }
-    point.n = b.R * n_B;
-    point.H = b.R * H_B * b.R.transpose();
+    n = b.R * n_B;
+    H = b.R * H_B * b.R.transpose();
   } else {
     double side = d[axis] < 0.0 ? -1.0 : 1.0;
     distance = std::abs(d[axis]);
     if (outside == 0) {  // the centre is inside: push out through the nearest face
-      double depth = std::numeric_limits<double>::infinity();
-      for (int i = 0; i < 3; ++i) {
-        const double to_face = box.half_extents[i] - std::abs(c[i]);
-        if (to_face < depth) {
-          depth = to_face;
-          axis = i;
-        }
-      }
+      const double depth = (box.half_extents - c.cwiseAbs()).minCoeff(&axis);
       side = c[axis] < 0.0 ? -1.0 : 1.0;
       surface_B[axis] = side * box.half_extents[axis];
       distance = -depth;
     }
-    point.n = side * b.R.col(axis);
+    n = side * b.R.col(axis);
   }
-  point.a = a.body;
-  point.b = b.body;
-  point.id = contact_id(a.body, b.body, 0);
-  point.gap = distance - sphere.radius;
-  point.point_a = -sphere.radius * point.n;
-  point.point_b = b.R * surface_B;
+  add_point(a, b, 0, n, distance - sphere.radius, -sphere.radius * n, b.R * surface_B, out).H = H;
 }
 
 }  // namespace substep

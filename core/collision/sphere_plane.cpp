@@ -9,14 +9,7 @@ void touch(const Placed& a, const Sphere& sphere, const Placed& b, const Plane&,
   const double distance = n.dot(centre);
   const double gap = distance - sphere.radius;
   if (gap > margin) return;
-  ContactPoint& point = out.emplace_back();
-  point.a = a.body;
-  point.b = b.body;
-  point.id = contact_id(a.body, b.body, 0);
-  point.n = n;
-  point.gap = gap;
-  point.point_a = -sphere.radius * n;
-  point.point_b = centre - distance * n;
+  add_point(a, b, 0, n, gap, -sphere.radius * n, centre - distance * n, out);
 }
 
 }  // namespace substep

@@ -19,20 +19,6 @@ void BallRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, d
   for (int i = 0; i < 3; ++i) curvature[i] = c[i];
 }
 
-// The force l acts on a at r_a. Rotating a by theta moves the arm by theta x r_a, so the torque
-// r_a x l changes by (theta x r_a) x l = l x (r_a x theta) = [l][r_a] theta.
-void BallRows::stiffness(const Block& block, StiffnessMatrix& K) {
-  const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
-  if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(l, block.r_a));
-  if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
-}
-
-void BallRows::turning_stiffness(const Block& block, std::span<Mat3> K) {
-  const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
-  if (block.a >= 0) K[index(block.a)] += skew_product(l, block.r_a);
-  if (block.b >= 0) K[index(block.b)] -= skew_product(l, block.r_b);
-}
-
 void BallRows::move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
                     Block& moved) {
   if (!rows.reaches(0, 3)) return;

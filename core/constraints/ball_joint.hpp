@@ -1,10 +1,7 @@
 #pragma once
 
-#include <span>
-
 #include "core/constraints/block.hpp"
 #include "core/constraints/joint_geometry.hpp"
-#include "core/constraints/stiffness_matrix.hpp"
 #include "core/model/joint.hpp"
 
 namespace substep {
@@ -32,8 +29,15 @@ struct BallRows {
   }
 
   static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature);
-  static void stiffness(const Block& block, StiffnessMatrix& K);
-  static void turning_stiffness(const Block& block, std::span<Mat3> K);
+
+  // The force l acts on a at r_a. Rotating a by theta moves the arm by theta x r_a, so the torque
+  // r_a x l changes by (theta x r_a) x l = l x (r_a x theta) = [l][r_a] theta.
+  static void stiffness(const Block& block, auto& K) {
+    const Vec3 l{block.lambda[0], block.lambda[1], block.lambda[2]};
+    if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(l, block.r_a));
+    if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
+  }
+
   static void move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
                    Block& moved);
   static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);

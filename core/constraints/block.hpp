@@ -106,6 +106,19 @@ inline Vec6 gradient(const Block& block, int row, bool of_a) {
   return J;
 }
 
+/// Sets J of a row whose force acts along a direction, at r_a on a and at r_b on b.
+[[gnu::always_inline]] inline void set_row(Block& block, int row, const Vec3& along) {
+  const Vec3 direction = along;  // a copy: `along` may alias the block
+  const Vec3 A = block.r_a.cross(direction);
+  const Vec3 B = block.r_b.cross(direction);
+  for (int j = 0; j < 3; ++j) {
+    block.J_a[row][j] = direction[j];
+    block.J_b[row][j] = -direction[j];
+    block.J_a[row][3 + j] = A[j];
+    block.J_b[row][3 + j] = -B[j];
+  }
+}
+
 /// The blocks of a sub-step: cleared and refilled without freeing memory.
 class Blocks {
  public:

@@ -1,24 +1,6 @@
 #include "core/constraints/contact.hpp"
 
-#include <cmath>
-
 namespace substep {
-
-namespace {
-
-[[gnu::always_inline]] inline void set_row(Block& block, int row, const Vec3& along) {
-  const Vec3 direction = along;  // a copy: `along` may alias the block
-  const Vec3 A = block.r_a.cross(direction);
-  const Vec3 B = block.r_b.cross(direction);
-  for (int j = 0; j < 3; ++j) {
-    block.J_a[row][j] = direction[j];
-    block.J_b[row][j] = -direction[j];
-    block.J_a[row][3 + j] = A[j];
-    block.J_b[row][3 + j] = -B[j];
-  }
-}
-
-}  // namespace
 
 // C     = D(p) - radius, with n = grad D
 // dC/dt = n . (v_a + omega_a x r_a - v_b - omega_b x r_b)
@@ -62,11 +44,23 @@ void friction_rows(const ContactModel& model, double mu, const Vec3& along, Bloc
   }
 }
 
-void contact_stiffness_paper(const Block& block, StiffnessMatrix& K) {
+namespace {
+
+using Mat36 = Eigen::Matrix<double, 3, 6>;  // derivative by a displacement: linear, angular
+
+void add_paper_stiffness(const Block& block, StiffnessMatrix& K) {
   Vec3 l = block.lambda[0] * block.n;
   if (block.rows == 3) l += block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
   if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(l, block.r_a));
   if (block.b >= 0) K.add_angular(block.b, block.b, -skew_product(l, block.r_b));
+}
+
+/// Adds the derivatives of the force and the torque on one body by the displacement of another.
+void add_pair(int on, int by, const auto& force, const auto& torque, StiffnessMatrix& K) {
+  if (on < 0 || by < 0) return;
+  Mat6 block;
+  block << force, torque;
+  K.add(on, by, block);
 }
 
 // The force on a is l n at p = x_a + r (r = arm_a, rotating with a), that on b is -l n with the
@@ -79,7 +73,7 @@ void contact_stiffness_paper(const Block& block, StiffnessMatrix& K) {
 //       d(-l rho x n)     = l ([n](dx_a - dx_b - [r] theta_a) - [rho] dn).
 // For a face H = 0 and the blocks are those of a point on a plate; for two spheres N_b = 0 and only
 // l H remains.
-void contact_stiffness_normal(const Block& block, StiffnessMatrix& K) {
+void add_normal_stiffness(const Block& block, StiffnessMatrix& K) {
   const double l = block.lambda[0];
   if (l == 0.0) return;
   const Mat3 n = skew(block.n);
@@ -89,38 +83,25 @@ void contact_stiffness_normal(const Block& block, StiffnessMatrix& K) {
   const Mat3 N_b = H * rho - n;
   const Mat3 Hr = H * r;
 
-  // Derivative of n by the displacement of each body: linear, angular.
-  Eigen::Matrix<double, 3, 6> dn_a;
-  Eigen::Matrix<double, 3, 6> dn_b;
+  // Derivative of n by the displacement of each body.
+  Mat36 dn_a;
+  Mat36 dn_b;
   dn_a << H, -Hr;
   dn_b << -H, N_b;
 
-  Eigen::Matrix<double, 3, 6> torque_a_by_a = r * dn_a;
+  Mat36 torque_a_by_a = r * dn_a;
   torque_a_by_a.rightCols<3>() += n * r;
-  Eigen::Matrix<double, 3, 6> torque_b_by_a = -rho * dn_a;
+  Mat36 torque_b_by_a = -rho * dn_a;
   torque_b_by_a.leftCols<3>() += n;
   torque_b_by_a.rightCols<3>() -= n * r;
-  Eigen::Matrix<double, 3, 6> torque_b_by_b = -rho * dn_b;
+  Mat36 torque_b_by_b = -rho * dn_b;
   torque_b_by_b.leftCols<3>() -= n;
 
-  Mat6 block_K;
-  if (block.a >= 0) {
-    block_K << l * dn_a, l * torque_a_by_a;
-    K.add(block.a, block.a, block_K);
-  }
-  if (block.b >= 0) {
-    block_K << -l * dn_b, l * torque_b_by_b;
-    K.add(block.b, block.b, block_K);
-  }
-  if (block.a >= 0 && block.b >= 0) {
-    block_K << l * dn_b, l * (r * dn_b);
-    K.add(block.a, block.b, block_K);
-    block_K << -l * dn_a, l * torque_b_by_a;
-    K.add(block.b, block.a, block_K);
-  }
+  add_pair(block.a, block.a, l * dn_a, l * torque_a_by_a, K);
+  add_pair(block.b, block.b, -l * dn_b, l * torque_b_by_b, K);
+  add_pair(block.a, block.b, l * dn_b, l * (r * dn_b), K);
+  add_pair(block.b, block.a, -l * dn_a, l * torque_b_by_a, K);
 }
-
-namespace {
 
 // Friction is the force g = l_1 t1 + l_2 t2 on a at the arm r_a, -g on b at r_b. The tangents
 // rotate with b and stay perpendicular to the normal; the point of action keeps its distance s from
@@ -129,7 +110,6 @@ namespace {
 //   dr_a = theta_a x r + s dn,   dr_b = dp + s dn,
 //   d(r_a x g) = -[g] dr_a + [r_a] dg,   d(-r_b x g) = [g] dr_b - [r_b] dg.
 void add_friction_stiffness(const Block& block, StiffnessMatrix& K) {
-  using Mat36 = Eigen::Matrix<double, 3, 6>;  // derivative by a displacement: linear, angular
   const Vec3 g = block.lambda[1] * block.t1 + block.lambda[2] * block.t2;
   if (g.isZero(0.0)) return;
   const Vec3& n = block.n;
@@ -155,39 +135,18 @@ void add_friction_stiffness(const Block& block, StiffnessMatrix& K) {
   const Mat3 G = skew(g);
   const Mat3 r_a = skew(block.r_a);
   const Mat3 r_b = skew(block.r_b);
-  Mat6 block_K;
-  if (block.a >= 0) {
-    block_K << dg_a, r_a * dg_a - G * dr_a_by_a;
-    K.add(block.a, block.a, block_K);
-  }
-  if (block.b >= 0) {
-    block_K << -dg_b, G * dr_b_by_b - r_b * dg_b;
-    K.add(block.b, block.b, block_K);
-  }
-  if (block.a >= 0 && block.b >= 0) {
-    block_K << dg_b, r_a * dg_b - G * dr_a_by_b;
-    K.add(block.a, block.b, block_K);
-    block_K << -dg_a, G * dr_b_by_a - r_b * dg_a;
-    K.add(block.b, block.a, block_K);
-  }
+  add_pair(block.a, block.a, dg_a, r_a * dg_a - G * dr_a_by_a, K);
+  add_pair(block.b, block.b, -dg_b, G * dr_b_by_b - r_b * dg_b, K);
+  add_pair(block.a, block.b, dg_b, r_a * dg_b - G * dr_a_by_b, K);
+  add_pair(block.b, block.a, -dg_a, G * dr_b_by_a - r_b * dg_a, K);
 }
 
 }  // namespace
 
-void contact_stiffness_exact(const Block& block, StiffnessMatrix& K) {
-  contact_stiffness_normal(block, K);
-  if (block.rows == 3) add_friction_stiffness(block, K);
-}
-
 void contact_stiffness(const Block& block, ContactTerms terms, StiffnessMatrix& K) {
-  switch (terms) {
-    case ContactTerms::kPaper:
-      return contact_stiffness_paper(block, K);
-    case ContactTerms::kNormal:
-      return contact_stiffness_normal(block, K);
-    case ContactTerms::kExact:
-      return contact_stiffness_exact(block, K);
-  }
+  if (terms == ContactTerms::kPaper) return add_paper_stiffness(block, K);
+  add_normal_stiffness(block, K);
+  if (terms == ContactTerms::kExact && block.rows == 3) add_friction_stiffness(block, K);
 }
 
 }  // namespace substep

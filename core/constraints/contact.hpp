@@ -6,7 +6,6 @@
 #include "core/constraints/block.hpp"
 #include "core/constraints/stiffness_matrix.hpp"
 #include "core/model/scene.hpp"
-#include "core/model/state.hpp"
 
 namespace substep {
 
@@ -18,22 +17,17 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
 /// @param along t1 its component normal to n gives t1, world
 void friction_rows(const ContactModel& model, double mu, const Vec3& along, Block& block);
 
-/// The paper's block: the contact as a ball-and-socket joint that carries l = lambda_n n +
-/// friction. It is not the derivative of the contact force (it stiffens a sphere's spin), and is
-/// used only to choose N.
-void contact_stiffness_paper(const Block& block, StiffnessMatrix& K);
-
-/// The true derivative of the normal force and its torques: lambda_n times the Hessian of phi.
-void contact_stiffness_normal(const Block& block, StiffnessMatrix& K);
-
-/// The true derivative of the contact's force and torques, including friction, with tangents that
-/// rotate with body b and stay perpendicular to the normal, as in move_rows().
-void contact_stiffness_exact(const Block& block, StiffnessMatrix& K);
-
-/// Selects the terms that enter K. The first and the last choose N. Only the normal term is added
-/// to a mass: friction is not the gradient of an error, so its derivative is not a spring, and
-/// including it broke a bridge under 8 of the 512 balls that it otherwise holds.
-enum class ContactTerms : std::uint8_t { kPaper, kNormal, kExact };
+/// Selects the terms of a contact that enter K. The paper's and the exact ones choose N. Only the
+/// normal term is added to a mass: friction is not the gradient of an error, so its derivative is
+/// not a spring, and including it broke a bridge under 8 of the 512 balls that it otherwise holds.
+enum class ContactTerms : std::uint8_t {
+  kPaper,   // a ball-and-socket joint that carries l = lambda_n n + friction. It is not the
+            // derivative of the contact force: it stiffens a sphere's spin
+  kNormal,  // the true derivative of the normal force and its torques: lambda_n times the Hessian
+            // of phi
+  kExact,   // that of friction too, with tangents that rotate with body b and stay perpendicular to
+            // the normal, as in move_rows()
+};
 void contact_stiffness(const Block& block, ContactTerms terms, StiffnessMatrix& K);
 
 }  // namespace substep

@@ -16,10 +16,18 @@ Vec3 half_turn(const Quat& q_then, const Quat& q) {
   return turn.vec() / turn.w();
 }
 
-/// R H R^T.
-Mat3 turned_curvature(const Mat3& H, const Mat3& R) {
-  if (H.isZero(0.0)) return H;
-  return R * H * R.transpose();
+// Minimum tangential fraction of a direction. Standing bodies rock, and with a direction close to
+// the normal rounding would rotate the friction axes.
+constexpr double kAcross = 0.05;
+
+/// The first direction not along the contact normal: a fixed preference, not a comparison subject
+/// to rounding.
+Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
+  for (const Vec3& d : directions) {
+    const double length = d.norm();
+    if (length > 0.0 && n.cross(d).norm() > kAcross * length) return d;
+  }
+  return n.unitOrthogonal();
 }
 
 }  // namespace
@@ -90,7 +98,9 @@ bool ContactStage::append_predicted(const Scene& scene, const Part& part, const 
       blocks.keep(blocks.size() - 1);
       continue;
     }
-    block.H = turned_curvature(row.H, motion(row.b).R);
+    if (row.H.isZero(0.0)) continue;
+    const Mat3 R = motion(row.b).R;
+    block.H = R * row.H * R.transpose();
   }
   append(of_boxes, scene, state, blocks);
   return true;
@@ -108,24 +118,6 @@ double penetration(Detector& detector, const Scene& scene, const Part& part, con
 FrictionStage::FrictionStage(const Scene& scene) {
   for (const Body& body : scene.bodies) sqrt_mu_.push_back(std::sqrt(body.friction));
 }
-
-namespace {
-
-// Minimum tangential fraction of a direction. Standing bodies rock, and with a direction close to
-// the normal rounding would rotate the friction axes.
-constexpr double kAcross = 0.05;
-
-/// The first direction not along the contact normal: a fixed preference, not a comparison subject
-/// to rounding.
-Vec3 first_across(const Vec3& n, std::initializer_list<Vec3> directions) {
-  for (const Vec3& d : directions) {
-    const double length = d.norm();
-    if (length > 0.0 && n.cross(d).norm() > kAcross * length) return d;
-  }
-  return n.unitOrthogonal();
-}
-
-}  // namespace
 
 // The friction box has axes, which must not depend on the order of bodies in a file, nor on the
 // rotation of a shape about the normal. On a static body they point down the slope, or on level

@@ -28,7 +28,6 @@ class ContactStage {
   /// other. @param dt the next sub-step [s]  @return false if there are too many
   bool append_predicted(const Scene& scene, const Part& part, const State& state,
                         std::span<const Mat3> R_WB, double dt, Blocks& blocks);
-  /// The contact detector, for other queries.
   [[nodiscard]] Detector& detector() { return detector_; }
 
  private:

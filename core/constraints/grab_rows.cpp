@@ -7,7 +7,7 @@
 namespace substep {
 
 void grab_rows(const Grab& grab, const Side& body, Block& block) {
-  block.kind = kind_of<BallJoint>();
+  block.kind = kind_of(BallJoint{});
   block.id = kGrabId;
   block.a = block.body_a = grab.body;
   block.b = block.body_b = -1;

@@ -34,44 +34,13 @@ void HingeRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, 
   curvature[4] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
 }
 
-// Torque on a: l u x v. Rotating a: l (theta x u) x v = l [v][u] theta. Rotating b:
-// l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All terms are linear in v,
-// so both rows are combined: w = l_1 v_1 + l_2 v_2.
-void HingeRows::stiffness(const Block& block, StiffnessMatrix& K) {
-  BallRows::stiffness(block, K);
-  const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
-  const Mat3 WU = skew_product(w, block.axis);
-  const Mat3 UW = WU.transpose();
-  if (block.a >= 0) K.add_angular(block.a, block.a, WU);
-  if (block.b >= 0) K.add_angular(block.b, block.b, UW);
-  if (block.a >= 0 && block.b >= 0) {
-    K.add_angular(block.a, block.b, -UW);
-    K.add_angular(block.b, block.a, -WU);
-  }
-}
-
-void HingeRows::turning_stiffness(const Block& block, std::span<Mat3> K) {
-  BallRows::turning_stiffness(block, K);
-  const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
-  const Mat3 WU = skew_product(w, block.axis);
-  if (block.a >= 0) K[index(block.a)] += WU;
-  if (block.b >= 0) K[index(block.b)] += WU.transpose();
-}
-
 void HingeRows::move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
                      Block& moved) {
   BallRows::move(start, a, b, rows, moved);
   if (!rows.reaches(3, 5)) return;
-  moved.axis = a.R * start.axis;
-  moved.v1 = b.R * start.v1;
-  moved.v2 = b.R * start.v2;
-  for (int k = 0; k < 2; ++k) {
-    const Vec3& v = k == 0 ? moved.v1 : moved.v2;
-    const Vec3& v_start = k == 0 ? start.v1 : start.v2;
-    const Vec3 J = moved.axis.cross(v);
-    moved.phi[3 + k] = moved.axis.dot(v) - start.axis.dot(v_start);
-    for (int j = 0; j < 3; ++j) moved.J_a[3 + k][3 + j] = J[j];
-  }
+  set_axes(moved, a.R * start.axis, b.R * start.v1, b.R * start.v2);
+  moved.phi[3] -= start.axis.dot(start.v1);
+  moved.phi[4] -= start.axis.dot(start.v2);
 }
 
 void HingeRows::moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {

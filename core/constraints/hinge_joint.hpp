@@ -19,21 +19,27 @@ struct HingeRows {
 
   static void rows(const JointGeometry& joint, const Side& a, const Side& b, Block& block) {
     BallRows::rows(joint, a, b, block);
-    const Vec3 u = a.R * joint.u;
-    block.axis = u;
-    for (int k = 0; k < 2; ++k) {
-      const Vec3 v = b.R * (k == 0 ? joint.v1 : joint.v2);
-      (k == 0 ? block.v1 : block.v2) = v;
-      const Vec3 J = u.cross(v);
-      const int row = 3 + k;
-      block.phi[row] = u.dot(v);
-      for (int j = 0; j < 3; ++j) block.J_a[row][3 + j] = J[j];
-    }
+    set_axes(block, a.R * joint.u, b.R * joint.v1, b.R * joint.v2);
   }
 
   static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature);
-  static void stiffness(const Block& block, StiffnessMatrix& K);
-  static void turning_stiffness(const Block& block, std::span<Mat3> K);
+
+  // Torque on a: l u x v. Rotating a: l (theta x u) x v = l [v][u] theta. Rotating b:
+  // l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All terms are linear in
+  // v, so both rows are combined: w = l_1 v_1 + l_2 v_2.
+  static void stiffness(const Block& block, auto& K) {
+    BallRows::stiffness(block, K);
+    const Vec3 w = block.lambda[3] * block.v1 + block.lambda[4] * block.v2;
+    const Mat3 WU = skew_product(w, block.axis);
+    const Mat3 UW = WU.transpose();
+    if (block.a >= 0) K.add_angular(block.a, block.a, WU);
+    if (block.b >= 0) K.add_angular(block.b, block.b, UW);
+    if (block.a >= 0 && block.b >= 0) {
+      K.add_angular(block.a, block.b, -UW);
+      K.add_angular(block.b, block.a, -WU);
+    }
+  }
+
   static void move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
                    Block& moved);
   static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);
@@ -43,6 +49,21 @@ struct HingeRows {
   static Vec3 torque(const Block& block, const double* force);
   static void push_change(const Block& block, const Motion& a, const Motion& b, const double* force,
                           Vec6& on_a, Vec6& on_b);
+
+ private:
+  /// Sets the axes of a block, and phi and J of its angular rows.
+  [[gnu::always_inline]] static void set_axes(Block& block, const Vec3& u, const Vec3& v1,
+                                              const Vec3& v2) {
+    block.axis = u;
+    block.v1 = v1;
+    block.v2 = v2;
+    for (int k = 0; k < 2; ++k) {
+      const Vec3& v = k == 0 ? v1 : v2;
+      const Vec3 J = u.cross(v);
+      block.phi[3 + k] = u.dot(v);
+      for (int j = 0; j < 3; ++j) block.J_a[3 + k][3 + j] = J[j];
+    }
+  }
 };
 
 }  // namespace substep

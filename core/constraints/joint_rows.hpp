@@ -4,15 +4,14 @@
 
 #include <concepts>
 #include <cstddef>
-#include <span>
 #include <tuple>
-#include <type_traits>
 #include <utility>
 #include <variant>
 
 #include "core/constraints/ball_joint.hpp"
 #include "core/constraints/hinge_joint.hpp"
 #include "core/constraints/prismatic_joint.hpp"
+#include "core/constraints/stiffness_matrix.hpp"
 
 namespace substep {
 
@@ -21,7 +20,7 @@ template <class Rows, class J>
 concept JointRows = requires(const J& joint, Block& block, const Block& start,
                              const JointGeometry& geometry, const Side& side, const Vec6& velocity,
                              const Motion& motion, RowRange range, double* out, const double* force,
-                             Vec6& push, StiffnessMatrix& K, std::span<Mat3> turning) {
+                             Vec6& push, StiffnessMatrix& K) {
   // Constant part of its block: numbers of rows, compliance.
   { Rows::constants(joint, block) } -> std::same_as<void>;
   // The joint's data for rows().
@@ -30,9 +29,8 @@ concept JointRows = requires(const J& joint, Block& block, const Block& start,
   { Rows::rows(geometry, side, side, block) } -> std::same_as<void>;
   // d2phi/dt2 at constant velocities of a and b [m/s, rad/s].
   { Rows::curvature(start, velocity, velocity, out) } -> std::same_as<void>;
-  // Adds d(J^T lambda)/dq to K; or only the derivative of a body's torque by its own rotation.
+  // Adds d(J^T lambda)/dq to K, or to a class with its functions (turning_stiffness.cpp).
   { Rows::stiffness(start, K) } -> std::same_as<void>;
-  { Rows::turning_stiffness(start, turning) } -> std::same_as<void>;
   // Change of phi, and J, of some rows after a and b have moved; or the change of phi alone, for
   // all rows.
   { Rows::move(start, motion, motion, range, block) } -> std::same_as<void>;
@@ -57,15 +55,6 @@ static_assert([]<std::size_t... I>(std::index_sequence<I...>) {
 
 /// The block kind of a joint.
 inline BlockKind kind_of(const Joint& joint) { return static_cast<BlockKind>(joint.index()); }
-template <class J>
-constexpr BlockKind kind_of() {
-  return []<std::size_t... I>(std::index_sequence<I...>) {
-    std::size_t kind = 0;
-    ((std::is_same_v<std::variant_alternative_t<I, Joint>, J> ? (void)(kind = I) : (void)0), ...);
-    return static_cast<BlockKind>(kind);
-  }
-  (std::make_index_sequence<kJointKinds>{});
-}
 
 /// Calls `visit` with the table entry of a joint type. @param kind not kContact
 template <std::size_t kFirst = 0, class Visit>

@@ -19,13 +19,13 @@ void JointStage::begin(std::size_t joint, Block& block) const {
   const auto moving = [&](int body) {
     return body == kWorld || scene_.bodies[index(body)].is_static ? -1 : body;
   };
-  const JointBase& j = base(scene_.joints[joint]);
-  block.kind = joints_[joint].kind;
+  const Placed& placed = joints_[joint];
+  block.kind = placed.kind;
   block.id = joint;
-  block.body_a = j.a;
-  block.body_b = j.b;
-  block.a = moving(j.a);
-  block.b = moving(j.b);
+  block.body_a = placed.body_a;
+  block.body_b = placed.body_b;
+  block.a = moving(placed.body_a);
+  block.b = moving(placed.body_b);
   with_joint_rows(scene_.joints[joint],
                   [&](auto rows, const auto& own) { rows.constants(own, block); });
 }

@@ -42,15 +42,7 @@ void move_contact(const Block& start, const Motion& a, const Motion& b, Block& m
     moved.t2 = moved.n.cross(moved.t1);
   }
   for (int row = rows.first; row < end; ++row) {
-    const Vec3& direction = row == 0 ? moved.n : row == 1 ? moved.t1 : moved.t2;
-    const Vec3 A = moved.r_a.cross(direction);
-    const Vec3 B = moved.r_b.cross(direction);
-    for (int j = 0; j < 3; ++j) {
-      moved.J_a[row][j] = direction[j];
-      moved.J_b[row][j] = -direction[j];
-      moved.J_a[row][3 + j] = A[j];
-      moved.J_b[row][3 + j] = -B[j];
-    }
+    set_row(moved, row, row == 0 ? moved.n : row == 1 ? moved.t1 : moved.t2);
   }
 }
 

@@ -12,29 +12,19 @@ Vec3 slid_rho(const Block& start, const Motion& a, const Motion& b) {
 
 /// J of some rows, from the arms and directions of a block.
 void set_gradients(Block& block, RowRange rows) {
-  const auto set = [&](int row, const Vec3& direction, const Vec3& on_a, const Vec3& on_b) {
-    for (int j = 0; j < 3; ++j) {
-      block.J_a[row][j] = direction[j];
-      block.J_b[row][j] = -direction[j];
-      block.J_a[row][3 + j] = on_a[j];
-      block.J_b[row][3 + j] = -on_b[j];
-    }
-  };
   if (rows.reaches(0, 2)) {
-    set(0, block.v1, block.r_a.cross(block.v1), block.r_b.cross(block.v1));
-    set(1, block.v2, block.r_a.cross(block.v2), block.r_b.cross(block.v2));
+    set_row(block, 0, block.v1);
+    set_row(block, 1, block.v2);
   }
   if (!rows.reaches(2, 5)) return;
   const Vec3 turn[3] = {block.axis.cross(block.v1), block.axis.cross(block.v2),
                         block.w.cross(block.v2)};
-  for (int k = 0; k < 3; ++k) set(2 + k, Vec3::Zero(), turn[k], turn[k]);
-}
-
-/// Derivative of the torque on a of the angular rows by the rotation of a: the sum of l [t][s], as
-/// for a hinge.
-Mat3 angular_stiffness(const Block& block) {
-  const Vec3 across = block.lambda[2] * block.v1 + block.lambda[3] * block.v2;
-  return skew_product(across, block.axis) + block.lambda[4] * skew_product(block.v2, block.w);
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 6; ++j) {
+      block.J_a[2 + k][j] = j < 3 ? 0.0 : turn[k][j - 3];
+      block.J_b[2 + k][j] = -block.J_a[2 + k][j];
+    }
+  }
 }
 
 }  // namespace
@@ -95,38 +85,9 @@ void PrismaticRows::curvature(const Block& block, const Vec6& u_a, const Vec6& u
   curvature[4] = dot_curvature(block.w, block.v2, omega_a, omega_b);
 }
 
-// The force f = l_1 v_1 + l_2 v_2 on a at r_a, -f on b at rho. It rotates with b:
-//   df = theta_b x f,   dr_a = theta_a x r_a,   drho = dx_a - dx_b + theta_a x r_a
-//   d(r_a x f)  = [f][r_a] theta_a - [r_a][f] theta_b
-//   d(-rho x f) = [f] (dx_a - dx_b - [r_a] theta_a) + [rho][f] theta_b
-void PrismaticRows::stiffness(const Block& block, StiffnessMatrix& K) {
-  const Vec3 f = force(block, block.lambda);
-  const Mat3 F = skew(f);
-  const Mat3 by_a = angular_stiffness(block);
-  const Mat3 by_b = by_a.transpose();
-  if (block.a >= 0) K.add_angular(block.a, block.a, skew_product(f, block.r_a) + by_a);
-  if (block.b < 0) return;
-  Mat6 part = Mat6::Zero();
-  part.topRightCorner<3, 3>() = F;
-  part.bottomLeftCorner<3, 3>() = -F;
-  part.bottomRightCorner<3, 3>() = skew_product(block.r_b, f) + by_b;
-  K.add(block.b, block.b, part);
-  if (block.a < 0) return;
-  part.bottomLeftCorner<3, 3>().setZero();
-  part.topRightCorner<3, 3>() = -F;
-  part.bottomRightCorner<3, 3>() = -skew_product(block.r_a, f) - by_b;
-  K.add(block.a, block.b, part);
-  part.topRightCorner<3, 3>().setZero();
-  part.bottomLeftCorner<3, 3>() = F;
-  part.bottomRightCorner<3, 3>() = -skew_product(f, block.r_a) - by_a;
-  K.add(block.b, block.a, part);
-}
-
-void PrismaticRows::turning_stiffness(const Block& block, std::span<Mat3> K) {
-  const Vec3 f = force(block, block.lambda);
-  const Mat3 by_a = angular_stiffness(block);
-  if (block.a >= 0) K[index(block.a)] += skew_product(f, block.r_a) + by_a;
-  if (block.b >= 0) K[index(block.b)] += skew_product(block.r_b, f) + by_a.transpose();
+Mat3 PrismaticRows::angular_stiffness(const Block& block) {
+  const Vec3 across = block.lambda[2] * block.v1 + block.lambda[3] * block.v2;
+  return skew_product(across, block.axis) + block.lambda[4] * skew_product(block.v2, block.w);
 }
 
 void PrismaticRows::move(const Block& start, const Motion& a, const Motion& b, RowRange rows,

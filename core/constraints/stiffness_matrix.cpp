@@ -40,16 +40,14 @@ std::size_t StiffnessMatrix::made(int row, int col) {
   return at;
 }
 
-void StiffnessMatrix::widen() {
-  whole_.reserve(pairs_.capacity());
-  for (const Mat3& angular : angular_) {
-    whole_.push_back(Mat6::Zero());
-    whole_.back().bottomRightCorner<3, 3>() = angular;
-  }
-}
-
 void StiffnessMatrix::add(int row, int col, const Mat6& block) {
-  if (whole_.empty()) widen();
+  if (whole_.empty()) {
+    whole_.reserve(pairs_.capacity());
+    for (const Mat3& angular : angular_) {
+      whole_.push_back(Mat6::Zero());
+      whole_.back().bottomRightCorner<3, 3>() = angular;
+    }
+  }
   const std::size_t at = made(row, col);
   whole_[at] += block;
 }

@@ -60,7 +60,6 @@ class StiffnessMatrix {
   [[nodiscard]] int find(int row, int col) const;
   /// The same; inserts the block if absent.
   std::size_t made(int row, int col);
-  void widen();
 
   std::vector<Pair> pairs_;
   std::vector<Mat3> angular_;  // parallel to pairs_, while whole_ is empty

@@ -5,7 +5,19 @@
 namespace substep {
 namespace {
 
-// contact_stiffness_normal() has the derivation; N_b is the derivative of n by the rotation of b.
+/// In place of a StiffnessMatrix: keeps the angular parts of its diagonal blocks.
+struct TurningStiffness {
+  std::span<Mat3> K;
+
+  void add_angular(int row, int col, const Mat3& block) const {
+    if (row == col) K[index(row)] += block;
+  }
+  void add(int row, int col, const Mat6& block) const {
+    if (row == col) K[index(row)] += block.bottomRightCorner<3, 3>();
+  }
+};
+
+// contact.cpp has the derivation; N_b is the derivative of n by the rotation of b.
 void add_of_contact(const Block& block, std::span<Mat3> K) {
   const double l = block.lambda[0];
   if (l == 0.0) return;
@@ -27,7 +39,8 @@ void add_of_contact(const Block& block, std::span<Mat3> K) {
 
 void add_turning_stiffness(const Block& block, std::span<Mat3> K) {
   if (block.is_contact()) return add_of_contact(block, K);
-  with_joint_rows(block.kind, [&](auto joint) { joint.turning_stiffness(block, K); });
+  TurningStiffness turning{K};
+  with_joint_rows(block.kind, [&](auto joint) { joint.stiffness(block, turning); });
 }
 
 }  // namespace substep

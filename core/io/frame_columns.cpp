@@ -4,7 +4,7 @@
 
 #include "core/io/csv_text.hpp"
 #include "core/io/json.hpp"
-#include "core/sim/momentum.hpp"
+#include "core/sim/conserved.hpp"
 
 namespace substep {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/lab/reference.hpp"
 #include "core/lab/verdict.hpp"
-#include "core/sim/momentum.hpp"
+#include "core/sim/conserved.hpp"
 #include "core/sim/report.hpp"
 
 namespace substep {

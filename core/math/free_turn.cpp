@@ -9,9 +9,7 @@ namespace {
 
 /// True if all lie on one principal axis: then the body does not tumble.
 bool on_an_axis(const Vec3& l, const Vec3& torque, const Vec3& change) {
-  int axes = 0;
-  for (int j = 0; j < 3; ++j) axes += l[j] != 0.0 || torque[j] != 0.0 || change[j] != 0.0 ? 1 : 0;
-  return axes <= 1;
+  return (l.array() != 0.0 || torque.array() != 0.0 || change.array() != 0.0).count() <= 1;
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/constraints/grab_rows.hpp"
-#include "core/sim/energy.hpp"
+#include "core/sim/conserved.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/integrate.hpp"
@@ -122,13 +122,9 @@ void Simulator::Impl::schedule_substeps(FrameReport& report) {
 }
 
 void Simulator::Impl::schedule_islands(FrameReport& report) {
-  const auto r_of = [&](std::span<const int> bodies) {
+  const auto r_of = [&](std::span<const int> bodies) {  // moving ones
     double most = 0.0;
-    for (const int body : bodies) {
-      if (!scene->bodies[index(body)].is_static) {
-        most = std::max(most, state.own[index(body)].r);
-      }
-    }
+    for (const int body : bodies) most = std::max(most, state.own[index(body)].r);
     return most;
   };
   islands->split(*scene, [&](std::span<const int> bodies) {
@@ -143,7 +139,7 @@ void Simulator::Impl::schedule_islands(FrameReport& report) {
   });
   for (const Part& one : islands->parts()) {
     schedule.add(
-        one, SubstepClock(settings, scene->frame, r_of(one.bodies), rotation_bound(one.bodies).r));
+        one, SubstepClock(settings, scene->frame, r_of(one.moving), rotation_bound(one.bodies).r));
   }
 }
 
@@ -180,6 +176,19 @@ FrameReport Simulator::Impl::end(StageClock& wall, bool looked_at) {
   return result;
 }
 
+// Keeps what the next frame starts from.
+void Simulator::Impl::carry_on(const FrameReport& report) {
+  time_rest();
+  if (report.asleep > 0) keep_forces_at_rest();
+  std::swap(state.forces, forces);
+  state.r = schedule.r();
+  state.stiffness_known = report.stages.stiffness;
+  if (state.stiffness_known) return;
+  state.k.clear();  // outdated
+  state.K_resisting.clear();
+  state.r = 0.0;
+}
+
 void Simulator::Impl::close(FrameReport& report) {
   report.n_wanted = schedule.n_wanted();
   report.capped = schedule.capped();
@@ -187,23 +196,12 @@ void Simulator::Impl::close(FrameReport& report) {
     report.n_mean =
         static_cast<double>(substeps_of_bodies) / static_cast<double>(all.moving.size());
   }
-  if (report.status != StepStatus::kOk) copy(state.u, state.u_synchronised);  // an approximation
-  if (report.status == StepStatus::kOk && report.n_substeps == 0) {           // all bodies sleep
-    ++state.frame;
-    state.time = static_cast<double>(state.frame) * scene->frame;
-  } else if (report.status == StepStatus::kOk) {
-    time_rest();
-    if (report.asleep > 0) keep_forces_at_rest();
-    std::swap(state.forces, forces);
-    state.r = schedule.r();
-    state.stiffness_known = report.stages.stiffness;
-    if (!state.stiffness_known) {  // discard an outdated K
-      state.k.clear();
-      state.K_resisting.clear();
-      state.r = 0.0;
-    }
+  if (report.status == StepStatus::kOk) {
+    if (report.n_substeps > 0) carry_on(report);  // else all bodies sleep
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;  // avoids accumulated rounding
+  } else {
+    copy(state.u, state.u_synchronised);  // an approximation
   }
   report.stages.joints = joints != nullptr;
   report.stages.contact = contact != nullptr;
@@ -233,15 +231,12 @@ void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes,
   report.r_rotation = spin.r;
   report.rotation_body = spin.body;
   report.dt_stable = stable_step(settings.alpha, std::max(state.r, spin.r));
-  if (!state.k.empty()) {
-    const StiffnessBound who = StiffnessStage::bound(*scene, all.bodies, state.k);
-    report.leader = {who.body, who.dof, who.k, who.mass, who.r};
-  }
+  if (!state.k.empty()) report.leader = StiffnessStage::bound(*scene, all.bodies, state.k);
   Energies energies{kNotMeasured, kNotMeasured};
   if (asked.energies) energies = energies_of(*scene, state);
   report.kinetic = energies.kinetic;
   report.potential = energies.potential;
-  report.energy = energies.kinetic + energies.potential;
+  report.energy = energies.sum();
   if (!asked.errors) {
     report.constraint_error = report.joint_gap = report.penetration = kNotMeasured;
     return;

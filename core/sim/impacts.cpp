@@ -2,21 +2,8 @@
 
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
-#include "core/stepping/mode_rules.hpp"
 
 namespace substep {
-
-namespace {
-
-// Impacts among many bodies can continue indefinitely at decreasing speed. After this many passes
-// the rest is resolved at once, as a single impact.
-constexpr int kMostImpacts = 200;
-
-SolverKind impact_solver(SolverKind chosen) {
-  return chosen == SolverKind::kPgs ? SolverKind::kPgs : SolverKind::kBpp;
-}
-
-}  // namespace
 
 // Newton's restitution law uses speeds before the impact. It cannot propagate an impact through
 // touching bodies: a ball striking a row of balls would carry the whole row along and lose most of
@@ -25,10 +12,13 @@ SolverKind impact_solver(SolverKind chosen) {
 // preserves symmetry (Smith et al., Reflections on simultaneous impact, 2012).
 bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   if (!restitution || sub.probing) return true;
-  const bool spreads = restitution->spreads(*scene, sub.u_before, sub.dt, sub.rows);
+  const bool spreads = restitution->spreads(sub.u_before, sub.dt, sub.rows);
   sub.struck = restitution->struck();
   if (!spreads) return true;
-  if (!impacts) impacts = make_solver(impact_solver(settings.solver));
+  if (!impacts) {
+    impacts =
+        make_solver(settings.solver == SolverKind::kPgs ? SolverKind::kPgs : SolverKind::kBpp);
+  }
   std::span<const InverseMass> masses = sub.inverse_mass;
   if (changes_mass(settings.mode)) {  // no time passes: no damping or geometric stiffness
     rigid_mass.resize(sub.inverse_mass.size());
@@ -36,10 +26,13 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
     masses = rigid_mass;
   }
   for (const int body : sub.part->moving) state.u[index(body)] -= sub.u_before[index(body)];
-  for (int i = 0;
-       restitution->set_impacts(*scene, sub.u_before, sub.dt, sub.rows) && i < kMostImpacts; ++i) {
+  // Impacts among many bodies can continue indefinitely at decreasing speed. After this many passes
+  // the rest is resolved at once, as a single impact.
+  constexpr int kMostImpacts = 200;
+  for (int i = 0; restitution->set_impacts(sub.u_before, sub.dt, sub.rows) && i < kMostImpacts;
+       ++i) {
     System system{sub.rows, masses, sub.u_before, {}, sub.dt, sub.R_WB, scene->regularisation};
-    system.limits = limits_of_solve(progress(sub, report), settings, budget);
+    system.limits = limits_of_solve(sub, report);
     const SolveReport solved = impacts->find_velocities(system, settings);
     if (solved.status == SolveStatus::kOverLimits) {
       refuse_solve(sub, solved, report);

@@ -6,12 +6,6 @@
 
 namespace substep {
 
-namespace {
-
-constexpr std::size_t kUsualParts = 8;  // more are added on demand
-
-}  // namespace
-
 Islands::Islands(const Scene& scene)
     : parent_(scene.bodies.size()),
       speed_(scene.bodies.size()),
@@ -22,6 +16,7 @@ Islands::Islands(const Scene& scene)
   first_.reserve(n + 1);
   n_.reserve(n);
   levels_.reserve(n);
+  constexpr std::size_t kUsualParts = 8;  // more are added on demand
   while (parts_.size() < kUsualParts) add_part(scene);
 }
 

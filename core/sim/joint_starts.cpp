@@ -19,13 +19,7 @@ double mean_inverse_mass(const Block& block, int first, int last,
                          std::span<const InverseMass> inverse_mass) {
   double sum = 0.0;
   for (int row = first; row < last; ++row) {
-    for (const bool of_a : {true, false}) {
-      const int body = of_a ? block.a : block.b;
-      if (body < 0) continue;
-      const Vec6 J = gradient(block, row, of_a);
-      const InverseMass& m = inverse_mass[index(body)];
-      sum += m.linear * J.head<3>().squaredNorm() + J.tail<3>().dot(Vec3(m.angular * J.tail<3>()));
-    }
+    for (const bool of_a : {true, false}) sum += mobility_on(block, row, of_a, inverse_mass);
   }
   return sum / (last - first);
 }

@@ -1,31 +1,71 @@
-// Rejects a sub-step if it or its frame would exceed the budget.
+// Predicts the cost of a frame before each of its sub-steps, and rejects a sub-step if it or its
+// frame would exceed the budget. Costs are in operations.
 
-#include "core/sim/budget.hpp"
+#include <algorithm>
+
 #include "core/sim/simulator_impl.hpp"
 #include "core/solver/small_steps.hpp"
 
 namespace substep {
+namespace {
 
-FrameProgress Simulator::Impl::progress(const Substep& sub, const FrameReport& report) const {
-  FrameProgress at;
-  at.taken = sub.probing ? 0 : schedule.number() - 1;
-  at.left = sub.probing ? 1 : schedule.left();
-  at.flops = report.work.flops;
-  at.bodies = sub.part->moving.size();
-  at.blocks = blocks.size() - first_block;
-  return at;
+constexpr double kBodyWork = 200.0;    // per body: external forces, masses, pose
+constexpr double kBlockWork = 1000.0;  // per joint or contact: detection, rows, storage, report
+constexpr int kTypical = 16;           // sub-steps whose mean predicts the others
+
+/// True if every sub-step costs the same, because the number of sweeps is fixed.
+bool is_shared(const Settings& settings) {
+  return settings.solver == SolverKind::kPgs || settings.solver == SolverKind::kXpbd;
+}
+
+double work_of_bodies(const Substep& sub) {
+  return kBodyWork * static_cast<double>(sub.part->moving.size());
+}
+
+}  // namespace
+
+int Simulator::Impl::substeps_taken(const Substep& sub) const {
+  return sub.probing ? 0 : schedule.clock().taken();
+}
+
+int Simulator::Impl::substeps_left(const Substep& sub) const {
+  return sub.probing ? 1 : schedule.left();
+}
+
+double Simulator::Impl::work_beside_solver(const Substep& sub) const {
+  return work_of_bodies(sub) + kBlockWork * static_cast<double>(blocks.size() - first_block);
+}
+
+// Moving bodies, plus the direct solver at its mean cost per sub-step so far. Sweeps are excluded:
+// the solver counts their work exactly.
+double Simulator::Impl::forecast_work(const Substep& sub, const FrameReport& report) const {
+  const auto done = static_cast<double>(report.work.flops);
+  const int taken = substeps_taken(sub);
+  const int left = substeps_left(sub);
+  double to_come = work_of_bodies(sub) * left;
+  if (!is_shared(settings) && taken >= kTypical) to_come += done / taken * left;
+  return done + to_come;
+}
+
+// Sweeps recur in every sub-step, so the remaining budget is shared among them. A direct solve may
+// use all of it.
+SolveLimits Simulator::Impl::limits_of_solve(const Substep& sub, const FrameReport& report) const {
+  const int steps = substeps_left(sub);
+  const double left =
+      budget.work - static_cast<double>(report.work.flops) - work_of_bodies(sub) * steps;
+  const double in_frame = is_shared(settings) ? left / steps : left;
+  return {budget.memory, std::min(in_frame, budget.substep - work_beside_solver(sub))};
 }
 
 bool Simulator::Impl::within_budget(Substep& sub, FrameReport& report) {
-  const FrameProgress at = progress(sub, report);
-  const double frame = forecast_work(at, settings);
-  const double substep = work_beside_solver(at);
+  const double frame = forecast_work(sub, report);
+  const double substep = work_beside_solver(sub);
   if (frame > budget.work) {
     stop_over_budget(sub, {.work = frame, .budget = budget.work}, report);
   } else if (substep > budget.substep) {
     stop_over_budget(sub, {.work = substep, .budget = budget.substep, .of_substep = true}, report);
   } else {
-    sub.limits = limits_of_solve(at, settings, budget);
+    sub.limits = limits_of_solve(sub, report);
     return true;
   }
   return false;
@@ -37,12 +77,11 @@ void Simulator::Impl::refuse_solve(Substep& sub, const SolveReport& solved, Fram
     over.memory = solved.memory_needed;
     over.budget = budget.memory;
   } else {
-    const FrameProgress at = progress(sub, report);
-    const double times = is_shared(settings) ? at.left : 1.0;
-    over.work = forecast_work(at, settings) + times * solved.work_needed;
+    const double times = is_shared(settings) ? substeps_left(sub) : 1.0;
+    over.work = forecast_work(sub, report) + times * solved.work_needed;
     over.budget = budget.work;
     if (over.work <= budget.work) {
-      over.work = solved.work_needed + work_beside_solver(at);
+      over.work = solved.work_needed + work_beside_solver(sub);
       over.budget = budget.substep;
       over.of_substep = true;
     }
@@ -57,8 +96,7 @@ void Simulator::Impl::stop_over_budget(Substep& sub, Overrun over, FrameReport& 
   over.contacts = rows.contact;
   over.rows = rows.joint + rows.contact + rows.friction + rows.grab;
   over.bodies = static_cast<std::int64_t>(sub.part->moving.size());
-  const FrameProgress at = progress(sub, report);
-  over.substeps = at.taken + at.left;
+  over.substeps = substeps_taken(sub) + substeps_left(sub);
   report.status = StepStatus::kOverBudget;
   report.overrun = over;
   drop_rows(sub);  // nothing solves them

@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/stepping/substep_clock.hpp"
+
 namespace substep {
 
 /// How a frame ended.
@@ -27,16 +29,6 @@ struct Overrun {
   std::int64_t bodies = 0;    // moving
   int substeps = 0;           // of the whole frame, including those not yet taken
   int iterations = 0;         // per sub-step; 0 for the direct solver
-};
-
-/// The body and degree of freedom with the largest k/M at the end of a frame; it determines N of
-/// the next frame. body = -1 if K is zero or was not evaluated in the frame.
-struct StiffnessLeader {
-  int body = -1;
-  int dof = 0;        // 0..2 linear, 3..5 about the body's principal axes
-  double k = 0.0;     // K_d,i [N/m or N m/rad]
-  double mass = 0.0;  // M_ii [kg or kg m^2]
-  double r = 0.0;     // k / mass [1/s^2]
 };
 
 /// Rows by kind.
@@ -139,7 +131,8 @@ struct FrameReport {
   double dt_max = 0.0;  // longest sub-step [s]
   double dt_stable = std::numeric_limits<double>::infinity();  // 2 sqrt(alpha/r), Eq. 10, at the
                                                                // end of the frame [s]
-  StiffnessLeader leader;                                      // determines the stiffness term of r
+  StiffnessLeader leader;    // at the end of the frame: determines N of the next one; none if K was
+                             // not evaluated
   double r_stiffness = 0.0;  // geometric stiffness of the leader, Eq. 9 [1/s^2]
   double r_rotation = 0.0;   // rotation and gyroscopic rate of the fastest-spinning body [1/s^2]
   int rotation_body = -1;    // that body; -1 if none spins or the setting is off

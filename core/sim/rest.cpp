@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/collision/contact_id.hpp"
+#include "core/collision/contact_point.hpp"
 #include "core/sim/simulator_impl.hpp"
 
 namespace substep {

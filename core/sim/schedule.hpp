@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "core/model/part.hpp"
@@ -11,27 +12,50 @@ namespace substep {
 class Schedule {
  public:
   Schedule() { turns_.reserve(16); }
-  void clear();
+  void clear() {
+    turns_.clear();
+    at_ = 0;
+  }
   /// @param part must outlive the frame
-  void add(const Part& part, const SubstepClock& clock);
+  void add(const Part& part, const SubstepClock& clock) { turns_.push_back({&part, clock}); }
 
   [[nodiscard]] bool running() const { return at_ < turns_.size(); }
   // Properties of the next sub-step; valid while running().
   [[nodiscard]] const Part& part() const { return *turns_[at_].part; }
-  [[nodiscard]] double dt() const { return turns_[at_].clock.dt(); }  ///< [s]
-  [[nodiscard]] bool first_of_part() const { return turns_[at_].clock.taken() == 0; }
-  [[nodiscard]] int number() const { return turns_[at_].clock.taken() + 1; }  ///< 1 is the first
-  [[nodiscard]] bool last_of_part() const { return turns_[at_].clock.left() == 1; }
-  [[nodiscard]] bool needs_stiffness() const { return turns_[at_].clock.needs_stiffness(); }
+  [[nodiscard]] const SubstepClock& clock() const { return turns_[at_].clock; }
   /// Advances to the next sub-step. @param r, r_rotation of the current one, if needed [1/s^2]
-  void advance(double r, double r_rotation);
+  void advance(double r, double r_rotation) {
+    SubstepClock& clock = turns_[at_].clock;
+    clock.advance(r, r_rotation);
+    if (!clock.running()) ++at_;
+  }
 
-  [[nodiscard]] int left() const;  ///< remaining sub-steps of the frame, as currently planned
+  /// Remaining sub-steps of the frame, as currently planned.
+  [[nodiscard]] int left() const {
+    int sum = 0;
+    for (std::size_t i = at_; i < turns_.size(); ++i) sum += turns_[i].clock.left();
+    return sum;
+  }
   // Over all parts.
-  [[nodiscard]] bool moves(int body) const;
-  [[nodiscard]] double r() const;  ///< the largest [1/s^2]
-  [[nodiscard]] int n_wanted() const;
-  [[nodiscard]] bool capped() const;
+  [[nodiscard]] bool moves(int body) const {
+    return std::any_of(turns_.begin(), turns_.end(),
+                       [&](const Turn& turn) { return turn.part->holds(body); });
+  }
+  /// The largest [1/s^2].
+  [[nodiscard]] double r() const {
+    double most = 0.0;
+    for (const Turn& turn : turns_) most = std::max(most, turn.clock.r());
+    return most;
+  }
+  [[nodiscard]] int n_wanted() const {
+    int most = 1;
+    for (const Turn& turn : turns_) most = std::max(most, turn.clock.n_wanted());
+    return most;
+  }
+  [[nodiscard]] bool capped() const {
+    return std::any_of(turns_.begin(), turns_.end(),
+                       [](const Turn& turn) { return turn.clock.capped(); });
+  }
 
  private:
   struct Turn {

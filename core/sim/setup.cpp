@@ -10,14 +10,10 @@
 namespace substep {
 
 Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
-    : Impl(scene_in, start_of_run(*scene_in)) {}
-
-Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in, Start start_in)
-    : scene(std::move(scene_in)),
-      settings(scene->settings),
-      state(std::move(start_in.state)),
-      start(start_in.report),
-      current(*scene) {
+    : scene(std::move(scene_in)), settings(scene->settings), current(*scene) {
+  Start begun = start_of_run(*scene);
+  state = std::move(begun.state);
+  start = begun.report;
   const Effects& effects = scene->effects;
   if (effects.joints) joints = std::make_unique<JointStage>(*scene);
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);

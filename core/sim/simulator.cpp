@@ -21,10 +21,9 @@ FrameReport Simulator::Impl::advance(Share share) {
     if (!finite(sub, report)) break;
     keep_forces(sub);
     // K, k, r, with the arms matching lambda                                         Eqs. 1, 4, 9
-    if (schedule.needs_stiffness() && !evaluate_stiffness(sub, report)) break;
+    if (schedule.clock().needs_stiffness() && !evaluate_stiffness(sub, report)) break;
     advance_poses(sub, report);
-    spent +=
-        static_cast<double>(report.work.flops - before) + work_beside_solver(progress(sub, report));
+    spent += static_cast<double>(report.work.flops - before) + work_beside_solver(sub);
     schedule.advance(bound.r, r_rotation_again());  // re-evaluates N with policy substep
   }
   return end(wall, share.whole());

@@ -1,6 +1,7 @@
 #pragma once
 // Implementation of Simulator: the stages required by its scene, and scratch.
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -10,12 +11,9 @@
 #include "core/constraints/contact_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
 #include "core/constraints/restitution_stage.hpp"
-#include "core/sim/budget.hpp"
 #include "core/sim/islands.hpp"
-#include "core/sim/refused.hpp"
 #include "core/sim/schedule.hpp"
 #include "core/sim/simulator.hpp"
-#include "core/sim/stage_clock.hpp"
 #include "core/solver/solver.hpp"
 #include "core/stepping/rotation_bound.hpp"
 #include "core/stepping/stiffness_bound.hpp"
@@ -24,9 +22,47 @@
 
 namespace substep {
 
+/// Invalid inputs that a simulator rejected, by source. Each list is cleared when a valid input of
+/// the same kind is set.
+struct Refused {
+  Problems scene;  // permanent: the scene cannot be replaced
+  Problems state;
+  Problems settings;
+  Problems grab;
+  Problems budget;
+
+  [[nodiscard]] bool any() const { return !all().empty(); }
+  [[nodiscard]] Problems all() const {
+    Problems sum;
+    for (const Problems* some : {&scene, &state, &settings, &grab, &budget}) {
+      sum.insert(sum.end(), some->begin(), some->end());
+    }
+    return sum;
+  }
+};
+
+/// Adds the time since the last call to the stage that has just ended.
+class StageClock {
+ public:
+  /// A disabled clock adds nothing and never reads the system clock.
+  explicit StageClock(bool runs = true) : runs_(runs) {
+    if (runs_) last_ = Clock::now();
+  }
+  void lap(double& stage) {
+    if (!runs_) return;
+    const auto now = Clock::now();
+    stage += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool runs_;
+  Clock::time_point last_;
+};
+
 struct Simulator::Impl {
   explicit Impl(std::shared_ptr<const Scene> scene_in);
-  Impl(std::shared_ptr<const Scene> scene_in, Start start);
 
   /// The requested share of a frame.
   struct Share {
@@ -57,7 +93,11 @@ struct Simulator::Impl {
   bool holds_grab(const Substep& sub) const { return grab && sub.part->holds(grab->body); }
   static RowCounts count_rows(std::span<const Block> of);
   // over_budget.cpp
-  FrameProgress progress(const Substep& sub, const FrameReport& report) const;
+  int substeps_taken(const Substep& sub) const;
+  int substeps_left(const Substep& sub) const;          // including this one
+  double work_beside_solver(const Substep& sub) const;  // of this sub-step: bodies and rows
+  double forecast_work(const Substep& sub, const FrameReport& report) const;  // of the whole frame
+  SolveLimits limits_of_solve(const Substep& sub, const FrameReport& report) const;
   bool within_budget(Substep& sub, FrameReport& report);
   void refuse_solve(Substep& sub, const SolveReport& solved, FrameReport& report);
   void stop_over_budget(Substep& sub, Overrun over, FrameReport& report);
@@ -78,6 +118,7 @@ struct Simulator::Impl {
   void time_rest();
   FrameReport refusal();  // report of a frame not begun because of a rejected input
   FrameReport end(StageClock& wall, bool looked_at);  // ends a call; closes a completed frame
+  void carry_on(const FrameReport& report);
   void close(FrameReport& report);
   void look(FrameReport& report);  // takes the selected `measures`
   /// @param axes R_WB of all bodies, if errors are requested  @param detector null without contact
@@ -121,7 +162,7 @@ struct Simulator::Impl {
 
   Substep current;                      // the last one taken
   std::vector<InverseMass> rigid_mass;  // for impacts, in modes that replace M
-  StiffnessBound bound;
+  StiffnessLeader bound;
   StageClock clock;
 };
 

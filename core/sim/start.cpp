@@ -3,37 +3,24 @@
 #include <utility>
 
 #include "core/model/validate.hpp"
-#include "core/sim/energy.hpp"
+#include "core/sim/conserved.hpp"
 #include "core/sim/start_projection.hpp"
 
 namespace substep {
-namespace {
-
-/// @param poses true to correct poses as well
-/// On failure the state is invalid.
-Projection project(const Scene& scene, bool poses, State& state) {
-  const Projection closed = poses ? close_joints(scene, state) : Projection::kDone;
-  return closed == Projection::kDone ? match_velocities(scene, state) : closed;
-}
-
-double energy_at(const Scene& scene, const State& state) {
-  const Energies energies = energies_of(scene, state);
-  return energies.kinetic + energies.potential;
-}
-
-}  // namespace
 
 Start start_of_run(const Scene& scene) {
   Start start{initial_state(scene), {}};
   StartReport& report = start.report;
   report.continued = scene.carried.has_value();
   report.found = report.left = start_errors(scene, start.state);
-  report.energy_found = report.energy_begun = energy_at(scene, start.state);
+  report.energy_found = report.energy_begun = energies_of(scene, start.state).sum();
   if (report.found.consistent() || report.continued || scene.start != StartPolicy::kProject) {
     return start;
   }
   State state = start.state;
-  const Projection projection = project(scene, report.found.beyond.poses(), state);
+  const bool poses = report.found.beyond.poses();
+  Projection projection = poses ? close_joints(scene, state) : Projection::kDone;
+  if (projection == Projection::kDone) projection = match_velocities(scene, state);
   if (projection != Projection::kDone) {
     report.failed = true;
     report.too_large = projection == Projection::kTooLarge;
@@ -42,7 +29,7 @@ Start start_of_run(const Scene& scene) {
   start.state = std::move(state);
   report.projected = true;
   report.left = start_errors(scene, start.state);
-  report.energy_begun = energy_at(scene, start.state);
+  report.energy_begun = energies_of(scene, start.state).sum();
   return start;
 }
 

@@ -29,8 +29,7 @@ constexpr int kMostMatching = 8;   // solves for velocities: more than one where
 class StartRows {
  public:
   StartRows(const Scene& scene, State& state)
-      : scene_(scene),
-        state_(state),
+      : state_(state),
         all_(whole(scene)),
         joints_(scene),
         own_(inertia_inverses(scene)),
@@ -38,18 +37,18 @@ class StartRows {
         inverse_mass_(scene.bodies.size()) {
     for (const Joint& joint : scene.joints) sizes_.push_back(size_of_joint(scene, base(joint)));
     solver_.reserve(scene.bodies.size(), scene.joints.size());
+    update();
+    for (const Block& block : blocks_.all()) {
+      holds_.push_back(holding_rows(block, inverse_mass_, scene.frame));
+    }
   }
 
-  /// Recomputes the rows at the current poses. The first call classifies spring rows.
+  /// Recomputes the rows at the current poses.
   void update() {
     for (std::size_t i = 0; i < R_WB_.size(); ++i) R_WB_[i] = state_.q[i].toRotationMatrix();
     inverse_mass(own_, all_, R_WB_, inverse_mass_);
     blocks_.clear();
     joints_.append(all_, state_, R_WB_, blocks_);
-    const bool first = holds_.empty();
-    for (const Block& block : blocks_.all()) {
-      if (first) holds_.push_back(holding_rows(block, inverse_mass_, scene_.frame));
-    }
   }
 
   /// Largest error of a rigid row: a gap relative to the joint's size, or a tilt [-, rad].
@@ -127,7 +126,6 @@ class StartRows {
     }
   }
 
-  const Scene& scene_;
   State& state_;
   Part all_;
   JointStage joints_;
@@ -234,7 +232,6 @@ Projection close_joints(const Scene& scene, State& state) {
 
 Projection match_velocities(const Scene& scene, State& state) {
   StartRows rows(scene, state);
-  rows.update();
   double error = rows.error_of(state.u);
   for (int i = 0; i < kMostMatching; ++i) {
     std::vector<Vec6> u = state.u;

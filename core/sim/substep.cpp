@@ -31,7 +31,7 @@ void set_softness(std::span<Block> blocks, double regularisation, double dt) {
 
 Substep& Simulator::Impl::begin_substep(bool last_of_share, FrameReport& report) {
   clock = StageClock(measures.stages);
-  if (schedule.first_of_part()) {
+  if (schedule.clock().taken() == 0) {
     first_block = blocks.size();
     first_force = forces.size();
     state.time = static_cast<double>(state.frame) * scene->frame;
@@ -40,11 +40,11 @@ Substep& Simulator::Impl::begin_substep(bool last_of_share, FrameReport& report)
   current.solver = solver.get();
   current.settings = settings;
   current.part = &schedule.part();
-  current.dt = schedule.dt();
-  current.outputs_needed = last_of_share || schedule.last_of_part();
+  current.dt = schedule.clock().dt();
+  current.outputs_needed = last_of_share || schedule.clock().left() == 1;
   rotation_matrices(current.part->moving, state, current.R_WB);
   copy(state.u, current.u_start);
-  report.n_substeps = std::max(report.n_substeps, schedule.number());
+  report.n_substeps = std::max(report.n_substeps, schedule.clock().taken() + 1);
   return current;
 }
 
@@ -130,7 +130,7 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   System system{sub.rows, sub.inverse_mass,     state.u, sub.u_before, sub.dt,
                 sub.R_WB, scene->regularisation};
   system.force_time = sub.impulse_time;
-  system.limits = limits_of_solve(progress(sub, report), settings, budget);
+  system.limits = limits_of_solve(sub, report);
   sub.integrator->extend(system, sub, state);
   system.frame_share = sub.dt / scene->frame;
   const SolveReport solved = solver->find_velocities(system, sub.settings);
@@ -138,7 +138,7 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
     refuse_solve(sub, solved, report);
     return false;
   }
-  if (sub.outputs_needed || sub.probing || schedule.needs_stiffness() ||
+  if (sub.outputs_needed || sub.probing || schedule.clock().needs_stiffness() ||
       starts_from_last_forces(sub.settings) || springs_are_stored(sub)) {
     solver->find_impulses(sub.rows);
   }
@@ -154,7 +154,7 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
 
 // Of the last sub-step of the part.
 std::span<const StoredForce> Simulator::Impl::seeds(const Substep& sub) const {
-  if (sub.probing || schedule.first_of_part()) return state.forces;
+  if (sub.probing || schedule.clock().taken() == 0) return state.forces;
   return std::span(forces).subspan(first_force);
 }
 
@@ -163,7 +163,7 @@ void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
   set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
-  if (restitution) restitution->apply(*scene, sub.u_before, sub.dt, sub.rows);
+  if (restitution) restitution->apply(sub.u_before, sub.dt, sub.rows);
   report.work.flops += sub.integrator->aim(sub, state);
 }
 

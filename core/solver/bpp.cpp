@@ -40,7 +40,7 @@ void Bpp::reserve(std::size_t bodies, std::size_t blocks) {
 void Bpp::find_active_set(const System& system, const Settings& settings, SolveReport& report) {
   report.status = SolveStatus::kSolved;
   if (!any_contact_) {
-    solve_free(system, report);
+    ldlt_.solve(system);
     over_limits(system, report);
     return;
   }
@@ -50,7 +50,7 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
     ++report.passes;
     set_friction_bounds(system, cone, pass == 0);
     for (int step = 0;; ++step) {
-      solve_active_set(system, report);
+      solve_active_set(system);
       if (over_limits(system, report)) return;
       const bool one_only = step >= settings.pivots;
       if (pivot(system, one_only) == 0) break;
@@ -78,13 +78,10 @@ void Bpp::centre(const System& system) {
 }
 
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
-  SolveReport report;
   if (!ldlt_.begin(system)) {
-    report.status = SolveStatus::kOverLimits;
-    report.memory_needed = ldlt_.needed_memory();
-    return report;
+    return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
-  factor_valid_ = false;
+  SolveReport report;
   has_impulses_ = false;
   any_contact_ = std::any_of(system.blocks.begin(), system.blocks.end(),
                              [](const Block& block) { return block.is_contact(); });
@@ -105,6 +102,7 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
     ldlt_.refine(system);
     has_impulses_ = true;
   }
+  report.factorisations = ldlt_.factorisations();
   report.flops += ldlt_.flops();
   return report;
 }
@@ -229,7 +227,7 @@ void Bpp::set_friction_bounds(const System& system, bool cone, bool first) {
     for (int row = 1; row < 3; ++row) {  // zero bound: never free
       if (friction_bound_[i] * block.share[row - 1] > 0.0 || block.active_set[row] != 0) continue;
       block.active_set[row] = -1;
-      change_factor(i);
+      ldlt_.touch(i);
     }
   }
 }
@@ -257,7 +255,7 @@ bool Bpp::bounds_settled(const System& system, bool cone) const {
   return true;
 }
 
-void Bpp::solve_active_set(const System& system, SolveReport& report) {
+void Bpp::solve_active_set(const System& system) {
   for (std::size_t i = 0; i < system.blocks.size(); ++i) {
     Block& block = system.blocks[i];
     if (!block.is_contact()) continue;
@@ -267,24 +265,13 @@ void Bpp::solve_active_set(const System& system, SolveReport& report) {
             row == 0 ? 0.0 : block.active_set[row] * (friction_bound_[i] * block.share[row - 1]);
     }
   }
-  solve_free(system, report);
-}
-
-void Bpp::solve_free(const System& system, SolveReport& report) {
-  if (!factor_valid_) ++report.factorisations;
   ldlt_.solve(system);
-  factor_valid_ = true;
-}
-
-void Bpp::change_factor(std::size_t block) {
-  ldlt_.touch(block);
-  factor_valid_ = false;
 }
 
 void Bpp::move(std::span<Block> blocks, const Move& move) {
   std::int8_t& set = blocks[move.block].active_set[move.row];
   // A move from one bound to the other does not change the free rows.
-  if (set == 0 || move.set == 0) change_factor(move.block);
+  if (set == 0 || move.set == 0) ldlt_.touch(move.block);
   set = move.set;
 }
 

@@ -41,13 +41,11 @@ class Bpp final : public Solver {
   void turn_cone(const System& system, bool first, Block& block) const;
   /// True if the solution stays valid under the friction bounds it implies.
   [[nodiscard]] bool bounds_settled(const System& system, bool cone) const;
-  void solve_active_set(const System& system, SolveReport& report);
-  void solve_free(const System& system, SolveReport& report);  // for the current free rows
+  void solve_active_set(const System& system);
   /// Moves infeasible rows to the correct set. @param one_only only the last such row @return
   /// number of infeasible rows
   int pivot(const System& system, bool one_only);
   void move(std::span<Block> blocks, const Move& move);
-  void change_factor(std::size_t block);
   /// True if the current impulses are a better initial guess than zero.
   /// @param system u* on entry; overwritten
   [[nodiscard]] bool better_than_none(const System& system) const;
@@ -59,7 +57,6 @@ class Bpp final : public Solver {
   SaddleLdlt ldlt_;
   Pgs gauss_seidel_;
   bool any_contact_ = false;
-  bool factor_valid_ = false;           // the factor matches the current active set
   bool has_impulses_ = false;           // all impulses are known, from Gauss-Seidel or refinement
   std::vector<double> friction_bound_;  // per block [N s]
   struct Centre {

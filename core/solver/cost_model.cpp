@@ -33,15 +33,14 @@ std::int64_t friction_flops(std::int64_t bodies) {
   return force + arms + bodies * bodies * (2 * kWide + 18 + 36);  // torques, added
 }
 
-// [f][r] of each body, and, if rows are angles, the products of their axes with all pairs.
-std::int64_t joint_stiffness_flops(const Block& joint) {
-  const std::int64_t bodies = bodies_of(joint);
-  return bodies * (kSkew + kSum) + (has_angles(joint) ? 9 + kSkew + bodies * bodies * kSum : 0);
+// [f][r] of each body, and, if rows are angles, the products of their axes with these pairs.
+std::int64_t joint_stiffness_flops(const Block& joint, std::int64_t pairs) {
+  return bodies_of(joint) * (kSkew + kSum) + (has_angles(joint) ? 9 + kSkew + pairs * kSum : 0);
 }
 
 std::int64_t stiffness_flops(const Block& block, ContactTerms terms) {
-  if (!block.is_contact()) return joint_stiffness_flops(block);
   const std::int64_t bodies = bodies_of(block);
+  if (!block.is_contact()) return joint_stiffness_flops(block, bodies * bodies);
   if (terms == ContactTerms::kPaper) {
     return 3 + (block.rows == 3 ? 12 : 0) + bodies * (kSkew + kSum);
   }
@@ -52,10 +51,7 @@ std::int64_t stiffness_flops(const Block& block, ContactTerms terms) {
 
 // Only the derivative of a body's torque by its own rotation.
 std::int64_t turning_stiffness_flops(const Block& block) {
-  const std::int64_t bodies = bodies_of(block);
-  if (!block.is_contact()) {
-    return bodies * (kSkew + kSum) + (has_angles(block) ? 9 + kSkew + bodies * kSum : 0);
-  }
+  if (!block.is_contact()) return joint_stiffness_flops(block, bodies_of(block));
   if (block.lambda[0] == 0.0) return 0;
   // H r, its torque and that of n; H rho and n, their torque
   return (block.a >= 0 ? 3 * kProduct + 3 * kSum : 0) +

@@ -204,20 +204,9 @@ inline void add_gram(const double* Z, const double* d, int rows, double sign, au
                      double* U) {
   int k = 0;
   for (; k + 6 <= rows; k += 6) add_gram(Z + k * width, d + k, Known<6>{}, sign, width, U);
-  switch (rows - k) {
-    case 1:
-      return add_gram(Z + k * width, d + k, Known<1>{}, sign, width, U);
-    case 2:
-      return add_gram(Z + k * width, d + k, Known<2>{}, sign, width, U);
-    case 3:
-      return add_gram(Z + k * width, d + k, Known<3>{}, sign, width, U);
-    case 4:
-      return add_gram(Z + k * width, d + k, Known<4>{}, sign, width, U);
-    case 5:
-      return add_gram(Z + k * width, d + k, Known<5>{}, sign, width, U);
-    default:
-      return;
-  }
+  unrolled<1, 6>([&](auto left) {
+    if (rows - k == left) add_gram(Z + k * width, d + k, left, sign, width, U);
+  });
 }
 
 }  // namespace substep

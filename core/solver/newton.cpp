@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
 #include "core/constraints/moved_rows.hpp"
 #include "core/constraints/turning_stiffness.hpp"
@@ -45,18 +44,8 @@ void Newton::reserve(std::size_t bodies, std::size_t blocks) {
   rows_.reserve(blocks);
   back_.reserve(blocks);
   K_.reserve(bodies);
-  motions_.reserve(bodies + 1);
+  motions_.reserve(bodies);
   numerov_.reserve(bodies);
-}
-
-void Newton::move_bodies(std::span<const Vec6> u, double dt) {
-  motions_.clear();
-  for (const Vec6& v : u) motions_.push_back(motion(v, dt));
-  motions_.emplace_back();
-}
-
-const Motion& Newton::motion_of(int body) const {
-  return body < 0 ? motions_.back() : motions_[index(body)];
 }
 
 void Newton::read_rows(const System& system, Forces forces) {
@@ -68,10 +57,10 @@ void Newton::read_rows(const System& system, Forces forces) {
     for (std::size_t i = 0; i < rows_.size(); ++i) copy_start(system.blocks[i], back_[i]);
     return numerov_.begin(system, u_star_);
   }
-  move_bodies(system.u_before, -system.dt);
+  motions_.set(system.u_before, -system.dt);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
-    move_rows(start, motion_of(start.a), motion_of(start.b), back_[i]);
+    move_rows(start, motions_.of(start.a), motions_.of(start.b), back_[i]);
   }
 }
 
@@ -84,7 +73,7 @@ void Newton::relinearise(const System& system, Forces forces) {
   if (forces == Forces::kNumerov) {
     move_along_courses(system);
   } else {
-    move_bodies(system.u, system.dt);
+    motions_.set(system.u, system.dt);
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
@@ -94,7 +83,7 @@ void Newton::relinearise(const System& system, Forces forces) {
       if (!start.is_contact()) add_gained(system, i, w);
       average(start, back_[i], w, block);
     } else {
-      move_rows(start, motion_of(start.a), motion_of(start.b), block);
+      move_rows(start, motions_.of(start.a), motions_.of(start.b), block);
       if (forces == Forces::kMean) average(start, back_[i], kMean, block);
     }
     double speed[kMaxRows];
@@ -107,11 +96,10 @@ void Newton::relinearise(const System& system, Forces forces) {
 
 void Newton::move_along_courses(const System& system) {
   numerov_.find_turns(system);
-  numerov_.clear_forces();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const Block& start = system.blocks[i];
-    move_rows(start, numerov_.motion_ahead(start.a), numerov_.motion_ahead(start.b), rows_[i]);
-    move_rows(start, numerov_.motion_behind(start.a), numerov_.motion_behind(start.b), back_[i]);
+    move_rows(start, numerov_.ahead().of(start.a), numerov_.ahead().of(start.b), rows_[i]);
+    move_rows(start, numerov_.behind().of(start.a), numerov_.behind().of(start.b), back_[i]);
     numerov_.add_forces(system, start, back_[i], rows_[i]);
   }
 }
@@ -139,10 +127,7 @@ void Newton::average(const Block& start, const Block& back, const PoseWeights& w
 void Newton::add_gained(const System& system, std::size_t index, const PoseWeights& w) {
   const Block& start = system.blocks[index];
   if (!start.seeded) return;
-  double time = 0.0;
-  for (const int body : {start.a, start.b}) {
-    if (body >= 0) time = std::max(time, system.force_time[static_cast<std::size_t>(body)]);
-  }
+  const double time = longest_of(start, system.force_time);
   double ahead[kMaxRows];
   double behind[kMaxRows];
   for (int row = 0; row < start.rows; ++row) {
@@ -214,13 +199,10 @@ SolveReport Newton::find_velocities(const System& system, const Settings& settin
     stiffen(system, settings.forces);
     System linear{rows_, inverse_mass_, u_, system.u_before, system.dt};
     linear.limits = {system.limits.memory, system.limits.work - static_cast<double>(report.flops)};
-    const SolveReport step = linear_.solve(linear, settings);
+    SolveReport step = linear_.solve(linear, settings);
     if (step.status == SolveStatus::kOverLimits) {
-      report.status = step.status;
-      report.memory_needed = step.memory_needed;
-      report.work_needed =
-          step.work_needed > 0.0 ? step.work_needed + static_cast<double>(report.flops) : 0.0;
-      return report;
+      if (step.work_needed > 0.0) step.work_needed += static_cast<double>(report.flops);
+      return step;
     }
     change = take(system);
     ++report.iterations;

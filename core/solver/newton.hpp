@@ -40,8 +40,6 @@ class Newton final : public Solver {
   SolveReport find_velocities(const System& system, const Settings& settings) override;
 
  private:
-  void move_bodies(std::span<const Vec6> u, double dt);
-  [[nodiscard]] const Motion& motion_of(int body) const;
   /// Fills rows_, and back_ if forces depend on more poses than the end's.
   void read_rows(const System& system, Forces forces);
   void relinearise(const System& system, Forces forces);
@@ -61,8 +59,8 @@ class Newton final : public Solver {
   std::vector<Vec6> u_star_;  // per body: before any impulse
   std::vector<Vec6> aim_;    // per body: u_star_ plus the terms independent of this step's impulses
   std::vector<Block> back_;  // arms and J at the poses of the last sub-step, nothing else
-  std::vector<Motion> motions_;  // per body; the last one is for static bodies
-  std::vector<Mat3> K_;          // per body: d torque/d rotation, times dt^2
+  Motions motions_;
+  std::vector<Mat3> K_;  // per body: d torque/d rotation, times dt^2
   NumerovCourses numerov_;
 };
 

@@ -57,40 +57,32 @@ PoseWeights numerov_weights(double dt, double dt_previous) {
   return w;
 }
 
-void NumerovCourses::reserve(std::size_t bodies) { courses_.reserve(bodies); }
+void NumerovCourses::reserve(std::size_t bodies) {
+  courses_.reserve(bodies);
+  ahead_.reserve(bodies);
+  behind_.reserve(bodies);
+}
 
 void NumerovCourses::begin(const System& system, std::span<const Vec6> u_star) {
   courses_.assign(system.u.size(), Course{});
+  ahead_.resize(system.u.size());
+  behind_.resize(system.u.size());
   for (std::size_t i = 0; i < courses_.size(); ++i) {
     const double time = system.force_time[i];
     if (time > 0.0) courses_[i].given = 1.0 / time * (u_star[i] - system.u_before[i]);
   }
 }
 
-void NumerovCourses::clear_forces() {
-  for (Course& course : courses_) {
-    course.behind.setZero();
-    course.here.setZero();
-    course.ahead.setZero();
-  }
-}
-
 PoseWeights NumerovCourses::weights_of(const System& system, const Block& block) const {
-  double before = 0.0;
-  for (const int body : {block.a, block.b}) {
-    if (body >= 0) before = std::max(before, previous(system.dt, system.force_time[index(body)]));
-  }
-  return numerov_weights(system.dt, before);
+  const double time = longest_of(block, system.force_time);
+  return numerov_weights(system.dt, previous(system.dt, time));
 }
 
 // A newly closed contact is an impact; its force is not extrapolated.
 void NumerovCourses::add_forces(const System& system, const Block& here, const Block& behind,
                                 const Block& ahead) {
   if (here.is_contact() && !here.was_closed) return;
-  double time = 0.0;
-  for (const int body : {here.a, here.b}) {
-    if (body >= 0) time = std::max(time, system.force_time[index(body)]);
-  }
+  const double time = longest_of(here, system.force_time);
   if (time == 0.0) return;
   const PoseWeights w = weights_of(system, here);
   const double dt = system.dt;
@@ -147,12 +139,11 @@ BodyCourse NumerovCourses::course_of(const System& system, std::size_t i) const 
 // times the difference in length.
 void NumerovCourses::find_turns(const System& system) {
   for (std::size_t i = 0; i < courses_.size(); ++i) {
-    Course& course = courses_[i];
     const double time = system.force_time[i];
     if (!(time > 0.0)) continue;
     const BodyCourse of = course_of(system, i);
     system.courses[i] = of;
-    course.motion_ahead = motion(of.move_by, system.dt);
+    ahead_[i] = motion(of.move_by, system.dt);
     const double dt_previous = previous(system.dt, time);
     const double reach = numerov_weights(system.dt, dt_previous).reach;
     const Vec6 a = 1.0 / time * (system.u[i] - system.u_before[i]);
@@ -165,16 +156,9 @@ void NumerovCourses::find_turns(const System& system) {
     back.tail<3>() = velocity_of_turn(
         turn_in(system.inertia[i], system.R_WB[i], back.tail<3>(), start, before, bend, -reach),
         -reach);
-    course.motion_behind = motion(back, -reach);
+    behind_[i] = motion(back, -reach);
+    courses_[i].clear_forces();
   }
-}
-
-const Motion& NumerovCourses::motion_behind(int body) const {
-  return body < 0 ? none_ : courses_[index(body)].motion_behind;
-}
-
-const Motion& NumerovCourses::motion_ahead(int body) const {
-  return body < 0 ? none_ : courses_[index(body)].motion_ahead;
 }
 
 }  // namespace substep

@@ -41,17 +41,16 @@ class NumerovCourses {
 
   /// Initialises without constraint forces. @param u_star per body: v before any impulse
   void begin(const System& system, std::span<const Vec6> u_star);
-  /// Motions under the current forces: rotations follow from the torques at both ends of the
-  /// sub-step (free_turn.hpp). Velocities are those passed to integrate().
+  /// Motions under the current forces, which are then cleared: rotations follow from the torques at
+  /// both ends of the sub-step (free_turn.hpp). Velocities are those passed to integrate().
   void find_turns(const System& system);
-  /// Clears the forces; add_forces() accumulates them block by block.
-  void clear_forces();
+  /// Accumulates the forces of the next iterate, block by block.
   /// @param here its rows at the start, with the impulse of the iterate  @param behind, ahead the
-  /// same rows moved by motion_behind() and motion_ahead()
+  /// same rows moved by behind() and ahead()
   void add_forces(const System& system, const Block& here, const Block& behind, const Block& ahead);
 
-  [[nodiscard]] const Motion& motion_behind(int body) const;
-  [[nodiscard]] const Motion& motion_ahead(int body) const;
+  [[nodiscard]] const Motions& behind() const { return behind_; }
+  [[nodiscard]] const Motions& ahead() const { return ahead_; }
   [[nodiscard]] PoseWeights weights_of(const System& system, const Block& block) const;
 
  private:
@@ -60,13 +59,14 @@ class NumerovCourses {
     Vec6 behind = Vec6::Zero();  // forces of constraints, world [N, N m]
     Vec6 here = Vec6::Zero();
     Vec6 ahead = Vec6::Zero();
-    Motion motion_behind;
-    Motion motion_ahead;
+
+    void clear_forces() { behind = here = ahead = Vec6::Zero(); }
   };
 
   [[nodiscard]] BodyCourse course_of(const System& system, std::size_t body) const;
   std::vector<Course> courses_;
-  Motion none_;
+  Motions behind_;
+  Motions ahead_;
 };
 
 }  // namespace substep

@@ -132,7 +132,7 @@ void SaddleLdlt::gather_rows(Node& node, std::span<const Block> blocks) {
     }
     for (int row = 0; row < block.rows; ++row) {
       if (block.active_set[row] != 0) continue;
-      rows_[node.first_row + index(node.n_rows++)] = {static_cast<int>(k), row};
+      rows_[node.first_row + index(node.n_rows++)] = {&attached, row};
     }
   }
   if (node.folds || node.n_rows != node.counted_rows) count(node);
@@ -192,7 +192,7 @@ void SaddleLdlt::factor_leaf(Node& node, std::span<const Block> blocks, auto row
     const InverseMass& inverse = inverse_mass_[index(node.body)];
     for (int i = 0; i < rows; ++i) {
       const Row& row = rows_[node.first_row + index(i)];
-      const Attached& attached = attached_[node.first_attached + index(row.attached)];
+      const Attached& attached = *row.attached;
       const Block& block = blocks[index(attached.block)];
       Vec6 of_pin;
       const double* J = gradient(block, row.row, attached.is_a, of_pin);
@@ -253,7 +253,7 @@ void SaddleLdlt::eliminate_rows(Node& node, std::span<const Block> blocks) {
     set_zero(f.Z, rows * n);
     for (int i = 0; i < rows; ++i) {
       const Row& row = rows_[node.first_row + index(i)];
-      const Attached& attached = attached_[node.first_attached + index(row.attached)];
+      const Attached& attached = *row.attached;
       const Block& block = blocks[index(attached.block)];
       double* V = f.V + 6 * i;
       Vec6 of_pin;

@@ -2,6 +2,7 @@
 // removed.
 
 #include <algorithm>
+#include <utility>
 
 #include "core/solver/saddle_ldlt.hpp"
 
@@ -76,6 +77,8 @@ bool SaddleLdlt::foldable(const Block& block, const System& system) const {
 
 bool SaddleLdlt::begin(const System& system) {
   flops_ = 0;
+  factorisations_ = 0;
+  factored_ = false;
   held_ = false;
   inverse_mass_ = system.inverse_mass;
   u_star_.resize(system.u.size());
@@ -96,23 +99,17 @@ bool SaddleLdlt::begin(const System& system) {
 void SaddleLdlt::read(std::span<const Block> blocks) {
   for (std::size_t i = nodes_.size(); i-- > 0;) {
     const Node& node = nodes_[i];
-    if (node.kind == NodeKind::kArticulated) {
-      const Attached& attached = attached_[node.first_attached];
-      node.joint->read(blocks[index(attached.block)], attached.is_a, u_star_.data(),
-                       node.reference);
-    } else {
-      read_rows(node, blocks);
+    for (std::size_t k = 0; k < node.n_attached; ++k) {
+      const Attached& attached = attached_[node.first_attached + k];
+      const Block& block = blocks[index(attached.block)];
+      if (node.kind == NodeKind::kArticulated) {  // its only joint
+        node.joint->read(block, attached.is_a, u_star_.data(), node.reference);
+        continue;
+      }
+      double* w = w_.data() + index(attached.block) * kMaxRows;
+      row_speeds(block, u_star_, w);
+      for (int row = 0; row < block.rows; ++row) w[row] += block.bias[row];
     }
-  }
-}
-
-void SaddleLdlt::read_rows(const Node& node, std::span<const Block> blocks) {
-  for (std::size_t k = 0; k < node.n_attached; ++k) {
-    const int i = attached_[node.first_attached + k].block;
-    const Block& block = blocks[index(i)];
-    double* w = w_.data() + index(i) * kMaxRows;
-    row_speeds(block, u_star_, w);
-    for (int row = 0; row < block.rows; ++row) w[row] += block.bias[row];
   }
 }
 
@@ -163,6 +160,14 @@ bool SaddleLdlt::lay_out(const System& system) {
   return true;
 }
 
+void SaddleLdlt::place_lists(std::size_t Node::*first, std::size_t Node::*count) {
+  std::size_t next = 0;
+  for (Node& node : nodes_) {
+    node.*first = next;
+    next += std::exchange(node.*count, 0);
+  }
+}
+
 void SaddleLdlt::link_nodes() {
   // A node's contribution goes to its first coupled body, whose coupled bodies include the others.
   place_.resize(coupled_.size());
@@ -181,12 +186,7 @@ void SaddleLdlt::link_nodes() {
     }
   }
   children_.resize(nodes_.size());
-  std::size_t first_child = 0;
-  for (Node& node : nodes_) {
-    node.first_child = first_child;
-    first_child += node.n_children;
-    node.n_children = 0;
-  }
+  place_lists(&Node::first_child, &Node::n_children);
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     if (nodes_[i].parent < 0) continue;
     Node& parent = nodes_[index(nodes_[i].parent)];
@@ -272,12 +272,7 @@ void SaddleLdlt::attach(std::span<const Block> blocks) {
     node_of_block_[i] = a < 0 ? b : b < 0 ? a : std::min(a, b);
     ++nodes_[index(node_of_block_[i])].n_attached;
   }
-  std::size_t first = 0;
-  for (Node& node : nodes_) {
-    node.first_attached = first;
-    first += node.n_attached;
-    node.n_attached = 0;
-  }
+  place_lists(&Node::first_attached, &Node::n_attached);
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     Node& node = nodes_[index(node_of_block_[i])];
     Attached attached;

@@ -1,5 +1,7 @@
 #include "core/solver/saddle_ldlt.hpp"
 
+#include <utility>
+
 #include "core/solver/body_products.hpp"
 #include "core/solver/dense_ldlt.hpp"
 
@@ -16,16 +18,10 @@ namespace substep {
 //   - B^T A^-1 g - (N - J A^-1 B)^T S^-1 (w + J A^-1 g).
 // Backwards  x = -S^-1 (w + J A^-1 g + (N - J A^-1 B) p),   v = A^-1 (g + J^T x - B p).
 
-namespace {
-
-/// y -= f x.
-void subtract6(const double* x, double f, double* y) {
-  for (int j = 0; j < 6; ++j) y[j] -= f * x[j];
+void SaddleLdlt::touch(std::size_t block) {
+  nodes_[index(node_of_block_[block])].dirty = true;
+  factored_ = false;
 }
-
-}  // namespace
-
-void SaddleLdlt::touch(std::size_t block) { nodes_[index(node_of_block_[block])].dirty = true; }
 
 // Momenta from rows that are not unknowns: J^T x of active rows, -J^T w/s of folded ones.
 void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
@@ -36,16 +32,10 @@ void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
     for (std::size_t k = 0; k < node.n_attached; ++k) {
       const Attached& attached = attached_[node.first_attached + k];
       const Block& block = blocks[index(attached.block)];
+      if (block.has_point_rows && !attached.folded) continue;  // no row is ever active
+      if (block.rows == 1 && block.active_set[0] == 0 && !attached.folded) continue;
       const double* w = w_.data() + index(attached.block) * kMaxRows;
       double x[kMaxRows];
-      if (block.has_point_rows) {  // no row is ever active
-        if (!attached.folded) continue;
-        for (int row = 0; row < 3; ++row) x[row] = -w[row] / block.softness[row];
-        for (int row = 3; row < block.rows; ++row) x[row] = -w[row] / block.softness[row];
-        push(block, x, of_body(block.a), of_body(block.b));
-        continue;
-      }
-      if (block.rows == 1 && block.active_set[0] == 0 && !attached.folded) continue;
       bool pushes = attached.folded;
       for (int row = 0; row < block.rows; ++row) {
         const bool active = block.active_set[row] != 0;
@@ -70,24 +60,19 @@ bool SaddleLdlt::factor_node(Node& node, const System& system) {
   if (static_cast<double>(flops_) > system.limits.work) return false;
   node.dirty = false;
   if (node.parent >= 0) nodes_[index(node.parent)].dirty = true;
-  if (node.kind == NodeKind::kArticulated) {
-    factor_articulated(node);
-  } else {
-    node.kind == NodeKind::kLeaf ? factor_leaf(node, system.blocks)
-                                 : factor_general(node, system.blocks);
-  }
-  return true;
-}
-
-void SaddleLdlt::factor_articulated(Node& node) {
   const InverseMass& inverse = inverse_mass_[index(node.body)];
-  if (node.carried != nullptr) {
+  if (node.kind == NodeKind::kLeaf) {
+    factor_leaf(node, system.blocks);
+  } else if (node.kind == NodeKind::kGeneral) {
+    factor_general(node, system.blocks);
+  } else if (node.carried != nullptr) {
     node.joint->eliminate(inverse, *node.carried);
   } else {
     Square6 sum;
     sum_carried(node, sum);
     node.joint->eliminate(inverse, sum);
   }
+  return true;
 }
 
 void SaddleLdlt::forward(const Node& node) {
@@ -126,8 +111,7 @@ void SaddleLdlt::forward_rows(const Node& node, const Factor& f, auto rows, auto
   double* c = c_.data() + node.first_row;
   for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
-    const int block = attached_[node.first_attached + index(row.attached)].block;
-    c[i] = w_[index(block) * kMaxRows + index(row.row)] + dot6(f.V + 6 * i, weighted);
+    c[i] = w_[index(row.attached->block) * kMaxRows + index(row.row)] + dot6(f.V + 6 * i, weighted);
   }
   solve_lower(f.S, rows, Known<1>{}, c);
   for (int i = 0; i < rows; ++i) {
@@ -179,19 +163,19 @@ void SaddleLdlt::backward_rows(const Node& node, const Factor& f, auto rows, aut
     x[i] = -(f.S_inverse[i] * sum);
   }
   solve_upper(f.S, rows, x);
-  for (int i = 0; i < rows; ++i) subtract6(f.V + 6 * i, -x[i], change);
+  for (int i = 0; i < rows; ++i) subtract_row(f.V + 6 * i, -x[i], Known<6>{}, change);
   for (int i = 0; i < rows; ++i) {
     const Row& row = rows_[node.first_row + index(i)];
-    const int block = attached_[node.first_attached + index(row.attached)].block;
-    blocks[index(block)].impulse[row.row] = x[i];
+    blocks[index(row.attached->block)].impulse[row.row] = x[i];
   }
 }
 
 // Each node is factored just before its forward solve, so that the two overlap in the pipeline.
-bool SaddleLdlt::solve(const System& system) {
+void SaddleLdlt::solve(const System& system) {
+  if (!std::exchange(factored_, true)) ++factorisations_;
   set_momenta(system.blocks);
   for (Node& node : nodes_) {
-    if (node.dirty && !factor_node(node, system)) return false;
+    if (node.dirty && !factor_node(node, system)) return;
     if (node.kind == NodeKind::kArticulated) {
       node.joint->forward(node.pushed ? v_[position(node)].data() : nullptr, node.handed_to);
     } else {
@@ -210,7 +194,6 @@ bool SaddleLdlt::solve(const System& system) {
     system.u[body] = u_star_[body] + v_[i];
   }
   find_spring_impulses(system.blocks, false);
-  return true;
 }
 
 void SaddleLdlt::find_impulses(std::span<Block> blocks) {

@@ -48,11 +48,8 @@ class SaddleLdlt {
   /// Marks a block whose rows have become active or free.
   void touch(std::size_t block);
   /// Computes u+ and the impulses of free rows from those of active rows; refactors changed nodes.
-  /// @return false if that would exceed the work in System::limits; then only needed_work(), a
-  /// lower bound, is valid
-  bool solve(const System& system);
-  /// Since `begin` [floating-point operations].
-  [[nodiscard]] double needed_work() const { return static_cast<double>(flops_); }
+  /// If that would exceed the work in System::limits, only flops(), a lower bound, is valid.
+  void solve(const System& system);
   /// Computes the impulses that solve() skips because no velocity depends on them: those of
   /// articulated or folded joints.
   void find_impulses(std::span<Block> blocks);
@@ -65,6 +62,8 @@ class SaddleLdlt {
 
   /// Floating-point operations since `begin`.
   [[nodiscard]] std::int64_t flops() const { return flops_; }
+  /// Solves since `begin` that changed the factor.
+  [[nodiscard]] int factorisations() const { return factorisations_; }
   [[nodiscard]] std::span<const Vec6> u_star() const { return u_star_; }
 
  private:
@@ -112,7 +111,7 @@ class SaddleLdlt {
     bool pushed = false;
   };
   struct Row {
-    int attached = 0;
+    const Attached* attached = nullptr;  // one of attached_
     int row = 0;
   };
   struct Key {  // what the layout depends on
@@ -150,9 +149,10 @@ class SaddleLdlt {
     return static_cast<std::size_t>(&node - nodes_.data());
   }
   [[nodiscard]] bool foldable(const Block& block, const System& system) const;
-  void read_rows(const Node& node, std::span<const Block> blocks);
   bool layout_is_the_same(const System& system);
   bool lay_out(const System& system);
+  /// Makes room for a list per node, one after the other: counts become offsets.
+  void place_lists(std::size_t Node::*first, std::size_t Node::*count);
   void link_nodes();
   bool make_room(const System& system);
   void attach(std::span<const Block> blocks);
@@ -162,7 +162,6 @@ class SaddleLdlt {
   /// @return false if it would exceed the work limit
   bool factor_node(Node& node, const System& system);
   void count(Node& node) const;  // counts its operations
-  void factor_articulated(Node& node);
   void sum_carried(const Node& node, Square6& sum);
   /// Calls with the width of a node, as a compile-time size for the common cases in chains, bridges
   /// and stacks.
@@ -227,6 +226,8 @@ class SaddleLdlt {
   bool held_ = false;  // a pivot
   std::vector<double> values_;
   std::int64_t flops_ = 0;
+  int factorisations_ = 0;
+  bool factored_ = false;  // for the current free rows
   double needed_memory_ = 0.0;
 
   std::span<const InverseMass> inverse_mass_;  // of the system passed to begin()

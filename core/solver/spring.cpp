@@ -60,32 +60,19 @@ void add_pin_between(Three k, Three r, Three r_other, double* B, std::size_t n) 
   unrolled<0, 3>([&](auto i) { B[(3 + i) * n + 3 + i] = diagonal[i]; });
 }
 
-/// A further row of a pin, with J of either side; the other side's is the opposite.
-void add_turn(double k, const double (&J)[6], const SpringTarget& to) {
-  for (std::size_t i = 3; i < 6; ++i) {
-    const double f = k * J[i];
-    for (std::size_t j = 3; j <= i; ++j) to.A[i][j] += f * J[j];
-  }
-  if (to.B == nullptr) return;
-  for (std::size_t i = 3; i < 6; ++i) {
-    const double f = k * J[i];
-    for (std::size_t j = 3; j < 6; ++j) to.B[i * to.stride + j] -= f * J[j];
-    for (std::size_t j = 3; j <= i; ++j) to.U[i * to.stride + j] += f * J[j];
-  }
-}
-
-/// Any row.
+/// A row with J and J_other of the two sides, which are zero before `first`.
+template <std::size_t first>
 void add_row(double k, const double (&J)[6], const double (&J_other)[6], const SpringTarget& to) {
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = first; i < 6; ++i) {
     const double f = k * J[i];
-    for (std::size_t j = 0; j <= i; ++j) to.A[i][j] += f * J[j];
+    for (std::size_t j = first; j <= i; ++j) to.A[i][j] += f * J[j];
   }
   if (to.B == nullptr) return;
-  for (std::size_t i = 0; i < 6; ++i) {
+  for (std::size_t i = first; i < 6; ++i) {
     const double f = k * J[i];
     const double f_other = k * J_other[i];
-    for (std::size_t j = 0; j < 6; ++j) to.B[i * to.stride + j] += f * J_other[j];
-    for (std::size_t j = 0; j <= i; ++j) to.U[i * to.stride + j] += f_other * J_other[j];
+    for (std::size_t j = first; j < 6; ++j) to.B[i * to.stride + j] += f * J_other[j];
+    for (std::size_t j = first; j <= i; ++j) to.U[i * to.stride + j] += f_other * J_other[j];
   }
 }
 
@@ -103,14 +90,16 @@ void add_springs(const Block& block, bool is_a, const SpringTarget& to) {
       add_pin_square(k, r_other, to.U, to.stride);
     }
     for (int row = 3; row < block.rows; ++row) {
-      add_turn(1.0 / block.softness[row], block.J_a[row], to);
+      double opposite[6];  // J_b
+      for (int j = 0; j < 6; ++j) opposite[j] = -block.J_a[row][j];
+      add_row<3>(1.0 / block.softness[row], block.J_a[row], opposite, to);
     }
     return;
   }
   const auto& J = is_a ? block.J_a : block.J_b;
   const auto& J_other = is_a ? block.J_b : block.J_a;
   for (int row = 0; row < block.rows; ++row) {
-    if (block.active_set[row] == 0) add_row(1.0 / block.softness[row], J[row], J_other[row], to);
+    if (block.active_set[row] == 0) add_row<0>(1.0 / block.softness[row], J[row], J_other[row], to);
   }
 }
 

@@ -58,6 +58,16 @@ void kick(const Vec6& f, const InverseMass& mass, Vec6& u) {
 
 }  // namespace
 
+double mobility_on(const Block& block, int row, bool of_a,
+                   std::span<const InverseMass> inverse_mass) {
+  const int body = of_a ? block.a : block.b;
+  if (body < 0) return 0.0;
+  const InverseMass& W = inverse_mass[index(body)];
+  const Vec6 J = gradient(block, row, of_a);
+  const Vec3 turn = J.tail<3>();
+  return W.linear * J.head<3>().squaredNorm() + turn.dot(W.angular * turn);
+}
+
 // Sums stay in registers: `speed` may alias.
 void row_speeds(const Block& block, const Vec6* a, const Vec6* b, double* speed) {
   if (block.rows == 1) {  // most contacts

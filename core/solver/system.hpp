@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -84,6 +85,17 @@ struct SolveReport {
   double memory_needed = 0.0;    // for kOverLimits [bytes], 0 if the work was exceeded
   double work_needed = 0.0;      // for kOverLimits [operations], 0 if the memory was exceeded
 };
+
+/// J Mt^-1 J^T of one row through one of its bodies, 0 through a static one [1/kg or 1/(kg m^2)].
+double mobility_on(const Block& block, int row, bool of_a,
+                   std::span<const InverseMass> inverse_mass);
+
+/// The longer of the times of a block's bodies. @param times per body [s]
+inline double longest_of(const Block& block, std::span<const double> times) {
+  const double a = block.a < 0 ? 0.0 : times[index(block.a)];
+  const double b = block.b < 0 ? 0.0 : times[index(block.b)];
+  return std::max(a, b);
+}
 
 /// J u of all rows of a block: relative speeds.
 /// @param speed out, one per row [m/s or rad/s]

@@ -18,12 +18,6 @@ Vec6 gradient(const Block& block, RowRange rows, bool of_a, const double* direct
   return g;
 }
 
-Vec6 response(const InverseMass& mass, const Vec6& g) {
-  Vec6 out;
-  out << mass.linear * g.head<3>(), mass.angular * g.tail<3>();
-  return out;
-}
-
 /// Advances the motion of a body by du dt; u is the resulting velocity for integrate().
 void push(const Vec6& du, double dt, Vec6& u) {
   u.head<3>() += du.head<3>();
@@ -54,16 +48,12 @@ double residual(const Block& block, const Block& moved, RowRange rows, double dt
 
 void Xpbd::reserve(std::size_t bodies, std::size_t blocks) {
   moved_.reserve(blocks);
-  motions_.reserve(bodies + 1);
-}
-
-const Motion& Xpbd::motion_of(int body) const {
-  return body < 0 ? motions_.back() : motions_[index(body)];
+  motions_.reserve(bodies);
 }
 
 bool Xpbd::stays_open(const System& system, const Block& block) const {
   return block.impulse[0] == 0.0 &&
-         block.bias[0] + moved_gap(block, motion_of(block.a), motion_of(block.b)) / system.dt >=
+         block.bias[0] + moved_gap(block, motions_.of(block.a), motions_.of(block.b)) / system.dt >=
              0.0;
 }
 
@@ -74,7 +64,7 @@ bool Xpbd::stays_open(const System& system, const Block& block) const {
 void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double bound) {
   Block& block = system.blocks[at];
   Block& moved = moved_[at];
-  move_rows(block, motion_of(block.a), motion_of(block.b), moved, rows);
+  move_rows(block, motions_.of(block.a), motions_.of(block.b), moved, rows);
 
   double direction[kMaxRows] = {1.0};
   const double left = residual(block, moved, rows, system.dt, direction);
@@ -83,16 +73,16 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
   double w = block.softness[rows.first];
   Vec6 du_a = Vec6::Zero();
   Vec6 du_b = Vec6::Zero();
-  if (block.a >= 0) {
-    const Vec6 g = gradient(moved, rows, true, direction);
-    du_a = response(system.inverse_mass[index(block.a)], g);
-    w += g.dot(du_a);
-  }
-  if (block.b >= 0) {
-    const Vec6 g = gradient(moved, rows, false, direction);
-    du_b = response(system.inverse_mass[index(block.b)], g);
-    w += g.dot(du_b);
-  }
+  const auto respond = [&](bool of_a, Vec6& du) {  // M^-1 g^T and w of one side
+    const int body = of_a ? block.a : block.b;
+    if (body < 0) return 0.0;
+    const Vec6 g = gradient(moved, rows, of_a, direction);
+    const InverseMass& mass = system.inverse_mass[index(body)];
+    du << mass.linear * g.head<3>(), mass.angular * g.tail<3>();
+    return g.dot(du);
+  };
+  w += respond(true, du_a);
+  w += respond(false, du_b);
   double p = -left / w;
   if (block.is_contact() && rows.count == 1) {
     const double before = block.impulse[rows.first];
@@ -109,12 +99,8 @@ void Xpbd::correct(const System& system, std::size_t at, RowRange rows, double b
       direction[i] = scale * sum[i] - block.impulse[rows.first + i];
     }
     p = 1.0;
-    if (block.a >= 0) {
-      du_a = response(system.inverse_mass[index(block.a)], gradient(moved, rows, true, direction));
-    }
-    if (block.b >= 0) {
-      du_b = response(system.inverse_mass[index(block.b)], gradient(moved, rows, false, direction));
-    }
+    respond(true, du_a);
+    respond(false, du_b);
   }
   for (int i = 0; i < rows.count; ++i) block.impulse[rows.first + i] += p * direction[i];
   const auto move = [&](int body, const Vec6& du) {
@@ -143,15 +129,11 @@ SolveReport Xpbd::find_velocities(const System& system, const Settings& settings
     most += static_cast<double>(iterations) * static_cast<double>(sweep);
   }
   if (most > system.limits.work) {
-    report.status = SolveStatus::kOverLimits;
-    report.work_needed = most;
-    return report;
+    return {.status = SolveStatus::kOverLimits, .work_needed = most};
   }
   for (Block& block : system.blocks) std::fill(block.impulse, block.impulse + kMaxRows, 0.0);
   moved_.assign(system.blocks.begin(), system.blocks.end());
-  motions_.clear();
-  for (const Vec6& u : system.u) motions_.push_back(motion(u, system.dt));
-  motions_.emplace_back();
+  motions_.set(system.u, system.dt);
   const auto visit = [&](std::size_t i, RowRange rows, double bound = kUnbounded) {
     correct(system, i, rows, bound);
     report.row_updates += rows.count;

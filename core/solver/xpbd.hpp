@@ -26,13 +26,12 @@ class Xpbd final : public Solver {
  private:
   /// Corrects the error of some rows of a block with one impulse along it. @param bound symmetric
   /// bound on the impulse of a single row, or on the length of both friction impulses
-  void correct(const System& system, std::size_t block, RowRange rows, double bound = kUnbounded);
+  void correct(const System& system, std::size_t block, RowRange rows, double bound);
   /// True if a contact without impulse stays without one.
   [[nodiscard]] bool stays_open(const System& system, const Block& block) const;
-  [[nodiscard]] const Motion& motion_of(int body) const;
 
-  std::vector<Block> moved_;     // the blocks at the poses of their last visits
-  std::vector<Motion> motions_;  // per body: displacement so far; the last one is for static bodies
+  std::vector<Block> moved_;  // the blocks at the poses of their last visits
+  Motions motions_;           // displacements so far
 };
 
 }  // namespace substep

@@ -35,12 +35,15 @@ void settle_momentum(const Substep& sub, State& state) {
   }
 }
 
-void synchronise_momentum(const Substep& sub, std::size_t body, const Vec3& gained, State& state) {
+void synchronise_by(const Substep& sub, std::size_t body, const Vec6& gained, State& state) {
+  state.u_synchronised[body] = state.u[body] + gained;
+  if (!tumbles(sub, body)) return;
   const Vec3& I = sub.scene->bodies[body].inertia;
   const Quat& q = state.q[body];
   const Vec3 omega_B = q.conjugate() * Vec3(state.u[body].tail<3>());
   state.u_synchronised[body].tail<3>() =
-      q * Vec3((momentum_after(I, omega_B, sub.dt) + q.conjugate() * gained).cwiseQuotient(I));
+      q * Vec3((momentum_after(I, omega_B, sub.dt) + q.conjugate() * Vec3(gained.tail<3>()))
+                   .cwiseQuotient(I));
   keep_finite(sub.scene->bodies[body], state.u[body], state.u_synchronised[body]);
 }
 

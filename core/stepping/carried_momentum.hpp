@@ -19,7 +19,7 @@ Vec3 velocity_of(const Substep& sub, std::size_t body, const Vec3& l);
 /// Replaces I^-1 l by the angular velocity at the poses after the sub-step.
 void settle_momentum(const Substep& sub, State& state);
 
-/// The angular velocity at the poses, from one after `gained` [N m s, world] in dt/2.
-void synchronise_momentum(const Substep& sub, std::size_t body, const Vec3& gained, State& state);
+/// The velocity at the poses, after `gained` in dt/2 [m/s, rad/s; N m s if it tumbles].
+void synchronise_by(const Substep& sub, std::size_t body, const Vec6& gained, State& state);
 
 }  // namespace substep

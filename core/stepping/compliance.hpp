@@ -3,7 +3,6 @@
 #include <span>
 
 #include "core/constraints/block.hpp"
-#include "core/model/settings.hpp"
 #include "core/solver/system.hpp"
 #include "core/stepping/substep.hpp"
 
@@ -28,23 +27,6 @@ namespace substep {
 // sigma = kappa^2/(kappa^2 + 4): w+ - w- = sigma, which changes a resolved spring at fourth order
 // in dt.
 
-/// Weights of the poses ahead and behind, w+ and w-.
-struct SpringWeights {
-  double ahead = 1.0;
-  double behind = 0.0;
-};
-SpringWeights spring_weights(const Settings& settings, double kappa);
-
-/// True if compliant rows do not use implicit Euler.
-bool averages_springs(const Settings& settings);
-
-/// Step lengths for a row.
-struct SubstepTimes {
-  double dt = 0.0;           // [s]
-  double dt_previous = 0.0;  // of the previous sub-step [s]
-  double force_time = 0.0;   // t, the duration of forces [s]
-};
-
 /// Softness of a row with a prescribed impulse: so large that J u is negligible [1/kg].
 inline constexpr double kGivenForce = 1e12;
 /// Prescribes the impulse of a row, Block::given; the solve adds nothing to it. Expressed by
@@ -52,36 +34,17 @@ inline constexpr double kGivenForce = 1e12;
 /// m s]
 void give_force(Block& joint, int row, double impulse);
 
-/// kappa of rows with a common compliance, for their softest direction.
-double spring_kappa(const SubstepTimes& times, std::span<const InverseMass> inverse_mass,
-                    const Block& joint, int first, int end);
+/// kappa of rows with a common compliance, for their softest direction. @param dt_t dt t [s^2]
+double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, const Block& joint,
+                    int first, int end);
 inline constexpr double kResolved = 0.25;  ///< Störmer prescribes spring forces up to this kappa
 
-/// Sets bias and softness of the compliant rows of a joint. Block::elastic is the elastic part of
-/// phi; the rest is drift.
-/// @param drift_rate of the drift correction [1/s]  @param inverse_mass, u_before per body of the
-/// scene  @param regularisation added to C in the softness [1/kg]
-void set_springs(const Settings& settings, const SubstepTimes& times, double drift_rate,
-                 std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
-                 double regularisation, Block& joint);
-
-/// Smallest compliance of a contact treated as a spring [m/N]. Stiffer ones model rigid bodies,
-/// which land without rebound: implicit Euler dissipates the energy of the impact.
-inline constexpr double kSoftContact = 1e-6;
-/// Largest kappa for which a contact spring is averaged: there its weights equal implicit Euler's
-/// to 1e-3.
-inline constexpr double kResolvedContact = 100.0;
-/// Bias and softness of the normal of a compliant contact under the full drift law, where all of
-/// phi is elastic: the mean force of the three poses, never tensile.
-void set_contact_spring(const Settings& settings, const SubstepTimes& times,
-                        std::span<const InverseMass> inverse_mass, std::span<const Vec6> u_before,
-                        double regularisation, Block& contact);
-
-/// Sets bias and softness of all compliant rows, after the drift correction.
+/// Sets bias and softness of all compliant rows, after the drift correction. Block::elastic is the
+/// elastic part of phi; the rest is drift.
 void set_springs(const Substep& sub, const State& state);
 
-/// Stores the elastic part of phi after the sub-step, from its law and the computed force, in
-/// Block::elastic. @param lambda per row [N, N m]
-void store_elastic(const double* lambda, Block& joint);
+/// Stores the elastic part of phi after the sub-step, from its law and the computed force
+/// Block::lambda, in Block::elastic.
+void store_elastic(Block& joint);
 
 }  // namespace substep

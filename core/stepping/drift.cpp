@@ -1,7 +1,5 @@
 #include "core/stepping/drift.hpp"
 
-#include <algorithm>
-
 #include "core/constraints/joint_rows.hpp"
 #include "core/stepping/compliance.hpp"
 
@@ -56,7 +54,7 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
     curvature_of(block, u, curvature);
     const auto is_spring = [&](int first, int end) {
       return first < end && block.C[first] > 0.0 &&
-             spring_kappa({dt, dt, dt}, inverse_mass, block, first, end) < kResolved;
+             spring_kappa(dt * dt, inverse_mass, block, first, end) < kResolved;
     };
     const bool springs[2] = {is_spring(0, block.position_rows),
                              is_spring(block.position_rows, block.rows)};

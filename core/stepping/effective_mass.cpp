@@ -28,6 +28,16 @@ inline void turn(const Mat3& R, const InertiaInverse& own, InverseMass& out) {
   }
 }
 
+/// Mt about the principal axes of a body [kg m^2]. @return true if it differs from I
+bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6& k, double dt,
+                    Vec3& Mt) {
+  for (int j = 0; j < 3; ++j) {
+    Mt[j] = mass == StiffMass::kDamped ? damped_mass(I[j], k[3 + j], s.alpha, dt)
+                                       : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
+  }
+  return Mt != I;
+}
+
 }  // namespace
 
 std::vector<InertiaInverse> inertia_inverses(const Scene& scene) {
@@ -48,32 +58,6 @@ void inverse_mass(std::span<const InertiaInverse> own, const Part& part, std::sp
 
 bool changes_mass(Mode mode) { return rules_of(mode).mass != StiffMass::kOwn; }
 
-namespace {
-
-/// Mt about the principal axes of a body [kg m^2]. @return true if it differs from I
-bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6& k, double dt,
-                    Vec3& Mt) {
-  for (int j = 0; j < 3; ++j) {
-    Mt[j] = mass == StiffMass::kDamped ? damped_mass(I[j], k[3 + j], s.alpha, dt)
-                                       : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
-  }
-  return Mt != I;
-}
-
-double beta_of(KeptVelocity kept, const Settings& settings) {
-  switch (kept) {
-    case KeptVelocity::kNothing:
-      return 0.0;
-    case KeptVelocity::kShare:
-      return settings.beta;
-    case KeptVelocity::kAll:
-      return 1.0;
-  }
-  return 0.0;
-}
-
-}  // namespace
-
 bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,
                      const State& state, double dt) {
   const StiffMass mass = rules_of(settings.mode).mass;
@@ -93,7 +77,7 @@ void effective_mass(const Scene& scene, const Part& part, const Settings& settin
                     std::span<const Vec6> u_start, double dt, State& state,
                     std::span<InverseMass> out) {
   const ModeRules rules = rules_of(settings.mode);
-  const double beta = beta_of(rules.kept, settings);
+  const double beta = rules.beta.value_or(settings.beta);
   const bool stiffens = rules.mass == StiffMass::kFull;
   const std::size_t known = stiffens ? state.K_resisting.size() : state.k.size();
   for (const int body : part.moving) {

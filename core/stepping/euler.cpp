@@ -1,7 +1,5 @@
 #include "core/stepping/euler.hpp"
 
-#include <algorithm>
-
 #include "core/constraints/joint_rows.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "core/math/gyroscopic.hpp"
@@ -15,19 +13,9 @@ Euler::Euler(const Scene& scene) {
   if (scene.effects.gyroscopic) gyroscopic_.emplace();
 }
 
-double Euler::force_time(double /*dt_previous*/, double dt) const { return dt; }
-
-void Euler::begin(const Substep& sub, State& state) {
-  if (gyroscopic_) gyroscopic_->begin(sub, state);
-}
-
 std::int64_t Euler::aim(const Substep& sub, State& /*state*/) {
   if (gyroscopic_) gyroscopic_->bend_rows(sub);
   return 0;
-}
-
-void Euler::settle(Substep& sub, State& state) {
-  if (gyroscopic_) gyroscopic_->settle(sub, state);
 }
 
 void Euler::move_poses(const Substep& sub, State& state) {
@@ -35,12 +23,6 @@ void Euler::move_poses(const Substep& sub, State& state) {
   state.acceleration_change.clear();
   integrate(*sub.part, sub.dt, state.u, state);
 }
-
-double Euler::share_ahead(double dt_previous, double dt) const {
-  return dt / ((dt_previous == 0.0 ? dt : dt_previous) + dt);
-}
-
-bool Euler::keeps_momentum(std::size_t body) const { return gyroscopic_->keeps_momentum(body); }
 
 // Applies the forces of the sub-step for half of its length; bodies that were hit are skipped.
 // Joint forces are applied along the rows at the new poses, where they do no work and conserve the

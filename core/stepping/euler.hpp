@@ -12,18 +12,26 @@ namespace substep {
 class Euler : public TimeIntegrator {
  public:
   explicit Euler(const Scene& scene);
-  [[nodiscard]] double force_time(double dt_previous, double dt) const override;
-  void begin(const Substep& sub, State& state) override;
+  [[nodiscard]] double force_time(double /*dt_previous*/, double dt) const override { return dt; }
+  void begin(const Substep& sub, State& state) override {
+    if (gyroscopic_) gyroscopic_->begin(sub, state);
+  }
   std::int64_t aim(const Substep& sub, State& state) override;
-  void settle(Substep& sub, State& state) override;
+  void settle(Substep& sub, State& state) override {
+    if (gyroscopic_) gyroscopic_->settle(sub, state);
+  }
   void move_poses(const Substep& sub, State& state) override;
   void synchronise(const Substep& sub, State& state) override;
 
  protected:
   /// The share of the last change of velocity that is missing at the end of the sub-step.
-  [[nodiscard]] virtual double share_ahead(double dt_previous, double dt) const;
+  [[nodiscard]] virtual double share_ahead(double dt_previous, double dt) const {
+    return dt / ((dt_previous == 0.0 ? dt : dt_previous) + dt);
+  }
   /// True if a tumbling body keeps its angular momentum in this sub-step.
-  [[nodiscard]] virtual bool keeps_momentum(std::size_t body) const;
+  [[nodiscard]] virtual bool keeps_momentum(std::size_t body) const {
+    return gyroscopic_->keeps_momentum(body);
+  }
 
  private:
   void find_hit(const Substep& sub);

@@ -77,10 +77,7 @@ Accelerations accelerations_at(const Trial& trial, Solver& linear) {
   system.limits.work /= kSolves;  // if this is too little, it is for the sub-step too
   if (linear.solve(system, sub.settings).status == SolveStatus::kOverLimits) out.a = free;
   for (const Block& block : sub.rows) {
-    auto& lambda = out.lambda.emplace_back();
-    for (int row = 0; row < kMaxRows; ++row) {
-      lambda[index(row)] = row < block.rows ? block.impulse[row] : 0.0;
-    }
+    std::copy_n(block.impulse, block.rows, out.lambda.emplace_back().begin());
   }
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);

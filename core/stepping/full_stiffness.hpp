@@ -1,5 +1,8 @@
 #pragma once
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
 #include "core/math/types.hpp"
 
 namespace substep {
@@ -12,7 +15,16 @@ namespace substep {
 
 /// The part of -K that resists rotation: its symmetric part without negative eigenvalues.
 /// @param K rotations of one body, d torque/d angle [N m/rad]
-Mat3 resisting(const Mat3& K);
+inline Mat3 resisting(const Mat3& K) {
+  const Mat3 symmetric = -0.5 * (K + K.transpose());
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(symmetric);
+  const Mat3& V = eigen.eigenvectors();
+  Mat3 out = Mat3::Zero();
+  for (int i = 0; i < 3; ++i) {
+    out += std::max(0.0, eigen.eigenvalues()[i]) * V.col(i) * V.col(i).transpose();
+  }
+  return out;
+}
 
 /// Mt of a body's rotations [kg m^2]. @param I its inertia [kg m^2]  @param K_resisting
 /// resisting(K) [N m/rad]  @param dt [s]. All in one frame.

@@ -10,7 +10,7 @@ namespace substep {
 
 /// Advances the poses with u+, or what an integrator uses instead: x += dt v, and q rotated by the
 /// Cayley map of dt omega, the normalised quaternion (1, dt omega/2). It needs only sqrt, and
-/// gyroscopic_implicit requires it to conserve angular momentum.
+/// velocity_of_momentum() requires it to conserve angular momentum.
 /// @param u per body [m/s, rad/s]
 void integrate(const Part& part, double dt, std::span<const Vec6> u, State& state);
 

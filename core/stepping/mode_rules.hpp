@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "core/model/settings.hpp"
 
@@ -22,18 +23,12 @@ enum class StiffMass : std::uint8_t {
   kGeometric,  // geometric_inertia.hpp
 };
 
-/// The share beta of the velocity term taken with Mt; geometric_inertia.hpp.
-enum class KeptVelocity : std::uint8_t {
-  kNothing,
-  kShare,  // Settings::beta
-  kAll,
-};
-
 /// Components of a mode.
 struct ModeRules {
   SubstepCount count = SubstepCount::kOne;
   StiffMass mass = StiffMass::kOwn;
-  KeptVelocity kept = KeptVelocity::kNothing;
+  // The share of the velocity term taken with Mt, geometric_inertia.hpp; none: Settings::beta.
+  std::optional<double> beta = 0.0;
 };
 
 /// The single definition of the modes, used by stepping and the sweep.
@@ -52,9 +47,9 @@ constexpr ModeRules rules_of(Mode mode) {
     case Mode::kStiffness:
       return {SubstepCount::kOne, StiffMass::kFull};
     case Mode::kInertia:
-      return {SubstepCount::kStableCapped, StiffMass::kGeometric, KeptVelocity::kAll};
+      return {SubstepCount::kStableCapped, StiffMass::kGeometric, 1.0};
     case Mode::kBlend:
-      return {SubstepCount::kStableCapped, StiffMass::kGeometric, KeptVelocity::kShare};
+      return {SubstepCount::kStableCapped, StiffMass::kGeometric, std::nullopt};
     case Mode::kCount:
       break;
   }

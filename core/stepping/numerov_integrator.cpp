@@ -9,14 +9,6 @@
 
 namespace substep {
 
-double Numerov::force_time(double dt_previous, double dt) const {
-  return as_euler_ ? Euler::force_time(dt_previous, dt) : Leapfrog::force_time(dt_previous, dt);
-}
-
-double Numerov::share_ahead(double dt_previous, double dt) const {
-  return as_euler_ ? Euler::share_ahead(dt_previous, dt) : Leapfrog::share_ahead(dt_previous, dt);
-}
-
 void Numerov::begin(const Substep& sub, State& state) {
   if (needs_first_changes(sub, state)) find_first_rates(sub, state);
   if (sub.settings.gyroscopic != Gyroscopic::kImplicit) return Leapfrog::begin(sub, state);
@@ -131,9 +123,7 @@ void Numerov::synchronise(const Substep& sub, State& state) {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     const BodyCourse& by = courses_[i];
-    const Vec6 gained = sub.dt * (by.start / 6.0 + by.end / 3.0 - by.bend / 24.0);
-    state.u_synchronised[i] = state.u[i] + gained;
-    if (tumbles(sub, i)) synchronise_momentum(sub, i, gained.tail<3>(), state);
+    synchronise_by(sub, i, sub.dt * (by.start / 6.0 + by.end / 3.0 - by.bend / 24.0), state);
   }
 }
 

@@ -13,7 +13,9 @@ class Numerov : public Leapfrog {
   /// @param integrator that determines the duration of external forces
   Numerov(const Scene& scene, const JointStage* joints, Integrator integrator)
       : Leapfrog(scene), joints_(joints), as_euler_(integrator == Integrator::kEuler) {}
-  [[nodiscard]] double force_time(double dt_previous, double dt) const override;
+  [[nodiscard]] double force_time(double dt_previous, double dt) const override {
+    return as_euler_ ? Euler::force_time(dt_previous, dt) : Leapfrog::force_time(dt_previous, dt);
+  }
   void begin(const Substep& sub, State& state) override;
   void seed(const StoredForce& of_last, const State& state, Block& block) const override;
   void extend(System& system, const Substep& sub, const State& state) override;
@@ -24,7 +26,9 @@ class Numerov : public Leapfrog {
   void synchronise(const Substep& sub, State& state) override;
 
  protected:
-  [[nodiscard]] double share_ahead(double dt_previous, double dt) const override;
+  [[nodiscard]] double share_ahead(double dt_previous, double dt) const override {
+    return as_euler_ ? Euler::share_ahead(dt_previous, dt) : Leapfrog::share_ahead(dt_previous, dt);
+  }
   [[nodiscard]] bool keeps_momentum(std::size_t /*body*/) const override { return true; }
 
  private:

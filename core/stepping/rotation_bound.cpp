@@ -38,27 +38,24 @@ bool moves(const Scene& scene, int body) {
 
 }  // namespace
 
-RotationCriterion::RotationCriterion(const Scene& scene) : counts_(scene.bodies.size(), 0) {
-  for (std::size_t i = 0; i < counts_.size(); ++i) {
-    const Body& body = scene.bodies[i];
-    counts_[i] = !body.is_static && scene.effects.gyroscopic && differ(body.inertia) ? 1 : 0;
-  }
-  if (!scene.effects.joints) return;
-  for (const Joint& joint : scene.joints) {
-    for (const int body : {base(joint).a, base(joint).b}) {
-      if (moves(scene, body)) counts_[index(body)] = 1;
+RotationCriterion::RotationCriterion(const Scene& scene) {
+  std::vector<int> joints(scene.bodies.size(), 0);  // of each moving body
+  if (scene.effects.joints) {
+    for (const Joint& joint : scene.joints) {
+      for (const int body : {base(joint).a, base(joint).b}) {
+        if (moves(scene, body)) ++joints[index(body)];
+      }
     }
+    if (!scene.effects.contact) find_pendulums(scene, joints);
   }
-  if (!scene.effects.contact) find_pendulums(scene);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const bool tumbles = !body.is_static && scene.effects.gyroscopic && differ(body.inertia);
+    counts_.push_back(tumbles || joints[i] > 0 ? 1 : 0);
+  }
 }
 
-void RotationCriterion::find_pendulums(const Scene& scene) {
-  std::vector<int> joints(scene.bodies.size(), 0);
-  for (const Joint& joint : scene.joints) {
-    for (const int body : {base(joint).a, base(joint).b}) {
-      if (moves(scene, body)) ++joints[index(body)];
-    }
-  }
+void RotationCriterion::find_pendulums(const Scene& scene, std::span<const int> joints) {
   for (const Joint& joint : scene.joints) {
     const bool by_a = moves(scene, base(joint).a);
     if (by_a == moves(scene, base(joint).b)) continue;

@@ -53,7 +53,8 @@ class RotationCriterion {
     int body = -1;
     Vec3 arm = Vec3::Zero();  // unit vector to its joint, body axes; 0 if at its centre
   };
-  void find_pendulums(const Scene& scene);
+  /// @param joints their number, per moving body
+  void find_pendulums(const Scene& scene, std::span<const int> joints);
 
   std::vector<std::uint8_t> counts_;  // per body
   std::vector<Pendulum> pendulums_;

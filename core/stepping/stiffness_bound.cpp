@@ -24,9 +24,9 @@ void StiffnessStage::evaluate(std::span<const Block> blocks, ContactTerms terms,
   K_.column_norms(part.bodies, R_WB, k);
 }
 
-StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const int> bodies,
-                                     std::span<const Vec6> k) {
-  StiffnessBound best;
+StiffnessLeader StiffnessStage::bound(const Scene& scene, std::span<const int> bodies,
+                                      std::span<const Vec6> k) {
+  StiffnessLeader best;
   for (const int index : bodies) {
     const auto i = static_cast<std::size_t>(index);
     const Body& body = scene.bodies[i];
@@ -35,7 +35,7 @@ StiffnessBound StiffnessStage::bound(const Scene& scene, std::span<const int> bo
       const double mass = dof < 3 ? body.mass : body.inertia[dof - 3];
       if (k[i][dof] < 0.999 * best.r * mass) continue;  // avoids the division
       const double r = k[i][dof] / mass;
-      if (r > best.r) best = {r, index, dof, k[i][dof], mass};
+      if (r > best.r) best = {index, dof, k[i][dof], mass, r};
     }
   }
   return best;

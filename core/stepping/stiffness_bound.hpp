@@ -8,17 +8,9 @@
 #include "core/model/part.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/state.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep {
-
-/// The degree of freedom with the largest k_i / M_ii.
-struct StiffnessBound {
-  double r = 0.0;     // k / mass, Eq. 9 [1/s^2]
-  int body = -1;      // -1 if K is zero
-  int dof = 0;        // 0..2 linear, 3..5 about the principal axes
-  double k = 0.0;     // [N/m or N m/rad]
-  double mass = 0.0;  // M_ii [kg or kg m^2]
-};
 
 /// Evaluates K from the forces and arms of a sub-step (Eq. 1), and its diagonal (Eq. 4).
 class StiffnessStage {
@@ -30,8 +22,8 @@ class StiffnessStage {
   void evaluate(std::span<const Block> blocks, ContactTerms terms, const Part& part,
                 std::span<const Mat3> R_WB, std::vector<Vec6>& k);
   /// r = max k_i / M_ii over the moving ones of these bodies (Eq. 9).
-  [[nodiscard]] static StiffnessBound bound(const Scene& scene, std::span<const int> bodies,
-                                            std::span<const Vec6> k);
+  [[nodiscard]] static StiffnessLeader bound(const Scene& scene, std::span<const int> bodies,
+                                             std::span<const Vec6> k);
   [[nodiscard]] const StiffnessMatrix& matrix() const { return K_; }
 
  private:

@@ -71,7 +71,7 @@ void store_forces(const Substep& sub, const State& state, std::vector<StoredForc
     if (block.is_contact()) {
       force.elastic[0] = -block.C[0] * block.lambda[0];
     } else if (springs) {
-      store_elastic(block.lambda, block);
+      store_elastic(block);
       std::copy_n(block.elastic, block.rows, force.elastic);
     }
   }

@@ -75,7 +75,9 @@ Vec3 turn_velocity(const Substep& sub, const State& state, std::size_t body, con
   return R * (half_tangent_factor(0.5 * turn) / sub.dt * turn);
 }
 
+// Zero in a sub-step with an impact.
 Vec3 torque_of(const Substep& sub, const State& state, std::size_t body) {
+  if (!sub.smooth) return Vec3::Zero();
   return (1.0 / sub.impulse_time[body]) *
          (momentum_of(sub, body, state.u[body]) - momentum_of(sub, body, sub.u_before[body]));
 }
@@ -161,14 +163,10 @@ void Stormer::aim_at_poses(const Substep& sub, State& state) {
     }
     motions_[i] = motion(w_guess, sub.dt);
   }
-  const Motion none;
-  const auto motion_of = [&](int body) -> const Motion& {
-    return body < 0 ? none : motions_[index(body)];
-  };
   for (Block& block : sub.rows) {
     if (block.is_contact()) continue;
     double gained[kMaxRows];
-    moved_errors(block, motion_of(block.a), motion_of(block.b), gained);
+    moved_errors(block, motions_.of(block.a), motions_.of(block.b), gained);
     double speed[kMaxRows];
     row_speeds(block, u_guess_, speed);
     double per_g = 1.0;
@@ -201,24 +199,18 @@ void Stormer::settle(Substep& sub, State& /*state*/) {
 }
 
 // In a sub-step with an impact poses move by the velocities.
-void Stormer::find_pose_velocities(const Substep& sub, State& state) {
+void Stormer::move_poses(const Substep& sub, State& state) {
   for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &w_}) {
     of_bodies->resize(state.u.size(), Vec6::Zero());
   }
-  for (const int body : sub.part->moving) {
-    const std::size_t i = index(body);
-    w_[i] = sub.smooth ? pose_velocity(sub, state, i, state.u[i]) : state.u[i];
-    if (!tumbles(sub, i)) continue;
-    const Vec3 torque = sub.smooth ? torque_of(sub, state, i) : Vec3(Vec3::Zero());
-    w_[i].tail<3>() = turn_velocity(sub, state, i, momentum_of(sub, i, state.u[i]), torque);
-  }
-}
-
-void Stormer::move_poses(const Substep& sub, State& state) {
-  find_pose_velocities(sub, state);
   changes_.resize(state.u.size());
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
+    w_[i] = sub.smooth ? pose_velocity(sub, state, i, state.u[i]) : state.u[i];
+    if (tumbles(sub, i)) {
+      w_[i].tail<3>() =
+          turn_velocity(sub, state, i, momentum_of(sub, i, state.u[i]), torque_of(sub, state, i));
+    }
     Vec6 a = Vec6::Zero();
     if (sub.smooth) a = (1.0 / sub.impulse_time[i]) * (state.u[i] - sub.u_before[i]);
     store_changes(sub, i, a, state);
@@ -240,7 +232,7 @@ void Stormer::store_changes(const Substep& sub, std::size_t body, const Vec6& a,
   Vec6 correction = late * (change - state.acceleration_change[body]);
   state.acceleration_change[body] = growth * change;
   if (tumbles(sub, body)) {
-    const Vec3 torque = sub.smooth ? torque_of(sub, state, body) : Vec3(Vec3::Zero());
+    const Vec3 torque = torque_of(sub, state, body);
     const Vec3 torque_change = torque - state.torque[body];
     changes_[body].a.tail<3>() = torque;
     changes_[body].now.tail<3>() = growth * torque_change;
@@ -261,9 +253,8 @@ void Stormer::synchronise(const Substep& sub, State& state) {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     const Changes& by = changes_[i];
-    const Vec6 gained = sub.dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before);
-    state.u_synchronised[i] = state.u[i] + gained;
-    if (tumbles(sub, i)) synchronise_momentum(sub, i, gained.tail<3>(), state);
+    synchronise_by(sub, i, sub.dt * (0.5 * by.a + 19.0 / 24.0 * by.now - 9.0 / 24.0 * by.before),
+                   state);
   }
 }
 

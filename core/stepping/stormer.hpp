@@ -44,12 +44,11 @@ class Stormer : public Leapfrog {
  private:
   void find_first_changes(const Substep& sub, State& state) const;
   void aim_at_poses(const Substep& sub, State& state);
-  void find_pose_velocities(const Substep& sub, State& state);
   void store_changes(const Substep& sub, std::size_t body, const Vec6& a, State& state);
 
   const JointStage* joints_;
-  std::vector<Vec6> u_guess_;    // u^
-  std::vector<Motion> motions_;  // by w^
+  std::vector<Vec6> u_guess_;  // u^
+  Motions motions_;            // by w^
   std::vector<Vec6> w_;
   struct Changes {  // per body, over dt; of the torque for tumbling bodies
     Vec6 a = Vec6::Zero();

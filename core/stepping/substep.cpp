@@ -20,9 +20,7 @@ Substep::Substep(const Scene& of) : scene(&of), inertia_inverse(inertia_inverses
 }
 
 double impulse_time_of(const Substep& sub, const Block& block) {
-  const double a = block.a < 0 ? 0.0 : sub.impulse_time[index(block.a)];
-  const double b = block.b < 0 ? 0.0 : sub.impulse_time[index(block.b)];
-  return std::max(a, b);
+  return longest_of(block, sub.impulse_time);
 }
 
 double dt_previous_of(const State& state, const Block& block) {

@@ -46,24 +46,15 @@ SubstepClock::SubstepClock(const Settings& settings, double h, double r, double 
 
 void SubstepClock::decide() {
   const SubstepCount count = rules_of(settings_.mode).count;
-  switch (count) {
-    case SubstepCount::kOne:
-      left_ = 1;
-      break;
-    case SubstepCount::kGiven:
-      left_ = settings_.n;
-      break;
-    case SubstepCount::kStable:
-    case SubstepCount::kStableCapped: {
-      limit_ = count == SubstepCount::kStable ? settings_.n_max : settings_.n_cap;
-      const double dt_max = stable_step(settings_.alpha, std::max(r_, r_rotation_));
-      const int wanted = wanted_substeps(h_, dt_max);
-      n_wanted_ = std::max(n_wanted_, wanted);
-      capped_ = capped_ || wanted > limit_;
-      // Rounding must not push the quotient above the cap.
-      left_ = std::min(wanted_substeps(rest_, dt_max), limit_ - taken_);
-      break;
-    }
+  left_ = count == SubstepCount::kGiven ? settings_.n : 1;
+  if (chooses_substeps(settings_.mode)) {
+    const int limit = count == SubstepCount::kStable ? settings_.n_max : settings_.n_cap;
+    const double dt_max = stable_step(settings_.alpha, std::max(r_, r_rotation_));
+    const int wanted = wanted_substeps(h_, dt_max);
+    n_wanted_ = std::max(n_wanted_, wanted);
+    capped_ = capped_ || wanted > limit;
+    // Rounding must not push the quotient above the cap.
+    left_ = std::min(wanted_substeps(rest_, dt_max), limit - taken_);
   }
   dt_ = rest_ / left_;
 }

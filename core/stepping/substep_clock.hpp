@@ -4,6 +4,15 @@
 
 namespace substep {
 
+/// The body and degree of freedom with the largest k/M. body = -1 if K is zero.
+struct StiffnessLeader {
+  int body = -1;
+  int dof = 0;        // 0..2 linear, 3..5 about the body's principal axes
+  double k = 0.0;     // K_d,i [N/m or N m/rad]
+  double mass = 0.0;  // M_ii [kg or kg m^2]
+  double r = 0.0;     // k / mass, Eq. 9 [1/s^2]
+};
+
 /// dt_max = 2 sqrt(alpha / r), Eq. 10. @param r [1/s^2] @return [s], infinite for r = 0
 double stable_step(double alpha, double r);
 
@@ -63,7 +72,6 @@ class SubstepClock {
   double r_;
   double r_rotation_;
   double dt_ = 0.0;
-  int limit_ = 1;  // maximum number of sub-steps per frame
   int left_ = 1;   // sub-steps planned for rest_
   int taken_ = 0;  // sub-steps taken in this frame
   int n_wanted_ = 1;

@@ -25,7 +25,7 @@ endfunction()
 substep_mutation(the_probe core/sim/frame.cpp "if \\(probe_due\\(\\)\\) probe\\(report\\);" ""
   paper_tests HeavyStackStress.SixteenAndAdaptiveStandTenSeconds)
 substep_mutation(the_cap_of_N core/stepping/substep_clock.cpp
-  "std::min\\((wanted_substeps\\(rest_, dt_max\\)), limit_ - taken_\\)" "\\1"
+  "std::min\\((wanted_substeps\\(rest_, dt_max\\)), limit - taken_\\)" "\\1"
   unit_tests SubstepClock.NeverExceedsTheCap)
 substep_mutation(outer_friction_passes core/solver/bpp.cpp "kPasses = [0-9]+" "kPasses = 1"
   physics_tests Solves.AreAllComplementary)

@@ -6,7 +6,7 @@
 
 #include "core/lab/closed_form.hpp"
 #include "core/lab/planar_chain.hpp"
-#include "core/sim/momentum.hpp"
+#include "core/sim/conserved.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/run.hpp"
 

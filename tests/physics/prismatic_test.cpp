@@ -13,7 +13,7 @@
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/scene_builder.hpp"
-#include "core/sim/momentum.hpp"
+#include "core/sim/conserved.hpp"
 #include "core/sim/start.hpp"
 #include "tests/support/run.hpp"
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/collision/contact_id.hpp"
+#include "core/collision/contact_point.hpp"
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/placed.hpp"

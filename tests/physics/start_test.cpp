@@ -8,8 +8,7 @@
 
 #include "core/lab/experiment.hpp"
 #include "core/lab/start_text.hpp"
-#include "core/sim/energy.hpp"
-#include "core/sim/momentum.hpp"
+#include "core/sim/conserved.hpp"
 #include "core/sim/start_projection.hpp"
 #include "scenes/generator/hard_set.hpp"
 #include "scenes/generator/scenes.hpp"

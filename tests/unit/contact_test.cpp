@@ -339,7 +339,7 @@ TEST(Friction, TheExactBlockIsTheDerivativeOfItsForce) {
     for (int row = 0; row < 3; ++row) block.lambda[row] = uniform(random, 0.5, 2.0);
     StiffnessMatrix K;
     K.clear(2);
-    contact_stiffness_exact(block, K);
+    contact_stiffness(block, ContactTerms::kExact, K);
     for (int col = 0; col < 2; ++col) {
       for (int dof = 0; dof < 6; ++dof) {
         const Motion plus = motion(Vec6::Unit(dof), kStep);

@@ -11,7 +11,7 @@
 namespace substep::test {
 namespace {
 
-Block between(int a, int b, BlockKind kind = kind_of<BallJoint>()) {
+Block between(int a, int b, BlockKind kind = kind_of(BallJoint{})) {
   Block block;
   block.kind = kind;
   block.a = a;

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/model/number_text.hpp"
-#include "core/sim/momentum.hpp"
+#include "core/sim/conserved.hpp"
 #include "core/sim/simulator.hpp"
 #include "tests/support/run.hpp"
 #include "tests/unit/support.hpp"

@@ -60,7 +60,7 @@ double error_after(int sweeps, BlockKind kind) {
 // Convergence is linear: equal numbers of sweeps reduce the residual by the same factor, also once
 // the closed contacts are known.
 TEST(PgsClaims, ConvergesLinearly) {
-  for (const BlockKind kind : {kind_of<BallJoint>(), BlockKind::kContact}) {
+  for (const BlockKind kind : {kind_of(BallJoint{}), BlockKind::kContact}) {
     const double e[] = {error_after(100, kind), error_after(150, kind), error_after(200, kind)};
     EXPECT_LT(e[1], 0.5 * e[0]);
     EXPECT_NEAR((e[2] / e[1]) / (e[1] / e[0]), 1.0, 0.01);

@@ -69,7 +69,7 @@ Problem random_problem(Random& random, const ProblemSize& size) {
     Block block;
     const bool contact = i >= size.joints;
     block.kind =
-        contact ? BlockKind::kContact : (i % 2 == 0 ? kind_of<BallJoint>() : kind_of<HingeJoint>());
+        contact ? BlockKind::kContact : (i % 2 == 0 ? kind_of(BallJoint{}) : kind_of(HingeJoint{}));
     block.rows = contact ? (size.mu > 0.0 ? 3 : 1) : (i % 2 == 0 ? 3 : 5);
     block.mu = contact ? size.mu : 0.0;
     block.has_point_rows = !contact && i % 4 < 2;  // solvers may use it: half of the joints
@@ -269,7 +269,7 @@ Problem random_tree(Random& random, int bodies, int loops, double softness) {
   }
   for (Block& block : problem.blocks) {
     if (!block.is_contact()) continue;
-    block.kind = kind_of<BallJoint>();
+    block.kind = kind_of(BallJoint{});
     block.active_set[0] = 0;
   }
   return problem;

@@ -260,7 +260,7 @@ TEST(FullStiffness, KeepsWhatResistsARotation) {
 
 TEST(Drift, FullAndSoftLawsAndOpenContacts) {
   std::vector<Block> blocks(2);
-  blocks[0].kind = kind_of<BallJoint>();
+  blocks[0].kind = kind_of(BallJoint{});
   blocks[0].rows = 1;
   blocks[0].phi[0] = 0.003;
   blocks[1].kind = BlockKind::kContact;

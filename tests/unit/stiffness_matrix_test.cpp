@@ -52,8 +52,8 @@ TEST(TurningStiffness, IsTheDiagonalOfTheFullMatrix) {
   for (int trial = 0; trial < 60; ++trial) {
     Block block;
     const int kind = trial % 3;
-    block.kind = kind == 0   ? kind_of<BallJoint>()
-                 : kind == 1 ? kind_of<HingeJoint>()
+    block.kind = kind == 0   ? kind_of(BallJoint{})
+                 : kind == 1 ? kind_of(HingeJoint{})
                              : BlockKind::kContact;
     block.a = trial % 5 == 3 ? -1 : 0;
     block.b = trial % 5 == 4 ? -1 : 1;
@@ -68,7 +68,7 @@ TEST(TurningStiffness, IsTheDiagonalOfTheFullMatrix) {
     whole.clear(2);
     if (kind == 0) BallRows::stiffness(block, whole);
     if (kind == 1) HingeRows::stiffness(block, whole);
-    if (kind == 2) contact_stiffness_normal(block, whole);
+    if (kind == 2) contact_stiffness(block, ContactTerms::kNormal, whole);
     std::vector<Mat3> turning(2, Mat3::Zero());
     add_turning_stiffness(block, turning);
     for (int body = 0; body < 2; ++body) {

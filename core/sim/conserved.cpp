@@ -1,4 +1,4 @@
-#include "core/sim/energy.hpp"
+#include "core/sim/conserved.hpp"
 
 namespace substep {
 
@@ -13,6 +13,20 @@ Energies energies_of(const Scene& scene, const State& state) {
                    0.5 * omega_B.dot(body.inertia.cwiseProduct(omega_B));
     if (scene.effects.gravity) sum.potential -= body.mass * scene.gravity.dot(state.x[i]);
     if (scene.effects.external) sum.potential -= body.force.dot(state.x[i]);
+  }
+  return sum;
+}
+
+Momenta momenta_of(const Scene& scene, const State& state) {
+  Momenta sum;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    if (body.is_static) continue;
+    const Vec6& u = state.u_synchronised[i];
+    const Vec3 p = body.mass * u.head<3>();
+    const Vec3 omega_B = state.q[i].conjugate() * Vec3(u.tail<3>());
+    sum.linear += p;
+    sum.angular += state.x[i].cross(p) + state.q[i] * body.inertia.cwiseProduct(omega_B);
   }
   return sum;
 }

@@ -127,6 +127,13 @@ std::string error_text(double error, ErrorAxis axis) {
          (axis == ErrorAxis::kEnergy ? "J" : "m");
 }
 
+std::string limit_text(const Accuracy& accuracy) {
+  if (accuracy.error_is_given) {
+    return error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), accuracy.error);
+  }
+  return cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)), accuracy.cost);
+}
+
 std::string cost_text(double cost, CostAxis axis) {
   switch (axis) {
     case CostAxis::kSubsteps:
@@ -173,12 +180,8 @@ std::string conclusion(const Accuracy& accuracy, const std::vector<Point>& point
   if (points.size() < 2) return "";
   const bool error_given = accuracy.error_is_given;
   const std::string limit =
-      error_given
-          ? "To keep " + std::string(kept_name(accuracy.error)) + " within " +
-                error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)),
-                           accuracy.error)
-          : "Within " + cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)),
-                                  accuracy.cost);
+      (error_given ? "To keep " + std::string(kept_name(accuracy.error)) + " within " : "Within ") +
+      limit_text(accuracy);
   const auto best = accuracy.best(points);
   if (!best) return limit + ", no tested method is enough.";
   const auto plain = plain_best(accuracy, points);

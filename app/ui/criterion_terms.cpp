@@ -17,16 +17,14 @@ void term(const Look& look, const std::string& what, const std::string& meaning,
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::string number = grouped(n);
-  const float number_width = text_size(look.fonts.medium, number.c_str()).x;
+  const float end = draw_text_before(look.fonts.medium, {at.x + width, at.y - 1.0F},
+                                     sets ? t.orange : t.dim, grouped(n));
   draw.AddRectFilled({at.x, at.y + 4.0F}, {at.x + 8.0F, at.y + 12.0F}, sets ? t.orange : t.faint,
                      2.0F);
-  draw_text(draw, look.fonts.small_medium, {at.x + kText, at.y}, sets ? t.text : t.dim,
-            fitted(look.fonts.small_medium, what, width - kText - number_width - 8.0F).c_str());
-  draw_text(draw, look.fonts.medium, {at.x + width - number_width, at.y - 1.0F},
-            sets ? t.orange : t.dim, number.c_str());
-  draw_text(draw, look.fonts.small, {at.x + kText, at.y + 18.0F}, t.dim,
-            fitted(look.fonts.small, meaning, width - kText).c_str());
+  draw_text(look.fonts.small_medium, {at.x + kText, at.y}, sets ? t.text : t.dim,
+            fitted(look.fonts.small_medium, what, end - at.x - kText - 8.0F));
+  draw_text(look.fonts.small, {at.x + kText, at.y + 18.0F}, t.dim,
+            fitted(look.fonts.small, meaning, width - kText));
   ImGui::Dummy({width, 36.0F});
 }
 

@@ -143,20 +143,17 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
   return style;
 }
 
-void draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width, float& phase) {
+float draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width, float phase) {
   constexpr float kOn = 5.0F;
   constexpr float kOff = 4.0F;
-  const ImVec2 d(b.x - a.x, b.y - a.y);
+  const ImVec2 d = b - a;
   const float length = std::hypot(d.x, d.y);
   for (float s = -phase; s < length; s += kOn + kOff) {
     const float from = std::clamp(s / length, 0.0F, 1.0F);
     const float to = std::clamp((s + kOn) / length, 0.0F, 1.0F);
-    if (to > from) {
-      draw.AddLine({a.x + from * d.x, a.y + from * d.y}, {a.x + to * d.x, a.y + to * d.y}, color,
-                   width);
-    }
+    if (to > from) draw.AddLine(a + d * from, a + d * to, color, width);
   }
-  phase = std::fmod(phase + length, kOn + kOff);
+  return std::fmod(phase + length, kOn + kOff);
 }
 
 void draw_point(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 at) {
@@ -173,13 +170,11 @@ void draw_point(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 
 }
 
 void draw_swatch(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 centre) {
-  constexpr float kHalf = 13.0F;
-  float phase = 0.0F;
+  constexpr ImVec2 kHalf(13.0F, 0.0F);
   if (style.dashed) {
-    draw_dashes(draw, {centre.x - kHalf, centre.y}, {centre.x + kHalf, centre.y}, style.color, 1.5F,
-                phase);
+    draw_dashes(draw, centre - kHalf, centre + kHalf, style.color, 1.5F);
   } else {
-    draw.AddLine({centre.x - kHalf, centre.y}, {centre.x + kHalf, centre.y}, style.color, 1.5F);
+    draw.AddLine(centre - kHalf, centre + kHalf, style.color, 1.5F);
   }
   draw_point(style, ground, draw, centre);
 }

@@ -20,13 +20,13 @@ void menu_row(const Look& look, const char* name, const Entries& entries, Value&
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const float line = text_size(look.fonts.regular, name).y;
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.regular,
-            {origin.x, origin.y + 0.5F * (look.m.row + 2.0F - line)}, look.theme->dim, name);
+  draw_text(look.fonts.regular, {origin.x, origin.y + 0.5F * (look.m.row + 2.0F - line)},
+            look.theme->dim, name);
   ImGui::SetCursorScreenPos({origin.x + kName, origin.y});
   const std::string current = title(entries[static_cast<std::size_t>(value)]);
-  menu_button(look, name, current.c_str(), width - kName, look.m.row + 2.0F, tip, [&] {
+  menu_button(look, name, current, width - kName, look.m.row + 2.0F, tip, [&] {
     for (const auto& entry : entries) {
-      if (menu_item(look, std::string(title(entry)).c_str(), note(entry), entry.value == value)) {
+      if (menu_item(look, std::string(title(entry)), note(entry), entry.value == value)) {
         value = entry.value;
       }
     }
@@ -75,7 +75,7 @@ double rounded_load(double load) {
 }
 
 void load_row(const Look& look, Lab& lab) {
-  section(look, "Load", (grouped(lab.heaviest_mass()) + " kg").c_str());
+  section(look, "Load", (grouped(lab.heaviest_mass()) + " kg"));
   double load = lab.load;
   if (!power_slider(look, "Factor  ×", load, 0.01, 100.0,
                     "Factor on the mass of the heaviest body: the mass ratio. The run "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <span>
 #include <string>
@@ -60,15 +59,6 @@ constexpr std::array<Choice, 2> kGyroscopics{
      {"implicit",
       "Half a step explicit, half implicit: conserves energy and angular momentum. This "
       "project's."}}};
-
-template <class Enum>
-bool choose(const Look& look, const char* name, std::span<const Choice> choices, Enum& value,
-            const char* tip) {
-  int index = static_cast<int>(value);
-  const bool changed = segmented_row(look, name, choices, index, tip);
-  value = static_cast<Enum>(index);
-  return changed;
-}
 
 std::string about(const SolverEntry& e) {
   return std::string(e.full_name) + " (" + e.reference + "): " + e.about;

@@ -4,7 +4,9 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/lab/criterion.hpp"
@@ -39,7 +41,7 @@ void throw_ball(Lab& lab, const Viewport& viewport);
 
 void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 /// The scene menu.
-void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip);
+void scene_picker(const Look& look, Lab& lab, Desk& desk, std::string_view tip);
 /// The controls of the Explore level, below the scene.
 void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 /// Mode and solver with their parameters: the controls common to all runs.
@@ -94,6 +96,18 @@ inline constexpr const char* kTourTip = "The paper's story in seven steps";
 std::string run_title(const Session& session, const Compare& compare);
 /// @param brief without the list of stages
 void timing(const Look& look, const Session& session, bool brief);
+/// A speed of the simulation relative to real time.
+struct Speed {
+  double value;
+  const char* name;
+};
+inline constexpr std::array<Speed, 7> kSpeeds{{{0.0625, "1/16×"},
+                                               {0.125, "1/8×"},
+                                               {0.25, "1/4×"},
+                                               {0.5, "1/2×"},
+                                               {1.0, "1×"},
+                                               {2.0, "2×"},
+                                               {4.0, "4×"}}};
 /// @param phone two rows, larger targets
 void transport(App& app, bool phone);
 

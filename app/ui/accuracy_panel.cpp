@@ -28,7 +28,6 @@ constexpr std::array<Choice, static_cast<std::size_t>(CostAxis::kCount)> kCosts{
      {"Operations", "Of the solver, counted, per frame: the same on every machine"},
      {"Time", "Median of a frame on this machine, while everything else runs"}}};
 
-/// The start button.
 bool sweep_button(const Look& look, Lab& lab, float width) {
   const bool again = !lab.accuracy.results().empty();
   if (!button(look, "sweep", Icon::kPlay, again ? "Run again" : "Run all methods",
@@ -126,7 +125,6 @@ void picture(const Look& look, Lab& lab, ImVec2 size) {
   if (chosen) lab.run_result(lab.accuracy.results()[*chosen]);
 }
 
-/// A note if the results belong to another scene.
 void other_scene(const Look& look, Lab& lab) {
   if (lab.accuracy.scene() == lab.plain_scene) return;
   label(look.fonts.small, look.theme->dim, "The picture below is of another scene.");

@@ -194,7 +194,6 @@ void draw_failed(const Scatter& in) {
   }
 }
 
-/// A ring around the point of the current run.
 void ring_current(const Scatter& in, const Settings& current) {
   const auto ring = [&](const Point& p, bool holds) {
     const Settings& s = in.settings_of(p);

@@ -87,7 +87,7 @@ bool open_menu(const ImRect& box, const std::function<void()>& menu) {
 
 }  // namespace
 
-bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
+void toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
             std::string_view tip) {
   const Theme& t = *look.theme;
   const ImVec2 size = text_size(look.fonts.small_medium, name);
@@ -101,8 +101,7 @@ bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool fi
   }
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const ImVec2 end = origin + ImVec2(width, height);
-  const bool pressed = marked_button(name, {width, height}, name);
-  if (pressed) value = !value;
+  if (marked_button(name, {width, height}, name)) value = !value;
   const bool hovered = ImGui::IsItemHovered();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(origin, end, value ? fade(t.accent, t.dark ? 0.32F : 0.14F) : t.well,
@@ -115,7 +114,6 @@ bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool fi
             value || hovered ? t.text : t.dim, name);
   draw_focus(look);
   tooltip(look, name, tip);
-  return pressed;
 }
 
 void fold(const Look& look, const std::string& title, bool& open, std::string_view tip) {

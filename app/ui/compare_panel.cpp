@@ -42,8 +42,6 @@ constexpr std::array<Addition, 8> kAdditions{{{"without sub-steps", "mode", "non
                                               {"BPP", "solver", "bpp"},
                                               {"leapfrog", "integrator", "leapfrog"}}};
 
-std::string count_text(std::int64_t count) { return grouped(static_cast<double>(count)); }
-
 std::string mean_time(const Cost& cost) {
   return cost.frames == 0 ? "" : duration(cost.seconds / static_cast<double>(cost.frames));
 }
@@ -72,8 +70,8 @@ void draw_line(const Look& look, const Line& line) {
   }
   draw_text(look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
             fitted(look.fonts.medium, line.name, x - at.x - 44.0F));
-  const std::string cost =
-      count_text(line.cost->substeps) + " sub-steps  ·  " + mean_time(*line.cost) + " per frame";
+  const std::string cost = grouped(static_cast<double>(line.cost->substeps)) + " sub-steps  ·  " +
+                           mean_time(*line.cost) + " per frame";
   draw_text(look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost);
   ImGui::Dummy({1.0F, 36.0F});
 }
@@ -87,7 +85,7 @@ std::string divergence_text(const Session& session, const Compare::Run& run) {
          " is more than " + threshold + " away.";
 }
 
-// A compared run: its line, and its settings when open. @return whether to remove it
+// @return whether to remove the compared run
 bool other(const Look& look, const Session& session, Compare& compare, Desk& desk, std::size_t i) {
   const Compare::Run& run = compare.runs()[i];
   const float row = look.m.row;
@@ -128,7 +126,6 @@ void presets(const Look& look, Desk& desk) {
   }
 }
 
-// Restarts all runs, from the start or from the current state of this run.
 void restart_buttons(const Look& look, Lab& lab) {
   const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
   if (button(look, "start", Icon::kReset, "From start", ButtonKind::kPlain, half, look.m.row,
@@ -143,7 +140,6 @@ void restart_buttons(const Look& look, Lab& lab) {
   }
 }
 
-// Overlaid, or in separate views.
 void views_row(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kViews{
       {{"Ghosts", "All in one view: this run as usual, the others in their colours (V)"},

@@ -15,7 +15,6 @@ namespace {
 constexpr float kCaptionHeight = 64.0F;  // height of title and method at the top of the view
 constexpr float kPad = 12.0F;
 
-// One of the runs, as labelled in the picture.
 struct Entry {
   std::string name;
   ImU32 color = 0;

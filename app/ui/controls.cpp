@@ -9,7 +9,6 @@
 namespace substep::ui {
 namespace {
 
-// The scene's heading, with the level selector on the right.
 void heading_with_level(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kLevels{
       {{"Explore", "Scene, method, load and comparison, with the plots of N and energy"},

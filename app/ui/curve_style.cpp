@@ -1,6 +1,7 @@
 #include "app/ui/curve_style.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/text/format.hpp"
@@ -30,17 +31,13 @@ void style_of_mode(const Theme& theme, const Settings& s, CurveStyle& style) {
   }
 }
 
-std::string counted(int n, const char* what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 /// "25 sweeps per frame", "2 steps"; "" for the default number.
 std::string iterations_text(const Settings& s, bool always) {
   if (!reads(s, "iterations")) return "";
   const bool shared = reads(s, "share_iterations") && s.share_iterations;
   if (!always && !shared && s.iterations == Settings{}.iterations) return "";
-  return counted(s.iterations, entry_of(s.solver).sweeps ? "sweep" : "step") +
-         (shared ? " per frame" : "");
+  return std::to_string(s.iterations) + (entry_of(s.solver).sweeps ? " sweep" : " step") +
+         (s.iterations == 1 ? "" : "s") + (shared ? " per frame" : "");
 }
 
 /// By the number of iterations; Numerov differs by its colour.
@@ -101,23 +98,9 @@ std::string parameter_text(const Settings& s) {
 }
 
 ImU32 color_of(const Theme& theme, Tint tint) {
-  switch (tint) {
-    case Tint::kBlue:
-      return theme.blue;
-    case Tint::kOrange:
-      return theme.orange;
-    case Tint::kTeal:
-      return theme.teal;
-    case Tint::kAmber:
-      return theme.amber;
-    case Tint::kPurple:
-      return theme.purple;
-    case Tint::kText:
-      return theme.text;
-    case Tint::kDim:
-      return theme.dim;
-  }
-  return theme.text;
+  constexpr std::array kColors{&Theme::blue,   &Theme::orange, &Theme::teal, &Theme::amber,
+                               &Theme::purple, &Theme::text,   &Theme::dim};
+  return theme.*kColors.at(static_cast<std::size_t>(tint));
 }
 
 CurveStyle curve_style(const Theme& theme, const Settings& s) {

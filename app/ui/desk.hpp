@@ -1,5 +1,4 @@
 #pragma once
-// State of the window that does not affect the run.
 
 #include <array>
 #include <cstddef>

@@ -143,10 +143,6 @@ std::string summary(const CostBreakdown& costs) {
   return text;
 }
 
-std::string method_name(const Theme& theme, const Settings& s) {
-  return curve_style(theme, s).name() + ", " + parameter_text(s);
-}
-
 }  // namespace
 
 void effect_costs(const Look& look, Lab& lab) {
@@ -178,7 +174,8 @@ void effect_costs(const Look& look, Lab& lab) {
   if (costs == nullptr) return;
   space(8.0F);
   label(look.fonts.medium, t.text, measured.scene()->title);
-  label(look.fonts.small, t.dim, method_name(t, measured.experiment()->settings));
+  const Settings& settings = measured.experiment()->settings;
+  label(look.fonts.small, t.dim, curve_style(t, settings).name() + ", " + parameter_text(settings));
   if (!costs->run.holds) label(look.fonts.small, t.orange, verdict_words(costs->run.verdict));
   space(look.m.section);
   stages_of_run(look, measured.scene()->effects, *costs);

@@ -78,11 +78,10 @@ void energy_plot(const PlotContext& in) {
 
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   section(look, heading);
-  PlotSpec spec;
-  spec.id = "energy";
-  spec.linear = true;  // sums are only visible on a linear axis
-  spec.factor = unit.factor;
-  spec.least_span = std::max(unit.factor, kLeastEnergy);
+  PlotSpec spec{.id = "energy",
+                .linear = true,  // sums are only visible on a linear axis
+                .least_span = std::max(unit.factor, kLeastEnergy),
+                .factor = unit.factor};
   if (several) {
     tooltip(look, "Kinetic energy", "Of each run. A run that explodes leaves the plot.");
     compared_energies(in, origin, heading, Channel::kKinetic, unit);
@@ -133,11 +132,10 @@ void drift_plot(const PlotContext& in) {
           "The change of the total energy since the start, on its own scale; ideally zero. "
           "Friction, impacts and damping remove energy. The percentage is of the energy "
           "that the motion exchanges; a scene at rest exchanges none, and has no percentage.");
-  PlotSpec spec;
-  spec.id = "drift";
-  spec.linear = true;  // a loss is negative
-  spec.factor = unit.factor;
-  spec.least_span = std::max(0.1 * unit.factor, kLeastDrift);
+  PlotSpec spec{.id = "drift",
+                .linear = true,  // a loss is negative
+                .least_span = std::max(0.1 * unit.factor, kLeastDrift),
+                .factor = unit.factor};
   if (several) {
     compared_energies(in, origin, heading, Channel::kDrift, unit);
     spec.most = kRoomForFailed * most;

@@ -23,17 +23,16 @@ void menu_row(const Look& look, const char* name, const Entries& entries, Value&
   draw_text(look.fonts.regular, {origin.x, origin.y + 0.5F * (look.m.row + 2.0F - line)},
             look.theme->dim, name);
   ImGui::SetCursorScreenPos({origin.x + kName, origin.y});
-  const std::string current = title(entries[static_cast<std::size_t>(value)]);
+  const std::string current(entries[static_cast<std::size_t>(value)].*title);
   menu_button(look, name, current, width - kName, look.m.row + 2.0F, tip, [&] {
     for (const auto& entry : entries) {
-      if (menu_item(look, std::string(title(entry)), note(entry), entry.value == value)) {
+      if (menu_item(look, std::string(entry.*title), entry.*note, entry.value == value)) {
         value = entry.value;
       }
     }
   });
 }
 
-// The main parameter of the mode.
 void parameters(const Look& look, Settings& s) {
   if (reads(s, "alpha")) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
@@ -49,13 +48,10 @@ void parameters(const Look& look, Settings& s) {
 
 void method(const Look& look, Settings& s) {
   section(look, "Method");
-  menu_row(
-      look, "Stabilisation", kModes, s.mode, [](const ModeEntry& e) { return std::string(e.name); },
-      [](const ModeEntry& e) { return e.line; }, "Stabilisation of the run (1 to 8)");
-  menu_row(
-      look, "Solver", kSolvers, s.solver, [](const SolverEntry& e) { return std::string(e.title); },
-      [](const SolverEntry& e) { return e.full_name; },
-      "Solver for the velocities of a sub-step, Eq. 3");
+  menu_row(look, "Stabilisation", kModes, s.mode, &ModeEntry::name, &ModeEntry::line,
+           "Stabilisation of the run (1 to 8)");
+  menu_row(look, "Solver", kSolvers, s.solver, &SolverEntry::title, &SolverEntry::full_name,
+           "Solver for the velocities of a sub-step, Eq. 3");
   label(look.fonts.small, look.theme->dim, entry_of(s.mode).line);
   parameters(look, s);
 }
@@ -96,7 +92,7 @@ void comparison(const Look& look, Lab& lab, Desk& desk) {
     lab.session.play();
     return;
   }
-  checkbox(look, "Side by side", desk.split, width,
+  checkbox(look, "Side by side", desk.split,
            "Each in its own view, or the other one as a ghost (V)");
   if (button(look, "end", Icon::kNone, "End the comparison", ButtonKind::kPlain, width, look.m.row,
              "")) {

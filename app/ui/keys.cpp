@@ -85,7 +85,10 @@ constexpr std::array<KeyAction, 19> kActions{
       [](App& app, char typed) { change_scale(app, typed == '-' ? -0.1 : 0.1); }, true},
      {"G", "gG", "the guided tour, and its next step",
       [](App& app, char) { advance_tour(app.desk); }, true},
-     {"L", "lL", "copy the link", [](App& app, char) { copy_link(app); }},
+     {"L", "lL", "copy the link",
+      [](App& app, char) {
+        if (app.host.copy_link) app.host.copy_link();
+      }},
      {"C", "cC", "copy the command", [](App& app, char) { copy_command(app); }},
      {"O", "oO", "open a scene file",
       [](App& app, char) {

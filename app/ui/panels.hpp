@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/lab/criterion.hpp"
 #include "app/lab/lab.hpp"
 #include "app/shell/file_browser.hpp"
 #include "app/text/tour_words.hpp"
@@ -51,14 +50,10 @@ void method_controls(const Look& look, const Scene& scene, Settings& settings, b
 void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float height);
 /// Saves the run so far as a CSV file, with the channels of the plots shown.
 void save_table(const Lab& lab, Desk& desk);
-/// File name of this run, without an extension.
-std::string file_stem(const Session& session);
 /// Summary of what sets N, in two lines and a picture.
 void why_summary(const Look& look, const Session& session, Desk& desk);
 /// The full explanation: the law with its values, and each body's share.
 void why(const Look& look, const Session& session, Desk& desk);
-/// The two terms of the criterion; marks the one that sets N.
-void criterion_terms(const Look& look, const Session& session, const Criterion& criterion);
 /// The runs compared with this run.
 void compare(const Look& look, Lab& lab, Desk& desk);
 /// A menu of methods to add to the comparison.
@@ -115,7 +110,6 @@ void transport(App& app, bool phone);
 void scrubber(const Look& look, Session& session, ImVec2 at, float width, float height);
 /// The button with the menu of links, files and pictures.
 void share_menu(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float size);
-void copy_link(const Lab& lab);
 void copy_command(Lab& lab);
 /// Takes a screenshot of the whole window after this frame is drawn.
 void capture_window(const Session& session, Desk& desk);

@@ -36,7 +36,6 @@ std::vector<CurveEnd> ends_of(const PlotSpec& spec, const PlotFrame& f) {
   return ends;
 }
 
-/// Right end of the name of a curve.
 float name_end(const Look& look, const CurveEnd& end) {
   return end.at.x + kNameGap + text_size(look.fonts.small, end.name).x;
 }

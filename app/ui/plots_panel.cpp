@@ -79,10 +79,7 @@ void substeps_plot(const PlotContext& in) {
           "after the run, and less accurate than the N of a smaller alpha. With islands: the "
           "largest N of an island, and the mean of the bodies.");
 
-  PlotSpec spec;
-  spec.id = "substeps";
-  spec.counts = true;
-  spec.least_span = 4.0;
+  PlotSpec spec{.id = "substeps", .counts = true, .least_span = 4.0};
   const bool islands = !several && looks_for_islands(s);
   if (several) {
     add_runs(in, spec, Channel::kSubsteps, true);
@@ -113,9 +110,7 @@ void error_plot(const PlotContext& in) {
   section(look, "Error, m");
   tooltip(look, "Constraint error",
           "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact.");
-  PlotSpec spec;
-  spec.id = "error";
-  spec.least_span = 1e-9;
+  PlotSpec spec{.id = "error", .least_span = 1e-9};
   if (in.compare.open()) {
     const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;
     compared_values(in, origin, "Error, m", channel, coarse_number, order_of_magnitude);
@@ -145,9 +140,7 @@ void time_plot(const PlotContext& in) {
   tooltip(look, "Time per frame",
           "Wall time of the simulation per frame: the total in grey, its stages in the colours of "
           "the list below.");
-  PlotSpec spec;
-  spec.id = "time";
-  spec.least_span = 0.01;
+  PlotSpec spec{.id = "time", .least_span = 0.01};
   if (several) {
     add_runs(in, spec, Channel::kTime);
   } else {
@@ -192,6 +185,11 @@ std::vector<const PlotInfo*> shown_plots(const Session& session, Desk& desk) {
     if (wanted) shown.push_back(&info);
   }
   return shown;
+}
+
+// File name of this run, without an extension.
+std::string file_stem(const Session& session) {
+  return session.scene().name + "-" + std::string(name_of(session.settings().mode));
 }
 
 std::string span_name(double seconds) {
@@ -271,10 +269,6 @@ void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewp
 }
 
 }  // namespace
-
-std::string file_stem(const Session& session) {
-  return session.scene().name + "-" + std::string(name_of(session.settings().mode));
-}
 
 void save_table(const Lab& lab, Desk& desk) {
   if (!lab.host.save_file) return;

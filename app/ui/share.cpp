@@ -17,7 +17,7 @@ void line() {
 
 void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   const Host& host = lab.host;
-  if (host.copy_link && menu_item(look, "Copy link", "L")) copy_link(lab);
+  if (host.copy_link && menu_item(look, "Copy link", "L")) host.copy_link();
   if (menu_item(look, "Copy command", "C")) copy_command(lab);
   if (host.open_link && menu_item(look, "Open the copied link")) host.open_link();
   line();
@@ -35,10 +35,6 @@ void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
 }
 
 }  // namespace
-
-void copy_link(const Lab& lab) {
-  if (lab.host.copy_link) lab.host.copy_link();
-}
 
 void copy_command(Lab& lab) {
   ImGui::SetClipboardText(lab.command().c_str());

@@ -21,7 +21,6 @@ void end(Desk& desk) {
   desk.tour_hint = false;
 }
 
-// Progress of the tour, as dots.
 void draw_dots(const Look& look, int step, int count, ImVec2 at) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (int i = 0; i < count; ++i) {

@@ -20,20 +20,6 @@ const char* speed_name(double speed) {
   return "?";
 }
 
-void single_steps(App& app, float height, float gap) {
-  const Look& look = app.look;
-  ImGui::SameLine(0.0F, gap);
-  if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 36.0F, height,
-             "One frame (.), back with the comma key")) {
-    app.session.request_step();
-  }
-  ImGui::SameLine(0.0F, gap);
-  if (button(look, "substep", Icon::kSubstep, "", ButtonKind::kPlain, 36.0F, height,
-             "One sub-step (;): one pass of the loop of Algorithm 1")) {
-    app.session.substep();
-  }
-}
-
 void play_buttons(App& app, float height, float gap) {
   const Look& look = app.look;
   const bool playing = app.session.playing();
@@ -41,13 +27,20 @@ void play_buttons(App& app, float height, float gap) {
              height, playing ? "Pause (Space)" : "Play (Space)")) {
     app.session.toggle();
   }
+  const auto add = [&](const char* id, Icon icon, const char* tip) {
+    ImGui::SameLine(0.0F, gap);
+    return button(look, id, icon, "", ButtonKind::kPlain, 36.0F, height, tip);
+  };
   // Single frames and sub-steps are Lab controls; their keys always work.
-  if (app.desk.level == DeskLevel::kLab) single_steps(app, height, gap);
-  ImGui::SameLine(0.0F, gap);
-  if (button(look, "reset", Icon::kReset, "", ButtonKind::kPlain, 36.0F, height,
-             "Back to the start (R)")) {
-    app.reset();
+  if (app.desk.level == DeskLevel::kLab) {
+    if (add("step", Icon::kStep, "One frame (.), back with the comma key")) {
+      app.session.request_step();
+    }
+    if (add("substep", Icon::kSubstep, "One sub-step (;): one pass of the loop of Algorithm 1")) {
+      app.session.substep();
+    }
   }
+  if (add("reset", Icon::kReset, "Back to the start (R)")) app.reset();
   ImGui::SameLine(0.0F, gap);
   menu_button(look, "speed", speed_name(app.session.speed()), 84.0F, height,
               "Speed of the simulation relative to real time ([ and ])", [&] {

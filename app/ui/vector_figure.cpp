@@ -192,8 +192,7 @@ class Writer {
 
 }  // namespace
 
-FigureFrame::FigureFrame()
-    : lines_(ImGui::GetStyle().AntiAliasedLines), fills_(ImGui::GetStyle().AntiAliasedFill) {
+FigureFrame::FigureFrame() {
   ImGui::GetStyle().AntiAliasedLines = false;
   ImGui::GetStyle().AntiAliasedFill = false;
   noted.clear();
@@ -201,8 +200,7 @@ FigureFrame::FigureFrame()
 }
 
 FigureFrame::~FigureFrame() {
-  ImGui::GetStyle().AntiAliasedLines = lines_;
-  ImGui::GetStyle().AntiAliasedFill = fills_;
+  ImGui::GetStyle() = style_;
   noted.clear();
   noting = false;
 }

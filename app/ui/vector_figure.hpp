@@ -21,8 +21,7 @@ class FigureFrame {
   FigureFrame& operator=(const FigureFrame&) = delete;
 
  private:
-  bool lines_;
-  bool fills_;
+  ImGuiStyle style_ = ImGui::GetStyle();
 };
 
 /// Called for every text; keeps it if a FigureFrame exists.

@@ -158,8 +158,7 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport) {
   ImGui::End();
 }
 
-// Throws from beside the eye at the point under the pointer, or at the middle of the view; slow
-// enough for the flight to be visible.
+// Without a pointer at the middle of the view; slow enough for the flight to be visible.
 void throw_ball(Lab& lab, const Viewport& viewport) {
   constexpr double kFlight = 0.8;     // duration [s]
   constexpr double kDensity = 120.0;  // density of cork [kg/m^3]

@@ -308,16 +308,15 @@ bool slider(const Look& look, const char* name, int& value, int least, int most,
                     logarithmic ? TrackScale::kLogarithmic : TrackScale::kValue, "%d", tip);
 }
 
-bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip) {
+void checkbox(const Look& look, const char* name, bool& value, const char* tip) {
   const Theme& t = *look.theme;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const bool pressed = marked_button(name, {width, look.m.row}, name);
+  if (marked_button(name, {ImGui::GetContentRegionAvail().x, look.m.row}, name)) value = !value;
   const bool hovered = ImGui::IsItemHovered();
-  if (pressed) value = !value;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   constexpr float kSize = 16.0F;
   const ImVec2 at(origin.x, origin.y + 0.5F * (look.m.row - kSize));
-  const ImVec2 to(at.x + kSize, at.y + kSize);
+  const ImVec2 to = at + ImVec2(kSize, kSize);
   if (value) {
     draw.AddRectFilled(at, to, hovered ? t.accent_hover : t.accent, 4.0F);
     draw_icon(draw, Icon::kCheck, {at.x + 0.5F * kSize, at.y + 0.5F * kSize}, kSize, t.on_accent);
@@ -325,12 +324,10 @@ bool checkbox(const Look& look, const char* name, bool& value, float width, cons
     draw.AddRectFilled(at, to, t.well, 4.0F);
     draw.AddRect(at, to, hovered ? t.dim : t.faint, 4.0F);
   }
-  const ImVec2 size = text_size(look.fonts.regular, name);
-  draw_text(look.fonts.regular, {to.x + 8.0F, origin.y + 0.5F * (look.m.row - size.y)}, t.text,
-            name);
+  const float line = text_size(look.fonts.regular, name).y;
+  draw_text(look.fonts.regular, {to.x + 8.0F, origin.y + 0.5F * (look.m.row - line)}, t.text, name);
   draw_focus(look);
   tooltip(look, name, tip);
-  return pressed;
 }
 
 }  // namespace substep::ui

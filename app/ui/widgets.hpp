@@ -80,11 +80,11 @@ bool slider(const Look& look, const char* name, int& value, int least, int most,
 bool power_slider(const Look& look, const char* name, double& value, double least, double most,
                   const char* tip);
 
-bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip);
+void checkbox(const Look& look, const char* name, bool& value, const char* tip);
 
 /// A toggle pill; consecutive ones flow into lines. @param mark colour of its subject, 0 for none;
 /// @param first starts a line
-bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
+void toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
             std::string_view tip);
 
 /// A heading that folds the content below it.

@@ -73,11 +73,8 @@ const Panel& panel_of(std::span<const Panel> panels, Tab tab) {
 // Tabs across the panel. @return the open panel, or the first
 const Panel& choose_panel(const Look& look, std::span<const Panel> panels, Tab& tab) {
   std::vector<Choice> names;
-  int current = 0;
-  for (const Panel& panel : panels) {
-    if (panel.tab == tab) current = static_cast<int>(names.size());
-    names.push_back(panel.name);
-  }
+  for (const Panel& panel : panels) names.push_back(panel.name);
+  auto current = static_cast<int>(&panel_of(panels, tab) - panels.data());
   const bool changed = segmented(look, "tabs", names, current, ImGui::GetContentRegionAvail().x);
   const Panel& open = panels[static_cast<std::size_t>(current)];
   if (changed) tab = open.tab;

@@ -7,6 +7,34 @@
 #include "app/ui/widgets.hpp"
 
 namespace substep::ui {
+namespace {
+
+// The popup opens below its button, or above if there is more room, and never covers it.
+bool open_menu(const ImRect& box, const std::function<void()>& menu) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float below = display.y - box.Max.y - 16.0F;
+  const float above = box.Min.y - 16.0F;
+  const bool up = below < 240.0F && above > below;
+  const bool left = box.Min.x > display.x - 220.0F;  // extends towards the side with room
+  ImGui::SetNextWindowPos({left ? box.Max.x : box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F},
+                          ImGuiCond_Always, {left ? 1.0F : 0.0F, up ? 1.0F : 0.0F});
+  const float room = left ? box.Max.x - 8.0F : display.x - box.Min.x - 8.0F;
+  const float widest = std::max(box.GetWidth(), std::min(400.0F, room));
+  ImGui::SetNextWindowSizeConstraints({box.GetWidth(), 0.0F},
+                                      {widest, std::max(120.0F, up ? above : below)});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
+  const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);
+  if (open) {
+    menu();
+    scroll_by_drag();
+    ImGui::EndPopup();
+  }
+  ImGui::PopStyleVar(2);
+  return open;
+}
+
+}  // namespace
 
 bool button(const Look& look, const char* id, Icon icon, std::string_view text, ButtonKind kind,
             float width, float height, std::string_view tip) {
@@ -57,35 +85,6 @@ bool progress(const Look& look, double share, const char* tip) {
   ImGui::PopID();
   return pressed;
 }
-
-namespace {
-
-// The popup opens below its button, or above if there is more room, and never covers it.
-bool open_menu(const ImRect& box, const std::function<void()>& menu) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const float below = display.y - box.Max.y - 16.0F;
-  const float above = box.Min.y - 16.0F;
-  const bool up = below < 240.0F && above > below;
-  const bool left = box.Min.x > display.x - 220.0F;  // extends towards the side with room
-  ImGui::SetNextWindowPos({left ? box.Max.x : box.Min.x, up ? box.Min.y - 4.0F : box.Max.y + 4.0F},
-                          ImGuiCond_Always, {left ? 1.0F : 0.0F, up ? 1.0F : 0.0F});
-  const float room = left ? box.Max.x - 8.0F : display.x - box.Min.x - 8.0F;
-  const float widest = std::max(box.GetWidth(), std::min(400.0F, room));
-  ImGui::SetNextWindowSizeConstraints({box.GetWidth(), 0.0F},
-                                      {widest, std::max(120.0F, up ? above : below)});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {6.0F, 6.0F});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0.0F, 2.0F});
-  const bool open = ImGui::BeginPopup("menu", ImGuiWindowFlags_NoMove);
-  if (open) {
-    menu();
-    scroll_by_drag();
-    ImGui::EndPopup();
-  }
-  ImGui::PopStyleVar(2);
-  return open;
-}
-
-}  // namespace
 
 void toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
             std::string_view tip) {

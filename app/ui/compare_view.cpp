@@ -43,9 +43,9 @@ std::vector<Entry> entries(const Look& look, const Session& session, const Compa
 void legend(const Look& look, const std::vector<Entry>& all, bool judged,
             const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const float x = viewport.view_rect.x + 24.0F;
   constexpr float kNarrow = 500.0F;
   const ViewRect& v = viewport.view_rect;
+  const float x = v.x + 24.0F;
   const float line = text_size(look.fonts.regular, "N").y + 8.0F;
   float y = v.width < kNarrow ? v.y + v.height - 4.0F - line * static_cast<float>(all.size())
                               : v.y + kCaptionHeight + 8.0F;

@@ -24,13 +24,12 @@ constexpr double kRoomForFailed = 1.5;
 
 /// The largest value over this run and those compared with it; failed runs count only if all
 /// failed.
-template <class Largest>
-double largest_of_stable(const Session& session, const Compare& compare, Largest largest) {
+double largest_of_stable(const PlotContext& in, double (History::*largest)() const) {
   double stable = 0.0;
-  double any = largest(session.history());
-  if (session.verdict().holds()) stable = any;
-  for (const Compare::Run& run : compare.runs()) {
-    const double one = largest(run.history);
+  double any = (in.session.history().*largest)();
+  if (in.session.verdict().holds()) stable = any;
+  for (const Compare::Run& run : in.compare.runs()) {
+    const double one = (run.history.*largest)();
     any = std::max(any, one);
     if (run.verdict->holds()) stable = std::max(stable, one);
   }
@@ -70,8 +69,7 @@ void energy_plot(const PlotContext& in) {
   const bool gravity = has_potential(in.session.scene().effects);
   const bool several = in.compare.open();
   const double zero = h.potential_offset();
-  double most = largest_of_stable(in.session, in.compare,
-                                  [](const History& one) { return one.largest_kinetic(); });
+  double most = largest_of_stable(in, &History::largest_kinetic);
   if (!several && gravity) most = std::max(most, zero);
   const Unit unit = unit_for(std::max(most, kLeastEnergy));
   const std::string heading = (several ? "Kinetic, " : "Energy, ") + unit.prefix + "J";
@@ -118,8 +116,7 @@ void drift_plot(const PlotContext& in) {
   const Theme& t = *look.theme;
   const History& h = in.session.history();
   const bool several = in.compare.open();
-  const double most = largest_of_stable(in.session, in.compare,
-                                        [](const History& one) { return one.largest_drift(); });
+  const double most = largest_of_stable(in, &History::largest_drift);
   const Unit unit = unit_for(std::max(most, kLeastDrift));
   const std::string heading = (several ? "Drift, " : "Energy drift, ") + unit.prefix + "J";
   const auto scale = energy_scale(in.session.scene().criteria.energy_scale, h.largest_kinetic(),

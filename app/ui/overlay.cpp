@@ -32,9 +32,7 @@ std::string method_line(const Settings& s) {
   if (has_islands(s)) line += ", by island";
   line += "  ·  " + solver_words(s);
   const bool as_leapfrog = s.integrator == Integrator::kStormer && !follows_accelerations(s);
-  line += "  ·  ";
-  line += entry_of(as_leapfrog ? Integrator::kLeapfrog : s.integrator).title;
-  return line;
+  return line + "  ·  " + entry_of(as_leapfrog ? Integrator::kLeapfrog : s.integrator).title;
 }
 
 }  // namespace

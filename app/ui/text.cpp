@@ -23,6 +23,50 @@ void add_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, std::strin
   draw.AddText(font, size_of(font), snapped(at), color, text.data(), text.data() + text.size());
 }
 
+const char* end_of_word(const char* p) {
+  while (*p != '\0' && *p != ' ' && *p != '\n') ++p;
+  return p;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Whether the text after a word is the unit of a number: a percent sign, or one or two letters,
+// which distinguishes "0.8 %" and "10 s." from most other words.
+bool is_unit_after(const char* word, const char* end) {
+  if (end == word || *end != ' ' || !is_digit(end[-1]) || is_digit(end[1])) return false;
+  const auto letters = std::count_if(end + 1, end_of_word(end + 1), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U && c != '.' && c != ',' && c != ';';
+  });
+  return letters == 1 || letters == 2;
+}
+
+// Not the unit after the comma: KJ would be kelvin joules, and MJ for mJ megajoules.
+std::string capitals(std::string_view title) {
+  std::string caps(title);
+  for (char& c : caps) {
+    if (c == ',') break;
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  }
+  return caps;
+}
+
+// Capitals are more readable with letter spacing. @param draw null: only measures @return right end
+float draw_capitals(const Look& look, ImVec2 at, const std::string& caps, ImDrawList* draw) {
+  const ImVec2 start = at;
+  for (const char* p = caps.c_str(); *p != '\0';) {
+    const char* end = p + 1;
+    while ((static_cast<unsigned char>(*end) & 0xc0U) == 0x80U) ++end;
+    const std::string_view letter(p, end);
+    if (draw != nullptr) add_text(*draw, look.fonts.caps, at, look.theme->dim, letter);
+    at.x += text_size(look.fonts.caps, letter).x + 0.6F;
+    p = end;
+  }
+  if (draw != nullptr) {
+    note_text(*draw, look.fonts.caps, snapped(start), at.x - start.x, look.theme->dim, caps);
+  }
+  return at.x;
+}
+
 }  // namespace
 
 void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, std::string_view text) {
@@ -58,27 +102,6 @@ std::string fitted(ImFont* font, const std::string& text, float width) {
   }
   return "…";
 }
-
-namespace {
-
-const char* end_of_word(const char* p) {
-  while (*p != '\0' && *p != ' ' && *p != '\n') ++p;
-  return p;
-}
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-// Whether the text after a word is the unit of a number: a percent sign, or one or two letters,
-// which distinguishes "0.8 %" and "10 s." from most other words.
-bool is_unit_after(const char* word, const char* end) {
-  if (end == word || *end != ' ' || !is_digit(end[-1]) || is_digit(end[1])) return false;
-  const auto letters = std::count_if(end + 1, end_of_word(end + 1), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U && c != '.' && c != ',' && c != ';';
-  });
-  return letters == 1 || letters == 2;
-}
-
-}  // namespace
 
 std::string wrapped(ImFont* font, const std::string& text, float width) {
   std::string lines;
@@ -121,37 +144,6 @@ void space(float height) {
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + height - 2.0F * ImGui::GetStyle().ItemSpacing.y);
   ImGui::Dummy({0.0F, 0.0F});
 }
-
-namespace {
-
-// Not the unit after the comma: KJ would be kelvin joules, and MJ for mJ megajoules.
-std::string capitals(std::string_view title) {
-  std::string caps(title);
-  for (char& c : caps) {
-    if (c == ',') break;
-    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  }
-  return caps;
-}
-
-// Capitals are more readable with letter spacing. @param draw null: only measures @return right end
-float draw_capitals(const Look& look, ImVec2 at, const std::string& caps, ImDrawList* draw) {
-  const ImVec2 start = at;
-  for (const char* p = caps.c_str(); *p != '\0';) {
-    const char* end = p + 1;
-    while ((static_cast<unsigned char>(*end) & 0xc0U) == 0x80U) ++end;
-    const std::string_view letter(p, end);
-    if (draw != nullptr) add_text(*draw, look.fonts.caps, at, look.theme->dim, letter);
-    at.x += text_size(look.fonts.caps, letter).x + 0.6F;
-    p = end;
-  }
-  if (draw != nullptr) {
-    note_text(*draw, look.fonts.caps, snapped(start), at.x - start.x, look.theme->dim, caps);
-  }
-  return at.x;
-}
-
-}  // namespace
 
 float heading_width(const Look& look, std::string_view title) {
   return draw_capitals(look, {0.0F, 0.0F}, capitals(title), nullptr);

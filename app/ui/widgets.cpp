@@ -128,19 +128,6 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, T
   return changed;
 }
 
-}  // namespace
-
-void draw_focus(const Look& look) {
-  const ImGuiContext& g = *ImGui::GetCurrentContext();
-  if (g.NavId != g.LastItemData.ID || g.NavDisableHighlight) return;
-  const ImVec2 around(2.0F, 2.0F);
-  ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin() - around,
-                                      ImGui::GetItemRectMax() + around, look.theme->accent_hover,
-                                      look.m.radius + 2, 0, 2.0F);
-}
-
-namespace {
-
 struct TooltipLine {
   ImFont* font;
   ImU32 color;
@@ -196,6 +183,15 @@ bool clicked_here() {
 }
 
 }  // namespace
+
+void draw_focus(const Look& look) {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.NavId != g.LastItemData.ID || g.NavDisableHighlight) return;
+  const ImVec2 around(2.0F, 2.0F);
+  ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin() - around,
+                                      ImGui::GetItemRectMax() + around, look.theme->accent_hover,
+                                      look.m.radius + 2, 0, 2.0F);
+}
 
 void read_out(const Look& look, std::span<const ReadOutLine> lines) {
   std::vector<TooltipLine> shown;

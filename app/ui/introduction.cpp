@@ -107,9 +107,8 @@ void ground(const char* id, float top, float bottom, float width) {
 }
 
 // The label of a picture on the panel colour, over the grid.
-void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, ImVec2 display) {
-  const ViewRect& torn = panes[1];
-  const ViewRect& held = panes[0];
+void draw_grounds(const ScreenMeasures& m, const ViewRect& held, const ViewRect& torn,
+                  ImVec2 display) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
   const float label = torn.y + torn.height - kAbove;
@@ -120,10 +119,8 @@ void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, I
 
 // The clock of both runs, between their labels, or to the right of the upper one; and a line
 // between their pictures.
-void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
-                float width, const std::string& text) {
-  const ViewRect& torn = panes[1];
-  const ViewRect& held = panes[0];
+void draw_clock(const Look& look, const ScreenMeasures& m, const ViewRect& held,
+                const ViewRect& torn, float width, const std::string& text) {
   const ImU32 line = fade(look.theme->faint, 0.5F);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (!m.stacked) {
@@ -206,20 +203,22 @@ void introduction(App& app) {
   const ScreenMeasures m = measure_screen(look, words, display);
   app.view_rect = picture_area(m, display);
   const std::vector<ViewRect> panes = introduction_panes(look, app);
+  const ViewRect& held = panes[0];
+  const ViewRect& torn = panes[1];
   bool leave = false;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
-  draw_grounds(m, panes, display);
+  draw_grounds(m, held, torn, display);
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize(display);
   if (ImGui::Begin("##introduction", nullptr,
                    kPlaced | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground)) {
     draw_head(look, m, words, display.x - 2.0F * m.pad);
     const Verdict* verdict = Introduction::torn(app);
-    const bool torn = verdict != nullptr && !verdict->holds();
-    picture_label(look, m, panes[1], words.torn, torn ? t.orange : t.dim);
-    picture_label(look, m, panes[0], words.held, t.teal);
-    draw_clock(look, m, panes, display.x, words.clock);
+    const bool failed = verdict != nullptr && !verdict->holds();
+    picture_label(look, m, torn, words.torn, failed ? t.orange : t.dim);
+    picture_label(look, m, held, words.held, t.teal);
+    draw_clock(look, m, held, torn, display.x, words.clock);
     leave = draw_foot(look, m, words, display, app.desk) || left_otherwise();
   }
   ImGui::End();

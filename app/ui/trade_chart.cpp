@@ -126,7 +126,10 @@ class Chart {
     const float top = y_;
     draw_bar(adaptive_bar(t, row), row);
     draw_bar(constant_bar(t, row, trade_.most_n), row);
-    if (shows_line()) draw_line(top);
+    if (shows_line()) {  // the constant N that serves all loads
+      const float x = std::round(x_of(line()));
+      ImGui::GetWindowDrawList()->AddLine({x, top}, {x, y_}, t.text, 1.0F);
+    }
     y_ += kBetweenLoads;
   }
 
@@ -176,12 +179,6 @@ class Chart {
     }
     lines.push_back({"Click to run it", t.accent});
     read_out(look_, lines);
-  }
-
-  /// The constant N that serves all loads, beside the bars of one load.
-  void draw_line(float top) const {
-    const float x = std::round(x_of(line()));
-    ImGui::GetWindowDrawList()->AddLine({x, top}, {x, y_}, look_.theme->text, 1.0F);
   }
 
   void name_line() const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "app/text/format.hpp"
@@ -52,9 +53,9 @@ void draw_errors(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawL
     draw.AddLine({axes.min.x, y}, {axes.max.x, y}, line);
     if (e % every != 0) continue;
     const std::string text = power_of_ten(e);
-    const ImVec2 size = text_size(look.fonts.small, text.c_str());
-    draw_text(draw, look.fonts.small, {axes.min.x - size.x - 6.0F, y - 0.5F * size.y},
-              look.theme->dim, text.c_str());
+    const ImVec2 size = text_size(look.fonts.small, text);
+    draw_text(look.fonts.small, {axes.min.x - size.x - 6.0F, y - 0.5F * size.y}, look.theme->dim,
+              text);
   }
 }
 
@@ -68,10 +69,9 @@ void draw_costs(const Look& look, const AccuracyAxes& axes, ImU32 line, ImDrawLi
       if (x < axes.min.x || x > axes.max.x) continue;
       draw.AddLine({x, axes.min.y}, {x, axes.max.y}, line);
       const std::string text = plain_number(value);
-      const float width = text_size(look.fonts.small, text.c_str()).x;
+      const float width = text_size(look.fonts.small, text).x;
       if (x - 0.5F * width < taken + 6.0F || x + 0.5F * width > axes.max.x + 8.0F) continue;
-      draw_text(draw, look.fonts.small, {x - 0.5F * width, axes.max.y + 4.0F}, look.theme->dim,
-                text.c_str());
+      draw_text(look.fonts.small, {x - 0.5F * width, axes.max.y + 4.0F}, look.theme->dim, text);
       taken = x + 0.5F * width;
     }
   }
@@ -102,9 +102,9 @@ void draw_accuracy_grid(const Look& look, const Accuracy& accuracy, const Accura
   draw_costs(look, axes, line, draw);
   const std::string name =
       fitted(look.fonts.small, axis_name(accuracy.cost), axes.max.x - axes.min.x);
-  const float width = text_size(look.fonts.small, name.c_str()).x;
-  draw_text(draw, look.fonts.small, {0.5F * (axes.min.x + axes.max.x - width), axes.max.y + 20.0F},
-            t.dim, name.c_str());
+  const float width = text_size(look.fonts.small, name).x;
+  draw_text(look.fonts.small, {0.5F * (axes.min.x + axes.max.x - width), axes.max.y + 20.0F}, t.dim,
+            name);
 }
 
 void draw_floor(const Look& look, const Accuracy& accuracy, const AccuracyAxes& axes,
@@ -117,9 +117,8 @@ void draw_floor(const Look& look, const Accuracy& accuracy, const AccuracyAxes& 
   draw.AddLine({axes.min.x, y}, {axes.max.x, y}, fade(t.dim, 0.6F));
   const std::string text = "below " + error_text(floor, accuracy.error) + ": not measured";
   const std::string shown = fitted(look.fonts.small, text, axes.max.x - axes.min.x - 8.0F);
-  const float height = text_size(look.fonts.small, shown.c_str()).y;
-  draw_text(draw, look.fonts.small, {axes.min.x + 4.0F, 0.5F * (y + axes.max.y - height)}, t.dim,
-            shown.c_str());
+  const float height = text_size(look.fonts.small, shown).y;
+  draw_text(look.fonts.small, {axes.min.x + 4.0F, 0.5F * (y + axes.max.y - height)}, t.dim, shown);
 }
 
 }  // namespace substep::ui

@@ -2,9 +2,7 @@
 
 #include <imgui.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "app/lab/accuracy.hpp"

@@ -83,29 +83,10 @@ std::optional<Point> plain_best(const Accuracy& accuracy, const std::vector<Poin
   return accuracy.best(plain);
 }
 
-const char* kept_name(ErrorAxis axis) {
-  switch (axis) {
-    case ErrorAxis::kTrajectory:
-      return "the path";
-    case ErrorAxis::kEnergy:
-      return "the energy";
-    case ErrorAxis::kGap:
-      return "joint gaps";
-    default:
-      return "overlaps";
-  }
-}
-
-const char* fewer(CostAxis axis) {
-  switch (axis) {
-    case CostAxis::kSubsteps:
-      return "fewer sub-steps";
-    case CostAxis::kOperations:
-      return "fewer operations";
-    default:
-      return "less time";
-  }
-}
+constexpr std::array<const char*, static_cast<std::size_t>(ErrorAxis::kCount)> kKept{
+    "the path", "the energy", "joint gaps", "overlaps"};
+constexpr std::array<const char*, static_cast<std::size_t>(CostAxis::kCount)> kFewer{
+    "fewer sub-steps", "fewer operations", "less time"};
 
 /// "capped + damping, leapfrog (N cap = 2)", within a sentence.
 std::string with_parameter(const Settings& s) {
@@ -125,6 +106,13 @@ std::string error_text(double error, ErrorAxis axis) {
   const Unit unit = unit_for(error);
   return plain_number(error / unit.factor) + " " + unit.prefix +
          (axis == ErrorAxis::kEnergy ? "J" : "m");
+}
+
+std::string limit_text(const Accuracy& accuracy) {
+  if (accuracy.error_is_given) {
+    return error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), accuracy.error);
+  }
+  return cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)), accuracy.cost);
 }
 
 std::string cost_text(double cost, CostAxis axis) {
@@ -173,12 +161,10 @@ std::string conclusion(const Accuracy& accuracy, const std::vector<Point>& point
   if (points.size() < 2) return "";
   const bool error_given = accuracy.error_is_given;
   const std::string limit =
-      error_given
-          ? "To keep " + std::string(kept_name(accuracy.error)) + " within " +
-                error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)),
-                           accuracy.error)
-          : "Within " + cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)),
-                                  accuracy.cost);
+      (error_given ? "To keep " + std::string(kKept.at(static_cast<std::size_t>(accuracy.error))) +
+                         " within "
+                   : "Within ") +
+      limit_text(accuracy);
   const auto best = accuracy.best(points);
   if (!best) return limit + ", no tested method is enough.";
   const auto plain = plain_best(accuracy, points);
@@ -190,7 +176,8 @@ std::string conclusion(const Accuracy& accuracy, const std::vector<Point>& point
   const std::string ratio =
       times(error_given ? plain->cost / best->cost : plain->error / best->error);
   if (ratio.empty()) return verdict + "; constant N with Euler is as good.";
-  return verdict + ": " + ratio + (error_given ? fewer(accuracy.cost) : "closer") +
+  return verdict + ": " + ratio +
+         (error_given ? kFewer.at(static_cast<std::size_t>(accuracy.cost)) : "closer") +
          " than constant N with Euler.";
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "app/lab/accuracy.hpp"
@@ -31,6 +30,8 @@ std::vector<AccuracyCurve> curves_of(const Theme& theme, const Accuracy& accurac
 /// than two points.
 std::string conclusion(const Accuracy& accuracy, const std::vector<Accuracy::Point>& points);
 
+/// "1 mm", "0.05 ms per frame": the required limit.
+std::string limit_text(const Accuracy& accuracy);
 /// "0.82 mm", "3.1 J"
 std::string error_text(double error, ErrorAxis axis);
 /// "12 sub-steps per frame"

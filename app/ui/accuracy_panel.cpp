@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,7 +28,6 @@ constexpr std::array<Choice, static_cast<std::size_t>(CostAxis::kCount)> kCosts{
      {"Operations", "Of the solver, counted, per frame: the same on every machine"},
      {"Time", "Median of a frame on this machine, while everything else runs"}}};
 
-/// The start button.
 bool sweep_button(const Look& look, Lab& lab, float width) {
   const bool again = !lab.accuracy.results().empty();
   if (!button(look, "sweep", Icon::kPlay, again ? "Run again" : "Run all methods",
@@ -79,12 +79,9 @@ void axes_row(const Look& look, Accuracy& accuracy) {
   if (axes.size() > 1 && segmented_row(look, "Error", names, current, "What goes up")) {
     accuracy.error = axes[static_cast<std::size_t>(current)];
   }
-  int cost = static_cast<int>(accuracy.cost);
   const std::span<const Choice> costs(kCosts);  // the last, the time, is not in files
-  if (segmented_row(look, "Cost", accuracy.shipped() ? costs.first(2) : costs, cost,
-                    "What goes to the right")) {
-    accuracy.cost = static_cast<CostAxis>(cost);
-  }
+  choose(look, "Cost", accuracy.shipped() ? costs.first(2) : costs, accuracy.cost,
+         "What goes to the right");
 }
 
 bool shows_map(const Accuracy& accuracy) {
@@ -116,25 +113,18 @@ void picture_row(const Look& look, Accuracy& accuracy) {
 
 /// The map, the trade, or the errors with their vertical axis title; a click on a run starts it.
 void picture(const Look& look, Lab& lab, ImVec2 size) {
+  std::optional<std::size_t> chosen;
   if (shows_map(lab.accuracy)) {
-    if (const auto chosen = stability_map(look, lab, size.x)) {
-      lab.run_result(lab.accuracy.results()[*chosen]);
-    }
-    return;
+    chosen = stability_map(look, lab, size.x);
+  } else if (lab.accuracy.picture == AccuracyPicture::kFairTrade) {
+    chosen = trade_chart(look, lab.accuracy, size.x);
+  } else {
+    label(look.fonts.small, look.theme->dim, axis_name(lab.accuracy.error));
+    chosen = accuracy_picture(look, lab.accuracy, lab.session.settings(), size);
   }
-  if (lab.accuracy.picture == AccuracyPicture::kFairTrade) {
-    if (const auto chosen = trade_chart(look, lab.accuracy, size.x)) {
-      lab.run_result(lab.accuracy.results()[*chosen]);
-    }
-    return;
-  }
-  label(look.fonts.small, look.theme->dim, axis_name(lab.accuracy.error));
-  if (const auto chosen = accuracy_picture(look, lab.accuracy, lab.session.settings(), size)) {
-    lab.run_result(lab.accuracy.results()[*chosen]);
-  }
+  if (chosen) lab.run_result(lab.accuracy.results()[*chosen]);
 }
 
-/// A note if the results belong to another scene.
 void other_scene(const Look& look, Lab& lab) {
   if (lab.accuracy.scene() == lab.plain_scene) return;
   label(look.fonts.small, look.theme->dim, "The picture below is of another scene.");
@@ -176,26 +166,24 @@ void picture_buttons(const Look& look, Lab& lab, Desk& desk) {
       desk.figure = {lab.accuracy.scene()->name + "-accuracy.svg", desk.accuracy_area};
     }
   }
-  label(look.fonts.small, look.theme->dim, state_text(accuracy).c_str());
+  label(look.fonts.small, look.theme->dim, state_text(accuracy));
   if (!accuracy.running()) sweep_button(look, lab, 0.0F);
 }
 
 void map_note(const Look& look, const Accuracy& accuracy) {
   label(look.fonts.small, look.theme->dim,
-        ("A cell shows when the run fails, in seconds; blue cells with a tick are stable for all " +
-         plain_number(accuracy.experiments().front().duration) +
-         " s. The mass of the heaviest body is varied. Drag over the map to run what you pass.")
-            .c_str());
+        "A cell shows when the run fails, in seconds; blue cells with a tick are stable for all " +
+            plain_number(accuracy.experiments().front().duration) +
+            " s. The mass of the heaviest body is varied. Drag over the map to run what you pass.");
 }
 
 void error_note(const Look& look, const Accuracy& accuracy) {
   const ReferenceSummary* reference = accuracy.reference();
   if (reference == nullptr) return;
   label(look.fonts.small, look.theme->dim,
-        ("Measured from: " + reference->source + ", uncertain by " +
-         coarse_number(reference->uncertainty) + " m, over " + plain_number(reference->window) +
-         " s. The band is the Pareto front. Point at a grey curve for its name.")
-            .c_str());
+        "Measured from: " + reference->source + ", uncertain by " +
+            coarse_number(reference->uncertainty) + " m, over " + plain_number(reference->window) +
+            " s. The band is the Pareto front. Point at a grey curve for its name.");
   space(8.0F);
 }
 
@@ -206,45 +194,43 @@ void picture_legend(const Look& look, const Accuracy& accuracy) {
     int runs = 0;
     int held = 0;
   };
-  std::map<std::string, Mark> entries;
-  std::vector<std::string> families;
-  std::map<std::string, std::vector<const Mark*>> members;
+  std::map<std::string, Mark> entries;  // by series
+  std::vector<std::vector<const Mark*>> families;
   for (const Result& result : accuracy.results()) {
     if (result.experiment.load != 1.0) continue;
     const Settings& s = result.experiment.settings;
     const auto [entry, is_new] =
         entries.try_emplace(series_name(s), Mark{curve_style(*look.theme, s)});
     if (is_new) {
-      std::vector<const Mark*>& family = members[entry->second.style.family];
-      if (family.empty()) families.push_back(entry->second.style.family);
-      family.push_back(&entry->second);
+      const auto known = std::find_if(families.begin(), families.end(), [&](const auto& family) {
+        return family.front()->style.family == entry->second.style.family;
+      });
+      (known == families.end() ? families.emplace_back() : *known).push_back(&entry->second);
     }
     ++entry->second.runs;
     entry->second.held += result.metrics.holds ? 1 : 0;
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float width = ImGui::GetContentRegionAvail().x;
-  const auto to_the_right = [&](float x, float y, ImU32 color, const std::string& text) {
-    const float extent = text_size(look.fonts.small, text.c_str()).x;
-    draw_text(draw, look.fonts.small, {x + width - extent, y}, color, text.c_str());
-    return extent;
-  };
-  for (const std::string& family : families) {
+  for (const auto& family : families) {
     const ImVec2 top = ImGui::GetCursorScreenPos();
-    draw_text(draw, look.fonts.small, {top.x, top.y + 1.0F}, look.theme->dim, family.c_str());
-    if (family == families.front()) {
-      to_the_right(top.x, top.y + 1.0F, look.theme->dim, "runs that hold");
+    draw_text(look.fonts.small, {top.x, top.y + 1.0F}, look.theme->dim,
+              family.front()->style.family);
+    if (&family == &families.front()) {
+      draw_text_before(look.fonts.small, {top.x + width, top.y + 1.0F}, look.theme->dim,
+                       "runs that hold");
     }
     ImGui::Dummy({1.0F, 12.0F});
-    for (const Mark* entry : members.at(family)) {
+    for (const Mark* entry : family) {
       const ImVec2 at = ImGui::GetCursorScreenPos();
       draw_swatch(entry->style, look.theme->panel | IM_COL32_A_MASK, draw,
                   {at.x + 14.0F, at.y + 8.0F});
-      const float note = to_the_right(
-          at.x, at.y + 1.0F, entry->held == entry->runs ? look.theme->dim : look.theme->orange,
-          std::to_string(entry->held) + " of " + std::to_string(entry->runs));
-      draw_text(draw, look.fonts.small, {at.x + 36.0F, at.y + 1.0F}, look.theme->text,
-                fitted(look.fonts.small, entry->style.own_name, width - note - 44.0F).c_str());
+      const float left =
+          draw_text_before(look.fonts.small, {at.x + width, at.y + 1.0F},
+                           entry->held == entry->runs ? look.theme->dim : look.theme->orange,
+                           std::to_string(entry->held) + " of " + std::to_string(entry->runs));
+      draw_text(look.fonts.small, {at.x + 36.0F, at.y + 1.0F}, look.theme->text,
+                fitted(look.fonts.small, entry->style.own_name, left - at.x - 44.0F));
       ImGui::Dummy({1.0F, 12.0F});
     }
     space(10.0F);
@@ -262,7 +248,7 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   if (accuracy.picture != AccuracyPicture::kErrorAgainstCost) search_bar(look, lab.accuracy);
   if (accuracy.picture == AccuracyPicture::kEffectCosts) {
     if (accuracy.running()) {  // the sweep continues in parallel
-      label(look.fonts.small, look.theme->dim, ("All methods. " + state_text(accuracy)).c_str());
+      label(look.fonts.small, look.theme->dim, "All methods. " + state_text(accuracy));
       sweep_progress(look, accuracy);
     }
     effect_costs(look, lab);
@@ -280,7 +266,7 @@ void accuracy(const Look& look, Lab& lab, Desk& desk) {
   const ImVec2 from = ImGui::GetCursorScreenPos();
   if (accuracy.picture == AccuracyPicture::kFairTrade) trade_head(look, lab.accuracy);
   if (shows_errors(accuracy)) {
-    label(look.fonts.regular, look.theme->text, conclusion(accuracy, accuracy.points()).c_str());
+    label(look.fonts.regular, look.theme->text, conclusion(accuracy, accuracy.points()));
     space(6.0F);
     axes_row(look, lab.accuracy);
   }
@@ -318,10 +304,7 @@ void accuracy_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewp
   const float down = shows_map(lab.accuracy) ? room - size.y : 0.0F;
   ImGui::SetNextWindowPos({v.x + kAround, v.y + kCaption + down});
   ImGui::SetNextWindowSize(size);
-  if (ImGui::Begin("##accuracy", nullptr,
-                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                       ImGuiWindowFlags_NoScrollbar)) {
+  if (ImGui::Begin("##accuracy", nullptr, kPlaced | ImGuiWindowFlags_NoScrollbar)) {
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const ImVec2 inside = ImGui::GetContentRegionAvail();
     picture(look, lab, {inside.x, inside.y - 22.0F});

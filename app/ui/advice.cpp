@@ -46,14 +46,6 @@ void wanted(const Look& look, Accuracy& accuracy, const std::vector<Accuracy::Po
   }
 }
 
-/// "1 mm", "0.05 ms per frame": the limit.
-std::string limit_text(const Accuracy& accuracy) {
-  if (accuracy.error_is_given) {
-    return error_text(accuracy.wanted.at(static_cast<std::size_t>(accuracy.error)), accuracy.error);
-  }
-  return cost_text(accuracy.budget.at(static_cast<std::size_t>(accuracy.cost)), accuracy.cost);
-}
-
 /// Result of the search for alpha. @param best the recommendation, or null
 std::string found_text(const Accuracy& accuracy, const AlphaSearch& search,
                        const Accuracy::Point* best) {
@@ -91,7 +83,7 @@ void paper_alpha(const Look& look, Lab& lab, const Accuracy::Point* best) {
     search_bar(look, lab.accuracy);
     return;
   }
-  label(look.fonts.small, look.theme->dim, found_text(accuracy, *search, best).c_str());
+  label(look.fonts.small, look.theme->dim, found_text(accuracy, *search, best));
   if (search->choice() &&
       button(look, "found_alpha", Icon::kPlay, "Run with this alpha", ButtonKind::kPlain, 0.0F,
              look.m.row, "This scene from its start with the paper's method and this alpha")) {
@@ -120,9 +112,8 @@ void search_bar(const Look& look, Accuracy& accuracy) {
   if (!accuracy.searching()) return;
   const AlphaSearch& search = *accuracy.alpha_search();
   label(look.fonts.small, look.theme->dim,
-        ("Looking for the paper's alpha: run " + std::to_string(search.runs()) +
-         ", alpha = " + coarse_number(search.alpha()))
-            .c_str());
+        "Looking for the paper's alpha: run " + std::to_string(search.runs()) +
+            ", alpha = " + coarse_number(search.alpha()));
   if (progress(look, search.progress(), "Discards the result so far")) {
     accuracy.cancel_search();
   }
@@ -136,8 +127,7 @@ void advice(const Look& look, Lab& lab) {
   wanted(look, accuracy, points);
   const auto best = accuracy.best(points);
   if (!best) {
-    label(look.fonts.small, look.theme->dim,
-          ("No method is within " + limit_text(accuracy) + ".").c_str());
+    label(look.fonts.small, look.theme->dim, "No method is within " + limit_text(accuracy) + ".");
     paper_alpha(look, lab, nullptr);
     space(8.0F);
     return;
@@ -149,15 +139,15 @@ void advice(const Look& look, Lab& lab) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_swatch(style, look.theme->panel | IM_COL32_A_MASK, draw, {at.x + 14.0F, at.y + 10.0F});
   const std::string name =
-      wrapped(look.fonts.medium, style.name().c_str(), ImGui::GetContentRegionAvail().x - 36.0F);
-  draw_text(draw, look.fonts.medium, {at.x + 36.0F, at.y + 2.0F}, look.theme->text, name.c_str());
-  ImGui::Dummy({1.0F, text_size(look.fonts.medium, name.c_str()).y + 2.0F});
+      wrapped(look.fonts.medium, style.name(), ImGui::GetContentRegionAvail().x - 36.0F);
+  draw_text(look.fonts.medium, {at.x + 36.0F, at.y + 2.0F}, look.theme->text, name);
+  ImGui::Dummy({1.0F, text_size(look.fonts.medium, name).y + 2.0F});
   const AlphaSearch* search = accuracy.alpha_search();
   const std::string reason =
       "With " + parameter_text(s) + " within " + limit_text(accuracy) + ": " +
       error_text(best->error, accuracy.error) + " for " + cost_text(best->cost, accuracy.cost) +
       "." + (search && search->done() ? "" : " " + beside_paper(accuracy, points, *best));
-  label(look.fonts.small, look.theme->dim, reason.c_str());
+  label(look.fonts.small, look.theme->dim, reason);
   if (button(look, "cheapest", Icon::kPlay, "Run it", ButtonKind::kPlain, 0.0F, look.m.row,
              "This scene from its start with this method")) {
     lab.run_result(Result(result));

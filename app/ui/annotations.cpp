@@ -17,44 +17,48 @@
 namespace substep::ui {
 namespace {
 
-constexpr float kLine = 1.75F;
-
 struct Segment {
   ImVec2 from;
   ImVec2 to;
 };
 
-std::optional<Segment> seen(const Viewport& viewport, const Vec3& from, const Vec3& to,
+/// What all overlays need.
+struct Sketch {
+  const Look& look;
+  const Session& session;
+  const Viewport& viewport;
+  ImDrawList& draw;
+};
+
+std::optional<Segment> seen(const Sketch& in, const Vec3& from, const Vec3& to,
                             std::size_t pane = 0) {
   Segment s;
-  if (!project(viewport, from, s.from, pane) || !project(viewport, to, s.to, pane))
+  if (!project(in.viewport, from, s.from, pane) || !project(in.viewport, to, s.to, pane))
     return std::nullopt;
   return s;
 }
 
-ImU32 ground(const Look& look, float opacity) {
-  const Color& b = look.theme->view.background_bottom;
-  return ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, opacity});
+ImU32 ground(const Sketch& in, float opacity) {
+  return to_u32(in.look.theme->view.background_bottom, opacity);
 }
 
 // A line with an outline in the background colour: visible on bright and dark bodies.
-void draw_line(const Look& look, ImDrawList& draw, const Segment& s, ImU32 color,
-               float width = kLine) {
-  draw.AddLine(s.from, s.to, ground(look, 0.5F), width + 2.0F);
-  draw.AddLine(s.from, s.to, color, width);
+void draw_line(const Sketch& in, const Segment& s, ImU32 color, float width = 1.75F) {
+  in.draw.AddLine(s.from, s.to, ground(in, 0.5F), width + 2.0F);
+  in.draw.AddLine(s.from, s.to, color, width);
 }
 
-void draw_arrow(const Look& look, ImDrawList& draw, const Segment& s, ImU32 color) {
+void draw_arrow(const Sketch& in, const Segment& s, ImU32 color) {
   const ImVec2 d(s.to.x - s.from.x, s.to.y - s.from.y);
   const float length = std::sqrt(d.x * d.x + d.y * d.y);
   if (length < 2.0F) return;
   const ImVec2 t(d.x / length, d.y / length);
   const float head = std::min(8.0F, 0.6F * length);
   const ImVec2 neck(s.to.x - head * t.x, s.to.y - head * t.y);
-  draw_line(look, draw, {s.from, neck}, color, 2.0F);
+  draw_line(in, {s.from, neck}, color, 2.0F);
   const float half = 0.5F * head;
-  draw.AddTriangleFilled(s.to, {neck.x - half * t.y, neck.y + half * t.x},
-                         {neck.x + half * t.y, neck.y - half * t.x}, color);
+  in.draw.AddTriangleFilled(s.to, {neck.x - half * t.y, neck.y + half * t.x},
+                            {neck.x + half * t.y, neck.y - half * t.x}, color);
 }
 
 Vec3 anchor_of(const Session& session, const JointBase& joint) {
@@ -87,130 +91,121 @@ double force_scale(const Session& session) {
 
 // Length is proportional to the square root of the force: a link's weight and the box's are both
 // visible.
-void force_arrow(const Look& look, const Viewport& viewport, ImDrawList& draw, const Vec3& at,
-                 const Vec3& force, double scale, ImU32 color) {
+void force_arrow(const Sketch& in, const Vec3& at, const Vec3& force, double scale, ImU32 color) {
   constexpr double kFull = 48.0;   // length for a force equal to the scale [px]
   constexpr double kMost = 110.0;  // [px]
   const double f = force.norm();
   if (!(f > 1e-4 * scale)) return;
-  const double length = std::min(kMost, kFull * std::sqrt(f / scale)) * pixel_size(viewport, at);
-  if (const auto s = seen(viewport, at, at + length / f * force)) {
-    draw_arrow(look, draw, *s, color);
+  const double length = std::min(kMost, kFull * std::sqrt(f / scale)) * pixel_size(in.viewport, at);
+  if (const auto s = seen(in, at, at + length / f * force)) {
+    draw_arrow(in, *s, color);
   }
 }
 
-void draw_forces(const Look& look, const Session& session, const Viewport& viewport,
-                 ImDrawList& draw) {
-  const Theme& t = *look.theme;
-  const Scene& scene = session.scene();
-  const ConstraintForces& forces = session.forces();
-  const double scale = force_scale(session);
+void draw_forces(const Sketch& in) {
+  const Theme& t = *in.look.theme;
+  const Scene& scene = in.session.scene();
+  const ConstraintForces& forces = in.session.forces();
+  const double scale = force_scale(in.session);
   for (std::size_t i = 0; i < forces.joints.size(); ++i) {
-    force_arrow(look, viewport, draw, anchor_of(session, base(scene.joints[i])),
-                forces.joints[i].force, scale, t.amber);
+    force_arrow(in, anchor_of(in.session, base(scene.joints[i])), forces.joints[i].force, scale,
+                t.amber);
   }
   for (const ContactForce& contact : forces.contacts) {
-    force_arrow(look, viewport, draw, point_of(session, contact), contact.force, scale, t.teal);
+    force_arrow(in, point_of(in.session, contact), contact.force, scale, t.teal);
   }
 }
 
-void draw_contacts(const Look& look, const Session& session, const Viewport& viewport,
-                   ImDrawList& draw) {
-  const Theme& t = *look.theme;
-  for (const ContactForce& contact : session.forces().contacts) {
-    const Vec3 at = point_of(session, contact);
-    const Vec3 tip = at + 14.0 * pixel_size(viewport, at) * contact.normal;
-    const auto s = seen(viewport, at, tip);
+void draw_contacts(const Sketch& in) {
+  const Theme& t = *in.look.theme;
+  for (const ContactForce& contact : in.session.forces().contacts) {
+    const Vec3 at = point_of(in.session, contact);
+    const Vec3 tip = at + 14.0 * pixel_size(in.viewport, at) * contact.normal;
+    const auto s = seen(in, at, tip);
     if (!s) continue;
-    draw_line(look, draw, *s, t.teal);
+    draw_line(in, *s, t.teal);
     const bool closed = contact.force.squaredNorm() > 0.0;
-    draw.AddCircleFilled(s->from, 4.0F, closed ? t.teal : ground(look, 1.0F));
-    draw.AddCircle(s->from, 4.0F, closed ? ground(look, 1.0F) : t.teal, 0, 1.5F);
+    in.draw.AddCircleFilled(s->from, 4.0F, closed ? t.teal : ground(in, 1.0F));
+    in.draw.AddCircle(s->from, 4.0F, closed ? ground(in, 1.0F) : t.teal, 0, 1.5F);
   }
 }
 
 // x, y and z in the colours of the plots: orange, teal, blue.
-void draw_axes(const Look& look, const Viewport& viewport, ImDrawList& draw, const Vec3& at,
-               const Quat& q, double length) {
-  const Theme& t = *look.theme;
+void draw_axes(const Sketch& in, const Vec3& at, const Quat& q, double length) {
+  const Theme& t = *in.look.theme;
   const std::array<ImU32, 3> colors{t.orange, t.teal, t.blue};
   for (int i = 0; i < 3; ++i) {
-    if (const auto s = seen(viewport, at, at + length * (q * Vec3::Unit(i)))) {
-      draw_line(look, draw, *s, colors[static_cast<std::size_t>(i)]);
+    if (const auto s = seen(in, at, at + length * (q * Vec3::Unit(i)))) {
+      draw_line(in, *s, colors[static_cast<std::size_t>(i)]);
     }
   }
 }
 
-void draw_body_axes(const Look& look, const Session& session, const Viewport& viewport,
-                    ImDrawList& draw) {
-  const Scene& scene = session.scene();
-  const Poses& poses = session.poses();
+void draw_body_axes(const Sketch& in) {
+  const Scene& scene = in.session.scene();
+  const Poses& poses = in.session.poses();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (scene.bodies[i].is_static) continue;
-    draw_axes(look, viewport, draw, poses.x[i], poses.q[i],
-              26.0 * pixel_size(viewport, poses.x[i]));
+    draw_axes(in, poses.x[i], poses.q[i], 26.0 * pixel_size(in.viewport, poses.x[i]));
   }
 }
 
-void draw_joint_frames(const Look& look, const Session& session, const Viewport& viewport,
-                       ImDrawList& draw) {
-  const Theme& t = *look.theme;
-  const Poses& poses = session.poses();
-  for (const Joint& joint : session.scene().joints) {
+void draw_joint_frames(const Sketch& in) {
+  const Theme& t = *in.look.theme;
+  const Poses& poses = in.session.poses();
+  for (const Joint& joint : in.session.scene().joints) {
     const JointBase& j = base(joint);
     const Quat& q = poses.q[static_cast<std::size_t>(j.a)];
-    const Vec3 at = anchor_of(session, j);
-    const double px = pixel_size(viewport, at);
+    const Vec3 at = anchor_of(in.session, j);
+    const double px = pixel_size(in.viewport, at);
     if (const auto axes = axes_of(joint)) {
       const Vec3 axis = 22.0 * px * (q * axes->a);
-      if (const auto s = seen(viewport, at - axis, at + axis)) {
-        draw_line(look, draw, *s, t.purple, 2.0F);
+      if (const auto s = seen(in, at - axis, at + axis)) {
+        draw_line(in, *s, t.purple, 2.0F);
       }
     } else {
-      draw_axes(look, viewport, draw, at, q, 14.0 * px);
+      draw_axes(in, at, q, 14.0 * px);
     }
     ImVec2 p;
-    if (project(viewport, at, p)) draw.AddCircleFilled(p, 3.0F, t.purple);
+    if (project(in.viewport, at, p)) in.draw.AddCircleFilled(p, 3.0F, t.purple);
   }
 }
 
 // Joint gaps are too small to be visible: all are magnified by the same power of ten, chosen for
 // the largest.
-void draw_errors(const Look& look, const Session& session, const Desk& desk,
-                 const Viewport& viewport, ImDrawList& draw) {
-  const Scene& scene = session.scene();
-  const FrameReport& report = session.report();
+void draw_errors(const Sketch& in, const Desk& desk) {
+  const Scene& scene = in.session.scene();
+  const FrameReport& report = in.session.report();
   if (scene.joints.empty() || !(report.joint_gap > 0.0) || report.joint_gap_joint < 0) return;
   const auto largest = static_cast<std::size_t>(report.joint_gap_joint);
-  const double px = pixel_size(viewport, anchor_of(session, base(scene.joints[largest])));
+  const double px = pixel_size(in.viewport, anchor_of(in.session, base(scene.joints[largest])));
   const double power = std::floor(std::log10(36.0 * px / report.joint_gap));
   const double factor = std::pow(10.0, std::clamp(power, 0.0, 12.0));
   for (const Joint& joint : scene.joints) {
-    const Vec3 a = anchor_of(session, base(joint));
-    const auto s = seen(viewport, a, a + factor * error_of(session, joint));
+    const Vec3 a = anchor_of(in.session, base(joint));
+    const auto s = seen(in, a, a + factor * error_of(in.session, joint));
     if (!s) continue;
-    draw_line(look, draw, *s, look.theme->orange, 2.5F);
-    draw.AddCircleFilled(s->to, 3.0F, look.theme->orange);
+    draw_line(in, *s, in.look.theme->orange, 2.5F);
+    in.draw.AddCircleFilled(s->to, 3.0F, in.look.theme->orange);
   }
   const std::string text =
       "joint gaps × " + (power > 0.0 ? power_of_ten(static_cast<int>(power)) : "1");
-  const ViewRect& v = viewport.view_rect;
+  const ViewRect& v = in.viewport.view_rect;
   const float up = desk.view.tint ? 48.0F : 28.0F;
-  draw_over(look, draw, look.fonts.small, {v.x + 16.0F, v.y + v.height - up - 5.0F},
-            look.theme->dim, text.c_str());
+  draw_over(in.look, in.draw, in.look.fonts.small, {v.x + 16.0F, v.y + v.height - up - 5.0F},
+            in.look.theme->dim, text);
 }
 
 // Outline of a body on the display: the convex hull of its projected corners, or of a ball's rim.
-std::vector<ScreenPoint> outline(const Session& session, const Viewport& viewport,
-                                 std::size_t body) {
-  const Poses& poses = session.poses();
+std::vector<ScreenPoint> outline(const Sketch& in, std::size_t body) {
+  const Poses& poses = in.session.poses();
   const Vec3& x = poses.x[body];
   std::vector<ScreenPoint> points;
   const auto add = [&](const Vec3& corner) {
     ImVec2 p;
-    if (project(viewport, corner, p)) points.push_back({p.x, p.y});
+    if (project(in.viewport, corner, p)) points.push_back({p.x, p.y});
   };
-  const Shape& shape = session.scene().bodies[body].shape;
+  const Shape& shape = in.session.scene().bodies[body].shape;
   if (const auto* box = std::get_if<Box>(&shape)) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
@@ -219,7 +214,7 @@ std::vector<ScreenPoint> outline(const Session& session, const Viewport& viewpor
     }
   } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
     // The rim is the circle where rays from the eye are tangent.
-    const Vec3 to_eye = viewport.view.camera.eye(viewport.panes.front()) - x;
+    const Vec3 to_eye = in.viewport.view.camera.eye(in.viewport.panes.front()) - x;
     const double distance = to_eye.norm();
     if (distance <= sphere->radius) return points;
     const Vec3 back = to_eye / distance;
@@ -235,38 +230,36 @@ std::vector<ScreenPoint> outline(const Session& session, const Viewport& viewpor
   return points;
 }
 
-void draw_outline(const Session& session, const Viewport& viewport, ImDrawList& draw, int body,
-                  ImU32 color) {
+void draw_outline(const Sketch& in, int body, ImU32 color) {
   std::vector<ImVec2> hull;
-  for (const ScreenPoint& p :
-       convex_hull(outline(session, viewport, static_cast<std::size_t>(body)))) {
+  for (const ScreenPoint& p : convex_hull(outline(in, static_cast<std::size_t>(body)))) {
     hull.emplace_back(p.x, p.y);
   }
   if (hull.size() < 3) return;
   const auto count = static_cast<int>(hull.size());
-  draw.AddPolyline(hull.data(), count, fade(color, 0.25F), ImDrawFlags_Closed, 6.0F);
-  draw.AddPolyline(hull.data(), count, color, ImDrawFlags_Closed, 2.0F);
+  in.draw.AddPolyline(hull.data(), count, fade(color, 0.25F), ImDrawFlags_Closed, 6.0F);
+  in.draw.AddPolyline(hull.data(), count, color, ImDrawFlags_Closed, 2.0F);
 }
 
-void draw_hand(const Look& look, const Lab& lab, const Viewport& viewport, ImDrawList& draw,
-               std::size_t pane) {
+void draw_hand(const Sketch& in, const Lab& lab, std::size_t pane) {
   const auto& held = lab.session.held();
   if (!held) return;
   const auto i = static_cast<std::size_t>(held->body);
   const Poses& poses = lab.poses_in(pane);
   if (i >= poses.x.size()) return;
-  const auto s = seen(viewport, poses.x[i] + poses.q[i] * held->anchor, held->target, pane);
+  const auto s = seen(in, poses.x[i] + poses.q[i] * held->anchor, held->target, pane);
   if (!s) return;
-  const ImU32 color = look.theme->accent_hover;
-  draw_line(look, draw, *s, color, 2.0F);
-  draw.AddCircleFilled(s->from, 4.0F, color);
-  draw.AddCircle(s->to, 8.0F, color, 0, 2.0F);
+  const ImU32 color = in.look.theme->accent_hover;
+  draw_line(in, *s, color, 2.0F);
+  in.draw.AddCircleFilled(s->from, 4.0F, color);
+  in.draw.AddCircle(s->to, 8.0F, color, 0, 2.0F);
 }
 
 }  // namespace
 
 void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+  const Sketch in{look, lab.session, viewport, draw};
   const ViewOptions& show = desk.view;
   const auto clip = [&](const ViewRect& r) {
     draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
@@ -274,18 +267,18 @@ void annotations(const Look& look, const Lab& lab, const Desk& desk, const Viewp
   if (!lab.frozen()) {  // else they would be those of a later frame
     clip(viewport.panes.front());
     if (desk.selected >= 0) {
-      draw_outline(lab.session, viewport, draw, desk.selected, look.theme->accent_hover);
+      draw_outline(in, desk.selected, look.theme->accent_hover);
     }
-    if (show.axes) draw_body_axes(look, lab.session, viewport, draw);
-    if (show.frames) draw_joint_frames(look, lab.session, viewport, draw);
-    if (show.contacts) draw_contacts(look, lab.session, viewport, draw);
-    if (show.forces) draw_forces(look, lab.session, viewport, draw);
-    if (show.errors) draw_errors(look, lab.session, desk, viewport, draw);
+    if (show.axes) draw_body_axes(in);
+    if (show.frames) draw_joint_frames(in);
+    if (show.contacts) draw_contacts(in);
+    if (show.forces) draw_forces(in);
+    if (show.errors) draw_errors(in, desk);
     draw.PopClipRect();
   }
   for (std::size_t pane = 0; pane < viewport.panes.size(); ++pane) {
     clip(viewport.panes[pane]);
-    draw_hand(look, lab, viewport, draw, pane);
+    draw_hand(in, lab, pane);
     draw.PopClipRect();
   }
 }

@@ -27,28 +27,23 @@ float covered(const Session& session, const Viewport& viewport, ImVec2 min, ImVe
 
 }  // namespace
 
-bool begin_card(const Look& look, const Viewport& viewport, const char* id, float width,
-                float centre_y, float pivot_y, std::optional<float> centre_x) {
-  const ViewRect& v = viewport.view_rect;
+bool begin_card(const Look& look, const char* id, float width, const CardPlace& place) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   width = std::min(width, display.x - 24.0F);
-  const float x = std::clamp(centre_x.value_or(v.x + 0.5F * v.width), 12.0F + 0.5F * width,
-                             display.x - 12.0F - 0.5F * width);
-  ImGui::SetNextWindowPos({x, centre_y}, ImGuiCond_Always, {0.5F, pivot_y});
+  const float x = std::clamp(place.x, 12.0F + 0.5F * width, display.x - 12.0F - 0.5F * width);
+  ImGui::SetNextWindowPos({x, place.y}, ImGuiCond_Always, {0.5F, place.pivot});
   ImGui::SetNextWindowSizeConstraints({width, 0.0F}, {width, display.y - 96.0F});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, look.theme->raised);
-  const bool open =
-      ImGui::Begin(id, nullptr,
-                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
-                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize);
+  const bool open = ImGui::Begin(id, nullptr, kPlaced | ImGuiWindowFlags_AlwaysAutoResize);
   ImGui::PopStyleColor();
   return open;
 }
 
-float card_middle(const Viewport& viewport) {
+CardPlace card_middle(const Viewport& viewport) {
   constexpr float kRoom = 560.0F;
   const ViewRect& v = viewport.view_rect;
-  return v.height > kRoom ? v.y + 0.5F * v.height : 0.5F * ImGui::GetIO().DisplaySize.y;
+  const float y = v.height > kRoom ? v.y + 0.5F * v.height : 0.5F * ImGui::GetIO().DisplaySize.y;
+  return {y, 0.5F, v.x + 0.5F * v.width};
 }
 
 CardPlace card_below(const ViewRect& picture) {
@@ -83,7 +78,7 @@ CardPlace card_beside(const Session& session, const Viewport& viewport, ImVec2 s
     for (std::size_t i = 0; i < places.size(); ++i) {
       const CardPlace& place = places[i];
       const ImVec2 min(place.x - 0.5F * size.x, place.y - place.pivot * size.y);
-      const float area = covered(session, viewport, min, {min.x + size.x, min.y + size.y});
+      const float area = covered(session, viewport, min, min + size);
       if (i > 0 && area >= least) continue;
       least = area;
       which = static_cast<int>(i);
@@ -101,8 +96,7 @@ void card_title(const Look& look, ImU32 mark, Icon icon, const std::string& titl
     x += 24.0F;
   }
   const std::string shown = fitted(look.fonts.medium, title, width - (x - at.x) - 28.0F);
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {x, at.y + 2.0F}, look.theme->text,
-            shown.c_str());
+  draw_text(look.fonts.medium, {x, at.y + 2.0F}, look.theme->text, shown);
   ImGui::Dummy({width, 20.0F});
 }
 
@@ -110,9 +104,7 @@ bool card_closed(const Look& look) {
   const ImVec2 corner(ImGui::GetWindowPos().x + ImGui::GetWindowSize().x - 38.0F,
                       ImGui::GetWindowPos().y + 12.0F);
   ImGui::SetCursorScreenPos(corner);
-  const bool closed =
-      button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 26.0F, 26.0F, "Close (Esc)");
-  return closed;
+  return button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 26.0F, 26.0F, "Close (Esc)");
 }
 
 }  // namespace substep::ui

@@ -3,7 +3,6 @@
 
 #include <imgui.h>
 
-#include <optional>
 #include <string>
 
 #include "app/lab/session.hpp"
@@ -12,18 +11,15 @@
 
 namespace substep::ui {
 
-/// Begins a card of the given width, centred in the view; end it with ImGui::End().
-/// @param centre_y position on the display; @param pivot_y height in the card that lies there, 0
-/// the top; @param centre_x instead of the view's centre
-bool begin_card(const Look& look, const Viewport& viewport, const char* id, float width,
-                float centre_y, float pivot_y, std::optional<float> centre_x = {});
-/// Middle of a tall card: that of the view, or of the window if the view is low.
-float card_middle(const Viewport& viewport);
 struct CardPlace {
   float y = 0.0F;
   float pivot = 0.0F;  // of the card at y: 0 its top, 1 its bottom
   float x = 0.0F;      // centre of the card
 };
+/// Begins a card of the given width; end it with ImGui::End().
+bool begin_card(const Look& look, const char* id, float width, const CardPlace& place);
+/// The place of a tall card: the middle of the view, or of the window's height if the view is low.
+CardPlace card_middle(const Viewport& viewport);
 /// A place that covers little of a picture: at its lower edge, or, if panels are below it, on
 /// those, under the transport bar and the tabs.
 CardPlace card_below(const ViewRect& picture);

@@ -30,21 +30,17 @@ constexpr std::array<Comparison, 4> kComparisons{
 
 struct Addition {
   const char* name;
-  Override change;
+  const char* key;  // of the setting that differs
+  const char* value;
 };
-const std::array<Addition, 8>& additions() {
-  static const std::array<Addition, 8> list{{{"without sub-steps", {"mode", "none"}},
-                                             {"constant N", {"mode", "const"}},
-                                             {"damping", {"mode", "damping"}},
-                                             {"adaptive", {"mode", "adaptive"}},
-                                             {"capped, then damping", {"mode", "capped"}},
-                                             {"PGS", {"solver", "pgs"}},
-                                             {"BPP", {"solver", "bpp"}},
-                                             {"leapfrog", {"integrator", "leapfrog"}}}};
-  return list;
-}
-
-std::string count_text(std::int64_t count) { return grouped(static_cast<double>(count)); }
+constexpr std::array<Addition, 8> kAdditions{{{"without sub-steps", "mode", "none"},
+                                              {"constant N", "mode", "const"},
+                                              {"damping", "mode", "damping"},
+                                              {"adaptive", "mode", "adaptive"},
+                                              {"capped, then damping", "mode", "capped"},
+                                              {"PGS", "solver", "pgs"},
+                                              {"BPP", "solver", "bpp"},
+                                              {"leapfrog", "integrator", "leapfrog"}}};
 
 std::string mean_time(const Cost& cost) {
   return cost.frames == 0 ? "" : duration(cost.seconds / static_cast<double>(cost.frames));
@@ -59,25 +55,24 @@ struct Line {
 };
 
 // Two rows: name and verdict, then cost.
-void draw_line(const Look& look, const Line& line, float right) {
+void draw_line(const Look& look, const Line& line) {
   const Theme& t = *look.theme;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled({at.x, at.y + 3.0F}, {at.x + 10.0F, at.y + 13.0F}, line.color, 3.0F);
-  const std::string stands = verdict_note(*line.verdict, line.judged);
-  const float width = text_size(look.fonts.small, stands.c_str()).x;
   const ImU32 ink = !line.judged ? t.dim : line.verdict->holds() ? t.teal : t.orange;
-  const float x = right - width;
-  draw_text(draw, look.fonts.small, {x, at.y + 1.0F}, ink, stands.c_str());
+  const float x =
+      draw_text_before(look.fonts.small, {at.x + ImGui::GetContentRegionAvail().x, at.y + 1.0F},
+                       ink, verdict_note(*line.verdict, line.judged));
   if (line.judged) {
     draw_icon(draw, line.verdict->holds() ? Icon::kCheck : Icon::kCross, {x - 10.0F, at.y + 8.0F},
               12.0F, ink);
   }
-  draw_text(draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
-            fitted(look.fonts.medium, line.name, x - at.x - 44.0F).c_str());
-  const std::string cost =
-      count_text(line.cost->substeps) + " sub-steps  ·  " + mean_time(*line.cost) + " per frame";
-  draw_text(draw, look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost.c_str());
+  draw_text(look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
+            fitted(look.fonts.medium, line.name, x - at.x - 44.0F));
+  const std::string cost = grouped(static_cast<double>(line.cost->substeps)) + " sub-steps  ·  " +
+                           mean_time(*line.cost) + " per frame";
+  draw_text(look.fonts.small, {at.x + 18.0F, at.y + 18.0F}, t.dim, cost);
   ImGui::Dummy({1.0F, 36.0F});
 }
 
@@ -90,18 +85,14 @@ std::string divergence_text(const Session& session, const Compare::Run& run) {
          " is more than " + threshold + " away.";
 }
 
-// A compared run: its line, and its settings when open. @return whether to remove it
+// @return whether to remove the compared run
 bool other(const Look& look, const Session& session, Compare& compare, Desk& desk, std::size_t i) {
   const Compare::Run& run = compare.runs()[i];
-  const float width = ImGui::GetContentRegionAvail().x;
-  const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float row = look.m.row;
   const bool opened = desk.compare_open == static_cast<int>(i);
-  draw_line(look,
-            {overrides_title(run.overrides, session.settings()), compare_color(look, i),
-             &*run.verdict, session.judged(), &run.cost},
-            origin.x + width);
-  label(look.fonts.small, look.theme->dim, divergence_text(session, run).c_str());
+  draw_line(look, {overrides_title(run.overrides, session.settings()), compare_color(look, i),
+                   &*run.verdict, session.judged(), &run.cost});
+  label(look.fonts.small, look.theme->dim, divergence_text(session, run));
   if (button(look, "change", Icon::kNone, opened ? "Done" : "Change", ButtonKind::kPlain, 0.0F, row,
              "Any setting of this run only")) {
     desk.compare_open = opened ? -1 : static_cast<int>(i);
@@ -135,7 +126,6 @@ void presets(const Look& look, Desk& desk) {
   }
 }
 
-// Restarts all runs, from the start or from the current state of this run.
 void restart_buttons(const Look& look, Lab& lab) {
   const float half = 0.5F * (ImGui::GetContentRegionAvail().x - 8.0F);
   if (button(look, "start", Icon::kReset, "From start", ButtonKind::kPlain, half, look.m.row,
@@ -150,7 +140,6 @@ void restart_buttons(const Look& look, Lab& lab) {
   }
 }
 
-// Overlaid, or in separate views.
 void views_row(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kViews{
       {{"Ghosts", "All in one view: this run as usual, the others in their colours (V)"},
@@ -180,10 +169,9 @@ std::string run_title(const Session& session, const Compare& compare) {
 void compare_menu(const Look& look, const Session& session, Compare& compare, const char* name,
                   float width) {
   menu_button(look, "add", name, width, look.m.row + 4.0F, "", [&] {
-    for (const Addition& addition : additions()) {
-      if (menu_item(look, addition.name, "", false)) {
-        compare.add(session, {addition.change});
-      }
+    for (const Addition& addition : kAdditions) {
+      if (menu_item(look, addition.name))
+        compare.add(session, {Override{addition.key, addition.value}});
     }
   });
 }
@@ -200,10 +188,8 @@ void compare(const Look& look, Lab& lab, Desk& desk) {
   views_row(look, desk);
   space(look.m.section);
   const Cost cost = lab.compare.cost(lab.session);
-  draw_line(look,
-            {run_title(lab.session, lab.compare), look.theme->blue, &lab.session.verdict(),
-             lab.session.judged(), &cost},
-            ImGui::GetCursorScreenPos().x + width);
+  draw_line(look, {run_title(lab.session, lab.compare), look.theme->blue, &lab.session.verdict(),
+                   lab.session.judged(), &cost});
   std::optional<std::size_t> gone;
   for (std::size_t i = 0; i < lab.compare.runs().size(); ++i) {
     space(look.m.section);

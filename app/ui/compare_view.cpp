@@ -1,7 +1,6 @@
 // The comparison in the picture: side by side in panes, or as ghosts with a legend.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "app/text/format.hpp"
@@ -16,23 +15,21 @@ namespace {
 constexpr float kCaptionHeight = 64.0F;  // height of title and method at the top of the view
 constexpr float kPad = 12.0F;
 
-// One of the runs, as labelled in the picture.
 struct Entry {
   std::string name;
   ImU32 color = 0;
   const Verdict* verdict = nullptr;
-  int n = 0;            // sub-steps of the frame that the panels show
-  bool judged = false;  // a frame was judged
+  int n = 0;  // sub-steps of the frame that the panels show
 };
 
 std::vector<Entry> entries(const Look& look, const Session& session, const Compare& compare,
                            Desk& desk) {
   std::vector<Entry> list{{run_title(session, compare), look.theme->blue, &session.verdict(),
-                           session.report().n_substeps, session.judged()}};
+                           session.report().n_substeps}};
   for (std::size_t i = 0; i < compare.runs().size(); ++i) {
     const Compare::Run& run = compare.runs()[i];
     list.push_back({overrides_title(run.overrides, session.settings()), compare_color(look, i),
-                    &*run.verdict, run.report.n_substeps, session.judged()});
+                    &*run.verdict, run.report.n_substeps});
   }
   desk.shown_ns.resize(list.size());
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -43,32 +40,33 @@ std::vector<Entry> entries(const Look& look, const Session& session, const Compa
 }
 
 // Above the picture; below it in a narrow view, whose upper half the bodies need.
-void legend(const Look& look, const std::vector<Entry>& all, const Viewport& viewport) {
+void legend(const Look& look, const std::vector<Entry>& all, bool judged,
+            const Viewport& viewport) {
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-  const float x = viewport.view_rect.x + 24.0F;
   constexpr float kNarrow = 500.0F;
   const ViewRect& v = viewport.view_rect;
+  const float x = v.x + 24.0F;
   const float line = text_size(look.fonts.regular, "N").y + 8.0F;
   float y = v.width < kNarrow ? v.y + v.height - 4.0F - line * static_cast<float>(all.size())
                               : v.y + kCaptionHeight + 8.0F;
   const float room = v.width - 64.0F;
   for (const Entry& entry : all) {
-    const std::string stands = !entry.judged            ? "Ready"
+    const std::string stands = !judged                  ? "Ready"
                                : entry.verdict->holds() ? "N " + std::to_string(entry.n)
                                                         : verdict_note(*entry.verdict, true);
     const std::string text =
         fitted(look.fonts.regular, entry.name + "  ·  " + stands, std::max(40.0F, room));
-    const ImVec2 size = text_size(look.fonts.regular, text.c_str());
+    const ImVec2 size = text_size(look.fonts.regular, text);
     draw.AddRectFilled({x - 8.0F, y - 2.0F}, {x + size.x + 28.0F, y + size.y + 2.0F},
                        fade(look.theme->panel, 0.8F), look.m.radius);
     draw.AddCircleFilled({x + 5.0F, y + 0.5F * size.y}, 5.0F, entry.color);
-    draw_text(draw, look.fonts.regular, {x + 18.0F, y}, look.theme->text, text.c_str());
+    draw_text(draw, look.fonts.regular, {x + 18.0F, y}, look.theme->text, text);
     y += line;
   }
 }
 
 // Name and verdict in the top left corner of a pane, N in the top right.
-void pane_label(const Look& look, const Entry& entry, const ViewRect& r) {
+void pane_label(const Look& look, const Entry& entry, bool judged, const ViewRect& r) {
   const Theme& t = *look.theme;
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.PushClipRect({r.x, r.y}, {r.x + r.width, r.y + r.height}, true);
@@ -78,22 +76,20 @@ void pane_label(const Look& look, const Entry& entry, const ViewRect& r) {
   const bool narrow = r.width < kNarrow;
   float right = r.x + r.width - kPad;  // right end of the name
   if (!narrow) {
-    const float n_width = text_size(look.fonts.medium, n.c_str()).x;
-    draw_over(look, draw, look.fonts.medium, {right - n_width, at.y}, t.text, n.c_str());
-    right -= n_width + 12.0F;
+    right -= text_size(look.fonts.medium, n).x;
+    draw_over(look, draw, look.fonts.medium, {right, at.y}, t.text, n);
+    right -= 12.0F;
   }
   draw.AddCircleFilled({at.x + 5.0F, at.y + 8.0F}, 5.0F, entry.color);
   const float room = std::max(24.0F, right - at.x - 18.0F);
   draw_over(look, draw, look.fonts.medium, {at.x + 18.0F, at.y}, t.text,
-            fitted(look.fonts.medium, entry.name, room).c_str());
-  const ImU32 ink = !entry.judged ? t.dim : entry.verdict->holds() ? t.teal : t.orange;
-  const Icon icon = !entry.judged            ? Icon::kNone
-                    : entry.verdict->holds() ? Icon::kCheck
-                                             : Icon::kCross;
+            fitted(look.fonts.medium, entry.name, room));
+  const ImU32 ink = !judged ? t.dim : entry.verdict->holds() ? t.teal : t.orange;
+  const Icon icon = !judged ? Icon::kNone : entry.verdict->holds() ? Icon::kCheck : Icon::kCross;
   draw_icon(draw, icon, {at.x + 6.0F, at.y + 26.0F}, 12.0F, ink);
-  std::string note = verdict_note(*entry.verdict, entry.judged);
+  std::string note = verdict_note(*entry.verdict, judged);
   if (narrow) note = entry.verdict->holds() ? n : fixed(entry.verdict->failed_at(), 2) + " s";
-  draw_over(look, draw, look.fonts.small, {at.x + 18.0F, at.y + 19.0F}, ink, note.c_str());
+  draw_over(look, draw, look.fonts.small, {at.x + 18.0F, at.y + 19.0F}, ink, note);
   draw.PopClipRect();
 }
 
@@ -160,12 +156,12 @@ void compare_legend(const Look& look, const Session& session, const Compare& com
   if (!compare.open()) return;
   const std::vector<Entry> list = entries(look, session, compare, desk);
   if (viewport.panes.size() == 1) {
-    legend(look, list, viewport);
+    legend(look, list, session.judged(), viewport);
     return;
   }
   pane_borders(look, viewport);
   for (std::size_t i = 0; i < std::min(list.size(), viewport.panes.size()); ++i) {
-    pane_label(look, list[i], viewport.panes[i]);
+    pane_label(look, list[i], session.judged(), viewport.panes[i]);
   }
 }
 

@@ -9,7 +9,6 @@
 namespace substep::ui {
 namespace {
 
-// The scene's heading, with the level selector on the right.
 void heading_with_level(const Look& look, Desk& desk) {
   static constexpr std::array<Choice, 2> kLevels{
       {{"Explore", "Scene, method, load and comparison, with the plots of N and energy"},
@@ -33,8 +32,8 @@ void scene_controls(const Look& look, Lab& lab, Desk& desk) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const bool lab_level = desk.level == DeskLevel::kLab;
   const bool room = !lab_level || display.y >= 800.0F || display.x < 900.0F;
-  scene_picker(look, lab, desk, room ? "" : about.c_str());
-  if (room) label(look.fonts.small, look.theme->dim, about.c_str());
+  scene_picker(look, lab, desk, room ? "" : about);
+  if (room) label(look.fonts.small, look.theme->dim, about);
 }
 
 // Only options that the scene supports; the dots show their colours.
@@ -80,14 +79,12 @@ void showing(const Look& look, const Session& session, Desk& desk) {
 
 void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   heading_with_level(look, desk);
-  Settings s = lab.session.settings();
   scene_controls(look, lab, desk);
   if (desk.level == DeskLevel::kExplore) {
     space(look.m.section);
     return explore_controls(look, lab, desk, viewport);
   }
-  // The picker may have loaded a scene with other settings.
-  if (lab.session.settings() != s) s = lab.session.settings();
+  Settings s = lab.session.settings();
   effect_switches(look, lab.session);
   space(look.m.section);
   method_controls(look, lab.session.scene(), s, desk.more);

@@ -1,6 +1,7 @@
 #include "app/ui/curve_style.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "app/text/format.hpp"
@@ -30,17 +31,13 @@ void style_of_mode(const Theme& theme, const Settings& s, CurveStyle& style) {
   }
 }
 
-std::string counted(int n, const char* what) {
-  return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
-}
-
 /// "25 sweeps per frame", "2 steps"; "" for the default number.
 std::string iterations_text(const Settings& s, bool always) {
   if (!reads(s, "iterations")) return "";
   const bool shared = reads(s, "share_iterations") && s.share_iterations;
   if (!always && !shared && s.iterations == Settings{}.iterations) return "";
-  return counted(s.iterations, entry_of(s.solver).sweeps ? "sweep" : "step") +
-         (shared ? " per frame" : "");
+  return std::to_string(s.iterations) + (entry_of(s.solver).sweeps ? " sweep" : " step") +
+         (s.iterations == 1 ? "" : "s") + (shared ? " per frame" : "");
 }
 
 /// By the number of iterations; Numerov differs by its colour.
@@ -101,23 +98,9 @@ std::string parameter_text(const Settings& s) {
 }
 
 ImU32 color_of(const Theme& theme, Tint tint) {
-  switch (tint) {
-    case Tint::kBlue:
-      return theme.blue;
-    case Tint::kOrange:
-      return theme.orange;
-    case Tint::kTeal:
-      return theme.teal;
-    case Tint::kAmber:
-      return theme.amber;
-    case Tint::kPurple:
-      return theme.purple;
-    case Tint::kText:
-      return theme.text;
-    case Tint::kDim:
-      return theme.dim;
-  }
-  return theme.text;
+  constexpr std::array kColors{&Theme::blue,   &Theme::orange, &Theme::teal, &Theme::amber,
+                               &Theme::purple, &Theme::text,   &Theme::dim};
+  return theme.*kColors.at(static_cast<std::size_t>(tint));
 }
 
 CurveStyle curve_style(const Theme& theme, const Settings& s) {
@@ -143,20 +126,17 @@ CurveStyle curve_style(const Theme& theme, const Settings& s) {
   return style;
 }
 
-void draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width, float& phase) {
+float draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width, float phase) {
   constexpr float kOn = 5.0F;
   constexpr float kOff = 4.0F;
-  const ImVec2 d(b.x - a.x, b.y - a.y);
+  const ImVec2 d = b - a;
   const float length = std::hypot(d.x, d.y);
   for (float s = -phase; s < length; s += kOn + kOff) {
     const float from = std::clamp(s / length, 0.0F, 1.0F);
     const float to = std::clamp((s + kOn) / length, 0.0F, 1.0F);
-    if (to > from) {
-      draw.AddLine({a.x + from * d.x, a.y + from * d.y}, {a.x + to * d.x, a.y + to * d.y}, color,
-                   width);
-    }
+    if (to > from) draw.AddLine(a + d * from, a + d * to, color, width);
   }
-  phase = std::fmod(phase + length, kOn + kOff);
+  return std::fmod(phase + length, kOn + kOff);
 }
 
 void draw_point(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 at) {
@@ -173,13 +153,11 @@ void draw_point(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 
 }
 
 void draw_swatch(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 centre) {
-  constexpr float kHalf = 13.0F;
-  float phase = 0.0F;
+  constexpr ImVec2 kHalf(13.0F, 0.0F);
   if (style.dashed) {
-    draw_dashes(draw, {centre.x - kHalf, centre.y}, {centre.x + kHalf, centre.y}, style.color, 1.5F,
-                phase);
+    draw_dashes(draw, centre - kHalf, centre + kHalf, style.color, 1.5F);
   } else {
-    draw.AddLine({centre.x - kHalf, centre.y}, {centre.x + kHalf, centre.y}, style.color, 1.5F);
+    draw.AddLine(centre - kHalf, centre + kHalf, style.color, 1.5F);
   }
   draw_point(style, ground, draw, centre);
 }

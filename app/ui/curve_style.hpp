@@ -31,7 +31,8 @@ ImU32 color_of(const Theme& theme, Tint tint);
 void draw_swatch(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 centre);
 /// A point of the curve. @param ground fill colour of a hollow one
 void draw_point(const CurveStyle& style, ImU32 ground, ImDrawList& draw, ImVec2 at);
-/// A dashed line. @param phase start within a dash, updated for the next line [px]
-void draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width, float& phase);
+/// A dashed line. @param phase start within a dash [px] @return that of a line which continues it
+float draw_dashes(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color, float width,
+                  float phase = 0.0F);
 
 }  // namespace substep::ui

@@ -1,5 +1,4 @@
 #pragma once
-// State of the window that does not affect the run.
 
 #include <array>
 #include <cstddef>
@@ -55,7 +54,10 @@ struct ShownN {
 
 /// State of the window that does not affect the run.
 struct Desk {
-  Desk();
+  Desk() {
+    plot(Plot::kError).logarithmic = true;
+    plot(Plot::kTime).shown = false;
+  }
   [[nodiscard]] ui::PlotState& plot(Plot p) { return plots[static_cast<std::size_t>(p)]; }
 
   DeskLevel level = DeskLevel::kLab;  // a first visit begins in kExplore, see recall_arrangement()

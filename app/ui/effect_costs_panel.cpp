@@ -2,7 +2,6 @@
 // choosing the number of sub-steps.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -72,23 +71,20 @@ void draw_parts(const Look& look, const std::vector<CostRow>& parts) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (const CostRow& part : parts) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::InvisibleButton(part.name.c_str(), {width, kPartRow});
-    mark(part.name.c_str(), at, {at.x + width, at.y + kPartRow}, "effect costs");
-    tooltip(look, part.name.c_str(), part.tip.c_str());
+    marked_button(part.name.c_str(), {width, kPartRow}, part.name, "effect costs");
+    tooltip(look, part.name, part.tip);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
     const float zero = at.x + kPartNames - static_cast<float>(low * scale);
     const float end = zero + static_cast<float>(part.seconds * scale);
-    draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, t.dim,
-              fitted(look.fonts.small, part.name, kPartNames - 6.0F).c_str());
+    draw_text(look.fonts.small, {at.x, at.y + 3.0F}, t.dim,
+              fitted(look.fonts.small, part.name, kPartNames - 6.0F));
     draw.AddRectFilled({std::min(zero, end), at.y + 5.0F},
                        {std::max({zero, end, std::min(zero, end) + 1.0F}), at.y + kPartRow - 5.0F},
                        part.color, 2.0F);
-    const auto at_right = [&](float right, ImU32 color, const std::string& text) {
-      const float w = text_size(look.fonts.small, text.c_str()).x;
-      draw_text(draw, look.fonts.small, {right - w, at.y + 3.0F}, color, text.c_str());
-    };
-    at_right(at.x + width - kOperations, t.text, duration(part.seconds));
-    at_right(at.x + width, t.dim, short_number(part.flops));
+    const ImVec2 right(at.x + width, at.y + 3.0F);
+    draw_text_before(look.fonts.small, {right.x - kOperations, right.y}, t.text,
+                     duration(part.seconds));
+    draw_text_before(look.fonts.small, right, t.dim, short_number(part.flops));
   }
   space(12.0F);
 }
@@ -102,7 +98,7 @@ void stages_of_run(const Look& look, const Effects& effects, const CostBreakdown
     times.*part /= frames;
   }
   const std::vector<Stage> list = stages(*look.theme, effects, times);
-  section(look, "Stages of a frame", duration(times.total).c_str());
+  section(look, "Stages of a frame", duration(times.total));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   stage_bar(look, list, at, width);
@@ -147,10 +143,6 @@ std::string summary(const CostBreakdown& costs) {
   return text;
 }
 
-std::string method_name(const Theme& theme, const Settings& s) {
-  return curve_style(theme, s).name() + ", " + parameter_text(s);
-}
-
 }  // namespace
 
 void effect_costs(const Look& look, Lab& lab) {
@@ -181,16 +173,16 @@ void effect_costs(const Look& look, Lab& lab) {
   }
   if (costs == nullptr) return;
   space(8.0F);
-  label(look.fonts.medium, t.text, measured.scene()->title.c_str());
-  label(look.fonts.small, t.dim, method_name(t, measured.experiment()->settings).c_str());
-  if (!costs->run.holds)
-    label(look.fonts.small, t.orange, verdict_words(costs->run.verdict).c_str());
+  label(look.fonts.medium, t.text, measured.scene()->title);
+  const Settings& settings = measured.experiment()->settings;
+  label(look.fonts.small, t.dim, curve_style(t, settings).name() + ", " + parameter_text(settings));
+  if (!costs->run.holds) label(look.fonts.small, t.orange, verdict_words(costs->run.verdict));
   space(look.m.section);
   stages_of_run(look, measured.scene()->effects, *costs);
   space(look.m.section);
   section(look, "Per effect", "time     operations", t.dim);
   draw_parts(look, parts_of(t, *costs));
-  label(look.fonts.small, t.dim, summary(*costs).c_str());
+  label(look.fonts.small, t.dim, summary(*costs));
 }
 
 }  // namespace substep::ui

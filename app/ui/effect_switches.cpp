@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string>
 
 #include "app/text/format.hpp"
@@ -36,12 +35,9 @@ constexpr std::array<EffectFacts, kEffectNames.size()> kFacts{
 /// Right-aligned in the two columns at the end of a line.
 void columns(const Look& look, ImVec2 at, float width, ImU32 color, const std::string& rows,
              const std::string& time) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float right = at.x + width;
-  for (const auto& [text, end] : {std::pair{&rows, right - kTimeColumn}, std::pair{&time, right}}) {
-    const float w = text_size(look.fonts.small, text->c_str()).x;
-    draw_text(draw, look.fonts.small, {end - w, at.y}, color, text->c_str());
-  }
+  draw_text_before(look.fonts.small, {right - kTimeColumn, at.y}, color, rows);
+  draw_text_before(look.fonts.small, {right, at.y}, color, time);
 }
 
 const EffectCost* cost_of(const CostBreakdown* costs, std::string_view effect) {
@@ -81,7 +77,7 @@ void effect_switches(const Look& look, Session& session) {
     const auto& [name, member] = kEffectNames[i];
     if (!(session.loaded().effects.*member)) continue;
     const std::string tip = std::string(kFacts[i].tip) + "\nOff until a reset.";
-    toggle(look, name.data(), effects.*member, 0, first, tip.c_str());
+    toggle(look, name.data(), effects.*member, 0, first, tip);
     first = false;
   }
   ImGui::PopStyleVar();
@@ -104,7 +100,7 @@ void effect_table(const Look& look, Lab& lab) {
     const EffectCost* cost = cost_of(costs, name);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const bool on = session.scene().effects.*member;
-    draw_text(*ImGui::GetWindowDrawList(), look.fonts.small, at, on ? t.text : t.dim, name.data());
+    draw_text(look.fonts.small, at, on ? t.text : t.dim, name.data());
     int FrameReport::*const rows = kFacts[i].rows;
     columns(look, at, width, on ? t.text : t.dim,
             on && rows != nullptr ? grouped(session.report().*rows) : "–",
@@ -112,7 +108,7 @@ void effect_table(const Look& look, Lab& lab) {
     ImGui::PushID(static_cast<int>(i));
     ImGui::InvisibleButton("cost", {width, text});
     ImGui::PopID();
-    tooltip(look, name.data(), tip_text(kFacts[i], cost).c_str());
+    tooltip(look, name.data(), tip_text(kFacts[i], cost));
   }
 
   if (lab.accuracy.effects.running()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/text/format.hpp"
@@ -23,13 +24,12 @@ constexpr double kRoomForFailed = 1.5;
 
 /// The largest value over this run and those compared with it; failed runs count only if all
 /// failed.
-template <class Largest>
-double largest_of_stable(const Session& session, const Compare& compare, Largest largest) {
+double largest_of_stable(const PlotContext& in, double (History::*largest)() const) {
   double stable = 0.0;
-  double any = largest(session.history());
-  if (session.verdict().holds()) stable = any;
-  for (const Compare::Run& run : compare.runs()) {
-    const double one = largest(run.history);
+  double any = (in.session.history().*largest)();
+  if (in.session.verdict().holds()) stable = any;
+  for (const Compare::Run& run : in.compare.runs()) {
+    const double one = (run.history.*largest)();
     any = std::max(any, one);
     if (run.verdict->holds()) stable = std::max(stable, one);
   }
@@ -43,38 +43,11 @@ std::string in_unit(double value, const Unit& unit, double most, int digits) {
   return fixed(v, std::abs(v) < 9.95 ? digits : std::abs(v) < 99.5 ? digits - 1 : 0);
 }
 
-void compared_energies(const PlotContext& in, ImVec2 heading, float left, Channel channel,
-                       const Unit& unit) {
+void compared_energies(const PlotContext& in, ImVec2 at, const std::string& heading,
+                       Channel channel, const Unit& unit) {
   compared_values(
-      in, heading, left, channel, [&](double joules) { return in_unit(joules, unit, 9999.0, 2); },
+      in, at, heading, channel, [&](double joules) { return in_unit(joules, unit, 9999.0, 2); },
       [&](double joules) { return in_unit(joules, unit, 99.0, 1); });
-}
-
-/// Names with values, right-aligned in a heading; only values if there is little room: the curves
-/// are labelled in the same colours.
-struct EnergyLegend {
-  const char* name;
-  Channel channel;
-  ImU32 color;
-  double offset;
-};
-void energy_legend(const PlotContext& in, ImVec2 heading, float left, const Unit& unit,
-                   const std::vector<EnergyLegend>& shown) {
-  const float end = heading.x + ImGui::GetContentRegionAvail().x;
-  const auto text = [&](const EnergyLegend& one, bool named) {
-    const double value = shown_value(in.session.history(), one.channel, in.desk.time) + one.offset;
-    if (!std::isfinite(value)) return std::string(one.name);
-    return (named ? one.name + std::string(" ") : "") + in_unit(value, unit, 9999.0, 2);
-  };
-  float width = 0.0F;
-  for (const EnergyLegend& one : shown) {
-    width += text_size(in.look.fonts.small, text(one, true).c_str()).x + 22.0F;
-  }
-  const bool named = end - width >= left;
-  float right = end;
-  for (const EnergyLegend& one : shown) {
-    right = legend(in.look, right, heading.y, one.color, text(one, named));
-  }
 }
 
 }  // namespace
@@ -89,35 +62,29 @@ std::vector<Series> energy_series(const Theme& theme, const History& history, bo
   return series;
 }
 
-void energy_plot(const PlotContext& in, float height, bool last) {
+void energy_plot(const PlotContext& in) {
   const Look& look = in.look;
   const Theme& t = *look.theme;
   const History& h = in.session.history();
   const bool gravity = has_potential(in.session.scene().effects);
   const bool several = in.compare.open();
   const double zero = h.potential_offset();
-  double most = largest_of_stable(in.session, in.compare,
-                                  [](const History& one) { return one.largest_kinetic(); });
+  double most = largest_of_stable(in, &History::largest_kinetic);
   if (!several && gravity) most = std::max(most, zero);
   const Unit unit = unit_for(std::max(most, kLeastEnergy));
   const std::string heading = (several ? "Kinetic, " : "Energy, ") + unit.prefix + "J";
 
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  section(look, heading.c_str());
-  const float left = origin.x + heading_width(look, heading.c_str());
-  PlotSpec spec;
-  spec.id = "energy";
-  spec.time_labels = last;
-  spec.from_zero = true;
-  spec.linear = true;  // sums are only visible on a linear axis
-  spec.factor = unit.factor;
-  spec.least_span = std::max(unit.factor, kLeastEnergy);
+  section(look, heading);
+  PlotSpec spec{.id = "energy",
+                .linear = true,  // sums are only visible on a linear axis
+                .least_span = std::max(unit.factor, kLeastEnergy),
+                .factor = unit.factor};
   if (several) {
     tooltip(look, "Kinetic energy", "Of each run. A run that explodes leaves the plot.");
-    compared_energies(in, origin, left, Channel::kKinetic, unit);
+    compared_energies(in, origin, heading, Channel::kKinetic, unit);
     spec.most = kRoomForFailed * most;
-    spec.series.push_back({&h, Channel::kKinetic, t.blue, kThisRun});
-    add_compared(in, spec, Channel::kKinetic);
+    add_runs(in, spec, Channel::kKinetic);
   } else {
     tooltip(
         look, "Energy",
@@ -126,25 +93,30 @@ void energy_plot(const PlotContext& in, float height, bool last) {
               "near its lowest value; the zero stays when the run fails. Where energy is conserved "
               "the total is a flat line; the plot of the drift shows changes too small to see here."
             : "Kinetic energy. There is no gravity, so it is also the total.");
-    std::vector<EnergyLegend> shown;
+    std::vector<HeadingValue> values;
+    const auto add = [&](const std::string& name, Channel channel, ImU32 color, double offset) {
+      const double joules = shown_value(h, channel, in.desk.time) + offset;
+      const bool known = std::isfinite(joules);
+      const std::string number = known ? in_unit(joules, unit, 9999.0, 2) : name;
+      values.push_back({color, known ? name + " " + number : name, number});
+    };
     if (gravity) {
-      shown.push_back({"total", Channel::kTotal, t.orange, zero});
-      shown.push_back({"pot.", Channel::kPotential, t.purple, zero});
+      add("total", Channel::kTotal, t.orange, zero);
+      add("pot.", Channel::kPotential, t.purple, zero);
     }
-    shown.push_back({"kin.", Channel::kKinetic, t.teal, 0.0});
-    energy_legend(in, origin, left, unit, shown);
+    add("kin.", Channel::kKinetic, t.teal, 0.0);
+    heading_values(look, origin, heading, values);
     spec.series = energy_series(t, h, gravity);
   }
-  draw_plot(in, Plot::kEnergy, spec, height);
+  draw_plot(in, Plot::kEnergy, std::move(spec));
 }
 
-void drift_plot(const PlotContext& in, float height, bool last) {
+void drift_plot(const PlotContext& in) {
   const Look& look = in.look;
   const Theme& t = *look.theme;
   const History& h = in.session.history();
   const bool several = in.compare.open();
-  const double most = largest_of_stable(in.session, in.compare,
-                                        [](const History& one) { return one.largest_drift(); });
+  const double most = largest_of_stable(in, &History::largest_drift);
   const Unit unit = unit_for(std::max(most, kLeastDrift));
   const std::string heading = (several ? "Drift, " : "Energy drift, ") + unit.prefix + "J";
   const auto scale = energy_scale(in.session.scene().criteria.energy_scale, h.largest_kinetic(),
@@ -152,27 +124,23 @@ void drift_plot(const PlotContext& in, float height, bool last) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const double now = shown_value(h, Channel::kDrift, in.desk.time);
   const bool named = !several && std::isfinite(now);
-  section(look, heading.c_str(), named ? energy_change(now, scale).c_str() : "");
+  section(look, heading, named ? energy_change(now, scale) : "");
   tooltip(look, "Energy drift",
           "The change of the total energy since the start, on its own scale; ideally zero. "
           "Friction, impacts and damping remove energy. The percentage is of the energy "
           "that the motion exchanges; a scene at rest exchanges none, and has no percentage.");
-  PlotSpec spec;
-  spec.id = "drift";
-  spec.time_labels = last;
-  spec.from_zero = true;
-  spec.linear = true;  // a loss is negative
-  spec.factor = unit.factor;
-  spec.least_span = std::max(0.1 * unit.factor, kLeastDrift);
-  spec.series.push_back(
-      {&h, Channel::kDrift, several ? t.blue : t.orange, several ? kThisRun : "drift"});
+  PlotSpec spec{.id = "drift",
+                .linear = true,  // a loss is negative
+                .least_span = std::max(0.1 * unit.factor, kLeastDrift),
+                .factor = unit.factor};
   if (several) {
-    compared_energies(in, origin, origin.x + heading_width(look, heading.c_str()), Channel::kDrift,
-                      unit);
+    compared_energies(in, origin, heading, Channel::kDrift, unit);
     spec.most = kRoomForFailed * most;
-    add_compared(in, spec, Channel::kDrift);
+    add_runs(in, spec, Channel::kDrift);
+  } else {
+    spec.series.push_back({&h, Channel::kDrift, t.orange, "drift"});
   }
-  draw_plot(in, Plot::kDrift, spec, height);
+  draw_plot(in, Plot::kDrift, std::move(spec));
 }
 
 }  // namespace substep::ui

@@ -20,20 +20,19 @@ void menu_row(const Look& look, const char* name, const Entries& entries, Value&
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   const float line = text_size(look.fonts.regular, name).y;
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.regular,
-            {origin.x, origin.y + 0.5F * (look.m.row + 2.0F - line)}, look.theme->dim, name);
+  draw_text(look.fonts.regular, {origin.x, origin.y + 0.5F * (look.m.row + 2.0F - line)},
+            look.theme->dim, name);
   ImGui::SetCursorScreenPos({origin.x + kName, origin.y});
-  const std::string current = title(entries[static_cast<std::size_t>(value)]);
-  menu_button(look, name, current.c_str(), width - kName, look.m.row + 2.0F, tip, [&] {
+  const std::string current(entries[static_cast<std::size_t>(value)].*title);
+  menu_button(look, name, current, width - kName, look.m.row + 2.0F, tip, [&] {
     for (const auto& entry : entries) {
-      if (menu_item(look, std::string(title(entry)).c_str(), note(entry), entry.value == value)) {
+      if (menu_item(look, std::string(entry.*title), entry.*note, entry.value == value)) {
         value = entry.value;
       }
     }
   });
 }
 
-// The main parameter of the mode.
 void parameters(const Look& look, Settings& s) {
   if (reads(s, "alpha")) {
     slider(look, "Alpha  α", s.alpha, 0.005, 1.0, true, "%.3g",
@@ -49,13 +48,10 @@ void parameters(const Look& look, Settings& s) {
 
 void method(const Look& look, Settings& s) {
   section(look, "Method");
-  menu_row(
-      look, "Stabilisation", kModes, s.mode, [](const ModeEntry& e) { return std::string(e.name); },
-      [](const ModeEntry& e) { return e.line; }, "Stabilisation of the run (1 to 8)");
-  menu_row(
-      look, "Solver", kSolvers, s.solver, [](const SolverEntry& e) { return std::string(e.title); },
-      [](const SolverEntry& e) { return e.full_name; },
-      "Solver for the velocities of a sub-step, Eq. 3");
+  menu_row(look, "Stabilisation", kModes, s.mode, &ModeEntry::name, &ModeEntry::line,
+           "Stabilisation of the run (1 to 8)");
+  menu_row(look, "Solver", kSolvers, s.solver, &SolverEntry::title, &SolverEntry::full_name,
+           "Solver for the velocities of a sub-step, Eq. 3");
   label(look.fonts.small, look.theme->dim, entry_of(s.mode).line);
   parameters(look, s);
 }
@@ -75,7 +71,7 @@ double rounded_load(double load) {
 }
 
 void load_row(const Look& look, Lab& lab) {
-  section(look, "Load", (grouped(lab.heaviest_mass()) + " kg").c_str());
+  section(look, "Load", (grouped(lab.heaviest_mass()) + " kg"));
   double load = lab.load;
   if (!power_slider(look, "Factor  ×", load, 0.01, 100.0,
                     "Factor on the mass of the heaviest body: the mass ratio. The run "
@@ -96,7 +92,7 @@ void comparison(const Look& look, Lab& lab, Desk& desk) {
     lab.session.play();
     return;
   }
-  checkbox(look, "Side by side", desk.split, width,
+  checkbox(look, "Side by side", desk.split,
            "Each in its own view, or the other one as a ghost (V)");
   if (button(look, "end", Icon::kNone, "End the comparison", ButtonKind::kPlain, width, look.m.row,
              "")) {

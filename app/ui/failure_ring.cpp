@@ -15,16 +15,11 @@ namespace {
 constexpr float kLeastRing = 15.0F;  // radius [px]
 constexpr float kMostRing = 90.0F;
 
-ImU32 halo_of(const Look& look) {
-  const Color& b = look.theme->view.background_bottom;
-  return ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, 0.55F});
-}
-
 // To the right of the ring, or to its left; if there is no room, above it.
 void ring_label(const Look& look, ImDrawList& draw, ImVec2 centre, float radius,
                 const ViewRect& pane, const std::string& text) {
   constexpr float kGap = 8.0F;
-  const ImVec2 size = text_size(look.fonts.medium, text.c_str());
+  const ImVec2 size = text_size(look.fonts.medium, text);
   const float least = pane.x + kGap;
   const float most = std::max(least, pane.x + pane.width - kGap - size.x);
   ImVec2 at(centre.x + radius + kGap, centre.y - 0.5F * size.y);
@@ -34,7 +29,7 @@ void ring_label(const Look& look, ImDrawList& draw, ImVec2 centre, float radius,
   }
   draw.AddRectFilled({at.x - 6.0F, at.y - 3.0F}, {at.x + size.x + 6.0F, at.y + size.y + 3.0F},
                      fade(look.theme->panel, 0.8F), look.m.radius);
-  draw_text(draw, look.fonts.medium, at, look.theme->text, text.c_str());
+  draw_text(draw, look.fonts.medium, at, look.theme->text, text);
 }
 
 void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Failure& failure,
@@ -51,7 +46,7 @@ void ring(const Look& look, ImDrawList& draw, const Viewport& viewport, const Fa
     radius = static_cast<float>(std::min(1e4, failure.radius / pixel));
   }
   radius = std::clamp(radius, kLeastRing, kMostRing);
-  const ImU32 halo = halo_of(look);
+  const ImU32 halo = to_u32(look.theme->view.background_bottom, 0.55F);
   if (failure.joint >= 0) {
     draw.AddLine(from, to, halo, 4.0F);
     draw.AddLine(from, to, color, 2.0F);

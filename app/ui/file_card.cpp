@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <string>
 
 #include "app/ui/card.hpp"
 #include "app/ui/panels.hpp"
@@ -40,23 +39,23 @@ void path_field(const Look& look, Lab& lab, FileBrowser& browser) {
 void file_card(const Look& look, Lab& lab, const Viewport& viewport, FileBrowser& browser) {
   if (!browser.open()) return;
   bool close = lab.trouble.title.empty() && ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(look, viewport, "##open_file", 480.0F, card_middle(viewport), 0.5F)) {
+  if (begin_card(look, "##open_file", 480.0F, card_middle(viewport))) {
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
     card_title(look, 0, Icon::kNone, "Open a scene file");
     path_field(look, lab, browser);
     if (!browser.problem().empty()) {
-      label(look.fonts.small, look.theme->orange, browser.problem().c_str());
+      label(look.fonts.small, look.theme->orange, browser.problem());
     }
     const float height = std::clamp(ImGui::GetIO().DisplaySize.y - 260.0F, 120.0F, 320.0F);
     if (ImGui::BeginChild("entries", {0.0F, height}, ImGuiChildFlags_None)) {
       // A click changes the list: it is handled after drawing.
       std::filesystem::path folder;
       std::filesystem::path file;
-      if (browser.folder().has_relative_path() && menu_item(look, "..", "", false)) {
+      if (browser.folder().has_relative_path() && menu_item(look, "..")) {
         folder = browser.folder().parent_path();
       }
       for (const FileBrowser::Entry& entry : browser.entries()) {
-        if (!menu_item(look, entry.name.c_str(), entry.folder ? "folder" : "", false)) continue;
+        if (!menu_item(look, entry.name, entry.folder ? "folder" : "")) continue;
         (entry.folder ? folder : file) = browser.folder() / entry.name;
       }
       if (browser.entries().empty()) {

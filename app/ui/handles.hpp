@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace substep::ui {
@@ -19,6 +20,9 @@ struct Handle {
 const std::vector<Handle>& handles();
 void forget_handles();  ///< call at the start of a frame
 /// Records the visible part of a control, if any.
-void mark(const char* label, ImVec2 min, ImVec2 max, const char* group = "");
+void mark(std::string_view label, ImVec2 min, ImVec2 max, std::string_view group = "");
+/// An invisible button with a handle. @return whether it was pressed
+bool marked_button(const char* id, ImVec2 size, std::string_view label,
+                   std::string_view group = "");
 
 }  // namespace substep::ui

@@ -1,7 +1,6 @@
 // Cards for slow frames: before the start, and during computation.
 
 #include <algorithm>
-#include <string>
 
 #include "app/text/format.hpp"
 #include "app/ui/card.hpp"
@@ -19,16 +18,16 @@ void heavy_card(const Look& look, Lab& lab, const Viewport& viewport) {
   }
   bool close = false;
   bool back = false;
-  if (begin_card(look, viewport, "##heavy", 400.0F, card_middle(viewport), 0.5F)) {
+  if (begin_card(look, "##heavy", 400.0F, card_middle(viewport))) {
     card_title(look, look.theme->amber, Icon::kPause, "Paused: this run is heavy");
-    label(look.fonts.small, look.theme->dim, heavy.why.c_str());
+    label(look.fonts.small, look.theme->dim, heavy.why);
     if (button(look, "run", Icon::kPlay, "Run it", ButtonKind::kPrimary, 0.0F, 28.0F,
                "Play (Space)")) {
       lab.session.play();
     }
     ImGui::SameLine(0.0F, 8.0F);
     back = button(look, "back", Icon::kNone, "Go back", ButtonKind::kPlain, 0.0F, 28.0F,
-                  ("Back to \"" + heavy.before.scene->title + "\"").c_str());
+                  ("Back to \"" + heavy.before.scene->title + "\""));
     close = card_closed(look) || ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   }
   ImGui::End();
@@ -43,9 +42,8 @@ void long_frame_card(const Look& look, Lab& lab, Desk& desk, const Viewport& vie
   const int change = slices.open() || behind ? 1 : -1;
   desk.pictures_in_frame = std::clamp(desk.pictures_in_frame + change, 0, 2 * kPatience);
   if (change < 0 || desk.pictures_in_frame < kPatience) return;
-  const CardPlace place = card_below(viewport.view_rect);
   bool cancel = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(look, viewport, "##long_frame", 300.0F, place.y, place.pivot)) {
+  if (begin_card(look, "##long_frame", 300.0F, card_below(viewport.view_rect))) {
     const int taken = slices.taken();
     card_title(look, look.theme->amber, Icon::kSubstep,
                behind ? "A compared method is slow"

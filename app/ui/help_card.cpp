@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <string>
 #include <string_view>
 
@@ -37,14 +36,13 @@ constexpr std::array<Gesture, 13> kGestures{{{"click a body", "show its values"}
                                              {"Esc", "close a card"}}};
 
 // Lines of one column. @return its height
-float draw_lines(const Look& look, ImVec2 at, float key_width, std::span<const Gesture> lines) {
+template <class Lines>
+float draw_lines(const Look& look, ImVec2 at, float key_width, const Lines& lines) {
   constexpr float kLineHeight = 20.0F;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float top = at.y;
-  for (const Gesture& line : lines) {
-    draw_text(draw, look.fonts.medium, at, look.theme->text, std::string(line.shown).c_str());
-    draw_text(draw, look.fonts.regular, {at.x + key_width, at.y}, look.theme->dim,
-              std::string(line.what).c_str());
+  for (const auto& line : lines) {
+    draw_text(look.fonts.medium, at, look.theme->text, line.shown);
+    draw_text(look.fonts.regular, {at.x + key_width, at.y}, look.theme->dim, line.what);
     at.y += kLineHeight;
   }
   return at.y - top;
@@ -56,9 +54,8 @@ void about(const Look& look, Lab& lab, Desk& desk) {
   card_title(look, 0, Icon::kNone, "substep");
   label(look.fonts.regular, t.text, kPurpose);
   label(look.fonts.small, t.dim,
-        (std::string("After the paper “") + kPaperTitle + "”, " + kPaperAuthors + ", doi " +
-         kPaperDoi + ". " + kLicence + ".")
-            .c_str());
+        std::string("After the paper “") + kPaperTitle + "”, " + kPaperAuthors + ", doi " +
+            kPaperDoi + ". " + kLicence + ".");
   if (button(look, "bibtex", Icon::kNone, "Copy BibTeX of the paper", ButtonKind::kPlain, 0.0F,
              look.m.row, "The paper's entry for a bibliography")) {
     ImGui::SetClipboardText(kPaperBibtex);
@@ -77,25 +74,21 @@ void about(const Look& look, Lab& lab, Desk& desk) {
 
 void help_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   if (!desk.help) return;
-  std::array<Gesture, 32> keys{};
-  std::size_t count = 0;
-  for (const KeyAction& action : key_actions()) keys.at(count++) = {action.shown, action.what};
   const bool two = ImGui::GetIO().DisplaySize.x > 760.0F;  // columns
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
-  if (begin_card(look, viewport, "##help", two ? 656.0F : 400.0F, card_middle(viewport), 0.5F)) {
+  if (begin_card(look, "##help", two ? 656.0F : 400.0F, card_middle(viewport))) {
     about(look, lab, desk);
     section(look, two ? "Keys and gestures" : "Gestures and keys");
     const ImVec2 at = ImGui::GetCursorScreenPos();
     constexpr float kKeys = 64.0F;
     constexpr float kGestured = 166.0F;
-    const auto shown = std::span(keys).first(count);
     float height = 0.0F;
     if (two) {
-      height = std::max(draw_lines(look, at, kKeys, shown),
+      height = std::max(draw_lines(look, at, kKeys, key_actions()),
                         draw_lines(look, {at.x + 286.0F, at.y}, kGestured, kGestures));
     } else {  // a phone has no keyboard
       height = draw_lines(look, at, kGestured, kGestures) + 12.0F;
-      height += draw_lines(look, {at.x, at.y + height}, kKeys, shown);
+      height += draw_lines(look, {at.x, at.y + height}, kKeys, key_actions());
     }
     ImGui::Dummy({1.0F, height});
     close |= card_closed(look);

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "app/ui/widgets.hpp"
 
@@ -8,172 +9,161 @@ namespace {
 
 constexpr float kTurn = 6.28318531F;
 
-void draw_reset(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+/// Draws in coordinates from the centre of an icon, in units of its size.
+struct Pen {
+  ImDrawList& draw;
+  ImVec2 centre;
+  float size;
+  ImU32 color;
+
+  [[nodiscard]] ImVec2 at(ImVec2 p) const { return centre + p * size; }
+  void line(ImVec2 from, ImVec2 to, float width = 0.12F) const {
+    draw.AddLine(at(from), at(to), color, width * size);
+  }
+  /// A line through at most four points.
+  void lines(std::initializer_list<ImVec2> through, float width = 0.12F) const {
+    std::array<ImVec2, 4> points;
+    int count = 0;
+    for (const ImVec2 p : through) points.at(static_cast<std::size_t>(count++)) = at(p);
+    draw.AddPolyline(points.data(), count, color, 0, width * size);
+  }
+  void triangle(ImVec2 a, ImVec2 b, ImVec2 c) const {
+    draw.AddTriangleFilled(at(a), at(b), at(c), color);
+  }
+  void box(ImVec2 min, ImVec2 max, float rounding) const {
+    draw.AddRectFilled(at(min), at(max), color, rounding * size);
+  }
+  void disc(ImVec2 middle, float radius, int segments = 0) const {
+    draw.AddCircleFilled(at(middle), radius * size, color, segments);
+  }
+};
+
+void draw_reset(const Pen& pen) {
   // Most of a circle, with an arrow head at its start.
-  const float r = 0.36F * s;
-  const float line = 0.115F * s;
-  draw.PathArcTo({c.x + 0.04F * s, c.y}, r, 0.43F * kTurn, -0.36F * kTurn, 28);
-  draw.PathStroke(color, 0, line);
-  const ImVec2 corner(c.x - 0.42F * s, c.y - 0.1F * s);
-  const std::array<ImVec2, 3> head{
-      {{corner.x, corner.y - 0.28F * s}, corner, {corner.x + 0.28F * s, corner.y}}};
-  draw.AddPolyline(head.data(), 3, color, 0, line);
+  constexpr float kLine = 0.115F;
+  pen.draw.PathArcTo(pen.at({0.04F, 0.0F}), 0.36F * pen.size, 0.43F * kTurn, -0.36F * kTurn, 28);
+  pen.draw.PathStroke(pen.color, 0, kLine * pen.size);
+  pen.lines({{-0.42F, -0.38F}, {-0.42F, -0.1F}, {-0.14F, -0.1F}}, kLine);
 }
 
-void draw_moon(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
+void draw_moon(const Pen& pen) {
   // A disc minus another one shifted up and right: two arcs between the intersections of the
   // circles.
-  const float r = 0.38F * s;
+  const float r = 0.38F * pen.size;
   const float cut = 0.85F * r;
   const float apart = 0.62F * r;
   const float along = (apart * apart + r * r - cut * cut) / (2.0F * apart);
   const float towards = -0.125F * kTurn;
   const float outer = std::acos(along / r);
   const float inner = std::acos((along - apart) / cut);
-  draw.PathArcTo(c, r, towards + outer, towards + kTurn - outer, 24);
-  draw.PathArcTo({c.x + apart * std::cos(towards), c.y + apart * std::sin(towards)}, cut,
-                 towards + kTurn - inner, towards + inner, 24);
-  draw.PathStroke(color, ImDrawFlags_Closed, 0.1F * s);
+  pen.draw.PathArcTo(pen.centre, r, towards + outer, towards + kTurn - outer, 24);
+  pen.draw.PathArcTo(pen.centre + ImVec2(std::cos(towards), std::sin(towards)) * apart, cut,
+                     towards + kTurn - inner, towards + inner, 24);
+  pen.draw.PathStroke(pen.color, ImDrawFlags_Closed, 0.1F * pen.size);
 }
 
-void draw_sun(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
-  draw.AddCircleFilled(c, 0.2F * s, color, 16);
+void draw_sun(const Pen& pen) {
+  pen.disc({}, 0.2F, 16);
   for (int i = 0; i < 8; ++i) {
     const float a = kTurn * static_cast<float>(i) / 8.0F;
     const ImVec2 d(std::cos(a), std::sin(a));
-    draw.AddLine({c.x + 0.31F * s * d.x, c.y + 0.31F * s * d.y},
-                 {c.x + 0.44F * s * d.x, c.y + 0.44F * s * d.y}, color, 0.1F * s);
+    pen.line(d * 0.31F, d * 0.44F, 0.1F);
   }
 }
 
-void draw_corners(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
-  const float r = 0.36F * s;
+void draw_corners(const Pen& pen) {
+  constexpr float kFar = 0.36F;
+  constexpr float kNear = 0.45F * kFar;
   for (const float x : {-1.0F, 1.0F}) {
     for (const float y : {-1.0F, 1.0F}) {
-      const std::array<ImVec2, 3> points{{{c.x + x * r, c.y + y * 0.45F * r},
-                                          {c.x + x * r, c.y + y * r},
-                                          {c.x + x * 0.45F * r, c.y + y * r}}};
-      draw.AddPolyline(points.data(), 3, color, 0, 0.1F * s);
+      pen.lines({{x * kFar, y * kNear}, {x * kFar, y * kFar}, {x * kNear, y * kFar}}, 0.1F);
     }
   }
 }
 
 // A tray with an arrow out of it.
-void draw_share(ImDrawList& draw, ImVec2 c, float s, ImU32 color) {
-  const float line = 0.11F * s;
-  const std::array<ImVec2, 4> tray{{{c.x - 0.36F * s, c.y + 0.04F * s},
-                                    {c.x - 0.36F * s, c.y + 0.4F * s},
-                                    {c.x + 0.36F * s, c.y + 0.4F * s},
-                                    {c.x + 0.36F * s, c.y + 0.04F * s}}};
-  draw.AddPolyline(tray.data(), 4, color, 0, line);
-  draw.AddLine({c.x, c.y + 0.18F * s}, {c.x, c.y - 0.4F * s}, color, line);
-  const std::array<ImVec2, 3> head{
-      {{c.x - 0.2F * s, c.y - 0.2F * s}, {c.x, c.y - 0.42F * s}, {c.x + 0.2F * s, c.y - 0.2F * s}}};
-  draw.AddPolyline(head.data(), 3, color, 0, line);
+void draw_share(const Pen& pen) {
+  constexpr float kLine = 0.11F;
+  pen.lines({{-0.36F, 0.04F}, {-0.36F, 0.4F}, {0.36F, 0.4F}, {0.36F, 0.04F}}, kLine);
+  pen.line({0.0F, 0.18F}, {0.0F, -0.4F}, kLine);
+  pen.lines({{-0.2F, -0.2F}, {0.0F, -0.42F}, {0.2F, -0.2F}}, kLine);
 }
 
 }  // namespace
 
 void draw_icon(ImDrawList& draw, Icon icon, ImVec2 c, float s, ImU32 color) {
-  const float line = 0.12F * s;
+  const Pen pen{draw, c, s, color};
   switch (icon) {
     case Icon::kPlay:
-      draw.AddTriangleFilled({c.x - 0.26F * s, c.y - 0.38F * s}, {c.x + 0.4F * s, c.y},
-                             {c.x - 0.26F * s, c.y + 0.38F * s}, color);
+      pen.triangle({-0.26F, -0.38F}, {0.4F, 0.0F}, {-0.26F, 0.38F});
       break;
     case Icon::kPause:
-      draw.AddRectFilled({c.x - 0.32F * s, c.y - 0.36F * s}, {c.x - 0.09F * s, c.y + 0.36F * s},
-                         color, 0.05F * s);
-      draw.AddRectFilled({c.x + 0.09F * s, c.y - 0.36F * s}, {c.x + 0.32F * s, c.y + 0.36F * s},
-                         color, 0.05F * s);
+      pen.box({-0.32F, -0.36F}, {-0.09F, 0.36F}, 0.05F);
+      pen.box({0.09F, -0.36F}, {0.32F, 0.36F}, 0.05F);
       break;
     case Icon::kStep:
-      draw.AddTriangleFilled({c.x - 0.34F * s, c.y - 0.34F * s}, {c.x + 0.2F * s, c.y},
-                             {c.x - 0.34F * s, c.y + 0.34F * s}, color);
-      draw.AddRectFilled({c.x + 0.22F * s, c.y - 0.34F * s}, {c.x + 0.36F * s, c.y + 0.34F * s},
-                         color, 0.04F * s);
+      pen.triangle({-0.34F, -0.34F}, {0.2F, 0.0F}, {-0.34F, 0.34F});
+      pen.box({0.22F, -0.34F}, {0.36F, 0.34F}, 0.04F);
       break;
     case Icon::kSubstep:
       // A smaller triangle inside a dotted frame.
-      draw.AddTriangleFilled({c.x - 0.36F * s, c.y - 0.24F * s}, {c.x + 0.02F * s, c.y},
-                             {c.x - 0.36F * s, c.y + 0.24F * s}, color);
-      for (const float x : {0.14F, 0.34F}) {
-        draw.AddRectFilled({c.x + (x - 0.04F) * s, c.y - 0.24F * s},
-                           {c.x + (x + 0.05F) * s, c.y + 0.24F * s}, color, 0.03F * s);
-      }
+      pen.triangle({-0.36F, -0.24F}, {0.02F, 0.0F}, {-0.36F, 0.24F});
+      for (const float x : {0.14F, 0.34F}) pen.box({x - 0.04F, -0.24F}, {x + 0.05F, 0.24F}, 0.03F);
       break;
     case Icon::kReset:
-      draw_reset(draw, c, s, color);
+      draw_reset(pen);
       break;
     case Icon::kHelp: {
       ImFont* font = ImGui::GetFont();
-      const ImVec2 size = text_size(font, "?");
-      draw_text(draw, font, {c.x - 0.5F * size.x, c.y - 0.5F * size.y}, color, "?");
+      draw_text(draw, font, c - text_size(font, "?") * 0.5F, color, "?");
       break;
     }
     case Icon::kSun:
-      draw_sun(draw, c, s, color);
+      draw_sun(pen);
       break;
     case Icon::kMoon:
-      draw_moon(draw, c, s, color);
+      draw_moon(pen);
       break;
     case Icon::kChevron:
-    case Icon::kChevronUp: {
-      const float down = icon == Icon::kChevron ? s : -s;
-      const std::array<ImVec2, 3> points{{{c.x - 0.24F * s, c.y - 0.12F * down},
-                                          {c.x, c.y + 0.14F * down},
-                                          {c.x + 0.24F * s, c.y - 0.12F * down}}};
-      draw.AddPolyline(points.data(), 3, color, 0, line);
+      pen.lines({{-0.24F, -0.12F}, {0.0F, 0.14F}, {0.24F, -0.12F}});
       break;
-    }
-    case Icon::kCheck: {
-      const std::array<ImVec2, 3> points{{{c.x - 0.28F * s, c.y + 0.01F * s},
-                                          {c.x - 0.07F * s, c.y + 0.22F * s},
-                                          {c.x + 0.29F * s, c.y - 0.2F * s}}};
-      draw.AddPolyline(points.data(), 3, color, 0, line);
+    case Icon::kChevronUp:
+      pen.lines({{-0.24F, 0.12F}, {0.0F, -0.14F}, {0.24F, 0.12F}});
       break;
-    }
+    case Icon::kCheck:
+      pen.lines({{-0.28F, 0.01F}, {-0.07F, 0.22F}, {0.29F, -0.2F}});
+      break;
     case Icon::kCross:
-      draw.AddLine({c.x - 0.24F * s, c.y - 0.24F * s}, {c.x + 0.24F * s, c.y + 0.24F * s}, color,
-                   line);
-      draw.AddLine({c.x - 0.24F * s, c.y + 0.24F * s}, {c.x + 0.24F * s, c.y - 0.24F * s}, color,
-                   line);
+      pen.line({-0.24F, -0.24F}, {0.24F, 0.24F});
+      pen.line({-0.24F, 0.24F}, {0.24F, -0.24F});
       break;
     case Icon::kFrame:
-      draw_corners(draw, c, s, color);
+      draw_corners(pen);
       break;
     case Icon::kPanels:
-      draw.AddRect({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x + 0.42F * s, c.y + 0.34F * s}, color,
-                   0.1F * s, 0, 0.09F * s);
-      draw.AddRectFilled({c.x - 0.42F * s, c.y - 0.34F * s}, {c.x - 0.1F * s, c.y + 0.34F * s},
-                         color, 0.1F * s);
+      draw.AddRect(pen.at({-0.42F, -0.34F}), pen.at({0.42F, 0.34F}), color, 0.1F * s, 0, 0.09F * s);
+      pen.box({-0.42F, -0.34F}, {-0.1F, 0.34F}, 0.1F);
       break;
     case Icon::kList:
       for (const float y : {-0.26F, 0.0F, 0.26F}) {
-        draw.AddCircleFilled({c.x - 0.32F * s, c.y + y * s}, 0.07F * s, color, 8);
-        draw.AddLine({c.x - 0.16F * s, c.y + y * s}, {c.x + 0.38F * s, c.y + y * s}, color, line);
+        pen.disc({-0.32F, y}, 0.07F, 8);
+        pen.line({-0.16F, y}, {0.38F, y});
       }
       break;
-    case Icon::kSave: {
-      const std::array<ImVec2, 3> head{{{c.x - 0.22F * s, c.y - 0.1F * s},
-                                        {c.x, c.y + 0.12F * s},
-                                        {c.x + 0.22F * s, c.y - 0.1F * s}}};
-      draw.AddLine({c.x, c.y - 0.4F * s}, {c.x, c.y + 0.1F * s}, color, line);
-      draw.AddPolyline(head.data(), 3, color, 0, line);
-      draw.AddLine({c.x - 0.34F * s, c.y + 0.36F * s}, {c.x + 0.34F * s, c.y + 0.36F * s}, color,
-                   line);
+    case Icon::kSave:
+      pen.line({0.0F, -0.4F}, {0.0F, 0.1F});
+      pen.lines({{-0.22F, -0.1F}, {0.0F, 0.12F}, {0.22F, -0.1F}});
+      pen.line({-0.34F, 0.36F}, {0.34F, 0.36F});
       break;
-    }
     case Icon::kBall:
-      draw.AddCircleFilled({c.x + 0.14F * s, c.y - 0.1F * s}, 0.26F * s, color);
+      pen.disc({0.14F, -0.1F}, 0.26F);
       for (const float y : {-0.2F, 0.0F, 0.2F}) {
         const float from = y == 0.0F ? -0.42F : -0.34F;
-        draw.AddLine({c.x + from * s, c.y + (y + 0.06F) * s},
-                     {c.x - 0.2F * s, c.y + (0.75F * y + 0.02F) * s}, color, 0.08F * s);
+        pen.line({from, y + 0.06F}, {-0.2F, 0.75F * y + 0.02F}, 0.08F);
       }
       break;
     case Icon::kShare:
-      draw_share(draw, c, s, color);
+      draw_share(pen);
       break;
     case Icon::kNone:
       break;

@@ -14,14 +14,9 @@
 namespace substep::ui {
 namespace {
 
-constexpr ImGuiWindowFlags kScreen = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings |
-                                     ImGuiWindowFlags_NoBackground;
-
-constexpr ImGuiWindowFlags kGround = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoInputs |
-                                     ImGuiWindowFlags_NoFocusOnAppearing |
-                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+constexpr ImGuiWindowFlags kGround =
+    kPlaced | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoInputs |
+    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 constexpr float kAbove = 10.0F;  // gap above the label of a picture
 
@@ -38,7 +33,7 @@ struct ScreenMeasures {
 };
 
 float lines_height(ImFont* font, const std::string& text, float width) {
-  return text_size(font, wrapped(font, text.c_str(), width).c_str()).y;
+  return text_size(font, wrapped(font, text, width)).y;
 }
 
 ScreenMeasures measure_screen(const Look& look, const IntroductionWords& words, ImVec2 display) {
@@ -66,14 +61,14 @@ ViewRect picture_area(const ScreenMeasures& m, ImVec2 display) {
 float paragraph(const Look& look, ImFont* font, ImVec2 from, float width, bool centred, ImU32 color,
                 const std::string& text) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::string lines = wrapped(font, text.c_str(), width);
+  const std::string lines = wrapped(font, text, width);
   float y = from.y;
   for (std::size_t at = 0; at < lines.size();) {
     const std::size_t end = std::min(lines.find('\n', at), lines.size());
     const std::string line = lines.substr(at, end - at);
-    const ImVec2 size = text_size(font, line.c_str());
+    const ImVec2 size = text_size(font, line);
     const float x = centred ? from.x + 0.5F * (width - size.x) : from.x;
-    draw_over(look, draw, font, {x, y}, color, line.c_str());
+    draw_over(look, draw, font, {x, y}, color, line);
     y += size.y;
     at = end + 1;
   }
@@ -112,9 +107,8 @@ void ground(const char* id, float top, float bottom, float width) {
 }
 
 // The label of a picture on the panel colour, over the grid.
-void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, ImVec2 display) {
-  const ViewRect& torn = panes[1];
-  const ViewRect& held = panes[0];
+void draw_grounds(const ScreenMeasures& m, const ViewRect& held, const ViewRect& torn,
+                  ImVec2 display) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1.0F, 1.0F});
   const float label = torn.y + torn.height - kAbove;
@@ -125,19 +119,17 @@ void draw_grounds(const ScreenMeasures& m, const std::vector<ViewRect>& panes, I
 
 // The clock of both runs, between their labels, or to the right of the upper one; and a line
 // between their pictures.
-void draw_clock(const Look& look, const ScreenMeasures& m, const std::vector<ViewRect>& panes,
-                float width, const std::string& text) {
-  const ViewRect& torn = panes[1];
-  const ViewRect& held = panes[0];
+void draw_clock(const Look& look, const ScreenMeasures& m, const ViewRect& held,
+                const ViewRect& torn, float width, const std::string& text) {
   const ImU32 line = fade(look.theme->faint, 0.5F);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   if (!m.stacked) {
     draw.AddLine({held.x, held.y + 16.0F}, {held.x, held.y + held.height - 24.0F}, line);
   }
   ImFont* font = look.fonts.small;
-  const float size = text_size(font, text.c_str()).x;
+  const float size = text_size(font, text).x;
   const float x = m.stacked ? width - m.pad - size : 0.5F * (width - size);
-  draw_over(look, draw, font, {x, torn.y + torn.height + 4.0F}, look.theme->dim, text.c_str());
+  draw_over(look, draw, font, {x, torn.y + torn.height + 4.0F}, look.theme->dim, text);
 }
 
 // The two buttons. @return whether the laboratory was chosen
@@ -211,19 +203,22 @@ void introduction(App& app) {
   const ScreenMeasures m = measure_screen(look, words, display);
   app.view_rect = picture_area(m, display);
   const std::vector<ViewRect> panes = introduction_panes(look, app);
+  const ViewRect& held = panes[0];
+  const ViewRect& torn = panes[1];
   bool leave = false;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
-  draw_grounds(m, panes, display);
+  draw_grounds(m, held, torn, display);
   ImGui::SetNextWindowPos({0.0F, 0.0F});
   ImGui::SetNextWindowSize(display);
-  if (ImGui::Begin("##introduction", nullptr, kScreen)) {
+  if (ImGui::Begin("##introduction", nullptr,
+                   kPlaced | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground)) {
     draw_head(look, m, words, display.x - 2.0F * m.pad);
     const Verdict* verdict = Introduction::torn(app);
-    const bool torn = verdict != nullptr && !verdict->holds();
-    picture_label(look, m, panes[1], words.torn, torn ? t.orange : t.dim);
-    picture_label(look, m, panes[0], words.held, t.teal);
-    draw_clock(look, m, panes, display.x, words.clock);
+    const bool failed = verdict != nullptr && !verdict->holds();
+    picture_label(look, m, torn, words.torn, failed ? t.orange : t.dim);
+    picture_label(look, m, held, words.held, t.teal);
+    draw_clock(look, m, held, torn, display.x, words.clock);
     leave = draw_foot(look, m, words, display, app.desk) || left_otherwise();
   }
   ImGui::End();

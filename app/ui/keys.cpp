@@ -14,13 +14,12 @@
 namespace substep::ui {
 namespace {
 
-constexpr std::array<double, 7> kSpeedSteps{0.0625, 0.125, 0.25, 0.5, 1.0, 2.0, 4.0};
-
 void change_speed(Session& session, int by) {
-  const auto now = std::lower_bound(kSpeedSteps.begin(), kSpeedSteps.end(), session.speed() - 1e-9);
-  const auto i = std::clamp<std::ptrdiff_t>((now - kSpeedSteps.begin()) + by, 0,
-                                            static_cast<std::ptrdiff_t>(kSpeedSteps.size()) - 1);
-  session.set_speed(kSpeedSteps[static_cast<std::size_t>(i)]);
+  const auto now = std::find_if(kSpeeds.begin(), kSpeeds.end(),
+                                [&](const Speed& s) { return s.value >= session.speed() - 1e-9; });
+  const auto i = std::clamp<std::ptrdiff_t>((now - kSpeeds.begin()) + by, 0,
+                                            static_cast<std::ptrdiff_t>(kSpeeds.size()) - 1);
+  session.set_speed(kSpeeds[static_cast<std::size_t>(i)].value);
 }
 
 void change_scale(App& app, double by) {
@@ -32,6 +31,31 @@ void choose_mode(App& app, int index) {
   Settings s = app.session.settings();
   s.mode = static_cast<Mode>(index);
   app.change(s);
+}
+
+/// Moves keyboard focus to the next open panel, or the previous one.
+void focus_next_panel(bool back) {
+  ImGuiContext& g = *ImGui::GetCurrentContext();
+  std::vector<ImGuiWindow*> panels;
+  for (ImGuiWindow* w : g.Windows) {
+    const bool inner = (w->Flags & ImGuiWindowFlags_ChildWindow) != 0;
+    const bool without_keys = (w->Flags & ImGuiWindowFlags_NoNavInputs) != 0;
+    if (w->WasActive && !w->Hidden && !inner && !without_keys) panels.push_back(w);
+  }
+  if (panels.empty()) return;
+  // Reading order: left to right, then down.
+  std::stable_sort(panels.begin(), panels.end(), [](const ImGuiWindow* a, const ImGuiWindow* b) {
+    return a->Pos.x != b->Pos.x ? a->Pos.x < b->Pos.x : a->Pos.y < b->Pos.y;
+  });
+  const ImGuiWindow* now = g.NavWindow != nullptr ? g.NavWindow->RootWindow : nullptr;
+  const auto at = std::find(panels.begin(), panels.end(), now);
+  const auto count = static_cast<std::ptrdiff_t>(panels.size());
+  std::ptrdiff_t next = back ? count - 1 : 0;
+  if (at != panels.end()) next = ((at - panels.begin()) + (back ? count - 1 : 1)) % count;
+  ImGuiWindow* panel = panels[static_cast<std::size_t>(next)];
+  ImGui::FocusWindow(panel);
+  ImGui::NavInitWindow(panel, true);
+  g.NavDisableHighlight = false;
 }
 
 constexpr std::array<KeyAction, 19> kActions{
@@ -61,7 +85,10 @@ constexpr std::array<KeyAction, 19> kActions{
       [](App& app, char typed) { change_scale(app, typed == '-' ? -0.1 : 0.1); }, true},
      {"G", "gG", "the guided tour, and its next step",
       [](App& app, char) { advance_tour(app.desk); }, true},
-     {"L", "lL", "copy the link", [](App& app, char) { copy_link(app); }},
+     {"L", "lL", "copy the link",
+      [](App& app, char) {
+        if (app.host.copy_link) app.host.copy_link();
+      }},
      {"C", "cC", "copy the command", [](App& app, char) { copy_command(app); }},
      {"O", "oO", "open a scene file",
       [](App& app, char) {
@@ -91,30 +118,6 @@ void handle_keys(App& app) {
   if (ImGui::IsKeyPressed(ImGuiKey_F6)) focus_next_panel(io.KeyShift);
   if (ImGui::IsKeyPressed(ImGuiKey_Home)) app.session.go_to(0);
   if (ImGui::IsKeyPressed(ImGuiKey_End)) app.session.go_to(app.session.timeline().size() - 1);
-}
-
-void focus_next_panel(bool back) {
-  ImGuiContext& g = *ImGui::GetCurrentContext();
-  std::vector<ImGuiWindow*> panels;
-  for (ImGuiWindow* w : g.Windows) {
-    const bool inner = (w->Flags & ImGuiWindowFlags_ChildWindow) != 0;
-    const bool without_keys = (w->Flags & ImGuiWindowFlags_NoNavInputs) != 0;
-    if (w->WasActive && !w->Hidden && !inner && !without_keys) panels.push_back(w);
-  }
-  if (panels.empty()) return;
-  // Reading order: left to right, then down.
-  std::stable_sort(panels.begin(), panels.end(), [](const ImGuiWindow* a, const ImGuiWindow* b) {
-    return a->Pos.x != b->Pos.x ? a->Pos.x < b->Pos.x : a->Pos.y < b->Pos.y;
-  });
-  const ImGuiWindow* now = g.NavWindow != nullptr ? g.NavWindow->RootWindow : nullptr;
-  const auto at = std::find(panels.begin(), panels.end(), now);
-  const auto count = static_cast<std::ptrdiff_t>(panels.size());
-  std::ptrdiff_t next = back ? count - 1 : 0;
-  if (at != panels.end()) next = ((at - panels.begin()) + (back ? count - 1 : 1)) % count;
-  ImGuiWindow* panel = panels[static_cast<std::size_t>(next)];
-  ImGui::FocusWindow(panel);
-  ImGui::NavInitWindow(panel, true);
-  g.NavDisableHighlight = false;
 }
 
 }  // namespace substep::ui

@@ -4,8 +4,6 @@
 #include <span>
 #include <string_view>
 
-struct ImGuiWindow;
-
 namespace substep {
 
 struct App;
@@ -24,9 +22,6 @@ std::span<const KeyAction> key_actions();
 
 /// Handles the keys typed in this frame, unless a text field is active.
 void handle_keys(App& app);
-
-/// Moves keyboard focus to the next open panel, or the previous one.
-void focus_next_panel(bool back);
 
 }  // namespace ui
 }  // namespace substep

@@ -2,16 +2,14 @@
 
 #include <array>
 
-#include <algorithm>
-
 #include "app/fonts/fonts.hpp"
 
 namespace substep::ui {
 namespace {
 
 // 0xRRGGBB, the usual notation.
-constexpr ImU32 rgb(unsigned hex, unsigned alpha = 255) {
-  return (alpha << IM_COL32_A_SHIFT) | (((hex >> 16U) & 0xffU) << IM_COL32_R_SHIFT) |
+constexpr ImU32 rgb(unsigned hex) {
+  return IM_COL32_A_MASK | (((hex >> 16U) & 0xffU) << IM_COL32_R_SHIFT) |
          (((hex >> 8U) & 0xffU) << IM_COL32_G_SHIFT) | ((hex & 0xffU) << IM_COL32_B_SHIFT);
 }
 Color color(unsigned hex, float alpha = 1.0F) {
@@ -20,100 +18,67 @@ Color color(unsigned hex, float alpha = 1.0F) {
           static_cast<float>(hex & 0xffU) / 255.0F, alpha};
 }
 
-Theme make_dark() {
+Theme make_theme(bool dark) {
+  const auto pick = [dark](unsigned in_dark, unsigned in_light) {
+    return dark ? in_dark : in_light;
+  };
   Theme t;
-  t.dark = true;
-  t.panel = rgb(0x181c24);
-  t.panel_border = rgb(0x2b313d);
-  t.raised = rgb(0x222835);
-  t.well = rgb(0x0f1218);
-  t.control = rgb(0x2c3341);
-  t.control_hover = rgb(0x394253);
-  t.track = rgb(0x303847);
-  t.text = rgb(0xe8ecf2);
-  t.dim = rgb(0x9aa4b3);
-  t.faint = rgb(0x566070);
-  t.accent = rgb(0x2f6fe4);
-  t.accent_hover = rgb(0x4a86f0);
+  t.dark = dark;
+  t.panel = rgb(pick(0x181c24, 0xffffff));
+  t.panel_border = rgb(pick(0x2b313d, 0xd5dbe4));
+  t.raised = rgb(pick(0x222835, 0xffffff));
+  t.well = rgb(pick(0x0f1218, 0xf1f3f7));
+  t.control = rgb(pick(0x2c3341, 0xe6eaf0));
+  t.control_hover = rgb(pick(0x394253, 0xd9dfe8));
+  t.track = rgb(pick(0x303847, 0xd3d9e3));
+  t.text = rgb(pick(0xe8ecf2, 0x161b24));
+  t.dim = rgb(pick(0x9aa4b3, 0x556072));
+  t.faint = rgb(pick(0x566070, 0xa4adbb));
+  t.accent = rgb(pick(0x2f6fe4, 0x1f5fd6));
+  t.accent_hover = rgb(pick(0x4a86f0, 0x2f6ce0));
   t.on_accent = rgb(0xffffff);
-  t.blue = rgb(0x4d90fe);
-  t.orange = rgb(0xff8a4c);
-  t.teal = rgb(0x46c6a0);
-  t.amber = rgb(0xe3b341);
-  t.purple = rgb(0xd9a8f5);
-  t.grey = rgb(0x7d8798);
-  t.view.background_top = color(0x2a303c);
-  t.view.background_bottom = color(0x11141a);
-  t.view.grid = color(0x8593a8, 0.24F);
-  t.view.body = color(0xd9dee6);
-  t.view.fixture = color(0x77818f);
-  t.view.joint = color(0x4a5260);
-  t.view.trail = color(0x5c9dff, 0.75F);
-  t.view.stiff_low = color(0xccd6e6);
-  t.view.stiff_mid = color(0xe6c9a8);
-  t.view.stiff_high = color(0xf5803e);
-  t.view.floor = color(0x3a424e, 0.95F);
-  t.view.shade = color(0x0a0c10);
-  t.view.ambient = 0.50F;
-  t.view.shadow = 0.60F;
-  t.view.contact = 0.62F;
-  return t;
-}
-
-Theme make_light() {
-  Theme t;
-  t.dark = false;
-  t.panel = rgb(0xffffff);
-  t.panel_border = rgb(0xd5dbe4);
-  t.raised = rgb(0xffffff);
-  t.well = rgb(0xf1f3f7);
-  t.control = rgb(0xe6eaf0);
-  t.control_hover = rgb(0xd9dfe8);
-  t.track = rgb(0xd3d9e3);
-  t.text = rgb(0x161b24);
-  t.dim = rgb(0x556072);
-  t.faint = rgb(0xa4adbb);
-  t.accent = rgb(0x1f5fd6);
-  t.accent_hover = rgb(0x2f6ce0);
-  t.on_accent = rgb(0xffffff);
-  t.blue = rgb(0x1f6feb);
-  t.orange = rgb(0xbc4407);
-  t.teal = rgb(0x007a70);
-  t.amber = rgb(0x8f5f00);
-  t.purple = rgb(0x6d2fc4);
-  t.grey = rgb(0x6b7586);
-  t.view.background_top = color(0xf4f6f9);
-  t.view.background_bottom = color(0xdde3eb);
-  t.view.grid = color(0x5d6b80, 0.36F);
-  t.view.body = color(0xc4cdd9);
-  t.view.fixture = color(0x8c96a5);
-  t.view.joint = color(0x5b6472);
-  t.view.trail = color(0x1f6feb, 0.7F);
-  t.view.stiff_low = color(0xc2cfe2);
-  t.view.stiff_mid = color(0xf0cfa9);
-  t.view.stiff_high = color(0xf07a35);
-  t.view.floor = color(0xeef1f5, 0.95F);
-  t.view.shade = color(0x39424f);
-  t.view.ambient = 0.52F;
-  t.view.shadow = 0.34F;
-  t.view.contact = 0.42F;
+  t.blue = rgb(pick(0x4d90fe, 0x1f6feb));
+  t.orange = rgb(pick(0xff8a4c, 0xbc4407));
+  t.teal = rgb(pick(0x46c6a0, 0x007a70));
+  t.amber = rgb(pick(0xe3b341, 0x8f5f00));
+  t.purple = rgb(pick(0xd9a8f5, 0x6d2fc4));
+  t.grey = rgb(pick(0x7d8798, 0x6b7586));
+  t.view.background_top = color(pick(0x2a303c, 0xf4f6f9));
+  t.view.background_bottom = color(pick(0x11141a, 0xdde3eb));
+  t.view.grid = color(pick(0x8593a8, 0x5d6b80), dark ? 0.24F : 0.36F);
+  t.view.body = color(pick(0xd9dee6, 0xc4cdd9));
+  t.view.fixture = color(pick(0x77818f, 0x8c96a5));
+  t.view.joint = color(pick(0x4a5260, 0x5b6472));
+  t.view.trail = color(pick(0x5c9dff, 0x1f6feb), dark ? 0.75F : 0.7F);
+  t.view.stiff_low = color(pick(0xccd6e6, 0xc2cfe2));
+  t.view.stiff_mid = color(pick(0xe6c9a8, 0xf0cfa9));
+  t.view.stiff_high = color(pick(0xf5803e, 0xf07a35));
+  t.view.floor = color(pick(0x3a424e, 0xeef1f5), 0.95F);
+  t.view.shade = color(pick(0x0a0c10, 0x39424f));
+  t.view.ambient = dark ? 0.50F : 0.52F;
+  t.view.shadow = dark ? 0.60F : 0.34F;
+  t.view.contact = dark ? 0.62F : 0.42F;
   return t;
 }
 
 }  // namespace
 
 const Theme& dark_theme() {
-  static const Theme theme = make_dark();
+  static const Theme theme = make_theme(true);
   return theme;
 }
 const Theme& light_theme() {
-  static const Theme theme = make_light();
+  static const Theme theme = make_theme(false);
   return theme;
 }
 
 ImU32 compare_color(const Look& look, std::size_t run) {
   const Theme& t = *look.theme;
   return std::array{t.orange, t.teal, t.purple}.at(run);
+}
+
+ImU32 to_u32(const Color& color, float opacity) {
+  return ImGui::ColorConvertFloat4ToU32({color.r, color.g, color.b, opacity});
 }
 
 ImU32 fade(ImU32 color, float opacity) {

@@ -64,6 +64,11 @@ struct Look {
   Metrics m;
 };
 
+/// Of a window whose place the application sets.
+inline constexpr ImGuiWindowFlags kPlaced = ImGuiWindowFlags_NoTitleBar |
+                                            ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                            ImGuiWindowFlags_NoSavedSettings;
+
 /// Rasterises the fonts for a pixel ratio and replaces the atlas.
 Fonts build_fonts(float pixel_ratio);
 
@@ -71,6 +76,8 @@ Fonts build_fonts(float pixel_ratio);
 void apply_style(const Look& look);
 
 inline ImVec4 to_vec4(ImU32 color) { return ImGui::ColorConvertU32ToFloat4(color); }
+/// A colour of the picture, with another opacity.
+ImU32 to_u32(const Color& color, float opacity);
 /// The colour of a compared run, in plots and in the picture. @param run from 0
 ImU32 compare_color(const Look& look, std::size_t run);
 /// The same colour, less opaque.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <span>
 #include <string>
@@ -60,15 +59,6 @@ constexpr std::array<Choice, 2> kGyroscopics{
      {"implicit",
       "Half a step explicit, half implicit: conserves energy and angular momentum. This "
       "project's."}}};
-
-template <class Enum>
-bool choose(const Look& look, const char* name, std::span<const Choice> choices, Enum& value,
-            const char* tip) {
-  int index = static_cast<int>(value);
-  const bool changed = segmented_row(look, name, choices, index, tip);
-  value = static_cast<Enum>(index);
-  return changed;
-}
 
 std::string about(const SolverEntry& e) {
   return std::string(e.full_name) + " (" + e.reference + "): " + e.about;
@@ -193,7 +183,7 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
            "the existing factor.");
   }
   if (reads(s, "share_iterations")) {
-    checkbox(look, "Sweeps of a frame", s.share_iterations, ImGui::GetContentRegionAvail().x,
+    checkbox(look, "Sweeps of a frame", s.share_iterations,
              "The sweeps are per frame and distributed over its sub-steps: small steps (Macklin et "
              "al. 2019, Small steps).");
   }
@@ -206,7 +196,6 @@ void solving(const Look& look, const Scene& scene, Settings& s) {
 
 // The rule for N.
 void finer_points_of_mode(const Look& look, Settings& s) {
-  const float width = ImGui::GetContentRegionAvail().x;
   if (reads(s, "policy")) {
     choose(look, "N decided", kPolicies, s.policy, "How often N is decided (Eq. 11).");
     if (s.policy == Policy::kSubstep) {
@@ -216,20 +205,20 @@ void finer_points_of_mode(const Look& look, Settings& s) {
     }
   }
   if (reads(s, "rotation_criterion")) {
-    checkbox(look, "Rotation criterion", s.rotation_criterion, width,
+    checkbox(look, "Rotation criterion", s.rotation_criterion,
              "N also depends on the rotation and the gyroscopic rate of bodies. Off: the paper's "
              "rule only.");
   }
   if (reads(s, "islands")) {
-    checkbox(look, "Per-island sub-steps", s.islands, width,
+    checkbox(look, "Per-island sub-steps", s.islands,
              "Groups of bodies that neither joints nor possible contacts connect within a frame "
              "have their own number of sub-steps: calm ones stay cheap. This project's.");
   }
-  checkbox(look, "Sleep resting bodies", s.sleep, width,
+  checkbox(look, "Sleep resting bodies", s.sleep,
            "Bodies sleep at no cost when everything connected with them has been slower than 1 "
            "cm/s for half a second. They wake when a body comes near.");
   if (reads(s, "probe")) {
-    checkbox(look, "Probe before the first frame", s.probe, width,
+    checkbox(look, "Probe before the first frame", s.probe,
              "One solve of a whole frame, not integrated, computes the forces that Eq. 9 needs; "
              "without it the first N is 1. Takes effect on reset.");
   }
@@ -237,7 +226,6 @@ void finer_points_of_mode(const Look& look, Settings& s) {
 
 // Advanced settings; only those effective with this scene, mode and solver.
 void finer_points(const Look& look, const Effects& effects, Settings& s) {
-  const float width = ImGui::GetContentRegionAvail().x;
   finer_points_of_mode(look, s);
   if (effects.contact) {
     choose(look, "Contacts", kDetections, s.detection, "When contacts are detected.");
@@ -259,14 +247,14 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
   const bool aimed = follows_accelerations(s) && drift_law(s) == Drift::kFull;
   if (effects.joints && !aimed) {
     bool second = s.drift_order == 2;
-    checkbox(look, "Correct for curvature", second, width,
+    checkbox(look, "Correct for curvature", second,
              "Second order: joints are also corrected for the error that their rotation will cause "
              "by the end of the sub-step, dt²/2 phi''. Half the error with exact joints, noise "
              "with soft ones. This project's.");
     s.drift_order = second ? 2 : 1;
   }
   if (reads(s, "warm_start")) {
-    checkbox(look, "Warm start", s.warm_start, width,
+    checkbox(look, "Warm start", s.warm_start,
              "Sweeps start from the forces of the previous sub-step.");
   }
   if (reads(s, "pivots") && effects.contact) {

@@ -3,6 +3,8 @@
 
 #include <imgui.h>
 
+#include <string_view>
+
 #include "app/ui/look.hpp"
 #include "app/ui/viewport.hpp"
 
@@ -17,6 +19,6 @@ double pixel_size(const Viewport& viewport, const Vec3& x);
 
 /// Text with a soft halo of the background colour, readable on any body.
 void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
-               const char* text);
+               std::string_view text);
 
 }  // namespace substep::ui

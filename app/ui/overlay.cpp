@@ -1,7 +1,6 @@
 // Text overlays of the picture.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -33,19 +32,16 @@ std::string method_line(const Settings& s) {
   if (has_islands(s)) line += ", by island";
   line += "  ·  " + solver_words(s);
   const bool as_leapfrog = s.integrator == Integrator::kStormer && !follows_accelerations(s);
-  line += "  ·  ";
-  line += entry_of(as_leapfrog ? Integrator::kLeapfrog : s.integrator).title;
-  return line;
+  return line + "  ·  " + entry_of(as_leapfrog ? Integrator::kLeapfrog : s.integrator).title;
 }
 
 }  // namespace
 
 void draw_over(const Look& look, ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color,
-               const char* text) {
-  const Color& b = look.theme->view.background_top;
-  const ImU32 halo = ImGui::ColorConvertFloat4ToU32({b.r, b.g, b.b, 0.55F});
+               std::string_view text) {
+  const ImU32 halo = to_u32(look.theme->view.background_top, 0.55F);
   for (const ImVec2 d : {ImVec2(-1, 0), ImVec2(1, 0), ImVec2(0, -1), ImVec2(0, 1)}) {
-    draw_text(draw, font, {at.x + d.x, at.y + d.y}, halo, text);
+    draw_text(draw, font, at + d, halo, text);
   }
   draw_text(draw, font, at, color, text);
 }
@@ -88,22 +84,20 @@ void caption(const Look& look, const Session& session, Desk& desk, const Viewpor
     desk.shown_n = {std::to_string(report.n_substeps), unit_of_n(report, session.substeps_left())};
   }
   const auto& [n, unit] = has_n ? desk.shown_n : ShownN{};
-  const ImVec2 n_size = text_size(look.fonts.large, n.c_str());
-  const float unit_width = text_size(look.fonts.regular, unit.c_str()).x;
+  const ImVec2 n_size = text_size(look.fonts.large, n);
+  const float unit_width = text_size(look.fonts.regular, unit).x;
   const auto room_beside = [&](float width) {
     return v.width - 2.0F * pad - std::max(width, 80.0F) - 16.0F;
   };
   const ImVec2 at(v.x + pad, v.y + pad);
   draw_over(look, draw, look.fonts.title, at, t.text,
-            fitted(look.fonts.title, session.scene().title, room_beside(n_size.x)).c_str());
-  draw_over(
-      look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
-      fitted(look.fonts.regular, method_line(session.settings()), room_beside(unit_width)).c_str());
+            fitted(look.fonts.title, session.scene().title, room_beside(n_size.x)));
+  draw_over(look, draw, look.fonts.regular, {at.x, at.y + 28.0F}, t.dim,
+            fitted(look.fonts.regular, method_line(session.settings()), room_beside(unit_width)));
   if (!has_n) return;
   const float right = v.x + v.width - pad;
-  draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n.c_str());
-  draw_over(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim,
-            unit.c_str());
+  draw_over(look, draw, look.fonts.large, {right - n_size.x, at.y - 4.0F}, t.text, n);
+  draw_over(look, draw, look.fonts.regular, {right - unit_width, at.y + 28.0F}, t.dim, unit);
 }
 
 void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewport& viewport) {
@@ -123,7 +117,7 @@ void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewp
     ImVec2 p;
     if (!project(viewport, poses.x[i], p)) continue;
     const std::string text = grouped(body.mass) + " kg";
-    const ImVec2 size = text_size(look.fonts.small, text.c_str());
+    const ImVec2 size = text_size(look.fonts.small, text);
     // Below a hanging body, above one that rests on others.
     const bool below = scene.effects.joints && !scene.effects.contact;
     float low = p.y;
@@ -148,7 +142,7 @@ void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewp
     if (at.y < v.y + kCaption || at.x < v.x || at.x + size.x > v.x + v.width ||
         at.y + size.y > v.y + v.height)
       continue;
-    draw_over(look, draw, look.fonts.small, at, look.theme->text, text.c_str());
+    draw_over(look, draw, look.fonts.small, at, look.theme->text, text);
   }
 }
 
@@ -166,12 +160,9 @@ void tint_scale(const Look& look, const Session& session, const Compare& compare
   draw.AddRectFilled({at.x - 8.0F, at.y - 8.0F},
                      {at.x + 2 * kHalf + 16.0F + size.x, at.y - 2.0F + size.y},
                      fade(look.theme->panel, 0.7F), look.m.radius);
-  const auto ink = [](const Color& c) {
-    return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0F});
-  };
-  const ImU32 low = ink(palette.stiff_low);
-  const ImU32 mid = ink(palette.stiff_mid);
-  const ImU32 high = ink(palette.stiff_high);
+  const ImU32 low = to_u32(palette.stiff_low, 1.0F);
+  const ImU32 mid = to_u32(palette.stiff_mid, 1.0F);
+  const ImU32 high = to_u32(palette.stiff_high, 1.0F);
   draw.AddRectFilledMultiColor(at, {at.x + kHalf, at.y + 6.0F}, low, mid, mid, low);
   draw.AddRectFilledMultiColor({at.x + kHalf, at.y}, {at.x + 2 * kHalf, at.y + 6.0F}, mid, high,
                                high, mid);

@@ -4,10 +4,11 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "app/lab/criterion.hpp"
 #include "app/lab/lab.hpp"
 #include "app/shell/file_browser.hpp"
 #include "app/text/tour_words.hpp"
@@ -39,7 +40,7 @@ void throw_ball(Lab& lab, const Viewport& viewport);
 
 void controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 /// The scene menu.
-void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip);
+void scene_picker(const Look& look, Lab& lab, Desk& desk, std::string_view tip);
 /// The controls of the Explore level, below the scene.
 void explore_controls(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
 /// Mode and solver with their parameters: the controls common to all runs.
@@ -49,14 +50,10 @@ void method_controls(const Look& look, const Scene& scene, Settings& settings, b
 void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float height);
 /// Saves the run so far as a CSV file, with the channels of the plots shown.
 void save_table(const Lab& lab, Desk& desk);
-/// File name of this run, without an extension.
-std::string file_stem(const Session& session);
 /// Summary of what sets N, in two lines and a picture.
 void why_summary(const Look& look, const Session& session, Desk& desk);
 /// The full explanation: the law with its values, and each body's share.
 void why(const Look& look, const Session& session, Desk& desk);
-/// The two terms of the criterion; marks the one that sets N.
-void criterion_terms(const Look& look, const Session& session, const Criterion& criterion);
 /// The runs compared with this run.
 void compare(const Look& look, Lab& lab, Desk& desk);
 /// A menu of methods to add to the comparison.
@@ -94,6 +91,18 @@ inline constexpr const char* kTourTip = "The paper's story in seven steps";
 std::string run_title(const Session& session, const Compare& compare);
 /// @param brief without the list of stages
 void timing(const Look& look, const Session& session, bool brief);
+/// A speed of the simulation relative to real time.
+struct Speed {
+  double value;
+  const char* name;
+};
+inline constexpr std::array<Speed, 7> kSpeeds{{{0.0625, "1/16×"},
+                                               {0.125, "1/8×"},
+                                               {0.25, "1/4×"},
+                                               {0.5, "1/2×"},
+                                               {1.0, "1×"},
+                                               {2.0, "2×"},
+                                               {4.0, "4×"}}};
 /// @param phone two rows, larger targets
 void transport(App& app, bool phone);
 
@@ -101,7 +110,6 @@ void transport(App& app, bool phone);
 void scrubber(const Look& look, Session& session, ImVec2 at, float width, float height);
 /// The button with the menu of links, files and pictures.
 void share_menu(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, float size);
-void copy_link(const Lab& lab);
 void copy_command(Lab& lab);
 /// Takes a screenshot of the whole window after this frame is drawn.
 void capture_window(const Session& session, Desk& desk);

@@ -17,7 +17,6 @@
 namespace substep::ui {
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr float kGutter = 40.0F;  // left of the curves, for the value labels
 constexpr float kToggle = 16.0F;  // height of "log" at the top, shown while the plot is hovered
 
@@ -41,13 +40,10 @@ struct Range {
   double high = 1.0;
 };
 
+// Includes zero.
 Range linear_range(const PlotSpec& spec, const Extent& all) {
-  double low = all.empty() ? 0.0 : static_cast<double>(all.low);
-  double high = all.empty() ? spec.least_span : static_cast<double>(all.high);
-  if (spec.from_zero) {
-    low = std::min(low, 0.0);
-    high = std::max(high, 0.0);
-  }
+  double low = all.empty() ? 0.0 : std::min(static_cast<double>(all.low), 0.0);
+  double high = all.empty() ? spec.least_span : std::max(static_cast<double>(all.high), 0.0);
   if (spec.most > 0.0) {
     low = std::max(low, -spec.most);
     high = std::min(high, spec.most);
@@ -57,7 +53,7 @@ Range linear_range(const PlotSpec& spec, const Extent& all) {
     if (level.value < 3.0 * std::max(high, spec.least_span)) high = std::max(high, level.value);
   }
   const double span = std::max(high - low, spec.least_span);
-  if (!spec.from_zero || low < 0.0) low -= 0.06 * span;
+  if (low < 0.0) low -= 0.06 * span;
   return {low, std::max(high, low + span) + 0.1 * span};
 }
 
@@ -69,10 +65,10 @@ Range logarithmic_range(const Extent& all) {
   return {low, std::max(high, low + 2.0)};
 }
 
-void find_range(const PlotSpec& spec, const PlotFrame& f, double from, PlotState& state) {
+void find_range(const PlotSpec& spec, const PlotFrame& f, PlotState& state) {
   Extent all;
   for (const Series& series : spec.series) {
-    const History::Slice slice = visible(*series.history, f, from);
+    const History::Slice slice = visible(*series.history, f);
     all.add(shifted(series.history->samples(series.channel).extent(slice.first, slice.last),
                     series.offset));
   }
@@ -123,12 +119,11 @@ void draw_values(const Look& look, const PlotSpec& spec, const PlotFrame& f, flo
                                              (f.max.y - f.min.y));
     draw.AddLine({f.min.x, y}, {f.max.x, y}, line);
     const std::string text = label_of(spec, f, v, digits);
-    const ImVec2 size = text_size(look.fonts.small, text.c_str());
+    const ImVec2 size = text_size(look.fonts.small, text);
     const float top = std::clamp(y - 0.5F * size.y, f.min.y - 2.0F, f.max.y - size.y + 2.0F);
     if (top < f.min.y + taken - 3.0F || top + size.y > above) continue;
     above = top;
-    draw_text(draw, look.fonts.small, {f.min.x - 6.0F - size.x, top}, look.theme->dim,
-              text.c_str());
+    draw_text(look.fonts.small, {f.min.x - 6.0F - size.x, top}, look.theme->dim, text);
   }
 }
 
@@ -146,7 +141,7 @@ void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f,
     draw.AddLine({x, f.min.y}, {x, f.max.y}, line);
     if (!spec.time_labels) continue;
     const std::string text = fixed(t, digits) + " s";
-    const ImVec2 size = text_size(look.fonts.small, text.c_str());
+    const ImVec2 size = text_size(look.fonts.small, text);
     const float left = std::clamp(x - 0.5F * size.x, f.min.x, f.max.x - size.x);
     if (left < before + 8.0F) continue;
     if (cursor && left + size.x + 8.0F > cursor->left &&
@@ -154,7 +149,7 @@ void draw_time(const Look& look, const PlotSpec& spec, const PlotFrame& f,
       continue;
     }
     before = left + size.x;
-    draw_text(draw, look.fonts.small, {left, f.max.y + 3.0F}, look.theme->dim, text.c_str());
+    draw_text(look.fonts.small, {left, f.max.y + 3.0F}, look.theme->dim, text);
   }
 }
 
@@ -225,11 +220,9 @@ bool scale_toggle(const Look& look, ImVec2 at, bool pointed, PlotState& state) {
   const char* name = state.logarithmic ? "log" : "lin";
   const bool seen = pointed || ImGui::IsItemFocused();
   if (!seen) return false;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float width = text_size(look.fonts.small, name).x;
-  draw_text(draw, look.fonts.small, {at.x + kGutter - 6.0F - width, at.y},
-            ImGui::IsItemHovered() ? look.theme->accent_hover : look.theme->dim, name);
-  draw_focus(look, draw, at, {at.x + kGutter - 4.0F, at.y + kToggle});
+  draw_text_before(look.fonts.small, {at.x + kGutter - 6.0F, at.y},
+                   ImGui::IsItemHovered() ? look.theme->accent_hover : look.theme->dim, name);
+  draw_focus(look);
   tooltip(look, "",
           state.logarithmic ? "Logarithmic scale: click for linear"
                             : "Linear scale: click for logarithmic");
@@ -241,7 +234,8 @@ bool scale_toggle(const Look& look, ImVec2 at, bool pointed, PlotState& state) {
 double shown_value(const History& history, Channel channel, const TimeAxis& axis) {
   if (const auto cursor = axis.cursor()) return history.at(channel, *cursor);
   const auto values = history[channel];
-  return values.empty() ? kNothing : static_cast<double>(values.back());
+  return values.empty() ? std::numeric_limits<double>::quiet_NaN()
+                        : static_cast<double>(values.back());
 }
 
 void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeAxis& axis,
@@ -255,7 +249,8 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   f.max = {origin.x + size.x - kNameGutter, origin.y + size.y - below};
   std::tie(f.t0, f.t1) = axis.window(now);
   f.logarithmic = state.logarithmic && !spec.linear;
-  find_range(spec, f, axis.from, state);
+  f.from = axis.from;
+  find_range(spec, f, state);
   f.low = state.low;
   f.high = state.high;
 
@@ -267,12 +262,12 @@ void plot(const Look& look, const PlotSpec& spec, double now, ImVec2 size, TimeA
   draw_time(look, spec, f, cursor, draw);
   draw_values(look, spec, f, toggle ? kToggle : 0.0F, draw);
   draw.PushClipRect(f.min, f.max, true);
-  for (const Series& series : spec.series) draw_series(series, axis.from, f, draw);
+  for (const Series& series : spec.series) draw_series(series, f, draw);
   draw_cursor(look, spec, f, axis, draw);
-  draw_marks(look, spec, axis.from, f, draw);
+  draw_marks(look, spec, f, draw);
   draw.PopClipRect();
-  draw_levels(look, spec, axis.from, f, draw);
-  draw_names(look, spec, axis.from, f, draw);
+  draw_levels(look, spec, f, draw);
+  draw_names(look, spec, f, draw);
   if (cursor) draw_cursor_time(look, f, *cursor, draw);
 
   mark(spec.id, {origin.x, origin.y - kHeading}, {origin.x + size.x, origin.y + size.y}, "plot");

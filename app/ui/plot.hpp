@@ -76,10 +76,9 @@ struct PlotState {
 
 struct PlotSpec {
   const char* id = "";
-  std::vector<Series> series;
-  std::vector<Level> levels;
-  std::vector<Mark> marks;
-  bool from_zero = false;    // a linear axis starts at 0
+  std::vector<Series> series{};
+  std::vector<Level> levels{};
+  std::vector<Mark> marks{};
   bool counts = false;       // integers: no grid lines between them
   bool linear = false;       // no logarithmic axis: values can be negative or are sums
   double most = 0.0;         // limit of a linear axis on either side of 0; 0: none

@@ -68,8 +68,8 @@ std::vector<Column> decimated(const Series& series, const History::Slice& slice,
 // Below the visible limit [pixel]: a curve that is redrawn every frame must not shimmer.
 constexpr float kUnseen = 0.1F;
 
-std::vector<Column> columns_of(const Series& series, double from, const PlotFrame& f) {
-  const History::Slice slice = visible(*series.history, f, from);
+std::vector<Column> columns_of(const Series& series, const PlotFrame& f) {
+  const History::Slice slice = visible(*series.history, f);
   const float pixel = 1.0F / std::max(1.0F, ImGui::GetIO().DisplayFramebufferScale.x);
   const double shown = (f.t1 - f.t0) / series.history->frame();
   const bool many = shown > 3.0 * static_cast<double>((f.max.x - f.min.x) / pixel);
@@ -136,10 +136,10 @@ std::vector<Column> thinned(const std::vector<Column>& columns, bool steps, floa
   return kept;
 }
 
-History::Slice visible(const History& history, const PlotFrame& f, double from) {
+History::Slice visible(const History& history, const PlotFrame& f) {
   History::Slice slice = history.between(f.t0, f.t1);
-  if (from > history.start_time()) {
-    slice.first = std::max(slice.first, history.between(from + history.frame(), f.t1).first);
+  if (f.from > history.start_time()) {
+    slice.first = std::max(slice.first, history.between(f.from + history.frame(), f.t1).first);
   }
   slice.last = std::max(slice.first, slice.last);
   return slice;
@@ -157,8 +157,8 @@ bool drawable(float value, const PlotFrame& f) {
   return std::isfinite(value) && !(f.logarithmic && value <= 0.0F);
 }
 
-void draw_series(const Series& series, double from, const PlotFrame& f, ImDrawList& draw) {
-  const std::vector<Column> columns = columns_of(series, from, f);
+void draw_series(const Series& series, const PlotFrame& f, ImDrawList& draw) {
+  const std::vector<Column> columns = columns_of(series, f);
   if (columns.empty()) return;
   const float end = f.x(series.history->end_time());  // end of a stepped series
   if (series.filled && !f.logarithmic) {

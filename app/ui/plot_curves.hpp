@@ -20,6 +20,7 @@ struct PlotFrame {
   double low = 0.0;  // already the logarithm on a logarithmic axis
   double high = 1.0;
   bool logarithmic = false;
+  double from = 0.0;  // earlier samples are omitted [s]
 
   [[nodiscard]] float x(double time) const {
     return min.x + static_cast<float>((time - t0) / (t1 - t0)) * (max.x - min.x);
@@ -34,8 +35,8 @@ struct PlotFrame {
   }
 };
 
-/// The samples within the axis and after the last clear. @param from time of the clear [s]
-History::Slice visible(const History& history, const PlotFrame& f, double from);
+/// The samples within the axis and after the last clear.
+History::Slice visible(const History& history, const PlotFrame& f);
 
 /// The extent of samples with an offset added.
 Extent shifted(const Extent& extent, double offset);
@@ -57,8 +58,7 @@ struct Column {
 /// between the kept ones, or of the previous value if `steps`. @param room [pixel]
 std::vector<Column> thinned(const std::vector<Column>& columns, bool steps, float room);
 
-/// Draws one series with at most one vertical line per pixel column. @param from omits earlier
-/// samples
-void draw_series(const Series& series, double from, const PlotFrame& f, ImDrawList& draw);
+/// Draws one series with at most one vertical line per pixel column.
+void draw_series(const Series& series, const PlotFrame& f, ImDrawList& draw);
 
 }  // namespace substep::ui

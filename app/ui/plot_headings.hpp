@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/ui/plots.hpp"
@@ -14,25 +15,22 @@ namespace substep::ui {
 /// Formats a value.
 using ValueText = std::function<std::string(double)>;
 
-/// A coloured dot with name and value, right-aligned at `right`. @return its left edge
-float legend(const Look& look, float right, float y, ImU32 color, const std::string& text);
-
 /// "10⁻⁸"
 std::string order_of_magnitude(double value);
 
-/// The values of the compared runs, right-aligned. @param left end of the heading
-/// @param text formats a value @param brief the same in less room
-void compared_values(const PlotContext& in, ImVec2 heading, float left, Channel channel,
-                     const ValueText& text, const ValueText& brief);
-
-struct NamedChannel {
-  Channel channel;
-  const char* name;
+/// A value in a heading, with a dot in its colour.
+struct HeadingValue {
   ImU32 color;
+  std::string full;
+  std::string brief;  // if there is little room
 };
-/// Names with values, the first on the right; orders of magnitude in narrow plots.
-void named_values(const PlotContext& in, ImVec2 heading, float left,
-                  const std::vector<NamedChannel>& shown);
+/// Values, right-aligned in a heading, the first on the right. @param at corner of the heading
+void heading_values(const Look& look, ImVec2 at, std::string_view heading,
+                    const std::vector<HeadingValue>& shown);
+
+/// The values of the compared runs. @param text formats a value @param brief the same in less room
+void compared_values(const PlotContext& in, ImVec2 at, std::string_view heading, Channel channel,
+                     const ValueText& text, const ValueText& brief);
 
 /// A plot's heading with its value, or with the values of all compared runs.
 void count_heading(const PlotContext& in, const char* name, const char* name_of_several,

@@ -15,20 +15,6 @@ namespace {
 constexpr float kNameLine = 12.0F;  // line spacing of names
 constexpr float kNameGap = 5.0F;    // from a curve to its name
 
-void draw_dashed(ImDrawList& draw, ImVec2 a, ImVec2 b, ImU32 color) {
-  float phase = 0.0F;
-  draw_dashes(draw, a, b, color, 1.0F, phase);
-}
-
-// Text on a background, so that curves do not cross it.
-void draw_on_ground(const Look& look, ImDrawList& draw, ImVec2 at, ImU32 color,
-                    const std::string& text) {
-  const ImVec2 size = text_size(look.fonts.small, text.c_str());
-  draw.AddRectFilled({at.x - 3.0F, at.y}, {at.x + size.x + 3.0F, at.y + size.y},
-                     fade(look.theme->well, 0.75F), 3.0F);
-  draw_text(draw, look.fonts.small, at, color, text.c_str());
-}
-
 /// The visible end of a curve, and its label.
 struct CurveEnd {
   ImVec2 at;
@@ -36,10 +22,10 @@ struct CurveEnd {
   std::string name;
 };
 
-std::vector<CurveEnd> ends_of(const PlotSpec& spec, double from, const PlotFrame& f) {
+std::vector<CurveEnd> ends_of(const PlotSpec& spec, const PlotFrame& f) {
   std::vector<CurveEnd> ends;
   for (const Series& series : spec.series) {
-    const History::Slice slice = visible(*series.history, f, from);
+    const History::Slice slice = visible(*series.history, f);
     if (series.name.empty() || slice.first >= slice.last) continue;
     const float value = (*series.history)[series.channel][slice.last - 1];
     if (!drawable(value, f)) continue;
@@ -50,9 +36,8 @@ std::vector<CurveEnd> ends_of(const PlotSpec& spec, double from, const PlotFrame
   return ends;
 }
 
-/// Right end of the name of a curve.
 float name_end(const Look& look, const CurveEnd& end) {
-  return end.at.x + kNameGap + text_size(look.fonts.small, end.name.c_str()).x;
+  return end.at.x + kNameGap + text_size(look.fonts.small, end.name).x;
 }
 
 /// Whether a text of this size would cover the name of a curve.
@@ -64,6 +49,14 @@ bool covers_name(const Look& look, const std::vector<CurveEnd>& ends, ImVec2 at,
 }
 
 }  // namespace
+
+void draw_on_ground(const Look& look, ImDrawList& draw, ImVec2 at, ImU32 color,
+                    const std::string& text, float opacity) {
+  const ImVec2 size = text_size(look.fonts.small, text);
+  draw.AddRectFilled({at.x - 3.0F, at.y}, {at.x + size.x + 3.0F, at.y + size.y},
+                     fade(look.theme->well, opacity), 3.0F);
+  draw_text(look.fonts.small, at, color, text);
+}
 
 std::vector<NamePlace> apart(const std::vector<float>& wanted, float line, float top,
                              float bottom) {
@@ -88,9 +81,8 @@ std::vector<NamePlace> apart(const std::vector<float>& wanted, float line, float
   return places;
 }
 
-void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
-                ImDrawList& draw) {
-  const std::vector<CurveEnd> ends = ends_of(spec, from, f);
+void draw_names(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
+  const std::vector<CurveEnd> ends = ends_of(spec, f);
   std::vector<float> wanted;
   wanted.reserve(ends.size());
   for (const CurveEnd& end : ends) wanted.push_back(end.at.y);
@@ -99,14 +91,13 @@ void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotF
     if (!places[i].shown) continue;
     const float x = ends[i].at.x + kNameGap;
     const std::string name = fitted(look.fonts.small, ends[i].name, f.max.x + kNameGutter - x);
-    const float height = text_size(look.fonts.small, name.c_str()).y;
+    const float height = text_size(look.fonts.small, name).y;
     draw_on_ground(look, draw, {x, places[i].y - 0.5F * height}, ends[i].color, name);
   }
 }
 
-void draw_levels(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
-                 ImDrawList& draw) {
-  const std::vector<CurveEnd> ends = ends_of(spec, from, f);
+void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
+  const std::vector<CurveEnd> ends = ends_of(spec, f);
   float taken = f.min.x;  // occupied by curves and their names
   for (const CurveEnd& end : ends) {
     taken = std::max(taken, name_end(look, end) + kNameGap);
@@ -115,15 +106,15 @@ void draw_levels(const Look& look, const PlotSpec& spec, double from, const Plot
     const double v = f.logarithmic ? std::log10(std::max(level.value, 1e-300)) : level.value;
     const bool above = v > f.high;  // outside the plot: labelled at its edge
     const float y = above ? f.min.y + 0.5F : std::round(f.y(level.value)) + 0.5F;
-    if (!above) draw_dashed(draw, {f.min.x, y}, {f.max.x, y}, level.color);
+    if (!above) draw_dashes(draw, {f.min.x, y}, {f.max.x, y}, level.color, 1.0F);
     const char* arrow = above ? " ↑" : "";
     std::string name = level.name + arrow;
     const float room = f.max.x - f.min.x + 0.5F * kNameGutter;
-    if (text_size(look.fonts.small, name.c_str()).x > room && !level.brief.empty()) {
+    if (text_size(look.fonts.small, name).x > room && !level.brief.empty()) {
       name = level.brief + arrow;
     }
     // Below the line, if there is room: the curves are mostly above.
-    const ImVec2 size = text_size(look.fonts.small, name.c_str());
+    const ImVec2 size = text_size(look.fonts.small, name);
     const float below = y + 1.0F;
     const float over = y - size.y - 1.0F;
     const float right = f.max.x - size.x - 6.0F;
@@ -133,19 +124,18 @@ void draw_levels(const Look& look, const PlotSpec& spec, double from, const Plot
   }
 }
 
-void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
-                ImDrawList& draw) {
-  const std::vector<CurveEnd> ends = ends_of(spec, from, f);
+void draw_marks(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw) {
+  const std::vector<CurveEnd> ends = ends_of(spec, f);
   float names = f.max.x;  // left end of the curves' names
   for (const CurveEnd& end : ends) names = std::min(names, end.at.x);
   float above = f.max.y - 2.0F;  // names of levels are at the top
   for (const Mark& mark : spec.marks) {
     if (mark.time < f.t0 || mark.time > f.t1) continue;
     const float x = std::round(f.x(mark.time)) + 0.5F;
-    draw_dashed(draw, {x, f.min.y}, {x, f.max.y}, mark.color);
+    draw_dashes(draw, {x, f.min.y}, {x, f.max.y}, mark.color, 1.0F);
     if (mark.name.empty()) continue;
     // Not over the names of the curves: beside the line, or on the far right.
-    const ImVec2 size = text_size(look.fonts.small, mark.name.c_str());
+    const ImVec2 size = text_size(look.fonts.small, mark.name);
     float left = x - 4.0F - size.x;
     if (left < f.min.x) left = x + 4.0F;
     if (left + size.x > names && left > x) left = f.max.x - size.x - 4.0F;
@@ -159,7 +149,7 @@ std::optional<TimeLabel> cursor_time(const Look& look, const PlotFrame& f, const
   if (!cursor || *cursor < f.t0 || *cursor > f.t1) return std::nullopt;
   TimeLabel label;
   label.text = fixed(*cursor, 2) + " s";
-  label.size = text_size(look.fonts.small, label.text.c_str());
+  label.size = text_size(look.fonts.small, label.text);
   label.left = std::clamp(f.x(*cursor) - 0.5F * label.size.x, f.min.x, f.max.x - label.size.x);
   return label;
 }
@@ -170,7 +160,7 @@ void draw_cursor_time(const Look& look, const PlotFrame& f, const TimeLabel& lab
   draw.AddRectFilled({at.x - 4.0F, at.y - 1.0F},
                      {at.x + label.size.x + 4.0F, at.y + label.size.y + 1.0F}, look.theme->control,
                      3.0F);
-  draw_text(draw, look.fonts.small, at, look.theme->text, label.text.c_str());
+  draw_text(look.fonts.small, at, look.theme->text, label.text);
 }
 
 }  // namespace substep::ui

@@ -9,6 +9,10 @@
 
 namespace substep::ui {
 
+/// Text on a background, so that curves do not cross it.
+void draw_on_ground(const Look& look, ImDrawList& draw, ImVec2 at, ImU32 color,
+                    const std::string& text, float opacity = 0.75F);
+
 /// Position of a name at a curve's end. Earlier names have priority.
 struct NamePlace {
   float y = 0.0F;     // middle of the text
@@ -18,15 +22,12 @@ struct NamePlace {
 /// are hidden, the last first. @param line height of a name
 std::vector<NamePlace> apart(const std::vector<float>& wanted, float line, float top, float bottom);
 
-/// Dashed lines across the plot, with their names. @param from omits earlier times [s]
-void draw_levels(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
-                 ImDrawList& draw);
+/// Dashed lines across the plot, with their names.
+void draw_levels(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw);
 /// Dashed vertical lines at moments, with their names.
-void draw_marks(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
-                ImDrawList& draw);
-/// The name of each curve at its end. @param from omits earlier samples [s]
-void draw_names(const Look& look, const PlotSpec& spec, double from, const PlotFrame& f,
-                ImDrawList& draw);
+void draw_marks(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw);
+/// The name of each curve at its end.
+void draw_names(const Look& look, const PlotSpec& spec, const PlotFrame& f, ImDrawList& draw);
 /// The time at the cursor, among the labels of the time axis.
 struct TimeLabel {
   std::string text;

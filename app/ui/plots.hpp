@@ -10,30 +10,28 @@
 
 namespace substep::ui {
 
-/// Data of the plots; a click on a plot seeks the session.
+/// Data of a plot; a click on it seeks the session.
 struct PlotContext {
   const Look& look;
   Session& session;
   const Compare& compare;
   Desk& desk;
+  float height;  // of the curves, without the time labels
+  bool last;     // the time labels are below it
 };
 
-/// Name of the run itself in a comparison.
-inline constexpr const char* kThisRun = "this run";
-
-/// Adds the compared runs, in the same colours as in the picture, and marks where they diverge from
-/// this run.
-void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps = false);
+/// Adds this run and the compared ones, in the same colours as in the picture, and marks where they
+/// diverge from this run.
+void add_runs(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps = false);
 
 /// Draws a plot over the width of the window, with the current time; a click seeks to its time.
-/// @param height of the curves, without the time labels
-void draw_plot(const PlotContext& in, Plot which, const PlotSpec& spec, float height);
+void draw_plot(const PlotContext& in, Plot which, PlotSpec spec);
 
 /// Kinetic, potential and total energy on one scale; the first two add up to the third. In a
 /// comparison, the kinetic energy of each run.
-void energy_plot(const PlotContext& in, float height, bool last);
+void energy_plot(const PlotContext& in);
 /// The change of the total energy since the start, on its own scale.
-void drift_plot(const PlotContext& in, float height, bool last);
+void drift_plot(const PlotContext& in);
 
 /// N at alpha = 1, the limit of stability by the criterion, of the stiffest frame so far: 7 for the
 /// swinging box, which needs as many constant sub-steps, and 17 for the bridge, which holds with 7.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
+#include <utility>
 
 #include "app/text/export.hpp"
 #include "app/text/format.hpp"
@@ -18,7 +20,9 @@
 
 namespace substep::ui {
 
-void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps) {
+void add_runs(const PlotContext& in, PlotSpec& spec, Channel channel, bool steps) {
+  spec.series.push_back(
+      {&in.session.history(), channel, in.look.theme->blue, "this run", steps, false});
   // Labelled once: the plots are stacked on the same time axis.
   const bool named = channel == Channel::kSubsteps || !in.desk.plot(Plot::kSubsteps).shown;
   for (std::size_t i = 0; i < in.compare.runs().size(); ++i) {
@@ -31,13 +35,13 @@ void add_compared(const PlotContext& in, PlotSpec& spec, Channel channel, bool s
   }
 }
 
-void draw_plot(const PlotContext& in, Plot which, const PlotSpec& spec, float height) {
-  const Session& session = in.session;
+void draw_plot(const PlotContext& in, Plot which, PlotSpec spec) {
+  spec.time_labels = in.last;
   const float below = spec.time_labels ? kTimeLabelHeight : 0.0F;
   plot(in.look, spec, in.session.history().end_time(),
-       {ImGui::GetContentRegionAvail().x, height + below}, in.desk.time, in.desk.plot(which));
+       {ImGui::GetContentRegionAvail().x, in.height + below}, in.desk.time, in.desk.plot(which));
   if (in.desk.time.clicked) {
-    in.session.go_to(session.timeline().at_time(*in.desk.time.clicked));
+    in.session.go_to(in.session.timeline().at_time(*in.desk.time.clicked));
     in.desk.time.clicked.reset();
   }
 }
@@ -60,7 +64,7 @@ bool exists(const Session& session, Plot plot) {
   return plot != Plot::kError || effects.joints || effects.contact;
 }
 
-void substeps_plot(const PlotContext& in, float height, bool last) {
+void substeps_plot(const PlotContext& in) {
   const Look& look = in.look;
   const Theme& t = *look.theme;
   const History& h = in.session.history();
@@ -75,17 +79,14 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
           "after the run, and less accurate than the N of a smaller alpha. With islands: the "
           "largest N of an island, and the mean of the bodies.");
 
-  PlotSpec spec;
-  spec.id = "substeps";
-  spec.time_labels = last;
-  spec.from_zero = true;
-  spec.counts = true;
-  spec.least_span = 4.0;
+  PlotSpec spec{.id = "substeps", .counts = true, .least_span = 4.0};
   const bool islands = !several && looks_for_islands(s);
-  const char* name = several ? kThisRun : islands ? "most" : "N";
-  spec.series.push_back({&h, Channel::kSubsteps, t.blue, name, true, !several});
+  if (several) {
+    add_runs(in, spec, Channel::kSubsteps, true);
+  } else {
+    spec.series.push_back({&h, Channel::kSubsteps, t.blue, islands ? "most" : "N", true, true});
+  }
   if (islands) spec.series.push_back({&h, Channel::kMean, t.teal, "mean", true});
-  add_compared(in, spec, Channel::kSubsteps, true);
   if (const auto n = n_at_limit(h, s); n && !several) {
     spec.levels.push_back({static_cast<double>(*n), "Limit (α = 1): N = " + grouped(*n),
                            "α = 1: N = " + grouped(*n), t.amber});
@@ -97,10 +98,10 @@ void substeps_plot(const PlotContext& in, float height, bool last) {
   if (cap > 0 && taken.high >= 0.7F * static_cast<float>(cap)) {
     spec.levels.push_back({static_cast<double>(cap), "cap " + std::to_string(cap), "", t.orange});
   }
-  draw_plot(in, Plot::kSubsteps, spec, height);
+  draw_plot(in, Plot::kSubsteps, std::move(spec));
 }
 
-void error_plot(const PlotContext& in, float height, bool last) {
+void error_plot(const PlotContext& in) {
   const Look& look = in.look;
   const Theme& t = *look.theme;
   const History& h = in.session.history();
@@ -109,30 +110,28 @@ void error_plot(const PlotContext& in, float height, bool last) {
   section(look, "Error, m");
   tooltip(look, "Constraint error",
           "Joints: the sum over all joints of the 1-norm of phi. Overlap: the deepest contact.");
-  PlotSpec spec;
-  spec.id = "error";
-  spec.time_labels = last;
-  spec.from_zero = true;
-  spec.least_span = 1e-9;
+  PlotSpec spec{.id = "error", .least_span = 1e-9};
   if (in.compare.open()) {
     const Channel channel = effects.joints ? Channel::kJointError : Channel::kPenetration;
-    compared_values(in, origin, origin.x + heading_width(look, "Error, m"), channel, coarse_number,
-                    order_of_magnitude);
-    spec.series.push_back({&h, channel, t.blue, kThisRun});
-    add_compared(in, spec, channel);
+    compared_values(in, origin, "Error, m", channel, coarse_number, order_of_magnitude);
+    add_runs(in, spec, channel);
   } else {
-    std::vector<NamedChannel> shown;
-    if (effects.contact) shown.push_back({Channel::kPenetration, "overlap", t.amber});
-    if (effects.joints) shown.push_back({Channel::kJointError, "joint sum", t.blue});
-    named_values(in, origin, origin.x + heading_width(look, "Error, m"), shown);
-    for (const NamedChannel& one : shown) {
-      spec.series.push_back({&h, one.channel, one.color, one.name});
-    }
+    std::vector<HeadingValue> values;
+    const auto add = [&](Channel channel, const std::string& name, ImU32 color) {
+      const double v = shown_value(h, channel, in.desk.time);
+      const bool known = std::isfinite(v);
+      values.push_back({color, known ? name + " " + coarse_number(v) : name,
+                        known ? name + " " + order_of_magnitude(v) : name});
+      spec.series.push_back({&h, channel, color, name});
+    };
+    if (effects.contact) add(Channel::kPenetration, "overlap", t.amber);
+    if (effects.joints) add(Channel::kJointError, "joint sum", t.blue);
+    heading_values(look, origin, "Error, m", values);
   }
-  draw_plot(in, Plot::kError, spec, height);
+  draw_plot(in, Plot::kError, std::move(spec));
 }
 
-void time_plot(const PlotContext& in, float height, bool last) {
+void time_plot(const PlotContext& in) {
   const Look& look = in.look;
   const History& h = in.session.history();
   const bool several = in.compare.open();
@@ -141,14 +140,9 @@ void time_plot(const PlotContext& in, float height, bool last) {
   tooltip(look, "Time per frame",
           "Wall time of the simulation per frame: the total in grey, its stages in the colours of "
           "the list below.");
-  PlotSpec spec;
-  spec.id = "time";
-  spec.time_labels = last;
-  spec.from_zero = true;
-  spec.least_span = 0.01;
+  PlotSpec spec{.id = "time", .least_span = 0.01};
   if (several) {
-    spec.series.push_back({&h, Channel::kTime, look.theme->blue, kThisRun});
-    add_compared(in, spec, Channel::kTime);
+    add_runs(in, spec, Channel::kTime);
   } else {
     spec.series.push_back({&h, Channel::kTime, look.theme->grey, "all", false, true});
     for (const Stage& stage : stages(in.look, in.session)) {
@@ -156,40 +150,30 @@ void time_plot(const PlotContext& in, float height, bool last) {
       spec.series.push_back({&h, stage.channel, stage.color, stage.name, false, false, 1.0F});
     }
   }
-  draw_plot(in, Plot::kTime, spec, height);
+  draw_plot(in, Plot::kTime, std::move(spec));
 }
 
 // A plot of the panel, with the channels that it exports. A new plot is a function and a line here.
 struct PlotInfo {
   Plot plot;
   const char* name;
-  void (*draw)(const PlotContext& in, float height, bool last);
-  std::array<Channel, 6> channels;
-  std::size_t count;  // number of channels
+  void (*draw)(const PlotContext& in);
+  std::span<const Channel> channels;
 };
+constexpr std::array kSubstepChannels{Channel::kSubsteps, Channel::kMean, Channel::kLimit};
+constexpr std::array kEnergyChannels{Channel::kKinetic, Channel::kPotential, Channel::kTotal};
+constexpr std::array kDriftChannels{Channel::kDrift};
+constexpr std::array kErrorChannels{Channel::kJointError, Channel::kJointGap,
+                                    Channel::kPenetration};
+constexpr std::array kTimeChannels{Channel::kTime,         Channel::kTimeSolve,
+                                   Channel::kTimeJoints,   Channel::kTimeContact,
+                                   Channel::kTimeFriction, Channel::kTimeStiffness};
 constexpr std::array<PlotInfo, static_cast<std::size_t>(Plot::kCount)> kPlots{
-    {{Plot::kSubsteps,
-      "Sub-steps per frame",
-      substeps_plot,
-      {Channel::kSubsteps, Channel::kMean, Channel::kLimit},
-      3},
-     {Plot::kEnergy,
-      "Energy",
-      energy_plot,
-      {Channel::kKinetic, Channel::kPotential, Channel::kTotal},
-      3},
-     {Plot::kDrift, "Energy drift", drift_plot, {Channel::kDrift}, 1},
-     {Plot::kError,
-      "Error and overlap",
-      error_plot,
-      {Channel::kJointError, Channel::kJointGap, Channel::kPenetration},
-      3},
-     {Plot::kTime,
-      "Time by stage",
-      time_plot,
-      {Channel::kTime, Channel::kTimeSolve, Channel::kTimeJoints, Channel::kTimeContact,
-       Channel::kTimeFriction, Channel::kTimeStiffness},
-      6}}};
+    {{Plot::kSubsteps, "Sub-steps per frame", substeps_plot, kSubstepChannels},
+     {Plot::kEnergy, "Energy", energy_plot, kEnergyChannels},
+     {Plot::kDrift, "Energy drift", drift_plot, kDriftChannels},
+     {Plot::kError, "Error and overlap", error_plot, kErrorChannels},
+     {Plot::kTime, "Time by stage", time_plot, kTimeChannels}}};
 
 std::vector<const PlotInfo*> shown_plots(const Session& session, Desk& desk) {
   std::vector<const PlotInfo*> shown;
@@ -203,16 +187,21 @@ std::vector<const PlotInfo*> shown_plots(const Session& session, Desk& desk) {
   return shown;
 }
 
+// File name of this run, without an extension.
+std::string file_stem(const Session& session) {
+  return session.scene().name + "-" + std::string(name_of(session.settings().mode));
+}
+
 std::string span_name(double seconds) {
   return seconds < 9.95 ? plain_number(seconds) + " s" : fixed(seconds, 0) + " s";
 }
 
 void span_menu(const Look& look, Desk& desk, float width) {
   TimeAxis& time = desk.time;
-  menu_button(look, "span", span_name(time.span).c_str(), width, look.m.row,
+  menu_button(look, "span", span_name(time.span), width, look.m.row,
               "Time range of the plots (wheel on a plot)", [&] {
                 for (const double span : {2.0, 5.0, 10.0, 30.0, 60.0, 200.0, 600.0}) {
-                  if (menu_item(look, span_name(span).c_str(), "", span == time.span)) {
+                  if (menu_item(look, span_name(span), "", span == time.span)) {
                     time.span = span;
                     time.follow = true;
                   }
@@ -225,17 +214,17 @@ void save_menu(const Look& look, const Lab& lab, Desk& desk, const Viewport& vie
             [&] {
               const std::string name = file_stem(lab.session);
               const ImVec2 display = ImGui::GetIO().DisplaySize;
-              if (menu_item(look, "Run as a table", "CSV", false)) save_table(lab, desk);
-              if (menu_item(look, "Plots", "PNG", false)) {
+              if (menu_item(look, "Run as a table", "CSV")) save_table(lab, desk);
+              if (menu_item(look, "Plots", "PNG")) {
                 desk.capture = {name + "-plots.png", desk.plots_area};
               }
-              if (menu_item(look, "Plots, with their settings inside", "SVG", false)) {
+              if (menu_item(look, "Plots, with their settings inside", "SVG")) {
                 desk.figure = {name + "-plots.svg", desk.plots_area};
               }
-              if (menu_item(look, "View", "PNG", false)) {
+              if (menu_item(look, "View", "PNG")) {
                 desk.capture = {name + "-view.png", viewport.view_rect};
               }
-              if (menu_item(look, "Window", "PNG", false)) {
+              if (menu_item(look, "Window", "PNG")) {
                 desk.capture = {name + ".png", {0.0F, 0.0F, display.x, display.y}};
               }
             });
@@ -281,15 +270,11 @@ void toolbar(const Look& look, const Lab& lab, Desk& desk, const Viewport& viewp
 
 }  // namespace
 
-std::string file_stem(const Session& session) {
-  return session.scene().name + "-" + std::string(name_of(session.settings().mode));
-}
-
 void save_table(const Lab& lab, Desk& desk) {
   if (!lab.host.save_file) return;
   std::vector<Channel> channels;
   for (const PlotInfo* info : shown_plots(lab.session, desk)) {
-    channels.insert(channels.end(), info->channels.begin(), info->channels.begin() + info->count);
+    channels.insert(channels.end(), info->channels.begin(), info->channels.end());
   }
   std::vector<ExportedRun> runs{{file_stem(lab.session), &lab.session.history()}};
   for (const Compare::Run& run : lab.compare.runs()) {
@@ -311,13 +296,12 @@ void plots(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport, flo
   const float above = tools ? look.m.row + 8.0F : 0.0F;
   const float rest = height - above - count * kHeading - (count - 1.0F) * gap - kTimeLabelHeight;
   const float unit = std::floor(std::max(rest / std::max(count, 1.0F), kLeastPlot));
-  const PlotContext in{look, lab.session, lab.compare, desk};
   // Values at the cursor belong to the picture shown, also in the past.
   desk.time.past.reset();
   if (!lab.session.timeline().at_end()) desk.time.past = lab.session.state().time;
   for (const PlotInfo* info : shown) {
     if (info != shown.front()) space(gap);
-    info->draw(in, unit, info == shown.back());
+    info->draw({look, lab.session, lab.compare, desk, unit, info == shown.back()});
   }
   if (shown.empty()) {
     label(look.fonts.small, look.theme->dim, "Every plot is hidden: the list above shows them.");

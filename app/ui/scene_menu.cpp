@@ -15,8 +15,7 @@ constexpr float kVariantIndent = 16.0F;
 void group_heading(const Look& look, const std::string& group, bool first) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float top = first ? 4.0F : 10.0F;
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.small, {at.x + 8.0F, at.y + top},
-            look.theme->dim, group_title(group).c_str());
+  draw_text(look.fonts.small, {at.x + 8.0F, at.y + top}, look.theme->dim, group_title(group));
   ImGui::Dummy({1.0F, top + 18.0F});
 }
 
@@ -27,8 +26,8 @@ std::string variant_title(const Scene& base, const Scene& variant) {
 }
 
 // An entry with a picture of the scene.
-bool scene_item(const Look& look, const std::shared_ptr<const Scene>& scene, const char* title,
-                bool current, Thumbnails& thumbnails) {
+bool scene_item(const Look& look, const std::shared_ptr<const Scene>& scene,
+                const std::string& title, bool current, Thumbnails& thumbnails) {
   constexpr float kHeight = 32.0F;
   const MenuPicture picture{{Thumbnail::kAspect * kHeight, kHeight},
                             [&](ImDrawList& draw, ImVec2 min, ImVec2 max) {
@@ -50,13 +49,13 @@ std::shared_ptr<const Scene> variant_items(
   const std::string title = "Variants of " + base.title;
   ImGui::PushID(base.name.c_str());
   ImGui::Indent(kVariantIndent + 12.0F);
-  fold(look, title.c_str(), open, "");
+  fold(look, title, open, "");
   ImGui::Unindent(12.0F);
   if (open != was_open) desk.unfolded_scene = open ? base.name : "";
   for (const auto& variant : variants) {
     if (!open) break;
     const std::string name = variant_title(base, *variant);
-    if (scene_item(look, variant, name.c_str(), variant->name == now, desk.thumbnails)) {
+    if (scene_item(look, variant, name, variant->name == now, desk.thumbnails)) {
       chosen = variant;
     }
   }
@@ -67,11 +66,11 @@ std::shared_ptr<const Scene> variant_items(
 
 }  // namespace
 
-void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip) {
+void scene_picker(const Look& look, Lab& lab, Desk& desk, std::string_view tip) {
   const Scene& now = lab.session.scene();
   const float width = ImGui::GetContentRegionAvail().x;
   std::shared_ptr<const Scene> chosen;
-  menu_button(look, "scene", now.title.c_str(), width, look.m.row + 4.0F, tip, [&] {
+  menu_button(look, "scene", now.title, width, look.m.row + 4.0F, tip, [&] {
     std::string group;
     bool first = true;
     for (const auto& scene : lab.library.scenes()) {
@@ -79,7 +78,7 @@ void scene_picker(const Look& look, Lab& lab, Desk& desk, const char* tip) {
       if (first || group != scene->group) group_heading(look, scene->group, first);
       group = scene->group;
       first = false;
-      if (scene_item(look, scene, scene->title.c_str(), scene->name == now.name, desk.thumbnails)) {
+      if (scene_item(look, scene, scene->title, scene->name == now.name, desk.thumbnails)) {
         chosen = scene;
       }
       const auto variants = lab.library.variants_of(*scene);

@@ -77,10 +77,10 @@ void scrubber(const Look& look, Session& session, ImVec2 at, float width, float 
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw_track(look, session, draw, track, std::round(at.y + 0.5F * height), hovered || active);
-  draw_focus(look, draw, at, {at.x + width, at.y + height});
+  draw_focus(look);
   if (!active && hovered) {
     const std::string when = fixed(track.time(pointer), 2) + " s";
-    tooltip(look, when.c_str(),
+    tooltip(look, when,
             "Drag to look back (, and . step by frames). The run continues from the selected "
             "frame, bit for bit; later frames are discarded.");
   }

@@ -1,8 +1,8 @@
 // The card of the selected body: properties, motion, constraints, required N.
 
 #include <algorithm>
-#include <cmath>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/lab/stiffness.hpp"
@@ -14,16 +14,15 @@
 namespace substep::ui {
 namespace {
 
-void row(const Look& look, const char* name, const std::string& value, const char* tip = "") {
+void row(const Look& look, const std::string& name, const std::string& value,
+         std::string_view tip = "") {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw_text(draw, look.fonts.small, at, look.theme->dim, name);
+  draw_text(look.fonts.small, at, look.theme->dim, name);
   const float left = text_size(look.fonts.small, name).x + 12.0F;
-  const std::string shown = fitted(look.fonts.small, value, width - left);
-  const float wide = text_size(look.fonts.small, shown.c_str()).x;
-  draw_text(draw, look.fonts.small, {at.x + width - wide, at.y}, look.theme->text, shown.c_str());
-  ImGui::PushID(name);
+  draw_text_before(look.fonts.small, {at.x + width, at.y}, look.theme->text,
+                   fitted(look.fonts.small, value, width - left));
+  ImGui::PushID(name.c_str());
   ImGui::InvisibleButton("row", {width, 16.0F});
   ImGui::PopID();
   tooltip(look, name, tip);
@@ -75,7 +74,7 @@ void force_rows(const Look& look, const Session& session, int body) {
             [](const Pull& a, const Pull& b) { return a.force > b.force; });
   constexpr std::size_t kShown = 4;
   for (std::size_t j = 0; j < std::min(kShown, pulls.size()); ++j) {
-    row(look, pulls[j].joint->c_str(), newtons(pulls[j].force),
+    row(look, *pulls[j].joint, newtons(pulls[j].force),
         "Force in this joint in the last sub-step of the frame.");
   }
   int touching = 0;
@@ -87,8 +86,7 @@ void force_rows(const Look& look, const Session& session, int body) {
   }
   if (touching == 0) return;
   const std::string name = std::to_string(touching) + (touching == 1 ? " contact" : " contacts");
-  row(look, name.c_str(), newtons(pressed),
-      "Sum of the normal forces in the last sub-step of the frame.");
+  row(look, name, newtons(pressed), "Sum of the normal forces in the last sub-step of the frame.");
 }
 
 }  // namespace
@@ -112,14 +110,13 @@ void selection_card(const Look& look, const Session& session, Desk& desk, const 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 3.0F});
   bool close = false;
-  if (ImGui::Begin("##selection", nullptr,
-                   ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
-                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-                       ImGuiWindowFlags_NoFocusOnAppearing)) {
+  if (ImGui::Begin(
+          "##selection", nullptr,
+          kPlaced | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing)) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float room = ImGui::GetContentRegionAvail().x;
-    draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, at, look.theme->text,
-              fitted(look.fonts.medium, body.name, room - 28.0F).c_str());
+    draw_text(look.fonts.medium, at, look.theme->text,
+              fitted(look.fonts.medium, body.name, room - 28.0F));
     ImGui::SetCursorScreenPos({at.x + room - 20.0F, at.y - 2.0F});
     close = button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 22.0F, 22.0F,
                    "Nothing selected (Esc)");

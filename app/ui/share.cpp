@@ -9,10 +9,6 @@
 namespace substep::ui {
 namespace {
 
-bool item(const Look& look, const char* text, const char* note = "") {
-  return menu_item(look, text, note, false);
-}
-
 void line() {
   ImGui::Dummy({1.0F, 2.0F});
   ImGui::Separator();
@@ -21,27 +17,24 @@ void line() {
 
 void items(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport) {
   const Host& host = lab.host;
-  if (host.copy_link && item(look, "Copy link", "L")) copy_link(lab);
-  if (item(look, "Copy command", "C")) copy_command(lab);
-  if (host.open_link && item(look, "Open the copied link")) host.open_link();
+  if (host.copy_link && menu_item(look, "Copy link", "L")) host.copy_link();
+  if (menu_item(look, "Copy command", "C")) copy_command(lab);
+  if (host.open_link && menu_item(look, "Open the copied link")) host.open_link();
   line();
-  if (host.open_file && item(look, "Open scene …", "O")) host.open_file();
-  if (host.save_file && item(look, "Save scene as it is now", "S")) lab.save_scene();
+  if (host.open_file && menu_item(look, "Open scene …", "O")) host.open_file();
+  if (host.save_file && menu_item(look, "Save scene as it is now", "S")) lab.save_scene();
   line();
-  if (host.save_file && item(look, "Picture of the window", "P")) capture_window(lab.session, desk);
-  if (host.save_file && item(look, "Picture of the view")) {
+  if (host.save_file && menu_item(look, "Picture of the window", "P"))
+    capture_window(lab.session, desk);
+  if (host.save_file && menu_item(look, "Picture of the view")) {
     desk.capture = Capture{lab.session.scene().name + "_view.png", viewport.view_rect};
   }
-  if (host.record && item(look, desk.recording ? "Stop the video" : "Record a video")) {
+  if (host.record && menu_item(look, desk.recording ? "Stop the video" : "Record a video")) {
     host.record(!desk.recording);
   }
 }
 
 }  // namespace
-
-void copy_link(const Lab& lab) {
-  if (lab.host.copy_link) lab.host.copy_link();
-}
 
 void copy_command(Lab& lab) {
   ImGui::SetClipboardText(lab.command().c_str());

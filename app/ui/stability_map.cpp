@@ -31,10 +31,16 @@ constexpr float kBetween = 28.0F;  // between maps
 struct Layout {
   ImVec2 origin;  // of the cells
   ImVec2 cell;
+
+  /// Upper left corner of a cell.
+  [[nodiscard]] ImVec2 corner(std::size_t column, std::size_t row) const {
+    return origin + ImVec2(static_cast<float>(column), static_cast<float>(row)) * cell;
+  }
 };
 
 /// The cells of one mode.
 struct Grid {
+  std::string series;
   Settings settings;           // of any of its runs
   std::vector<double> values;  // of the parameter, from coarse to fine
   std::vector<double> loads;   // ascending
@@ -56,35 +62,30 @@ void add_once(std::vector<double>& list, double value) {
 
 /// The modes with planned runs under other loads, with the results so far.
 std::vector<Grid> grids_of(const Accuracy& accuracy) {
-  std::vector<std::pair<std::string, Grid>> named;
-  const auto grid = [&](const Settings& s) -> Grid* {
-    const std::string name = series_name(s);
-    for (auto& [known, found] : named) {
-      if (known == name) return &found;
-    }
-    return nullptr;
+  std::vector<Grid> grids;
+  const auto find = [&](const Settings& s) {
+    return std::find_if(grids.begin(), grids.end(),
+                        [&](const Grid& grid) { return grid.series == series_name(s); });
   };
   for (const Experiment& e : accuracy.experiments()) {
     if (e.load == 1.0) continue;
-    if (grid(e.settings) == nullptr) {
-      named.push_back({series_name(e.settings), {e.settings, {}, {1.0}, {}}});
+    auto own = find(e.settings);
+    if (own == grids.end()) {
+      own = grids.insert(own, Grid{series_name(e.settings), e.settings, {}, {1.0}, {}});
     }
-    Grid& own = *grid(e.settings);
-    add_once(own.values, series_parameter(e.settings).value);
-    add_once(own.loads, e.load);
+    add_once(own->values, series_parameter(e.settings).value);
+    add_once(own->loads, e.load);
   }
   for (std::size_t i = 0; i < accuracy.results().size(); ++i) {
     const Experiment& e = accuracy.results()[i].experiment;
-    if (Grid* own = grid(e.settings)) {
+    if (const auto own = find(e.settings); own != grids.end()) {
       own->results[{series_parameter(e.settings).value, e.load}] = i;
     }
   }
-  std::vector<Grid> grids;
-  for (auto& [name, own] : named) {
+  for (Grid& own : grids) {
     std::sort(own.values.begin(), own.values.end());
-    if (own.settings.mode != Mode::kConst) std::reverse(own.values.begin(), own.values.end());
+    if (!is_constant(own)) std::reverse(own.values.begin(), own.values.end());
     std::sort(own.loads.begin(), own.loads.end());
-    grids.push_back(std::move(own));
   }
   return grids;
 }
@@ -170,11 +171,7 @@ void draw_path(const Look& look, const Grid& grid, const Path& path, const Layou
                       layout.origin.y + layout.cell.y * static_cast<float>(
                                                             row_of(grid.values, path.n[i]) + 0.5)});
   }
-  const auto columns = static_cast<float>(grid.loads.size());
-  const auto rows = static_cast<float>(grid.values.size());
-  draw.PushClipRect(
-      layout.origin,
-      {layout.origin.x + layout.cell.x * columns, layout.origin.y + layout.cell.y * rows}, true);
+  draw.PushClipRect(layout.origin, layout.corner(grid.loads.size(), grid.values.size()), true);
   draw.AddPolyline(points.data(), static_cast<int>(points.size()), look.theme->panel, 0, 5.0F);
   draw.AddPolyline(points.data(), static_cast<int>(points.size()), color, 0, 2.0F);
   for (const ImVec2& at : points) {
@@ -187,10 +184,8 @@ void draw_path(const Look& look, const Grid& grid, const Path& path, const Layou
 /// Centred text in a cell.
 void draw_centred(const Look& look, ImVec2 from, ImVec2 size, ImU32 color,
                   const std::string& text) {
-  const ImVec2 extent = text_size(look.fonts.small, text.c_str());
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.small,
-            {from.x + 0.5F * (size.x - extent.x), from.y + 0.5F * (size.y - extent.y)}, color,
-            text.c_str());
+  const ImVec2 extent = text_size(look.fonts.small, text);
+  draw_text(look.fonts.small, from + (size - extent) * 0.5F, color, text);
 }
 
 void draw_cell(const Look& look, const Result& result, ImVec2 min, ImVec2 max) {
@@ -198,36 +193,28 @@ void draw_cell(const Look& look, const Result& result, ImVec2 min, ImVec2 max) {
   const ImU32 color = look.theme->text;
   draw.AddRectFilled(min, max, cell_color(*look.theme, result), 3.0F);
   if (result.metrics.holds) {  // a word would be wider than some cells
-    draw_icon(draw, Icon::kCheck, {0.5F * (min.x + max.x), 0.5F * (min.y + max.y)}, 14.0F, color);
+    draw_icon(draw, Icon::kCheck, (min + max) * 0.5F, 14.0F, color);
   } else {
-    draw_centred(look, min, {max.x - min.x, max.y - min.y}, color,
-                 fixed(result.metrics.failed_at, 2));
+    draw_centred(look, min, max - min, color, fixed(result.metrics.failed_at, 2));
   }
 }
 
 /// The values of the parameter on the left, the mass ratios below.
 void draw_axes(const Look& look, const Grid& grid, const Layout& layout, double ratio) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImU32 color = look.theme->dim;
-  const auto at_left = [&](float y, const std::string& text) {
-    const ImVec2 extent = text_size(look.fonts.small, text.c_str());
-    draw_text(draw, look.fonts.small,
-              {layout.origin.x - 8.0F - extent.x, y + 0.5F * (kCell - extent.y)}, color,
-              text.c_str());
-  };
-  const float foot = layout.origin.y + layout.cell.y * static_cast<float>(grid.values.size());
   for (std::size_t row = 0; row < grid.values.size(); ++row) {
-    at_left(
-        layout.origin.y + layout.cell.y * static_cast<float>(row) + 0.5F * (layout.cell.y - kCell),
-        plain_number(grid.values[row]));
+    const std::string text = plain_number(grid.values[row]);
+    const ImVec2 corner = layout.corner(0, row);
+    const float down = 0.5F * (kCell - text_size(look.fonts.small, text).y);
+    draw_text_before(look.fonts.small, {corner.x - 8.0F, corner.y + down}, color, text);
   }
   for (std::size_t column = 0; column < grid.loads.size(); ++column) {
-    draw_centred(look, {layout.origin.x + layout.cell.x * static_cast<float>(column), foot - 3.0F},
+    draw_centred(look, layout.corner(column, grid.values.size()) - ImVec2(0.0F, 3.0F),
                  {layout.cell.x - kCellGap, kCell}, color, short_ratio(grid.loads[column] * ratio));
   }
   const float width = layout.cell.x * static_cast<float>(grid.loads.size());
-  draw_centred(look, {layout.origin.x, foot + 12.0F}, {width - kCellGap, kCell}, color,
-               "mass ratio, heaviest to lightest body");
+  draw_centred(look, layout.corner(0, grid.values.size()) + ImVec2(0.0F, 12.0F),
+               {width - kCellGap, kCell}, color, "mass ratio, heaviest to lightest body");
 }
 
 /// The map is the last item. While it has keyboard focus the arrow keys go from the cell of the
@@ -270,22 +257,21 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
                       {std::min(kWidest, (width - kMapGutter) / columns), kCell}};
   const ImVec2 size(kMapGutter + layout.cell.x * columns, kCell * rows + kMapFoot);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  ImGui::InvisibleButton(series_name(grid.settings).c_str(), size);
+  ImGui::InvisibleButton(grid.series.c_str(), size);
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool pointed = ImGui::IsItemHovered() || ImGui::IsItemActive();
   const bool pressed = ImGui::IsItemActivated();
   const bool dragged = ImGui::IsItemActive();
   const std::optional<std::size_t> by_key = chosen_by_key(lab, grid);
-  draw_focus(look, draw, corner, {corner.x + size.x, corner.y + size.y});
+  draw_focus(look);
   const double ratio = mass_ratio(*accuracy.scene());
   draw_axes(look, grid, layout, ratio);
   std::optional<std::size_t> under;
   bool is_live = false;
   for (std::size_t row = 0; row < grid.values.size(); ++row) {
     for (std::size_t column = 0; column < grid.loads.size(); ++column) {
-      const ImVec2 min(layout.origin.x + layout.cell.x * static_cast<float>(column),
-                       layout.origin.y + layout.cell.y * static_cast<float>(row));
-      const ImVec2 max(min.x + layout.cell.x - kCellGap, min.y + layout.cell.y - kCellGap);
+      const ImVec2 min = layout.corner(column, row);
+      const ImVec2 max = min + layout.cell - ImVec2(kCellGap, kCellGap);
       const auto known = grid.results.find({grid.values[row], grid.loads[column]});
       if (known == grid.results.end()) {  // not yet computed
         draw.AddRectFilled(min, max, t.well, 3.0F);
@@ -293,7 +279,7 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
       }
       const Result& result = accuracy.results()[known->second];
       draw_cell(look, result, min, max);
-      mark(std::to_string(known->second).c_str(), min, max, "map");
+      mark(std::to_string(known->second), min, max, "map");
       const bool live = runs_now(lab, result);
       if (live) draw.AddRect({min.x - 1, min.y - 1}, {max.x + 1, max.y + 1}, t.text, 4.0F, 0, 2);
       if (!pointed || mouse.x < min.x || mouse.x >= max.x || mouse.y < min.y || mouse.y >= max.y) {
@@ -312,12 +298,6 @@ std::optional<std::size_t> draw_grid(const Look& look, const Lab& lab, const Gri
   return pressed || (dragged && !is_live) ? under : by_key;
 }
 
-/// Legend of the line over constant N.
-void path_note(const Look& look, const Path& path) {
-  label(look.fonts.small, look.theme->teal,
-        ("Line: mean N of adaptive sub-stepping, alpha = " + plain_number(path.alpha)).c_str());
-}
-
 }  // namespace
 
 std::optional<std::size_t> stability_map(const Look& look, const Lab& lab, float width) {
@@ -329,9 +309,12 @@ std::optional<std::size_t> stability_map(const Look& look, const Lab& lab, float
   for (const Grid& grid : grids) {
     if (beside && &grid != &grids.front()) ImGui::SameLine(0.0F, kBetween);
     ImGui::BeginGroup();
-    label(look.fonts.small, look.theme->text, name_of(look, grid).c_str());
+    label(look.fonts.small, look.theme->text, name_of(look, grid));
     if (const auto one = draw_grid(look, lab, grid, path, each)) chosen = one;
-    if (is_constant(grid) && !path.n.empty()) path_note(look, path);
+    if (is_constant(grid) && !path.n.empty()) {
+      label(look.fonts.small, look.theme->teal,
+            "Line: mean N of adaptive sub-stepping, alpha = " + plain_number(path.alpha));
+    }
     ImGui::EndGroup();
     if (!beside) space(8.0F);
   }

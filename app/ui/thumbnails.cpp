@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "app/ui/look.hpp"
+
 namespace substep::ui {
 namespace {
 
 constexpr int kMostMade = 4;  // in a frame
 constexpr float kFrameRounding = 4.0F;
-
-ImU32 opaque(const Color& c) { return ImGui::ColorConvertFloat4ToU32({c.r, c.g, c.b, 1.0F}); }
 
 }  // namespace
 
@@ -28,7 +28,7 @@ const Thumbnail* Thumbnails::of(const std::shared_ptr<const Scene>& scene,
 
 void Thumbnails::draw(ImDrawList& draw, const std::shared_ptr<const Scene>& scene,
                       const ViewPalette& palette, ImVec2 min, ImVec2 max) {
-  draw.AddRectFilled(min, max, opaque(palette.floor), kFrameRounding);
+  draw.AddRectFilled(min, max, to_u32(palette.floor, 1.0F), kFrameRounding);
   const Thumbnail* picture = of(scene, palette);
   if (picture == nullptr) return;
   const float height = max.y - min.y;
@@ -41,7 +41,7 @@ void Thumbnails::draw(ImDrawList& draw, const std::shared_ptr<const Scene>& scen
       points.emplace_back(min.x + height * p[0], min.y + height * p[1]);
     }
     const auto count = static_cast<int>(points.size());
-    const ImU32 color = opaque(polygon.color);
+    const ImU32 color = to_u32(polygon.color, 1.0F);
     draw.AddConvexPolyFilled(points.data(), count, color);
     if (polygon.outlined) {
       draw.AddPolyline(points.data(), count, color, ImDrawFlags_Closed, 1.0F);

@@ -30,7 +30,7 @@ int draw_names(const Look& look, const std::vector<Stage>& list, ImVec2 at, floa
     }
     if (draw != nullptr) {
       draw->AddRectFilled({x, at.y + 4.0F}, {x + 8.0F, at.y + 12.0F}, stage.color, 2.0F);
-      draw_text(*draw, look.fonts.small, {x + 12.0F, at.y}, look.theme->dim, stage.name);
+      draw_text(look.fonts.small, {x + 12.0F, at.y}, look.theme->dim, stage.name);
     }
     x += wide + 12.0F;
   }
@@ -79,11 +79,9 @@ void stage_list(const Look& look, const std::vector<Stage>& list, ImVec2 at, flo
     const float left = at.x + half * static_cast<float>(i % 2);
     const float y = at.y + kListRow * static_cast<float>(i / 2);
     draw.AddRectFilled({left, y + 4.0F}, {left + 8.0F, y + 12.0F}, list[i].color, 2.0F);
-    draw_text(draw, look.fonts.small, {left + 12.0F, y}, look.theme->dim, list[i].name);
-    const std::string value = duration(list[i].seconds);
-    const float w = text_size(look.fonts.small, value.c_str()).x;
-    draw_text(draw, look.fonts.small, {left + half - 24.0F - w, y}, look.theme->text,
-              value.c_str());
+    draw_text(look.fonts.small, {left + 12.0F, y}, look.theme->dim, list[i].name);
+    draw_text_before(look.fonts.small, {left + half - 24.0F, y}, look.theme->text,
+                     duration(list[i].seconds));
   }
 }
 
@@ -104,7 +102,7 @@ float timing_height(const Look& look, const Session& session, bool brief) {
 void timing(const Look& look, const Session& session, bool brief) {
   const std::vector<Stage> list = stages(look, session);
   const double total = session.times().total;
-  section(look, "Time per frame", total > 0.0 ? duration(total).c_str() : "");
+  section(look, "Time per frame", total > 0.0 ? duration(total) : "");
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
   stage_bar(look, list, origin, width);
@@ -121,7 +119,7 @@ void timing(const Look& look, const Session& session, bool brief) {
     if (!brief || !(total > 0.0)) break;
     tip.append("\n").append(stage.name).append("  ").append(duration(stage.seconds));
   }
-  tooltip(look, "Time per frame", tip.c_str());
+  tooltip(look, "Time per frame", tip);
 }
 
 }  // namespace substep::ui

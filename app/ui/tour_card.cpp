@@ -10,10 +10,8 @@
 namespace substep::ui {
 namespace {
 
-constexpr ImGuiWindowFlags kCard = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
-                                   ImGuiWindowFlags_AlwaysAutoResize |
-                                   ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags kCard =
+    kPlaced | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing;
 
 // Opened as a link at the end of the frame.
 void go_to(Desk& desk, int step) { desk.follow = "tour=" + std::to_string(step + 1); }
@@ -23,7 +21,6 @@ void end(Desk& desk) {
   desk.tour_hint = false;
 }
 
-// Progress of the tour, as dots.
 void draw_dots(const Look& look, int step, int count, ImVec2 at) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   for (int i = 0; i < count; ++i) {
@@ -61,10 +58,10 @@ void steps_row(const Look& look, Desk& desk, int step, int count) {
 // The task and the feedback from the run.
 void task(const Look& look, const TourWords& words) {
   const Theme& t = *look.theme;
-  label(look.fonts.medium, t.text, tour_sentence(words.task, words.numbers).c_str());
+  label(look.fonts.medium, t.text, tour_sentence(words.task, words.numbers));
   const bool answered = !words.reply.text.empty();
   label(look.fonts.small, words.reply.done ? t.teal : t.dim,
-        answered ? words.reply.text.c_str() : words.now.c_str());
+        answered ? words.reply.text : words.now);
 }
 
 void card(const Look& look, Desk& desk, const Viewport& viewport, const TourWords& words) {
@@ -81,14 +78,14 @@ void card(const Look& look, Desk& desk, const Viewport& viewport, const TourWord
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float right = at.x + ImGui::GetContentRegionAvail().x;
     const std::string title = std::to_string(words.step + 1) + "  ·  " + words.title;
-    draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {at.x, at.y + 4.0F}, t.text,
-              fitted(look.fonts.medium, title, right - at.x - 32.0F).c_str());
+    draw_text(look.fonts.medium, {at.x, at.y + 4.0F}, t.text,
+              fitted(look.fonts.medium, title, right - at.x - 32.0F));
     ImGui::SetCursorScreenPos({right - 24.0F, at.y});
     if (button(look, "close", Icon::kCross, "", ButtonKind::kGhost, 24.0F, 24.0F, "End the tour")) {
       end(desk);
     }
-    label(look.fonts.regular, t.text, tour_sentence(words.text, words.numbers).c_str());
-    label(look.fonts.small, t.dim, tour_sentence(words.watch, words.numbers).c_str());
+    label(look.fonts.regular, t.text, tour_sentence(words.text, words.numbers));
+    label(look.fonts.small, t.dim, tour_sentence(words.watch, words.numbers));
     task(look, words);
     steps_row(look, desk, static_cast<int>(words.step), static_cast<int>(words.count));
   }

@@ -29,10 +29,8 @@ void policy_row(const Look& look, Accuracy& accuracy) {
   constexpr std::array<Choice, 2> kPolicies{
       {{"per frame", "Under every load that was run"},
        {"per sub-step", "Follows a sudden load at once; under the scene's own load only"}}};
-  int current = accuracy.trade_policy == Policy::kSubstep ? 1 : 0;
-  if (segmented_row(look, "N decided", kPolicies, current, "When the number of sub-steps is set")) {
-    accuracy.trade_policy = current == 1 ? Policy::kSubstep : Policy::kFrame;
-  }
+  choose(look, "N decided", kPolicies, accuracy.trade_policy,
+         "When the number of sub-steps is set");
 }
 
 void alpha_row(const Look& look, Accuracy& accuracy) {
@@ -119,17 +117,19 @@ class Chart {
 
   void draw_row(const TradeRow& row) {
     const Theme& t = *look_.theme;
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
     if (trade_.rows.size() > 1) {
       const std::string name = plain_number(row.load) + " × load, mass ratio " +
                                plain_number(row.load * mass_ratio(*accuracy_.scene()));
-      draw_text(draw, look_.fonts.small, {corner_.x, y_}, t.dim, name.c_str());
+      draw_text(look_.fonts.small, {corner_.x, y_}, t.dim, name);
       y_ += kLoadLine;
     }
     const float top = y_;
     draw_bar(adaptive_bar(t, row), row);
     draw_bar(constant_bar(t, row, trade_.most_n), row);
-    if (shows_line()) draw_line(top);
+    if (shows_line()) {  // the constant N that serves all loads
+      const float x = std::round(x_of(line()));
+      ImGui::GetWindowDrawList()->AddLine({x, top}, {x, y_}, t.text, 1.0F);
+    }
     y_ += kBetweenLoads;
   }
 
@@ -142,22 +142,18 @@ class Chart {
     draw.AddRectFilled({min.x, min.y + 2.0F}, {end, max.y - 2.0F}, fade(bar.color, 0.4F), 2.0F);
     draw.AddRectFilled({min.x, min.y + 2.0F},
                        {std::max(x_of(bar.certain), min.x + 2.0F), max.y - 2.0F}, bar.color, 2.0F);
-    draw_text(draw, look_.fonts.small, {corner_.x + room_ + 8.0F, min.y}, t.text, bar.n.c_str());
+    draw_text(look_.fonts.small, {corner_.x + room_ + 8.0F, min.y}, t.text, bar.n);
     if (const auto error = error_of_bar(bar)) {
-      const std::string text = error_text(*error, trade_.axis);
-      const float w = text_size(look_.fonts.small, text.c_str()).x;
-      draw_text(draw, look_.fonts.small, {max.x - w, min.y}, t.dim, text.c_str());
+      draw_text_before(look_.fonts.small, {max.x, min.y}, t.dim, error_text(*error, trade_.axis));
     }
     y_ += kBar;
     if (bar.result == nullptr) return;
     const auto index = static_cast<std::size_t>(bar.result - accuracy_.results().data());
     ImGui::SetCursorScreenPos(min);
     ImGui::PushID(static_cast<int>(index));
-    const bool pressed = ImGui::InvisibleButton("bar", {width_, kBar});
+    if (marked_button("bar", {width_, kBar}, std::to_string(index), "trade")) chosen_ = index;
     ImGui::PopID();
-    draw_focus(look_, draw, min, max);
-    mark(std::to_string(index).c_str(), min, max, "trade");
-    if (pressed) chosen_ = index;
+    draw_focus(look_);
     if (ImGui::IsItemHovered()) read_bar(bar, row);
   }
 
@@ -185,19 +181,12 @@ class Chart {
     read_out(look_, lines);
   }
 
-  /// The constant N that serves all loads, beside the bars of one load.
-  void draw_line(float top) const {
-    const float x = std::round(x_of(line()));
-    ImGui::GetWindowDrawList()->AddLine({x, top}, {x, y_}, look_.theme->text, 1.0F);
-  }
-
   void name_line() const {
     const std::string text =
         "one N for all loads: " + std::string(trade_.for_all ? "" : "> ") + plain_number(line());
-    const float w = text_size(look_.fonts.small, text.c_str()).x;
+    const float w = text_size(look_.fonts.small, text).x;
     const float x = std::clamp(x_of(line()) - 0.5F * w, corner_.x, corner_.x + width_ - w);
-    draw_text(*ImGui::GetWindowDrawList(), look_.fonts.small, {x, corner_.y}, look_.theme->text,
-              text.c_str());
+    draw_text(look_.fonts.small, {x, corner_.y}, look_.theme->text, text);
   }
 
   const Look& look_;
@@ -218,7 +207,7 @@ void legend(const Look& look, const FairTrade& trade) {
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + 4.0F}, {at.x + 12.0F, at.y + 12.0F},
                                               color, 2.0F);
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + 20.0F);
-    label(look.fonts.small, t.dim, name.c_str());
+    label(look.fonts.small, t.dim, name);
   };
   entry(adaptive_bar(t, trade.rows.front()).color,
         "Adaptive, alpha = " + plain_number(trade.alpha) + ": mean sub-steps per frame");
@@ -226,7 +215,7 @@ void legend(const Look& look, const FairTrade& trade) {
                     ", found by trying; light: it is in this range");
   const std::string axis = axis_name(trade.axis);  // each error has its own unit
   label(look.fonts.small, t.dim,
-        ("On the right: N, and the " + axis.substr(0, axis.find(" [")) + ".").c_str());
+        "On the right: N, and the " + axis.substr(0, axis.find(" [")) + ".");
 }
 
 }  // namespace
@@ -234,7 +223,7 @@ void legend(const Look& look, const FairTrade& trade) {
 void trade_head(const Look& look, Accuracy& accuracy) {
   const bool known = !accuracy.trade().rows.empty();
   const std::string text = known ? trade_text(accuracy.trade()) : "No runs to compare yet.";
-  label(look.fonts.regular, look.theme->text, text.c_str());
+  label(look.fonts.regular, look.theme->text, text);
   space(6.0F);
   policy_row(look, accuracy);
   if (known) alpha_row(look, accuracy);

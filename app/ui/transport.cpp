@@ -1,7 +1,6 @@
 // The bar at the bottom: play, step, reset, speed; and the verdict.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -14,37 +13,11 @@
 namespace substep::ui {
 namespace {
 
-struct Speed {
-  double value;
-  const char* name;
-};
-constexpr std::array<Speed, 7> kSpeeds{{{0.0625, "1/16×"},
-                                        {0.125, "1/8×"},
-                                        {0.25, "1/4×"},
-                                        {0.5, "1/2×"},
-                                        {1.0, "1×"},
-                                        {2.0, "2×"},
-                                        {4.0, "4×"}}};
-
 const char* speed_name(double speed) {
   for (const Speed& s : kSpeeds) {
     if (std::abs(s.value - speed) < 1e-9) return s.name;
   }
   return "?";
-}
-
-void single_steps(App& app, float height, float gap) {
-  const Look& look = app.look;
-  ImGui::SameLine(0.0F, gap);
-  if (button(look, "step", Icon::kStep, "", ButtonKind::kPlain, 36.0F, height,
-             "One frame (.), back with the comma key")) {
-    app.session.request_step();
-  }
-  ImGui::SameLine(0.0F, gap);
-  if (button(look, "substep", Icon::kSubstep, "", ButtonKind::kPlain, 36.0F, height,
-             "One sub-step (;): one pass of the loop of Algorithm 1")) {
-    app.session.substep();
-  }
 }
 
 void play_buttons(App& app, float height, float gap) {
@@ -54,13 +27,20 @@ void play_buttons(App& app, float height, float gap) {
              height, playing ? "Pause (Space)" : "Play (Space)")) {
     app.session.toggle();
   }
+  const auto add = [&](const char* id, Icon icon, const char* tip) {
+    ImGui::SameLine(0.0F, gap);
+    return button(look, id, icon, "", ButtonKind::kPlain, 36.0F, height, tip);
+  };
   // Single frames and sub-steps are Lab controls; their keys always work.
-  if (app.desk.level == DeskLevel::kLab) single_steps(app, height, gap);
-  ImGui::SameLine(0.0F, gap);
-  if (button(look, "reset", Icon::kReset, "", ButtonKind::kPlain, 36.0F, height,
-             "Back to the start (R)")) {
-    app.reset();
+  if (app.desk.level == DeskLevel::kLab) {
+    if (add("step", Icon::kStep, "One frame (.), back with the comma key")) {
+      app.session.request_step();
+    }
+    if (add("substep", Icon::kSubstep, "One sub-step (;): one pass of the loop of Algorithm 1")) {
+      app.session.substep();
+    }
   }
+  if (add("reset", Icon::kReset, "Back to the start (R)")) app.reset();
   ImGui::SameLine(0.0F, gap);
   menu_button(look, "speed", speed_name(app.session.speed()), 84.0F, height,
               "Speed of the simulation relative to real time ([ and ])", [&] {
@@ -80,7 +60,7 @@ std::string verdict_text(const App& app, float room) {
   if (!app.session.judged()) return "Ready";
   std::string text = verdict_words(app.session.verdict().text());
   room -= kChipFrame;
-  if (text_size(look.fonts.medium, text.c_str()).x <= room) return text;
+  if (text_size(look.fonts.medium, text).x <= room) return text;
   return fitted(look.fonts.medium, text.substr(0, text.find(": ")), room);
 }
 
@@ -93,7 +73,7 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   const bool ready = !app.session.judged();
   const bool disturbed = verdict.holds() && verdict.disturbed();
   const ImU32 color = ready ? t.dim : disturbed ? t.amber : verdict.holds() ? t.teal : t.orange;
-  const ImVec2 size = text_size(look.fonts.medium, text.c_str());
+  const ImVec2 size = text_size(look.fonts.medium, text);
   const float width = size.x + kChipFrame;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float top = at.y + 0.5F * (height - 28.0F);
@@ -105,11 +85,10 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
   } else {
     draw_icon(draw, verdict.holds() ? Icon::kCheck : Icon::kCross, sign, 16.0F, color);
   }
-  draw_text(draw, look.fonts.medium, {at.x + 28.0F, top + 0.5F * (28.0F - size.y)}, color,
-            text.c_str());
+  draw_text(look.fonts.medium, {at.x + 28.0F, top + 0.5F * (28.0F - size.y)}, color, text);
   ImGui::SetCursorScreenPos({at.x, top});
   ImGui::InvisibleButton("verdict", {width, 28.0F});
-  tooltip(look, ready ? text.c_str() : verdict_words(verdict.text()).c_str(),
+  tooltip(look, ready ? text : verdict_words(verdict.text()),
           ready       ? "The run has not started. Each frame is judged after it is computed."
           : disturbed ? "A body was pulled or a ball thrown: this is no longer the scene's own "
                         "run. Only torn joints and numbers that are not finite still count as "
@@ -122,10 +101,10 @@ float verdict_chip(App& app, ImVec2 at, float height, const std::string& text) {
 // Text right-aligned at `right`. @return its left end
 float status(const Look& look, float right, ImVec2 bar, float height, const std::string& text,
              float least_width, const char* tip) {
-  const ImVec2 size = text_size(look.fonts.small, text.c_str());
+  const ImVec2 size = text_size(look.fonts.small, text);
   const float width = std::max(size.x, least_width);
   const ImVec2 at(right - width, bar.y + 0.5F * (height - size.y));
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.small, at, look.theme->dim, text.c_str());
+  draw_text(look.fonts.small, at, look.theme->dim, text);
   ImGui::SetCursorScreenPos(at);
   ImGui::PushID(tip);
   ImGui::InvisibleButton("status", {width, size.y});
@@ -137,18 +116,17 @@ float status(const Look& look, float right, ImVec2 bar, float height, const std:
 // As many as there is room for, the most useful on the right.
 float icon_buttons(App& app, float left, float right, ImVec2 bar, float height) {
   const Look& look = app.look;
-  const auto add = [&](const char* id, Icon icon, const char* tip) {
+  const auto place = [&] {  // whether there is room
     if (right - height < left) return false;
     right -= height;
     ImGui::SetCursorScreenPos({right, bar.y});
-    return button(look, id, icon, "", ButtonKind::kGhost, height, height, tip);
+    return true;
+  };
+  const auto add = [&](const char* id, Icon icon, const char* tip) {
+    return place() && button(look, id, icon, "", ButtonKind::kGhost, height, height, tip);
   };
   if (add("help", Icon::kHelp, "About, keys and gestures (?)")) app.desk.help = !app.desk.help;
-  if (right - height >= left) {
-    right -= height;
-    ImGui::SetCursorScreenPos({right, bar.y});
-    share_menu(app.look, app, app.desk, app, height);
-  }
+  if (place()) share_menu(look, app, app.desk, app, height);
   if (add("theme", app.desk.dark ? Icon::kSun : Icon::kMoon, "Light or dark (T)")) {
     app.desk.dark = !app.desk.dark;
   }
@@ -171,9 +149,8 @@ void phone_transport(App& app, ImVec2 bar, float width, float height) {
   icon_buttons(app, ImGui::GetItemRectMax().x + 2.0F, bar.x + width, bar, height);
   const float y = bar.y + height + 8.0F;
   const std::string time = time_text(app);
-  const float time_width = text_size(look.fonts.medium, time.c_str()).x;
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium, {bar.x + width - time_width, y + 4.0F},
-            look.theme->text, time.c_str());
+  const float time_width = text_size(look.fonts.medium, time).x;
+  draw_text(look.fonts.medium, {bar.x + width - time_width, y + 4.0F}, look.theme->text, time);
   constexpr float kLeastTrack = 96.0F;
   const std::string verdict = verdict_text(app, width - time_width - kLeastTrack - 20.0F);
   const float chip = verdict_chip(app, {bar.x, y - 2.0F}, 28.0F, verdict);
@@ -214,15 +191,14 @@ void transport(App& app, bool phone) {
   const float room = right - after_buttons;
   const float chip_room = std::clamp(0.45F * room, 100.0F, 300.0F);
   const std::string verdict = verdict_text(app, chip_room);
-  const float chip = text_size(look.fonts.medium, verdict.c_str()).x + kChipFrame;
+  const float chip = text_size(look.fonts.medium, verdict).x + kChipFrame;
   verdict_chip(app, {right - chip, bar.y}, kHeight, verdict);
   const std::string time = time_text(app);
-  const float time_width = std::max(64.0F, text_size(look.fonts.medium, time.c_str()).x);
-  const ImVec2 time_size = text_size(look.fonts.medium, time.c_str());
+  const ImVec2 time_size = text_size(look.fonts.medium, time);
+  const float time_width = std::max(64.0F, time_size.x);
   const float time_right = right - chip - kGap;
-  draw_text(*ImGui::GetWindowDrawList(), look.fonts.medium,
-            {time_right - time_size.x, bar.y + 0.5F * (kHeight - time_size.y)}, look.theme->text,
-            time.c_str());
+  draw_text(look.fonts.medium, {time_right - time_size.x, bar.y + 0.5F * (kHeight - time_size.y)},
+            look.theme->text, time);
   const float track = time_right - time_width - 8.0F - after_buttons;
   if (track > 48.0F) scrubber(app.look, app.session, {after_buttons, bar.y}, track, kHeight);
 }

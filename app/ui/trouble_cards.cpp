@@ -26,8 +26,8 @@ std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
 void reset_with(const Look& look, Lab& lab, const Remedy& remedy, ButtonKind kind) {
   const std::string tip = "The same scene from its start with " + remedy.text +
                           (remedy.why.empty() ? "" : "; " + remedy.why);
-  if (button(look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text).c_str(), kind,
-             0.0F, 28.0F, tip.c_str())) {
+  if (button(look, remedy.text.c_str(), Icon::kReset, ("Reset with " + remedy.text), kind, 0.0F,
+             28.0F, tip)) {
     lab.change(remedy.settings);
     lab.reset();
   }
@@ -47,7 +47,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
   if (desk.failure_place < 0 && !viewport.view.camera.at_rest()) return;  // first what failed
   constexpr ImVec2 kSize(380.0F, 180.0F);  // with the maximum number of remedies
   const CardPlace place = card_beside(lab.session, viewport, kSize, desk.failure_place);
-  if (begin_card(look, viewport, "##failure", kSize.x, place.y, place.pivot, place.x)) {
+  if (begin_card(look, "##failure", kSize.x, place)) {
     card_title(look, look.theme->orange, Icon::kCross,
                stopped ? "The run stopped at " + fixed(lab.session.state().time, 2) + " s"
                        : "Failed at " + fixed(verdict.failed_at(), 2) + " s");
@@ -64,7 +64,7 @@ void failure_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewpo
       }
       what += " is no longer finite. The last finite state is shown.";
     }
-    label(look.fonts.small, look.theme->dim, what.c_str());
+    label(look.fonts.small, look.theme->dim, what);
     auto kind = ButtonKind::kPrimary;  // for the most likely remedy
     for (const Remedy& remedy : remedies_of(lab.session, v.height > 400.0F ? 3 : 1)) {
       reset_with(look, lab, remedy, kind);
@@ -93,22 +93,22 @@ void trouble_card(const Look& look, Lab& lab, const Viewport& viewport) {
   if (lab.trouble.title.empty()) return;
   bool close = ImGui::IsKeyPressed(ImGuiKey_Escape, false);
   ImGui::SetNextWindowFocus();
-  if (begin_card(look, viewport, "##trouble", 520.0F, card_middle(viewport), 0.5F)) {
+  if (begin_card(look, "##trouble", 520.0F, card_middle(viewport))) {
     card_title(look, look.theme->orange, Icon::kCross, lab.trouble.title);
     const std::size_t count = lab.trouble.problems.size();
     const std::string note =
         (count == 1 ? "One problem. " : std::to_string(count) + " problems. ") +
         lab.trouble.aftermath;
-    label(look.fonts.small, look.theme->dim, note.c_str());
+    label(look.fonts.small, look.theme->dim, note);
     ImGui::Dummy({1.0F, 0.0F});
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowSizeConstraints({0.0F, 0.0F}, {1e4F, display.y - 260.0F});
     if (ImGui::BeginChild("list", {0, 0}, ImGuiChildFlags_AutoResizeY)) {
       for (const Problem& problem : lab.trouble.problems) {
         label(look.fonts.medium, look.theme->text,
-              problem.pointer.empty() ? "whole file" : problem.pointer.c_str());
+              problem.pointer.empty() ? "whole file" : problem.pointer);
         ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 6.0F);
-        label(look.fonts.small, look.theme->dim, problem.message.c_str());
+        label(look.fonts.small, look.theme->dim, problem.message);
       }
     }
     ImGui::EndChild();

@@ -32,8 +32,6 @@ struct NotedText {
 std::vector<NotedText> noted;
 bool noting = false;
 
-bool operator==(const ImVec2& a, const ImVec2& b) { return a.x == b.x && a.y == b.y; }
-
 std::string number(float value) {
   return number_text(std::round(100.0 * static_cast<double>(value)) / 100.0);
 }
@@ -102,8 +100,8 @@ class Writer {
   void add_triangle(std::array<ImDrawVert, 3> v) {
     const ImU32 color = v[0].col;
     if (color >> IM_COL32_A_SHIFT == 0U || !touches(v)) return;
-    const ImVec2 a(v[1].pos.x - v[0].pos.x, v[1].pos.y - v[0].pos.y);
-    const ImVec2 b(v[2].pos.x - v[0].pos.x, v[2].pos.y - v[0].pos.y);
+    const ImVec2 a = v[1].pos - v[0].pos;
+    const ImVec2 b = v[2].pos - v[0].pos;
     const float twice_area = a.x * b.y - a.y * b.x;
     if (twice_area == 0.0F) return;
     if (twice_area < 0.0F) std::swap(v[1], v[2]);  // one orientation: overlaps do not cancel
@@ -159,9 +157,7 @@ class Writer {
   /// Opens a group with this clip rectangle, unless it is open. Where it ends with the visible part
   /// of the window, the contents continue. @return whether it is visible
   bool set_clip(const ImVec4& rect) {
-    if (rect.x == clip_.x && rect.y == clip_.y && rect.z == clip_.z && rect.w == clip_.w) {
-      return visible_;
-    }
+    if (rect == clip_) return visible_;
     close_path();
     if (visible_) body_ += "</g>\n";
     clip_ = rect;
@@ -196,8 +192,7 @@ class Writer {
 
 }  // namespace
 
-FigureFrame::FigureFrame()
-    : lines_(ImGui::GetStyle().AntiAliasedLines), fills_(ImGui::GetStyle().AntiAliasedFill) {
+FigureFrame::FigureFrame() {
   ImGui::GetStyle().AntiAliasedLines = false;
   ImGui::GetStyle().AntiAliasedFill = false;
   noted.clear();
@@ -205,24 +200,18 @@ FigureFrame::FigureFrame()
 }
 
 FigureFrame::~FigureFrame() {
-  ImGui::GetStyle().AntiAliasedLines = lines_;
-  ImGui::GetStyle().AntiAliasedFill = fills_;
+  ImGui::GetStyle() = style_;
   noted.clear();
   noting = false;
 }
 
 void note_text(const ImDrawList& draw, const ImFont* font, ImVec2 at, float width, ImU32 color,
-               const char* text, const char* end) {
-  if (!noting) return;
+               std::string_view text) {
+  if (!noting || text.empty()) return;
   const ImVec2 min = draw.GetClipRectMin();
   const ImVec2 max = draw.GetClipRectMax();
-  noted.push_back({&draw,
-                   font,
-                   at,
-                   width,
-                   {min.x, min.y, max.x, max.y},
-                   color,
-                   end == nullptr ? std::string(text) : std::string(text, end)});
+  const ImVec4 clip(min.x, min.y, max.x, max.y);
+  noted.push_back({&draw, font, at, width, clip, color, std::string(text)});
 }
 
 WindowPart part_of_window(const ViewRect& area) {

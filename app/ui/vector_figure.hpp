@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <string>
+#include <string_view>
 
 #include "app/ui/desk.hpp"
 #include "app/ui/look.hpp"
@@ -20,14 +21,13 @@ class FigureFrame {
   FigureFrame& operator=(const FigureFrame&) = delete;
 
  private:
-  bool lines_;
-  bool fills_;
+  ImGuiStyle style_ = ImGui::GetStyle();
 };
 
 /// Called for every text; keeps it if a FigureFrame exists.
-/// @param width of its only line, 0: that of the font  @param end null: up to the end of the string
+/// @param width of its only line, 0: that of the font
 void note_text(const ImDrawList& draw, const ImFont* font, ImVec2 at, float width, ImU32 color,
-               const char* text, const char* end);
+               std::string_view text);
 
 /// What the figure says about itself, for people and programs.
 struct FigureNote {

@@ -129,8 +129,7 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport) {
   ImGui::SetNextWindowSize(io.DisplaySize);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
   ImGui::Begin("##view", nullptr,
-               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBackground |
+               kPlaced | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoBackground |
                    ImGuiWindowFlags_NoScrollWithMouse | ImGuiWindowFlags_NoNav |
                    ImGuiWindowFlags_NoBringToFrontOnFocus);
   ImGui::PopStyleVar();
@@ -159,8 +158,7 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport) {
   ImGui::End();
 }
 
-// Throws from beside the eye at the point under the pointer, or at the middle of the view; slow
-// enough for the flight to be visible.
+// Without a pointer at the middle of the view; slow enough for the flight to be visible.
 void throw_ball(Lab& lab, const Viewport& viewport) {
   constexpr double kFlight = 0.8;     // duration [s]
   constexpr double kDensity = 120.0;  // density of cork [kg/m^3]

@@ -1,7 +1,6 @@
 // "Why this N?": the body and degree of freedom that set it, by the paper's law.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -93,7 +92,7 @@ void body_columns(const Look& look, const Session& session, float height) {
       static_cast<std::size_t>(std::clamp(at, 0.0F, static_cast<float>(moving.size() - 1)));
   const Body& body = scene.bodies[moving[i]];
   const std::string text = "k/M is " + fixed(100.0 * shares[moving[i]], 1) + " % of the largest.";
-  tooltip(look, body.name.c_str(), text.c_str());
+  tooltip(look, body.name, text);
 }
 
 // A line of the law: text, its values below, the equation on the right.
@@ -101,14 +100,12 @@ void law_line(const Look& look, const std::string& law, const std::string& numbe
               const char* equation) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float right = text_size(look.fonts.small, equation).x;
-  draw_text(draw, look.fonts.regular, origin, look.theme->text,
-            fitted(look.fonts.regular, law, width - right - 8.0F).c_str());
-  draw_text(draw, look.fonts.small, {origin.x + width - right, origin.y + 1.0F}, look.theme->dim,
-            equation);
-  draw_text(draw, look.fonts.small, {origin.x, origin.y + 18.0F}, look.theme->dim,
-            fitted(look.fonts.small, numbers, width).c_str());
+  const float end = draw_text_before(look.fonts.small, {origin.x + width, origin.y + 1.0F},
+                                     look.theme->dim, equation);
+  draw_text(look.fonts.regular, origin, look.theme->text,
+            fitted(look.fonts.regular, law, end - origin.x - 8.0F));
+  draw_text(look.fonts.small, {origin.x, origin.y + 18.0F}, look.theme->dim,
+            fitted(look.fonts.small, numbers, width));
   ImGui::Dummy({width, 34.0F});
 }
 
@@ -165,7 +162,7 @@ void without_leader(const Look& look, const Session& session, const Criterion& c
     text = "Without " + name_of_body(scene, list[0]) + " N would be " + grouped(next) +
            ", set by " + name_of_body(scene, list[1]) + ".";
   }
-  label(look.fonts.small, look.theme->dim, text.c_str());
+  label(look.fonts.small, look.theme->dim, text);
 }
 
 void bar_tooltip(const Look& look, const Session& session, const StiffnessLeader& who) {
@@ -173,7 +170,7 @@ void bar_tooltip(const Look& look, const Session& session, const StiffnessLeader
   const std::string text = stiffness_and_mass(who) + "\nk/M " + short_number(who.r) +
                            " s⁻²  ·  Δt max " +
                            duration(stable_step(session.settings().alpha, who.r));
-  tooltip(look, title.c_str(), text.c_str());
+  tooltip(look, title, text);
 }
 
 // One bar per body: the N that it alone requires.
@@ -201,29 +198,63 @@ void bars(const Look& look, const Session& session, Desk& desk, const Criterion&
       desk.selected = desk.selected == who.body ? -1 : who.body;
     }
     const bool hovered = ImGui::IsItemHovered() || desk.selected == who.body;
-    draw_focus(look, draw, at, {at.x + width, at.y + kRow});
+    draw_focus(look);
     bar_tooltip(look, session, who);
     ImGui::PopID();
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - ImGui::GetStyle().ItemSpacing.y);
     const bool leads = sets && i == 0;
     const ImU32 ink = leads || hovered ? t.text : t.dim;
-    draw_text(draw, look.fonts.small, {at.x, at.y + 3.0F}, ink,
-              fitted(look.fonts.small, name_of_body(scene, who), names - 4.0F).c_str());
+    draw_text(look.fonts.small, {at.x, at.y + 3.0F}, ink,
+              fitted(look.fonts.small, name_of_body(scene, who), names - 4.0F));
     const float x = at.x + names;
     const auto share = static_cast<float>(std::sqrt(who.r / list[0].r));  // N is proportional to √r
     draw.AddRectFilled({x, at.y + 5.0F}, {x + most, at.y + kRow - 5.0F}, t.well, 2.0F);
     draw.AddRectFilled({x, at.y + 5.0F}, {x + std::max(2.0F, share * most), at.y + kRow - 5.0F},
                        leads ? t.orange : t.blue, 2.0F);
-    const std::string n = grouped(substeps_for(session, who.r));
-    const float n_width = text_size(look.fonts.small, n.c_str()).x;
-    draw_text(draw, look.fonts.small, {at.x + width - n_width, at.y + 3.0F}, ink, n.c_str());
+    draw_text_before(look.fonts.small, {at.x + width, at.y + 3.0F}, ink,
+                     grouped(substeps_for(session, who.r)));
   }
   space(8.0F);
   if (shown < list.size()) {
     const std::string others = "and " + std::to_string(list.size() - shown) + " others, N up to " +
                                grouped(substeps_for(session, list[shown].r));
-    label(look.fonts.small, t.dim, others.c_str());
+    label(look.fonts.small, t.dim, others);
   }
+}
+
+// A term, its meaning below, its N on the right; the term that sets N in orange.
+void term(const Look& look, const std::string& what, const std::string& meaning, int n, bool sets) {
+  constexpr float kText = 14.0F;  // right of the mark
+  const Theme& t = *look.theme;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const float end = draw_text_before(look.fonts.medium, {at.x + width, at.y - 1.0F},
+                                     sets ? t.orange : t.dim, grouped(n));
+  draw.AddRectFilled({at.x, at.y + 4.0F}, {at.x + 8.0F, at.y + 12.0F}, sets ? t.orange : t.faint,
+                     2.0F);
+  draw_text(look.fonts.small_medium, {at.x + kText, at.y}, sets ? t.text : t.dim,
+            fitted(look.fonts.small_medium, what, end - at.x - kText - 8.0F));
+  draw_text(look.fonts.small, {at.x + kText, at.y + 18.0F}, t.dim,
+            fitted(look.fonts.small, meaning, width - kText));
+  ImGui::Dummy({width, 36.0F});
+}
+
+// The two terms of the criterion, each with the N that it requires: the larger one sets N.
+void criterion_terms(const Look& look, const Session& session, const Criterion& c) {
+  const Scene& scene = session.scene();
+  section(look, "Which term sets N", "N");
+  tooltip(look, "Which term sets N",
+          "Two terms limit a sub-step. Stiffness: a force that rotates with a body acts like a "
+          "spring, r = max k/M (Eq. 9). Rotation: a fast body must not rotate too far in a "
+          "sub-step; the paper's rule does not include this. Each gives an r and with it an N "
+          "(Eqs. 10, 11). The larger N is used.");
+  term(look, stiffness_text(scene, c),
+       c.stiffness.body < 0 ? "No constraint force rotates with a body."
+                            : "k/M " + short_number(c.stiffness.r) + " s⁻², by Eq. 9",
+       c.n_stiffness, c.set_by == CriterionTerm::kStiffness);
+  term(look, rotation_text(scene, c), rotation_meaning(scene, c), c.n_rotation,
+       c.set_by == CriterionTerm::kRotation);
 }
 
 void nothing_stiff(const Look& look, const Session& session) {
@@ -244,10 +275,9 @@ void why_summary(const Look& look, const Session& session, Desk& desk) {
   const FrameReport& report = session.report();
   const Criterion criterion = criterion_of(session);
   const std::string note = report.capped ? cap_note(report) : limit_note(session, criterion);
-  section(look, "Why this N", note.c_str(), report.capped ? t.orange : t.text);
+  section(look, "Why this N", note, report.capped ? t.orange : t.text);
   const ImVec2 origin = ImGui::GetCursorScreenPos();
   const float width = ImGui::GetContentRegionAvail().x;
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
   const std::string first = setter_text(session.scene(), criterion);
   std::string second = "K is zero or not evaluated in this mode.";
   if (criterion.set_by == CriterionTerm::kStiffness)
@@ -255,17 +285,17 @@ void why_summary(const Look& look, const Session& session, Desk& desk) {
   if (criterion.set_by == CriterionTerm::kRotation) second = both_terms_text(criterion);
   if (ImGui::InvisibleButton("why", {width, 36.0F})) desk.tab = Tab::kWhy;
   const bool hovered = ImGui::IsItemHovered();
-  draw_text(draw, look.fonts.medium, origin, hovered ? t.accent_hover : t.text,
-            fitted(look.fonts.medium, first, width).c_str());
-  draw_text(draw, look.fonts.small, {origin.x, origin.y + 20.0F}, t.dim,
-            fitted(look.fonts.small, second, width).c_str());
-  draw_focus(look, draw, origin, {origin.x + width, origin.y + 36.0F});
+  draw_text(look.fonts.medium, origin, hovered ? t.accent_hover : t.text,
+            fitted(look.fonts.medium, first, width));
+  draw_text(look.fonts.small, {origin.x, origin.y + 20.0F}, t.dim,
+            fitted(look.fonts.small, second, width));
+  draw_focus(look);
   const std::string tip =
       "The largest r sets the longest stable step Δt max = 2 √(α/r) (Eq. 10), and with it N "
       "(Eq. 11). r is the largest k/M (Eq. 9), or the rotation term if a body rotates fast. "
       "Now: " +
       both_terms_text(criterion) + ". Click for details.";
-  tooltip(look, "Why this N", tip.c_str());
+  tooltip(look, "Why this N", tip);
   body_columns(look, session, kColumns);
 }
 
@@ -282,18 +312,18 @@ void why(const Look& look, const Session& session, Desk& desk) {
   }
   const ImVec2 from = ImGui::GetCursorScreenPos();
   const float right = from.x + ImGui::GetContentRegionAvail().x;
-  label(look.fonts.medium, t.text, setter_text(scene, criterion).c_str());
+  label(look.fonts.medium, t.text, setter_text(scene, criterion));
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 4.0F);
   const bool rotates = criterion.set_by == CriterionTerm::kRotation;
   label(look.fonts.small, t.dim,
-        (rotates ? both_terms_text(criterion) : stiffness_and_mass(criterion.stiffness)).c_str());
+        rotates ? both_terms_text(criterion) : stiffness_and_mass(criterion.stiffness));
   const float middle = ImGui::GetCursorScreenPos().y;
   mark("setter", from, {right, middle}, "why");
   law(look, session, criterion);
   mark("law", {from.x, middle}, {right, ImGui::GetCursorScreenPos().y}, "why");
   const std::string note = taken_note(session);
   if (!note.empty()) {
-    label(look.fonts.small, session.report().capped ? t.orange : t.dim, note.c_str());
+    label(look.fonts.small, session.report().capped ? t.orange : t.dim, note);
   }
   without_leader(look, session, criterion, list);
   space(look.m.section);

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <type_traits>
 
 #include "app/ui/handles.hpp"
@@ -17,15 +16,12 @@ namespace {
 constexpr float kTooltip = 300.0F;   // maximum width of its text
 constexpr float kNameWidth = 76.0F;  // of the names on the left of rows
 
-float available_width() { return ImGui::GetContentRegionAvail().x; }
-
 // Name on the left of a row, value on the right; the rest is for the control.
 ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width) {
-  ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const float y = origin.y + 0.5F * (look.m.row - text_size(look.fonts.regular, name).y);
-  draw_text(draw, look.fonts.regular, {origin.x, y}, look.theme->dim, name);
-  const float name_width =
-      std::max(kNameWidth, text_size(look.fonts.regular, name).x + 12.0F);  // of a long name
+  const ImVec2 size = text_size(look.fonts.regular, name);
+  draw_text(look.fonts.regular, {origin.x, origin.y + 0.5F * (look.m.row - size.y)},
+            look.theme->dim, name);
+  const float name_width = std::max(kNameWidth, size.x + 12.0F);  // of a long name
   return {origin.x + name_width, origin.y, origin.x + width, origin.y + look.m.row};
 }
 
@@ -34,36 +30,38 @@ ImRect row_frame(const Look& look, const char* name, ImVec2 origin, float width)
 enum class TrackScale : std::uint8_t { kValue, kLogarithmic, kPower };
 
 template <class T>
+constexpr ImGuiDataType kDataType =
+    std::is_same_v<T, double> ? ImGuiDataType_Double : ImGuiDataType_S32;
+
+template <class T>
 bool slide(const ImRect& frame, ImGuiID id, T& value, T least, T most, TrackScale track,
-           ImGuiDataType type, const char* format, ImRect& grab) {
+           const char* format, ImRect& grab) {
   if constexpr (std::is_same_v<T, double>) {
     if (track == TrackScale::kPower) {
       double power = std::log10(value);
       const double from = std::min(power, std::log10(least));
       const double to = std::max(power, std::log10(most));
-      if (!ImGui::SliderBehavior(frame, id, type, &power, &from, &to, "%.1f", ImGuiSliderFlags_None,
-                                 &grab)) {
-        return false;
-      }
-      value = std::pow(10.0, power);
-      return true;
+      const bool changed = ImGui::SliderBehavior(frame, id, kDataType<T>, &power, &from, &to,
+                                                 "%.1f", ImGuiSliderFlags_None, &grab);
+      if (changed) value = std::pow(10.0, power);
+      return changed;
     }
   }
   return ImGui::SliderBehavior(
-      frame, id, type, &value, &least, &most, format,
+      frame, id, kDataType<T>, &value, &least, &most, format,
       track == TrackScale::kLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None,
       &grab);
 }
 
 template <class T>
 bool slider_row(const Look& look, const char* name, T& value, T least, T most, TrackScale track,
-                ImGuiDataType type, const char* format, const char* tip) {
+                const char* format, const char* tip) {
   constexpr float kValueWidth = 48.0F;
   ImGuiWindow* window = ImGui::GetCurrentWindow();
   if (window->SkipItems) return false;
   const ImGuiID id = window->GetID(name);
   const ImVec2 origin = window->DC.CursorPos;
-  const float width = available_width();
+  const float width = ImGui::GetContentRegionAvail().x;
   const ImRect all(origin, {origin.x + width, origin.y + look.m.row});
   ImRect frame = row_frame(look, name, origin, width);
   const float value_x = frame.Max.x - kValueWidth;
@@ -97,14 +95,15 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, T
     const ImRect box(value_x - 16.0F, frame.Min.y, all.Max.x, frame.Max.y);
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                         {6.0F, 0.5F * (look.m.row - ImGui::GetFontSize())});
-    const bool typed = ImGui::TempInputScalar(box, id, name, type, &value, format, &least, &most);
+    const bool typed =
+        ImGui::TempInputScalar(box, id, name, kDataType<T>, &value, format, &least, &most);
     ImGui::PopStyleVar();
     return typed;
   }
   ImRect grab;
   const float radius = 7.0F;
   ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 2.0F * radius);
-  const bool changed = slide(frame, id, value, least, most, track, type, format, grab);
+  const bool changed = slide(frame, id, value, least, most, track, format, grab);
   ImGui::PopStyleVar();
   if (changed) ImGui::MarkItemEdited(id);
 
@@ -119,26 +118,21 @@ bool slider_row(const Look& look, const char* name, T& value, T least, T most, T
   if (!t.dark) draw.AddCircle({x, y}, radius, t.accent, 0, 1.5F);
 
   std::array<char, 64> text{};
-  ImGui::DataTypeFormatString(text.data(), static_cast<int>(text.size()), type, &value, format);
-  const ImVec2 size = text_size(look.fonts.medium, text.data());
-  draw_text(draw, look.fonts.medium, {all.Max.x - size.x, origin.y + 0.5F * (look.m.row - size.y)},
-            t.text, text.data());
-  draw_focus(look, draw, all.Min, all.Max);
+  ImGui::DataTypeFormatString(text.data(), static_cast<int>(text.size()), kDataType<T>, &value,
+                              format);
+  const float line = text_size(look.fonts.medium, text.data()).y;
+  draw_text_before(look.fonts.medium, {all.Max.x, origin.y + 0.5F * (look.m.row - line)}, t.text,
+                   text.data());
+  draw_focus(look);
   if (!active) tooltip(look, name, tip);
   return changed;
 }
 
-}  // namespace
-
-void draw_focus(const Look& look, ImDrawList& draw, ImVec2 min, ImVec2 max) {
-  const ImGuiContext& g = *ImGui::GetCurrentContext();
-  if (g.NavId == g.LastItemData.ID && !g.NavDisableHighlight) {
-    draw.AddRect({min.x - 2, min.y - 2}, {max.x + 2, max.y + 2}, look.theme->accent_hover,
-                 look.m.radius + 2, 0, 2.0F);
-  }
-}
-
-namespace {
+struct TooltipLine {
+  ImFont* font;
+  ImU32 color;
+  std::string text;
+};
 
 // At the pointer, inside the display: Dear ImGui places a tooltip by the size of the previous one,
 // and after a narrow one its lines would be wrapped ever narrower.
@@ -148,6 +142,30 @@ void place_tooltip(ImVec2 size) {
   const bool above = mouse.y + 20.0F + size.y > display.y - 8.0F;
   ImGui::SetNextWindowPos({std::max(8.0F, std::min(mouse.x + 16.0F, display.x - 8.0F - size.x)),
                            above ? std::max(8.0F, mouse.y - 8.0F - size.y) : mouse.y + 20.0F});
+}
+
+void show_lines(std::span<const TooltipLine> lines) {
+  ImVec2 size(0.0F, 20.0F - 4.0F);
+  for (const TooltipLine& line : lines) {
+    const ImVec2 extent = text_size(line.font, line.text);
+    size = {std::max(size.x, extent.x + 24.0F), size.y + extent.y + 4.0F};
+  }
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
+  place_tooltip(size);
+  if (ImGui::BeginTooltip()) {
+    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + kTooltip);  // from the padding on, as measured
+    for (const TooltipLine& line : lines) {
+      ImGui::PushFont(line.font);
+      ImGui::PushStyleColor(ImGuiCol_Text, line.color);
+      ImGui::TextUnformatted(line.text.c_str());
+      ImGui::PopStyleColor();
+      ImGui::PopFont();
+    }
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+  }
+  ImGui::PopStyleVar(2);
 }
 
 // Whether the last item was clicked since the pointer came to it, or appeared under the resting
@@ -166,59 +184,35 @@ bool clicked_here() {
 
 }  // namespace
 
-void read_out(const Look& look, std::span<const ReadOutLine> lines) {
-  std::vector<std::string> texts;
-  ImVec2 size(0.0F, 20.0F - 4.0F);
-  for (const ReadOutLine& line : lines) {
-    ImFont* font = line.title ? look.fonts.medium : look.fonts.small;
-    texts.push_back(wrapped(font, line.text.c_str(), kTooltip));
-    const ImVec2 extent = text_size(font, texts.back().c_str());
-    size = {std::max(size.x, extent.x + 24.0F), size.y + extent.y + 4.0F};
-  }
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
-  place_tooltip(size);
-  if (ImGui::BeginTooltip()) {
-    for (std::size_t i = 0; i < lines.size(); ++i) {
-      ImGui::PushFont(lines[i].title ? look.fonts.medium : look.fonts.small);
-      ImGui::PushStyleColor(ImGuiCol_Text, lines[i].color);
-      ImGui::TextUnformatted(texts[i].c_str());
-      ImGui::PopStyleColor();
-      ImGui::PopFont();
-    }
-    ImGui::EndTooltip();
-  }
-  ImGui::PopStyleVar(2);
+void draw_focus(const Look& look) {
+  const ImGuiContext& g = *ImGui::GetCurrentContext();
+  if (g.NavId != g.LastItemData.ID || g.NavDisableHighlight) return;
+  const ImVec2 around(2.0F, 2.0F);
+  ImGui::GetWindowDrawList()->AddRect(ImGui::GetItemRectMin() - around,
+                                      ImGui::GetItemRectMax() + around, look.theme->accent_hover,
+                                      look.m.radius + 2, 0, 2.0F);
 }
 
-void tooltip(const Look& look, const char* title, const char* text) {
-  if (text == nullptr || *text == '\0') return;
+void read_out(const Look& look, std::span<const ReadOutLine> lines) {
+  std::vector<TooltipLine> shown;
+  for (const ReadOutLine& line : lines) {
+    ImFont* font = line.title ? look.fonts.medium : look.fonts.small;
+    shown.push_back({font, line.color, wrapped(font, line.text, kTooltip)});
+  }
+  show_lines(shown);
+}
+
+void tooltip(const Look& look, std::string_view title, std::string_view text) {
+  if (text.empty()) return;
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_DelayNormal | ImGuiHoveredFlags_NoSharedDelay) ||
       clicked_here()) {
     return;
   }
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 10.0F});
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {8.0F, 4.0F});
-  const std::string lines = wrapped(look.fonts.regular, text, kTooltip);
-  const ImVec2 body = text_size(look.fonts.regular, lines.c_str());
-  const bool titled = title != nullptr && *title != '\0';
-  const ImVec2 head = titled ? text_size(look.fonts.medium, title) : ImVec2(0.0F, -4.0F);
-  const ImVec2 size(std::max(body.x, head.x) + 24.0F, head.y + 4.0F + body.y + 20.0F);
-  place_tooltip(size);
-  if (ImGui::BeginTooltip()) {
-    ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + kTooltip);  // from the padding on, as measured
-    if (titled) {
-      ImGui::PushFont(look.fonts.medium);
-      ImGui::TextUnformatted(title);
-      ImGui::PopFont();
-    }
-    ImGui::PushStyleColor(ImGuiCol_Text, look.theme->dim);
-    ImGui::TextUnformatted(lines.c_str());
-    ImGui::PopStyleColor();
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-  }
-  ImGui::PopStyleVar(2);
+  std::vector<TooltipLine> lines;
+  if (!title.empty()) lines.push_back({look.fonts.medium, look.theme->text, std::string(title)});
+  lines.push_back({look.fonts.regular, look.theme->dim,
+                   wrapped(look.fonts.regular, std::string(text), kTooltip)});
+  show_lines(lines);
 }
 
 bool segmented(const Look& look, const char* id, std::span<const Choice> choices, int& current,
@@ -250,8 +244,7 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
     const ImRect box({std::round(x), origin.y}, {std::round(right), origin.y + height});
     ImGui::SetCursorScreenPos(box.Min);
     ImGui::PushID(i);
-    const bool pressed = ImGui::InvisibleButton("choice", box.GetSize());
-    mark(choice.name, box.Min, box.Max, id);
+    const bool pressed = marked_button("choice", box.GetSize(), choice.name, id);
     const bool hovered = ImGui::IsItemHovered();
     ImGui::PopID();
     if (pressed && i != current) {
@@ -259,19 +252,16 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
       changed = true;
     }
     const bool on = i == current;
-    if (on) {
-      draw.AddRectFilled({box.Min.x + 2, box.Min.y + 2}, {box.Max.x - 2, box.Max.y - 2}, t.accent,
-                         look.m.radius - 2);
-    } else if (hovered) {
-      draw.AddRectFilled({box.Min.x + 2, box.Min.y + 2}, {box.Max.x - 2, box.Max.y - 2}, t.control,
-                         look.m.radius - 2);
+    if (on || hovered) {
+      draw.AddRectFilled({box.Min.x + 2, box.Min.y + 2}, {box.Max.x - 2, box.Max.y - 2},
+                         on ? t.accent : t.control, look.m.radius - 2);
     }
-    draw_text(draw, font, {x + 0.5F * (right - x - size.x), origin.y + 0.5F * (height - size.y)},
+    draw_text(font, {x + 0.5F * (right - x - size.x), origin.y + 0.5F * (height - size.y)},
               on        ? t.on_accent
               : hovered ? t.text
                         : t.dim,
               choice.name);
-    draw_focus(look, draw, box.Min, box.Max);
+    draw_focus(look);
     tooltip(look, choice.name, choice.tip);
     x = right;
   }
@@ -284,7 +274,7 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
 bool segmented_row(const Look& look, const char* name, std::span<const Choice> choices,
                    int& current, const char* tip) {
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const float width = available_width();
+  const float width = ImGui::GetContentRegionAvail().x;
   ImRect frame = row_frame(look, name, origin, width);
   // If the choices would overlap, they take the width left by the name.
   float words = 0.0F;
@@ -302,32 +292,27 @@ bool segmented_row(const Look& look, const char* name, std::span<const Choice> c
 bool slider(const Look& look, const char* name, double& value, double least, double most,
             bool logarithmic, const char* format, const char* tip) {
   return slider_row(look, name, value, least, most,
-                    logarithmic ? TrackScale::kLogarithmic : TrackScale::kValue,
-                    ImGuiDataType_Double, format, tip);
+                    logarithmic ? TrackScale::kLogarithmic : TrackScale::kValue, format, tip);
 }
 bool power_slider(const Look& look, const char* name, double& value, double least, double most,
                   const char* tip) {
-  return slider_row(look, name, value, least, most, TrackScale::kPower, ImGuiDataType_Double,
-                    "%.2g", tip);
+  return slider_row(look, name, value, least, most, TrackScale::kPower, "%.2g", tip);
 }
 bool slider(const Look& look, const char* name, int& value, int least, int most, bool logarithmic,
             const char* tip) {
   return slider_row(look, name, value, least, most,
-                    logarithmic ? TrackScale::kLogarithmic : TrackScale::kValue, ImGuiDataType_S32,
-                    "%d", tip);
+                    logarithmic ? TrackScale::kLogarithmic : TrackScale::kValue, "%d", tip);
 }
 
-bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip) {
+void checkbox(const Look& look, const char* name, bool& value, const char* tip) {
   const Theme& t = *look.theme;
   const ImVec2 origin = ImGui::GetCursorScreenPos();
-  const bool pressed = ImGui::InvisibleButton(name, {width, look.m.row});
-  mark(name, origin, {origin.x + width, origin.y + look.m.row});
+  if (marked_button(name, {ImGui::GetContentRegionAvail().x, look.m.row}, name)) value = !value;
   const bool hovered = ImGui::IsItemHovered();
-  if (pressed) value = !value;
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   constexpr float kSize = 16.0F;
   const ImVec2 at(origin.x, origin.y + 0.5F * (look.m.row - kSize));
-  const ImVec2 to(at.x + kSize, at.y + kSize);
+  const ImVec2 to = at + ImVec2(kSize, kSize);
   if (value) {
     draw.AddRectFilled(at, to, hovered ? t.accent_hover : t.accent, 4.0F);
     draw_icon(draw, Icon::kCheck, {at.x + 0.5F * kSize, at.y + 0.5F * kSize}, kSize, t.on_accent);
@@ -335,12 +320,10 @@ bool checkbox(const Look& look, const char* name, bool& value, float width, cons
     draw.AddRectFilled(at, to, t.well, 4.0F);
     draw.AddRect(at, to, hovered ? t.dim : t.faint, 4.0F);
   }
-  const ImVec2 size = text_size(look.fonts.regular, name);
-  draw_text(draw, look.fonts.regular, {to.x + 8.0F, origin.y + 0.5F * (look.m.row - size.y)},
-            t.text, name);
-  draw_focus(look, draw, origin, {origin.x + width, origin.y + look.m.row});
+  const float line = text_size(look.fonts.regular, name).y;
+  draw_text(look.fonts.regular, {to.x + 8.0F, origin.y + 0.5F * (look.m.row - line)}, t.text, name);
+  draw_focus(look);
   tooltip(look, name, tip);
-  return pressed;
 }
 
 }  // namespace substep::ui

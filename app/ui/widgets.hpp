@@ -7,32 +7,36 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "app/ui/look.hpp"
 
 namespace substep::ui {
 
 /// Text aligned to whole pixels of the frame buffer, for sharpness.
-void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, const char* text,
-               const char* end = nullptr);
-ImVec2 text_size(ImFont* font, const char* text, float wrap = 0.0F);
+void draw_text(ImDrawList& draw, ImFont* font, ImVec2 at, ImU32 color, std::string_view text);
+/// The same in the current window.
+void draw_text(ImFont* font, ImVec2 at, ImU32 color, std::string_view text);
+/// Ends at `right`. @return its left end
+float draw_text_before(ImFont* font, ImVec2 right, ImU32 color, std::string_view text);
+ImVec2 text_size(const ImFont* font, std::string_view text);
 /// Shortened with an ellipsis to fit a width. @return the text drawn
 std::string fitted(ImFont* font, const std::string& text, float width);
 
 /// Broken into lines at spaces only; a number stays whole, and with its unit.
-std::string wrapped(ImFont* font, const char* text, float width);
+std::string wrapped(ImFont* font, const std::string& text, float width);
 
 /// Text as a layout item, wrapped at the panel's width.
-void label(ImFont* font, ImU32 color, const char* text);
+void label(ImFont* font, ImU32 color, const std::string& text);
 /// Heading of a section, with a value on the right.
-void section(const Look& look, const char* title, const char* value = nullptr,
+void section(const Look& look, std::string_view title, std::string_view value = "",
              ImU32 value_color = 0);
 /// Width of a section's title.
-float heading_width(const Look& look, const char* title);
+float heading_width(const Look& look, std::string_view title);
 void space(float height);
 
 /// A ring around the last item if it has keyboard focus.
-void draw_focus(const Look& look, ImDrawList& draw, ImVec2 min, ImVec2 max);
+void draw_focus(const Look& look);
 
 /// A line of a read-out.
 struct ReadOutLine {
@@ -45,7 +49,7 @@ void read_out(const Look& look, std::span<const ReadOutLine> lines);
 
 /// A tooltip for the last item: a title and a longer text. Shown after a delay; not after
 /// a click, until the pointer leaves the item.
-void tooltip(const Look& look, const char* title, const char* text);
+void tooltip(const Look& look, std::string_view title, std::string_view text);
 
 struct Choice {
   const char* name = "";
@@ -58,6 +62,15 @@ bool segmented(const Look& look, const char* id, std::span<const Choice> choices
 bool segmented_row(const Look& look, const char* name, std::span<const Choice> choices,
                    int& current, const char* tip);
 
+/// The same for an enumeration, whose values are the indices of the choices.
+template <class Enum>
+void choose(const Look& look, const char* name, std::span<const Choice> choices, Enum& value,
+            const char* tip) {
+  int index = static_cast<int>(value);
+  segmented_row(look, name, choices, index, tip);
+  value = static_cast<Enum>(index);
+}
+
 /// Name, track, value. @param format printf format of the value
 bool slider(const Look& look, const char* name, double& value, double least, double most,
             bool logarithmic, const char* format, const char* tip);
@@ -67,15 +80,15 @@ bool slider(const Look& look, const char* name, int& value, int least, int most,
 bool power_slider(const Look& look, const char* name, double& value, double least, double most,
                   const char* tip);
 
-bool checkbox(const Look& look, const char* name, bool& value, float width, const char* tip);
+void checkbox(const Look& look, const char* name, bool& value, const char* tip);
 
 /// A toggle pill; consecutive ones flow into lines. @param mark colour of its subject, 0 for none;
 /// @param first starts a line
-bool toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
-            const char* tip);
+void toggle(const Look& look, const char* name, bool& value, ImU32 mark, bool first,
+            std::string_view tip);
 
 /// A heading that folds the content below it.
-void fold(const Look& look, const char* title, bool& open, const char* tip);
+void fold(const Look& look, const std::string& title, bool& open, std::string_view tip);
 
 enum class Icon : unsigned char {
   kPlay,
@@ -102,15 +115,15 @@ void draw_icon(ImDrawList& draw, Icon icon, ImVec2 centre, float size, ImU32 col
 
 enum class ButtonKind : unsigned char { kPlain, kPrimary, kGhost };
 /// @param text may be empty; @param width 0: automatic
-bool button(const Look& look, const char* id, Icon icon, const char* text, ButtonKind kind,
-            float width, float height, const char* tip);
+bool button(const Look& look, const char* id, Icon icon, std::string_view text, ButtonKind kind,
+            float width, float height, std::string_view tip);
 
 /// A progress bar with a cancel button. @param tip of the button @return whether it was pressed
 bool progress(const Look& look, double share, const char* tip);
 
 /// A button that shows the current choice and opens a menu.
-bool menu_button(const Look& look, const char* id, const char* text, float width, float height,
-                 const char* tip, const std::function<void()>& menu);
+bool menu_button(const Look& look, const char* id, const std::string& text, float width,
+                 float height, std::string_view tip, const std::function<void()>& menu);
 /// The same with an icon only.
 bool icon_menu(const Look& look, const char* id, Icon icon, ButtonKind kind, float size,
                const char* tip, const std::function<void()>& menu);
@@ -120,8 +133,8 @@ struct MenuPicture {
   std::function<void(ImDrawList& draw, ImVec2 min, ImVec2 max)> draw;
 };
 /// An entry of such a menu.
-bool menu_item(const Look& look, const char* text, const char* note, bool current,
-               const MenuPicture* picture = nullptr);
+bool menu_item(const Look& look, const std::string& text, std::string_view note = "",
+               bool current = false, const MenuPicture* picture = nullptr);
 
 /// Scrolls the current window by dragging with a finger. If the drag began on a control and is
 /// vertical, the window scrolls and the control is released.

@@ -17,22 +17,12 @@
 namespace substep::ui {
 namespace {
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoCollapse;
 constexpr float kBarHeight = 56.0F;  // height of the transport bar
 
-struct Rect {
-  float x = 0.0F;
-  float y = 0.0F;
-  float width = 0.0F;
-  float height = 0.0F;
-};
-
-bool begin_panel(const char* id, const Rect& r, ImGuiWindowFlags flags = 0) {
+bool begin_panel(const char* id, const ViewRect& r, ImGuiWindowFlags flags = 0) {
   ImGui::SetNextWindowPos({std::round(r.x), std::round(r.y)});
   ImGui::SetNextWindowSize({std::round(r.width), std::round(r.height)});
-  return ImGui::Begin(id, nullptr, kFixed | flags);
+  return ImGui::Begin(id, nullptr, kPlaced | flags);
 }
 
 // A panel opened by a tab. A new one is a separate file and a line here.
@@ -83,11 +73,8 @@ const Panel& panel_of(std::span<const Panel> panels, Tab tab) {
 // Tabs across the panel. @return the open panel, or the first
 const Panel& choose_panel(const Look& look, std::span<const Panel> panels, Tab& tab) {
   std::vector<Choice> names;
-  int current = 0;
-  for (const Panel& panel : panels) {
-    if (panel.tab == tab) current = static_cast<int>(names.size());
-    names.push_back(panel.name);
-  }
+  for (const Panel& panel : panels) names.push_back(panel.name);
+  auto current = static_cast<int>(&panel_of(panels, tab) - panels.data());
   const bool changed = segmented(look, "tabs", names, current, ImGui::GetContentRegionAvail().x);
   const Panel& open = panels[static_cast<std::size_t>(current)];
   if (changed) tab = open.tab;
@@ -115,7 +102,7 @@ constexpr float kLeastView = 320.0F;
 
 // The strip at a panel's inner edge: a drag changes the width; a click folds or unfolds the panel.
 // @param outward +1 if the panel is to the right of the strip, -1 if to the left
-void edge(App& app, const char* id, PanelSide& side, const Rect& strip, float width, float most,
+void edge(App& app, const char* id, PanelSide& side, const ViewRect& strip, float width, float most,
           float outward) {
   const Theme& t = *app.look.theme;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0F, 0.0F});
@@ -145,7 +132,7 @@ float width_of(const PanelSide& side, float suits, float most) {
 }
 
 // A folded panel leaves only the strip that unfolds it.
-void desktop_panels(App& app, const Rect& space) {
+void desktop_panels(App& app, const ViewRect& space) {
   const bool wide = space.width >= 1476.0F;
   const float most = 0.5F * (space.width - kLeastView);
   PanelSide& left = app.desk.left;
@@ -161,7 +148,7 @@ void desktop_panels(App& app, const Rect& space) {
     // As tall as its contents.
     ImGui::SetNextWindowPos({space.x, space.y});
     ImGui::SetNextWindowSizeConstraints({left_width, 0.0F}, {left_width, space.height});
-    if (ImGui::Begin("##controls", nullptr, kFixed | ImGuiWindowFlags_AlwaysAutoResize)) {
+    if (ImGui::Begin("##controls", nullptr, kPlaced | ImGuiWindowFlags_AlwaysAutoResize)) {
       controls(app.look, app, app.desk, app);
       scroll_by_drag();
     }
@@ -181,7 +168,8 @@ void desktop_panels(App& app, const Rect& space) {
 
 void desktop(App& app, ImVec2 display) {
   const float margin = app.look.m.margin;
-  const Rect bar{margin, display.y - margin - kBarHeight, display.x - 2.0F * margin, kBarHeight};
+  const ViewRect bar{margin, display.y - margin - kBarHeight, display.x - 2.0F * margin,
+                     kBarHeight};
   app.view_rect = {0.0F, 0.0F, display.x, bar.y};
   if (app.desk.panels) {
     desktop_panels(app, {margin, margin, display.x - 2.0F * margin, bar.y - 2.0F * margin});
@@ -206,9 +194,9 @@ void phone(App& app, ImVec2 display) {
     const float bar = 92.0F;
     app.view_rect = {0.0F, 0.0F, display.x, display.y - bar};
   }
-  const Rect panel = app.desk.panels ? Rect{display.x - side, top, side, display.y - top}
-                                     : Rect{0.0F, app.view_rect.height, display.x,
-                                            display.y - app.view_rect.height};
+  const ViewRect panel = app.desk.panels ? ViewRect{display.x - side, top, side, display.y - top}
+                                         : ViewRect{0.0F, app.view_rect.height, display.x,
+                                                    display.y - app.view_rect.height};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {12.0F, 12.0F});
@@ -248,12 +236,12 @@ void notice(App& app) {
   const Look& look = app.look;
   const ViewRect& v = app.view_rect;
   const std::string text = fitted(look.fonts.regular, app.notice.text, v.width - 64.0F);
-  const ImVec2 size = text_size(look.fonts.regular, text.c_str());
+  const ImVec2 size = text_size(look.fonts.regular, text);
   const ImVec2 at(v.x + 0.5F * (v.width - size.x), v.y + v.height - 68.0F);
   ImDrawList& draw = *ImGui::GetBackgroundDrawList();
   draw.AddRectFilled({at.x - 14.0F, at.y - 8.0F}, {at.x + size.x + 14.0F, at.y + size.y + 8.0F},
                      look.theme->raised, look.m.panel_radius);
-  draw_text(draw, look.fonts.regular, at, look.theme->text, text.c_str());
+  draw_text(draw, look.fonts.regular, at, look.theme->text, text);
 }
 
 bool is_small(ImVec2 display) { return display.x < 900.0F || display.y < 480.0F; }

@@ -12,6 +12,7 @@
 #include "app/text/event_text.hpp"
 #include "app/text/format.hpp"
 #include "app/text/link.hpp"
+#include "core/io/experiment.hpp"
 #include "core/lab/presets.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/scene_limits.hpp"

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -97,7 +96,7 @@ std::string figures(const Result& result, ErrorAxis axis) {
 }
 
 void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, const Want& want,
-                 double seconds, const std::atomic<bool>& cancelled) {
+                 double seconds) {
   Experiment paper = experiment_of(*scene, paper_settings(*scene));
   paper.duration = seconds;
   paper.settings.n_max = kMostSubsteps;  // so that alpha alone determines N
@@ -107,7 +106,7 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
           ? AlphaSearch::largest_within(scene, paper, reference, want.error, want.limit)
           : AlphaSearch::smallest_within(scene, paper, reference, want.cost, want.limit);
   while (search.advance(0.1)) {
-    if (cancelled) return;
+    if (cancel_on_signal()) return;
   }
   const std::optional<AlphaChoice>& choice = search.choice();
   const char* which = want.error_is_given ? "largest" : "smallest";
@@ -127,7 +126,6 @@ int write_with(const Recommended& recommended, const Scene& scene, const std::st
 }
 
 int recommend(const RecommendOptions& options) {
-  const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   const Want want = want_of(options, *scene);
@@ -137,7 +135,7 @@ int recommend(const RecommendOptions& options) {
   }
 
   const double seconds = static_cast<double>(options.length.count(*scene)) * scene->frame;
-  const auto swept = run_all_methods(scene, seconds, options.jobs, cancelled);
+  const auto swept = run_all_methods(scene, seconds, options.jobs);
   if (!swept) return kCancelled;
   const std::vector<Result>& results = *swept;
 
@@ -165,8 +163,8 @@ int recommend(const RecommendOptions& options) {
     const int written = write_with(*recommended, *scene, options.out);
     if (written != kOk) return written;
   }
-  print_alpha(words, scene, want, seconds, cancelled);
-  if (cancelled) return kCancelled;
+  print_alpha(words, scene, want, seconds);
+  if (cancel_on_signal()) return kCancelled;
   return best ? kOk : kUnexpectedVerdict;
 }
 

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "app/cli/all_methods.hpp"
-#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
@@ -18,14 +17,13 @@
 namespace substep::cli {
 
 int recommend_shipped(const std::string& out, int jobs) {
-  const std::atomic<bool>& cancelled = cancel_on_signal();
   int exit_code = kOk;
   Json all = Json::object();
   for (const Scene& scene : scenes::shipped()) {
     const scenes::Wanted* wanted = scenes::wanted_of(scene.name);
     if (wanted == nullptr) continue;
     const auto results =
-        run_all_methods(std::make_shared<const Scene>(scene), wanted->seconds, jobs, cancelled);
+        run_all_methods(std::make_shared<const Scene>(scene), wanted->seconds, jobs);
     if (!results) return kCancelled;
     const auto recommended = recommended_of(*results, wanted->of, wanted->within);
     if (!recommended) {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "app/cli/all_methods.hpp"
-#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/length_flags.hpp"
 #include "app/cli/message.hpp"
@@ -110,17 +109,15 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
 
 /// Runs the sweep that is shipped with a scene (scenes/sweeps) and writes its file.
 int ship(const SweepOptions& options) {
-  const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
-  const auto results = run_experiments(scene, quick_sweep(*scene), options.jobs, cancelled);
+  const auto results = run_experiments(scene, quick_sweep(*scene), options.jobs);
   if (!results) return kCancelled;
   const std::string text = sweep_text(*results, results->front().reference);
   return write_file(options.ship, text) ? kOk : kBadInput;
 }
 
 int sweep(const SweepOptions& options, const Shard& shard) {
-  const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   const std::vector<Experiment> all = experiments_of(options, *scene, shard);
@@ -146,7 +143,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   ResultsFile file;
   if (!keep_scene(folder, *scene) || !file.open((folder / name).string())) return kBadInput;
 
-  ParallelSweep parallel{scene, {}, options.jobs, {}, {}, &cancelled};
+  ParallelSweep parallel{scene, {}, options.jobs, {}, {}};
   std::vector<std::string> order;
   for (const Experiment& experiment : all) {
     order.push_back(experiment_id(experiment));

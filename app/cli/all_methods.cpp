@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "app/cli/format_text.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/parallel_sweep.hpp"
 #include "app/cli/progress_line.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "app/cli/exam_report.hpp"
-#include "app/cli/format_text.hpp"
+#include "app/cli/message.hpp"
 #include "core/io/xml_text.hpp"
 
 namespace substep::cli {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "app/cli/format_text.hpp"
+#include "app/cli/message.hpp"
 
 namespace substep::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/cli/format_text.hpp"
+#include "app/cli/message.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep::cli {

@@ -22,11 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// As many digits as a picture needs, fewer than 17.
-double shortened(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return parse_number(text).value_or(0.0);
-}
+double shortened(double x) { return parse_number(format_text("%.6g", x)).value_or(0.0); }
 
 /// The settings of a result; empty if the line is of another version.
 std::optional<Experiment> experiment_in(const Json& result, const Scene& scene) {
@@ -186,16 +182,13 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
                   " of them failed; they are included.");
   if (data.contains("reference")) {
     const Json& reference = data["reference"];
-    char text[400];
-    std::snprintf(text, sizeof text,
-                  "Errors are measured from: %s, uncertain by %.2g m, over %g s.",
-                  reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
-                  reference.value("window", 0.0));
-    std::string line = text;
+    std::string line =
+        format_text("Errors are measured from: %s, uncertain by %.2g m, over %g s.",
+                    reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
+                    reference.value("window", 0.0));
     if (const double scale = reference.value("energy_scale", 0.0); scale >= kLeastEnergyScale) {
-      std::snprintf(text, sizeof text, " 100 %% energy drift is %g J, %s.", scale,
-                    reference.value("energy_scale_source", "").c_str());
-      line += text;
+      line += format_text(" 100 %% energy drift is %g J, %s.", scale,
+                          reference.value("energy_scale_source", "").c_str());
     }
     about.push_back(line);
   }

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "app/cli/cancel.hpp"
-#include "app/cli/format_text.hpp"
+#include "app/cli/message.hpp"
 #include "app/cli/reproduction.hpp"
 #include "app/cli/reproduction_runs.hpp"
 #include "scenes/generator/scenes.hpp"

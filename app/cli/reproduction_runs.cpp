@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/cli/cancel.hpp"
-#include "app/cli/format_text.hpp"
 #include "app/cli/in_parallel.hpp"
+#include "app/cli/message.hpp"
 
 namespace substep::cli {
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cinttypes>
 
-#include "app/cli/format_text.hpp"
+#include "app/cli/message.hpp"
+#include "core/io/experiment.hpp"
 #include "core/lab/energy_scale.hpp"
 #include "core/lab/experiment.hpp"
 #include "core/model/names.hpp"
@@ -72,8 +73,7 @@ std::string RunReport::summary(std::uint64_t state_hash) const {
                         computing_, 1e3 * computing_ / static_cast<double>(substeps_.size()),
                         1e6 * computing_ / static_cast<double>(total_substeps_));
   }
-  text += format_text("state hash   %016" PRIx64 "\n", state_hash);
-  return text;
+  return text + "state hash   " + hex_text(state_hash) + "\n";
 }
 
 std::string settings_line(const Settings& s) {

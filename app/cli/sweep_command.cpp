@@ -20,10 +20,11 @@
 #include "app/cli/results_file.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/settings_flags.hpp"
-#include "app/cli/sweep_scene.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
+#include "core/io/scene_reader.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/io/stored_sweep.hpp"
 #include "core/model/number_text.hpp"
 
@@ -96,15 +97,13 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
   const int filled = static_cast<int>(share * kWidth);
   std::string bar(static_cast<std::size_t>(filled), '#');
   bar.resize(kWidth, '-');
-  char text[160];
-  int n = std::snprintf(text, sizeof text, "[%s] %3.0f %%  %zu of %zu runs, %zu failed",
-                        bar.c_str(), 100.0 * share, runs, all, failed);
+  std::string text = format_text("[%s] %3.0f %%  %zu of %zu runs, %zu failed", bar.c_str(),
+                                 100.0 * share, runs, all, failed);
   if (share > 0.02) {
     const auto left = static_cast<int>(seconds * (1.0 - share) / share + 0.5);
-    n += std::snprintf(text + n, sizeof text - static_cast<std::size_t>(n), ", %d:%02d left",
-                       left / 60, left % 60);
+    text += format_text(", %d:%02d left", left / 60, left % 60);
   }
-  return {text, static_cast<std::size_t>(n)};
+  return text;
 }
 
 /// Runs the sweep that is shipped with a scene (scenes/sweeps) and writes its file.
@@ -115,6 +114,30 @@ int ship(const SweepOptions& options) {
   if (!results) return kCancelled;
   const std::string text = sweep_text(*results, results->front().reference);
   return write_file(options.ship, text) ? kOk : kBadInput;
+}
+
+/// The physical content of the scene as text. Settings and duration are in the results.
+std::string moving_part(Scene scene) {
+  scene.title = scene.group = scene.description = scene.look_for = "";
+  scene.settings = {};
+  scene.recommended.reset();
+  scene.verdicts = {};
+  scene.camera = {};
+  return write_scene(scene);
+}
+
+/// Saves the scene of a sweep beside its results, as scene.json, so that results of different
+/// scenes with one name do not mix. @return false, with a message on stderr, if another scene is
+/// there, or it cannot be written
+bool keep_scene(const fs::path& folder, const Scene& scene) {
+  const std::string path = (folder / "scene.json").string();
+  std::error_code error;
+  if (!fs::exists(path, error)) return write_file(path, write_scene(scene));
+  const SceneResult kept = read_scene_file(path);
+  if (kept.scene && moving_part(*kept.scene) == moving_part(scene)) return true;
+  complain("%s: the results in this folder are of another scene of this name; choose another --out",
+           path.c_str());
+  return false;
 }
 
 int sweep(const SweepOptions& options, const Shard& shard) {

@@ -1,9 +1,7 @@
 #include "app/cli/report.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include "app/cli/message.hpp"

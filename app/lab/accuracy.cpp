@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "app/lab/frame_slices.hpp"
 #include "core/io/experiment.hpp"

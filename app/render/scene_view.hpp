@@ -3,7 +3,6 @@
 #include <array>
 #include <deque>
 #include <string_view>
-#include <vector>
 
 #include "app/lab/session.hpp"
 #include "app/render/camera.hpp"

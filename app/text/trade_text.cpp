@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "app/text/format.hpp"
-#include "core/lab/experiment.hpp"
 
 namespace substep {
 namespace {

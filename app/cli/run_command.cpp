@@ -117,7 +117,8 @@ int run(const RunOptions& options) {
   }
 
   if (!options.quiet) {
-    std::fprintf(words, "%s%s", report.summary(state_hash(simulator.state())).c_str(),
+    std::fprintf(words, "%s%s",
+                 report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str(),
                  failed ? remedy_lines(simulator.settings(), *failed).c_str() : "");
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());

@@ -210,7 +210,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
     std::printf("results  %s\n", (folder / name).string().c_str());
   }
   if (shard.count > 1) return kOk;  // `merge` writes the report for all parts
-  return write_sweep_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
+  return write_sweep_report(folder, scene, file.results(), options.quiet) ? kOk : kBadInput;
 }
 
 }  // namespace

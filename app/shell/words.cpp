@@ -204,7 +204,7 @@ std::string App::set(std::string_view key, std::string_view value) {
   }
   if (key == "events") {
     std::string problem;
-    auto events = read_events(value, *session.loaded_scene(), session.settings(), problem);
+    auto events = read_events(value, session.loaded(), session.settings(), problem);
     if (!problem.empty()) return problem;
     session.follow(std::move(events));
     reset();

@@ -2,12 +2,10 @@
 #include <memory>
 #include <string>
 
-#include "app/cli/budget_flags.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/length_flags.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
-#include "app/cli/settings_flags.hpp"
 #include "core/io/experiment.hpp"
 #include "core/lab/stop_text.hpp"
 #include "core/sim/simulator.hpp"

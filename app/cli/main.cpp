@@ -13,7 +13,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
-#include "app/cli/visible_text.hpp"
 #include "core/io/object_reader.hpp"
 
 namespace substep::cli {

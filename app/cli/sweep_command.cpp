@@ -11,7 +11,7 @@
 
 #include "app/cli/all_methods.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/length_flags.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/parallel_sweep.hpp"
@@ -19,7 +19,6 @@
 #include "app/cli/report.hpp"
 #include "app/cli/results_file.hpp"
 #include "app/cli/scene_source.hpp"
-#include "app/cli/settings_flags.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"

@@ -76,21 +76,27 @@ struct Ground {
   bool operator==(const Ground&) const = default;
 };
 
-struct Picture {
+/// Colours and light around the bodies.
+struct Surroundings {
+  Color background_top;
+  Color background_bottom;
+  Color grid;
+  Color floor;           // matte floor; alpha is its coverage at the centre
+  Color shade;           // of shadows on it
+  float ambient = 0.5F;  // ambient light, 0..1
+  float shadow = 0.5F;   // darkness of the light's shadows, 0..1
+  float contact = 0.5F;  // darkness of the ambient shadow under bodies, 0..1
+
+  bool operator==(const Surroundings&) const = default;
+};
+
+struct Picture : Surroundings {
   Part part;  // of the window; the projection is for the whole window
   Eigen::Matrix4f view_projection = Eigen::Matrix4f::Identity();
   Eigen::Vector3f eye = Eigen::Vector3f::Zero();
   Eigen::Vector3f focus = Eigen::Vector3f::Zero();  // centre of the sharpest shadows [m]
   float focus_radius = 10.0F;                       // [m]
   Eigen::Vector3f to_light{0.4F, 0.9F, 0.3F};       // unit
-  Color background_top;
-  Color background_bottom;
-  Color grid;
-  float ambient = 0.4F;  // ambient light, 0..1
-  Color floor;           // of the matte floor; alpha is its coverage at the centre
-  Color shade;           // of shadows on the floor
-  float shadow = 0.5F;   // darkness of shadows on the ground, 0..1
-  float contact = 0.5F;  // darkness of the ambient shadow under bodies, 0..1
   std::vector<Instance> boxes;
   std::vector<Instance> balls;
   std::vector<Instance> ghost_boxes;  // translucent, without shadows

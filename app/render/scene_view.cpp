@@ -156,14 +156,7 @@ void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPa
   out.ribbons.clear();
   out.view_projection = camera.view_projection(view, window_width, window_height).cast<float>();
   out.eye = camera.eye(view).cast<float>();
-  out.background_top = palette.background_top;
-  out.background_bottom = palette.background_bottom;
-  out.grid = palette.grid;
-  out.floor = palette.floor;
-  out.shade = palette.shade;
-  out.ambient = palette.ambient;
-  out.shadow = palette.shadow;
-  out.contact = palette.contact;
+  static_cast<Surroundings&>(out) = static_cast<const Surroundings&>(palette);
   const Vec3 light = Vec3(0.42, 0.74, 0.52).normalized();
   out.to_light = light.cast<float>();
 

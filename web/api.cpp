@@ -8,9 +8,9 @@
 #include "app/lab/frame_slices.hpp"
 #include "app/text/citation.hpp"
 #include "app/text/export.hpp"
-#include "app/text/format.hpp"
 #include "app/text/introduction.hpp"
 #include "app/ui/handles.hpp"
+#include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/names.hpp"
 #include "core/model/setting_fields.hpp"
@@ -207,7 +207,7 @@ void substep_tell(const char* text) { app().tell(text); }
 
 void substep_recording(int on) { app().desk.recording = on != 0; }
 
-const char* substep_hash() { return keep_text(substep::hex(app().session.hash())); }
+const char* substep_hash() { return keep_text(substep::hex_text(app().session.hash())); }
 
 const char* substep_report() {
   const substep::Session& s = app().session;

@@ -14,9 +14,8 @@
 namespace substep::cli {
 
 std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const Scene>& scene,
-                                                   std::vector<Experiment> experiments, int jobs,
-                                                   const std::atomic<bool>& cancelled) {
-  ParallelSweep sweep{scene, std::move(experiments), jobs, {}, {}, &cancelled};
+                                                   std::vector<Experiment> experiments, int jobs) {
+  ParallelSweep sweep{scene, std::move(experiments), jobs, {}, {}};
   std::map<std::string, std::size_t> order;
   for (const Experiment& experiment : sweep.experiments) {
     order.emplace(experiment_id(experiment), order.size());
@@ -37,8 +36,7 @@ std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const S
 }
 
 std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const Scene>& scene,
-                                                   double seconds, int jobs,
-                                                   const std::atomic<bool>& cancelled) {
+                                                   double seconds, int jobs) {
   Experiment plain = experiment_of(*scene, scene->settings);
   plain.duration = seconds;
   std::vector<Experiment> experiments;
@@ -49,7 +47,7 @@ std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const S
     experiment.settings = point.settings;
     if (known.insert(experiment_id(experiment)).second) experiments.push_back(experiment);
   }
-  return run_experiments(scene, std::move(experiments), jobs, cancelled);
+  return run_experiments(scene, std::move(experiments), jobs);
 }
 
 }  // namespace substep::cli

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,12 +12,10 @@ namespace substep::cli {
 /// @param seconds duration of each run [s]
 /// @return the results in the order of default_sweep(), independent of threads; empty if cancelled
 std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const Scene>& scene,
-                                                   double seconds, int jobs,
-                                                   const std::atomic<bool>& cancelled);
+                                                   double seconds, int jobs);
 
 /// Runs distinct experiments of a scene. @return results in their order; empty if cancelled
 std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const Scene>& scene,
-                                                   std::vector<Experiment> experiments, int jobs,
-                                                   const std::atomic<bool>& cancelled);
+                                                   std::vector<Experiment> experiments, int jobs);
 
 }  // namespace substep::cli

@@ -3,11 +3,10 @@
 #include <string>
 
 #include "app/cli/commands.hpp"
-#include "app/cli/length_flags.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/run_report.hpp"
 #include "app/cli/scene_source.hpp"
-#include "app/cli/settings_flags.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"

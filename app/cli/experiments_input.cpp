@@ -26,46 +26,10 @@
 namespace substep::cli {
 namespace {
 
-class Runner {
- public:
-  explicit Runner(std::shared_ptr<const Scene> given) : given_(std::move(given)) {}
-
-  /// @return whether the result could be printed
-  bool run(const Experiment& experiment, const std::shared_ptr<const Scene>& scene) {
-    ExperimentRun run(*scene, experiment, reference(scene, experiment.duration));
-    while (!cancel_on_signal() && run.advance()) {
-    }
-    if (cancel_on_signal()) return true;
-    const std::string line =
-        result_json(run.result()).dump(-1, ' ', false, Json::error_handler_t::replace);
-    return std::printf("%s\n", line.c_str()) >= 0 && flush_standard_output();
-  }
-
-  std::shared_ptr<const Scene> find(const std::string& name) {
-    if (given_) return given_->name == name ? given_ : nullptr;
-    const std::vector<std::string> shipped = shipped_names();
-    if (std::find(shipped.begin(), shipped.end(), name) == shipped.end()) return nullptr;
-    auto& scene = scenes_[name];
-    if (!scene) scene = load_scene(name);
-    return scene;
-  }
-
- private:
-  const Reference& reference(const std::shared_ptr<const Scene>& scene, double duration) {
-    auto& reference = references_[{scene->name, duration}];
-    if (!reference) reference = std::make_unique<Reference>(find_reference(scene, duration));
-    return *reference;
-  }
-
-  std::shared_ptr<const Scene> given_;
-  std::map<std::string, std::shared_ptr<const Scene>> scenes_;
-  std::map<std::pair<std::string, double>, std::unique_ptr<Reference>> references_;
-};
-
 /// Runs a list of experiments, one per line.
 class Experiments {
  public:
-  explicit Experiments(std::shared_ptr<const Scene> given) : runner_(std::move(given)) {}
+  explicit Experiments(std::shared_ptr<const Scene> given) : given_(std::move(given)) {}
 
   /// @return exit code
   int run(std::istream& input, const std::string& place) {
@@ -96,7 +60,7 @@ class Experiments {
     ExperimentInput experiment;
     if (json) {
       experiment = read_experiment(
-          *json, [&](const std::string& name) { return runner_.find(name); }, problems);
+          *json, [&](const std::string& name) { return find(name); }, problems);
     }
     for (const Problem& problem : problems) {
       complain("%s:%zu: %s", place.c_str(), number_, to_string(problem).c_str());
@@ -106,16 +70,44 @@ class Experiments {
       complain("%s: %zu lines are wrong; the rest is not read", place.c_str(), bad_);
       return kBadInput;
     }
-    if (!runner_.run(*experiment.experiment, experiment.scene)) return kBadInput;
+    if (!run_one(*experiment.experiment, experiment.scene)) return kBadInput;
     if (!cancel_on_signal()) return std::nullopt;
     complain("cancelled at line %zu; the completed results are printed", number_);
     return kCancelled;
   }
 
+  /// @return whether the result could be printed
+  bool run_one(const Experiment& experiment, const std::shared_ptr<const Scene>& scene) {
+    ExperimentRun run(*scene, experiment, reference(scene, experiment.duration));
+    while (!cancel_on_signal() && run.advance()) {
+    }
+    if (cancel_on_signal()) return true;
+    const std::string line =
+        result_json(run.result()).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return std::printf("%s\n", line.c_str()) >= 0 && flush_standard_output();
+  }
+
+  std::shared_ptr<const Scene> find(const std::string& name) {
+    if (given_) return given_->name == name ? given_ : nullptr;
+    const std::vector<std::string> shipped = shipped_names();
+    if (std::find(shipped.begin(), shipped.end(), name) == shipped.end()) return nullptr;
+    auto& scene = scenes_[name];
+    if (!scene) scene = load_scene(name);
+    return scene;
+  }
+
+  const Reference& reference(const std::shared_ptr<const Scene>& scene, double duration) {
+    auto& reference = references_[{scene->name, duration}];
+    if (!reference) reference = std::make_unique<Reference>(find_reference(scene, duration));
+    return *reference;
+  }
+
   static constexpr std::size_t kMostLine = 1U << 20U;  // [bytes]
   static constexpr std::size_t kMostBad = 100;         // lines
 
-  Runner runner_;
+  std::shared_ptr<const Scene> given_;
+  std::map<std::string, std::shared_ptr<const Scene>> scenes_;
+  std::map<std::pair<std::string, double>, std::unique_ptr<Reference>> references_;
   std::size_t number_ = 0;  // current line
   std::size_t bad_ = 0;     // number of invalid lines
 };

@@ -1,14 +1,12 @@
-#include <cinttypes>
 #include <cstdio>
 #include <memory>
 #include <string>
 
-#include "app/cli/budget_flags.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/length_flags.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
-#include "app/cli/settings_flags.hpp"
+#include "core/io/experiment.hpp"
 #include "core/lab/stop_text.hpp"
 #include "core/sim/simulator.hpp"
 
@@ -35,7 +33,7 @@ int hash(const HashOptions& options) {
     complain("stopped at %.3f s: %s", report.time, stop_text(*scene, report).c_str());
     return kNotFinite;
   }
-  std::printf("%016" PRIx64 "\n", state_hash(simulator.state()));
+  std::printf("%s\n", hex_text(state_hash(simulator.state())).c_str());
   return kOk;
 }
 

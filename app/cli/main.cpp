@@ -13,7 +13,6 @@
 #include "app/cli/commands.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
-#include "app/cli/visible_text.hpp"
 #include "core/io/object_reader.hpp"
 
 namespace substep::cli {
@@ -66,18 +65,10 @@ int parse_and_run(int argc, char** argv) {
       "Exit code: 0 success, 1 a verdict is not as expected, 2 bad input, 3 non-finite state,\n"
       "4 out of memory or internal error, 130 cancelled.");
   int exit_code = kOk;
-  add_run(app, exit_code);
-  add_sweep(app, exit_code);
-  add_cost(app, exit_code);
-  add_recommend(app, exit_code);
-  add_merge(app, exit_code);
-  add_reproduce(app, exit_code);
-  add_check(app, exit_code);
-  add_exam(app, exit_code);
-  add_hash(app, exit_code);
-  add_scenes(app, exit_code);
-  add_generate(app, exit_code);
-  add_map(app, exit_code);
+  for (const auto add : {add_run, add_sweep, add_cost, add_recommend, add_merge, add_reproduce,
+                         add_check, add_exam, add_hash, add_scenes, add_generate, add_map}) {
+    add(app, exit_code);
+  }
   if (argc > 1 && !knows_command(app, argv[1])) return kBadInput;
   try {
     app.parse(argc, argv);

@@ -1,12 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/cli/cancel.hpp"
-#include "app/cli/checks.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/map_picture.hpp"
 #include "app/cli/message.hpp"
@@ -55,10 +53,12 @@ std::vector<Axis> axes() {
 }
 
 std::string line_of(const MapCell& c) {
-  return c.map + ',' + number_text(c.value) + ',' + number_text(c.alpha) + ',' +
-         std::string(name_of(c.solver)) + ',' + (c.holds ? "1," : "0,") + number_text(c.seconds) +
-         ',' + std::to_string(c.n_median) + ',' + std::to_string(c.n_max) + ',' +
-         std::to_string(c.substeps) + '\n';
+  const Settings& settings = c.run->cell.settings;
+  const Metrics& m = c.run->metrics;
+  return c.map + ',' + number_text(c.value) + ',' + number_text(settings.alpha) + ',' +
+         std::string(name_of(settings.solver)) + ',' + (m.holds ? "1," : "0,") +
+         number_text(c.run->time) + ',' + std::to_string(m.work.n_median) + ',' +
+         std::to_string(m.work.n_max) + ',' + std::to_string(m.work.substeps) + '\n';
 }
 
 struct MapOptions {
@@ -87,11 +87,7 @@ int run_map(const MapOptions& options) {
           settings.alpha = alpha;
           settings.n_max = 1000;  // so that alpha determines N
           checks.push_back({.scene = scene, .cell = {settings, {}}});
-          cells.push_back({.map = axis.name,
-                           .label = axis.label,
-                           .value = value,
-                           .alpha = alpha,
-                           .solver = solver});
+          cells.push_back({axis.name, axis.label, value});
         }
       }
     }
@@ -102,12 +98,7 @@ int run_map(const MapOptions& options) {
       checks, options.jobs,
       [&](const Check& check) {
         MapCell& cell = cells[static_cast<std::size_t>(&check - checks.data())];
-        const Metrics& m = check.metrics;
-        cell.holds = m.holds;
-        cell.seconds = check.time;
-        cell.n_median = m.work.n_median;
-        cell.n_max = m.work.n_max;
-        cell.substeps = m.work.substeps;
+        cell.run = &check;
         out.write(line_of(cell));
       },
       cancel_on_signal());

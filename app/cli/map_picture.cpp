@@ -40,8 +40,9 @@ std::string text(double x, double y, const char* style, const std::string& what)
 
 /// Darker for more sub-steps, on a logarithmic scale from 1 to 1,000.
 std::string colour_of(const MapCell& cell) {
-  if (!cell.holds) return "#f6c9b4";
-  const double depth = std::min(1.0, std::log10(std::max(1, cell.n_median)) / 3.0);
+  if (!cell.run->metrics.holds) return "#f6c9b4";
+  const double depth =
+      std::min(1.0, std::log10(std::max(1, cell.run->metrics.work.n_median)) / 3.0);
   const auto mixed = [&](int light, int deep) {
     return static_cast<int>(std::lround(light + (deep - light) * depth));
   };
@@ -49,7 +50,8 @@ std::string colour_of(const MapCell& cell) {
 }
 
 std::string label_of(const MapCell& cell) {
-  return cell.holds ? std::to_string(cell.n_median) : format_text("× %.1f", cell.seconds);
+  const Metrics& m = cell.run->metrics;
+  return m.holds ? std::to_string(m.work.n_median) : format_text("× %.1f", cell.run->time);
 }
 
 struct Place {
@@ -57,8 +59,11 @@ struct Place {
   int y;
 };
 
+double alpha_of(const MapCell& cell) { return cell.run->cell.settings.alpha; }
+SolverKind solver_of(const MapCell& cell) { return cell.run->cell.settings.solver; }
+
 std::string one_map(const std::vector<MapCell>& cells, Place at) {
-  const auto alphas = values_of<double>(cells, [](const MapCell& c) { return c.alpha; });
+  const auto alphas = values_of<double>(cells, alpha_of);
   const auto values = values_of<double>(cells, [](const MapCell& c) { return c.value; });
   const auto index = [](const std::vector<double>& of, double x) {
     return static_cast<int>(std::find(of.begin(), of.end(), x) - of.begin());
@@ -66,7 +71,7 @@ std::string one_map(const std::vector<MapCell>& cells, Place at) {
   std::string svg;
   for (const MapCell& cell : cells) {
     const int x = at.x + index(values, cell.value) * kCellWidth;
-    const int y = at.y + index(alphas, cell.alpha) * kCellHeight;
+    const int y = at.y + index(alphas, alpha_of(cell)) * kCellHeight;
     svg += format_text("<rect x='%d' y='%d' width='%d' height='%d' fill='%s'/>", x, y,
                        kCellWidth - 2, kCellHeight - 2, colour_of(cell).c_str());
     svg += text(x + kCellWidth / 2 - 1, y + kCellHeight / 2 + 3, "cell", label_of(cell));
@@ -80,7 +85,7 @@ std::string one_map(const std::vector<MapCell>& cells, Place at) {
     svg += text(at.x + index(values, value) * kCellWidth + kCellWidth / 2 - 1, below + 14, "middle",
                 short_number(value));
   }
-  const bool direct = cells.front().solver == SolverKind::kBpp;
+  const bool direct = solver_of(cells.front()) == SolverKind::kBpp;
   svg += text(at.x, below + 34, "start", cells.front().label);
   svg += text(at.x, at.y - 8, "head", direct ? "direct solver (BPP)" : "PGS");
   svg += text(at.x - 8, at.y - 8, "end", "alpha");
@@ -91,7 +96,7 @@ std::string one_map(const std::vector<MapCell>& cells, Place at) {
 
 std::string map_picture(const std::vector<MapCell>& cells) {
   const auto maps = values_of<std::string>(cells, [](const MapCell& c) { return c.map; });
-  const auto solvers = values_of<SolverKind>(cells, [](const MapCell& c) { return c.solver; });
+  const auto solvers = values_of<SolverKind>(cells, solver_of);
   std::string svg;
   int width = 0;
   int y = kTop;
@@ -101,11 +106,11 @@ std::string map_picture(const std::vector<MapCell>& cells) {
     for (const std::string& map : maps) {
       std::vector<MapCell> own;
       std::copy_if(cells.begin(), cells.end(), std::back_inserter(own),
-                   [&](const MapCell& c) { return c.map == map && c.solver == solver; });
+                   [&](const MapCell& c) { return c.map == map && solver_of(c) == solver; });
       if (own.empty()) continue;
       svg += one_map(own, {x + kLeft, y + kHead});
       const auto columns = values_of<double>(own, [](const MapCell& c) { return c.value; }).size();
-      const auto rows = values_of<double>(own, [](const MapCell& c) { return c.alpha; }).size();
+      const auto rows = values_of<double>(own, alpha_of).size();
       x += kLeft + static_cast<int>(columns) * kCellWidth + kRight;
       height = std::max(height, kHead + static_cast<int>(rows) * kCellHeight + kFoot);
     }

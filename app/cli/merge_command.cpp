@@ -13,6 +13,7 @@
 #include "app/cli/bounded_text.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/message.hpp"
+#include "app/cli/output.hpp"
 #include "app/cli/report.hpp"
 #include "app/cli/results_file.hpp"
 #include "app/cli/scene_source.hpp"
@@ -137,7 +138,7 @@ int merge(const MergeOptions& options) {
     std::printf("%zu runs from %zu parts\nresults  %s\n", file.size(), parts.size(),
                 (folder / "results.jsonl").string().c_str());
   }
-  return write_sweep_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
+  return write_sweep_report(folder, scene, file.results(), options.quiet) ? kOk : kBadInput;
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -17,11 +16,9 @@ struct ParallelSweep {
   std::function<bool(const Result&)> on_result;
   /// Called periodically from the first thread with the completed share, 0 to 1.
   std::function<void(double)> on_progress;
-  /// Stops the sweep within a frame when set.
-  const std::atomic<bool>* cancelled = nullptr;
 };
 
-/// Runs the experiments on `jobs` threads, the longest first.
+/// Runs the experiments on `jobs` threads, the longest first. A signal stops it within a frame.
 /// @return false if cancelled or stopped
 bool run_sweep(const ParallelSweep& sweep);
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -11,13 +10,14 @@
 #include "app/cli/all_methods.hpp"
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/length_flags.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
-#include "app/cli/recommend_shipped.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
+#include "core/io/json_print.hpp"
+#include "core/io/recommended_json.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/lab/alpha_search.hpp"
 #include "core/lab/recommendation.hpp"
@@ -25,6 +25,8 @@
 #include "core/model/format_text.hpp"
 #include "core/model/names.hpp"
 #include "core/model/setting_fields.hpp"
+#include "scenes/generator/recommended.hpp"
+#include "scenes/generator/scenes.hpp"
 
 namespace substep::cli {
 namespace {
@@ -97,7 +99,7 @@ std::string figures(const Result& result, ErrorAxis axis) {
 }
 
 void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, const Want& want,
-                 double seconds, const std::atomic<bool>& cancelled) {
+                 double seconds) {
   Experiment paper = experiment_of(*scene, paper_settings(*scene));
   paper.duration = seconds;
   paper.settings.n_max = kMostSubsteps;  // so that alpha alone determines N
@@ -107,7 +109,7 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
           ? AlphaSearch::largest_within(scene, paper, reference, want.error, want.limit)
           : AlphaSearch::smallest_within(scene, paper, reference, want.cost, want.limit);
   while (search.advance(0.1)) {
-    if (cancelled) return;
+    if (cancel_on_signal()) return;
   }
   const std::optional<AlphaChoice>& choice = search.choice();
   const char* which = want.error_is_given ? "largest" : "smallest";
@@ -120,14 +122,7 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
                choice->alpha, figures(choice->result, want.error).c_str());
 }
 
-/// Writes the scene with its recommended settings. @return exit code
-int write_with(const Recommended& recommended, const Scene& scene, const std::string& path) {
-  // The output may be the file that the scene was read from.
-  return write_file(path, write_scene(with_recommended(scene, recommended))) ? kOk : kBadInput;
-}
-
 int recommend(const RecommendOptions& options) {
-  const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   const Want want = want_of(options, *scene);
@@ -137,7 +132,7 @@ int recommend(const RecommendOptions& options) {
   }
 
   const double seconds = static_cast<double>(options.length.count(*scene)) * scene->frame;
-  const auto swept = run_all_methods(scene, seconds, options.jobs, cancelled);
+  const auto swept = run_all_methods(scene, seconds, options.jobs);
   if (!swept) return kCancelled;
   const std::vector<Result>& results = *swept;
 
@@ -162,12 +157,38 @@ int recommend(const RecommendOptions& options) {
   }
   if (best && !options.out.empty()) {
     const auto recommended = recommended_of(results, want.error, want.limit);
-    const int written = write_with(*recommended, *scene, options.out);
-    if (written != kOk) return written;
+    // The output may be the file that the scene was read from.
+    const Scene with = with_recommended(*scene, *recommended);
+    if (!write_file(options.out, write_scene(with))) return kBadInput;
   }
-  print_alpha(words, scene, want, seconds, cancelled);
-  if (cancelled) return kCancelled;
+  print_alpha(words, scene, want, seconds);
+  if (cancel_on_signal()) return kCancelled;
   return best ? kOk : kUnexpectedVerdict;
+}
+
+/// Sweeps the shipped scenes and writes the recommended settings for each, within its required
+/// error: scenes/generator/recommended.json. @return exit code
+int recommend_shipped(const std::string& out, int jobs) {
+  int exit_code = kOk;
+  Json all = Json::object();
+  for (const Scene& scene : scenes::shipped()) {
+    const scenes::Wanted* wanted = scenes::wanted_of(scene.name);
+    if (wanted == nullptr) continue;
+    const auto results =
+        run_all_methods(std::make_shared<const Scene>(scene), wanted->seconds, jobs);
+    if (!results) return kCancelled;
+    const auto recommended = recommended_of(*results, wanted->of, wanted->within);
+    if (!recommended) {
+      complain("%s: no method meets %g %s", wanted->scene, wanted->within, unit_of(wanted->of));
+      exit_code = kUnexpectedVerdict;
+      continue;
+    }
+    const SeriesParameter parameter = series_parameter(recommended->settings);
+    complain("%s: %s, %s = %g", wanted->scene, series_name(recommended->settings).c_str(),
+             parameter.name, parameter.value);
+    all[wanted->scene] = recommended_json(*recommended);
+  }
+  return write_file(out, json_file(all)) ? exit_code : kBadInput;
 }
 
 }  // namespace

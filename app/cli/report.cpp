@@ -1,9 +1,7 @@
 #include "app/cli/report.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <map>
 #include <memory>
 
 #include "app/cli/message.hpp"
@@ -22,23 +20,19 @@ namespace {
 namespace fs = std::filesystem;
 
 /// As many digits as a picture needs, fewer than 17.
-double shortened(double x) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.6g", x);
-  return parse_number(text).value_or(0.0);
-}
+double shortened(double x) { return parse_number(format_text("%.6g", x)).value_or(0.0); }
 
 /// The settings of a result; empty if the line is of another version.
-std::optional<Experiment> experiment_in(const Json& result, const Scene& scene) {
+std::optional<Experiment> experiment_in(const Json& result,
+                                        const std::shared_ptr<const Scene>& scene) {
   Json json = result;
   for (const char* other : {"series", "parameter", "holds", "failed_at", "verdict", "hash",
                             "errors", "reference", "work", "timing", "command"}) {
     json.erase(other);
   }
   Problems problems;
-  const auto held = std::make_shared<const Scene>(scene);
   return read_experiment(
-             json, [&](const std::string&) { return held; }, problems)
+             json, [&](const std::string&) { return scene; }, problems)
       .experiment;
 }
 
@@ -59,7 +53,7 @@ Json costs_of(const Scene& scene) {
   return list;
 }
 
-Json time_charts(const Scene& scene, const std::vector<Json>& results) {
+Json time_charts(const std::shared_ptr<const Scene>& scene, const std::vector<Json>& results) {
   int least = 0;  // smallest stable constant N
   for (const Json& result : results) {
     const Json& parameter = result["parameter"];
@@ -70,16 +64,14 @@ Json time_charts(const Scene& scene, const std::vector<Json>& results) {
     const int n = static_cast<int>(parameter.value("value", 0.0));
     if (least == 0 || n < least) least = n;
   }
-  const auto held = std::make_shared<const Scene>(scene);
-  Settings settings = own_settings(scene);
+  Settings settings = own_settings(*scene);
   settings.solver = SolverKind::kBpp;
   settings.integrator = Integrator::kEuler;
   settings.drift = Drift::kAuto;
-  const double duration = scene.criteria.duration;
   std::vector<Curve> n_curves;
   std::vector<Curve> energy_curves;
   const auto add = [&](const std::string& name, bool with_n) {
-    const RunTrace trace = trace_run(held, settings, duration);
+    const RunTrace trace = trace_run(scene, settings, scene->criteria.duration);
     const std::string note = trace.holds ? "" : trace.verdict;
     if (with_n) {
       n_curves.push_back({name,
@@ -161,7 +153,7 @@ bool write_page(const fs::path& path, const Json& data, bool quiet) {
   return true;
 }
 
-bool write_sweep_report(const fs::path& folder, const Scene* scene,
+bool write_sweep_report(const fs::path& folder, const std::shared_ptr<const Scene>& scene,
                         const std::vector<Json>& results, bool quiet) {
   Json data;
   const std::string name = results.empty() ? "" : results.front().value("scene", "");
@@ -175,7 +167,7 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
     Json& one = own.emplace_back(result);
     one.erase("settings");  // redundant with the command, which is shorter
     if (!scene) continue;
-    if (const auto experiment = experiment_in(result, *scene)) {
+    if (const auto experiment = experiment_in(result, scene)) {
       one["command"] = command_line(*experiment, *scene);
     }
     if (!data.contains("reference") && result.value("load", 1.0) == 1.0) {
@@ -186,16 +178,13 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
                   " of them failed; they are included.");
   if (data.contains("reference")) {
     const Json& reference = data["reference"];
-    char text[400];
-    std::snprintf(text, sizeof text,
-                  "Errors are measured from: %s, uncertain by %.2g m, over %g s.",
-                  reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
-                  reference.value("window", 0.0));
-    std::string line = text;
+    std::string line =
+        format_text("Errors are measured from: %s, uncertain by %.2g m, over %g s.",
+                    reference.value("source", "").c_str(), reference.value("uncertainty", 0.0),
+                    reference.value("window", 0.0));
     if (const double scale = reference.value("energy_scale", 0.0); scale >= kLeastEnergyScale) {
-      std::snprintf(text, sizeof text, " 100 %% energy drift is %g J, %s.", scale,
-                    reference.value("energy_scale_source", "").c_str());
-      line += text;
+      line += format_text(" 100 %% energy drift is %g J, %s.", scale,
+                          reference.value("energy_scale_source", "").c_str());
     }
     about.push_back(line);
   }
@@ -203,7 +192,7 @@ bool write_sweep_report(const fs::path& folder, const Scene* scene,
   data["results"] = std::move(own);
   if (scene) {
     data["mass_ratio"] = mass_ratio(*scene);
-    data["charts"] = time_charts(*scene, results);
+    data["charts"] = time_charts(scene, results);
     data["costs"] = costs_of(*scene);
     data["settings"] = Json::array(
         {"The scene's own settings: " + settings_line(scene->settings) +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,10 @@ namespace substep::cli {
 
 /// Writes report.html into the folder: all pictures of these results in one self-contained file.
 /// @return false, with a message on stderr, if it cannot be written
-bool write_sweep_report(const std::filesystem::path& folder, const Scene* scene,
-                        const std::vector<Json>& results, bool quiet);
+/// @param scene may be null
+bool write_sweep_report(const std::filesystem::path& folder,
+                        const std::shared_ptr<const Scene>& scene, const std::vector<Json>& results,
+                        bool quiet);
 
 /// Writes a page in the report's format (read by app/report/report.mjs) to a file.
 bool write_page(const std::filesystem::path& path, const Json& data, bool quiet);

@@ -25,6 +25,20 @@ struct ReproduceOptions {
   bool quiet = false;
 };
 
+struct Part {
+  const char* name;
+  Card (*card)(int jobs);
+};
+constexpr Part kParts[] = {{"Fig. 2", substeps_over_time},
+                           {"Fig. 3", energy_over_time},
+                           {"Fig. 4", heavy_stack},
+                           {"explosion", explosion},
+                           {"alpha", alpha_law},
+                           {"Gauss-Seidel", gauss_seidel},
+                           {"bridge", bridge},
+                           {"taller stack", taller_stack},
+                           {"cap", capped}};
+
 const char* name_of(Card::Outcome outcome) {
   switch (outcome) {
     case Card::Outcome::kAgrees:
@@ -73,15 +87,15 @@ int run(const ReproduceOptions& options) {
     return kBadInput;
   }
   ProgressLine progress(!options.quiet && stderr_is_terminal());
-  Reproduction reproduction;
-  reproduction.jobs = options.jobs;
-  reproduction.cancelled = &cancel_on_signal();
-  reproduction.on_card = [&](std::size_t i, std::size_t n, const std::string& name) {
-    progress.show(std::to_string(i + 1) + " of " + std::to_string(n) + ": " + name);
-  };
-  const std::vector<Card> cards = reproduce(reproduction);
+  std::vector<Card> cards;
+  for (const Part& part : kParts) {
+    if (cancel_on_signal()) break;
+    progress.show(std::to_string(cards.size() + 1) + " of " + std::to_string(std::size(kParts)) +
+                  ": " + part.name);
+    cards.push_back(part.card(options.jobs));
+  }
   progress.clear();
-  if (*reproduction.cancelled) {
+  if (cancel_on_signal()) {
     complain("cancelled; nothing was written");
     return kCancelled;
   }

@@ -1,7 +1,7 @@
 #pragma once
+// The figures and claims of Giles and Andrews (MIG '24), one function per card. If the run is
+// cancelled, the result is meaningless.
 
-#include <atomic>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -20,14 +20,17 @@ struct Card {
   std::vector<Json> charts;  // chart_json
 };
 
-struct Reproduction {
-  int jobs = 1;
-  const std::atomic<bool>* cancelled = nullptr;
-  /// Called before each card with its number, from 0, the number of cards and its name.
-  std::function<void(std::size_t, std::size_t, const std::string&)> on_card;
-};
+// reproduction_figures.cpp
+Card substeps_over_time(int jobs);  // Fig. 2
+Card energy_over_time(int jobs);    // Fig. 3
+Card heavy_stack(int jobs);         // Fig. 4
 
-/// Runs Figs. 2, 3 and 4 of Giles and Andrews (MIG '24) and the paper's claims in words.
-std::vector<Card> reproduce(const Reproduction& options);
+// reproduction_claims.cpp
+Card explosion(int jobs);
+Card alpha_law(int jobs);
+Card gauss_seidel(int jobs);
+Card bridge(int jobs);
+Card taller_stack(int jobs);
+Card capped(int jobs);
 
 }  // namespace substep::cli

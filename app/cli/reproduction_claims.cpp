@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/cli/reproduction_cards.hpp"
+#include "app/cli/reproduction.hpp"
 #include "app/cli/reproduction_runs.hpp"
 #include "core/model/format_text.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -11,7 +11,7 @@ namespace substep::cli {
 
 using Outcome = Card::Outcome;
 
-Card explosion(const Reproduction& options) {
+Card explosion(int jobs) {
   constexpr int kMost = 8;
   Card card;
   card.title = "The swinging box explodes without sub-steps or damping";
@@ -24,7 +24,7 @@ Card explosion(const Reproduction& options) {
   Settings threshold = direct(Mode::kAdaptive, 16, 1.0);
   threshold.integrator = Integrator::kLeapfrog;
   runs.push_back({"alpha 1", scene, threshold, 10.0});
-  const std::vector<RunTrace> traces = trace_all(runs, options);
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
   int least = kMost + 1;
   while (least > 1 && traces[static_cast<std::size_t>(least - 2)].holds) --least;
   const int predicted = static_cast<int>(peak(by_frame(traces.back())));
@@ -41,7 +41,7 @@ Card explosion(const Reproduction& options) {
   return card;
 }
 
-Card alpha_law(const Reproduction& options) {
+Card alpha_law(int jobs) {
   Card card;
   card.title = "What alpha does";
   card.paper =
@@ -57,7 +57,7 @@ Card alpha_law(const Reproduction& options) {
     runs.push_back({format_text("alpha %g", alpha), scene, settings, 10.0});
     measured.x.push_back(alpha);
   }
-  for (const RunTrace& trace : trace_all(runs, options)) {
+  for (const RunTrace& trace : trace_all(runs, jobs)) {
     measured.y.push_back(trace.total_substeps() / static_cast<double>(trace.time.size() - 1));
   }
   // Rounding up adds half a sub-step on average.
@@ -76,7 +76,7 @@ Card alpha_law(const Reproduction& options) {
   return card;
 }
 
-Card gauss_seidel(const Reproduction& options) {
+Card gauss_seidel(int jobs) {
   Card card;
   card.title = "Swinging box with Gauss-Seidel, 25 iterations";
   card.paper = "It runs with adaptive sub-steps.";
@@ -85,7 +85,7 @@ Card gauss_seidel(const Reproduction& options) {
       {"drift full, 25 iterations", scene, pgs(Mode::kAdaptive, Drift::kFull), 10.0},
       {"drift full, 400 iterations", scene, pgs(Mode::kAdaptive, Drift::kFull, 400), 10.0},
       {"drift soft, 25 iterations", scene, pgs(Mode::kAdaptive, Drift::kSoft), 10.0}};
-  const std::vector<RunTrace> traces = trace_all(runs, options);
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
   card.here = "With the paper's drift law phi/h: " + life(traces[0]) + "; with 400 iterations " +
               life(traces[1]) + ". With a slow drift correction (drift soft): " + life(traces[2]) +
               ".";
@@ -101,7 +101,7 @@ Card gauss_seidel(const Reproduction& options) {
   return card;
 }
 
-Card bridge(const Reproduction& options) {
+Card bridge(int jobs) {
   struct Method {
     const char* name;
     Settings settings;
@@ -121,7 +121,7 @@ Card bridge(const Reproduction& options) {
     const auto scene = shared(scenes::bridge(start));
     for (const Method& method : methods) runs.push_back({method.name, scene, method.settings, 6.0});
   }
-  const std::vector<RunTrace> traces = trace_all(runs, options);
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
   for (std::size_t i = 0; i < traces.size(); ++i) {
     Method& method = methods[i % methods.size()];
     method.survivors += traces[i].holds ? 1 : 0;
@@ -144,14 +144,14 @@ Card bridge(const Reproduction& options) {
   return card;
 }
 
-Card taller_stack(const Reproduction& options) {
+Card taller_stack(int jobs) {
   Card card;
   card.title = "The taller stack needs a smaller alpha";
   card.paper = "With 10 layers under 20 t alpha has to be 0.05.";
   const auto scene = shared(scenes::heavy_stack_stress_tall());
   const std::vector<Run> runs{{"alpha 0.1", scene, direct(Mode::kAdaptive, 16, 0.1), 10.0},
                               {"alpha 0.05", scene, direct(Mode::kAdaptive, 16, 0.05), 10.0}};
-  const std::vector<RunTrace> traces = trace_all(runs, options);
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
   card.here = "heavy_stack_stress_tall: " + lives(runs, traces, 0, runs.size()) + ".";
   card.command = "substep run heavy_stack_stress_tall --alpha 0.1";
   card.outcome = !traces[0].holds && traces[1].holds ? Outcome::kAgrees : Outcome::kFails;
@@ -160,7 +160,7 @@ Card taller_stack(const Reproduction& options) {
   return card;
 }
 
-Card capped(const Reproduction& options) {
+Card capped(int jobs) {
   Card card;
   card.title = "Future work: a cap on the sub-steps, and damping beyond it";
   card.paper = "Proposed, not shown: as many sub-steps as the time permits, then damping.";
@@ -171,7 +171,7 @@ Card capped(const Reproduction& options) {
     settings.n_cap = cap;
     runs.push_back({format_text("at most %d", cap), scene, settings, 10.0});
   }
-  const std::vector<RunTrace> traces = trace_all(runs, options);
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
   bool all_hold = true;
   bool less_and_less = true;
   double before = -101.0;

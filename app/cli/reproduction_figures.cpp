@@ -2,7 +2,8 @@
 
 #include <cmath>
 
-#include "app/cli/reproduction_cards.hpp"
+#include "app/cli/cancel.hpp"
+#include "app/cli/reproduction.hpp"
 #include "app/cli/reproduction_runs.hpp"
 #include "core/model/format_text.hpp"
 #include "scenes/generator/scenes.hpp"
@@ -31,8 +32,7 @@ struct Figure2 {
 };
 
 Figure2 figure_2(const std::string& title, const std::shared_ptr<const Scene>& scene,
-                 Settings settings, std::vector<double> RunTrace::*error,
-                 const Reproduction& options) {
+                 Settings settings, std::vector<double> RunTrace::*error, int jobs) {
   constexpr int kMost = 40;
   const double seconds = scene->criteria.duration;
   std::vector<Run> runs{{"adaptive, alpha 0.1", scene, settings, seconds}};
@@ -40,7 +40,7 @@ Figure2 figure_2(const std::string& title, const std::shared_ptr<const Scene>& s
   for (settings.n = 1; settings.n <= kMost; ++settings.n) {
     runs.push_back({format_text("constant %d", settings.n), scene, settings, seconds});
   }
-  const std::vector<RunTrace> traces = trace_all(runs, options);
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
   const RunTrace& adaptive = traces.front();
   const double limit = peak(adaptive.*error);
   Figure2 figure;
@@ -91,7 +91,7 @@ Curve largest_of_swings(const std::string& name, const RunTrace& trace) {
 
 }  // namespace
 
-Card substeps_over_time(const Reproduction& options) {
+Card substeps_over_time(int jobs) {
   Card card;
   card.title = "Fig. 2: sub-steps over time";
   card.paper =
@@ -101,11 +101,11 @@ Card substeps_over_time(const Reproduction& options) {
   Scene short_bridge = scenes::bridge();
   short_bridge.criteria.duration = 6.0;
   const Figure2 swing = figure_2("Swinging box, direct solver", box, direct(Mode::kAdaptive),
-                                 &RunTrace::constraint_error, options);
+                                 &RunTrace::constraint_error, jobs);
   const Figure2 gauss = figure_2("Swinging box, Gauss-Seidel with 25 iterations", box,
-                                 pgs(Mode::kAdaptive), &RunTrace::constraint_error, options);
+                                 pgs(Mode::kAdaptive), &RunTrace::constraint_error, jobs);
   const Figure2 crossing = figure_2("Bridge, direct solver", shared(short_bridge),
-                                    direct(Mode::kAdaptive), &RunTrace::joint_gap, options);
+                                    direct(Mode::kAdaptive), &RunTrace::joint_gap, jobs);
   card.here = "Swinging box: " + described(swing) + ". With Gauss-Seidel: " + described(gauss) +
               ". Bridge: " + described(crossing) + ".";
   card.why =
@@ -121,7 +121,7 @@ Card substeps_over_time(const Reproduction& options) {
   return card;
 }
 
-Card energy_over_time(const Reproduction& options) {
+Card energy_over_time(int jobs) {
   constexpr double kSeconds = 200.0;
   Card card;
   card.title = "Fig. 3: kinetic energy over 200 s";
@@ -133,8 +133,8 @@ Card energy_over_time(const Reproduction& options) {
                               {"adaptive with leapfrog", scene, leapfrog, kSeconds},
                               {"damping", scene, direct(Mode::kDamping), kSeconds},
                               {"none", scene, direct(Mode::kNone), kSeconds}};
-  const std::vector<RunTrace> traces = trace_all(runs, options);
-  if (*options.cancelled) return card;
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
+  if (cancel_on_signal()) return card;
   const double adaptive = energy_change(*scene, traces[0]);
   const double second_order = energy_change(*scene, traces[1]);
   const double damping = energy_change(*scene, traces[2]);
@@ -159,7 +159,7 @@ Card energy_over_time(const Reproduction& options) {
   return card;
 }
 
-Card heavy_stack(const Reproduction& options) {
+Card heavy_stack(int jobs) {
   constexpr double kSeconds = 10.0;
   Card card;
   card.title = "Fig. 4: heavy stack by solver and mode";
@@ -177,7 +177,7 @@ Card heavy_stack(const Reproduction& options) {
     add("adaptive, Gauss-Seidel 25", pgs(Mode::kAdaptive));
     add("adaptive, Gauss-Seidel 200", pgs(Mode::kAdaptive, Drift::kAuto, 200));
   }
-  const std::vector<RunTrace> traces = trace_all(runs, options);
+  const std::vector<RunTrace> traces = trace_all(runs, jobs);
   const std::size_t cases = runs.size() / 2;  // the stress stack first
   bool direct_stands = true;
   bool gauss_falls = true;

@@ -1,11 +1,9 @@
 #include "app/cli/reproduction_runs.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <mutex>
-#include <system_error>
-#include <thread>
 
+#include "app/cli/cancel.hpp"
+#include "app/cli/in_parallel.hpp"
 #include "core/model/format_text.hpp"
 
 namespace substep::cli {
@@ -30,31 +28,13 @@ std::shared_ptr<const Scene> shared(Scene scene) {
   return std::make_shared<const Scene>(std::move(scene));
 }
 
-std::vector<RunTrace> trace_all(const std::vector<Run>& runs, const Reproduction& options) {
+std::vector<RunTrace> trace_all(const std::vector<Run>& runs, int jobs) {
   std::vector<RunTrace> traces(runs.size());
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr error;
-  const auto work = [&] {
-    try {
-      for (std::size_t i = next++; i < runs.size() && !*options.cancelled; i = next++) {
-        traces[i] = trace_run(runs[i].scene, runs[i].settings, runs[i].seconds);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      error = std::current_exception();
-      next = runs.size();
-    }
-  };
-  std::vector<std::thread> threads;
-  try {
-    for (int i = 1; i < options.jobs; ++i) threads.emplace_back(work);
-  } catch (const std::system_error&) {
-    // No more threads available: continue with fewer.
-  }
-  work();
-  for (std::thread& thread : threads) thread.join();
-  if (error) std::rethrow_exception(error);
+  in_parallel(runs.size(), jobs, [&](std::size_t i) {
+    if (cancel_on_signal()) return false;
+    traces[i] = trace_run(runs[i].scene, runs[i].settings, runs[i].seconds);
+    return true;
+  });
   return traces;
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "app/cli/report.hpp"
-#include "app/cli/reproduction.hpp"
 #include "app/cli/run_trace.hpp"
 
 namespace substep::cli {
@@ -25,8 +24,8 @@ Settings pgs(Mode mode, Drift drift = Drift::kAuto, int iterations = 25);
 
 std::shared_ptr<const Scene> shared(Scene scene);
 
-/// Traces all runs on options.jobs threads. @return in the order of `runs`
-std::vector<RunTrace> trace_all(const std::vector<Run>& runs, const Reproduction& options);
+/// Traces all runs on `jobs` threads. @return in the order of `runs`
+std::vector<RunTrace> trace_all(const std::vector<Run>& runs, int jobs);
 
 /// One quantity of each run over time.
 std::vector<Curve> curves_of(const std::vector<Run>& runs, const std::vector<RunTrace>& traces,

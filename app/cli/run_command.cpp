@@ -5,18 +5,16 @@
 #include <optional>
 #include <string>
 
-#include "app/cli/budget_flags.hpp"
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
 #include "app/cli/experiments_input.hpp"
-#include "app/cli/length_flags.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/progress_line.hpp"
 #include "app/cli/run_outputs.hpp"
 #include "app/cli/run_report.hpp"
 #include "app/cli/scene_source.hpp"
-#include "app/cli/settings_flags.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/lab/experiment.hpp"
@@ -117,7 +115,8 @@ int run(const RunOptions& options) {
   }
 
   if (!options.quiet) {
-    std::fprintf(words, "%s%s", report.summary(state_hash(simulator.state())).c_str(),
+    std::fprintf(words, "%s%s",
+                 report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str(),
                  failed ? remedy_lines(simulator.settings(), *failed).c_str() : "");
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());

@@ -1,11 +1,10 @@
 #include "app/cli/run_outputs.hpp"
 
 #include <algorithm>
-#include <cinttypes>
-#include <cstdio>
 
 #include "app/cli/scene_source.hpp"
 #include "app/cli/within.hpp"
+#include "core/io/experiment.hpp"
 #include "core/io/json.hpp"
 #include "core/io/motion_csv.hpp"
 #include "core/io/result.hpp"
@@ -52,11 +51,9 @@ std::string json_head(const Simulator& simulator) {
 }
 
 std::string json_tail(const Metrics& metrics) {
-  char hash[32];
-  std::snprintf(hash, sizeof hash, "%016" PRIx64, metrics.hash);
   return "\n  ],\n  \"work\": " + work_json(metrics.work).dump() +
-         ",\n  \"timing\": " + timing_json(metrics.timing).dump() + ",\n  \"hash\": \"" + hash +
-         "\",\n  \"holds\": " + (metrics.holds ? "true" : "false") +
+         ",\n  \"timing\": " + timing_json(metrics.timing).dump() + ",\n  \"hash\": \"" +
+         hex_text(metrics.hash) + "\",\n  \"holds\": " + (metrics.holds ? "true" : "false") +
          ",\n  \"verdict\": " + json_text(metrics.verdict) + "\n}\n";
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cinttypes>
 
+#include "core/io/experiment.hpp"
 #include "core/lab/energy_scale.hpp"
 #include "core/lab/experiment.hpp"
 #include "core/model/format_text.hpp"
@@ -17,15 +18,10 @@ RunReport::RunReport(const Scene& scene, const FrameReport& start)
 
 void RunReport::add(const FrameReport& report) {
   last_ = report;
-  substeps_.push_back(report.n_substeps);
-  total_substeps_ += report.n_substeps;
   capped_frames_ += report.capped ? 1 : 0;
   substeps_of_a_body_ += report.n_mean;
   most_asleep_ = std::max(most_asleep_, report.asleep);
   has_islands_ = has_islands_ || report.islands > 0;
-  joint_gap_ = std::max(joint_gap_, report.joint_gap);
-  penetration_ = std::max(penetration_, report.penetration);
-  computing_ += report.times.total;
 }
 
 std::string RunReport::energy_text() const {
@@ -49,31 +45,35 @@ std::string RunReport::progress(std::int64_t frames) const {
   return line;
 }
 
-std::string RunReport::summary(std::uint64_t state_hash) const {
+std::string RunReport::summary(const Metrics& metrics) const {
+  const Work& work = metrics.work;
+  const auto frames = static_cast<double>(work.frames);
   std::string text;
   text += format_text("time         %.3f s in %" PRId64 " frames\n", last_.time, last_.frame);
-  if (!substeps_.empty()) {
-    std::vector<int> sorted = substeps_;
-    std::sort(sorted.begin(), sorted.end());
+  if (work.frames > 0) {
     text += format_text("sub-steps    %" PRId64 "; %d / %d / %d per frame (least, median, most)\n",
-                        total_substeps_, sorted.front(), sorted[sorted.size() / 2], sorted.back());
+                        work.substeps, work.n_min, work.n_median, work.n_max);
   }
-  if (has_islands_ && !substeps_.empty()) {
+  if (has_islands_) {
     text += format_text("per body     %.3g sub-steps per frame on average\n",
-                        substeps_of_a_body_ / static_cast<double>(substeps_.size()));
+                        substeps_of_a_body_ / frames);
   }
   if (most_asleep_ > 0) text += format_text("asleep       %d bodies at most\n", most_asleep_);
   if (capped_frames_ > 0) text += format_text("capped       %" PRId64 " frames\n", capped_frames_);
   text += "energy       " + energy_text() + "\n";
-  if (scene_.effects.joints) text += format_text("joint gap    %.2e m at most\n", joint_gap_);
-  if (scene_.effects.contact) text += format_text("penetration  %.2e m at most\n", penetration_);
-  if (total_substeps_ > 0) {
-    text += format_text("computing    %.3f s; %.3f ms per frame, %.1f us per sub-step\n",
-                        computing_, 1e3 * computing_ / static_cast<double>(substeps_.size()),
-                        1e6 * computing_ / static_cast<double>(total_substeps_));
+  if (const auto& gap = metrics.errors.joint_gap) {
+    text += format_text("joint gap    %.2e m at most\n", gap->peak);
   }
-  text += format_text("state hash   %016" PRIx64 "\n", state_hash);
-  return text;
+  if (const auto& overlap = metrics.errors.penetration) {
+    text += format_text("penetration  %.2e m at most\n", overlap->peak);
+  }
+  if (work.substeps > 0) {
+    const double computing = metrics.timing.stages.total;
+    text +=
+        format_text("computing    %.3f s; %.3f ms per frame, %.1f us per sub-step\n", computing,
+                    1e3 * computing / frames, 1e6 * computing / static_cast<double>(work.substeps));
+  }
+  return text + "state hash   " + hex_text(metrics.hash) + "\n";
 }
 
 std::string settings_line(const Settings& s) {

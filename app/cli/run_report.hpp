@@ -2,14 +2,12 @@
 
 #include <cstdint>
 #include <string>
-#include <vector>
 
-#include "core/model/scene.hpp"
-#include "core/sim/report.hpp"
+#include "core/lab/metrics.hpp"
 
 namespace substep::cli {
 
-/// Accumulates the summary of a run.
+/// Accumulates what the summary of a run tells beside its metrics.
 class RunReport {
  public:
   RunReport(const Scene& scene, const FrameReport& start);
@@ -19,7 +17,7 @@ class RunReport {
   /// A one-line progress message for a terminal.
   [[nodiscard]] std::string progress(std::int64_t frames) const;
   /// A summary of the whole run in a few lines, each ended by a line feed.
-  [[nodiscard]] std::string summary(std::uint64_t state_hash) const;
+  [[nodiscard]] std::string summary(const Metrics& metrics) const;
 
  private:
   [[nodiscard]] std::string energy_text() const;
@@ -27,15 +25,10 @@ class RunReport {
   const Scene& scene_;
   double energy_at_start_;  // [J]
   FrameReport last_;
-  std::vector<int> substeps_;  // per frame
-  std::int64_t total_substeps_ = 0;
   std::int64_t capped_frames_ = 0;
   double substeps_of_a_body_ = 0.0;
   int most_asleep_ = 0;
   bool has_islands_ = false;
-  double joint_gap_ = 0.0;    // largest so far [m]
-  double penetration_ = 0.0;  // largest so far [m]
-  double computing_ = 0.0;    // [s]
 };
 
 /// "bpp, adaptive, alpha 0.1, per frame, euler": the settings relevant to the mode.

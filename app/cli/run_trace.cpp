@@ -1,6 +1,5 @@
 #include "app/cli/run_trace.hpp"
 
-#include <chrono>
 #include <numeric>
 
 #include "core/lab/verdict.hpp"
@@ -32,14 +31,12 @@ RunTrace trace_run(const std::shared_ptr<const Scene>& scene, const Settings& se
     }
   };
   note();
-  const auto start = std::chrono::steady_clock::now();
   const std::int64_t frames = frames_of(*scene, duration);
   for (std::int64_t i = 0; i < frames && verdict.holds(); ++i) {
     report = simulator.step();
     verdict.add(*scene, simulator.state(), report);
     note();
   }
-  trace.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   trace.holds = verdict.holds();
   trace.failed_at = verdict.failed_at();
   trace.verdict = verdict.text();

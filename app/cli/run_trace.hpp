@@ -20,7 +20,6 @@ struct RunTrace {
   bool holds = true;
   double failed_at = 0.0;  // [s]
   std::string verdict;
-  double seconds = 0.0;  // wall time [s]
 
   [[nodiscard]] double total_substeps() const;
 };

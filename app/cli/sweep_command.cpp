@@ -10,9 +10,8 @@
 #include <vector>
 
 #include "app/cli/all_methods.hpp"
-#include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/length_flags.hpp"
+#include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"
 #include "app/cli/parallel_sweep.hpp"
@@ -20,11 +19,11 @@
 #include "app/cli/report.hpp"
 #include "app/cli/results_file.hpp"
 #include "app/cli/scene_source.hpp"
-#include "app/cli/settings_flags.hpp"
-#include "app/cli/sweep_scene.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
+#include "core/io/scene_reader.hpp"
+#include "core/io/scene_writer.hpp"
 #include "core/io/stored_sweep.hpp"
 #include "core/model/number_text.hpp"
 
@@ -97,30 +96,50 @@ std::string progress_text(double share, std::size_t runs, std::size_t all, std::
   const int filled = static_cast<int>(share * kWidth);
   std::string bar(static_cast<std::size_t>(filled), '#');
   bar.resize(kWidth, '-');
-  char text[160];
-  int n = std::snprintf(text, sizeof text, "[%s] %3.0f %%  %zu of %zu runs, %zu failed",
-                        bar.c_str(), 100.0 * share, runs, all, failed);
+  std::string text = format_text("[%s] %3.0f %%  %zu of %zu runs, %zu failed", bar.c_str(),
+                                 100.0 * share, runs, all, failed);
   if (share > 0.02) {
     const auto left = static_cast<int>(seconds * (1.0 - share) / share + 0.5);
-    n += std::snprintf(text + n, sizeof text - static_cast<std::size_t>(n), ", %d:%02d left",
-                       left / 60, left % 60);
+    text += format_text(", %d:%02d left", left / 60, left % 60);
   }
-  return {text, static_cast<std::size_t>(n)};
+  return text;
 }
 
 /// Runs the sweep that is shipped with a scene (scenes/sweeps) and writes its file.
 int ship(const SweepOptions& options) {
-  const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
-  const auto results = run_experiments(scene, quick_sweep(*scene), options.jobs, cancelled);
+  const auto results = run_experiments(scene, quick_sweep(*scene), options.jobs);
   if (!results) return kCancelled;
   const std::string text = sweep_text(*results, results->front().reference);
   return write_file(options.ship, text) ? kOk : kBadInput;
 }
 
+/// The physical content of the scene as text. Settings and duration are in the results.
+std::string moving_part(Scene scene) {
+  scene.title = scene.group = scene.description = scene.look_for = "";
+  scene.settings = {};
+  scene.recommended.reset();
+  scene.verdicts = {};
+  scene.camera = {};
+  return write_scene(scene);
+}
+
+/// Saves the scene of a sweep beside its results, as scene.json, so that results of different
+/// scenes with one name do not mix. @return false, with a message on stderr, if another scene is
+/// there, or it cannot be written
+bool keep_scene(const fs::path& folder, const Scene& scene) {
+  const std::string path = (folder / "scene.json").string();
+  std::error_code error;
+  if (!fs::exists(path, error)) return write_file(path, write_scene(scene));
+  const SceneResult kept = read_scene_file(path);
+  if (kept.scene && moving_part(*kept.scene) == moving_part(scene)) return true;
+  complain("%s: the results in this folder are of another scene of this name; choose another --out",
+           path.c_str());
+  return false;
+}
+
 int sweep(const SweepOptions& options, const Shard& shard) {
-  const std::atomic<bool>& cancelled = cancel_on_signal();
   const auto scene = load_scene(options.scene);
   if (!scene) return kBadInput;
   const std::vector<Experiment> all = experiments_of(options, *scene, shard);
@@ -146,7 +165,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   ResultsFile file;
   if (!keep_scene(folder, *scene) || !file.open((folder / name).string())) return kBadInput;
 
-  ParallelSweep parallel{scene, {}, options.jobs, {}, {}, &cancelled};
+  ParallelSweep parallel{scene, {}, options.jobs, {}, {}};
   std::vector<std::string> order;
   for (const Experiment& experiment : all) {
     order.push_back(experiment_id(experiment));
@@ -190,7 +209,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
     std::printf("results  %s\n", (folder / name).string().c_str());
   }
   if (shard.count > 1) return kOk;  // `merge` writes the report for all parts
-  return write_sweep_report(folder, scene.get(), file.results(), options.quiet) ? kOk : kBadInput;
+  return write_sweep_report(folder, scene, file.results(), options.quiet) ? kOk : kBadInput;
 }
 
 }  // namespace

@@ -11,11 +11,9 @@
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <exception>
 #include <fstream>
 #include <iterator>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

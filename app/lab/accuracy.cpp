@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "app/lab/frame_slices.hpp"
 #include "core/io/experiment.hpp"
@@ -17,18 +16,23 @@ double wall_clock() {
 
 }  // namespace
 
-void Accuracy::start(std::shared_ptr<const Scene> scene) {
+void Accuracy::begin(std::shared_ptr<const Scene> scene) {
   scene_ = std::move(scene);
   search_.reset();
+  sweep_.reset();
   shipped_.reset();
-  paper_ = paper_settings(*scene_);
-  sweep_.emplace(scene_, quick_sweep(*scene_), kWindowBudget);
   cancelled_ = false;
-  elapsed_ = 0.0;
-  last_ = -1.0;
   trade_is_of_.reset();
   trade_alpha = scene_->settings.alpha;
   trade_policy = scene_->settings.policy;
+}
+
+void Accuracy::start(std::shared_ptr<const Scene> scene) {
+  begin(std::move(scene));
+  paper_ = paper_settings(*scene_);
+  sweep_.emplace(scene_, quick_sweep(*scene_), kWindowBudget);
+  elapsed_ = 0.0;
+  last_ = -1.0;
   if (!scene_->criteria.track) error = first_axis(*scene_);
   if (picture == AccuracyPicture::kStabilityMap && !has_map()) {
     picture = AccuracyPicture::kErrorAgainstCost;
@@ -41,18 +45,12 @@ bool Accuracy::show_shipped(const std::shared_ptr<const Scene>& scene, bool aske
   looked_up_ = scene;
   auto stored = read_sweep(scenes::sweep_of(scene->name), *scene);
   if (!stored) return false;
-  scene_ = scene;
-  search_.reset();
-  sweep_.reset();
-  cancelled_ = false;
+  begin(scene);
   shipped_ = std::move(stored);
   shipped_plan_.clear();
   for (const Result& result : shipped_->results) shipped_plan_.push_back(result.experiment);
   error = first_axis(*scene);
   cost = CostAxis::kOperations;
-  trade_is_of_.reset();
-  trade_alpha = scene->settings.alpha;
-  trade_policy = scene->settings.policy;
   if (const auto& recommended = scene->recommended) {
     error = recommended->of;
     wanted.at(static_cast<std::size_t>(error)) = recommended->within;
@@ -131,7 +129,7 @@ const ReferenceSummary* Accuracy::reference() const {
 }
 
 const FairTrade& Accuracy::trade() {
-  const TradeKey key{results().size(), trade_alpha, trade_policy};
+  const std::tuple key(results().size(), trade_alpha, trade_policy);
   if (trade_is_of_ != key) {
     trade_ = scene_ ? fair_trade(*scene_, results(), trade_policy, trade_alpha) : FairTrade{};
     trade_is_of_ = key;

@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -121,16 +121,10 @@ class Accuracy {
     friend bool operator==(const Limit&, const Limit&) = default;
   };
   [[nodiscard]] Limit limit() const;
+  /// Discards the results; the next ones are of this scene.
+  void begin(std::shared_ptr<const Scene> scene);
   /// Selects axes for which the results have values.
   void select_available_axes();
-
-  /// What the trade depends on, beside the scene of the results.
-  struct TradeKey {
-    std::size_t results = 0;
-    double alpha = 0.0;
-    Policy policy = Policy::kFrame;
-    friend bool operator==(const TradeKey&, const TradeKey&) = default;
-  };
 
   std::shared_ptr<const Scene> scene_;
   std::optional<Sweep> sweep_;
@@ -138,9 +132,10 @@ class Accuracy {
   std::shared_ptr<const Scene> looked_up_;  // last scene for which a shipped sweep was looked up
   std::vector<Experiment> shipped_plan_;
   FairTrade trade_;
-  std::optional<TradeKey> trade_is_of_;  // empty: outdated
-  Settings paper_;                       // settings of the sweep's paper curve, without alpha
-  std::optional<AlphaSearch> search_;    // uses the sweep's reference
+  // The number of results, alpha and policy of trade_; empty: outdated.
+  std::optional<std::tuple<std::size_t, double, Policy>> trade_is_of_;
+  Settings paper_;                     // settings of the sweep's paper curve, without alpha
+  std::optional<AlphaSearch> search_;  // uses the sweep's reference
   Limit searched_for_;
   bool cancelled_ = false;
   double elapsed_ = 0.0;  // wall time of the sweep, including the time between slices [s]

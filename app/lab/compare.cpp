@@ -129,11 +129,8 @@ bool Compare::step(Run& run, FrameSlices::Clock::time_point until) {
   if (state.frame % kCheckpointFrames != 0) return true;
   if (run.checkpoints.size() >= kMostCheckpoints) {
     // Removes every second one, since a long run is sampled more coarsely. The first stays.
-    std::vector<Run::Checkpoint> kept;
-    for (std::size_t i = 0; i < run.checkpoints.size(); i += 2) {
-      kept.push_back(std::move(run.checkpoints[i]));
-    }
-    run.checkpoints = std::move(kept);
+    std::size_t i = 0;
+    std::erase_if(run.checkpoints, [&i](const auto&) { return i++ % 2 == 1; });
   }
   run.checkpoints.push_back({run.scene, state, *run.verdict, run.cost});
   return true;

@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "app/text/command.hpp"
 #include "app/text/event_text.hpp"
 #include "app/text/link.hpp"
 #include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/model/number_text.hpp"
+#include "core/model/setting_fields.hpp"
 
 namespace substep {
 namespace {
@@ -269,8 +269,10 @@ const Scene& Lab::edited_scene() const {
 std::string Lab::command() const {
   const Scene& scene = edited_scene();
   const std::int64_t since = session.edition() != nullptr ? session.edition()->frame : 0;
-  std::string command =
-      make_command(scene, session.settings(), session.state().frame - since, is_own(scene));
+  const std::int64_t frames = session.state().frame - since;
+  std::string command = "./dev cli run " + scene.name + (is_own(scene) ? ".json" : "") +
+                        setting_flags(session.settings(), scene.settings);
+  if (frames > 0) command += " --frames " + std::to_string(frames);
   if (session.edition() != nullptr) return command;  // load and seed are already in its bodies
   if (load != 1.0) command += " --load " + number_text(load);
   if (seed != 0) command += " --seed " + std::to_string(seed);

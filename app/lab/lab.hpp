@@ -79,7 +79,8 @@ struct Lab {
   /// The scene that a link starts from: the loaded one, with user actions as events; if those do
   /// not fit, the scene at its last edit.
   [[nodiscard]] const Scene& link_scene() const;
-  /// The command line for the same run.
+  /// The command line for the same run, from the root of the sources: "./dev cli run bridge --mode
+  /// const --n 12 --frames 240". Names the scene, or the saved file of one of the user's own.
   [[nodiscard]] std::string command() const;
   /// Pane 0 is this run; the others are the runs compared with it.
   [[nodiscard]] const Scene& scene_in(std::size_t pane) const;

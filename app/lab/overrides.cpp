@@ -21,14 +21,10 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   return parts;
 }
 
-std::string_view solver_title(std::string_view name) {
-  const auto solver = value_of<SolverKind>(name);
-  return solver ? entry_of(*solver).title : name;
-}
-
-std::string_view integrator_title(std::string_view name) {
-  const auto integrator = value_of<Integrator>(name);
-  return integrator ? entry_of(*integrator).title : name;
+template <class Enum>
+std::string_view title_of(std::string_view name) {
+  const auto value = value_of<Enum>(name);
+  return value ? entry_of(*value).title : name;
 }
 
 // Whether a setting belongs to another solver or mode than those of these settings.
@@ -115,11 +111,11 @@ std::string overrides_title(const Overrides& overrides, const Settings& session)
     if (o.key == "mode" && o.value == "const" && has_n) continue;  // "constant 6" implies it
     if (!title.empty()) title += ", ";
     if (o.key == "solver") {
-      title += solver_title(o.value);
+      title += title_of<SolverKind>(o.value);
     } else if (o.key == "n") {
       title += "constant " + o.value;
     } else if (o.key == "integrator") {
-      title += integrator_title(o.value);
+      title += title_of<Integrator>(o.value);
     } else {
       title += o.key == "mode" ? o.value : o.key + " " + o.value;
     }

@@ -7,19 +7,9 @@
 namespace substep {
 
 void OwnScenes::add(const std::shared_ptr<const Scene>& scene) {
-  for (std::size_t i = 0; i < scenes_.size(); ++i) {
-    if (scenes_[i]->name != scene->name) continue;
-    scenes_.erase(scenes_.begin() + static_cast<std::ptrdiff_t>(i));
-    texts_.erase(texts_.begin() + static_cast<std::ptrdiff_t>(i));
-    break;
-  }
-  std::string text = may_keep(*scene) ? write_scene(*scene) : "";
-  if (text.size() > kMaxText) text.clear();
+  std::erase_if(scenes_, [&](const auto& old) { return old->name == scene->name; });
   scenes_.insert(scenes_.begin(), scene);
-  texts_.insert(texts_.begin(), std::move(text));
-  if (scenes_.size() <= kMost) return;
-  scenes_.pop_back();
-  texts_.pop_back();
+  if (scenes_.size() > kMost) scenes_.pop_back();
 }
 
 bool OwnScenes::may_keep(const Scene& scene) {
@@ -29,8 +19,10 @@ bool OwnScenes::may_keep(const Scene& scene) {
 
 std::string OwnScenes::text() const {
   Json list = Json::array();
-  for (const std::string& text : texts_) {
-    if (!text.empty()) list.push_back(text);
+  for (const auto& scene : scenes_) {
+    if (!may_keep(*scene)) continue;
+    std::string text = write_scene(*scene);
+    if (text.size() <= kMaxText) list.push_back(std::move(text));
   }
   return list.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

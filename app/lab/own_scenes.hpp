@@ -32,7 +32,6 @@ class OwnScenes {
 
  private:
   std::vector<std::shared_ptr<const Scene>> scenes_;
-  std::vector<std::string> texts_;  // of scenes_; empty if too long to store
 };
 
 }  // namespace substep

@@ -68,7 +68,7 @@ void EventLog::go_to(std::int64_t frame) {
   count_ = static_cast<std::size_t>(first_at(done_, frame) - done_.begin());
   settings_ = start_;
   hand_.reset();
-  for (std::size_t i = 0; i < count_; ++i) in_effect(done_[i]);
+  for (const RunEvent& event : past()) in_effect(event);
   next_ = static_cast<std::size_t>(first_at(script_, frame) - script_.begin());
 }
 
@@ -130,7 +130,7 @@ const RunEvent* EventLog::next(std::int64_t frame) {
 
 std::optional<std::vector<RunEvent>> EventLog::events() const {
   if (!whole_) return std::nullopt;
-  std::vector<RunEvent> all(done_.begin(), done_.begin() + static_cast<std::ptrdiff_t>(count_));
+  std::vector<RunEvent> all(past().begin(), past().end());
   for (std::size_t i = next_; following_ && i < script_.size(); ++i) {
     if (!own_settings_ || !is_settings(script_[i])) all.push_back(script_[i]);
   }
@@ -138,14 +138,13 @@ std::optional<std::vector<RunEvent>> EventLog::events() const {
 }
 
 bool EventLog::empty() const {
-  return std::all_of(done_.begin(), done_.begin() + static_cast<std::ptrdiff_t>(count_),
-                     is_settings) &&
+  return std::all_of(past().begin(), past().end(), is_settings) &&
          (!following_ || std::all_of(script_.begin(), script_.end(), is_settings));
 }
 
 std::size_t EventLog::balls() const {
   return static_cast<std::size_t>(std::count_if(
-      done_.begin(), done_.begin() + static_cast<std::ptrdiff_t>(count_),
+      past().begin(), past().end(),
       [](const RunEvent& event) { return std::holds_alternative<Ball>(event.what); }));
 }
 

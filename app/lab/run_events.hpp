@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -80,6 +81,7 @@ class EventLog {
 
  private:
   void append(RunEvent event);
+  [[nodiscard]] std::span<const RunEvent> past() const { return {done_.data(), count_}; }
   void in_effect(const RunEvent& event);
 
   std::vector<RunEvent> done_;  // including those of a future that is not yet discarded

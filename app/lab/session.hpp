@@ -113,8 +113,6 @@ class Session {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const std::shared_ptr<const Scene>& shared_scene() const { return scene_; }
-  /// The scene without thrown balls.
-  [[nodiscard]] const std::shared_ptr<const Scene>& loaded_scene() const { return loaded_; }
   /// At the end of the last frame, or of the last single sub-step.
   [[nodiscard]] const State& state() const { return slices_.state(*simulator_); }
   [[nodiscard]] const Settings& settings() const { return simulator_->settings(); }

@@ -56,13 +56,11 @@ std::size_t Timeline::at_time(double time) const {
 
 void Timeline::thin() {
   const std::size_t half = moments_.size() / 2;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < moments_.size(); ++i) {
-    if (i < half && i % 2 == 1) continue;
-    if (kept != i) moments_[kept] = std::move(moments_[i]);
-    ++kept;
-  }
-  moments_.erase(moments_.begin() + static_cast<std::ptrdiff_t>(kept), moments_.end());
+  std::size_t at = 0;
+  std::erase_if(moments_, [&](const Moment&) {
+    const std::size_t i = at++;
+    return i < half && i % 2 == 1;
+  });
   bytes_ = std::accumulate(moments_.begin(), moments_.end(), std::size_t{0},
                            [](std::size_t sum, const Moment& m) { return sum + bytes_of(m); });
 }

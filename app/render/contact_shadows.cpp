@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -23,13 +22,6 @@ struct FloorFrame {
   [[nodiscard]] Vec3 below(const Vec3& x) const { return x - height(x) * normal; }
 };
 
-FloorFrame floor_frame(const Ground& ground) {
-  const auto vector = [](const std::array<float, 3>& a) {
-    return Vec3(static_cast<double>(a[0]), static_cast<double>(a[1]), static_cast<double>(a[2]));
-  };
-  return {vector(ground.origin), vector(ground.normal).normalized()};
-}
-
 // What a footprint is made of, in the plane.
 struct Footprint {
   Vec3 centre;          // on the floor [m]
@@ -41,10 +33,6 @@ struct Footprint {
   bool round = false;
 };
 
-std::array<float, 3> as_floats(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 std::optional<SoftShadow> shadow_of(const Footprint& print) {
   const double lowest = std::max(0.0, print.lowest);
   // About the share of the sky above a point on the floor that a plate of this size hides.
@@ -53,8 +41,8 @@ std::optional<SoftShadow> shadow_of(const Footprint& print) {
   if (!(strength > kFaintest)) return std::nullopt;
   const double wide = std::max(print.half_u, print.half_v);
   SoftShadow shadow;
-  shadow.centre = as_floats(print.centre);
-  shadow.along = as_floats(print.along);
+  shadow.centre = print.centre.cast<float>();
+  shadow.along = print.along.cast<float>();
   shadow.half_u = static_cast<float>(print.half_u);
   shadow.half_v = static_cast<float>(print.half_v);
   shadow.softness = static_cast<float>(std::min(kSoft * print.height, kMostSoft * wide) + lowest);
@@ -144,7 +132,7 @@ struct Stand {
 std::vector<SoftShadow> contact_shadows(const Scene& scene, const Poses& poses,
                                         const Ground& ground) {
   std::vector<SoftShadow> shadows;
-  const FloorFrame floor = floor_frame(ground);
+  const FloorFrame floor{ground.origin.cast<double>(), ground.normal.cast<double>().normalized()};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     const double above = floor.height(poses.x[i]);

@@ -17,7 +17,7 @@ double depth(const Instance& body, const Picture& picture) {
   const auto row = picture.view_projection.row(3).cast<double>();
   double w = row(3);
   for (int i = 0; i < 3; ++i) {
-    w += row(i) * static_cast<double>(body.position[static_cast<std::size_t>(i)]);
+    w += row(i) * static_cast<double>(body.position[i]);
   }
   return w;
 }

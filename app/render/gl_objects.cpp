@@ -1,9 +1,5 @@
 #include "app/render/gl_objects.hpp"
 
-#include <array>
-#include <cstddef>
-#include <utility>
-
 #include "app/render/rounded_box.hpp"
 
 namespace substep::gl {
@@ -24,21 +20,25 @@ GLuint compile(GLenum kind, const std::string& source, std::string& error) {
   return shader;
 }
 
+void bind(GLuint texture) {
+  glActiveTexture(GL_TEXTURE0);
+  glBindTexture(GL_TEXTURE_2D, texture);
+}
+
+/// In the bound texture, without repetition.
+void interpolate_texels() {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 }  // namespace
 
 std::string renderer_name() {
   const GLubyte* name = glGetString(GL_RENDERER);
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): characters
   return name != nullptr ? reinterpret_cast<const char*>(name) : "";
-}
-
-Program::Program(Program&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
-Program& Program::operator=(Program&& other) noexcept {
-  std::swap(id_, other.id_);
-  return *this;
-}
-Program::~Program() {
-  if (id_ != 0) glDeleteProgram(id_);
 }
 
 bool Program::build(const std::string& vertex, const std::string& fragment, std::string& error) {
@@ -135,10 +135,7 @@ void BodyMesh::draw(const Program& program) const {
 ShadowMap::ShadowMap() {
   glGenTextures(1, &texture_);
   fit(1);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  interpolate_texels();
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
   glGenFramebuffers(1, &frame_buffer_);
@@ -170,31 +167,10 @@ ShadowMap::~ShadowMap() {
   glDeleteTextures(1, &texture_);
 }
 
-void ShadowMap::bind_texture() const {
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture_);
-}
-
-namespace {
-
-GLuint color_texture(GLint format, int width, int height, GLint filter) {
-  GLuint texture = 0;
-  glGenTextures(1, &texture);
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture);
-  const GLenum channels = format == GL_RGB8 ? GL_RGB : GL_RGBA;
-  glTexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, channels, GL_UNSIGNED_BYTE, nullptr);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-  return texture;
-}
-
-}  // namespace
+void ShadowMap::bind_texture() const { bind(texture_); }
 
 void Canvas::fit(int width, int height, int samples) {
-  if (has_size(width, height) && samples == samples_) return;
+  if (width == width_ && height == height_ && samples == samples_) return;
   release();
   width_ = width;
   height_ = height;
@@ -213,7 +189,10 @@ void Canvas::fit(int width, int height, int samples) {
     attach(0, GL_RGBA8, GL_COLOR_ATTACHMENT0);
     glBindFramebuffer(GL_FRAMEBUFFER, frame_buffers_[1]);
   }
-  texture_ = color_texture(GL_RGBA8, width, height, GL_LINEAR);
+  glGenTextures(1, &texture_);
+  bind_texture();
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  interpolate_texels();
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
@@ -227,10 +206,7 @@ void Canvas::release() {
   texture_ = 0;
 }
 
-void Canvas::bind_texture() const {
-  glActiveTexture(GL_TEXTURE0);
-  glBindTexture(GL_TEXTURE_2D, texture_);
-}
+void Canvas::bind_texture() const { bind(texture_); }
 
 void Canvas::resolve() const {
   if (samples_ > 1) {

@@ -26,9 +26,9 @@ std::string renderer_name();
 class Program {
  public:
   Program() = default;
-  Program(Program&& other) noexcept;
-  Program& operator=(Program&& other) noexcept;
-  ~Program();
+  ~Program() { glDeleteProgram(id_); }
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
 
   /// Compiles and links. @return false on error, with the compiler's log appended to `error`
   bool build(const std::string& vertex, const std::string& fragment, std::string& error);
@@ -124,9 +124,6 @@ class Canvas {
 
  private:
   void release();
-  [[nodiscard]] bool has_size(int width, int height) const {
-    return width == width_ && height == height_;
-  }
 
   int width_ = 0;
   int height_ = 0;

@@ -19,8 +19,6 @@ constexpr std::array<Grain, 4> kGrains{{{0.5, 1, 384, 1.0F, 2.0, 6000, false},
                                         {1.0, 1, 1536, 1.0F, 1.0, 60000, true},
                                         {1.0, 4, 1536, 4.0F, 0.5, 100000, true}}};
 
-Vector3f vector(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
-
 // Clears the depth of hidden parts to the nearest value, so that nothing is drawn there.
 void leave_out(std::span<const PixelRect> hidden, int height) {
   constexpr float kNearest = 0.0F;
@@ -95,13 +93,13 @@ bool PicturePainter::build(std::string& error) {
 }
 
 Matrix4f PicturePainter::light_matrix(const Picture& picture) const {
-  const Vector3f back = vector(picture.to_light).normalized();
+  const Vector3f back = picture.to_light.normalized();
   const Vector3f x = Vector3f::UnitZ().cross(back).normalized();
   const Vector3f y = back.cross(x);
   const float radius = std::max(picture.focus_radius, 0.1F);
   // The centre moves by whole texels to keep shadow edges stable.
   const float texel = 2.0F * radius / static_cast<float>(shadow_map_.size());
-  const Vector3f focus = vector(picture.focus);
+  const Vector3f focus = picture.focus;
   const auto snap = [texel](float v) { return std::floor(v / texel) * texel; };
   Matrix4f m = Matrix4f::Identity();
   m.block<1, 3>(0, 0) = x.transpose() / radius;
@@ -167,9 +165,9 @@ void PicturePainter::draw_bodies(const Picture& picture, const Matrix4f& light) 
   program.set("ambient", picture.ambient);
   program.set3("sky", sky.data());
   program.set3("floor_light", below.data());
-  const Vector3f normal = vector(picture.ground.normal).normalized();
+  const Vector3f normal = picture.ground.normal.normalized();
   const std::array<float, 4> plane{normal.x(), normal.y(), normal.z(),
-                                   -normal.dot(vector(picture.ground.origin))};
+                                   -normal.dot(picture.ground.origin)};
   program.set4("floor_plane", plane.data());
   program.set("floor_reach", picture.ground.reach);
   program.set("floor_hides", picture.ground.solid ? picture.contact : 0.0F);
@@ -194,13 +192,13 @@ void PicturePainter::draw_ghosts(const Picture& picture, const Target& target) {
 void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) {
   const Ground& ground = picture.ground;
   // The grid is fixed in the world.
-  const Vector3f normal = vector(ground.normal).normalized();
-  const Vector3f u = vector(ground.along).normalized();
+  const Vector3f normal = ground.normal.normalized();
+  const Vector3f u = ground.along.normalized();
   const Vector3f v = normal.cross(u);
-  const Vector3f to_centre = vector(ground.centre) - vector(ground.origin);
+  const Vector3f to_centre = ground.centre - ground.origin;
   const float along_u = to_centre.dot(u);
   const float along_v = to_centre.dot(v);
-  const Vector3f centre = vector(ground.origin) + along_u * u + along_v * v;
+  const Vector3f centre = ground.origin + along_u * u + along_v * v;
   const gl::Program& program = ground_.at(rough_);
   use_in_light(program, picture, light);
   program.set3("origin", centre.data());
@@ -224,7 +222,7 @@ void PicturePainter::draw_ground(const Picture& picture, const Matrix4f& light) 
 void PicturePainter::draw_contacts(const Picture& picture) {
   if (picture.contacts.empty() || !grain_.contacts) return;
   contact_instances_.upload(picture.contacts.data(), picture.contacts.size() * sizeof(SoftShadow));
-  const Vector3f normal = vector(picture.ground.normal).normalized();
+  const Vector3f normal = picture.ground.normal.normalized();
   const Color& c = picture.shade;
   const std::array<float, 4> shade{c.r, c.g, c.b, picture.contact};
   contact_.use();

@@ -4,7 +4,6 @@
 #include <array>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "app/render/cover.hpp"
 #include "app/render/detail.hpp"

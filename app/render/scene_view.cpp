@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kAway = 1e6;  // bodies farther away, after an explosion, are not drawn [m]
 
-std::array<float, 3> floats(const Vec3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
-}
-
 Color mix(const Color& a, const Color& b, double t) {
   const auto f = static_cast<float>(t);
   return {a.r + f * (b.r - a.r), a.g + f * (b.g - a.g), a.b + f * (b.b - a.b), 1.0F};
@@ -32,7 +28,7 @@ bool is_plane(const Body& body) { return std::holds_alternative<Plane>(body.shap
 
 Instance instance(const Vec3& x, const Quat& q, const Color& color) {
   Instance i;
-  i.position = floats(x);
+  i.position = x.cast<float>();
   i.orientation = {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()),
                    static_cast<float>(q.w())};
   i.color = color;
@@ -42,7 +38,7 @@ Instance instance(const Vec3& x, const Quat& q, const Color& color) {
 void add_box(std::vector<Instance>& out, const Vec3& x, const Quat& q, const Vec3& half,
              double rounding, const Color& color) {
   Instance i = instance(x, q, color);
-  i.half_extents = floats(half);
+  i.half_extents = half.cast<float>();
   i.rounding = static_cast<float>(rounding);
   out.push_back(i);
 }
@@ -56,7 +52,7 @@ void add_box(std::vector<Instance>& out, const Vec3& x, const Quat& q, const Vec
 void add_ball(std::vector<Instance>& out, const Vec3& x, const Quat& q, double r, bool pattern,
               const Color& color) {
   Instance i = instance(x, q, color);
-  i.half_extents = floats(Vec3::Constant(r));
+  i.half_extents = Vec3::Constant(r).cast<float>();
   i.rounding = static_cast<float>(r);
   i.pattern = pattern ? 1.0F : 0.0F;
   out.push_back(i);
@@ -159,17 +155,10 @@ void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPa
   out.ghost_balls.clear();
   out.ribbons.clear();
   out.view_projection = camera.view_projection(view, window_width, window_height).cast<float>();
-  out.eye = floats(camera.eye(view));
-  out.background_top = palette.background_top;
-  out.background_bottom = palette.background_bottom;
-  out.grid = palette.grid;
-  out.floor = palette.floor;
-  out.shade = palette.shade;
-  out.ambient = palette.ambient;
-  out.shadow = palette.shadow;
-  out.contact = palette.contact;
+  out.eye = camera.eye(view).cast<float>();
+  static_cast<Surroundings&>(out) = static_cast<const Surroundings&>(palette);
   const Vec3 light = Vec3(0.42, 0.74, 0.52).normalized();
-  out.to_light = floats(light);
+  out.to_light = light.cast<float>();
 
   add_bodies(seen, options, palette, out);
   add_joints(seen, options, palette, out);
@@ -195,7 +184,7 @@ void SceneView::build(const Seen& seen, const ViewOptions& options, const ViewPa
   const double lit = std::max(0.1, around.radius + 0.35 * drop);  // radius of the shadow casters
   const double radius = std::exp2(std::ceil(4.0 * std::log2(lit)) / 4.0);
   const double step = radius / 8.0;
-  out.focus = floats((focus / step).array().round() * step);
+  out.focus = ((focus / step).array().round() * step).matrix().cast<float>();
   out.focus_radius = static_cast<float>(radius + 0.5 * std::sqrt(3.0) * step);
 }
 
@@ -277,7 +266,7 @@ void SceneView::add_trail(const std::deque<Vec3>& trail, const Color& color, con
     Vec3 across = ahead.cross(to_eye);
     if (across.norm() > 1e-12) across *= pixel * to_eye.norm() / across.norm();
     RibbonVertex v;
-    v.position = floats(trail[i] + side * across);
+    v.position = (trail[i] + side * across).cast<float>();
     v.color = color;
     v.color.a *= static_cast<float>(i) / static_cast<float>(trail.size() - 1);
     return v;
@@ -298,14 +287,14 @@ void SceneView::place_ground(const Scene& scene, Picture& out) const {
   out.ground.origin = {0.0F, static_cast<float>(floor), 0.0F};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     if (!is_plane(scene.bodies[i])) continue;
-    out.ground.origin = floats(scene.bodies[i].position);
-    out.ground.normal = floats(scene.bodies[i].orientation * Vec3::UnitY());
-    out.ground.along = floats(scene.bodies[i].orientation * Vec3::UnitX());
+    out.ground.origin = scene.bodies[i].position.cast<float>();
+    out.ground.normal = (scene.bodies[i].orientation * Vec3::UnitY()).cast<float>();
+    out.ground.along = (scene.bodies[i].orientation * Vec3::UnitX()).cast<float>();
     out.ground.solid = true;
     break;
   }
   // That of the scene at its start: it must not move with the bodies.
-  out.ground.centre = floats(home_.centre);
+  out.ground.centre = home_.centre.cast<float>();
   out.ground.fade = static_cast<float>(std::clamp(5.0 * home_.radius, 12.0, 400.0));
   out.ground.cell = home_.radius > 40.0 ? 10.0F : 1.0F;
   out.ground.reach = static_cast<float>(std::clamp(0.2 * home_.radius, 0.15, 4.0));

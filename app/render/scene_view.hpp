@@ -3,7 +3,6 @@
 #include <array>
 #include <deque>
 #include <string_view>
-#include <vector>
 
 #include "app/lab/session.hpp"
 #include "app/render/camera.hpp"
@@ -40,12 +39,7 @@ inline constexpr std::array<ViewSwitch, 9> kViewSwitches{{{"tint", &ViewOptions:
                                                           {"axes", &ViewOptions::axes}}};
 
 /// Colours and light of the view.
-struct ViewPalette {
-  Color background_top;
-  Color background_bottom;
-  Color grid;
-  Color floor;  // matte floor; alpha is its coverage at the centre
-  Color shade;  // of shadows on it
+struct ViewPalette : Surroundings {
   Color body;
   Color fixture;  // static bodies
   Color joint;
@@ -53,9 +47,6 @@ struct ViewPalette {
   Color stiff_low;   // tint of k/M = 0
   Color stiff_mid;   // tint of half of the largest k/M
   Color stiff_high;  // tint of the body that sets N
-  float ambient = 0.5F;
-  float shadow = 0.5F;   // darkness of the light's shadows, 0..1
-  float contact = 0.5F;  // darkness of the ambient shadow, 0..1
 };
 
 /// A run to draw: its scene and poses, and the state for the tint.

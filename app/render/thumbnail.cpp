@@ -24,13 +24,11 @@ struct FlatFace {
   bool outlined = false;
 };
 
-Vector3f vec3(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
-
 Eigen::Quaternionf turn_of(const Instance& i) {
   return {i.orientation[3], i.orientation[0], i.orientation[1], i.orientation[2]};
 }
 
-float size_of(const Instance& i) { return vec3(i.half_extents).norm(); }
+float size_of(const Instance& i) { return i.half_extents.norm(); }
 
 Color blend(const Color& a, const Color& b, float t) {
   return {a.r + t * (b.r - a.r), a.g + t * (b.g - a.g), a.b + t * (b.b - a.b), 1.0F};
@@ -38,7 +36,7 @@ Color blend(const Color& a, const Color& b, float t) {
 
 // The light of the shaders, without shadows on bodies.
 Color shaded(const Color& color, const Vector3f& normal, const Picture& picture) {
-  const float facing = std::max(0.0F, normal.dot(vec3(picture.to_light)));
+  const float facing = std::max(0.0F, normal.dot(picture.to_light));
   const float light = picture.ambient * (0.62F + 0.3F * normal.y()) + facing;
   const auto part = [light](float c) {
     return std::min(1.0F, c * std::sqrt(light / (1.0F + 0.12F * c * c * light)));
@@ -56,7 +54,7 @@ class FlatPainter {
     const Eigen::Quaternionf q = turn_of(box);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vector3f sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
-      corners[i] = vec3(box.position) + q * vec3(box.half_extents).cwiseProduct(sign);
+      corners[i] = box.position + q * box.half_extents.cwiseProduct(sign);
     }
     add_silhouette(corners, box);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -67,9 +65,9 @@ class FlatPainter {
 
   // The rim as seen from the eye, and a lighter disc on the side of the light.
   void add_ball(const Instance& ball) {
-    const Vector3f centre = vec3(ball.position);
-    const Vector3f back = (vec3(picture_.eye) - centre).normalized();
-    const Vector3f light = vec3(picture_.to_light);
+    const Vector3f centre = ball.position;
+    const Vector3f back = (picture_.eye - centre).normalized();
+    const Vector3f light = picture_.to_light;
     const float r = ball.half_extents[0];
     const Vector3f to_side = (light - back.dot(light) * back) * (0.3F * r);
     add_face(circle(centre, back, r),
@@ -117,8 +115,8 @@ class FlatPainter {
 
   // Below the sides, which have no outline: thin bodies stay visible, and no seams appear.
   void add_silhouette(const std::array<Vector3f, 8>& corners, const Instance& box) {
-    const Vector3f centre = vec3(box.position);
-    const Vector3f back = (vec3(picture_.eye) - centre).normalized();
+    const Vector3f centre = box.position;
+    const Vector3f back = (picture_.eye - centre).normalized();
     add_face(corners, blend(shaded(box.color, back, picture_), box.color, 0.3F),
              centre - 0.02F * size_of(box) * back, true);
   }
@@ -132,18 +130,18 @@ class FlatPainter {
     const std::array<Vector3f, 4> side{corners[base], corners[base | u], corners[base | u | v],
                                        corners[base | v]};
     const Vector3f middle = 0.5F * (side[0] + side[2]);
-    if (normal.dot(vec3(picture_.eye) - middle) <= 0.0F) return;
+    if (normal.dot(picture_.eye - middle) <= 0.0F) return;
     add_face(side, shaded(color, normal, picture_), middle, false);
   }
 
   void add_shadow(std::span<const Vector3f> points) {
     const Ground& ground = picture_.ground;
     if (!ground.solid) return;
-    const Vector3f normal = vec3(ground.normal);
-    const Vector3f light = vec3(picture_.to_light);
+    const Vector3f normal = ground.normal;
+    const Vector3f light = picture_.to_light;
     std::vector<Vector3f> on_floor;
     for (const Vector3f& x : points) {
-      const float height = normal.dot(x - vec3(ground.origin));
+      const float height = normal.dot(x - ground.origin);
       on_floor.emplace_back(x - std::max(0.0F, height) / normal.dot(light) * light);
     }
     std::vector<ScreenPoint> shadow = convex_hull(seen(on_floor));

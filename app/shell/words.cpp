@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "app/app.hpp"
-#include "app/shell/level.hpp"
 #include "app/text/event_text.hpp"
 #include "app/text/format.hpp"
 #include "app/text/link.hpp"
+#include "core/io/experiment.hpp"
 #include "core/lab/presets.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/scene_limits.hpp"
@@ -21,6 +21,22 @@ namespace substep {
 namespace {
 
 constexpr double kLongestLink = 16384.0;  // [characters]; without an embedded scene
+// Settings shown in Explore, and display-only settings.
+constexpr std::array<std::string_view, 6> kExplored{"solver", "mode",  "alpha",
+                                                    "n",      "n_cap", "watch_stiffness"};
+
+// Whether a run differs from its scene in settings that only the Lab level shows.
+bool needs_lab(const Lab& lab) {
+  if (lab.seed != 0) return true;
+  const Settings& now = lab.session.settings();
+  const Settings& own = lab.session.loaded().settings;
+  const auto fields = setting_fields();
+  return std::any_of(fields.begin(), fields.end(), [&](const SettingField& field) {
+    const bool explored =
+        std::find(kExplored.begin(), kExplored.end(), field.name) != kExplored.end();
+    return !explored && setting_text(field, now) != setting_text(field, own);
+  });
+}
 
 // One of two words. @return error message, or ""
 std::string choose(std::string_view value, std::array<std::string_view, 2> words, bool& on) {
@@ -185,7 +201,7 @@ std::string App::set(std::string_view key, std::string_view value) {
   }
   if (key == "events") {
     std::string problem;
-    auto events = read_events(value, *session.loaded_scene(), session.settings(), problem);
+    auto events = read_events(value, session.loaded(), session.settings(), problem);
     if (!problem.empty()) return problem;
     session.follow(std::move(events));
     reset();

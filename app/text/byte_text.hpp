@@ -1,7 +1,6 @@
 #pragma once
 // Packing of numbers into bytes, for the events in links.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/lab/overrides.hpp"
 #include "app/text/byte_text.hpp"
 #include "app/text/letters.hpp"
 #include "core/model/effects.hpp"
@@ -46,17 +47,6 @@ Ball ball_of(const Ballistics& v) { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5
 std::array<std::int64_t, 3> steps_of(const Vec3& target) {
   return {std::llround(kGrid * target.x()), std::llround(kGrid * target.y()),
           std::llround(kGrid * target.z())};
-}
-
-std::string changes_text(const Settings& to, const Settings& from) {
-  std::string text;
-  for (const SettingField& field : setting_fields()) {
-    if (field.name == "watch_stiffness") continue;  // display only
-    const std::string value = setting_text(field, to);
-    if (value == setting_text(field, from)) continue;
-    text.append(text.empty() ? "" : ",").append(field.name).append(":").append(value);
-  }
-  return text;
 }
 
 /// @return error message, or ""
@@ -122,9 +112,10 @@ class EventWriter {
   }
   void write(std::int64_t frame, const Settings& settings) {
     head(frame, kSettings);
-    const std::string changes = changes_text(settings, settings_);
-    out_.whole(changes.size());
-    out_.bytes.insert(out_.bytes.end(), changes.begin(), changes.end());
+    const Overrides changes = differences(settings, settings_);
+    const std::string text = changes.empty() ? "" : overrides_text({changes});
+    out_.whole(text.size());
+    out_.bytes.insert(out_.bytes.end(), text.begin(), text.end());
     settings_ = settings;
   }
 

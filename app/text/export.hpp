@@ -2,7 +2,6 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "app/lab/history.hpp"
 #include "core/model/scene.hpp"

@@ -118,10 +118,4 @@ std::string duration(double seconds) {
   return fixed(1e3 * seconds, seconds < 1e-2 ? 2 : 1) + " ms";
 }
 
-std::string hex(unsigned long long value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%016llx", value);
-  return text.data();
-}
-
 }  // namespace substep

@@ -33,7 +33,5 @@ std::string percent(double share);
 std::string duration(double seconds);
 /// "10⁻⁶"
 std::string power_of_ten(int exponent);
-/// Sixteen hexadecimal digits.
-std::string hex(unsigned long long value);
 
 }  // namespace substep

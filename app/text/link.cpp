@@ -4,7 +4,6 @@
 #include <array>
 #include <optional>
 
-#include "core/io/settings_json.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/setting_fields.hpp"
 
@@ -60,59 +59,23 @@ std::string decode(std::string_view text) {
 
 }  // namespace
 
-std::string make_link(const Scene& scene, const Settings& settings) {
+std::string make_link(const Scene& scene, const Experiment& experiment) {
   std::string link = "scene=" + encode(scene.name);
   for (const SettingField& field : setting_fields()) {
     if (field.name == "watch_stiffness") continue;  // display only
-    const std::string value = setting_text(field, settings);
+    const std::string value = setting_text(field, experiment.settings);
     const bool always = std::find(kAlways.begin(), kAlways.end(), field.name) != kAlways.end();
     if (!always && value == setting_text(field, scene.settings)) continue;
     link += '&';
     link += field.name;
     link += '=' + encode(value);
   }
-  return link;
-}
-
-std::string make_link(const Scene& scene, const Experiment& experiment) {
-  std::string link = make_link(scene, experiment.settings);
   if (experiment.duration != scene.criteria.duration) {
     link += "&seconds=" + number_text(experiment.duration);
   }
   if (experiment.load != 1.0) link += "&load=" + number_text(experiment.load);
   if (experiment.seed != 0) link += "&seed=" + std::to_string(experiment.seed);
   return link;
-}
-
-// Through its JSON form, so that one reader checks the values.
-ExperimentInput read_experiment_link(std::string_view fragment, const SceneFinder& find,
-                                     Problems& problems) {
-  const std::size_t before = problems.size();
-  Json json;
-  Json settings = Json::object();
-  Settings checked;
-  for (const LinkPart& part : parse_link(fragment)) {
-    if (part.key == "scene") json["scene"] = part.value;
-    if (part.key == "seconds" || part.key == "load") {
-      const auto number = parse_number(part.value);
-      json[part.key] = number ? Json(*number) : Json(part.value);
-    }
-    if (part.key == "seed") {
-      const auto number = parse_integer(part.value);
-      json[part.key] = number ? Json(*number) : Json(part.value);
-    }
-    const SettingField* field = find_setting(part.key);
-    if (!field) continue;
-    if (const auto problem = set_setting(*field, part.value, checked)) {
-      problems.push_back({"/settings/" + part.key, *problem});
-    } else {
-      settings[part.key] = settings_json(checked)[part.key];
-    }
-  }
-  json["settings"] = std::move(settings);
-  ExperimentInput input = read_experiment(json, find, problems);
-  if (problems.size() > before) input.experiment.reset();  // a single setting may be invalid
-  return input;
 }
 
 std::vector<LinkPart> parse_link(std::string_view fragment) {

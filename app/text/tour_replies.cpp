@@ -36,6 +36,12 @@ std::string failure(const RunLoop::Pass& pass, const std::string& torn = "the ch
   return what + fixed(pass.failed_at, 2) + " s";
 }
 
+/// "With 10 kg it holds for 4 s."
+std::string how_it_went(const std::string& with, const RunLoop::Outcome& outcome) {
+  return "With " + with + " " +
+         (outcome.failed() ? failure(outcome.run) : "it holds for " + seconds(outcome.time)) + ".";
+}
+
 TourReply failed(const RunLoop::Outcome& outcome) {
   std::string text = failure(outcome.run) + ".";
   text[0] = 'T';
@@ -48,20 +54,12 @@ std::string count(std::int64_t substeps) { return grouped(static_cast<double>(su
 
 TourReply reply_lighter_box(const Lab& lab, const RunLoop::Outcome& outcome) {
   if (outcome.open()) return {};
-  const std::string what = "With " + mass(lab) + " ";
-  if (outcome.failed()) {
-    return {what + failure(outcome.run) + ".", lab.load < 1.0};
-  }
-  return {what + "it holds for " + seconds(outcome.time) + ".", lab.load < 1.0};
+  return {how_it_went(mass(lab), outcome), lab.load < 1.0};
 }
 
 TourReply reply_break_it(const Lab& lab, const RunLoop::Outcome& outcome) {
   if (outcome.open()) return {};
-  const std::string what = "With " + tour_number(lab, "n").text + " ";
-  if (outcome.failed()) {
-    return {what + failure(outcome.run) + ".", true};
-  }
-  return {what + "it holds for " + seconds(outcome.time) + ".", false};
+  return {how_it_went(tour_number(lab, "n").text, outcome), outcome.failed()};
 }
 
 TourReply reply_lose_less(const Lab& lab, const RunLoop::Outcome& outcome) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "app/text/format.hpp"
-#include "core/lab/experiment.hpp"
 
 namespace substep {
 namespace {
@@ -35,13 +34,10 @@ std::string of_one_load(const FairTrade& trade) {
                             " sub-steps per frame on average. The smallest constant N " +
                             as_accurate(trade) + " is ";
   const bool known = row.constant != nullptr;
-  if (!known) {
-    return start + trade_number(row, trade.most_n) + ": " +
-           times_as_many((std::max(row.too_few, trade.most_n) + 1) / row.n(), true) + ".";
-  }
-  const bool exactly = row.too_few + 1 >= n_of(*row.constant);
-  return start + trade_number(row, trade.most_n) + ": " +
-         times_as_many((exactly ? n_of(*row.constant) : row.too_few + 1) / row.n(), !exactly) + ".";
+  const int least = 1 + (known ? row.too_few : std::max(row.too_few, trade.most_n));
+  const bool exactly = known && least == n_of(*row.constant);
+  return start + trade_number(row, trade.most_n) + ": " + times_as_many(least / row.n(), !exactly) +
+         ".";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "app/text/verdict_words.hpp"
 #include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/io/experiment.hpp"
 
 namespace substep::ui {
 namespace {
@@ -183,7 +184,7 @@ void transport(App& app, bool phone) {
                    0.0F, "The simulation is slower than the selected speed");
   }
   if (app.desk.level == DeskLevel::kLab && right - after_buttons > 560.0F) {
-    right = status(look, right, bar, kHeight, "hash " + hex(app.session.hash()), 0.0F,
+    right = status(look, right, bar, kHeight, "hash " + hex_text(app.session.hash()), 0.0F,
                    "Hash of the state: the same on every machine for the same experiment");
   }
 

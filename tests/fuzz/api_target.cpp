@@ -13,9 +13,9 @@
 
 #include "app/app.hpp"
 #include "app/imgui/complaints.hpp"
-#include "app/render/null_renderer.hpp"
 #include "core/io/json_text.hpp"
 #include "core/io/scene_reader.hpp"
+#include "tests/app/ui/null_renderer.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/frame_laws.hpp"
 #include "web/api.hpp"

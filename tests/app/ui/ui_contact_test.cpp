@@ -9,7 +9,7 @@
 namespace substep {
 namespace {
 
-Vec3 vec(const std::array<float, 3>& a) { return {a[0], a[1], a[2]}; }
+Vec3 vec(const Eigen::Vector3f& a) { return a.cast<double>(); }
 
 // The shadows of one body on a floor at y = 0.
 std::vector<SoftShadow> below(const Shape& shape, const Vec3& x, const Quat& q = Quat::Identity(),

@@ -12,9 +12,9 @@
 
 #include "app/app.hpp"
 #include "app/imgui/complaints.hpp"
-#include "app/render/null_renderer.hpp"
 #include "app/ui/context.hpp"
 #include "app/ui/handles.hpp"
+#include "tests/app/ui/null_renderer.hpp"
 
 namespace substep {
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/text/link.hpp"
+#include "core/io/experiment.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/lab/experiment_run.hpp"
 #include "core/model/effects.hpp"
@@ -31,7 +32,8 @@ TEST(Link, RoundTripKeepsTheExperiment) {
 // `forces` is both a switch of the view and a setting.
 TEST(Link, OpensEverySetting) {
   Headless h;
-  h.app->open_link(make_link(*shipped("bridge"), test::unusual()));
+  h.app->open_link(
+      make_link(*shipped("bridge"), experiment_of(*shipped("bridge"), test::unusual())));
   EXPECT_TRUE(h.app->trouble.title.empty());
   Settings wanted = test::unusual();
   wanted.watch_stiffness = h.app->session.settings().watch_stiffness;  // by the view's tint
@@ -43,7 +45,7 @@ TEST(Link, OpensEverySetting) {
 
 TEST(Link, AlwaysNamesTheMethod) {
   const auto scene = shipped("swinging_box");
-  EXPECT_EQ(make_link(*scene, scene->settings),
+  EXPECT_EQ(make_link(*scene, experiment_of(*scene, scene->settings)),
             "scene=swinging_box&solver=bpp&mode=adaptive&alpha=0.1&n=16&integrator=euler");
 }
 
@@ -105,21 +107,21 @@ TEST(Link, RoundTripKeepsEveryPartOfAnExperiment) {
   experiment.settings.solver = SolverKind::kPgs;
   experiment.duration = 1.0 / 3.0;
   experiment.load = 0.3;
-  Problems problems;
-  const auto input = read_experiment_link(
-      make_link(*scene, experiment), [&](const std::string&) { return scene; }, problems);
-  ASSERT_TRUE(input.experiment.has_value()) << (problems.empty() ? "" : to_string(problems[0]));
-  EXPECT_EQ(*input.experiment, experiment);
-  EXPECT_EQ(experiment_id(*input.experiment), experiment_id(experiment));
+  Headless h;
+  h.app->open_link(make_link(*scene, experiment));
+  EXPECT_TRUE(h.app->trouble.title.empty());
+  Settings wanted = experiment.settings;
+  wanted.watch_stiffness = h.app->session.settings().watch_stiffness;  // by the view's tint
+  EXPECT_EQ(h.app->session.settings(), wanted);
+  EXPECT_EQ(h.app->pause_at, experiment.duration);
+  EXPECT_EQ(h.app->load, experiment.load);
+  EXPECT_EQ(h.app->seed, experiment.seed);
 }
 
 TEST(Link, ProblemsOfAnExperimentAreReported) {
-  Problems problems;
-  const auto input = read_experiment_link(
-      "scene=bridge&alpha=7&seconds=x&load=-1&seed=0.5",
-      [](const std::string&) { return shipped("bridge"); }, problems);
-  EXPECT_FALSE(input.experiment.has_value());
-  EXPECT_EQ(problems.size(), 4U);
+  Headless h;
+  h.app->open_link("scene=bridge&alpha=7&seconds=x&load=-1&seed=0.5");
+  EXPECT_EQ(h.app->trouble.problems.size(), 4U);
 }
 
 TEST(Link, ASeedIsAWholeNumber) {

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <map>
 
-#include "app/text/format.hpp"
+#include "core/io/experiment.hpp"
 #include "core/io/saved_scene.hpp"
 #include "core/io/scene_writer.hpp"
 #include "tests/app/ui/ui_fixture.hpp"
@@ -65,9 +65,9 @@ TEST(Command, GivesTheSameRun) {
       for (const auto& [key, value] : experiment) ASSERT_EQ(h.app->set(key, value), "") << key;
       for (int i = 0; i < 45; ++i) h.app->session.step();
       const std::string out = output_of(h.app->command());
-      EXPECT_NE(out.find(hex(h.app->session.hash())), std::string::npos)
+      EXPECT_NE(out.find(hex_text(h.app->session.hash())), std::string::npos)
           << h.app->command() << "\n"
-          << hex(h.app->session.hash()) << "\n"
+          << hex_text(h.app->session.hash()) << "\n"
           << out;
     }
   }

@@ -149,7 +149,7 @@ TEST(Accuracy, CellsOfTheMapKeepTheComparison) {
   }
   EXPECT_GT(loads.size(), 3U);
   h.app->run_result(h.app->accuracy.results().front());
-  EXPECT_EQ(h.app->session.loaded_scene(), h.app->accuracy.scene());
+  EXPECT_EQ(&h.app->session.loaded(), h.app->accuracy.scene().get());
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 namespace substep {
 
-/// Draws nothing and records its arguments, for tests.
+/// Draws nothing and records its arguments.
 class NullRenderer final : public Renderer {
  public:
   void begin_frame() override { ++begun; }

@@ -1,7 +1,9 @@
-#include "app/cli/settings_flags.hpp"
+#include "app/cli/flags.hpp"
 
 #include <algorithm>
+#include <cmath>
 
+#include "app/cli/within.hpp"
 #include "core/model/methods.hpp"
 #include "core/model/problem.hpp"
 
@@ -80,5 +82,36 @@ Settings SettingsFlags::applied_to(const Scene& scene) const {
   for (const auto& [field, text] : given_) set_setting(*field, text, settings);
   return settings;
 }
+
+void LengthFlags::add_to(CLI::App& command) {
+  constexpr double kMostSeconds = 86400.0;
+  constexpr std::int64_t kMostFrames = 100'000'000;
+  auto* by_time = command.add_option("--seconds", seconds, "how long to run [s]")
+                      ->check(within(0.0, kMostSeconds));
+  auto* by_count = command.add_option("--frames", frames, "how many frames to run")
+                       ->check(whole(0, kMostFrames));
+  by_time->excludes(by_count);
+}
+
+std::int64_t LengthFlags::count(const Scene& scene) const {
+  if (frames) return *frames;
+  return std::llround(seconds.value_or(scene.criteria.duration) / scene.frame);
+}
+
+void BudgetFlags::add_to(CLI::App& command) {
+  constexpr const char* kGroup = "Budget (a run that exceeds it stops and reports the reason)";
+  command
+      .add_option("--memory-budget", mebibytes_,
+                  "maximum memory of the direct solver [MiB]; default 512")
+      ->check(within(kMemoryBudgetRange.least / kMebibyte, kMemoryBudgetRange.most / kMebibyte))
+      ->group(kGroup);
+  command
+      .add_option("--work-budget", operations_,
+                  "maximum of floating-point operations per frame; default 2e10")
+      ->check(within(kWorkBudgetRange.least, kWorkBudgetRange.most))
+      ->group(kGroup);
+}
+
+Budget BudgetFlags::budget() const { return {mebibytes_ * kMebibyte, operations_}; }
 
 }  // namespace substep::cli

@@ -1,0 +1,55 @@
+#pragma once
+// Flags that several commands share.
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/lab/presets.hpp"
+#include "core/model/budget.hpp"
+#include "core/model/scene.hpp"
+#include "core/model/setting_fields.hpp"
+
+namespace substep::cli {
+
+/// All settings as flags; those not given keep the scene's values.
+class SettingsFlags {
+ public:
+  /// Adds the flags. This object must outlive the parse.
+  void add_to(CLI::App& command);
+
+  /// The scene's settings with the given preset and flags applied.
+  [[nodiscard]] Settings applied_to(const Scene& scene) const;
+
+ private:
+  void take(const SettingField& field, const std::string& text);
+
+  const Preset* preset_ = nullptr;
+  std::vector<std::pair<const SettingField*, std::string>> given_;
+};
+
+/// Duration of a run: --seconds or --frames.
+struct LengthFlags {
+  std::optional<double> seconds;       // [s]
+  std::optional<std::int64_t> frames;  // [-]
+
+  void add_to(CLI::App& command);
+  /// Number of frames; by default, the scene's own duration.
+  [[nodiscard]] std::int64_t count(const Scene& scene) const;
+};
+
+/// `--memory-budget` and `--work-budget` of a command that steps a scene.
+class BudgetFlags {
+ public:
+  void add_to(CLI::App& command);
+  [[nodiscard]] Budget budget() const;
+
+ private:
+  double mebibytes_ = Budget{}.memory / kMebibyte;
+  double operations_ = Budget{}.work;
+};
+
+}  // namespace substep::cli

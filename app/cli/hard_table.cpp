@@ -58,15 +58,6 @@ class HardTable {
         cancel_on_signal());
   }
 
-  static void print_heading() {
-    std::printf(
-        "# The hard set, scene by scene\n\n"
-        "`substep check --hard` prints this file; README.md describes it. Work relative to\n"
-        "const 32 is the geometric mean of the solver's operations per frame over the scenes that\n"
-        "both settings hold. In the second table plain numbers are sub-steps per frame, and\n"
-        "*italic* ones are times of failure.\n\n");
-  }
-
   void print_settings() const {
     std::printf(
         "| setting | holds | sub-steps per frame | work relative to const 32 | does not hold |\n"
@@ -163,7 +154,12 @@ class HardTable {
 bool print_hard_table(int jobs) {
   const HardTable table(jobs);
   if (!table.complete()) return false;
-  HardTable::print_heading();
+  std::printf(
+      "# The hard set, scene by scene\n\n"
+      "`substep check --hard` prints this file; README.md describes it. Work relative to\n"
+      "const 32 is the geometric mean of the solver's operations per frame over the scenes that\n"
+      "both settings hold. In the second table plain numbers are sub-steps per frame, and\n"
+      "*italic* ones are times of failure.\n\n");
   table.print_settings();
   table.print_scenes();
   return true;

@@ -74,6 +74,24 @@ std::string beside(const fs::path& target) {
   return (target.parent_path() / name).string();
 }
 
+/// Whether two paths name the same file, or both standard output. False if one is empty, or for a
+/// device such as /dev/null, which may have several writers.
+bool same_output(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  const bool a_is_standard = is_standard_output(a);
+  if (a_is_standard || is_standard_output(b)) return a_is_standard == is_standard_output(b);
+  const auto about_a = about(a);
+  const auto about_b = about(b);
+  if (about_a && S_ISCHR(about_a->st_mode)) return false;
+  if (a == b) return true;
+  if (about_a && about_b) return same(*about_a, *about_b);
+  std::error_code error;
+  const fs::path path_a = target_of(a, error);
+  if (error) return false;
+  const fs::path path_b = target_of(b, error);
+  return !error && path_a == path_b;
+}
+
 }  // namespace
 
 Output::~Output() {
@@ -221,22 +239,6 @@ bool is_standard_output(const std::string& path) {
   // /dev/null is never replaced.
   return named && standard && same(*named, *standard) &&
          (!S_ISCHR(named->st_mode) || ::isatty(STDOUT_FILENO) != 0);
-}
-
-bool same_output(const std::string& a, const std::string& b) {
-  if (a.empty() || b.empty()) return false;
-  const bool a_is_standard = is_standard_output(a);
-  if (a_is_standard || is_standard_output(b)) return a_is_standard == is_standard_output(b);
-  const auto about_a = about(a);
-  const auto about_b = about(b);
-  if (about_a && S_ISCHR(about_a->st_mode)) return false;
-  if (a == b) return true;
-  if (about_a && about_b) return same(*about_a, *about_b);
-  std::error_code error;
-  const fs::path path_a = target_of(a, error);
-  if (error) return false;
-  const fs::path path_b = target_of(b, error);
-  return !error && path_a == path_b;
 }
 
 void keep_apart(const NamedPaths& outputs, const std::vector<std::string>& inputs) {

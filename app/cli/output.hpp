@@ -62,10 +62,6 @@ bool flush_standard_output();
 /// Whether the path is "-" or another name of standard output, such as /dev/stdout.
 bool is_standard_output(const std::string& path);
 
-/// Whether two paths name the same file, or both standard output. False if one is empty, or for a
-/// device such as /dev/null, which may have several writers.
-bool same_output(const std::string& a, const std::string& b);
-
 /// Flags with the files that they name.
 using NamedPaths = std::vector<std::pair<const char*, std::string>>;
 

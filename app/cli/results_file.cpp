@@ -39,13 +39,14 @@ bool write_all(int descriptor, const std::string& text) {
   return true;
 }
 
-}  // namespace
-
+/// The part of a result that must be equal for equal experiments: all but the times.
 std::string without_timing(const std::string& line) {
   Json json = Json::parse(line, nullptr, false);
   if (json.is_object()) json.erase("timing");
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
+
+}  // namespace
 
 bool read_results(const std::string& path, const std::string& text,
                   std::map<std::string, std::string>& lines, std::vector<std::string>& order) {

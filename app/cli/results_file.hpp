@@ -55,7 +55,4 @@ class ResultsFile {
 bool read_results(const std::string& path, const std::string& text,
                   std::map<std::string, std::string>& lines, std::vector<std::string>& order);
 
-/// The part of a result that must be equal for equal experiments: all but the times.
-std::string without_timing(const std::string& line);
-
 }  // namespace substep::cli

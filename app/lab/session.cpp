@@ -147,17 +147,12 @@ void Session::extend_trail() {
 }
 
 void Session::smooth_times() {
-  const auto settle = [first = times_.total == 0.0](double& mean, double now) {
-    mean += (first ? 1.0 : 0.03) * (now - mean);
-  };
-  settle(times_.joints, report_.times.joints);
-  settle(times_.contact, report_.times.contact);
-  settle(times_.friction, report_.times.friction);
-  settle(times_.mass, report_.times.mass);
-  settle(times_.solve, report_.times.solve);
-  settle(times_.stiffness, report_.times.stiffness);
-  settle(times_.integrate, report_.times.integrate);
-  settle(times_.total, report_.times.total);
+  const double weight = times_.total == 0.0 ? 1.0 : 0.03;
+  for (double StageTimes::*stage :
+       {&StageTimes::joints, &StageTimes::contact, &StageTimes::friction, &StageTimes::mass,
+        &StageTimes::solve, &StageTimes::stiffness, &StageTimes::integrate, &StageTimes::total}) {
+    times_.*stage += weight * (report_.times.*stage - times_.*stage);
+  }
 }
 
 // Call before an action that happens between frames: completes a frame of single sub-steps if that

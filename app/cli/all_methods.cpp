@@ -1,6 +1,5 @@
 #include "app/cli/all_methods.hpp"
 
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -16,13 +15,9 @@ namespace substep::cli {
 std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const Scene>& scene,
                                                    std::vector<Experiment> experiments, int jobs) {
   ParallelSweep sweep{scene, std::move(experiments), jobs, {}, {}};
-  std::map<std::string, std::size_t> order;
-  for (const Experiment& experiment : sweep.experiments) {
-    order.emplace(experiment_id(experiment), order.size());
-  }
   std::vector<Result> results(sweep.experiments.size());
-  sweep.on_result = [&](const Result& result) {
-    results[order.at(experiment_id(result.experiment))] = result;
+  sweep.on_result = [&](std::size_t i, const Result& result) {
+    results[i] = result;
     return true;
   };
   ProgressLine progress(stderr_is_terminal());

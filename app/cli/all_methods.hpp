@@ -14,7 +14,7 @@ namespace substep::cli {
 std::optional<std::vector<Result>> run_all_methods(const std::shared_ptr<const Scene>& scene,
                                                    double seconds, int jobs);
 
-/// Runs distinct experiments of a scene. @return results in their order; empty if cancelled
+/// Runs experiments of a scene. @return results in their order; empty if cancelled
 std::optional<std::vector<Result>> run_experiments(const std::shared_ptr<const Scene>& scene,
                                                    std::vector<Experiment> experiments, int jobs);
 

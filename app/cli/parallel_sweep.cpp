@@ -42,11 +42,12 @@ bool run_sweep(const ParallelSweep& sweep) {
 
   std::vector<std::atomic<double>> done(costs.size());  // share of each run
   const auto run_one = [&](std::size_t i) {
-    ExperimentRun run(*sweep.scene, sweep.experiments[order[i]], reference);
-    while (!stopping() && run.advance()) done[order[i]] = run.progress();
+    const std::size_t at = order[i];
+    ExperimentRun run(*sweep.scene, sweep.experiments[at], reference);
+    while (!stopping() && run.advance()) done[at] = run.progress();
     if (stopping()) return false;
-    done[order[i]] = 1.0;
-    if (!sweep.on_result(run.result())) failed = true;
+    done[at] = 1.0;
+    if (!sweep.on_result(at, run.result())) failed = true;
     return !failed;
   };
   in_parallel(costs.size(), sweep.jobs, run_one, [&] {

@@ -12,8 +12,9 @@ struct ParallelSweep {
   std::shared_ptr<const Scene> scene;
   std::vector<Experiment> experiments;
   int jobs = 1;
-  /// Called from any thread as runs end. @return false to stop the sweep
-  std::function<bool(const Result&)> on_result;
+  /// Called from any thread as runs end, with the index of the experiment. @return false to stop
+  /// the sweep
+  std::function<bool(std::size_t, const Result&)> on_result;
   /// Called periodically from the first thread with the completed share, 0 to 1.
   std::function<void(double)> on_progress;
 };

@@ -183,7 +183,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   std::atomic<std::size_t> runs{0};
   std::atomic<std::size_t> failed{0};
   std::atomic<bool> written{true};
-  parallel.on_result = [&](const Result& result) {
+  parallel.on_result = [&](std::size_t, const Result& result) {
     ++runs;
     if (!result.metrics.holds) ++failed;
     written = file.append(experiment_id(result.experiment), result_json(result)) && written;

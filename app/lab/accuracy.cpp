@@ -175,7 +175,7 @@ std::vector<Accuracy::Point> Accuracy::failed() const {
   std::vector<Point> list;
   for (std::size_t i = 0; i < results().size(); ++i) {
     if (!results()[i].metrics.holds && results()[i].experiment.load == 1.0)
-      list.push_back({{cost_of(results()[i], cost), 0.0}, i});
+      list.push_back({cost_of(results()[i], cost), 0.0, i});
   }
   return list;
 }

@@ -72,7 +72,7 @@ Vec3 error_of(const Session& session, const Joint& joint) {
   const Poses& poses = session.poses();
   const auto b = static_cast<std::size_t>(j.b);
   const Vec3 x = j.b == kWorld ? Vec3(Vec3::Zero()) : poses.x[b];
-  const Quat q = j.b == kWorld ? Quat::Identity() : poses.q[b];
+  const Quat q = j.b == kWorld ? Quat(Quat::Identity()) : poses.q[b];
   return gap_of(joint, anchor_of(session, j) - (x + q * j.anchor_b), q);
 }
 

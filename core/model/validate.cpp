@@ -152,6 +152,13 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
   lists.optional("own", carried.own);
   lists.optional("rotation", carried.rotation);
   lists.optional("rest", carried.rest);
+  const auto rest = std::find_if(carried.rest.begin(), carried.rest.end(),
+                                 [](double seconds) { return seconds < 0.0; });
+  if (rest != carried.rest.end()) {
+    const auto body = static_cast<std::size_t>(rest - carried.rest.begin());
+    problems.push_back({pointer_to(pointer_to(pointer, "rest"), body),
+                        must_be("at least 0 (s)", number_text(*rest))});
+  }
   if (carried.k.empty() && !carried.K_resisting.empty()) {
     problems.push_back({pointer_to(pointer, "k_resisting"), "requires k"});
   }

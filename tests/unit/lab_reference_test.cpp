@@ -18,11 +18,11 @@ namespace {
 
 TEST(Extrapolation, OscillatorOverAThousandPeriods) {
   Extrapolation integrator(1e-13);
-  Eigen::VectorXd y(2);
+  VecX y(2);
   y << 1.0, 0.0;
   const double pi = std::acos(-1.0);
   integrator.advance(
-      [](const Eigen::VectorXd& at, Eigen::VectorXd& slope) {
+      [](const VecX& at, VecX& slope) {
         slope.resize(2);
         slope << at[1], -at[0];
       },
@@ -36,10 +36,8 @@ TEST(Extrapolation, OscillatorOverAThousandPeriods) {
 TEST(Extrapolation, ErrorFollowsTheTolerance) {
   const auto error = [](double tolerance) {
     Extrapolation integrator(tolerance);
-    Eigen::VectorXd y = Eigen::VectorXd::Constant(1, 1.0);
-    integrator.advance(
-        [](const Eigen::VectorXd& at, Eigen::VectorXd& slope) { slope = -at.cwiseProduct(at); },
-        100.0, y);
+    VecX y = VecX::Constant(1, 1.0);
+    integrator.advance([](const VecX& at, VecX& slope) { slope = -at.cwiseProduct(at); }, 100.0, y);
     return std::abs(y[0] - 1.0 / 101.0);
   };
   EXPECT_LT(error(1e-13), 1e-13);

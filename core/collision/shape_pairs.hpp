@@ -24,15 +24,9 @@ using ContactPoints = std::vector<ContactPoint>;
 inline ContactPoint& add_point(const Placed& a, const Placed& b, std::uint64_t feature,
                                const Vec3& n, double gap, const Vec3& point_a, const Vec3& point_b,
                                ContactPoints& out) {
-  ContactPoint& point = out.emplace_back();
-  point.a = a.body;
-  point.b = b.body;
-  point.id = contact_id(a.body, b.body, feature);
-  point.n = n;
-  point.gap = gap;
-  point.point_a = point_a;
-  point.point_b = point_b;
-  return point;
+  const std::uint64_t id = contact_id(a.body, b.body, feature);
+  out.push_back({a.body, b.body, id, n, gap, point_a, point_b});
+  return out.back();
 }
 
 // One overload of touch() for every pair of Shape alternatives; only the second may be a plane. A

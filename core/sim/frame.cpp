@@ -176,8 +176,7 @@ FrameReport Simulator::Impl::end(StageClock& wall, bool looked_at) {
   return result;
 }
 
-// Keeps what the next frame starts from.
-void Simulator::Impl::carry_on(const FrameReport& report) {
+void Simulator::Impl::carry_to_next_frame(const FrameReport& report) {
   time_rest();
   if (report.asleep > 0) keep_forces_at_rest();
   std::swap(state.forces, forces);
@@ -197,7 +196,7 @@ void Simulator::Impl::close(FrameReport& report) {
         static_cast<double>(substeps_of_bodies) / static_cast<double>(all.moving.size());
   }
   if (report.status == StepStatus::kOk) {
-    if (report.n_substeps > 0) carry_on(report);  // else all bodies sleep
+    if (report.n_substeps > 0) carry_to_next_frame(report);  // else all bodies sleep
     ++state.frame;
     state.time = static_cast<double>(state.frame) * scene->frame;  // avoids accumulated rounding
   } else {

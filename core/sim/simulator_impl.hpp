@@ -118,7 +118,7 @@ struct Simulator::Impl {
   void time_rest();
   FrameReport refusal();  // report of a frame not begun because of a rejected input
   FrameReport end(StageClock& wall, bool looked_at);  // ends a call; closes a completed frame
-  void carry_on(const FrameReport& report);
+  void carry_to_next_frame(const FrameReport& report);
   void close(FrameReport& report);
   void look(FrameReport& report);  // takes the selected `measures`
   /// @param axes R_WB of all bodies, if errors are requested  @param detector null without contact

@@ -32,10 +32,16 @@ void SaddleLdlt::set_momenta(std::span<const Block> blocks) {
     for (std::size_t k = 0; k < node.n_attached; ++k) {
       const Attached& attached = attached_[node.first_attached + k];
       const Block& block = blocks[index(attached.block)];
-      if (block.has_point_rows && !attached.folded) continue;  // no row is ever active
-      if (block.rows == 1 && block.active_set[0] == 0 && !attached.folded) continue;
       const double* w = w_.data() + index(attached.block) * kMaxRows;
       double x[kMaxRows];
+      if (block.has_point_rows) {  // no row is ever active
+        if (!attached.folded) continue;
+        for (int row = 0; row < 3; ++row) x[row] = -w[row] / block.softness[row];
+        for (int row = 3; row < block.rows; ++row) x[row] = -w[row] / block.softness[row];
+        push(block, x, of_body(block.a), of_body(block.b));
+        continue;
+      }
+      if (block.rows == 1 && block.active_set[0] == 0 && !attached.folded) continue;
       bool pushes = attached.folded;
       for (int row = 0; row < block.rows; ++row) {
         const bool active = block.active_set[row] != 0;

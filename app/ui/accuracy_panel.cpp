@@ -201,14 +201,15 @@ void picture_legend(const Look& look, const Accuracy& accuracy) {
     const Settings& s = result.experiment.settings;
     const auto [entry, is_new] =
         entries.try_emplace(series_name(s), Mark{curve_style(*look.theme, s)});
+    Mark& mark = entry->second;
     if (is_new) {
       const auto known = std::find_if(families.begin(), families.end(), [&](const auto& family) {
-        return family.front()->style.family == entry->second.style.family;
+        return family.front()->style.family == mark.style.family;
       });
-      (known == families.end() ? families.emplace_back() : *known).push_back(&entry->second);
+      (known == families.end() ? families.emplace_back() : *known).push_back(&mark);
     }
-    ++entry->second.runs;
-    entry->second.held += result.metrics.holds ? 1 : 0;
+    ++mark.runs;
+    mark.held += result.metrics.holds ? 1 : 0;
   }
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float width = ImGui::GetContentRegionAvail().x;

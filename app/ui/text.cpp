@@ -56,7 +56,7 @@ float draw_capitals(const Look& look, ImVec2 at, const std::string& caps, ImDraw
   for (const char* p = caps.c_str(); *p != '\0';) {
     const char* end = p + 1;
     while ((static_cast<unsigned char>(*end) & 0xc0U) == 0x80U) ++end;
-    const std::string_view letter(p, end);
+    const std::string_view letter(p, static_cast<std::size_t>(end - p));
     if (draw != nullptr) add_text(*draw, look.fonts.caps, at, look.theme->dim, letter);
     at.x += text_size(look.fonts.caps, letter).x + 0.6F;
     p = end;

@@ -11,8 +11,8 @@
 
 namespace substep {
 
-// DontAlign: Eigen aligns types by the compiler's flags, and a program that uses the library may have
-// flags of its own. (Vec3 and Mat3 are of sizes that Eigen never aligns.)
+// DontAlign: Eigen aligns types by the compiler's flags, and a program that uses the library may
+// have flags of its own. (Vec3 and Mat3 are of sizes that Eigen never aligns.)
 using Vec2 = Eigen::Matrix<double, 2, 1, Eigen::DontAlign>;
 using Vec3 = Eigen::Vector3d;
 using Vec6 = Eigen::Matrix<double, 6, 1, Eigen::DontAlign>;  ///< linear part first, then angular

@@ -61,7 +61,8 @@ EMSCRIPTEN_KEEPALIVE void substep_wheel(float x, float y) {
   ImGui::GetIO().AddMouseWheelEvent(x, y);
 }
 
-/// A second finger is down: the press of the first is not a click. 0 for a new first finger.
+/// 1 when a second finger touches: the press of the first one is then not a click. 0 when a new
+/// first finger touches.
 EMSCRIPTEN_KEEPALIVE void substep_pinching(int on) { instance->pinching = on != 0; }
 
 /// A two-finger gesture on the picture.
@@ -70,7 +71,7 @@ EMSCRIPTEN_KEEPALIVE void substep_pinch(double factor, double dx, double dy) {
   instance->app->view.camera.pan(dx, dy, instance->app->panes.front());
 }
 
-/// @return whether the application handles it, so that the page should not
+/// @return whether the application handles the key; the page must then ignore it
 EMSCRIPTEN_KEEPALIVE int substep_key(const char* name, int down, int ctrl, int shift, int alt,
                                      int super) {
   ImGuiIO& io = ImGui::GetIO();

@@ -1,7 +1,7 @@
 // The laboratory in plain HTML for screen readers and keyboards: its state, announced when
 // important, and its main controls. The controls become visible on keyboard focus.
 
-const period = 1000; // between updates; more frequent ones would be noise [ms]
+const period = 1000; // between updates; more frequent ones would distract [ms]
 
 const fields = { scene: "Scene", method: "Method", state: "State",
   substeps: "Sub-steps per frame", energy: "Energy", verdict: "Verdict" };

@@ -7,7 +7,7 @@
 namespace substep::cli {
 namespace {
 
-/// Whether reading ended by an error. Standard input treats one as the end.
+/// Whether reading ended with an error. std::cin reports an error as the end of the file.
 bool broken(const std::istream& stream) {
   return stream.bad() || (&stream == &std::cin && std::ferror(stdin) != 0);
 }
@@ -42,7 +42,7 @@ Reading read_line_bounded(std::istream& stream, std::size_t most, std::string& l
       if (line.size() > most) return Reading::kTooLong;
       return line.empty() ? Reading::kEnd : Reading::kCut;
     }
-    const bool full = stream.fail();  // it has no line feed
+    const bool full = stream.fail();  // the piece has no line feed
     line.append(piece, full ? got : got - 1);
     if (line.size() > most) return Reading::kTooLong;
     if (!full) return Reading::kWhole;

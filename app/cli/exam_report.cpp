@@ -52,7 +52,7 @@ std::string broken_text(const ExamOutcome& outcome) {
 }  // namespace
 
 std::string verdict_of(const ExamOutcome& outcome) {
-  if (!outcome.reached_by_vocabulary()) return "not reached: " + outcome.entry->not_reached;
+  if (!outcome.reached_by_vocabulary()) return "not supported: " + outcome.entry->not_reached;
   if (outcome.result.passed()) return "passes";
   std::string text = "fails: ";
   if (!outcome.result.reached) text += "no run is within the tolerances";
@@ -107,7 +107,7 @@ void print_summary(const std::vector<ExamOutcome>& outcomes) {
     }
     std::printf("%-16s %s\n", outcome.entry->name.c_str(), text.c_str());
   }
-  std::printf("%d of %d cases pass; %zu not reached\n", passed, run,
+  std::printf("%d of %d cases pass; %zu not supported\n", passed, run,
               outcomes.size() - static_cast<std::size_t>(run));
 }
 

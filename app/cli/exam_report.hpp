@@ -17,7 +17,7 @@ struct ExamOutcome {
   [[nodiscard]] bool reached_by_vocabulary() const { return entry->not_reached.empty(); }
 };
 
-/// "passes", "fails: ..." with the reason, or "not reached: needs springs".
+/// "passes", "fails: ..." with the reason, or "not supported: needs springs".
 std::string verdict_of(const ExamOutcome& outcome);
 
 /// Prints a case with its tolerances and all runs to standard output.

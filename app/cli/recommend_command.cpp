@@ -57,7 +57,7 @@ struct Want {
   }
 };
 
-/// Whether runs of the scene have such an error. @return the reason if not, or empty
+/// @return the reason why runs of the scene do not have this error; empty if they do
 std::string why_without(ErrorAxis axis, const Scene& scene) {
   switch (axis) {
     case ErrorAxis::kTrajectory:
@@ -114,11 +114,11 @@ void print_alpha(std::FILE* words, const std::shared_ptr<const Scene>& scene, co
   const std::optional<AlphaChoice>& choice = search.choice();
   const char* which = want.error_is_given ? "largest" : "smallest";
   if (!choice) {
-    std::fprintf(words, "The paper's method: no alpha from %g to 1 meets it.\n",
+    std::fprintf(words, "The paper's method: no alpha from %g to 1 meets the limit.\n",
                  AlphaSearch::kLeast);
     return;
   }
-  std::fprintf(words, "The paper's method: the %s alpha that meets it is %.3g, %s\n", which,
+  std::fprintf(words, "The paper's method: the %s alpha that meets the limit is %.3g, %s\n", which,
                choice->alpha, figures(choice->result, want.error).c_str());
 }
 

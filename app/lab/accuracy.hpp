@@ -102,7 +102,8 @@ class Accuracy {
   bool all_methods = false;  // show every curve in its colour, not only the headline ones
   CostAxis cost = CostAxis::kOperations;  // the work per sub-step depends on the method
   ErrorAxis error = ErrorAxis::kTrajectory;
-  // Adaptive sub-stepping in the fair trade; start() and show_shipped() select the scene's own.
+  // Adaptive sub-stepping in the comparison with a constant N; start() and show_shipped() select
+  // the scene's own.
   double trade_alpha = 0.1;
   Policy trade_policy = Policy::kFrame;
   /// True: the error is limited and the cost minimised. False: the reverse.

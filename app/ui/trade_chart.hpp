@@ -8,7 +8,7 @@
 
 namespace substep::ui {
 
-/// The conclusion of the fair trade and the choice of its alpha.
+/// The conclusion of the comparison with a constant N, and the choice of its alpha.
 void trade_head(const Look& look, Accuracy& accuracy);
 
 /// Sub-steps per frame under each load: a bar for adaptive sub-stepping and one for the smallest

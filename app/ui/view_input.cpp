@@ -1,4 +1,4 @@
-// Pointer input in the picture: orbit, pan and zoom; select, hold and throw at bodies.
+// Pointer input in the picture: orbit, pan and zoom; select and drag bodies, throw balls at them.
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kClick = 4.0F;  // smaller movements are clicks [px]
 
-// The pane at a point of the display; the first if there is none.
+// The pane at a point of the display; the first pane if none contains it.
 std::size_t pane_at(const Viewport& viewport, ImVec2 p) {
   for (std::size_t i = 1; i < viewport.panes.size(); ++i) {
     const ViewRect& r = viewport.panes[i];
@@ -29,7 +29,7 @@ Ray ray_at(const Viewport& viewport, ImVec2 p, std::size_t pane) {
                      1.0 - 2.0 * static_cast<double>(p.y / display.y));
 }
 
-// The body under the pointer, or close to it: links are thin and fingers are not.
+// The body under the pointer, or close to it: links are thin compared with a fingertip.
 std::optional<Hit> body_at(const Lab& lab, const Viewport& viewport, ImVec2 p, std::size_t pane) {
   const bool touch = ImGui::GetIO().MouseSource == ImGuiMouseSource_TouchScreen;
   const float near = touch ? 14.0F : 5.0F;
@@ -158,7 +158,8 @@ void view_input(Lab& lab, Desk& desk, Viewport& viewport) {
   ImGui::End();
 }
 
-// Without a pointer at the middle of the view; slow enough for the flight to be visible.
+// Throws at the point under the pointer or, without a pointer, at the camera target. The ball is
+// slow enough for its flight to be visible.
 void throw_ball(Lab& lab, const Viewport& viewport) {
   constexpr double kFlight = 0.8;     // duration [s]
   constexpr double kDensity = 120.0;  // density of cork [kg/m^3]

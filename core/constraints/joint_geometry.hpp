@@ -32,7 +32,7 @@ struct Motion {
   Mat3 R = Mat3::Identity();  // its rotation, world axes
 };
 
-/// Some rows of a block.
+/// A range of rows of a block.
 struct RowRange {
   int first = 0;
   int count = kMaxRows;  // maximum number of rows

@@ -7,13 +7,13 @@
 
 namespace substep {
 
-// Forces of the last sub-step: they seed contacts and warm starts, and keep the elastic part of
-// springs.
+// Forces of the last sub-step: they initialise contacts and warm starts, and keep the elastic part
+// of springs.
 
 /// True if forces of any constraint are stored.
 bool forces_are_stored(const Substep& sub);
 
-/// Sets the seed of each block, from the forces that were stored for it.
+/// Sets the seed of each block to the force that was stored for it.
 void seed_forces(const Substep& sub, const State& state, std::span<const StoredForce> of_last);
 
 /// Appends the forces of the sub-step.

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes far beyond the paper's, which a recommended setting must hold.
+// Scenes far more difficult than the paper's; a robust setting must hold them.
 
 #include <string>
 #include <vector>
@@ -15,8 +15,8 @@ struct HardCase {
   Scene scene;
 };
 
-/// The hard set: mass ratios, ropes, stacks, angles, slack chains, loops, impacts, friction,
-/// frames, places, inertias and starts. Always in the same order.
+/// The hard set: mass ratios, ropes, stacks, angles, slack chains, loops, impacts, friction, frame
+/// durations, positions, moments of inertia and initial states. Always in the same order.
 std::vector<HardCase> hard_set();
 
 }  // namespace substep::scenes

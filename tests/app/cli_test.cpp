@@ -208,7 +208,8 @@ TEST(CommandLine, RecommendFindsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   const Outcome error = substep("recommend pendulum --error 1e-2 --seconds 2");
   EXPECT_EQ(error.exit_code, 0) << error.err;
   EXPECT_NE(error.out.find("The cheapest within 0.01 m: "), std::string::npos) << error.out;
-  EXPECT_NE(error.out.find("the largest alpha that meets it is "), std::string::npos) << error.out;
+  EXPECT_NE(error.out.find("the largest alpha that meets the limit is "), std::string::npos)
+      << error.out;
   const std::size_t command = error.out.find("substep run pendulum");
   ASSERT_NE(command, std::string::npos);
   const std::string line = error.out.substr(command, error.out.find('\n', command) - command);
@@ -217,7 +218,8 @@ TEST(CommandLine, RecommendFindsTheCheapestWithinAnErrorAndTheMostExactWithinACo
   EXPECT_NE(cost.out.find("The most accurate within 3e+03 operations per frame: "),
             std::string::npos)
       << cost.out;
-  EXPECT_NE(cost.out.find("the smallest alpha that meets it is "), std::string::npos) << cost.out;
+  EXPECT_NE(cost.out.find("the smallest alpha that meets the limit is "), std::string::npos)
+      << cost.out;
   EXPECT_EQ(substep("recommend pendulum --error 1e-15 --seconds 1").exit_code, 1);
   EXPECT_EQ(substep("recommend pendulum --error 1 --ms 1").exit_code, 2);
   EXPECT_EQ(substep("recommend pendulum --of colour").exit_code, 2);

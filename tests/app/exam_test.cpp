@@ -19,7 +19,7 @@ TEST(ExamCommand, ListsEveryCaseIncludingThoseNotReached) {
   EXPECT_EQ(list.exit_code, 0) << list.err;
   EXPECT_GE(lines_of(list.out).size(), 17U);
   EXPECT_TRUE(has(list.out, "\nrevolute "));
-  EXPECT_TRUE(has(list.out, "squeezing mechanism; not reached: needs springs"));
+  EXPECT_TRUE(has(list.out, "squeezing mechanism; not supported: needs springs"));
 }
 
 TEST(ExamCommand, PrintsEveryRunItsTolerancesAndASummary) {
@@ -28,7 +28,7 @@ TEST(ExamCommand, PrintsEveryRunItsTolerancesAndASummary) {
   EXPECT_EQ(run.err, "") << "progress is for terminals only";
   for (const char* part : {"[1] exact position <= 2e-06 m: ", "[6] reaction force <= 0.001 N: ",
                            "euler, adaptive     alpha 0.1 ", "newton numerov          n 256 ",
-                           "\n  passes\n", "1 of 1 cases pass; 0 not reached\n"}) {
+                           "\n  passes\n", "1 of 1 cases pass; 0 not supported\n"}) {
     EXPECT_TRUE(has(run.out, part)) << part << '\n' << run.out;
   }
 }
@@ -59,11 +59,11 @@ TEST(ExamCommand, PageIsSelfContainedAndHasEveryCase) {
   const fs::path page = folder() / "exam.html";
   const Outcome run =
       substep("exam --quiet --case revolute --case squeezer --html \"" + page.string() + "\"");
-  EXPECT_EQ(run.exit_code, 0) << "a case that is not reached does not fail: " << run.out;
+  EXPECT_EQ(run.exit_code, 0) << "a case that is not supported does not fail: " << run.out;
   EXPECT_EQ(lines_of(run.out).size(), 3U) << run.out;
   const std::string html = text_of(page);
   EXPECT_TRUE(has(html, "<section class=\"claim passes\" id=\"revolute\">")) << html;
-  EXPECT_TRUE(has(html, "not reached: needs springs"));
+  EXPECT_TRUE(has(html, "not supported: needs springs"));
   EXPECT_TRUE(html.ends_with("</html>\n"));
   EXPECT_FALSE(has(html, "src=") || has(html, "<script")) << "nothing is fetched or run";
 }

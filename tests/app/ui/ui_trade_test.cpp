@@ -1,4 +1,4 @@
-// The fair trade: adaptive sub-stepping compared with the best constant N, in the window.
+// Adaptive sub-stepping compared with the best constant N, in the window.
 
 #include <gtest/gtest.h>
 

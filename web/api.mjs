@@ -162,7 +162,7 @@ export function makeApi({ wasm, wake, address, capture, clock, frame }) {
     try {
       return call(...args);
     } finally {
-      wake(); // afterwards: a call may take longer than the page stays awake
+      wake(); // afterwards: a call may take longer than the page stays active
     }
   };
 

@@ -55,7 +55,7 @@ export class Clock {
     else if (this.timer) return;
     const dt = Math.max(0, (now - this.before) / 1000);
     this.before = now;
-    // What a run ends with is drawn too: a failure and its card.
+    // The end of a run is drawn too, for example a failure and its card.
     const running = this.wasm.busy();
     if (running) this.awakeUntil = Math.max(this.awakeUntil, now + 1500);
     if (now >= this.awakeUntil) return;

@@ -1,4 +1,4 @@
-// The elements of a laboratory on the page: the canvas, its HTML twin, and a card over both for
+// The elements of a laboratory on the page: the canvas, its HTML equivalent, and a card over both for
 // progress and errors.
 
 let instances = 0;

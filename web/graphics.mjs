@@ -1,5 +1,5 @@
 // Shares WebGL contexts between the laboratories of a page. Browsers allow some 16 contexts and
-// drop the oldest when there are more, so laboratories out of sight give theirs to those in sight.
+// drop the oldest when there are more, so laboratories out of sight release theirs.
 
 const most = 6; // laboratories with contexts
 

@@ -90,7 +90,7 @@ Card gauss_seidel(int jobs) {
               life(traces[1]) + ". With a slow drift correction (drift soft): " + life(traces[2]) +
               ".";
   card.why =
-      "A short sub-step corrects the error of a long one at full rate: changing steps add energy. "
+      "A short sub-step corrects the error of a long one at full rate: variable steps add energy. "
       "phi dt/tau^2 does not, nor does a constant step.";
   card.command = "substep run swinging_box --solver pgs --drift full";
   card.outcome =

@@ -7,7 +7,7 @@
 
 namespace substep::cli {
 
-/// Accumulates what the summary of a run tells beside its metrics.
+/// Accumulates the values in the summary of a run that are not among its metrics.
 class RunReport {
  public:
   RunReport(const Scene& scene, const FrameReport& start);

@@ -63,7 +63,7 @@ void Accuracy::cancel() { cancelled_ = true; }
 
 double Accuracy::slice(bool plays, double drawing) {
   constexpr double kSlow = 1.0 / 30.0;
-  constexpr double kPause = 0.25;  // a longer pause was a sleeping tab
+  constexpr double kPause = 0.25;  // a longer pause: the tab was suspended
   const double most = drawing > kSlow ? std::min(drawing, kPause) : 0.0;
   return plays ? std::max(0.003, 0.2 * most) : std::max(0.008, 0.6 * most);
 }
@@ -80,7 +80,7 @@ void Accuracy::advance(double seconds) {
   }
   if (!running()) return;
   const double now = wall_clock();
-  if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // ignores the time of a sleeping tab
+  if (last_ >= 0.0) elapsed_ += std::min(now - last_, 1.0);  // ignores suspended time
   last_ = now;
   sweep_->advance(seconds);
   if (!running()) select_available_axes();

@@ -149,8 +149,8 @@ void Compare::watch(Run& run, const Session& session) {
   if (most.distance > kThreshold) run.divergence = most;
 }
 
-// Records the hand of the session's last frame. Earlier records of this and later frames belong to
-// a discarded future.
+// Records the hand of the session's last frame, in place of records of this and later frames, which
+// the session has discarded.
 void Compare::note_hand(const Session& session) {
   const std::int64_t frame = session.state().frame - 1;
   while (!hands_.empty() && hands_.back().frame >= frame) hands_.pop_back();
@@ -208,8 +208,8 @@ std::vector<const SceneEdit*> Compare::edits_up_to(const Scene& scene) const {
 }
 
 // Goes to a frame of the session's run: forwards from the current frame if possible, else from the
-// last checkpoint before it. A checkpoint later than the edit of its scene belongs to another
-// future.
+// last checkpoint before it. A checkpoint later than the edit of its scene belongs to
+// discarded frames.
 void Compare::seek(Run& run, const Session& session, std::int64_t frame,
                    FrameSlices::Clock::time_point until) {
   const std::vector<const SceneEdit*> path = edits_up_to(session.scene());

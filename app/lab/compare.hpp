@@ -112,7 +112,7 @@ class Compare {
   [[nodiscard]] std::vector<const SceneEdit*> edits_up_to(const Scene& scene) const;
 
   std::vector<Run> runs_;
-  std::vector<SceneEdit> edits_;        // since the comparison began, including discarded futures
+  std::vector<SceneEdit> edits_;        // since the comparison began, also in discarded frames
   std::vector<Hold> hands_;             // by frame
   std::shared_ptr<const Scene> scene_;  // at the start of the comparison
   double start_ = 0.0;                  // start of the comparison [s]

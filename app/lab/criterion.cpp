@@ -98,8 +98,8 @@ std::string rotation_meaning(const Scene& scene, const Criterion& criterion) {
   const double degrees = criterion.angular_speed * scene.frame * 180.0 / std::numbers::pi;
   const std::string now = plain_number(degrees) + "° in a frame";
   if (!criterion.remembered) return "It turns " + now;
-  return "Now " + now + "; the fastest of the last " + plain_number(2.0 * kRotationWindow) +
-         " s counts";
+  return "Now " + now + "; the largest of the last " + plain_number(2.0 * kRotationWindow) +
+         " s is used";
 }
 
 std::string both_terms_text(const Criterion& criterion) {

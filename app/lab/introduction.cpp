@@ -9,7 +9,7 @@ constexpr std::string_view kIntroductionScene = "swinging_box";
 constexpr const char* kIntroductionKey = "introduction";  // key of Host::remember
 constexpr const char* kLeftOnce = "seen";
 
-// The box has passed the lowest point, where N is largest; the tearing is in slow motion.
+// The box has passed the lowest point, where N is largest; the failure is shown in slow motion.
 constexpr RunLoop::Plan kLoop{.end = 4.0, .slow_until = 0.5};
 
 }  // namespace

@@ -84,7 +84,7 @@ class EventLog {
   [[nodiscard]] std::span<const RunEvent> past() const { return {done_.data(), count_}; }
   void in_effect(const RunEvent& event);
 
-  std::vector<RunEvent> done_;  // including those of a future that is not yet discarded
+  std::vector<RunEvent> done_;  // including later events that are not yet discarded
   std::size_t count_ = 0;       // number of past events in done_
   Settings start_;
   Settings settings_;         // in effect

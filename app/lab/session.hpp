@@ -43,7 +43,7 @@ class Session {
   /// Restarts the scene as loaded. A run that failed while playing resumes.
   void reset();
 
-  /// Advances by wall time. The time per call is capped, so that a tab that slept has no backlog.
+  /// Advances by wall time. The time per call is capped, so that a suspended tab has no backlog.
   /// Time that does not fit into `budget` is dropped: the run falls behind the wall clock, see
   /// pace(). A longer frame continues in the next call.
   /// @param budget [s] @return frames taken

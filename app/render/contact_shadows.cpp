@@ -22,7 +22,7 @@ struct FloorFrame {
   [[nodiscard]] Vec3 below(const Vec3& x) const { return x - height(x) * normal; }
 };
 
-// What a footprint is made of, in the plane.
+// The footprint of a body, in the plane of the floor.
 struct Footprint {
   Vec3 centre;          // on the floor [m]
   Vec3 along;           // unit
@@ -79,7 +79,7 @@ Vec3 direction_of(const Box& box, const Quat& q, const Vec3& normal) {
   return longest.normalized();
 }
 
-// Calls for each shape; nothing for what has no footprint.
+// The footprint of each shape; nothing for a plane.
 struct Stand {
   const FloorFrame& floor;
   const Vec3& x;
@@ -137,7 +137,7 @@ std::vector<SoftShadow> contact_shadows(const Scene& scene, const Poses& poses,
     const Body& body = scene.bodies[i];
     const double above = floor.height(poses.x[i]);
     const double reach = radius_around(body.shape);
-    // Neither one that has fallen through the floor nor one far above it; not a number is neither.
+    // Skips bodies that have fallen through the floor, bodies far above it, and NaN.
     if (!(above > -reach) || !(above < 8.0 * reach)) continue;
     const auto print = std::visit(Stand{floor, poses.x[i], poses.q[i]}, body.shape);
     if (!print) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// The ambient shadow of bodies on the floor: where a body is near, less of the sky reaches it.
+// The ambient shadow of bodies on the floor: a body near the floor hides part of the sky from it.
 
 #include <vector>
 

@@ -116,7 +116,7 @@ export function workPrecision(results, reference, select) {
   }
 
   const fig = figure("Error against cost",
-    "One curve per method along its own parameter. The broad band is the Pareto front: runs that no other run beats. Crosses on the rail are failed runs. Click a point for its settings and its command; click a name to hide it.",
+    "One curve per method along its own parameter. The broad band is the Pareto front: runs that no other run dominates. Crosses on the rail are failed runs. Click a point for its settings and its command; click a name to hide it.",
     {
       name: "work-precision",
       draw,

@@ -2,8 +2,8 @@
 
 namespace substep {
 
-// Purpose, paper and licence as shown in the window; keep in step with core/docs/references.bib and
-// LICENSE.
+// Purpose, paper and licence as shown in the window; keep consistent with core/docs/references.bib
+// and LICENSE.
 inline constexpr const char* kPurpose = "A laboratory for stable constrained rigid bodies";
 inline constexpr const char* kPaperTitle =
     "Adaptive Sub-stepping for Constrained Rigid Body Simulations";

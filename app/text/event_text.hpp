@@ -18,8 +18,7 @@ inline constexpr std::size_t kMostEventText = 8192;
 /// copies the scene, so the limit is lower for large scenes.
 bool fits_link(std::span<const RunEvent> events, const Scene& scene);
 
-/// Lossless URL-safe encoding of events: about 60 characters per ball, 10 per frame of a moving
-/// hand.
+/// Lossless URL-safe encoding of events: about 60 characters per ball, 10 per frame of a pull.
 /// @param start initial settings of the run
 std::string events_text(std::span<const RunEvent> events, const Settings& start);
 

@@ -7,7 +7,7 @@
 
 namespace substep {
 
-/// Texts of the first screen, for the canvas and for its HTML twin.
+/// Texts of the first screen, for the canvas and for its HTML equivalent.
 struct IntroductionWords {
   std::string claim;  // caption of the two pictures
   std::string paper;  // authors of the method

@@ -12,17 +12,17 @@ std::span<const TourStep> tour_steps() {
         .text = "A box of {load} hangs on 25 links of 1 kg each. The solver is exact and takes one "
                 "step per frame. The pull of the chain turns with every link and acts like a "
                 "spring. At 1,000 kg this spring is too stiff for so long a step.",
-        .watch = "Watch the links in slow motion, and [the joint error](error) as it climbs.",
+        .watch = "Watch the links in slow motion, and [the joint error](error) as it grows.",
         .task = "Does a lighter box help? Set its mass to 10 kg.",
         .link = "scene=swinging_box&mode=none&solver=bpp&integrator=euler&panel=plots&plots=error"
                 "&level=explore",
         .loop = {.end = 4.0, .slow_until = 0.5},
         .reply = reply_lighter_box},
        {.title = "Enough sub-steps hold it",
-        .text = "Every frame takes {n}. This chain needs at least seven. You cannot know "
-                "the number in advance, and every frame pays for the worst one.",
+        .text = "Every frame takes {n}. This chain needs at least seven. The number is not "
+                "known in advance, and every frame takes as many as the worst one.",
         .watch = "Watch the chain as it swings down, and [the joint error](error).",
-        .task = "Break it: set six sub-steps.",
+        .task = "Make it fail: set six sub-steps.",
         .link = "scene=swinging_box&mode=const&n=7&solver=bpp&integrator=euler&panel=plots"
                 "&plots=error&level=explore",
         .loop = {.end = 4.0},
@@ -63,7 +63,7 @@ std::span<const TourStep> tour_steps() {
         .text =
             "The box has a mass of {load}. At 1,000 kg seven constant sub-steps hold as well "
             "(orange ghost). A heavier box makes the chain stiffer. Seven are then too few, and "
-            "adaptive sub-steps become more.",
+            "adaptive sub-stepping takes more.",
         .watch = "Watch the ghost, and [the plot of N](substeps).",
         .task = "Make the box four times as heavy.",
         .link = "scene=swinging_box&mode=adaptive&alpha=0.1&solver=bpp&integrator=euler"
@@ -75,10 +75,9 @@ std::span<const TourStep> tour_steps() {
             "Balls of 10, 100 and 1,000 kg roll over a bridge of light planks, and N follows each "
             "of them. The orange ghost takes {n} in every frame. Thirteen is the smallest constant "
             "number whose largest joint gap is as small, to 5 %. It is known only after the run, "
-            "and "
-            "takes more sub-steps in all.",
+            "and takes more sub-steps in all.",
         .watch = "Watch [the plot of N](substeps) under each ball, and [the joint error](error).",
-        .task = "Tear the ghost's bridge: set seven sub-steps.",
+        .task = "Make the ghost's bridge fail: set seven sub-steps.",
         .link = "scene=convoy&mode=adaptive&policy=substep&alpha=0.25&solver=bpp&integrator=euler"
                 "&n=13&compare=mode:const&panel=plots&plots=substeps,error&level=explore",
         .loop = {.end = 8.4},

@@ -49,8 +49,7 @@ std::string exceeded_sentence(const Exceeded& e) {
     case Exceeded::What::kJointGap:
       return e.name + " has a gap of " + value + ". Above " + limit + " a joint counts as torn.";
     case Exceeded::What::kEnergyGain:
-      return "The run has gained " + value + " of energy from nowhere. The scene allows " + limit +
-             ".";
+      return "The total energy has grown by " + value + ". The scene allows " + limit + ".";
     case Exceeded::What::kMoved:
       return e.name + " has moved by " + value + ". The scene allows " + limit + ".";
   }

@@ -170,14 +170,14 @@ std::string conclusion(const Accuracy& accuracy, const std::vector<Point>& point
   const auto plain = plain_best(accuracy, points);
   const std::string name = with_parameter(settings_of(accuracy, *best));
   const std::string verdict =
-      limit + ", " + name + (error_given ? " is the cheapest" : " errs least");
-  if (!plain) return verdict + "; no tested constant N with Euler gets there.";
+      limit + ", " + name + (error_given ? " is the cheapest" : " has the smallest error");
+  if (!plain) return verdict + "; no tested constant N with Euler is within the limit.";
   if (plain->result == best->result) return verdict + ".";
   const std::string ratio =
       times(error_given ? plain->cost / best->cost : plain->error / best->error);
   if (ratio.empty()) return verdict + "; constant N with Euler is as good.";
   return verdict + ": " + ratio +
-         (error_given ? kFewer.at(static_cast<std::size_t>(accuracy.cost)) : "closer") +
+         (error_given ? kFewer.at(static_cast<std::size_t>(accuracy.cost)) : "more accurate") +
          " than constant N with Euler.";
 }
 

@@ -24,7 +24,7 @@ struct EffectFacts {
 constexpr std::array<EffectFacts, kEffectNames.size()> kFacts{
     {{"Weight: m g on every moving body.", nullptr, nullptr},
      {"The torque I ω × ω of bodies with unequal moments.", nullptr, nullptr},
-     {"All joints. Off: everything falls apart.", &FrameReport::joint_rows, &StageTimes::joints},
+     {"All joints. Off: bodies are not connected.", &FrameReport::joint_rows, &StageTimes::joints},
      {"Contacts. Off: bodies pass through each other.", &FrameReport::contact_rows,
       &StageTimes::contact},
      {"Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.", &FrameReport::friction_rows,

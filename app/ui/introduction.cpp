@@ -1,4 +1,5 @@
-// The first screen: two runs side by side, their explanation, and the way into the laboratory.
+// The first screen: two runs side by side, their explanation, and the buttons for laboratory and
+// tour.
 
 #include "app/text/introduction.hpp"
 
@@ -141,7 +142,7 @@ bool draw_foot(const Look& look, const ScreenMeasures& m, const IntroductionWord
   const float left = m.stacked || m.low ? m.pad : 0.5F * (display.x - kGap) - width;
   ImGui::SetCursorScreenPos({left, y});
   const bool chosen = button(look, "try", Icon::kNone, "Try it", ButtonKind::kPrimary, width,
-                             m.button, "Into the laboratory (Enter)");
+                             m.button, "Open the laboratory (Enter)");
   ImGui::SameLine(0.0F, kGap);
   if (button(look, "tour", Icon::kNone, "Tour", ButtonKind::kPlain, width, m.button, kTourTip)) {
     desk.follow = "tour=1";

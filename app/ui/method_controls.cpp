@@ -212,7 +212,7 @@ void finer_points_of_mode(const Look& look, Settings& s) {
   if (reads(s, "islands")) {
     checkbox(look, "Per-island sub-steps", s.islands,
              "Groups of bodies that neither joints nor possible contacts connect within a frame "
-             "have their own number of sub-steps: calm ones stay cheap. This project's.");
+             "have their own number of sub-steps: groups that need few take few. This project's.");
   }
   checkbox(look, "Sleep resting bodies", s.sleep,
            "Bodies sleep at no cost when everything connected with them has been slower than 1 "

@@ -86,7 +86,7 @@ void compare_legend(const Look& look, const Session& session, const Compare& com
 /// The guided tour's card, or the button that opens it.
 /// @param words of the current step; null outside the tour, and if the page shows them
 void tour(const Look& look, Desk& desk, const Viewport& viewport, const TourWords* words);
-inline constexpr const char* kTourTip = "The paper's story in seven steps";
+inline constexpr const char* kTourTip = "The paper's method in eight steps";
 /// Title of this run in a comparison.
 std::string run_title(const Session& session, const Compare& compare);
 /// @param brief without the list of stages

@@ -212,7 +212,7 @@ void legend(const Look& look, const FairTrade& trade) {
   entry(adaptive_bar(t, trade.rows.front()).color,
         "Adaptive, alpha = " + plain_number(trade.alpha) + ": mean sub-steps per frame");
   entry(t.grey, std::string("Smallest constant N ") + as_accurate(trade) +
-                    ", found by trying; light: it is in this range");
+                    ", found by trial; light: it is in this range");
   const std::string axis = axis_name(trade.axis);  // each error has its own unit
   label(look.fonts.small, t.dim,
         "On the right: N, and the " + axis.substr(0, axis.find(" [")) + ".");

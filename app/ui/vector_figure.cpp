@@ -154,8 +154,9 @@ class Writer {
              "</text>\n";
   }
 
-  /// Opens a group with this clip rectangle, unless it is open. Where it ends with the visible part
-  /// of the window, the contents continue. @return whether it is visible
+  /// Opens a group with this clip rectangle, unless it is open. If it ends at the edge of
+  /// the visible part of the window, it is extended to the edge of the figure. @return whether it
+  /// is visible
   bool set_clip(const ImVec4& rect) {
     if (rect == clip_) return visible_;
     close_path();

@@ -1,5 +1,5 @@
 #pragma once
-// A part of the window as SVG: shapes as paths, texts as text, and the experiment inside.
+// A part of the window as SVG: shapes as paths, text as text, and the experiment as metadata.
 
 #include <imgui.h>
 
@@ -11,8 +11,8 @@
 
 namespace substep::ui {
 
-/// Keeps the texts of the frame that follows, and has shapes drawn without blended edges: a figure
-/// is built from them. The previous style returns when this is destroyed.
+/// Stores the text of the next frame, and draws shapes without antialiasing: a figure is built from
+/// both. The previous style is restored when this is destroyed.
 class FigureFrame {
  public:
   FigureFrame();
@@ -29,7 +29,7 @@ class FigureFrame {
 void note_text(const ImDrawList& draw, const ImFont* font, ImVec2 at, float width, ImU32 color,
                std::string_view text);
 
-/// What the figure says about itself, for people and programs.
+/// Metadata of a figure, for people and programs.
 struct FigureNote {
   std::string title;
   std::string command;     // line of the command line that runs it

@@ -134,8 +134,8 @@ struct TooltipLine {
   std::string text;
 };
 
-// At the pointer, inside the display: Dear ImGui places a tooltip by the size of the previous one,
-// and after a narrow one its lines would be wrapped ever narrower.
+// At the pointer, inside the display. Dear ImGui places a tooltip by the size of the previous one;
+// after a narrow one it would wrap the lines of each tooltip more narrowly than those of the last.
 void place_tooltip(ImVec2 size) {
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const ImVec2 display = ImGui::GetIO().DisplaySize;
@@ -168,9 +168,9 @@ void show_lines(std::span<const TooltipLine> lines) {
   ImGui::PopStyleVar(2);
 }
 
-// Whether the last item was clicked since the pointer came to it, or appeared under the resting
-// pointer after a click: a tooltip would cover what the click has changed. A finger shows a tooltip
-// while it presses, and the focus of the keyboard while the pointer rests.
+// Whether the last item was clicked since the pointer reached it, or appeared under the resting
+// pointer after a click: a tooltip would then cover what the click has changed. With touch and
+// keyboard the tooltip is always shown.
 bool clicked_here() {
   const ImGuiIO& io = ImGui::GetIO();
   const ImGuiContext& g = *ImGui::GetCurrentContext();

@@ -36,7 +36,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   bare.camera = Camera{};
   bare.settings = Settings{};
   bare.recommended.reset();
-  // Not the text of settings either: a setting added later must leave the hash.
+  // The default settings are omitted too: a setting added later must not change the hash.
   Json content = Json::parse(write_scene(bare), nullptr, false);
   content.erase("settings");
   content.erase("camera");

@@ -62,7 +62,7 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
   if (const auto fault = inertia_fault(body.inertia)) in.problem("inertia", *fault);
 }
 
-/// "#rrggbb", as everywhere on the web.
+/// "#rrggbb", as in CSS.
 void read_color(ObjectReader& in, Body& body) {
   std::string text;
   if (!in.text("color", kMaxNameSize, text, kOptional)) return;

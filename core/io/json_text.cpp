@@ -30,8 +30,8 @@ std::string plain_message(std::string message) {
   return message;
 }
 
-/// Builds the document while the library walks through the text; checks nesting, the number of
-/// values, and keys that stand twice.
+/// Builds the document while the library parses the text; checks nesting, the number of values, and
+/// duplicate keys.
 class Builder {
  public:
   Builder(std::string_view text, Problems& problems) : text_(text), problems_(problems) {}
@@ -182,8 +182,8 @@ std::optional<Json> parse_json(std::string_view text, Problems& problems) {
     return fail(place(text, zero) + "a zero byte: this is not a text file");
   }
 
-  // A number beyond the range stops the library. It is noted and replaced, and the walk starts
-  // again.
+  // A number beyond the range stops the library. It is recorded and replaced by null, and parsing
+  // starts again.
   constexpr int kMostOverflows = 32;
   std::string copy(text);
   for (int overflows = 0;; ++overflows) {

@@ -28,7 +28,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates) {
-  constexpr std::size_t kLongest = 64;  // longer words are no slips
+  constexpr std::size_t kLongest = 64;  // longer words get no suggestion
   if (word.size() > kLongest) return "";
   std::string_view best;
   std::size_t best_distance = std::min<std::size_t>(2, word.size() / 2) + 1;

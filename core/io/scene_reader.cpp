@@ -29,8 +29,8 @@ namespace {
 constexpr std::size_t kItemsOfAPart = 1000;  // bodies or joints
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-/// Every joint of a sound scene agrees with its poses and velocities, within the tolerances of
-/// sim/joint_starts.hpp. A scene that continues a saved run is not checked.
+/// Adds a problem for every joint that is inconsistent with the poses and velocities, beyond the
+/// tolerances of sim/joint_starts.hpp. A scene that continues a saved run is not checked.
 void check_refused(const Scene& scene, Problems& problems) {
   if (scene.carried) return;
   const std::vector<JointStart> starts = joint_starts(scene, initial_state(scene));

@@ -129,7 +129,7 @@ std::string plan_id(std::span<const Experiment> experiments) {
 
 std::vector<Experiment> quick_sweep(const Scene& scene) {
   Experiment experiment = experiment_of(scene, scene.settings);
-  // Beyond its window a motion cannot be predicted, and people wait.
+  // Beyond its window the motion cannot be predicted; longer runs would only take more time.
   experiment.duration = predictable_window(scene, scene.criteria.duration);
   std::array<std::vector<Experiment>, kMapRound + 1> rounds;
   std::map<std::string, std::size_t> along;

@@ -46,7 +46,7 @@ struct ArticulatedInertia {
     return B.transpose() * alpha + M * a + force_bias;
   }
 
-  /// alpha of a ball joint, which bears no torque: A alpha + B a + torque_bias = 0.
+  /// alpha of a ball joint, which transmits no torque: A alpha + B a + torque_bias = 0.
   [[nodiscard]] Vec3 ball_acceleration(const Vec3& a) const {
     return -A.llt().solve(Vec3(B * a + torque_bias));
   }
@@ -62,7 +62,7 @@ struct ArticulatedInertia {
     return left;
   }
 
-  /// theta'' of a hinge, alpha = alpha_before + h theta'', which bears no torque along h.
+  /// theta'' of a hinge, alpha = alpha_before + h theta'', which transmits no torque along h.
   [[nodiscard]] double hinge_acceleration(const Vec3& h, const Vec3& alpha_before,
                                           const Vec3& a) const {
     return -h.dot(torque(alpha_before, a)) / h.dot(A * h);

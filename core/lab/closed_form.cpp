@@ -55,7 +55,7 @@ std::optional<UniformAcceleration> closed_form(const Scene& scene) {
   if (!scene.criteria.track || !scene.joints.empty()) return std::nullopt;
   const Body& body = scene.bodies[index(*scene.criteria.track)];
   if (body.is_static) return std::nullopt;
-  // A torque changes the energy of the spin, which is taken to stay.
+  // The reference assumes a constant energy of rotation, which a torque changes.
   if (scene.effects.external && body.torque != Vec3::Zero()) return std::nullopt;
   if (scene.effects.contact) return box_on_slope(scene, body);
   Vec3 acceleration = scene.effects.gravity ? scene.gravity : Vec3(Vec3::Zero());

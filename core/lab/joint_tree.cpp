@@ -36,7 +36,7 @@ void JointTree::move_outwards(const Vector& y) {
       const double rate = y[node.u];
       const Vec3 half = y[node.q + 1] * node.axis;
       m.q_WB = parent.q_WB * node.at_start * Quat(y[node.q], half.x(), half.y(), half.z());
-      // As long as the integrator leaves it: of length 1 but for its error.
+      // The integrator keeps length 1 only to its tolerance.
       m.q_WB.normalize();
       m.h = m.q_WB * node.axis;
       m.omega = parent.omega + rate * m.h;

@@ -15,10 +15,10 @@ constexpr double kTreeConsistent = 1e-9;  // of velocities, relative to 1 + the 
 constexpr double kTreeParallel = 1e-9;    // sine between the two axes of a hinge [-]
 constexpr double kEqualMoments = 1e-12;   // of moments of inertia, relative [-]
 constexpr double kTreeStretch = 1e-4;     // a tree is exact for rigid joints only [m]
-// Of the inertia that turns about a ball joint. Rounding times this is the noise of accelerations,
-// and past it steps get short in vain: 1e7 takes some 100 per frame, 1e9 10,000.
+// Condition number of the inertia about a ball joint. Its product with the rounding error is the
+// noise of accelerations, which shortens the steps: 1e7 takes some 100 per frame, 1e9 10,000.
 constexpr double kWorstCondition = 1e7;  // [-]
-constexpr double kFastest = 1e5;         // a radian or two take a step of the integrator [rad/s]
+constexpr double kFastest = 1e5;         // the integrator takes a step per radian or two [rad/s]
 
 bool has_equal_moments(const Body& body) {
   const double spread = body.inertia.maxCoeff() - body.inertia.minCoeff();

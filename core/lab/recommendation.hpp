@@ -37,8 +37,9 @@ std::optional<RunPoint> most_exact_within(std::span<const RunPoint> points, doub
 /// accurate within a cost the smallest.
 std::vector<RunPoint> of_paper(std::span<const RunPoint> points, std::span<const Result> results);
 
-/// What a scene keeps of its sweep: the run of fewest solver operations within an error, and how it
-/// stands beside the others, in three digits. Nothing where no run is within it.
+/// The recommendation that a scene stores: the run with the fewest solver operations within an
+/// error, and its comparison with the other runs, in three digits. Nothing if no run is within the
+/// error.
 /// @param results of one scene and of one length; the error in m or J
 std::optional<Recommended> recommended_of(std::span<const Result> results, ErrorAxis of,
                                           double within);

@@ -54,7 +54,7 @@ class ClosedForm final : public ReferenceRun::Source {
   std::optional<Sample> next(double t) override {
     const Body& body = scene_.bodies[index(*scene_.criteria.track)];
     const Vec3 v = motion_.velocity + motion_.acceleration * t;
-    // What spins freely keeps the energy of its spin.
+    // Free rotation conserves its kinetic energy.
     const Vec3 omega = body.orientation.conjugate() * body.angular_velocity;
     return Sample{motion_.at(t), 0.5 * body.mass * v.squaredNorm() +
                                      0.5 * omega.dot(body.inertia.cwiseProduct(omega))};
@@ -78,7 +78,7 @@ class MinimalCoordinates final : public ReferenceRun::Source {
     chain_.advance(scene_.frame);
     return Sample{chain_.centre(*scene_.criteria.track), chain_.kinetic()};
   }
-  // What a longer chain is late by grows with every swing.
+  // The stretch lengthens the period, so the delay grows with every swing.
   [[nodiscard]] double uncertainty(double t) const override {
     const double swung = t * std::sqrt(scene_.gravity.norm() / chain_.length());
     return kChainUncertainty + stretch_ * (1.0 + swung);

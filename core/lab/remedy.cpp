@@ -7,7 +7,7 @@
 namespace substep {
 namespace {
 
-constexpr int kMostCap = 1024;          // a larger one costs more than it can give
+constexpr int kMostCap = 1024;          // the cost of a larger one exceeds its benefit
 constexpr double kLeastOffered = 1e-3;  // 10 times the sub-steps of 0.1
 
 /// A new cap: the requested N, at least 2 and at most 16 times the current cap.
@@ -19,7 +19,7 @@ int larger(int cap, int wanted) {
 
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) {
   std::vector<Remedy> all;
-  if (last.status == StepStatus::kTooManyContacts ||  // it is the scene that has too many
+  if (last.status == StepStatus::kTooManyContacts ||  // not due to the settings
       last.status == StepStatus::kOverBudget || last.status == StepStatus::kInvalid) {
     return all;
   }

@@ -13,9 +13,9 @@ namespace substep {
 namespace {
 
 constexpr int kConstant[] = {1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24, 28, 40, 56, 80};
-constexpr int kImplicit[] = {1, 2, 3, 4, 6, 8, 11, 16, 28, 56};  // whose point is to need few
-constexpr int kNewtonSteps[] = {1, 2};                   // that do where a sub-step is short
-constexpr int kSmallSteps[] = {1, 2, 4, 8, 16, 32, 64};  // that share as many sweeps as the last
+constexpr int kImplicit[] = {1, 2, 3, 4, 6, 8, 11, 16, 28, 56};  // these solvers need few
+constexpr int kNewtonSteps[] = {1, 2};                           // enough in short sub-steps
+constexpr int kSmallSteps[] = {1, 2, 4, 8, 16, 32, 64};  // they share as many sweeps as the last
 constexpr int kRefinements[] = {2, 8};
 constexpr int kFew[] = {1, 2, 3, 4, 6, 8};  // sub-steps that are refined
 constexpr double kAlpha[] = {1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.1, 0.05, 0.025, 0.0125, 0.00625};
@@ -63,7 +63,8 @@ void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
       append_along(settings, kCaps, &Settings::n_cap, all);
       break;
     case SubstepCount::kStable:
-      settings.n_max = std::max(settings.n_max, kFreeCap);  // one of its own would hide the law
+      // A low cap would hide the effect of alpha.
+      settings.n_max = std::max(settings.n_max, kFreeCap);
       append_along(settings, kAlpha, &Settings::alpha, all);
       break;
   }
@@ -223,7 +224,7 @@ std::vector<SweepPoint> default_sweep(const Scene& scene) {
     direct_curve(Integrator::kEuler, Mode::kCapped, &Settings::islands, true);
   }
   std::vector<SweepPoint> points;
-  for (auto s = all.begin(); s != all.end(); ++s) {  // a scene's own can be those of a curve
+  for (auto s = all.begin(); s != all.end(); ++s) {  // the scene's own may equal those of a curve
     if (std::find(all.begin(), s, *s) == s) points.push_back({*s, 1.0});
   }
   if (mass_ratio(scene) > 1.0) append_map(base, points);
@@ -241,7 +242,7 @@ double expected_work(const Scene& scene, const Experiment& experiment) {
   if (solver.sweeps) {
     iterations = s.share_iterations ? std::max(1.0, s.iterations / n) : s.iterations;
   } else if (reads(s, "iterations")) {
-    iterations = std::min(3, s.iterations);  // the others find that it has converged
+    iterations = std::min(3, s.iterations);  // it has then converged
   }
   const double per_substep = solver.work * iterations;  // in solves of the direct solver, about
   const double per_frame = 0.5;                         // errors and energies, independent of N

@@ -24,7 +24,7 @@ std::vector<Settings> modes_of(const Scene& scene, SolverKind solver) {
     Settings& settings = all.emplace_back(own_settings(scene));
     settings.solver = solver;
     settings.mode = mode;
-    settings.islands = false;  // the table is of the paper's one N
+    settings.islands = false;  // the table is for the paper's single N
     return settings;
   };
   add(Mode::kNone);

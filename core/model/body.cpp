@@ -17,7 +17,7 @@ double fastest_gain(const Body& body) {
   constexpr double kMost = 1e9;  // [m/s^2]
   const double gain = body.force.norm() / body.mass +
                       radius_around(body.shape) * body.torque.norm() / body.inertia.minCoeff();
-  return gain < kMost ? gain : kMost;  // no number is more than can be reckoned with
+  return gain < kMost ? gain : kMost;  // NaN also becomes kMost
 }
 
 }  // namespace substep

@@ -12,7 +12,7 @@ Effects effects_of(const Scene& scene) {
                                        [](const Body& body) { return body.collides; });
   Effects effects;
   effects.gravity = scene.gravity != Vec3::Zero();
-  // A body with three equal moments feels no gyroscopic torque.
+  // A body with three equal moments has no gyroscopic torque.
   effects.gyroscopic = any([](const Body& body) {
     return !body.is_static &&
            (body.inertia.x() != body.inertia.y() || body.inertia.y() != body.inertia.z());

@@ -16,7 +16,7 @@ namespace substep {
 std::string number_text(double value) {
   if (value == 0.0) return std::signbit(value) ? "-0.0" : "0";  // JSON's "-0" is the integer 0
   std::array<char, 32> text{};
-  // A decimal of up to 15 digits survives the way through a double, so 15 finds every short one.
+  // A decimal of up to 15 digits is unchanged by a round trip through a double.
   for (int digits = 15; digits <= 17; ++digits) {
     std::snprintf(text.data(), text.size(), "%.*g", digits, value);
     if (std::strtod(text.data(), nullptr) == value) break;

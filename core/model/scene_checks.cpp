@@ -134,7 +134,8 @@ void check_effects(const Scene& scene, Problems& problems) {
       return;
     }
   };
-  // Both bodies must rub, but one that bounces is enough: a static one counts too.
+  // Friction needs a coefficient on both bodies. For restitution one is enough, even if it is
+  // static.
   needs_contact(&Effects::friction, "friction", &Body::friction, false);
   needs_contact(&Effects::restitution, "restitution", &Body::restitution, true);
 }

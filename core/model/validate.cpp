@@ -171,7 +171,7 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
                       "must have finite numbers, and tight from -1 to 2"});
 }
 
-/// @param sound takes which bodies and joints are right by themselves
+/// @param sound out: which bodies and joints are valid individually
 Problems check_all_values(const Scene& scene, SoundParts& sound) {
   Problems problems;
   check_number(scene.frame, kFrameRange, "/frame", problems);

@@ -108,13 +108,15 @@ std::size_t EliminationOrder::priority(int body) const {
   std::size_t degree = neighbours.size();
   bool anchored = false;
   if (joint_rows_[index(body)] > kMaxRows) {
-    // Beyond the closed form of one joint the world is free: a bridge starts at its ends. A free
-    // end comes before an anchored one, which has twice the rows.
+    // More rows than the closed form of one joint handles: the world is not counted, so that a
+    // bridge is eliminated from its ends. A free end comes before an anchored one, which has twice
+    // the rows.
     anchored = !neighbours.empty() && neighbours.back() == world_;
     degree += index(world_) + (anchored ? 0 : 1);
   }
-  // Nothing but the rows of a body to factor, as long as no neighbour has left anything on it: of a
-  // stack the balls go before the plates between them. In a grid this would only scatter the order.
+  // Ties: a body without contributions goes first, because only its own rows are factored. In a
+  // stack the balls then precede the plates between them. With more neighbours, as in a grid, this
+  // would only scatter the order.
   const bool bare = neighbours.size() <= 2 && !anchored && !reached_[index(body)];
   return 2 * degree + (bare ? 0 : 1);
 }

@@ -74,7 +74,8 @@ Accelerations accelerations_at(const Trial& trial, Solver& linear) {
   for (const Block& block : sub.rows) apply_impulse(block, block.given, sub.inverse_mass, out.a);
   System system{sub.rows, sub.inverse_mass, out.a, free, 1.0, sub.R_WB, scene.regularisation, {}};
   system.limits = sub.limits;
-  system.limits.work /= kSolves;  // if this is too little, it is for the sub-step too
+  // Equal shares. A budget that is too small here is too small for the sub-step too.
+  system.limits.work /= kSolves;
   if (linear.solve(system, sub.settings).status == SolveStatus::kOverLimits) out.a = free;
   for (const Block& block : sub.rows) {
     std::copy_n(block.impulse, block.rows, out.lambda.emplace_back().begin());

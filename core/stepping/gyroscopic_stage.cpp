@@ -20,7 +20,7 @@ bool is_zero(const Vec3& v) { return v.isZero(0.0); }
 // A sub-step is solved with the gradients at its start, which leaves an error dt^2/2 phi''. In
 // planar motion this is a constant offset along the joint's arm. In 3D the force acts at that
 // offset from the joint, and angular momentum and energy drift. The rows are therefore set up at
-// the predicted poses:
+// the predicted poses ("bent"):
 //   phi + (r_a^ - r_a) - (r_b^ - r_b) + dt (J u+ - J_omega omega^) = 0,
 // and likewise for a hinge. Centres move linearly and drop out. Impacts cannot be predicted: in
 // scenes with contacts joints use plain Eq. 3.
@@ -52,7 +52,7 @@ bool any_out_of_axis(const Substep& sub, const State& state) {
   });
 }
 
-// The force acts on both bodies at one point, the static anchor or the midpoint, whatever the gap:
+// The force acts on both bodies at one point, the static anchor or the midpoint, for any gap:
 // angular momentum is then conserved to rounding.
 void meet(Block& block) {
   const Vec3 gap{block.phi[0], block.phi[1], block.phi[2]};

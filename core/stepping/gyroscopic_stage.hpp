@@ -30,11 +30,12 @@ class GyroscopicStage {
  public:
   /// Adds the torque to state.u before the forces.
   void begin(const Substep& sub, State& state);
-  /// Sets up rows of joints for the predicted rotation of their bodies.
+  /// Sets up ("bends") rows of joints for the predicted rotation of their bodies.
   void bend_rows(const Substep& sub) const;
   /// Solves for the angular velocity with the exact momentum, after the solve.
   void settle(Substep& sub, State& state) const;
-  /// True if begin() found that a body rotates out of axis, and its momentum is kept.
+  /// True if begin() found that a body does not rotate about a principal axis, and its momentum is
+  /// kept.
   [[nodiscard]] bool keeps_momentum(std::size_t body) const {
     return spins_[body].out_of_axis && !spins_[body].damped;
   }

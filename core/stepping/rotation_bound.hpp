@@ -19,7 +19,7 @@ namespace substep {
 //   0.8e-3;
 //   the gyroscopic rate of Euler's equations linearised about omega,
 //   rate^2 = sum_i omega_i^2 |(I_i - I_j)(I_i - I_k)|/(I_j I_k), at which a disturbance of the axis
-//   swings (or grows), at most |omega| for the moments of any solid.
+//   oscillates (or grows), at most |omega| for the moments of any solid.
 //
 // A pendulum stops twice per period. If N followed, each change of N would leave an energy error,
 // first order with Euler and second with leapfrog, and these accumulate: thin boxes swinging for

@@ -13,7 +13,7 @@ namespace substep::scenes {
 std::vector<ExamMethod> contact_methods(const Settings& base, const std::vector<double>& n);
 
 /// Whether bodies support a constant force; if not, the cases that need one are listed as not
-/// reached.
+/// supported.
 template <class BodyType = Body>
 constexpr bool takes_force() {
   return requires(BodyType body) { body.force; };

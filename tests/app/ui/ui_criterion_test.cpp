@@ -70,7 +70,7 @@ TEST_F(TwoTerms, TheTextNamesTheBodyAndItsRate) {
   EXPECT_EQ(setter_text(scene(), c), name + ", spinning at 60 rad/s now");
   EXPECT_EQ(rotation_text(scene(), c), "Rotation of " + name + ", 60 rad/s now");
   EXPECT_EQ(rotation_meaning(scene(), c),
-            "Now 57.3° in a frame; the fastest of the last 8 s counts");
+            "Now 57.3° in a frame; the largest of the last 8 s is used");
   state.rotation.clear();  // as in scenes in which bodies may touch
   EXPECT_EQ(setter_text(scene(), criterion()), name + ", spinning at 60 rad/s");
   EXPECT_EQ(rotation_meaning(scene(), criterion()), "It turns 57.3° in a frame");

@@ -118,7 +118,7 @@ TEST(Figure, IsCompleteWhereThePanelIsScrolled) {
   h.frames(3);
   const SavedFigure figure = save_figure(h, {"trade.svg", h.app->desk.accuracy_area});
   for (const char* text :
-       {"Adaptive sub-stepping takes", "0.01 × load", "10 × load", "found by trying"}) {
+       {"Adaptive sub-stepping takes", "0.01 × load", "10 × load", "found by trial"}) {
     EXPECT_NE(figure.text.find(text), std::string::npos) << text;
   }
   EXPECT_EQ(figure.text.find("Run again"), std::string::npos) << "outside its area";

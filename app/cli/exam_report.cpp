@@ -1,8 +1,9 @@
 #include "app/cli/exam_report.hpp"
-#include "core/model/format_text.hpp"
 
 #include <cmath>
 #include <cstdio>
+
+#include "core/model/format_text.hpp"
 
 namespace substep::cli {
 namespace {

@@ -106,9 +106,9 @@ int run_map(const MapOptions& options) {
     complain("cancelled; the completed runs are in the table, the picture is not written");
     return out.close() ? kCancelled : kBadInput;
   }
+  if (!out.close()) return kBadInput;  // then the checks ended early and cells have no run
   if (picture.is_open()) picture.write(map_picture(cells));
-  const bool written = out.close();
-  return picture.close() && written ? kOk : kBadInput;
+  return picture.close() ? kOk : kBadInput;
 }
 
 }  // namespace

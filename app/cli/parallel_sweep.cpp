@@ -50,7 +50,15 @@ bool run_sweep(const ParallelSweep& sweep) {
     if (!sweep.on_result(at, run.result())) failed = true;
     return !failed;
   };
-  in_parallel(costs.size(), sweep.jobs, run_one, [&] {
+  const auto run_or_fail = [&](std::size_t i) {
+    try {
+      return run_one(i);
+    } catch (...) {
+      failed = true;  // ends the other runs within a frame
+      throw;
+    }
+  };
+  in_parallel(costs.size(), sweep.jobs, run_or_fail, [&] {
     const double work = std::inner_product(done.begin(), done.end(), costs.begin(), 0.0);
     sweep.on_progress(all > 0.0 ? work / all : 1.0);
   });

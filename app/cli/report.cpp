@@ -12,6 +12,7 @@
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
 #include "core/lab/energy_scale.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep::cli {

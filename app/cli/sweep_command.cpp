@@ -25,6 +25,7 @@
 #include "core/io/scene_reader.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/io/stored_sweep.hpp"
+#include "core/model/format_text.hpp"
 #include "core/model/number_text.hpp"
 
 namespace substep::cli {

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/io/object_reader.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/problem.hpp"
 

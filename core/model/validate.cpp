@@ -17,11 +17,27 @@
 namespace substep {
 namespace {
 
+/// Whether the value of a field is allowed. Compares numbers, not texts: those depend on the locale
+/// of the program.
+struct IsAllowed {
+  const Settings& settings;
+
+  bool operator()(const FlagSetting&) const { return true; }
+  bool operator()(const CountSetting& f) const {
+    return settings.*f.member >= f.least && settings.*f.member <= f.most;
+  }
+  bool operator()(const NumberSetting& f) const { return f.range.contains(settings.*f.member); }
+  template <class Enum>
+  bool operator()(const ChoiceSetting<Enum>& f) const {
+    return value_of<Enum>(name_of(settings.*f.member)).has_value();
+  }
+};
+
 void check_settings(const Settings& settings, const std::string& pointer, Problems& problems) {
-  Settings scratch;
   for (const SettingField& field : setting_fields()) {
-    const auto fault = set_setting(field, setting_text(field, settings), scratch);
-    if (fault) problems.push_back({pointer_to(pointer, field.name), *fault});
+    if (std::visit(IsAllowed{settings}, field.member)) continue;
+    problems.push_back(
+        {pointer_to(pointer, field.name), refusal(field, setting_text(field, settings))});
   }
 }
 

@@ -114,6 +114,7 @@ const char* const kCommands[] = {"--help",
                                  "hash pendulum --frames 1",
                                  "scenes",
                                  "scenes --json",
+                                 "map --seconds 0.01 --picture PICTURE",
                                  "generate rope",
                                  "generate rope --out -"};
 
@@ -123,6 +124,9 @@ TEST(Output, UnwritableStandardOutputIsAnError) {
   for (std::string command : kCommands) {
     if (const std::size_t at = command.find("LIST"); at != std::string::npos) {
       command.replace(at, 4, list.string());
+    }
+    if (const std::size_t at = command.find("PICTURE"); at != std::string::npos) {
+      command.replace(at, 7, (folder() / "picture.svg").string());
     }
     for (const char* lost : {">/dev/full", ">&-"}) {
       const Outcome run = scripted(command, "RUN " + std::string(lost));

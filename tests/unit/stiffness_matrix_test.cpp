@@ -1,5 +1,6 @@
 #include "core/constraints/contact.hpp"
 #include "core/constraints/hinge_joint.hpp"
+#include "core/constraints/prismatic_joint.hpp"
 #include "core/constraints/turning_stiffness.hpp"
 #include "tests/unit/support.hpp"
 
@@ -51,9 +52,10 @@ TEST(TurningStiffness, IsTheDiagonalOfTheFullMatrix) {
   Random random(11);
   for (int trial = 0; trial < 60; ++trial) {
     Block block;
-    const int kind = trial % 3;
+    const int kind = trial % 4;
     block.kind = kind == 0   ? kind_of(BallJoint{})
                  : kind == 1 ? kind_of(HingeJoint{})
+                 : kind == 2 ? kind_of(PrismaticJoint{})
                              : BlockKind::kContact;
     block.a = trial % 5 == 3 ? -1 : 0;
     block.b = trial % 5 == 4 ? -1 : 1;
@@ -68,7 +70,8 @@ TEST(TurningStiffness, IsTheDiagonalOfTheFullMatrix) {
     whole.clear(2);
     if (kind == 0) BallRows::stiffness(block, whole);
     if (kind == 1) HingeRows::stiffness(block, whole);
-    if (kind == 2) contact_stiffness(block, ContactTerms::kNormal, whole);
+    if (kind == 2) PrismaticRows::stiffness(block, whole);
+    if (kind == 3) contact_stiffness(block, ContactTerms::kNormal, whole);
     std::vector<Mat3> turning(2, Mat3::Zero());
     add_turning_stiffness(block, turning);
     for (int body = 0; body < 2; ++body) {

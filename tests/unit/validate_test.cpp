@@ -215,7 +215,10 @@ TEST(Simulator, RefusesStatesOfOtherScenesAndKeepsItsOwn) {
       {"/state/rotation", [](State& s) { s.rotation.resize(1); }},
       {"/state/own", [](State& s) { s.own.resize(1); }},
       {"/state/rest", [](State& s) { s.rest.resize(9); }},
-      {"/state/rest/1", [](State& s) { s.rest = {0.0, -0.5, 0.0, 0.0}; }},
+      {"/state/rest/1",
+       [](State& s) {
+         s.rest = {0.0, -0.5, 0.0, 0.0};
+       }},
       {"/state/forces/0",
        [](State& s) {
          s.forces.resize(1);

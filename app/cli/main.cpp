@@ -30,7 +30,7 @@ bool knows_command(const CLI::App& app, const std::string& word) {
   if (word.empty() || word.front() == '-') return true;
   complain("no command is called %s%s", word.c_str(), did_you_mean(word, names).c_str());
   std::string list;
-  for (const std::string_view name : names) (list += ' ') += name;
+  for (const std::string_view name : names) list.append(" ").append(name);
   complain("Commands:%s", list.c_str());
   complain("Run with --help for more information.");
   return false;

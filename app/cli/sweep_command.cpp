@@ -187,7 +187,7 @@ int sweep(const SweepOptions& options, const Shard& shard) {
   parallel.on_result = [&](std::size_t, const Result& result) {
     ++runs;
     if (!result.metrics.holds) ++failed;
-    written = file.append(experiment_id(result.experiment), result_json(result)) && written;
+    if (!file.append(experiment_id(result.experiment), result_json(result))) written = false;
     return written.load();
   };
   ProgressLine progress(!options.quiet && stderr_is_terminal());

@@ -76,12 +76,13 @@ void axes_row(const Look& look, Accuracy& accuracy) {
     axes.push_back(axis);
     names.push_back({kErrorNames[i], axis_name(axis)});
   }
-  if (axes.size() > 1 && segmented_row(look, "Error", names, current, "What goes up")) {
+  if (axes.size() > 1 &&
+      segmented_row(look, "Error", names, current, "Quantity on the vertical axis")) {
     accuracy.error = axes[static_cast<std::size_t>(current)];
   }
   const std::span<const Choice> costs(kCosts);  // the last, the time, is not in files
   choose(look, "Cost", accuracy.shipped() ? costs.first(2) : costs, accuracy.cost,
-         "What goes to the right");
+         "Quantity on the horizontal axis");
 }
 
 bool shows_map(const Accuracy& accuracy) {

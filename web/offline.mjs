@@ -16,10 +16,11 @@ export async function keepOffline() {
     if (data === "there is a new version") source.postMessage("take over");
     if (data === "it has taken over") location.reload();
   });
-  const worker = container.controller; // null on the first visit: nothing to replace
   try {
+    // Null on the first visit: nothing to replace. It is asked before register(), which may wait as
+    // long as an update of the worker itself is pending.
+    container.controller?.postMessage("look");
     await container.register(new URL("service_worker.js", import.meta.url), { updateViaCache: "none" });
-    worker?.postMessage("look");
   } catch (error) {
     console.info("substep: no copy for use without a network:", error.message);
   }

@@ -64,13 +64,39 @@ test("progress is shown while the program loads", async () => {
   await page.context().close();
 });
 
-/** The copies of the page that are kept. */
-const kept = (page) => page.evaluate(async () => (await caches.keys()).join());
+/** Names of the complete copies that are kept. */
+const kept = (page) => page.evaluate(async () => {
+  const whole = [];
+  for (const name of await caches.keys()) {
+    if (await caches.has(name) && (await (await caches.open(name)).keys()).length > 0) whole.push(name);
+  }
+  return whole.join();
+});
+
+/** Waits for a condition that is a promise: waitForFunction() takes any promise for true. */
+async function until(condition, what) {
+  for (const end = Date.now() + 30000; Date.now() < end;) {
+    if (await condition()) return;
+    await new Promise((done) => { setTimeout(done, 50); });
+  }
+  assert.fail(`waited 30 s for ${what}`);
+}
+
+/** Counts how often the list of files was served: each page with a worker looks once. */
+function countLooks() {
+  let served = 0;
+  session.server.on("request", ({ url }, response) => {
+    if (url.endsWith("/files.json")) response.on("finish", () => { ++served; });
+  });
+  return () => served;
+}
 
 test("a new version replaces the stored one", async () => {
+  const looks = countLooks();
   const page = await openPage(session, { offline: true });
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.waitForFunction(() => navigator.serviceWorker.controller);
+  assert.equal(looks(), 1, "that of the worker's installation");
   assert.match(await kept(page), /^substep .*some\/path\/ [0-9a-f]{16}$/);
 
   const list = join(folder, "files.json");
@@ -87,6 +113,7 @@ test("a new version replaces the stored one", async () => {
   assert.match(await kept(page), /^substep .*some\/path\/ 0123456789abcdef$/);
 
   // A page in use is not replaced: the new version is used at the next start.
+  await until(() => looks() >= 3, "the looks of the old and the new version");
   await writeFile(list, old);
   await writeFile(index, (await readFile(index, "utf8")).replace('"new"', '"newer"'));
   await page.addInitScript(() => { // a key before anything else can happen
@@ -97,7 +124,7 @@ test("a new version replaces the stored one", async () => {
   await page.goto("about:blank");
   await page.goto(session.address, { waitUntil: "domcontentloaded" });
   await running(page);
-  await page.waitForFunction(async () => (await caches.keys()).length === 2, null, { timeout: 30000 });
+  await until(async () => (await kept(page)).split(",").length === 2, "a copy of the newer version");
   assert.equal(await page.evaluate(() => document.head.dataset.version), "new");
   await page.close();
   // The browser activates it some time after the last page of the old version was closed.

@@ -6,7 +6,6 @@
 #include "app/cli/cancel.hpp"
 #include "app/cli/checks.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/hard_table.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/scene_source.hpp"
 #include "app/cli/within.hpp"

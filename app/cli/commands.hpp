@@ -2,6 +2,7 @@
 // The subcommands of the command line, one file each.
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 namespace substep::cli {
 
@@ -26,5 +27,16 @@ void add_hash(CLI::App& app, int& exit_code);
 void add_scenes(CLI::App& app, int& exit_code);
 void add_generate(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
+
+/// Runs experiments, one JSON object per line, and prints one result per line as each completes.
+/// @param path file, or "-" for standard input
+/// @param scene name or file of the scene used by the experiments; "": shipped scenes
+/// @return exit code; an invalid line is reported on stderr and the others still run
+int run_experiments(const std::string& path, const std::string& scene);
+
+/// Runs the hard set with every setting that could be recommended and prints the verdicts and costs
+/// as Markdown. @param jobs parallel runs; 0: one per processor
+/// @return false if cancelled; nothing is printed in that case
+bool print_hard_table(int jobs);
 
 }  // namespace substep::cli

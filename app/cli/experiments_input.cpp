@@ -1,5 +1,3 @@
-#include "app/cli/experiments_input.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>

@@ -1,5 +1,3 @@
-#include "app/cli/hard_table.hpp"
-
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -7,6 +5,7 @@
 
 #include "app/cli/cancel.hpp"
 #include "app/cli/checks.hpp"
+#include "app/cli/commands.hpp"
 #include "app/cli/message.hpp"
 #include "core/lab/presets.hpp"
 #include "scenes/generator/hard_set.hpp"

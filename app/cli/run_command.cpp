@@ -7,7 +7,6 @@
 
 #include "app/cli/cancel.hpp"
 #include "app/cli/commands.hpp"
-#include "app/cli/experiments_input.hpp"
 #include "app/cli/flags.hpp"
 #include "app/cli/message.hpp"
 #include "app/cli/output.hpp"

@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "app/text/tour_replies.hpp"
-
 namespace substep {
 
 std::span<const TourStep> tour_steps() {

@@ -28,6 +28,16 @@ struct TourStep {
   TourReply (*reply)(const Lab& lab, const RunLoop::Outcome& outcome);
 };
 
+// Feedback on the tasks of the steps: computed from the last pass of the loop, without constants.
+TourReply reply_lighter_box(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_break_it(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_lose_less(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_range_of_n(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_double_n(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_heavier_box(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_changing_load(const Lab& lab, const RunLoop::Outcome& outcome);
+TourReply reply_half_the_substeps(const Lab& lab, const RunLoop::Outcome& outcome);
+
 /// The scene of a step.
 std::string_view scene_of(const TourStep& step);
 

@@ -1,9 +1,8 @@
-#include "app/text/tour_replies.hpp"
-
 #include <cmath>
 #include <string>
 
 #include "app/text/format.hpp"
+#include "app/text/tour.hpp"
 #include "app/text/tour_words.hpp"
 
 namespace substep {

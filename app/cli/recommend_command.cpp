@@ -16,7 +16,7 @@
 #include "app/cli/scene_source.hpp"
 #include "app/cli/within.hpp"
 #include "core/io/experiment.hpp"
-#include "core/io/json_print.hpp"
+#include "core/io/json.hpp"
 #include "core/io/recommended_json.hpp"
 #include "core/io/scene_writer.hpp"
 #include "core/lab/alpha_search.hpp"

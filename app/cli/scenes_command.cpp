@@ -12,7 +12,7 @@ namespace {
 
 std::string effect_list(const Effects& effects) {
   std::string list;
-  for (const NamedEffect& effect : kEffectNames) {
+  for (const EffectEntry& effect : kEffects) {
     if (!(effects.*effect.member)) continue;
     if (!list.empty()) list += ", ";
     list += effect.name;
@@ -41,7 +41,7 @@ int list_scenes(bool as_json) {
       result["bodies"] = scene->bodies.size();
       result["joints"] = scene->joints.size();
       Json& effects = result["effects"] = Json::array();
-      for (const NamedEffect& effect : kEffectNames) {
+      for (const EffectEntry& effect : kEffects) {
         if (scene->effects.*effect.member) effects.push_back(effect.name);
       }
       results.push_back(result);

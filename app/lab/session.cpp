@@ -14,8 +14,7 @@ Scene edition_of(const Scene& scene, const State& state, const Settings& setting
   Scene out = saved_scene(scene, state, settings);
   out.group = kOwnGroup;
   Effects& effects = out.effects;
-  effects.friction = effects.friction && effects.contact;
-  effects.restitution = effects.restitution && effects.contact;
+  disable_dependents(effects);
   if (!effects.joints) out.joints.clear();
   for (Body& body : out.bodies) {
     if (!effects.friction) body.friction = 0.0;

@@ -69,7 +69,7 @@ std::vector<Vec3> lower_part(const std::array<Vec3, 8>& corners, const FloorFram
 }
 
 // The direction in the floor of the edge that is longest there: it turns with the body.
-Vec3 direction_of(const Box& box, const Quat& q, const Vec3& normal) {
+Vec3 direction_of(const RoundedBox& box, const Quat& q, const Vec3& normal) {
   Vec3 longest = Vec3::Zero();
   for (int i = 0; i < 3; ++i) {
     const Vec3 edge = q * (box.half_extents[i] * Vec3::Unit(i));
@@ -79,53 +79,37 @@ Vec3 direction_of(const Box& box, const Quat& q, const Vec3& normal) {
   return longest.normalized();
 }
 
-// The footprint of each shape; nothing for a plane.
-struct Stand {
-  const FloorFrame& floor;
-  const Vec3& x;
-  const Quat& q;
+Footprint footprint_of_ball(double radius, const FloorFrame& floor, const Vec3& x) {
+  const double half = kBallFootprint * radius;
+  const Vec3 u = floor.normal.unitOrthogonal();
+  return {floor.below(x), u, half, half, floor.height(x) - radius, 2.0 * radius, true};
+}
 
-  std::optional<Footprint> operator()(const Sphere& sphere) const {
-    const double half = kBallFootprint * sphere.radius;
-    return Footprint{floor.below(x),
-                     floor.normal.unitOrthogonal(),
-                     half,
-                     half,
-                     floor.height(x) - sphere.radius,
-                     2.0 * sphere.radius,
-                     true};
+Footprint footprint_of_box(const RoundedBox& box, const FloorFrame& floor, const Vec3& x,
+                           const Quat& q) {
+  std::array<Vec3, 8> corners;
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
+    corners[i] = x + q * box.half_extents.cwiseProduct(sign);
+    low = std::min(low, floor.height(corners[i]));
+    high = std::max(high, floor.height(corners[i]));
   }
-  std::optional<Footprint> operator()(const Box& box) const {
-    std::array<Vec3, 8> corners;
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Vec3 sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
-      corners[i] = x + q * box.half_extents.cwiseProduct(sign);
-      low = std::min(low, floor.height(corners[i]));
-      high = std::max(high, floor.height(corners[i]));
-    }
-    const Vec3 u = direction_of(box, q, floor.normal);
-    const Vec3 v = floor.normal.cross(u);
-    Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity());
-    Vec2 most = -least;
-    for (const Vec3& p : lower_part(corners, floor, low + kLowestPart * (high - low))) {
-      const Vec2 at(u.dot(p - x), v.dot(p - x));
-      least = least.cwiseMin(at);
-      most = most.cwiseMax(at);
-    }
-    const Vec2 middle = 0.5 * (least + most);
-    const Vec2 half = 0.5 * (most - least);
-    return Footprint{floor.below(x + middle.x() * u + middle.y() * v),
-                     u,
-                     half.x(),
-                     half.y(),
-                     low,
-                     high - low,
-                     false};
+  const Vec3 u = direction_of(box, q, floor.normal);
+  const Vec3 v = floor.normal.cross(u);
+  Vec2 least = Vec2::Constant(std::numeric_limits<double>::infinity());
+  Vec2 most = -least;
+  for (const Vec3& p : lower_part(corners, floor, low + kLowestPart * (high - low))) {
+    const Vec2 at(u.dot(p - x), v.dot(p - x));
+    least = least.cwiseMin(at);
+    most = most.cwiseMax(at);
   }
-  std::optional<Footprint> operator()(const Plane& /*plane*/) const { return std::nullopt; }
-};
+  const Vec2 middle = 0.5 * (least + most);
+  const Vec2 half = 0.5 * (most - least);
+  const Vec3 at = floor.below(x + middle.x() * u + middle.y() * v);
+  return {at, u, half.x(), half.y(), low, high - low, false};
+}
 
 }  // namespace
 
@@ -139,9 +123,12 @@ std::vector<SoftShadow> contact_shadows(const Scene& scene, const Poses& poses,
     const double reach = radius_around(body.shape);
     // Skips bodies that have fallen through the floor, bodies far above it, and NaN.
     if (!(above > -reach) || !(above < 8.0 * reach)) continue;
-    const auto print = std::visit(Stand{floor, poses.x[i], poses.q[i]}, body.shape);
-    if (!print) continue;
-    if (const auto shadow = shadow_of(*print)) shadows.push_back(*shadow);
+    const auto solid = outline(body.shape);
+    if (!solid) continue;
+    const Footprint print = solid->is_ball()
+                                ? footprint_of_ball(solid->rounding, floor, poses.x[i])
+                                : footprint_of_box(*solid, floor, poses.x[i], poses.q[i]);
+    if (const auto shadow = shadow_of(print)) shadows.push_back(*shadow);
   }
   return shadows;
 }

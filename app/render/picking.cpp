@@ -11,20 +11,20 @@ namespace {
 constexpr double kMiss = std::numeric_limits<double>::infinity();
 
 // Entry of a ray from outside into a ball about the origin. @return distance, or kMiss
-double enter(const Sphere& sphere, const Vec3& from, const Vec3& along) {
+double enter_ball(double radius, const Vec3& from, const Vec3& along) {
   const double middle = -from.dot(along);
-  const double half_squared = sphere.radius * sphere.radius - (from + middle * along).squaredNorm();
+  const double half_squared = radius * radius - (from + middle * along).squaredNorm();
   if (half_squared < 0.0) return kMiss;
   const double distance = middle - std::sqrt(half_squared);
   return distance >= 0.0 ? distance : kMiss;
 }
 
 // The same for a box by the slab method.
-double enter(const Box& box, const Vec3& from, const Vec3& along) {
+double enter_box(const Vec3& half_extents, const Vec3& from, const Vec3& along) {
   double first = 0.0;
   double last = kMiss;
   for (int i = 0; i < 3; ++i) {
-    const double half = box.half_extents[i];
+    const double half = half_extents[i];
     if (along[i] == 0.0) {
       if (std::abs(from[i]) > half) return kMiss;
       continue;
@@ -36,8 +36,6 @@ double enter(const Box& box, const Vec3& from, const Vec3& along) {
   }
   return first <= last && first > 0.0 ? first : kMiss;
 }
-
-double enter(const Plane& /*plane*/, const Vec3& /*from*/, const Vec3& /*along*/) { return kMiss; }
 
 }  // namespace
 
@@ -54,11 +52,13 @@ Ray ray_through(const Eigen::Matrix4d& view_projection, double x, double y) {
 std::optional<Hit> first_hit(const Ray& ray, const Scene& scene, const Poses& poses) {
   Hit best{-1, kMiss};
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto solid = outline(scene.bodies[i].shape);
+    if (!solid) continue;
     const Quat to_body = poses.q[i].conjugate();
     const Vec3 from = to_body * (ray.origin - poses.x[i]);
     const Vec3 along = to_body * ray.direction;
-    const double distance = std::visit([&](const auto& shape) { return enter(shape, from, along); },
-                                       scene.bodies[i].shape);
+    const double distance = solid->is_ball() ? enter_ball(solid->rounding, from, along)
+                                             : enter_box(solid->half_extents, from, along);
     if (distance < best.distance) best = {static_cast<int>(i), distance};
   }
   if (best.body < 0) return std::nullopt;

@@ -59,17 +59,18 @@ void add_ball(std::vector<Instance>& out, const Vec3& x, const Quat& q, double r
 }
 
 // A plane is the ground of the picture.
-struct ShapeDrawing {
-  std::vector<Instance>& boxes;
-  std::vector<Instance>& balls;
-  const Vec3& x;
-  const Quat& q;
-  const Color& color;
-
-  void operator()(const Sphere& sphere) const { add_ball(balls, x, q, sphere.radius, true, color); }
-  void operator()(const Box& box) const { add_box(boxes, x, q, box.half_extents, color); }
-  void operator()(const Plane&) const {}
-};
+void add_body(std::vector<Instance>& boxes, std::vector<Instance>& balls, const Shape& shape,
+              const Vec3& x, const Quat& q, const Color& color) {
+  const auto solid = outline(shape);
+  if (!solid) return;
+  if (solid->is_ball()) {
+    add_ball(balls, x, q, solid->rounding, true, color);
+  } else if (solid->rounding > 0.0) {
+    add_box(boxes, x, q, solid->half_extents, solid->rounding, color);
+  } else {
+    add_box(boxes, x, q, solid->half_extents, color);
+  }
+}
 
 // The support of a body at a point off its surface. @param half its half thickness [m]
 void add_rod(std::vector<Instance>& out, const Vec3& from, const Vec3& to, double half,
@@ -205,7 +206,7 @@ void SceneView::add_bodies(const Seen& seen, const ViewOptions& options, const V
       color = t < 0.5 ? mix(low, palette.stiff_mid, 2.0 * t)
                       : mix(palette.stiff_mid, palette.stiff_high, 2.0 * t - 1.0);
     }
-    std::visit(ShapeDrawing{out.boxes, out.balls, poses.x[i], poses.q[i], color}, body.shape);
+    add_body(out.boxes, out.balls, body.shape, poses.x[i], poses.q[i], color);
   }
 }
 
@@ -215,8 +216,7 @@ void SceneView::add_ghost(const Scene& scene, const Poses& poses, const Color& c
     const Body& body = scene.bodies[i];
     if (body.is_static) continue;  // identical to the session's own
     if (!(poses.x[i].norm() < kAway)) continue;
-    std::visit(ShapeDrawing{out.ghost_boxes, out.ghost_balls, poses.x[i], poses.q[i], color},
-               body.shape);
+    add_body(out.ghost_boxes, out.ghost_balls, body.shape, poses.x[i], poses.q[i], color);
   }
 }
 

@@ -29,7 +29,7 @@ namespace substep {
 namespace {
 
 constexpr std::uint8_t kVersion = 1;
-enum Kind : std::uint8_t { kBall, kEffects, kGrab, kMove, kLetGo, kSettings, kKinds };
+enum Kind : std::uint8_t { kBall, kSwitch, kGrab, kMove, kLetGo, kSettings, kKinds };
 constexpr unsigned kKindBits = 3;
 constexpr std::int64_t kMostFrames = 100'000'000;
 constexpr std::size_t kMostCopies = 12'000;  // limit on body copies by balls and switched effects
@@ -87,10 +87,10 @@ class EventWriter {
     last_ball_ = values;
   }
   void write(std::int64_t frame, const Effects& effects) {
-    head(frame, kEffects);
+    head(frame, kSwitch);
     unsigned bits = 0;
-    for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
-      bits |= (effects.*kEffectNames[i].member ? 1U : 0U) << i;
+    for (std::size_t i = 0; i < kEffects.size(); ++i) {
+      bits |= (effects.*kEffects[i].member ? 1U : 0U) << i;
     }
     out_.bytes.push_back(static_cast<std::uint8_t>(bits));
   }
@@ -144,7 +144,7 @@ class EventReader {
       case kBall:
         event.what = ball(problem);
         break;
-      case kEffects:
+      case kSwitch:
         event.what = effects();
         break;
       case kGrab:
@@ -180,8 +180,8 @@ class EventReader {
   Effects effects() {
     Effects effects;
     const unsigned bits = in_.byte();
-    for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
-      effects.*kEffectNames[i].member = (bits >> i & 1U) != 0;
+    for (std::size_t i = 0; i < kEffects.size(); ++i) {
+      effects.*kEffects[i].member = (bits >> i & 1U) != 0;
     }
     return effects;
   }

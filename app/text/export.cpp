@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <string_view>
 
+#include "core/forces/applied_forces.hpp"
+
 namespace substep {
 namespace {
 
@@ -66,7 +68,7 @@ std::string history_csv(const Scene& scene, std::span<const ExportedRun> runs,
   for (const Column& column : kColumns) {
     const bool wanted =
         std::find(channels.begin(), channels.end(), column.channel) != channels.end();
-    if (column.channel == Channel::kPotential && !has_potential(scene.effects)) continue;
+    if (column.channel == Channel::kPotential && !has_applied_forces(scene.effects)) continue;
     if (wanted && (!column.effect || scene.effects.*column.effect)) columns.push_back(column);
   }
   const bool named = runs.size() > 1;

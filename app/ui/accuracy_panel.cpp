@@ -10,11 +10,8 @@
 
 #include "app/text/format.hpp"
 #include "app/ui/accuracy_curves.hpp"
-#include "app/ui/accuracy_picture.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/panels.hpp"
-#include "app/ui/stability_map.hpp"
-#include "app/ui/trade_chart.hpp"
 #include "app/ui/vector_figure.hpp"
 #include "app/ui/widgets.hpp"
 

@@ -1,5 +1,3 @@
-#include "app/ui/accuracy_picture.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,6 +10,7 @@
 #include "app/ui/accuracy_axes.hpp"
 #include "app/ui/accuracy_curves.hpp"
 #include "app/ui/handles.hpp"
+#include "app/ui/panels.hpp"
 #include "app/ui/plot_labels.hpp"
 #include "app/ui/widgets.hpp"
 

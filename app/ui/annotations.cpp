@@ -205,26 +205,27 @@ std::vector<ScreenPoint> outline(const Sketch& in, std::size_t body) {
     ImVec2 p;
     if (project(in.viewport, corner, p)) points.push_back({p.x, p.y});
   };
-  const Shape& shape = in.session.scene().bodies[body].shape;
-  if (const auto* box = std::get_if<Box>(&shape)) {
+  const auto solid = substep::outline(in.session.scene().bodies[body].shape);
+  if (solid && !solid->is_ball()) {
     for (int corner = 0; corner < 8; ++corner) {
       const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
                       (corner & 4) != 0 ? 1 : -1);
-      add(x + poses.q[body] * box->half_extents.cwiseProduct(sign));
+      add(x + poses.q[body] * solid->half_extents.cwiseProduct(sign));
     }
-  } else if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+  } else if (solid) {
+    const double radius = solid->rounding;
     // The rim is the circle where rays from the eye are tangent.
     const Vec3 to_eye = in.viewport.view.camera.eye(in.viewport.panes.front()) - x;
     const double distance = to_eye.norm();
-    if (distance <= sphere->radius) return points;
+    if (distance <= radius) return points;
     const Vec3 back = to_eye / distance;
     const Vec3 right = back.unitOrthogonal();
     const Vec3 up = back.cross(right);
-    const double sine = sphere->radius / distance;
-    const double rim = sphere->radius * std::sqrt(1.0 - sine * sine);
+    const double sine = radius / distance;
+    const double rim = radius * std::sqrt(1.0 - sine * sine);
     for (int i = 0; i < 48; ++i) {
       const double a = 2.0 * 3.14159265358979 * i / 48.0;
-      add(x + sphere->radius * sine * back + rim * (std::cos(a) * right + std::sin(a) * up));
+      add(x + radius * sine * back + rim * (std::cos(a) * right + std::sin(a) * up));
     }
   }
   return points;

@@ -15,22 +15,24 @@ namespace {
 
 constexpr float kTimeColumn = 64.0F;
 
-/// Text of the tip, and the fields of a frame's report for each effect.
-struct EffectFacts {
-  const char* tip;
-  int FrameReport::*rows;       // null: no rows of its own
-  double StageTimes::*seconds;  // null: no stage of its own
+/// The rows of an effect in a frame's report, and the time to build them.
+struct EffectRows {
+  bool Effects::*effect;
+  int FrameReport::*count;
+  double StageTimes::*seconds;
 };
-constexpr std::array<EffectFacts, kEffectNames.size()> kFacts{
-    {{"Weight: m g on every moving body.", nullptr, nullptr},
-     {"The torque I ω × ω of bodies with unequal moments.", nullptr, nullptr},
-     {"All joints. Off: bodies are not connected.", &FrameReport::joint_rows, &StageTimes::joints},
-     {"Contacts. Off: bodies pass through each other.", &FrameReport::contact_rows,
-      &StageTimes::contact},
-     {"Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.", &FrameReport::friction_rows,
-      &StageTimes::friction},
-     {"Contacts that bounce (Newton's law).", nullptr, nullptr},
-     {"Constant forces and torques of the scene on its bodies.", nullptr, nullptr}}};
+constexpr EffectRows kRows[] = {
+    {&Effects::joints, &FrameReport::joint_rows, &StageTimes::joints},
+    {&Effects::contact, &FrameReport::contact_rows, &StageTimes::contact},
+    {&Effects::friction, &FrameReport::friction_rows, &StageTimes::friction}};
+
+/// Null for an effect without rows of its own.
+const EffectRows* rows_of(const EffectEntry& effect) {
+  for (const EffectRows& rows : kRows) {
+    if (rows.effect == effect.member) return &rows;
+  }
+  return nullptr;
+}
 
 /// Right-aligned in the two columns at the end of a line.
 void columns(const Look& look, ImVec2 at, float width, ImU32 color, const std::string& rows,
@@ -48,17 +50,17 @@ const EffectCost* cost_of(const CostBreakdown* costs, std::string_view effect) {
 }
 
 /// Cost of an effect: the full cost if measured, else the time of its own stage.
-std::string time_text(const Session& session, const EffectFacts& facts, const EffectCost* cost) {
+std::string time_text(const Session& session, const EffectRows* rows, const EffectCost* cost) {
   if (cost != nullptr) return duration(1e-3 * cost->ms);
-  return facts.seconds != nullptr ? duration(session.times().*facts.seconds) : "–";
+  return rows != nullptr ? duration(session.times().*rows->seconds) : "–";
 }
 
-std::string tip_text(const EffectFacts& facts, const EffectCost* cost) {
-  std::string tip = facts.tip;
+std::string tip_text(const EffectEntry& effect, const EffectCost* cost) {
+  std::string tip = effect.about;
   if (cost != nullptr) {
     tip += "\nAdds " + duration(1e-3 * cost->ms) + " and " + short_number(cost->flops) +
            " solver operations per frame.";
-  } else if (facts.seconds != nullptr) {
+  } else if (rows_of(effect) != nullptr) {
     tip += "\nThe time is that of building its rows; the time to solve them must be measured.";
   } else {
     tip += "\nIt has no stage of its own: its cost must be measured.";
@@ -73,11 +75,10 @@ void effect_switches(const Look& look, Session& session) {
   bool first = true;
   ImGui::PushID("effects");  // "joints" is also a display option
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {6.0F, 6.0F});
-  for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
-    const auto& [name, member] = kEffectNames[i];
-    if (!(session.loaded().effects.*member)) continue;
-    const std::string tip = std::string(kFacts[i].tip) + "\nOff until a reset.";
-    toggle(look, name.data(), effects.*member, 0, first, tip);
+  for (const EffectEntry& effect : kEffects) {
+    if (!(session.loaded().effects.*effect.member)) continue;
+    const std::string tip = std::string(effect.about) + "\nOff until a reset.";
+    toggle(look, effect.name.data(), effects.*effect.member, 0, first, tip);
     first = false;
   }
   ImGui::PopStyleVar();
@@ -94,21 +95,20 @@ void effect_table(const Look& look, Lab& lab) {
   label(look.fonts.small, t.dim, "Effects");
 
   const float text = text_size(look.fonts.small, "0").y;
-  for (std::size_t i = 0; i < kEffectNames.size(); ++i) {
-    const auto& [name, member] = kEffectNames[i];
-    if (!(session.loaded().effects.*member)) continue;
-    const EffectCost* cost = cost_of(costs, name);
+  for (const EffectEntry& effect : kEffects) {
+    if (!(session.loaded().effects.*effect.member)) continue;
+    const EffectCost* cost = cost_of(costs, effect.name);
+    const EffectRows* rows = rows_of(effect);
     const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool on = session.scene().effects.*member;
-    draw_text(look.fonts.small, at, on ? t.text : t.dim, name.data());
-    int FrameReport::*const rows = kFacts[i].rows;
+    const bool on = session.scene().effects.*effect.member;
+    draw_text(look.fonts.small, at, on ? t.text : t.dim, effect.name.data());
     columns(look, at, width, on ? t.text : t.dim,
-            on && rows != nullptr ? grouped(session.report().*rows) : "–",
-            on ? time_text(session, kFacts[i], cost) : "–");
-    ImGui::PushID(static_cast<int>(i));
+            on && rows != nullptr ? grouped(session.report().*rows->count) : "–",
+            on ? time_text(session, rows, cost) : "–");
+    ImGui::PushID(effect.name.data());
     ImGui::InvisibleButton("cost", {width, text});
     ImGui::PopID();
-    tooltip(look, name.data(), tip_text(kFacts[i], cost));
+    tooltip(look, effect.name.data(), tip_text(effect, cost));
   }
 
   if (lab.accuracy.effects.running()) {

@@ -10,6 +10,7 @@
 #include "app/ui/plot_headings.hpp"
 #include "app/ui/plots.hpp"
 #include "app/ui/widgets.hpp"
+#include "core/forces/applied_forces.hpp"
 #include "core/lab/energy_scale.hpp"
 
 namespace substep::ui {
@@ -66,7 +67,7 @@ void energy_plot(const PlotContext& in) {
   const Look& look = in.look;
   const Theme& t = *look.theme;
   const History& h = in.session.history();
-  const bool gravity = has_potential(in.session.scene().effects);
+  const bool gravity = has_applied_forces(in.session.scene().effects);
   const bool several = in.compare.open();
   const double zero = h.potential_offset();
   double most = largest_of_stable(in, &History::largest_kinetic);

@@ -122,20 +122,22 @@ void body_labels(const Look& look, const Lab& lab, const Desk& desk, const Viewp
     const bool below = scene.effects.joints && !scene.effects.contact;
     float low = p.y;
     float high = p.y;
-    if (const auto* box = std::get_if<Box>(&body.shape)) {
+    const auto solid = outline(body.shape);
+    if (solid && !solid->is_ball()) {
       for (int corner = 0; corner < 8; ++corner) {
         const Vec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
                         (corner & 4) != 0 ? 1 : -1);
         ImVec2 c;
-        if (project(viewport, poses.x[i] + poses.q[i] * box->half_extents.cwiseProduct(sign), c)) {
+        if (project(viewport, poses.x[i] + poses.q[i] * solid->half_extents.cwiseProduct(sign),
+                    c)) {
           low = std::max(low, c.y);
           high = std::min(high, c.y);
         }
       }
-    } else if (const auto* sphere = std::get_if<Sphere>(&body.shape)) {
+    } else if (solid) {
       ImVec2 c;
-      if (project(viewport, poses.x[i] - Vec3(0.0, sphere->radius, 0.0), c)) low = c.y;
-      if (project(viewport, poses.x[i] + Vec3(0.0, sphere->radius, 0.0), c)) high = c.y;
+      if (project(viewport, poses.x[i] - Vec3(0.0, solid->rounding, 0.0), c)) low = c.y;
+      if (project(viewport, poses.x[i] + Vec3(0.0, solid->rounding, 0.0), c)) high = c.y;
     }
     const ImVec2 at(p.x - 0.5F * size.x, below ? low + 6.0F : high - 8.0F - size.y);
     constexpr float kCaption = 68.0F;  // height of the caption above

@@ -5,6 +5,8 @@
 #include <imgui.h>
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,6 +76,21 @@ void advice(const Look& look, Lab& lab);
 void search_bar(const Look& look, Accuracy& accuracy);
 /// The accuracy picture over the view, while that is selected.
 void accuracy_card(const Look& look, Lab& lab, Desk& desk, const Viewport& viewport);
+/// Error against cost on logarithmic axes: a curve per method, the Pareto front, the failed runs on
+/// a separate rail. @param current settings of the run, ringed @return the result that was clicked
+std::optional<std::size_t> accuracy_picture(const Look& look, const Accuracy& accuracy,
+                                            const Settings& current, ImVec2 size);
+/// Survival time by mass ratio and mode parameter: one cell each, blue if stable, orange if it
+/// fails, paler for later failures. The current run is framed, and a line over constant N shows the
+/// mean N of adaptive sub-stepping. @param width logical pixels
+/// @return the result whose cell is pressed, dragged over or reached by an arrow key
+std::optional<std::size_t> stability_map(const Look& look, const Lab& lab, float width);
+/// The conclusion of the comparison with a constant N, and the choice of its alpha.
+void trade_head(const Look& look, Accuracy& accuracy);
+/// Sub-steps per frame under each load: a bar for adaptive sub-stepping and one for the smallest
+/// constant N that is as accurate, each with its error; a line for the constant N that serves all
+/// loads. @param width logical pixels @return the result whose bar was clicked
+std::optional<std::size_t> trade_chart(const Look& look, Accuracy& accuracy, float width);
 /// Rectangles of the runs: the whole view, or equal parts side by side or stacked, whichever shows
 /// the scene larger.
 std::vector<ViewRect> view_panes(const Compare& compare, const Desk& desk,

@@ -1,5 +1,3 @@
-#include "app/ui/stability_map.hpp"
-
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -13,8 +11,8 @@
 #include "app/text/verdict_words.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
+#include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
-#include "core/stepping/mode_rules.hpp"
 
 namespace substep::ui {
 namespace {
@@ -138,7 +136,7 @@ struct Path {
 /// At the scene's own alpha, or the nearest on the map.
 Path path_of(const Accuracy& accuracy, const std::vector<Grid>& grids) {
   const auto adaptive = std::find_if(grids.begin(), grids.end(), [](const Grid& g) {
-    return rules_of(g.settings.mode).count == SubstepCount::kStable;
+    return entry_of(g.settings.mode).count == SubstepCount::kStable;
   });
   if (adaptive == grids.end()) return {};
   const auto distance = [&](double alpha) {

@@ -1,5 +1,3 @@
-#include "app/ui/trade_chart.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "app/ui/accuracy_curves.hpp"
 #include "app/ui/curve_style.hpp"
 #include "app/ui/handles.hpp"
+#include "app/ui/panels.hpp"
 #include "app/ui/widgets.hpp"
 #include "core/lab/axes.hpp"
 #include "core/lab/fair_trade.hpp"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/forces/applied_forces.hpp"
+
 namespace substep {
 
 namespace {
@@ -15,9 +17,7 @@ bool is_box(const Scene& scene, int body) {
 
 double way_in(double time, const Scene& scene, const Body& body, const Vec6& u) {
   if (body.is_static) return 0.0;
-  double gained = scene.effects.gravity ? time * scene.gravity.norm() : 0.0;
-  if (scene.effects.external) gained += time * fastest_gain(body);
-  return time * (fastest_point(body, u) + gained);
+  return time * (fastest_point(body, u) + time * fastest_gain(scene, body));
 }
 
 Detector::Detector(const Scene& scene) : broad_phase_(scene) {

@@ -1,12 +1,19 @@
 #pragma once
 
 #include "core/constraints/ball_joint.hpp"
+#include "core/math/across.hpp"
 
 namespace substep {
 
 /// d2/dt2 of s . t [1/s^2], where s rotates with a and t with b at constant rates.
 /// @param omega_a, omega_b [rad/s]
-double dot_curvature(const Vec3& s, const Vec3& t, const Vec3& omega_a, const Vec3& omega_b);
+inline double dot_curvature(const Vec3& s, const Vec3& t, const Vec3& omega_a,
+                            const Vec3& omega_b) {
+  // (s . t)'' = s'' . t + 2 s' . t' + s . t''
+  const Vec3 s_dot = omega_a.cross(s);
+  const Vec3 t_dot = omega_b.cross(t);
+  return omega_a.cross(s_dot).dot(t) + 2.0 * s_dot.dot(t_dot) + s.dot(omega_b.cross(t_dot));
+}
 
 // C     = u . v                        u rotates with a, v with b
 // dC/dt = (omega_a x u) . v + u . (omega_b x v) = omega_a . (u x v) - omega_b . (u x v)
@@ -14,15 +21,33 @@ double dot_curvature(const Vec3& s, const Vec3& t, const Vec3& omega_a, const Ve
 /// A hinge: rows 0..2 of a ball joint, and rows 3, 4, phi = u . v_k [-], which keep the axes
 /// parallel. The functions are documented in JointRows.
 struct HingeRows {
-  static void constants(const HingeJoint& joint, Block& block);
-  static JointGeometry geometry(const HingeJoint& joint);
+  static void constants(const HingeJoint& joint, Block& block) {
+    BallRows::constants(joint, block);
+    block.rows = 5;
+    for (int row = 3; row < 5; ++row) {
+      block.C[row] = joint.angular_compliance;
+      for (int j = 0; j < 3; ++j) block.J_a[row][j] = 0.0;
+    }
+  }
+
+  static JointGeometry geometry(const HingeJoint& joint) {
+    JointGeometry geometry{joint.anchor_a, joint.anchor_b, joint.axis_a};
+    across(joint.axis_b, geometry.v1, geometry.v2);
+    return geometry;
+  }
 
   static void rows(const JointGeometry& joint, const Side& a, const Side& b, Block& block) {
     BallRows::rows(joint, a, b, block);
     set_axes(block, a.R * joint.u, b.R * joint.v1, b.R * joint.v2);
   }
 
-  static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature);
+  static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature) {
+    BallRows::curvature(block, u_a, u_b, curvature);
+    const Vec3 omega_a = u_a.tail<3>();
+    const Vec3 omega_b = u_b.tail<3>();
+    curvature[3] = dot_curvature(block.axis, block.v1, omega_a, omega_b);
+    curvature[4] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
+  }
 
   // Torque on a: l u x v. Rotating a: l (theta x u) x v = l [v][u] theta. Rotating b:
   // l u x (theta x v) = -l [u][v] theta. On b the torque is the opposite. All terms are linear in
@@ -41,14 +66,37 @@ struct HingeRows {
   }
 
   static void move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
-                   Block& moved);
-  static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);
+                   Block& moved) {
+    BallRows::move(start, a, b, rows, moved);
+    if (!rows.reaches(3, 5)) return;
+    set_axes(moved, a.R * start.axis, b.R * start.v1, b.R * start.v2);
+    moved.phi[3] -= start.axis.dot(start.v1);
+    moved.phi[4] -= start.axis.dot(start.v2);
+  }
+
+  static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {
+    BallRows::moved_errors(start, a, b, phi);
+    const Vec3 axis = a.R * start.axis;
+    phi[3] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
+    phi[4] = axis.dot(b.R * start.v2) - start.axis.dot(start.v2);
+  }
+
   static Vec3 force(const Block& block, const double* force) {
     return BallRows::force(block, force);
   }
-  static Vec3 torque(const Block& block, const double* force);
+
+  static Vec3 torque(const Block& block, const double* force) {
+    return force[3] * block.axis.cross(block.v1) + force[4] * block.axis.cross(block.v2);
+  }
+
   static void push_change(const Block& block, const Motion& a, const Motion& b, const double* force,
-                          Vec6& on_a, Vec6& on_b);
+                          Vec6& on_a, Vec6& on_b) {
+    const Vec3 f{force[0], force[1], force[2]};
+    const Vec3 w = force[3] * block.v1 + force[4] * block.v2;
+    const Vec3 couple = (a.R * block.axis).cross(b.R * w) - block.axis.cross(w);
+    on_a.tail<3>() += (a.R * block.r_a - block.r_a).cross(f) + couple;
+    on_b.tail<3>() -= (b.R * block.r_b - block.r_b).cross(f) + couple;
+  }
 
  private:
   /// Sets the axes of a block, and phi and J of its angular rows.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "core/constraints/hinge_joint.hpp"
 
 namespace substep {
@@ -20,10 +22,61 @@ namespace substep {
 /// axis and the direction perpendicular to it in a; v_1 is that direction in b and v_2 completes
 /// b's axes. The functions are documented in JointRows.
 struct PrismaticRows {
-  static void constants(const PrismaticJoint& joint, Block& block);
-  static JointGeometry geometry(const PrismaticJoint& joint);
-  static void rows(const JointGeometry& joint, const Side& a, const Side& b, Block& block);
-  static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature);
+  static void constants(const PrismaticJoint& joint, Block& block) {
+    block.rows = 5;
+    block.position_rows = 2;
+    block.has_point_rows = false;
+    std::fill_n(block.active_set, kMaxRows, std::int8_t{0});  // rows of joints have no bounds
+    std::fill_n(block.C, 2, joint.compliance);
+    std::fill_n(block.C + 2, 3, joint.angular_compliance);
+  }
+
+  static JointGeometry geometry(const PrismaticJoint& joint) {
+    JointGeometry geometry{joint.anchor_a, joint.anchor_b, joint.axis_a};
+    const auto across_axis = [](const Vec3& axis, const Vec3& v) -> Vec3 {
+      return (v - axis * axis.dot(v)).normalized();
+    };
+    geometry.w = across_axis(joint.axis_a, joint.across_a);
+    geometry.v1 = across_axis(joint.axis_b, joint.across_b);
+    geometry.v2 = joint.axis_b.cross(geometry.v1);
+    return geometry;
+  }
+
+  static void rows(const JointGeometry& joint, const Side& a, const Side& b, Block& block) {
+    const Vec3 r_a = a.R * joint.anchor_a;
+    const Vec3 d = (a.x - b.x) + (r_a - b.R * joint.anchor_b);
+    block.r_a = r_a;
+    block.r_b = (a.x - b.x) + r_a;
+    block.axis = a.R * joint.u;
+    block.w = a.R * joint.w;
+    block.v1 = b.R * joint.v1;
+    block.v2 = b.R * joint.v2;
+    block.phi[0] = block.v1.dot(d);
+    block.phi[1] = block.v2.dot(d);
+    block.phi[2] = block.axis.dot(block.v1);
+    block.phi[3] = block.axis.dot(block.v2);
+    block.phi[4] = block.w.dot(block.v2);
+    set_gradients(block, {});
+  }
+
+  // v rotates with b like the anchor on b: v . r_b is constant, and phi = v . rho minus a constant.
+  //   (v . rho)'' = v'' . rho + 2 v' . rho' + v . rho'',   rho'' = omega_a x (omega_a x r_a)
+  static void curvature(const Block& block, const Vec6& u_a, const Vec6& u_b, double* curvature) {
+    const Vec3 omega_a = u_a.tail<3>();
+    const Vec3 omega_b = u_b.tail<3>();
+    const Vec3 turning = omega_a.cross(block.r_a);
+    const Vec3 rho_dot = (u_a - u_b).head<3>() + turning;
+    const Vec3 rho_ddot = omega_a.cross(turning);
+    for (int k = 0; k < 2; ++k) {
+      const Vec3& v = k == 0 ? block.v1 : block.v2;
+      const Vec3 v_dot = omega_b.cross(v);
+      curvature[k] =
+          omega_b.cross(v_dot).dot(block.r_b) + 2.0 * v_dot.dot(rho_dot) + v.dot(rho_ddot);
+    }
+    curvature[2] = dot_curvature(block.axis, block.v1, omega_a, omega_b);
+    curvature[3] = dot_curvature(block.axis, block.v2, omega_a, omega_b);
+    curvature[4] = dot_curvature(block.w, block.v2, omega_a, omega_b);
+  }
 
   // The force f = l_1 v_1 + l_2 v_2 on a at r_a, -f on b at rho. It rotates with b:
   //   df = theta_b x f,   dr_a = theta_a x r_a,   drho = dx_a - dx_b + theta_a x r_a
@@ -53,17 +106,83 @@ struct PrismaticRows {
   }
 
   static void move(const Block& start, const Motion& a, const Motion& b, RowRange rows,
-                   Block& moved);
-  static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi);
-  static Vec3 force(const Block& block, const double* force);
-  static Vec3 torque(const Block& block, const double* force);
+                   Block& moved) {
+    moved_errors(start, a, b, moved.phi);
+    moved.r_b = slid_rho(start, a, b);
+    moved.r_a = a.R * start.r_a;
+    moved.axis = a.R * start.axis;
+    moved.w = a.R * start.w;
+    moved.v1 = b.R * start.v1;
+    moved.v2 = b.R * start.v2;
+    set_gradients(moved, rows);
+  }
+
+  static void moved_errors(const Block& start, const Motion& a, const Motion& b, double* phi) {
+    // In the frame of b, in which v is fixed.
+    const Vec3 slid = b.R.transpose() * slid_rho(start, a, b) - start.r_b;
+    phi[0] = start.v1.dot(slid);
+    phi[1] = start.v2.dot(slid);
+    const Vec3 axis = a.R * start.axis;
+    const Vec3 v2 = b.R * start.v2;
+    phi[2] = axis.dot(b.R * start.v1) - start.axis.dot(start.v1);
+    phi[3] = axis.dot(v2) - start.axis.dot(start.v2);
+    phi[4] = (a.R * start.w).dot(v2) - start.w.dot(start.v2);
+  }
+
+  static Vec3 force(const Block& block, const double* force) {
+    return force[0] * block.v1 + force[1] * block.v2;
+  }
+
+  static Vec3 torque(const Block& block, const double* force) {
+    return block.axis.cross(force[2] * block.v1 + force[3] * block.v2) +
+           force[4] * block.w.cross(block.v2);
+  }
+
   static void push_change(const Block& block, const Motion& a, const Motion& b, const double* force,
-                          Vec6& on_a, Vec6& on_b);
+                          Vec6& on_a, Vec6& on_b) {
+    const Vec3 f = PrismaticRows::force(block, force);
+    const Vec3 f_moved = b.R * f;
+    const Vec3 across = force[2] * block.v1 + force[3] * block.v2;
+    const Vec3 couple_moved =
+        (a.R * block.axis).cross(b.R * across) + force[4] * (a.R * block.w).cross(b.R * block.v2);
+    const Vec3 couple = couple_moved - torque(block, force);
+    const Vec3 turned = (a.R * block.r_a).cross(f_moved) - block.r_a.cross(f) + couple;
+    const Vec3 slid = slid_rho(block, a, b).cross(f_moved) - block.r_b.cross(f) + couple;
+    on_a.head<3>() += f_moved - f;
+    on_a.tail<3>() += turned;
+    on_b.head<3>() -= f_moved - f;
+    on_b.tail<3>() -= slid;
+  }
 
  private:
+  /// The arm from the centre of b to the anchor on a after both have moved.
+  static Vec3 slid_rho(const Block& start, const Motion& a, const Motion& b) {
+    return start.r_b + (a.dx - b.dx) + (a.R * start.r_a - start.r_a);
+  }
+
+  /// J of some rows, from the arms and directions of a block.
+  static void set_gradients(Block& block, RowRange rows) {
+    if (rows.reaches(0, 2)) {
+      set_row(block, 0, block.v1);
+      set_row(block, 1, block.v2);
+    }
+    if (!rows.reaches(2, 5)) return;
+    const Vec3 turn[3] = {block.axis.cross(block.v1), block.axis.cross(block.v2),
+                          block.w.cross(block.v2)};
+    for (int k = 0; k < 3; ++k) {
+      for (int j = 0; j < 6; ++j) {
+        block.J_a[2 + k][j] = j < 3 ? 0.0 : turn[k][j - 3];
+        block.J_b[2 + k][j] = -block.J_a[2 + k][j];
+      }
+    }
+  }
+
   /// Derivative of the torque on a of the angular rows by the rotation of a: the sum of l [t][s],
   /// as for a hinge.
-  static Mat3 angular_stiffness(const Block& block);
+  static Mat3 angular_stiffness(const Block& block) {
+    const Vec3 across = block.lambda[2] * block.v1 + block.lambda[3] * block.v2;
+    return skew_product(across, block.axis) + block.lambda[4] * skew_product(block.v2, block.w);
+  }
 };
 
 }  // namespace substep

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/forces/applied_forces.hpp"
 #include "core/io/csv_text.hpp"
 #include "core/io/json.hpp"
 #include "core/sim/conserved.hpp"
@@ -105,7 +106,7 @@ std::vector<FrameColumn> frame_columns(const Scene& scene) {
   std::vector<FrameColumn> columns;
   for (const FrameColumn& column : kFrameColumns) {
     if (column.effect && !(scene.effects.*column.effect)) continue;
-    if (column.name == "potential" && !has_potential(scene.effects)) continue;
+    if (column.name == "potential" && !has_applied_forces(scene.effects)) continue;
     if (is_tracked_position(column) && !scene.criteria.track) continue;
     columns.push_back(column);
   }

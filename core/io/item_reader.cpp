@@ -6,32 +6,30 @@
 
 #include "core/io/object_reader.hpp"
 #include "core/model/body_checks.hpp"
-#include "core/model/joint_fields.hpp"
 #include "core/model/scene_limits.hpp"
+#include "core/model/types_in_files.hpp"
 
 namespace substep {
 namespace {
 
+struct ShapeFieldReader {
+  ObjectReader& in;
+
+  void operator()(std::string_view key, double& target, const Range& range, double in_file) const {
+    if (in.number(key, range, target, kRequired)) target /= in_file;
+  }
+  void operator()(std::string_view key, Vec3& target, const Range& range, double in_file) const {
+    if (in.vector(key, range, target, kRequired)) target /= in_file;
+  }
+};
+
 Shape read_shape(const Json& json, const std::string& pointer, bool is_static, Problems& problems) {
   ObjectReader in(json, pointer, problems);
-  Shape shape;
-  std::string type;
-  if (!in.text("type", kMaxNameSize, type, kRequired)) return shape;
-  if (type == "sphere") {
-    Sphere sphere;
-    in.number("radius", kSizeRange, sphere.radius, kRequired);
-    shape = sphere;
-  } else if (type == "box") {
-    Vec3 size = Vec3::Ones();
-    in.vector("size", kSizeRange, size, kRequired);
-    shape = Box{0.5 * size};
-  } else if (type == "plane") {
-    if (!is_static) in.problem("type", std::string(kMovingPlane));
-    shape = Plane{};
-  } else {
-    in.problem("type", must_be("sphere, box or plane", value_text(type)));
-    return shape;
-  }
+  const auto type = in.choice("type", kTypes<Shape>, kRequired);
+  if (!type) return {};
+  auto shape = make_type<Shape>(*type);
+  if (const auto fault = motion_fault(shape, is_static)) in.problem("type", *fault);
+  std::visit([&](auto& own) { own.own_fields(own, ShapeFieldReader{in}); }, shape);
   in.finish();
   return shape;
 }
@@ -54,7 +52,7 @@ void read_mass(ObjectReader& in, std::size_t problems_of_shape, Body& body) {
   if (!given) {
     if (!has_mass || problems_of_shape > 0) return;
     body.inertia = solid_inertia(body.shape, body.mass);
-    if (!(body.inertia.minCoeff() > 0.0) && !std::holds_alternative<Plane>(body.shape)) {
+    if (!(body.inertia.minCoeff() > 0.0)) {
       in.problem("inertia", "mass and shape are so small that their inertia is 0");
     }
     return;
@@ -153,16 +151,16 @@ Joint read_joint(const Json& json, const std::string& pointer, const BodyNames& 
   std::string name;
   if (!in.is_object()) return {};
   in.text("name", kMaxNameSize, name, kRequired);
-  const auto type = in.choice("type", kJointTypes, kRequired);
+  const auto type = in.choice("type", kTypes<Joint>, kRequired);
   if (!type) return {};
-  Joint joint = make_joint(*type);
+  auto joint = make_type<Joint>(*type);
   JointBase& j = base(joint);
   j.name = name;
   read_bodies(in, bodies, j);
   in.vector("anchor_a", kPositionRange, j.anchor_a, kRequired);
   in.vector("anchor_b", kPositionRange, j.anchor_b, kRequired);
   in.number("compliance", kComplianceRange, j.compliance, kOptional);
-  std::visit([&](auto& own) { own_fields(own, OwnFieldReader{in}); }, joint);
+  std::visit([&](auto& own) { own.own_fields(own, OwnFieldReader{in}); }, joint);
   if (problems.size() == before) {
     if (const auto fault = across_fault(joint)) in.problem(fault->key, fault->message);
   }

@@ -1,4 +1,4 @@
-#include "core/io/json_print.hpp"
+#include "core/io/json.hpp"
 
 #include "core/model/number_text.hpp"
 

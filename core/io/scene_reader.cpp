@@ -18,7 +18,7 @@
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
 #include "core/lab/start_text.hpp"
-#include "core/model/effects_of.hpp"
+#include "core/model/effects.hpp"
 #include "core/model/scene_checks.hpp"
 #include "core/model/scene_limits.hpp"
 #include "core/sim/joint_starts.hpp"

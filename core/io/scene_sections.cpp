@@ -98,12 +98,12 @@ bool read_effects(ObjectReader& in, Scene& scene) {
   const Json* list = in.list("effects", 100, kOptional);
   if (!list) return in.member("effects", kOptional) != nullptr;
   std::vector<std::string_view> names;
-  for (const NamedEffect& effect : kEffectNames) names.push_back(effect.name);
+  for (const EffectEntry& effect : kEffects) names.push_back(effect.name);
   for (std::size_t i = 0; i < list->size(); ++i) {
     const Json& name = (*list)[i];
-    const auto found = std::find_if(kEffectNames.begin(), kEffectNames.end(),
-                                    [&](const NamedEffect& effect) { return name == effect.name; });
-    if (found == kEffectNames.end()) {
+    const auto found = std::find_if(kEffects.begin(), kEffects.end(),
+                                    [&](const EffectEntry& effect) { return name == effect.name; });
+    if (found == kEffects.end()) {
       in.item_problem("effects", i, must_be(one_of(names), value_text(name)));
     } else if (scene.effects.*found->member) {
       in.item_problem("effects", i, value_text(name) + " is listed twice");

@@ -6,40 +6,43 @@
 
 #include "core/io/body_names.hpp"
 #include "core/io/carried_json.hpp"
-#include "core/io/json_print.hpp"
+#include "core/io/json.hpp"
 #include "core/io/recommended_json.hpp"
 #include "core/io/settings_json.hpp"
 #include "core/io/verdicts_json.hpp"
 #include "core/model/body_checks.hpp"
 #include "core/model/format_text.hpp"
-#include "core/model/joint_fields.hpp"
 #include "core/model/names.hpp"
+#include "core/model/types_in_files.hpp"
 
 namespace substep {
 namespace {
 
 Json vector_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-struct ShapeWriter {
+struct ShapeFieldWriter {
   Json& json;
 
-  void operator()(const Sphere& sphere) const {
-    json["type"] = "sphere";
-    json["radius"] = sphere.radius;
+  void operator()(const char* key, double number, const Range&, double in_file) const {
+    json[key] = in_file * number;
   }
-  void operator()(const Box& box) const {
-    json["type"] = "box";
-    json["size"] = vector_json(2.0 * box.half_extents);
+  void operator()(const char* key, const Vec3& numbers, const Range&, double in_file) const {
+    json[key] = vector_json(in_file * numbers);
   }
-  void operator()(const Plane&) const { json["type"] = "plane"; }
 };
+
+Json shape_json(const Shape& shape) {
+  Json json;
+  json["type"] = kTypes<Shape>[shape.index()];
+  std::visit([&](const auto& own) { own.own_fields(own, ShapeFieldWriter{json}); }, shape);
+  return json;
+}
 
 Json body_json(const Body& body) {
   Json json;
   json["name"] = body.name;
   if (body.is_static) json["static"] = true;
-  json["shape"] = Json();
-  std::visit(ShapeWriter{json["shape"]}, body.shape);
+  json["shape"] = shape_json(body.shape);
   if (!body.is_static) {
     json["mass"] = body.mass;
     if (body.inertia != solid_inertia(body.shape, body.mass)) {
@@ -80,14 +83,14 @@ Json joint_json(const Scene& scene, const Joint& joint) {
   const JointBase& j = base(joint);
   Json json;
   json["name"] = j.name;
-  json["type"] = kJointTypes[joint.index()];
+  json["type"] = kTypes<Joint>[joint.index()];
   json["a"] = name_of_body(scene, j.a);
   json["b"] = name_of_body(scene, j.b);
   json["anchor_a"] = vector_json(j.anchor_a);
   json["anchor_b"] = vector_json(j.anchor_b);
   Json numbers;
   numbers["compliance"] = j.compliance;
-  std::visit([&](const auto& own) { own_fields(own, OwnFieldWriter{json, numbers}); }, joint);
+  std::visit([&](const auto& own) { own.own_fields(own, OwnFieldWriter{json, numbers}); }, joint);
   json.update(numbers);
   return json;
 }
@@ -123,7 +126,7 @@ Json scene_json(const Scene& scene) {
   if (scene.camera.width) json["camera"]["width"] = *scene.camera.width;
   json["frame"] = scene.frame;
   Json& effects = json["effects"] = Json::array();
-  for (const NamedEffect& effect : kEffectNames) {
+  for (const EffectEntry& effect : kEffects) {
     if (scene.effects.*effect.member) effects.push_back(effect.name);
   }
   if (scene.effects.gravity) json["gravity"] = vector_json(scene.gravity);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/forces/applied_forces.hpp"
+
 namespace substep {
 namespace {
 
@@ -55,6 +57,7 @@ std::optional<UniformAcceleration> closed_form(const Scene& scene) {
   if (!scene.criteria.track || !scene.joints.empty()) return std::nullopt;
   const Body& body = scene.bodies[index(*scene.criteria.track)];
   if (body.is_static) return std::nullopt;
+  if (has_applied_forces(scene.effects, {&Effects::gravity, &Effects::external})) return {};
   // The reference assumes a constant energy of rotation, which a torque changes.
   if (scene.effects.external && body.torque != Vec3::Zero()) return std::nullopt;
   if (scene.effects.contact) return box_on_slope(scene, body);

@@ -15,15 +15,15 @@ namespace {
 std::shared_ptr<const Scene> without(const Scene& scene, bool Effects::*effect) {
   Scene less = scene;
   less.effects.*effect = false;
-  if (!less.effects.contact) less.effects.friction = less.effects.restitution = false;
+  disable_dependents(less.effects);
   return std::make_shared<const Scene>(std::move(less));
 }
 
 /// Budget of each simulator: all keep their memory until the end, so together they share the budget
 /// of one. They are the run, the unchanged scene, and the scene without each effect.
 Budget shared_budget(const Effects& effects, Budget budget) {
-  const auto count = 2 + std::count_if(kEffectNames.begin(), kEffectNames.end(),
-                                       [&](const NamedEffect& e) { return effects.*e.member; });
+  const auto count = 2 + std::count_if(kEffects.begin(), kEffects.end(),
+                                       [&](const EffectEntry& e) { return effects.*e.member; });
   budget.memory /= static_cast<double>(count);
   return budget;
 }
@@ -91,8 +91,9 @@ EffectCostRun::EffectCostRun(const Scene& scene, Experiment experiment, const Bu
   const Scene& start = run_.simulator().scene();
   const Budget share = run_.simulator().budget();
   again_.emplace_back(std::make_shared<const Scene>(start), "", share);
-  for (const auto& [name, effect] : kEffectNames) {
-    if (start.effects.*effect) again_.emplace_back(without(start, effect), name, share);
+  for (const EffectEntry& effect : kEffects) {
+    if (!(start.effects.*effect.member)) continue;
+    again_.emplace_back(without(start, effect.member), effect.name, share);
   }
   next_ = again_.size();
   same_ = run_.experiment().settings;

@@ -7,7 +7,6 @@
 #include "core/math/random.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene_limits.hpp"
-#include "core/stepping/mode_rules.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep {
@@ -111,10 +110,9 @@ std::string series_name(const Settings& s) {
 }
 
 SeriesParameter series_parameter(const Settings& s) {
-  const ModeRules rules = rules_of(s.mode);
-  switch (rules.count) {
+  switch (entry_of(s.mode).count) {
     case SubstepCount::kOne:
-      if (rules.mass == StiffMass::kDamped) break;
+      if (reads(s, "alpha")) break;
       return {"n", 1.0};
     case SubstepCount::kGiven:
       return {"n", static_cast<double>(s.n)};

@@ -25,10 +25,10 @@ namespace substep {
 /// positions and velocities outwards, inertias inwards, accelerations outwards.
 class JointTree {
  public:
-  /// The trees of the scene, or nothing for other scenes: contact, a closed loop, inconsistent
-  /// joints at the start, noticeable compliance or regularisation, unequal moments of inertia
-  /// without the gyroscopic effect, or bodies so thin or so fast that rounding exceeds the
-  /// tolerance or a frame takes seconds.
+  /// The trees of the scene, or nothing for other scenes: contact, applied forces other than
+  /// gravity, a closed loop, inconsistent joints at the start, noticeable compliance or
+  /// regularisation, unequal moments of inertia without the gyroscopic effect, or bodies so thin or
+  /// so fast that rounding exceeds the tolerance or a frame takes seconds.
   static std::optional<JointTree> of(const Scene& scene);
 
   /// @param tolerance of the steps from now on, relative to 1 + |coordinate| [-]

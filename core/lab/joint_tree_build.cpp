@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "core/forces/applied_forces.hpp"
 #include "core/lab/joint_tree.hpp"
 
 namespace substep {
@@ -27,6 +28,7 @@ bool has_equal_moments(const Body& body) {
 
 /// Features that no tree can describe, whatever the joints.
 bool is_out_of_scope(const Scene& scene) {
+  if (has_applied_forces(scene.effects, {&Effects::gravity})) return true;
   if (scene.effects.contact || scene.regularisation != 0.0) return true;
   if (!scene.joints.empty() && !scene.effects.joints) return true;
   // Without the gyroscopic torque the simulated motion is not that of rigid bodies.

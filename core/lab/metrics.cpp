@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/forces/applied_forces.hpp"
 #include "core/lab/energy_scale.hpp"
 
 namespace substep {
@@ -28,7 +29,7 @@ PeakAndMedian peak_and_median(const std::vector<double>& values) {
 
 /// True if no external forces act on the moving bodies.
 bool is_isolated(const Scene& scene) {
-  if (scene.effects.gravity || scene.effects.external) return false;
+  if (has_applied_forces(scene.effects)) return false;
   for (const Joint& joint : scene.joints) {
     if (is_fixed(scene, base(joint).a) || is_fixed(scene, base(joint).b)) return false;
   }

@@ -2,6 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "core/forces/applied_forces.hpp"
+
 namespace substep {
 namespace {
 
@@ -56,7 +58,7 @@ std::optional<std::vector<PlanarChain::Hinge>> PlanarChain::hinges_outwards(cons
 }
 
 std::optional<PlanarChain> PlanarChain::of(const Scene& scene) {
-  if (scene.effects.external) return std::nullopt;  // the equations do not include these forces
+  if (has_applied_forces(scene.effects, {&Effects::gravity})) return std::nullopt;
   if (scene.effects.contact || !scene.effects.joints || scene.joints.empty()) return std::nullopt;
   std::size_t moving = 0;
   for (const Body& body : scene.bodies) moving += body.is_static ? 0 : 1;

@@ -7,7 +7,6 @@
 #include "core/lab/slice.hpp"
 #include "core/model/methods.hpp"
 #include "core/sim/islands.hpp"
-#include "core/stepping/mode_rules.hpp"
 
 namespace substep {
 namespace {
@@ -47,10 +46,9 @@ void append_along(Settings settings, const auto& values, auto member, std::vecto
 /// Every value of a mode's own parameter.
 void append_curve(Settings settings, Mode mode, std::vector<Settings>& all) {
   settings.mode = mode;
-  const ModeRules rules = rules_of(mode);
-  switch (rules.count) {
+  switch (entry_of(mode).count) {
     case SubstepCount::kOne:
-      if (rules.mass == StiffMass::kDamped) {
+      if (reads(settings, "alpha")) {
         append_along(settings, kDampingAlpha, &Settings::alpha, all);
       } else {
         all.push_back(settings);
@@ -83,9 +81,11 @@ void append_implicit(Settings settings, const Scene& scene, std::vector<Settings
     append_along(settings, kImplicit, &Settings::n, all);
   };
   const int iterations = settings.iterations;  // along() changes them
-  along(SolverKind::kXpbd, 1, Forces::kEnd);   // as published: sub-steps in place of sweeps
-  along(SolverKind::kXpbd, iterations, Forces::kEnd);
-  along(SolverKind::kNewton, iterations, Forces::kEnd);
+  for (const SolverEntry& solver : kSolvers) {
+    if (!solver.at_end) continue;
+    if (solver.sweeps) along(solver.value, 1, Forces::kEnd);  // XPBD as published
+    along(solver.value, iterations, Forces::kEnd);
+  }
   for (const int steps : kNewtonSteps) along(SolverKind::kNewton, steps, Forces::kMean);
   along(SolverKind::kNewton, iterations, Forces::kMean);
   if (scene.effects.contact) return;  // the following is derived for joints only
@@ -102,9 +102,9 @@ void append_small_steps(Settings settings, const Scene& scene, std::vector<Setti
   settings.iterations = *std::rbegin(kSmallSteps);
   settings.share_iterations = true;
   if (scene.effects.contact) settings.detection = Detection::kFrame;
-  for (const SolverKind solver : {SolverKind::kPgs, SolverKind::kXpbd}) {
-    settings.solver = solver;
-    append_along(settings, kSmallSteps, &Settings::n, all);
+  for (const SolverEntry& solver : kSolvers) {
+    settings.solver = solver.value;
+    if (solver.sweeps) append_along(settings, kSmallSteps, &Settings::n, all);
   }
 }
 

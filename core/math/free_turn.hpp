@@ -5,7 +5,7 @@
 namespace substep {
 
 // The rotation of a body in a sub-step, to fourth order. In world axes only torques change its
-// angular momentum. Störmer's sub-steps carry l, with (stormer.hpp, with L for q')
+// angular momentum. Störmer's sub-steps carry l, with (stormer.cpp, with L for q')
 //   L(t) = L_m + t tau_m + t^2/2 tau',   L_m = l + dt^2/24 tau',   t from the middle on,
 // and the body rotates by the exponential of Magnus' expansion, in body axes,
 //   Omega = dt w + dt^3/24 w'' + dt^3/12 w x w',

@@ -30,12 +30,15 @@ struct Body {
   std::optional<std::uint32_t> color;  // 0xRRGGBB, display only; none: the view's default
 };
 
+/// M^-1 of a body about its principal axes; zero for a static body.
+struct InertiaInverse {
+  double linear = 0.0;          // 1/m [1/kg]
+  Vec3 angular = Vec3::Zero();  // 1/I [1/(kg m^2)]
+  bool isotropic = true;        // equal principal moments
+};
+
 /// Velocity and angular velocity, world [m/s, rad/s].
 Vec6 velocity_of(const Body& body);
-
-/// Upper bound on the acceleration of any point due to the body's constant force and torque
-/// [m/s^2]; 0 for a static body. Clamped to 1e9 to keep derived values finite.
-double fastest_gain(const Body& body);
 
 /// Upper bound on the speed of any of its points [m/s]. @param u velocity, angular velocity
 double fastest_point(const Body& body, const Vec6& u);

@@ -5,6 +5,7 @@
 
 #include "core/model/joint_fields.hpp"
 #include "core/model/number_checks.hpp"
+#include "core/model/types_in_files.hpp"
 
 namespace substep {
 namespace {
@@ -14,22 +15,25 @@ std::string not_unit_text(double length) {
          number_text(length);
 }
 
-struct ShapeCheck {
-  bool is_static;
+struct ShapeFieldCheck {
   const DataPlace& place;
   Problems& problems;
 
-  void operator()(const Sphere& sphere) const {
-    check_number(sphere.radius, kSizeRange, place.at("radius"), problems);
+  void operator()(const char* key, double number, const Range& range, double in_file) const {
+    check_number(in_file * number, range, place.at(key), problems);
   }
-  void operator()(const Box& box) const {
-    const Vec3 size = 2.0 * box.half_extents;  // as files have it
-    check_numbers(size, kSizeRange, place.at("size"), problems);
-  }
-  void operator()(const Plane&) const {
-    if (!is_static) problems.push_back({place.at("type").pointer(), std::string(kMovingPlane)});
+  void operator()(const char* key, const Vec3& numbers, const Range& range, double in_file) const {
+    check_numbers(in_file * numbers, range, place.at(key), problems);
   }
 };
+
+void check_shape(const Body& body, const DataPlace& place, Problems& problems) {
+  if (const auto fault = motion_fault(body.shape, body.is_static)) {
+    problems.push_back({place.at("type").pointer(), *fault});
+  }
+  const ShapeFieldCheck check{place, problems};
+  std::visit([&](const auto& own) { own.own_fields(own, check); }, body.shape);
+}
 
 void check_motion(const Body& body, const DataPlace& place, Problems& problems) {
   for (const auto& [key, member, range] : kMotionFields) {
@@ -64,6 +68,12 @@ struct OwnFieldCheck {
 };
 
 }  // namespace
+
+std::optional<std::string> motion_fault(const Shape& shape, bool is_static) {
+  if (is_static || std::visit([](const auto& s) { return s.kMoves; }, shape)) return std::nullopt;
+  return "a " + std::string(kTypes<Shape>[shape.index()]) +
+         " cannot move: its body needs \"static\": true";
+}
 
 std::optional<std::string> inertia_fault(const Vec3& inertia) {
   Vec3 moments = inertia;
@@ -135,7 +145,7 @@ std::optional<JointFault> side_fault(const std::vector<Body>& bodies, int a, int
 }
 
 void check_body(const Body& body, const DataPlace& place, Problems& problems) {
-  std::visit(ShapeCheck{body.is_static, place.at("shape"), problems}, body.shape);
+  check_shape(body, place.at("shape"), problems);
   if (!body.is_static) check_mass(body, place, problems);
   check_numbers(body.position, kPositionRange, place.at("position"), problems);
   if (const auto fault = orientation_fault(body.orientation)) {
@@ -161,7 +171,7 @@ void check_joint(const Joint& joint, const std::vector<Body>& bodies, const Data
   check_numbers(j.anchor_a, kPositionRange, place.at("anchor_a"), problems);
   check_numbers(j.anchor_b, kPositionRange, place.at("anchor_b"), problems);
   check_number(j.compliance, kComplianceRange, place.at("compliance"), problems);
-  std::visit([&](const auto& own) { own_fields(own, OwnFieldCheck{place, problems}); }, joint);
+  std::visit([&](const auto& own) { own.own_fields(own, OwnFieldCheck{place, problems}); }, joint);
   if (const auto fault = across_fault(joint)) {
     problems.push_back({place.at(fault->key).pointer(), fault->message});
   }

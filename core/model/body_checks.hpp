@@ -15,11 +15,10 @@
 namespace substep {
 
 // The fault of one value, or nothing.
+std::optional<std::string> motion_fault(const Shape& shape, bool is_static);  // a moving plane
 std::optional<std::string> inertia_fault(const Vec3& inertia);  // moments of no rigid body
 std::optional<std::string> orientation_fault(const Quat& q);    // length
 std::optional<std::string> axis_fault(const Vec3& axis);        // length
-inline constexpr std::string_view kMovingPlane =
-    "a plane cannot move: its body needs \"static\": true";
 inline constexpr std::string_view kStaticMoves = "a static body never moves";
 
 /// The members of a body that only a moving one has, besides mass and inertia.

@@ -2,8 +2,11 @@
 
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace substep {
+
+struct Scene;
 
 /// The effects that a scene uses. A disabled effect has no stage, memory, rows or run time.
 struct Effects {
@@ -18,19 +21,56 @@ struct Effects {
   friend bool operator==(const Effects&, const Effects&) = default;
 };
 
-struct NamedEffect {
-  std::string_view name;
+// Whether the content of a scene calls for an effect.
+bool needs_gravity(const Scene& scene);
+bool needs_gyroscopic(const Scene& scene);
+bool needs_joints(const Scene& scene);
+bool needs_contact(const Scene& scene);
+bool needs_friction(const Scene& scene);
+bool needs_restitution(const Scene& scene);
+bool needs_external(const Scene& scene);
+
+struct EffectEntry {
+  std::string_view name;  // in files
   bool Effects::*member;
+  bool (*needed)(const Scene&);
+  const char* about;                 // in a few words
+  bool Effects::*part_of = nullptr;  // the effect that it needs
 };
 
-/// The names of effects in scene files, in file order.
-inline constexpr std::array kEffectNames{
-    NamedEffect{"gravity", &Effects::gravity},   NamedEffect{"gyroscopic", &Effects::gyroscopic},
-    NamedEffect{"joints", &Effects::joints},     NamedEffect{"contact", &Effects::contact},
-    NamedEffect{"friction", &Effects::friction}, NamedEffect{"restitution", &Effects::restitution},
-    NamedEffect{"external", &Effects::external}};
+/// Every effect, in file order: the one table for files, measured costs, window and command line.
+inline constexpr std::array kEffects{
+    EffectEntry{"gravity", &Effects::gravity, needs_gravity, "Weight: m g on every moving body."},
+    EffectEntry{"gyroscopic", &Effects::gyroscopic, needs_gyroscopic,
+                "The torque I ω × ω of bodies with unequal moments."},
+    EffectEntry{"joints", &Effects::joints, needs_joints,
+                "All joints. Off: bodies are not connected."},
+    EffectEntry{"contact", &Effects::contact, needs_contact,
+                "Contacts. Off: bodies pass through each other."},
+    EffectEntry{"friction", &Effects::friction, needs_friction,
+                "Coulomb friction in contacts, boxed: |λ t| ≤ μ λ n.", &Effects::contact},
+    EffectEntry{"restitution", &Effects::restitution, needs_restitution,
+                "Contacts that bounce (Newton's law).", &Effects::contact},
+    EffectEntry{"external", &Effects::external, needs_external,
+                "Constant forces and torques of the scene on its bodies."}};
 
-/// True if bodies have potential energy, from gravity or constant forces.
-inline bool has_potential(const Effects& effects) { return effects.gravity || effects.external; }
+constexpr bool lists_each_flag() {
+  Effects listed;
+  for (const EffectEntry& effect : kEffects) {
+    if (std::exchange(listed.*effect.member, true)) return false;
+  }
+  return kEffects.size() == sizeof(Effects);
+}
+static_assert(lists_each_flag(), "one entry for each flag");
+
+/// Disables the effects that need a disabled one.
+inline void disable_dependents(Effects& effects) {
+  for (const EffectEntry& effect : kEffects) {
+    if (effect.part_of != nullptr && !(effects.*effect.part_of)) effects.*effect.member = false;
+  }
+}
+
+/// The effects that the content of a scene calls for.
+Effects effects_of(const Scene& scene);
 
 }  // namespace substep

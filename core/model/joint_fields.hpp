@@ -1,38 +1,12 @@
 #pragma once
-// Members of joints beyond JointBase, by name, for reading, writing and checking.
+// Members that only some joints have.
 
-#include <array>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <type_traits>
-#include <utility>
+#include <variant>
 
 #include "core/model/joint.hpp"
 
 namespace substep {
-
-/// Calls `field(key, axis)` for each unit vector and `field(key, number, range)` for each number.
-template <class J, class Field>
-void own_fields(J& joint, Field&& field) {
-  std::remove_const_t<J>::own_fields(joint, field);
-}
-
-/// Names of the joint types in files, in the order of the Joint variant.
-inline constexpr auto kJointTypes = []<std::size_t... I>(std::index_sequence<I...>) {
-  return std::array{std::string_view(std::variant_alternative_t<I, Joint>::kType)...};
-}
-(std::make_index_sequence<std::variant_size_v<Joint>>{});
-
-/// A joint of a type of kJointTypes.
-inline Joint make_joint(std::size_t type) {
-  Joint joint;
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((I == type ? (void)joint.emplace<I>() : (void)0), ...);
-  }
-  (std::make_index_sequence<std::variant_size_v<Joint>>{});
-  return joint;
-}
 
 /// The two axes that a joint keeps parallel, in the frames of its bodies.
 struct JointAxes {

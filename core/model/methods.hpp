@@ -1,16 +1,35 @@
 #pragma once
-// Every solver, mode and integrator with its texts: the one table for files, window, command line,
-// sweep and report. Size and order are those of the enum; a missing entry is a compile error.
+// Every solver, mode and integrator: what it does and its texts, the one table for time stepping,
+// files, window, command line, sweep and report. Size and order are those of the enum; a missing
+// entry is a compile error. The functions of the tables are declared here and defined in the file
+// of each solver in solver/ and of each mass in stepping/.
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string_view>
 
-#include "core/model/settings.hpp"
-
 namespace substep {
+
+struct Settings;
+class Solver;
+
+// Each value is described by its entry below.
+enum class SolverKind : std::uint8_t { kPgs, kBpp, kXpbd, kNewton, kCount };
+enum class Mode : std::uint8_t {
+  kNone,
+  kConst,
+  kDamping,
+  kAdaptive,
+  kCapped,
+  kStiffness,
+  kInertia,
+  kBlend,
+  kCount
+};
+enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer, kCount };
 
 /// Colour of a curve, by its name in themes.
 enum class Tint : std::uint8_t { kBlue, kOrange, kTeal, kAmber, kPurple, kText, kDim };
@@ -18,15 +37,31 @@ enum class Tint : std::uint8_t { kBlue, kOrange, kTeal, kAmber, kPurple, kText, 
 /// Names of the settings that a method reads, excluding those that all methods read.
 using SettingNames = std::array<std::string_view, 9>;
 
+/// A function that an entry must state: leaving it out does not compile.
+template <class F>
+struct Required {
+  constexpr Required(F* function) : call(function) {}
+  Required(std::nullptr_t) = delete;
+  F* call;
+};
+
+std::unique_ptr<Solver> make_pgs();
+std::unique_ptr<Solver> make_bpp();
+std::unique_ptr<Solver> make_xpbd();
+std::unique_ptr<Solver> make_newton();
+
 struct SolverEntry {
   SolverKind value;
+  Required<std::unique_ptr<Solver>()> make;
   std::string_view name;  // in files, links and commands
   const char* title;      // in the window
   const char* full_name;
   const char* reference;
   const char* about;
-  bool sweeps = false;      // iterates over the rows; its curves are dashed
+  bool sweeps = false;      // a fixed number of times over the rows; its curves are dashed
   bool at_end = false;      // holds constraints at the end of the sub-step
+  bool seeded = false;      // starts from the forces of the last sub-step in any case
+  bool soft_drift = false;  // by default its drift correction is soft
   double work = 1.0;        // per sub-step, or per iteration if it iterates, relative to BPP
   Tint tint = Tint::kBlue;  // of its curves, if at_end; otherwise the mode's colour is used
   int iterations = 0;       // maximum offered in the window; 0: not iterative
@@ -34,8 +69,27 @@ struct SolverEntry {
   SettingNames reads{};
 };
 
+/// Number of sub-steps per frame.
+enum class SubstepCount : std::uint8_t {
+  kOne,
+  kGiven,         // Settings::n
+  kStable,        // N by Eq. 11, up to n_max
+  kStableCapped,  // N by Eq. 11, up to n_cap
+};
+
+/// The mass Mt of a rotation that is too stiff for a sub-step, about a principal axis [kg m^2].
+/// @param M its own mass [kg m^2]  @param k its stiffness [N m/rad]  @param dt [s]
+using StiffMass = double(const Settings& settings, double M, double k, double dt);
+StiffMass damped_mass;
+StiffMass stiffened_mass;
+
 struct ModeEntry {
   Mode value;
+  SubstepCount count = SubstepCount::kOne;
+  StiffMass* mass = nullptr;    // of stiff rotations; null: their own
+  bool full_stiffness = false;  // M - dt^2 K with the resisting part of K: full_stiffness.hpp
+  // The share of the velocity term taken with Mt, geometric_inertia.cpp; none: Settings::beta.
+  std::optional<double> beta = 0.0;
   std::string_view name;
   const char* line;   // in a few words
   const char* about;  // in a sentence or two
@@ -63,17 +117,20 @@ inline constexpr std::size_t kCountOf = static_cast<std::size_t>(Enum::kCount);
 
 inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
     {.value = SolverKind::kPgs,
+     .make = make_pgs,
      .name = "pgs",
      .title = "PGS",
      .full_name = "Projected Gauss-Seidel",
      .reference = "Erleben 2013",
      .about = "a fixed number of sweeps over the rows of Eq. 3.",
      .sweeps = true,
+     .soft_drift = true,
      .work = 0.15,
      .iterations = 400,
      .about_iterations = "Iterations of PGS in every sub-step.",
      .reads = {"iterations", "share_iterations", "warm_start"}},
     {.value = SolverKind::kBpp,
+     .make = make_bpp,
      .name = "bpp",
      .title = "BPP",
      .full_name = "Block principal pivoting",
@@ -81,6 +138,7 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .about = "solves the boxed problem of Eq. 3 exactly.",
      .reads = {"refinements", "pivots"}},
     {.value = SolverKind::kXpbd,
+     .make = make_xpbd,
      .name = "xpbd",
      .title = "XPBD",
      .full_name = "Extended position-based dynamics",
@@ -95,6 +153,7 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
          "Sweeps in every sub-step; the authors recommend one sweep and many sub-steps.",
      .reads = {"iterations", "share_iterations"}},
     {.value = SolverKind::kNewton,
+     .make = make_newton,
      .name = "newton",
      .title = "Newton",
      .full_name = "Non-smooth Newton",
@@ -102,6 +161,7 @@ inline constexpr std::array<SolverEntry, kCountOf<SolverKind>> kSolvers{{
      .about = "constraint errors vanish at the end of the sub-step; forces are evaluated at poses "
               "around it.",
      .at_end = true,
+     .seeded = true,
      .work = 1.5,
      .tint = Tint::kTeal,
      .iterations = 50,
@@ -120,6 +180,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .tint = Tint::kOrange,
      .corners = 4},
     {.value = Mode::kConst,
+     .count = SubstepCount::kGiven,
      .name = "const",
      .line = "The same N in every frame.",
      .about = "The same number of sub-steps in every frame, chosen by you: dt = h/N. Every frame "
@@ -132,6 +193,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .corners = 4,
      .reads = {"n"}},
     {.value = Mode::kDamping,
+     .mass = damped_mass,
      .name = "damping",
      .line = "One step per frame; a low α damps more.",
      .about = "One step per frame; rotations that are too stiff for it are damped implicitly: "
@@ -144,6 +206,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .corners = 5,
      .reads = {"alpha", "probe"}},
     {.value = Mode::kAdaptive,
+     .count = SubstepCount::kStable,
      .name = "adaptive",
      .line = "N ~ 1/√α: quartering α doubles N.",
      .about = "As many sub-steps as the stiffest degree of freedom needs: r = max k/M (Eq. 9), "
@@ -155,6 +218,8 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .corners = 0,
      .reads = {"alpha", "n_max", "policy", "memory", "islands", "rotation_criterion", "probe"}},
     {.value = Mode::kCapped,
+     .count = SubstepCount::kStableCapped,
+     .mass = damped_mass,
      .name = "capped",
      .line = "Adaptive up to a cap, then damping.",
      .about = "Adaptive up to a cap, then damping of the remaining stiffness: the combination that "
@@ -167,6 +232,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .corners = 6,
      .reads = {"alpha", "n_cap", "policy", "memory", "islands", "rotation_criterion", "probe"}},
     {.value = Mode::kStiffness,
+     .full_stiffness = true,
      .name = "stiffness",
      .line = "One step per frame, K in the mass.",
      .about = "One step per frame with the geometric stiffness itself in the mass: M - h² K, its "
@@ -180,6 +246,9 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .beyond_paper = true,
      .reads = {"probe"}},
     {.value = Mode::kInertia,
+     .count = SubstepCount::kStableCapped,
+     .mass = stiffened_mass,
+     .beta = 1.0,
      .name = "inertia",
      .line = "Adaptive up to a cap, then inertia.",
      .about = "Adaptive up to a cap; beyond it rotations that are too stiff have a larger inertia, "
@@ -194,6 +263,9 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .reads = {"alpha", "n_cap", "alpha_m", "policy", "memory", "islands", "rotation_criterion",
                "probe"}},
     {.value = Mode::kBlend,
+     .count = SubstepCount::kStableCapped,
+     .mass = stiffened_mass,
+     .beta = std::nullopt,
      .name = "blend",
      .line = "Adaptive up to a cap, then both.",
      .about = "Adaptive up to a cap, then geometric inertia of which a share 1 - β damps: more "
@@ -225,7 +297,7 @@ inline constexpr std::array<IntegratorEntry, kCountOf<Integrator>> kIntegrators{
 }};
 
 template <class Entry, std::size_t N>
-consteval bool is_complete(const std::array<Entry, N>& table) {
+constexpr bool is_complete(const std::array<Entry, N>& table) {
   for (std::size_t i = 0; i < N; ++i) {
     if (static_cast<std::size_t>(table[i].value) != i || table[i].name.empty()) return false;
   }
@@ -242,6 +314,11 @@ constexpr const IntegratorEntry& entry_of(Integrator integrator) {
   return kIntegrators[static_cast<std::size_t>(integrator)];
 }
 
+/// True if the mode replaces the mass of rotations that are too stiff.
+constexpr bool changes_mass(Mode mode) {
+  return entry_of(mode).mass != nullptr || entry_of(mode).full_stiffness;
+}
+
 /// All solvers in table order: first those of Eq. 3, each group from exact to approximate.
 consteval std::array<SolverKind, kSolvers.size()> listed_solvers() {
   std::array<SolverKind, kSolvers.size()> list{};
@@ -252,14 +329,6 @@ consteval std::array<SolverKind, kSolvers.size()> listed_solvers() {
     }
   }
   return list;
-}
-
-/// True if the solver or the mode of these settings reads the given setting.
-constexpr bool reads(const Settings& s, std::string_view setting) {
-  const auto lists = [setting](const SettingNames& names) {
-    return std::find(names.begin(), names.end(), setting) != names.end();
-  };
-  return lists(entry_of(s.solver).reads) || lists(entry_of(s.mode).reads);
 }
 
 }  // namespace substep

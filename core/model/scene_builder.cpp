@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/math/across.hpp"
-#include "core/model/effects_of.hpp"
+#include "core/model/effects.hpp"
 
 namespace substep {
 namespace {

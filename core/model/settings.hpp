@@ -1,23 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <string_view>
+
+#include "core/model/methods.hpp"
 
 namespace substep {
 
-/// Described in methods.hpp.
-enum class SolverKind : std::uint8_t { kPgs, kBpp, kXpbd, kNewton, kCount };
-/// The stabilisation mode.
-enum class Mode : std::uint8_t {
-  kNone,       // one sub-step
-  kConst,      // n sub-steps
-  kDamping,    // one sub-step with adaptive damping (Eq. 6)
-  kAdaptive,   // N by Eq. 11
-  kCapped,     // N by Eq. 11 up to n_cap, then damping of the remaining stiffness
-  kStiffness,  // one sub-step with full geometric stiffness
-  kInertia,    // N by Eq. 11 up to n_cap, then geometric inertia
-  kBlend,      // like kInertia, with some damping
-  kCount
-};
 /// The poses at which Newton evaluates the directions of constraint forces, for a sub-step from q
 /// to q+ after one from q- to q.
 enum class Forces : std::uint8_t {
@@ -27,9 +17,6 @@ enum class Forces : std::uint8_t {
 };
 /// How often the number of sub-steps is decided.
 enum class Policy : std::uint8_t { kFrame, kSubstep };
-/// Semi-implicit Euler, the paper's; leapfrog, second order (Verlet 1967); Störmer, fourth order
-/// for joints (stormer.hpp).
-enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer, kCount };
 /// Law of the drift correction. kAuto is soft with PGS and full with the other solvers.
 enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
@@ -82,21 +69,28 @@ struct Settings {
 /// True if all impulses, including those of joints, are seeded with the forces of the last
 /// sub-step.
 inline bool starts_from_last_forces(const Settings& s) {
-  return s.warm_start || s.solver == SolverKind::kNewton ||
+  return s.warm_start || entry_of(s.solver).seeded ||
          (s.solver == SolverKind::kBpp && s.refinements > 0);
 }
 
-/// True if poses are corrected for the change of acceleration (stormer.hpp). With solvers that hold
+/// True if poses are corrected for the change of acceleration (stormer.cpp). With solvers that hold
 /// constraints at the end of a sub-step, bodies move by their velocities: leapfrog.
 inline bool follows_accelerations(const Settings& s) {
-  return s.integrator == Integrator::kStormer && s.solver != SolverKind::kNewton &&
-         s.solver != SolverKind::kXpbd;
+  return s.integrator == Integrator::kStormer && !entry_of(s.solver).at_end;
 }
 
 /// The drift law, with kAuto resolved by solver.
 inline Drift drift_law(const Settings& s) {
   if (s.drift != Drift::kAuto) return s.drift;
-  return s.solver == SolverKind::kPgs ? Drift::kSoft : Drift::kFull;
+  return entry_of(s.solver).soft_drift ? Drift::kSoft : Drift::kFull;
+}
+
+/// True if the solver or the mode of these settings reads the given setting.
+constexpr bool reads(const Settings& s, std::string_view setting) {
+  const auto lists = [setting](const SettingNames& names) {
+    return std::find(names.begin(), names.end(), setting) != names.end();
+  };
+  return lists(entry_of(s.solver).reads) || lists(entry_of(s.mode).reads);
 }
 
 }  // namespace substep

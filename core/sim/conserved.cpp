@@ -1,5 +1,7 @@
 #include "core/sim/conserved.hpp"
 
+#include "core/forces/applied_forces.hpp"
+
 namespace substep {
 
 Energies energies_of(const Scene& scene, const State& state) {
@@ -11,8 +13,8 @@ Energies energies_of(const Scene& scene, const State& state) {
     const Vec3 omega_B = state.q[i].conjugate() * Vec3(u.tail<3>());
     sum.kinetic += 0.5 * body.mass * u.head<3>().squaredNorm() +
                    0.5 * omega_B.dot(body.inertia.cwiseProduct(omega_B));
-    if (scene.effects.gravity) sum.potential -= body.mass * scene.gravity.dot(state.x[i]);
-    if (scene.effects.external) sum.potential -= body.force.dot(state.x[i]);
+    for_each_force(scene.effects,
+                   [&](auto force) { sum.potential += force.potential(scene, body, state.x[i]); });
   }
   return sum;
 }

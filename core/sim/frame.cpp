@@ -8,7 +8,6 @@
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/integrate.hpp"
-#include "core/stepping/mode_rules.hpp"
 #include "core/stepping/stored_forces.hpp"
 
 namespace substep {
@@ -44,8 +43,8 @@ RowCounts Simulator::Impl::count_rows(std::span<const Block> of) {
 bool Simulator::Impl::probe_due() const {
   const bool reads_stiffness = chooses_substeps(settings.mode) || changes_mass(settings.mode);
   // Mode stiffness needs K_resisting, which other modes do not store.
-  const bool known = state.stiffness_known && (rules_of(settings.mode).mass != StiffMass::kFull ||
-                                               !state.K_resisting.empty());
+  const bool known = state.stiffness_known &&
+                     (!entry_of(settings.mode).full_stiffness || !state.K_resisting.empty());
   return settings.probe && reads_stiffness && !known;
 }
 
@@ -202,10 +201,6 @@ void Simulator::Impl::close(FrameReport& report) {
   } else {
     copy(state.u, state.u_synchronised);  // an approximation
   }
-  report.stages.joints = joints != nullptr;
-  report.stages.contact = contact != nullptr;
-  report.stages.friction = friction != nullptr;
-  report.stages.restitution = restitution != nullptr;
   report.work.residual =
       measures.errors ? lcp_residual({blocks.all(), current.inverse_mass, state.u}) : kNotMeasured;
   const RowCounts rows = count_rows(blocks.all());

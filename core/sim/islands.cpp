@@ -4,6 +4,8 @@
 #include <functional>
 #include <numeric>
 
+#include "core/forces/applied_forces.hpp"
+
 namespace substep {
 
 Islands::Islands(const Scene& scene)
@@ -70,14 +72,12 @@ void Islands::set_ways(const Scene& scene, const State& state, double ahead) {
   const auto n = static_cast<int>(parent_.size());
   for (int i = 0; i < n; ++i) {
     double& fastest = speed_[index(root(i))];
-    double speed = fastest_point(scene.bodies[index(i)], state.u[index(i)]);
-    if (scene.effects.external) speed += ahead * fastest_gain(scene.bodies[index(i)]);
-    fastest = std::max(fastest, speed);
+    const Body& body = scene.bodies[index(i)];
+    fastest = std::max(fastest,
+                       fastest_point(body, state.u[index(i)]) + ahead * fastest_gain(scene, body));
   }
-  const double gained = scene.effects.gravity ? ahead * scene.gravity.norm() : 0.0;
   for (int i = 0; i < n; ++i) {
-    way_[index(i)] =
-        scene.bodies[index(i)].is_static ? 0.0 : ahead * (speed_[index(root(i))] + gained);
+    way_[index(i)] = scene.bodies[index(i)].is_static ? 0.0 : ahead * speed_[index(root(i))];
   }
 }
 

@@ -13,11 +13,6 @@ constexpr double kBodyWork = 200.0;    // per body: external forces, masses, pos
 constexpr double kBlockWork = 1000.0;  // per joint or contact: detection, rows, storage, report
 constexpr int kTypical = 16;           // sub-steps whose mean predicts the others
 
-/// True if every sub-step costs the same, because the number of sweeps is fixed.
-bool is_shared(const Settings& settings) {
-  return settings.solver == SolverKind::kPgs || settings.solver == SolverKind::kXpbd;
-}
-
 double work_of_bodies(const Substep& sub) {
   return kBodyWork * static_cast<double>(sub.part->moving.size());
 }
@@ -43,7 +38,7 @@ double Simulator::Impl::forecast_work(const Substep& sub, const FrameReport& rep
   const int taken = substeps_taken(sub);
   const int left = substeps_left(sub);
   double to_come = work_of_bodies(sub) * left;
-  if (!is_shared(settings) && taken >= kTypical) to_come += done / taken * left;
+  if (!entry_of(settings.solver).sweeps && taken >= kTypical) to_come += done / taken * left;
   return done + to_come;
 }
 
@@ -53,7 +48,7 @@ SolveLimits Simulator::Impl::limits_of_solve(const Substep& sub, const FrameRepo
   const int steps = substeps_left(sub);
   const double left =
       budget.work - static_cast<double>(report.work.flops) - work_of_bodies(sub) * steps;
-  const double in_frame = is_shared(settings) ? left / steps : left;
+  const double in_frame = entry_of(settings.solver).sweeps ? left / steps : left;
   return {budget.memory, std::min(in_frame, budget.substep - work_beside_solver(sub))};
 }
 
@@ -77,7 +72,8 @@ void Simulator::Impl::refuse_solve(Substep& sub, const SolveReport& solved, Fram
     over.memory = solved.memory_needed;
     over.budget = budget.memory;
   } else {
-    const double times = is_shared(settings) ? substeps_left(sub) : 1.0;
+    // A solver that sweeps costs the same in every sub-step.
+    const double times = entry_of(settings.solver).sweeps ? substeps_left(sub) : 1.0;
     over.work = forecast_work(sub, report) + times * solved.work_needed;
     over.budget = budget.work;
     if (over.work <= budget.work) {
@@ -86,7 +82,7 @@ void Simulator::Impl::refuse_solve(Substep& sub, const SolveReport& solved, Fram
       over.of_substep = true;
     }
   }
-  const bool direct = settings.solver == SolverKind::kBpp;
+  const bool direct = entry_of(settings.solver).iterations == 0;
   over.iterations = direct ? 0 : iterations_of(settings, sub.dt / scene->frame);
   stop_over_budget(sub, over, report);
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/model/effects.hpp"
 #include "core/stepping/substep_clock.hpp"
 
 namespace substep {
@@ -91,15 +92,8 @@ struct StageTimes {
   double total = 0.0;  // the whole frame
 };
 
-/// Which stages ran in a frame.
-struct StagesRun {
-  bool gravity = false;
-  bool gyroscopic = false;
-  bool joints = false;
-  bool contact = false;
-  bool friction = false;
-  bool restitution = false;
-  bool external = false;
+/// Which stages ran in a frame: those of the effects, none if all bodies sleep, and others.
+struct StagesRun : Effects {
   bool stiffness = false;
   bool effective_mass = false;  // a mode replaced M by Mt
   bool probe = false;

@@ -8,10 +8,8 @@
 #include "core/solver/cost_model.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/drift.hpp"
-#include "core/stepping/external.hpp"
 #include "core/stepping/full_stiffness.hpp"
 #include "core/stepping/integrate.hpp"
-#include "core/stepping/mode_rules.hpp"
 #include "core/stepping/stored_forces.hpp"
 
 namespace substep {
@@ -45,6 +43,7 @@ Substep& Simulator::Impl::begin_substep(bool last_of_share, FrameReport& report)
   rotation_matrices(current.part->moving, state, current.R_WB);
   copy(state.u, current.u_start);
   report.n_substeps = std::max(report.n_substeps, schedule.clock().taken() + 1);
+  static_cast<Effects&>(report.stages) = scene->effects;
   return current;
 }
 
@@ -100,14 +99,7 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
   }
   sub.integrator->begin(sub, state);
   copy(state.u, sub.u_before);
-  if (scene->effects.gravity) {
-    for (const int body : moved.moving) {
-      state.u[index(body)].head<3>() += sub.impulse_time[index(body)] * scene->gravity;
-    }
-  }
-  if (scene->effects.external) {
-    add_external(*scene, moved, sub.inertia_inverse, sub.R_WB, sub.impulse_time, state.u);
-  }
+  apply_forces(sub, sub.impulse_time, state.u);
   if (changes_mass(sub.settings.mode)) {
     effective_mass(*scene, moved, sub.settings, sub.inertia_inverse, sub.R_WB, sub.u_start, sub.dt,
                    state, sub.inverse_mass);
@@ -115,9 +107,6 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
   } else {
     inverse_mass(sub.inertia_inverse, moved, sub.R_WB, sub.inverse_mass);
   }
-  report.stages.gyroscopic = scene->effects.gyroscopic;
-  report.stages.gravity = scene->effects.gravity;
-  report.stages.external = scene->effects.external;
   clock.lap(report.times.mass);
 }
 
@@ -213,7 +202,7 @@ void Simulator::Impl::keep_forces(const Substep& sub) {
 bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report) {
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
   for (Block& block : sub.rows) find_lambda(sub, block, block.lambda);
-  const bool full = rules_of(settings.mode).mass == StiffMass::kFull;
+  const bool full = entry_of(settings.mode).full_stiffness;
   const ContactTerms terms = full ? ContactTerms::kNormal
                              : settings.contact_stiffness == ContactStiffness::kExact
                                  ? ContactTerms::kExact

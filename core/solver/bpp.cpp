@@ -310,4 +310,6 @@ int Bpp::pivot(const System& system, bool one_only) {
   return wrong;
 }
 
+std::unique_ptr<Solver> make_bpp() { return std::make_unique<Bpp>(); }
+
 }  // namespace substep

@@ -309,4 +309,6 @@ SolveReport Pgs::find_velocities(const System& system, const Settings& settings)
   return report;
 }
 
+std::unique_ptr<Solver> make_pgs() { return std::make_unique<Pgs>(); }
+
 }  // namespace substep

@@ -28,6 +28,6 @@ class Solver {
   virtual void find_impulses(std::span<Block> /*blocks*/) {}
 };
 
-std::unique_ptr<Solver> make_solver(SolverKind kind);
+inline std::unique_ptr<Solver> make_solver(SolverKind kind) { return entry_of(kind).make.call(); }
 
 }  // namespace substep

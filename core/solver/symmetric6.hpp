@@ -50,7 +50,7 @@ class Symmetric6 {
   void set(int i, const Pair& p0, const Pair& p1, const Pair& p2) { row_[i] = {{p0, p1, p2}}; }
 
   /// A e for a direction of rotation e.
-  [[nodiscard]] Pairs6 angular_column(const double (&e)[3]) const {
+  [[nodiscard, gnu::always_inline]] Pairs6 angular_column(const double (&e)[3]) const {
     const Symmetric6& A = *this;
     const auto linear = [&](int i) { return A(i, 3) * e[0] + A(i, 4) * e[1] + A(i, 5) * e[2]; };
     const double x = A(3, 3) * e[0] + A(3, 4) * e[1] + A(3, 5) * e[2];

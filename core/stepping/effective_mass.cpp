@@ -1,9 +1,6 @@
 #include "core/stepping/effective_mass.hpp"
 
-#include "core/stepping/damping.hpp"
 #include "core/stepping/full_stiffness.hpp"
-#include "core/stepping/geometric_inertia.hpp"
-#include "core/stepping/mode_rules.hpp"
 
 namespace substep {
 
@@ -29,12 +26,9 @@ inline void turn(const Mat3& R, const InertiaInverse& own, InverseMass& out) {
 }
 
 /// Mt about the principal axes of a body [kg m^2]. @return true if it differs from I
-bool principal_mass(const Settings& s, StiffMass mass, const Vec3& I, const Vec6& k, double dt,
-                    Vec3& Mt) {
-  for (int j = 0; j < 3; ++j) {
-    Mt[j] = mass == StiffMass::kDamped ? damped_mass(I[j], k[3 + j], s.alpha, dt)
-                                       : stiffened_mass(I[j], k[3 + j], s.alpha_m, dt);
-  }
+bool principal_mass(const Settings& s, const Vec3& I, const Vec6& k, double dt, Vec3& Mt) {
+  StiffMass* const mass = entry_of(s.mode).mass;
+  for (int j = 0; j < 3; ++j) Mt[j] = mass(s, I[j], k[3 + j], dt);
   return Mt != I;
 }
 
@@ -56,18 +50,15 @@ void inverse_mass(std::span<const InertiaInverse> own, const Part& part, std::sp
   for (const int body : part.moving) turn(R_WB[index(body)], own[index(body)], out[index(body)]);
 }
 
-bool changes_mass(Mode mode) { return rules_of(mode).mass != StiffMass::kOwn; }
-
 bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,
                      const State& state, double dt) {
-  const StiffMass mass = rules_of(settings.mode).mass;
-  if (mass == StiffMass::kOwn) return false;
-  if (mass == StiffMass::kFull) {
+  if (!changes_mass(settings.mode)) return false;
+  if (entry_of(settings.mode).full_stiffness) {
     return body < state.K_resisting.size() && !state.K_resisting[body].isZero(0.0);
   }
   Vec3 Mt;
   return body < state.k.size() &&
-         principal_mass(settings, mass, scene.bodies[body].inertia, state.k[body], dt, Mt);
+         principal_mass(settings, scene.bodies[body].inertia, state.k[body], dt, Mt);
 }
 
 // S = Mt^-1 M converts u* computed with M to u* computed with Mt:
@@ -76,16 +67,15 @@ void effective_mass(const Scene& scene, const Part& part, const Settings& settin
                     std::span<const InertiaInverse> own, std::span<const Mat3> R_WB,
                     std::span<const Vec6> u_start, double dt, State& state,
                     std::span<InverseMass> out) {
-  const ModeRules rules = rules_of(settings.mode);
-  const double beta = rules.beta.value_or(settings.beta);
-  const bool stiffens = rules.mass == StiffMass::kFull;
+  const double beta = entry_of(settings.mode).beta.value_or(settings.beta);
+  const bool stiffens = entry_of(settings.mode).full_stiffness;
   const std::size_t known = stiffens ? state.K_resisting.size() : state.k.size();
   for (const int body : part.moving) {
     const std::size_t i = index(body);
     const Vec3& I = scene.bodies[i].inertia;
     const Mat3& R = R_WB[i];
     Vec3 Mt;
-    if (i >= known || (!stiffens && !principal_mass(settings, rules.mass, I, state.k[i], dt, Mt))) {
+    if (i >= known || (!stiffens && !principal_mass(settings, I, state.k[i], dt, Mt))) {
       turn(R, own[i], out[i]);
       continue;
     }

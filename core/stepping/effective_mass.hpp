@@ -10,20 +10,12 @@
 
 namespace substep {
 
-/// M^-1 of a body about its principal axes; zero for a static body.
-struct InertiaInverse {
-  double linear = 0.0;          // 1/m [1/kg]
-  Vec3 angular = Vec3::Zero();  // 1/I [1/(kg m^2)]
-  bool isotropic = true;        // equal principal moments
-};
+/// M^-1 of all bodies.
 std::vector<InertiaInverse> inertia_inverses(const Scene& scene);
 
 /// Sets Mt^-1 = M^-1 for the moving bodies of the part, world axes. @param own of all bodies
 void inverse_mass(std::span<const InertiaInverse> own, const Part& part, std::span<const Mat3> R_WB,
                   std::span<InverseMass> out);
-
-/// True if a mode replaces M by another mass.
-bool changes_mass(Mode mode);
 
 /// True if Mt of a body differs from M in a sub-step. @param state as for effective_mass()
 bool changes_mass_of(std::size_t body, const Scene& scene, const Settings& settings,

@@ -28,10 +28,8 @@ void Euler::move_poses(const Substep& sub, State& state) {
 // Joint forces are applied along the rows at the new poses, where they do no work and conserve the
 // angular momentum about a fixed anchor.
 void Euler::synchronise(const Substep& sub, State& state) {
-  // Newton and XPBD already apply forces along rows at later poses.
-  const bool turns_forces = sub.scene->effects.joints &&
-                            sub.settings.solver != SolverKind::kNewton &&
-                            sub.settings.solver != SolverKind::kXpbd;
+  // A solver that holds constraints at the end applies forces along rows at later poses.
+  const bool turns_forces = sub.scene->effects.joints && !entry_of(sub.settings.solver).at_end;
   if (turns_forces) turn_joint_forces(sub, state);
   find_hit(sub);
   for (const int body : sub.part->moving) {

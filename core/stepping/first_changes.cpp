@@ -6,7 +6,6 @@
 #include "core/math/gyroscopic.hpp"
 #include "core/stepping/carried_momentum.hpp"
 #include "core/stepping/drift.hpp"
-#include "core/stepping/external.hpp"
 #include "core/stepping/gyroscopic_stage.hpp"
 #include "core/stepping/integrate.hpp"
 
@@ -64,13 +63,7 @@ Accelerations accelerations_at(const Trial& trial, Solver& linear) {
   const std::size_t n = trial.state.u.size();
   const std::vector<Vec6> free = gyroscopic_accelerations(sub, trial.state);
   Accelerations out{free, std::vector<Vec3>(n, Vec3::Zero()), {}};
-  for (const int body : sub.part->moving) {
-    if (scene.effects.gravity) out.a[index(body)].head<3>() = scene.gravity;
-  }
-  if (scene.effects.external) {
-    const std::vector<double> one(n, 1.0);
-    add_external(scene, *sub.part, sub.inertia_inverse, sub.R_WB, one, out.a);
-  }
+  apply_forces(sub, std::vector<double>(n, 1.0), out.a);
   for (const Block& block : sub.rows) apply_impulse(block, block.given, sub.inverse_mass, out.a);
   System system{sub.rows, sub.inverse_mass, out.a, free, 1.0, sub.R_WB, scene.regularisation, {}};
   system.limits = sub.limits;

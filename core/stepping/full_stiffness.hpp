@@ -10,7 +10,7 @@ namespace substep {
 // The geometric stiffness of Tournier et al. 2015, "Stable constrained dynamics", as a mass: forces
 // rotate with their body within a step, Mt = M - dt^2 K. K is unsymmetric and partly destabilising,
 // and M - dt^2 K can be singular, so only the resisting part of K is used. With a resisting k,
-// Mt = M + dt^2 k, so the limit of damping.hpp, 2 (M + Mt) - dt^2 k = 4 M + dt^2 k, is positive
+// Mt = M + dt^2 k, so the limit of damping.cpp, 2 (M + Mt) - dt^2 k = 4 M + dt^2 k, is positive
 // for every k.
 
 /// The part of -K that resists rotation: its symmetric part without negative eigenvalues.

@@ -26,10 +26,9 @@ bool is_zero(const Vec3& v) { return v.isZero(0.0); }
 // scenes with contacts joints use plain Eq. 3.
 bool bends_rows(const Substep& sub) {
   const Settings& settings = sub.settings;
-  const bool looks_ahead =
-      settings.solver == SolverKind::kNewton || settings.solver == SolverKind::kXpbd;
   return settings.gyroscopic == Gyroscopic::kImplicit && sub.scene->effects.joints &&
-         !sub.scene->effects.contact && settings.drift_order == 1 && !looks_ahead;
+         !sub.scene->effects.contact && settings.drift_order == 1 &&
+         !entry_of(settings.solver).at_end;
 }
 
 // In a loop either all rows are bent or none: in an overconstrained mechanism, bent and unbent rows

@@ -4,7 +4,7 @@
 
 namespace substep {
 
-/// Leapfrog, second order (Verlet 1967): Euler with external forces from the middle of the last
+/// Leapfrog, second order (Verlet 1967): Euler with applied forces from the middle of the last
 /// sub-step to the middle of this one. dt_previous = 0 at the start.
 class Leapfrog : public Euler {
  public:

@@ -1,5 +1,7 @@
 #include "core/stepping/substep.hpp"
 
+#include "core/forces/applied_forces.hpp"
+
 #include <algorithm>
 
 #include "core/model/joint_fields.hpp"
@@ -17,6 +19,16 @@ Substep::Substep(const Scene& of) : scene(&of), inertia_inverse(inertia_inverses
   impulse_time.resize(n);
   u_before.resize(n);
   inverse_mass.resize(n);
+}
+
+void apply_forces(const Substep& sub, std::span<const double> time, std::span<Vec6> u) {
+  for_each_force(sub.scene->effects, [&](auto force) {
+    for (const int body : sub.part->moving) {
+      const std::size_t i = index(body);
+      force.accelerate(*sub.scene, sub.scene->bodies[i], sub.inertia_inverse[i], sub.R_WB[i],
+                       time[i], u[i]);
+    }
+  });
 }
 
 double impulse_time_of(const Substep& sub, const Block& block) {

@@ -42,12 +42,16 @@ struct Substep {
   std::vector<Vec6> u_start;  // at its start [m/s, rad/s]
   std::span<Block> rows;      // phi, J; later bias, softness, impulse
   SolveLimits limits;
-  std::vector<double> impulse_time;       // duration of external forces [s]
+  std::vector<double> impulse_time;       // duration of applied forces [s]
   std::vector<Vec6> u_before;             // after the gyroscopic torque, before forces and rows
   std::vector<InverseMass> inverse_mass;  // Mt^-1
   std::span<const std::uint8_t> struck;   // per block, if impacts were propagated; else empty
   bool smooth = true;                     // no contact closed
 };
+
+/// u += time M^-1 f for the applied forces of the moving bodies. @param time per body [s]
+/// @param u per body, world axes
+void apply_forces(const Substep& sub, std::span<const double> time, std::span<Vec6> u);
 
 /// Duration of a block's impulse: lambda = impulse / duration [s]. Bodies that have just made
 /// contact may differ in it; the force between them is then nominal.

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/stepping/mode_rules.hpp"
-
 namespace substep {
 
 double stable_step(double alpha, double r) {
@@ -14,7 +12,7 @@ double stable_step(double alpha, double r) {
 }
 
 bool chooses_substeps(Mode mode) {
-  const SubstepCount count = rules_of(mode).count;
+  const SubstepCount count = entry_of(mode).count;
   return count == SubstepCount::kStable || count == SubstepCount::kStableCapped;
 }
 
@@ -45,7 +43,7 @@ SubstepClock::SubstepClock(const Settings& settings, double h, double r, double 
 }
 
 void SubstepClock::decide() {
-  const SubstepCount count = rules_of(settings_.mode).count;
+  const SubstepCount count = entry_of(settings_.mode).count;
   left_ = count == SubstepCount::kGiven ? settings_.n : 1;
   if (chooses_substeps(settings_.mode)) {
     const int limit = count == SubstepCount::kStable ? settings_.n_max : settings_.n_cap;
@@ -60,7 +58,7 @@ void SubstepClock::decide() {
 }
 
 bool SubstepClock::needs_stiffness() const {
-  if (rules_of(settings_.mode).mass != StiffMass::kOwn) return true;
+  if (changes_mass(settings_.mode)) return true;
   if (decides_again(settings_)) return true;
   return left_ == 1 && (chooses_substeps(settings_.mode) || settings_.watch_stiffness);
 }

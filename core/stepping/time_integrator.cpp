@@ -1,8 +1,6 @@
 #include "core/stepping/time_integrator.hpp"
 
 #include "core/stepping/leapfrog.hpp"
-#include "core/stepping/numerov_integrator.hpp"
-#include "core/stepping/stormer.hpp"
 
 namespace substep {
 
@@ -13,9 +11,9 @@ bool TimeIntegrator::breaks_motion(const Block& contact) const {
 std::unique_ptr<TimeIntegrator> make_integrator(const Scene& scene, const JointStage* joints,
                                                 const Settings& settings) {
   if (settings.solver == SolverKind::kNewton && settings.forces == Forces::kNumerov) {
-    return std::make_unique<Numerov>(scene, joints, settings.integrator);
+    return make_numerov(scene, joints, settings.integrator);
   }
-  if (follows_accelerations(settings)) return std::make_unique<Stormer>(scene, joints);
+  if (follows_accelerations(settings)) return make_stormer(scene, joints);
   if (settings.integrator == Integrator::kEuler) return std::make_unique<Euler>(scene);
   return std::make_unique<Leapfrog>(scene);
 }

@@ -14,7 +14,7 @@ class TimeIntegrator {
  public:
   virtual ~TimeIntegrator() = default;
 
-  /// Duration of external forces [s]. @param dt_previous 0 at the start [s]
+  /// Duration of applied forces [s]. @param dt_previous 0 at the start [s]
   [[nodiscard]] virtual double force_time(double dt_previous, double dt) const = 0;
   /// Sets state.u to the velocity that the forces of the sub-step act on.
   virtual void begin(const Substep& sub, State& state) = 0;
@@ -42,5 +42,8 @@ class TimeIntegrator {
 /// The method that the settings select. @param joints null without joints; both outlive the method
 std::unique_ptr<TimeIntegrator> make_integrator(const Scene& scene, const JointStage* joints,
                                                 const Settings& settings);
+std::unique_ptr<TimeIntegrator> make_stormer(const Scene& scene, const JointStage* joints);
+std::unique_ptr<TimeIntegrator> make_numerov(const Scene& scene, const JointStage* joints,
+                                             Integrator integrator);
 
 }  // namespace substep

@@ -64,11 +64,11 @@ std::string places(const std::regex& pattern, Keep keep) {
 /// Allowed includes of each module of core/, besides itself.
 const std::map<std::string, std::set<std::string>>& allowed_modules() {
   static const auto allowed = [] {
-    const std::vector<std::string> order{"math",   "model",    "collision", "constraints",
-                                         "solver", "stepping", "sim",       "lab"};
+    const std::vector<std::string> order{"math",   "model",    "forces", "collision", "constraints",
+                                         "solver", "stepping", "sim",    "lab"};
     std::map<std::string, std::set<std::string>> map;
     for (auto it = order.begin(); it != order.end(); ++it) map[*it] = {order.begin(), it};
-    map["io"] = {"math", "model", "sim", "lab"};
+    map["io"] = {"math", "model", "forces", "sim", "lab"};
     return map;
   }();
   return allowed;

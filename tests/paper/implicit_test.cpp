@@ -136,7 +136,7 @@ double growth_of_rod(Forces forces, double kappa, int steps = 100, int first_ste
   return last / first;
 }
 
-// The derivations in newton.hpp, on one body: predicted limits against measured ones.
+// The derivations in newton.cpp, on one body: predicted limits against measured ones.
 TEST(NewtonOnOneBody, IsStableUpToTheDerivedLimit) {
   for (const double kappa : {0.5, 5.9, 50.0, 500.0}) {
     EXPECT_NEAR(growth_of_rod(Forces::kMean, kappa), 1.0, 0.05) << kappa;

@@ -1,4 +1,5 @@
 #include "core/constraints/contact.hpp"
+#include "core/collision/shape_pairs.hpp"
 #include "core/constraints/moved_rows.hpp"
 #include "tests/unit/support.hpp"
 
@@ -10,6 +11,35 @@ void expect_formulas(const Scene& scene, Random& random) {
   const Rows rows = contact_rows(scene);
   expect_gradient(scene, state, rows);
   expect_stiffness(scene, state, rows, random);
+}
+
+// touch_shapes() calls touch() for every pair of shapes: without one it does not compile.
+struct Unpaired {};
+template <class A, class B>
+concept Touching = requires(const Placed& at, const A& a, const B& b, ContactPoints& out) {
+  touch(at, a, at, b, 0.0, out);
+};
+
+TEST(ShapePairs, APairWithoutContactPointsDoesNotCompile) {
+  static_assert(Touching<Sphere, Plane> && Touching<Box, Plane>);
+  static_assert(Touching<Sphere, Box> && Touching<Box, Sphere>);
+  static_assert(!Touching<Unpaired, Plane> && !Touching<Unpaired, Unpaired>);
+  static_assert(!Touching<Box, Unpaired> && !Touching<Unpaired, Box>);
+}
+
+// What pictures show of a shape touches its bounds.
+TEST(Shapes, OutlinesFillTheirBounds) {
+  EXPECT_FALSE(outline(Plane{}));
+  Random random(9);
+  for (const Shape& shape : {Shape(Sphere{0.4}), Shape(Box{{0.2, 0.5, 0.3}})}) {
+    const RoundedBox solid = *outline(shape);
+    EXPECT_EQ(solid.is_ball(), std::holds_alternative<Sphere>(shape));
+    const Mat3 R = random_rotation(random).toRotationMatrix();
+    const Vec3 inner = solid.half_extents.array() - solid.rounding;
+    const Vec3 reach = R.cwiseAbs() * inner + Vec3::Constant(solid.rounding);
+    std::visit([&](const auto& s) { EXPECT_LT((reach - s.bounds(R)).norm(), 1e-15); }, shape);
+    EXPECT_NEAR(inner.norm() + solid.rounding, radius_around(shape), 1e-15);
+  }
 }
 
 TEST(SphereSphere, GradientAndStiffnessMatchFiniteDifferences) {

@@ -1,6 +1,7 @@
 #include "core/constraints/moved_rows.hpp"
 #include "core/math/across.hpp"
 #include "core/model/joint_fields.hpp"
+#include "core/model/types_in_files.hpp"
 #include "core/solver/system.hpp"
 #include "core/stepping/integrate.hpp"
 #include "tests/unit/support.hpp"
@@ -68,8 +69,8 @@ TEST(JointTable, AnEntryWithoutAnOperationDoesNotCompile) {
   EXPECT_EQ(kind_of(BallJoint{}), BlockKind{0});
   EXPECT_EQ(kind_of(HingeJoint{}), BlockKind{1});
   EXPECT_EQ(kind_of(PrismaticJoint{}), BlockKind{2});
-  for (std::size_t type = 0; type < kJointTypes.size(); ++type) {
-    EXPECT_EQ(make_joint(type).index(), type);
+  for (std::size_t type = 0; type < kTypes<Joint>.size(); ++type) {
+    EXPECT_EQ(make_type<Joint>(type).index(), type);
   }
 }
 

@@ -23,6 +23,10 @@ TEST(JointTree, OnlyTreesOfRigidJointsAreAccepted) {
   };
   EXPECT_TRUE(refused([](Scene& s) { s.effects.contact = true; }));
   EXPECT_TRUE(refused([](Scene& s) { s.effects.gyroscopic = false; }));
+  EXPECT_TRUE(refused([](Scene& s) {
+    s.effects.external = true;
+    s.bodies[3].force = {1.0, 0.0, 0.0};
+  })) << "the equations have no applied force but gravity";
   EXPECT_TRUE(refused([](Scene& s) { s.effects.joints = false; }));
   EXPECT_TRUE(refused([](Scene& s) { s.regularisation = 1e-6; }));
   EXPECT_TRUE(refused([](Scene& s) { base(s.joints[2]).compliance = 1e-3; }));

@@ -6,6 +6,8 @@
 
 #include <set>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "core/model/names.hpp"
 #include "core/model/setting_fields.hpp"
@@ -18,6 +20,21 @@ void expect_settings(const SettingNames& names) {
   for (const std::string_view name : names) {
     EXPECT_TRUE(name.empty() || find_setting(name) != nullptr) << name;
   }
+}
+
+// The tables assert this: one with a method left out, or a solver that nothing makes, does not
+// compile.
+TEST(Methods, ATableWithAMissingEntryDoesNotCompile) {
+  constexpr auto without = [](auto table, auto change) {
+    change(table);
+    return is_complete(table);
+  };
+  static_assert(without(kModes, [](auto&) {}));
+  static_assert(!without(kModes, [](auto& table) { table.back() = {}; }));
+  static_assert(!without(kModes, [](auto& table) { std::swap(table[0], table[1]); }));
+  static_assert(!std::is_default_constructible_v<SolverEntry>, "what makes the solver");
+  static_assert(!std::is_constructible_v<decltype(SolverEntry::make), std::nullptr_t>);
+  static_assert(!without(kIntegrators, [](auto& table) { table[1].name = ""; }));
 }
 
 TEST(Methods, ReadSettingsThatExist) {

@@ -2,8 +2,7 @@
 
 #include "core/constraints/moved_rows.hpp"
 #include "core/model/names.hpp"
-#include "core/solver/newton.hpp"
-#include "core/solver/xpbd.hpp"
+#include "core/solver/solver.hpp"
 #include "core/stepping/integrate.hpp"
 #include "tests/unit/support.hpp"
 
@@ -125,8 +124,8 @@ TEST(Newton, SolvesTheImplicitSubstep) {
       Settings settings;
       settings.iterations = 100;
       settings.forces = forces;
-      Newton newton;
-      const SolveReport report = newton.solve(chain.system(), settings);
+      const auto newton = make_solver(SolverKind::kNewton);
+      const SolveReport report = newton->solve(chain.system(), settings);
       EXPECT_EQ(report.status, SolveStatus::kSolved) << name_of(forces) << " trial " << trial;
       EXPECT_LT(error_at_end(chain), 1e-7) << name_of(forces) << " trial " << trial;
       EXPECT_LT(error_of_impulses(chain, u_star, forces), 1e-7)
@@ -146,7 +145,7 @@ TEST(Newton, ConvergesInAFewSteps) {
       Chain chain = start;
       Settings settings;
       settings.iterations = steps;
-      Newton().solve(chain.system(), settings);
+      make_solver(SolverKind::kNewton)->solve(chain.system(), settings);
       error[steps] = error_at_end(chain);
     }
     EXPECT_LT(error[5], 1e-3 * error[2]) << "trial " << trial;
@@ -173,8 +172,8 @@ TEST(Newton, WithoutRotationIsTheLinearSolve) {
     block.softness[row] = 0.1;
   }
   Chain linear = chain;
-  Newton().solve(chain.system(), Settings{});
-  Bpp().solve(linear.system(), Settings{});
+  make_solver(SolverKind::kNewton)->solve(chain.system(), Settings{});
+  make_solver(SolverKind::kBpp)->solve(linear.system(), Settings{});
   EXPECT_LT((chain.state.u[0] - linear.state.u[0]).norm(), 1e-14);
 }
 
@@ -192,9 +191,9 @@ TEST(Xpbd, ConvergesToTheEndOfTheSubstepAndNearlyToNewton) {
       Chain other = chain;
       Settings settings;
       settings.iterations = 3000;
-      Xpbd().solve(chain.system(), settings);
+      make_solver(SolverKind::kXpbd)->solve(chain.system(), settings);
       EXPECT_LT(error_at_end(chain), 1e-8);
-      Newton().solve(other.system(), settings);
+      make_solver(SolverKind::kNewton)->solve(other.system(), settings);
       for (std::size_t i = 0; i < chain.state.u.size(); ++i) {
         *sum = std::max(*sum, (chain.state.u[i] - other.state.u[i]).norm());
       }
@@ -209,7 +208,7 @@ TEST(Xpbd, ImpulsesMatchTheVelocitiesOfTheCentres) {
   std::vector<Vec6> u = chain.state.u;
   Settings settings;
   settings.iterations = 7;
-  Xpbd().solve(chain.system(), settings);
+  make_solver(SolverKind::kXpbd)->solve(chain.system(), settings);
   for (const Block& block : chain.blocks.all()) {
     apply_impulse(block, block.impulse, chain.inverse_mass, u);
   }

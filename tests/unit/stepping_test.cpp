@@ -2,11 +2,9 @@
 
 #include "core/math/gyroscopic.hpp"
 #include "core/model/names.hpp"
-#include "core/stepping/damping.hpp"
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/full_stiffness.hpp"
-#include "core/stepping/geometric_inertia.hpp"
 #include "core/stepping/substep_clock.hpp"
 #include "core/stepping/time_integrator.hpp"
 #include "tests/unit/support.hpp"
@@ -184,7 +182,7 @@ double largest_growth(const Settings& settings, double kappa) {
   return holds;
 }
 
-// The model of Eq. 5 and the derivations in damping.hpp and geometric_inertia.hpp: predicted and
+// The model of Eq. 5 and the derivations in damping.cpp and geometric_inertia.cpp: predicted and
 // measured limits.
 TEST(Oscillator, StabilityLimitsMatchTheDerivation) {
   for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
@@ -202,10 +200,10 @@ TEST(Oscillator, StabilityLimitsMatchTheDerivation) {
       };
       const Settings defaults;
       for (const Mode mode : {Mode::kNone, Mode::kConst, Mode::kAdaptive}) expect(mode, 1.0, 1.0);
-      const double damped = damped_mass(1.0, kappa, 0.4, 1.0);
+      const double damped = damped_mass({.alpha = 0.4}, 1.0, kappa, 1.0);
       for (const Mode mode : {Mode::kDamping, Mode::kCapped}) expect(mode, damped, 1.0 / damped);
       expect(Mode::kStiffness, 1.0 + kappa, 1.0 / (1.0 + kappa));
-      const double stiffened = stiffened_mass(1.0, kappa, defaults.alpha_m, 1.0);
+      const double stiffened = stiffened_mass(defaults, 1.0, kappa, 1.0);
       expect(Mode::kInertia, stiffened, 1.0);
       expect(Mode::kBlend, stiffened, 0.9 + 0.1 / stiffened);
     }
@@ -233,7 +231,7 @@ TEST(Oscillator, TheStepOfTheClockLeavesTheMarginOfAlpha) {
       dt = SubstepClock(settings, kFrame, kRate).dt();
       EXPECT_DOUBLE_EQ(dt, kFrame / 8.0);
       const double kappa = dt * dt * kRate;
-      const double damped = damped_mass(1.0, kappa, alpha, 1.0);
+      const double damped = damped_mass(settings, 1.0, kappa, 1.0);
       EXPECT_NEAR(largest_growth(settings, kappa) * kappa / (2.0 * (damped + 1.0)), 1.0, 2e-3);
       EXPECT_GT(largest_growth(settings, kappa), 1.0);
     }

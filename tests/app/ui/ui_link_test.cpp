@@ -172,7 +172,7 @@ TEST(Link, OfAnEditedSceneIsOpened) {
         session.throw_ball(ball);
       } else {
         Effects effects = session.scene().effects;
-        for (const NamedEffect& effect : kEffectNames) {
+        for (const EffectEntry& effect : kEffects) {
           if (effect.name == edit) effects.*effect.member = false;
         }
         if (effects == session.scene().effects) continue;

@@ -1,6 +1,6 @@
-#pragma once
-
 #include <algorithm>
+
+#include "core/model/settings.hpp"
 
 namespace substep {
 
@@ -15,12 +15,11 @@ namespace substep {
 // chooses dt <= 2 sqrt(alpha M/k) (Eqs. 10 and 11), so that kappa <= 4 alpha: stable for alpha < 1.
 // `capped` limits N to n_cap and damps the remaining stiffness: `damping` with dt = h/n_cap.
 
-/// Adaptive damping (Andrews et al. 2017; Eq. 6): Mt = M + dt b with
-/// b = max(0, (dt^2 k - 4 alpha M)/dt). Stable for every k and alpha <= 1: where b > 0,
-/// 2 (M + Mt) - dt^2 k = dt^2 k + 4 M (1 - 2 alpha) > 4 M (1 - alpha). @param mass of the degree of
-/// freedom [kg m^2]  @param k [N m/rad]  @param dt [s]
-inline double damped_mass(double mass, double k, double alpha, double dt) {
-  return mass + std::max(0.0, dt * dt * k - 4.0 * alpha * mass);
+// Adaptive damping (Andrews et al. 2017; Eq. 6): Mt = M + dt b with
+// b = max(0, (dt^2 k - 4 alpha M)/dt). Stable for every k and alpha <= 1: where b > 0,
+// 2 (M + Mt) - dt^2 k = dt^2 k + 4 M (1 - 2 alpha) > 4 M (1 - alpha).
+double damped_mass(const Settings& settings, double M, double k, double dt) {
+  return M + std::max(0.0, dt * dt * k - 4.0 * settings.alpha * M);
 }
 
 }  // namespace substep

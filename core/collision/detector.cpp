@@ -17,7 +17,7 @@ bool is_box(const Scene& scene, int body) {
 
 double way_in(double time, const Scene& scene, const Body& body, const Vec6& u) {
   if (body.is_static) return 0.0;
-  return time * (fastest_point(body, u) + time * fastest_gain(scene, body));
+  return time * (fastest_point(body, u) + time * acceleration_bound(scene, body));
 }
 
 Detector::Detector(const Scene& scene) : broad_phase_(scene) {

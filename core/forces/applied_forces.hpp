@@ -23,8 +23,8 @@ concept AppliedForce = requires(const Scene& scene, const Body& body, const Iner
   { F::accelerate(scene, body, own, R_WB, time, u) } -> std::same_as<void>;
   // Potential energy of the body with its centre at x [J].
   { F::potential(scene, body, x) } -> std::same_as<double>;
-  // Upper bound on the acceleration of any of its points [m/s^2].
-  { F::fastest_gain(scene, body) } -> std::same_as<double>;
+  // Upper bound on the acceleration of any of its points due to the force [m/s^2].
+  { F::acceleration_bound(scene, body) } -> std::same_as<double>;
 };
 
 using AppliedForces = std::tuple<Gravity, ConstantForce>;
@@ -51,14 +51,15 @@ inline bool has_applied_forces(const Effects& effects,
   return found;
 }
 
-/// Upper bound on the acceleration of any point of a body by applied forces [m/s^2]; 0 for a static
-/// body. Clamped to 1e9 to keep derived values finite.
-inline double fastest_gain(const Scene& scene, const Body& body) {
+/// Upper bound on the acceleration of any point of a body due to applied forces [m/s^2]; 0 for a
+/// static body. Clamped to 1e9 to keep derived values finite.
+inline double acceleration_bound(const Scene& scene, const Body& body) {
   if (body.is_static) return 0.0;
   constexpr double kMost = 1e9;  // [m/s^2]
-  double gain = 0.0;
-  for_each_force(scene.effects, [&](auto force) { gain += force.fastest_gain(scene, body); });
-  return gain < kMost ? gain : kMost;  // NaN also becomes kMost
+  double bound = 0.0;
+  for_each_force(scene.effects,
+                 [&](auto force) { bound += force.acceleration_bound(scene, body); });
+  return bound < kMost ? bound : kMost;  // NaN also becomes kMost
 }
 
 }  // namespace substep

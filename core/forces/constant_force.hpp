@@ -19,7 +19,7 @@ struct ConstantForce {
   static double potential(const Scene&, const Body& body, const Vec3& x) {
     return -body.force.dot(x);
   }
-  static double fastest_gain(const Scene&, const Body& body) {
+  static double acceleration_bound(const Scene&, const Body& body) {
     return body.force.norm() / body.mass +
            radius_around(body.shape) * body.torque.norm() / body.inertia.minCoeff();
   }

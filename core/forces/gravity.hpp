@@ -15,7 +15,7 @@ struct Gravity {
   static double potential(const Scene& scene, const Body& body, const Vec3& x) {
     return -(body.mass * scene.gravity.dot(x));
   }
-  static double fastest_gain(const Scene& scene, const Body&) { return scene.gravity.norm(); }
+  static double acceleration_bound(const Scene& scene, const Body&) { return scene.gravity.norm(); }
 };
 
 }  // namespace substep

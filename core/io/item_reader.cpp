@@ -15,11 +15,11 @@ namespace {
 struct ShapeFieldReader {
   ObjectReader& in;
 
-  void operator()(std::string_view key, double& target, const Range& range, double in_file) const {
-    if (in.number(key, range, target, kRequired)) target /= in_file;
+  void operator()(std::string_view key, double& target, const Range& range, double factor) const {
+    if (in.number(key, range, target, kRequired)) target /= factor;
   }
-  void operator()(std::string_view key, Vec3& target, const Range& range, double in_file) const {
-    if (in.vector(key, range, target, kRequired)) target /= in_file;
+  void operator()(std::string_view key, Vec3& target, const Range& range, double factor) const {
+    if (in.vector(key, range, target, kRequired)) target /= factor;
   }
 };
 

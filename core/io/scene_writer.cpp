@@ -23,11 +23,11 @@ Json vector_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 struct ShapeFieldWriter {
   Json& json;
 
-  void operator()(const char* key, double number, const Range&, double in_file) const {
-    json[key] = in_file * number;
+  void operator()(const char* key, double number, const Range&, double factor) const {
+    json[key] = factor * number;
   }
-  void operator()(const char* key, const Vec3& numbers, const Range&, double in_file) const {
-    json[key] = vector_json(in_file * numbers);
+  void operator()(const char* key, const Vec3& numbers, const Range&, double factor) const {
+    json[key] = vector_json(factor * numbers);
   }
 };
 

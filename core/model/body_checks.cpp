@@ -19,11 +19,11 @@ struct ShapeFieldCheck {
   const DataPlace& place;
   Problems& problems;
 
-  void operator()(const char* key, double number, const Range& range, double in_file) const {
-    check_number(in_file * number, range, place.at(key), problems);
+  void operator()(const char* key, double number, const Range& range, double factor) const {
+    check_number(factor * number, range, place.at(key), problems);
   }
-  void operator()(const char* key, const Vec3& numbers, const Range& range, double in_file) const {
-    check_numbers(in_file * numbers, range, place.at(key), problems);
+  void operator()(const char* key, const Vec3& numbers, const Range& range, double factor) const {
+    check_numbers(factor * numbers, range, place.at(key), problems);
   }
 };
 

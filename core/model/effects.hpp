@@ -34,8 +34,8 @@ struct EffectEntry {
   std::string_view name;  // in files
   bool Effects::*member;
   bool (*needed)(const Scene&);
-  const char* about;                 // in a few words
-  bool Effects::*part_of = nullptr;  // the effect that it needs
+  const char* about;                    // in a few words
+  bool Effects::*depends_on = nullptr;  // another effect; null: none
 };
 
 /// Every effect, in file order: the one table for files, measured costs, window and command line.
@@ -63,10 +63,11 @@ constexpr bool lists_each_flag() {
 }
 static_assert(lists_each_flag(), "one entry for each flag");
 
-/// Disables the effects that need a disabled one.
+/// Disables the effects that depend on a disabled one.
 inline void disable_dependents(Effects& effects) {
   for (const EffectEntry& effect : kEffects) {
-    if (effect.part_of != nullptr && !(effects.*effect.part_of)) effects.*effect.member = false;
+    if (effect.depends_on != nullptr && !(effects.*effect.depends_on))
+      effects.*effect.member = false;
   }
 }
 

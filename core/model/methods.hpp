@@ -60,7 +60,7 @@ struct SolverEntry {
   const char* about;
   bool sweeps = false;      // a fixed number of times over the rows; its curves are dashed
   bool at_end = false;      // holds constraints at the end of the sub-step
-  bool seeded = false;      // starts from the forces of the last sub-step in any case
+  bool seeded = false;      // always starts from the forces of the last sub-step
   bool soft_drift = false;  // by default its drift correction is soft
   double work = 1.0;        // per sub-step, or per iteration if it iterates, relative to BPP
   Tint tint = Tint::kBlue;  // of its curves, if at_end; otherwise the mode's colour is used

@@ -18,7 +18,8 @@ struct RoundedBox {
 };
 
 // Each shape has kType, its name in files; kMoves; and own_fields(), which lists its data for
-// reading, writing and checking: field(key, member, range, size in files / member).
+// reading, writing and checking: field(key, member, range, factor); files hold factor times the
+// member.
 // Members: radius of the enclosing sphere about its centre [m]; smallest half width [m];
 // half extents of its bounding box under the rotation R [m]; principal moments as a solid of a
 // given mass [kg m^2]; the rounded box that stands for it in pictures. Planes are infinite and have

@@ -73,8 +73,8 @@ void Islands::set_ways(const Scene& scene, const State& state, double ahead) {
   for (int i = 0; i < n; ++i) {
     double& fastest = speed_[index(root(i))];
     const Body& body = scene.bodies[index(i)];
-    fastest = std::max(fastest,
-                       fastest_point(body, state.u[index(i)]) + ahead * fastest_gain(scene, body));
+    fastest = std::max(
+        fastest, fastest_point(body, state.u[index(i)]) + ahead * acceleration_bound(scene, body));
   }
   for (int i = 0; i < n; ++i) {
     way_[index(i)] = scene.bodies[index(i)].is_static ? 0.0 : ahead * speed_[index(root(i))];

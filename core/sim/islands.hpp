@@ -50,7 +50,7 @@ class Islands {
   void add_part(const Scene& scene);
 
   std::vector<int> parent_;    // per body: parent towards the root, its island's first body
-  std::vector<double> speed_;  // per root: most that a point of its bodies can have [m/s]
+  std::vector<double> speed_;  // per root: bound on the speed of its bodies' points [m/s]
   std::vector<double> way_;    // per body: bound on the travel of its points in the frame [m]
   std::vector<int> island_;    // per body, -1 if static
   std::vector<int> bodies_;    // island by island

@@ -22,7 +22,7 @@ struct Effect {
   void (*remove)(Scene&);
 };
 
-constexpr Effect kSwitched[] = {
+constexpr Effect kRemovals[] = {
     {"gravity", &Effects::gravity, [](Scene& scene) { scene.gravity = Vec3::Zero(); }},
     {"gyroscopic", &Effects::gyroscopic, [](Scene&) {}},
     {"joints", &Effects::joints, [](Scene& scene) { scene.joints.clear(); }},
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   }
   for (Scene& scene : scenes::shipped()) {
     if (scene.name != argv[1]) continue;
-    for (const Effect& effect : kSwitched) {
+    for (const Effect& effect : kRemovals) {
       if (effect.name != std::string(argv[2])) continue;
       if (!(scene.effects.*effect.listed)) return 2;
       scene.effects.*effect.listed = false;

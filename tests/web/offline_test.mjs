@@ -82,7 +82,7 @@ async function until(condition, what) {
   assert.fail(`waited 30 s for ${what}`);
 }
 
-/** Counts how often the list of files was served: each page with a worker looks once. */
+/** Counts how often the list of files was served: a page with a worker asks once for a new version. */
 function countLooks() {
   let served = 0;
   session.server.on("request", ({ url }, response) => {

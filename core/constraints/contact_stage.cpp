@@ -94,7 +94,10 @@ bool ContactStage::append_predicted(const Scene& scene, const Part& part, const 
     block = row;
     move_rows(row, motion(row.a), motion(row.b), block);
     block.phi[0] += row.phi[0];
-    if (block.phi[0] > detector_.margin(scene, row.body_a, row.body_b)) {
+    // b is convex and lies behind the tangent plane, whose distance is a lower bound of the gap.
+    // The moved gap, of second order, is too large far from the start.
+    const Vec3 travel = motion(row.b).R.transpose() * block.rho - row.rho;
+    if (row.phi[0] + row.n.dot(travel) > detector_.margin(scene, row.body_a, row.body_b)) {
       blocks.keep(blocks.size() - 1);
       continue;
     }

@@ -26,7 +26,8 @@ inline Vec3 random_vector(Random& random) {
   return {uniform(random), uniform(random), uniform(random)};
 }
 inline Quat random_rotation(Random& random) {
-  return Quat(uniform(random), uniform(random), uniform(random), uniform(random)).normalized();
+  // Braces: arguments in parentheses are evaluated in an order that depends on the compiler.
+  return Quat{uniform(random), uniform(random), uniform(random), uniform(random)}.normalized();
 }
 
 inline Body moving(const Shape& shape, double mass = 1.0) {

@@ -36,7 +36,7 @@ constexpr std::size_t kMostMemory = std::size_t{1} << 30U;
 
 using Files = std::map<std::string, std::string>;  // by name, and their text
 
-Files files_in(const fs::path& folder) {
+Files contents_of(const fs::path& folder) {
   Files files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     if (!entry.is_regular_file() || entry.is_symlink()) continue;
@@ -62,9 +62,9 @@ Call call(const HostileInput& input) {
   }
   fs::create_symlink("scene.json", folder / "link.json");
   Call call;
-  call.before = files_in(folder);
+  call.before = contents_of(folder);
   call.ending = run_child(SUBSTEP_PROGRAM, input, folder, kPatience);
-  call.after = files_in(folder);
+  call.after = contents_of(folder);
   return call;
 }
 

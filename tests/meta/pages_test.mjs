@@ -22,7 +22,7 @@ function files(folder, ending) {
 // ------------------------------------------------------------------------------------- known commands
 const known = {
   dev: new Set([...read("dev").matchAll(/^cmd_(\w+)\(\)/gm)].map(match => match[1]).concat("help")),
-  label: new Set(/\^\(([a-z|]+)\)\$ \]\] \|\|\n\s*die "there is no label/.exec(read("dev"))[1].split("|")),
+  label: new Set(/\^\(([a-z|]+)\)\$ \]\] \|\|\n\s*die "there is no label/.exec(read("dev"))[1].split("|").concat("all")),
   substep: new Set(files("app/cli", "_command.cpp")
     .flatMap(file => [...read(file).matchAll(/app\.add_subcommand\(\s*"(\w+)"/g)].map(match => match[1]))),
 };

@@ -7,9 +7,19 @@
 #include <string>
 #include <vector>
 
+#include "scenes/generator/scenes.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {
+
+/// The swinging box; the paper's joints have a small compliance [m/N, rad/(N m)].
+inline Outcome swing(const Settings& settings, double seconds = 10.0, double compliance = 1e-12) {
+  return run(scenes::swinging_box({scenes::kSixtyDegrees, compliance}), settings, seconds);
+}
+/// The same with exact joints.
+inline Outcome swing_exact(const Settings& settings, double seconds = 10.0) {
+  return swing(settings, seconds, 0.0);
+}
 
 inline constexpr double kExchanged = 51500.0;  // exchanged energy: 100 % of the drift [J]
 

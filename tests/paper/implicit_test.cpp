@@ -26,12 +26,6 @@ Settings newton(Forces forces, int n, int steps = 25) {
   return settings;
 }
 
-Outcome swing(const Settings& settings, double seconds = 10.0, double compliance = 1e-12) {
-  scenes::SwingingBoxOptions options;
-  options.compliance = compliance;
-  return run(scenes::swinging_box(options), settings, seconds);
-}
-
 // One step per frame is seven times the stable step of an explicit sub-step: BPP fails at once.
 TEST(NewtonAtTheEnd, StandsAtOneSubstepAndDamps) {
   double before = -100.0;

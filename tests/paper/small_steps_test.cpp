@@ -22,7 +22,7 @@ Settings small_steps(SolverKind solver, int n) {
 }
 
 /// Ten links of 1 kg with 1000 kg at the end, released at 60 degrees.
-Outcome swing(const Settings& settings) {
+Outcome swing_rope(const Settings& settings) {
   return run(scenes::rope_of_n({.n = 10}), settings, 2.0, {}, false);
 }
 
@@ -47,7 +47,7 @@ TEST(SmallSteps, DistributeTheSameSweeps) {
 TEST(SmallSteps, StretchLessWithTheSameSweeps) {
   double before = 1.0;
   for (const int n : {1, 2, 4, 8, 16, 32}) {
-    const double gap = swing(small_steps(SolverKind::kXpbd, n)).joint_gap;
+    const double gap = swing_rope(small_steps(SolverKind::kXpbd, n)).joint_gap;
     EXPECT_LT(gap, 0.75 * before) << n;
     before = gap;
   }
@@ -57,9 +57,9 @@ TEST(SmallSteps, StretchLessWithTheSameSweeps) {
 // When sweeps compute forces from zero, as Gauss-Seidel does here, a few sweeps no longer reach the
 // end of the chain: the optimum is in between.
 TEST(SmallSteps, WithForcesHaveAnOptimumInBetween) {
-  const double gap_8 = swing(small_steps(SolverKind::kPgs, 8)).joint_gap;
-  EXPECT_GT(swing(small_steps(SolverKind::kPgs, 4)).joint_gap, 10.0 * gap_8);
-  EXPECT_GT(swing(small_steps(SolverKind::kPgs, 32)).joint_gap, 2.0 * gap_8);
+  const double gap_8 = swing_rope(small_steps(SolverKind::kPgs, 8)).joint_gap;
+  EXPECT_GT(swing_rope(small_steps(SolverKind::kPgs, 4)).joint_gap, 10.0 * gap_8);
+  EXPECT_GT(swing_rope(small_steps(SolverKind::kPgs, 32)).joint_gap, 2.0 * gap_8);
   EXPECT_LT(gap_8, 0.05);
 }
 

@@ -18,10 +18,6 @@ Settings constant(int n) {
   return settings;
 }
 
-Outcome swing(const Settings& settings, double seconds, double compliance = 1e-12) {
-  return run(scenes::swinging_box({scenes::kSixtyDegrees, compliance}), settings, seconds);
-}
-
 TEST(SwingingBox, TheReferenceExists) { ASSERT_EQ(reference().size(), 601U); }
 
 // Rounding determines which link fails first, and the exact time; that the runs fail, and their

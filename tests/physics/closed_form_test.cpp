@@ -13,8 +13,6 @@
 namespace substep::test {
 namespace {
 
-constexpr double kGravity = 9.81;  // [m/s^2]
-
 Settings constant(int n, Integrator integrator) {
   Settings settings;
   settings.mode = Mode::kConst;

@@ -11,8 +11,9 @@
 namespace substep {
 namespace {
 
-constexpr double kMass = 100.0;    // [kg]
-constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kMass = 100.0;  // [kg]
+using test::kAllSolvers;
+using test::kGravity;
 
 /// A weight on a compliant ball joint, at the joint's own point.
 Scene weight_on_a_spring(double compliance) {
@@ -43,9 +44,6 @@ Settings settings_of(SolverKind solver, int n, Integrator integrator, Drift drif
   settings.drift = drift;
   return settings;
 }
-
-constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd,
-                                      SolverKind::kNewton};
 
 }  // namespace
 

@@ -13,10 +13,11 @@
 namespace substep {
 namespace {
 
-constexpr double kGravity = 9.81;                  // [m/s^2]
+using test::kAllSolvers;
+using test::kGravity;
 constexpr double kSlope = std::numbers::pi / 6.0;  // [rad]
 constexpr double kMu = 0.4;
-constexpr double kSeconds = 1.5;
+constexpr double kSlideSeconds = 1.5;
 
 /// A flat block on a slope that falls along -x, rotated about the normal by `yaw`.
 Scene block_on_a_slope(double yaw, bool ground_first, const Vec3& velocity = Vec3::Zero()) {
@@ -59,12 +60,9 @@ Settings settings_of(SolverKind solver, FrictionCone cone) {
 
 Vec3 way_of(const Scene& scene, const Settings& settings) {
   const std::size_t block = scene.bodies[0].is_static ? 1 : 0;
-  return test::run(scene, settings, kSeconds, {}, false).end.x[block] -
+  return test::run(scene, settings, kSlideSeconds, {}, false).end.x[block] -
          scene.bodies[block].position;
 }
-
-constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd,
-                                      SolverKind::kNewton};
 
 }  // namespace
 
@@ -72,7 +70,7 @@ constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, Solver
 // it was listed after the ground, 1.695 m if before.
 TEST(Friction, IsTheSameForEveryOrderOfBodiesAndEveryYaw) {
   const double a = kGravity * (std::sin(kSlope) - kMu * std::cos(kSlope));
-  const double way = 0.5 * a * kSeconds * kSeconds;  // 1.695 m
+  const double way = 0.5 * a * kSlideSeconds * kSlideSeconds;  // 1.695 m
   EXPECT_NEAR(way, 1.695, 1e-3);
   for (const SolverKind solver : kAllSolvers) {
     for (const FrictionCone cone : {FrictionCone::kBox, FrictionCone::kCone}) {
@@ -102,7 +100,7 @@ TEST(Friction, OfTheConeOpposesTheSliding) {
   Vec3 x = Vec3::Zero();
   Vec3 v = start;
   constexpr int kSteps = 100000;
-  const double dt = kSeconds / kSteps;
+  const double dt = kSlideSeconds / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     const Vec3 downhill{-kGravity * std::sin(kSlope), 0.0, 0.0};
     v += dt * (downhill - kMu * kGravity * std::cos(kSlope) * v.normalized());

@@ -8,9 +8,12 @@
 #include "core/model/names.hpp"
 #include "core/model/scene_builder.hpp"
 #include "core/sim/simulator.hpp"
+#include "tests/support/run.hpp"
 
 namespace substep {
 namespace {
+
+using test::kAllSolvers;
 
 constexpr double kRadius = 0.1;  // [m]
 constexpr double kSpeed = 2.0;   // of the striking ball [m/s]
@@ -47,9 +50,6 @@ class Balls {
   SceneBuilder builder_{"balls"};
   double e_;
 };
-
-constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kNewton,
-                                      SolverKind::kXpbd};
 
 // Huygens: in a row of equal touching balls, the last one leaves with the speed of the first.
 TEST(Impacts, PassThroughARowOfBallsThatTouch) {

@@ -17,7 +17,7 @@
 namespace substep {
 namespace {
 
-constexpr double kGravity = 9.81;
+using test::kGravity;
 
 HingeJoint hinge(int a, const Vec3& anchor_a, int b, const Vec3& anchor_b) {
   HingeJoint joint;

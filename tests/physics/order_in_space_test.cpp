@@ -38,10 +38,10 @@ BallChain::Link box(double mass, const Vec3& size, const Quat& q, const Vec3& om
   return link;
 }
 
-const Vec3 kGravity{0.0, -9.81, 0.0};
+const Vec3 kGravityVector{0.0, -9.81, 0.0};
 
 BallChain pendulum() {
-  return {{box(2.0, {0.8, 0.3, 0.1}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})}, kGravity};
+  return {{box(2.0, {0.8, 0.3, 0.1}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})}, kGravityVector};
 }
 BallChain heavy_top() {
   BallChain::Link top;
@@ -51,7 +51,7 @@ BallChain heavy_top() {
   top.to_next = top.to_centre;
   top.q = Quat(1.0, 0.2, 0.0, 0.1).normalized();
   top.omega = top.q * Vec3(0.3, 60.0, 0.0);
-  return {{top}, kGravity};
+  return {{top}, kGravityVector};
 }
 BallChain six_boxes() {
   std::vector<BallChain::Link> links;
@@ -59,12 +59,12 @@ BallChain six_boxes() {
     const double k = 0.15 * i;
     links.push_back(box(1.0, {0.4, 0.2, 0.1}, Quat(1.0, 0.3 + k, 0.2 - k, 0.1 + k), Vec3::Zero()));
   }
-  return {links, kGravity};
+  return {links, kGravityVector};
 }
 BallChain double_pendulum() {
   return {{box(1.0, {0.5, 0.2, 0.1}, Quat(1.0, 0.1, 0.1, 0.2), {0.0, 1.0, 1.0}),
            box(3.0, {0.4, 0.1, 0.3}, Quat(1.0, 0.4, -0.3, 0.1), {2.0, 1.0, 0.0})},
-          kGravity};
+          kGravityVector};
 }
 
 /// Without support: a body on a joint at its centre rotates freely.
@@ -78,7 +78,7 @@ BallChain dzhanibekov() {
 
 /// Equal moments: there is no gyroscopic torque, but its rotations do not commute.
 BallChain cube() {
-  return {{box(2.0, {0.3, 0.3, 0.3}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})}, kGravity};
+  return {{box(2.0, {0.3, 0.3, 0.3}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})}, kGravityVector};
 }
 
 std::vector<Case> cases() {
@@ -111,7 +111,7 @@ double error_of(const Scene& scene, const BallChain& end, const Settings& settin
   return error_at(test::run(scene, settings, kSeconds, {}, false).end, end);
 }
 
-struct Method {
+struct MethodInSpace {
   std::string name;
   Settings settings;
   double order;
@@ -119,11 +119,11 @@ struct Method {
   double alpha = 2e-4;
 };
 
-std::vector<Method> methods() {
-  std::vector<Method> methods{{"euler", {}, 0.9, 32},   {"leapfrog", {}, 1.9},
-                              {"stormer", {}, 3.6},     {"newton end", {}, 0.9, 64},
-                              {"newton mean", {}, 1.9}, {"numerov", {}, 3.6}};
-  for (Method& method : methods) method.settings.integrator = Integrator::kLeapfrog;
+std::vector<MethodInSpace> methods_in_space() {
+  std::vector<MethodInSpace> methods{{"euler", {}, 0.9, 32},   {"leapfrog", {}, 1.9},
+                                     {"stormer", {}, 3.6},     {"newton end", {}, 0.9, 64},
+                                     {"newton mean", {}, 1.9}, {"numerov", {}, 3.6}};
+  for (MethodInSpace& method : methods) method.settings.integrator = Integrator::kLeapfrog;
   methods[0].settings.integrator = Integrator::kEuler;
   methods[2].settings.integrator = Integrator::kStormer;
   for (std::size_t i = 3; i < 6; ++i) methods[i].settings.solver = SolverKind::kNewton;
@@ -169,7 +169,7 @@ TEST(OrderInSpace, ReferencesAgreeWithThemselves) {
 TEST(OrderInSpace, IsKeptWithAFixedNumberOfSubsteps) {
   for (const auto& [start, end] : exact_motions()) {
     const Scene scene = scene_of(start);
-    for (Method method : methods()) {
+    for (MethodInSpace method : methods_in_space()) {
       method.settings.mode = Mode::kConst;
       double error[3];
       for (int i = 0; i < 3; ++i) {
@@ -187,7 +187,7 @@ TEST(OrderInSpace, IsKeptWithAFixedNumberOfSubsteps) {
 TEST(OrderInSpace, IsKeptWhereTheNumberOfSubstepsChanges) {
   for (const auto& [start, end] : exact_motions()) {
     const auto scene = std::make_shared<const Scene>(scene_of(start));
-    for (Method method : methods()) {
+    for (MethodInSpace method : methods_in_space()) {
       method.settings.mode = Mode::kConst;
       double error[3];
       for (int i = 0; i < 3; ++i) {
@@ -210,7 +210,7 @@ TEST(OrderInSpace, IsKeptWhereTheNumberOfSubstepsChanges) {
 TEST(OrderInSpace, IsKeptByAdaptiveSubsteps) {
   for (const auto& [start, end] : exact_motions()) {
     const Scene scene = scene_of(start);
-    for (Method method : methods()) {
+    for (MethodInSpace method : methods_in_space()) {
       method.settings.mode = Mode::kAdaptive;
       method.settings.n_max = 4096;
       double error[2];
@@ -233,7 +233,7 @@ TEST(OrderInSpace, IsKeptByAdaptiveSubsteps) {
 // and reversed its angular momentum.
 TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
   const BallChain start({box(2.0, {0.8, 0.3, 0.02}, Quat(1.0, 0.3, 0.2, 0.1), {1.5, 2.0, -0.7})},
-                        kGravity);
+                        kGravityVector);
   const Scene scene = start.scene();
   for (const Integrator integrator :
        {Integrator::kEuler, Integrator::kLeapfrog, Integrator::kStormer}) {
@@ -282,7 +282,7 @@ BallChain standing_top() {
   top.to_centre = top.to_next = {0.0, 0.1, 0.0};
   top.q = Quat(1.0, 0.3, 0.0, 0.0).normalized();
   top.omega = top.q * Vec3(0.0, 60.0, 0.0);
-  return {{top}, kGravity};
+  return {{top}, kGravityVector};
 }
 
 TEST(RotationCriterion, KeepsATopUprightWithoutStiffness) {
@@ -333,7 +333,7 @@ TEST(RotationCriterion, TopsOfEveryShapeGainNoEnergy) {
         double kinetic = 0.0;
         double start = 0.0;
         double most = 0.0;
-        test::run(BallChain({top}, kGravity).scene(), settings, 10.0,
+        test::run(BallChain({top}, kGravityVector).scene(), settings, 10.0,
                   [&](const Simulator&, const FrameReport& report) {
                     if (kinetic == 0.0) start = report.energy;
                     kinetic = std::max(kinetic, report.kinetic);

@@ -22,13 +22,13 @@ namespace {
 
 constexpr double kFrame = 1.0 / 60.0;
 
-struct Method {
+struct PrismaticMethod {
   const char* name;
   Settings settings;
   int order;  // of the integration
 };
 
-void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+void PrintTo(const PrismaticMethod& method, std::ostream* out) { *out << method.name; }
 
 Settings settings_of(SolverKind solver, Integrator integrator, int n,
                      Forces forces = Forces::kEnd) {
@@ -43,7 +43,7 @@ Settings settings_of(SolverKind solver, Integrator integrator, int n,
   return settings;
 }
 
-std::vector<Method> methods() {
+std::vector<PrismaticMethod> prismatic_methods() {
   return {
       {"Bpp", settings_of(SolverKind::kBpp, Integrator::kEuler, 8), 1},
       {"BppLeapfrog", settings_of(SolverKind::kBpp, Integrator::kLeapfrog, 8), 2},
@@ -56,7 +56,7 @@ std::vector<Method> methods() {
        settings_of(SolverKind::kNewton, Integrator::kLeapfrog, 8, Forces::kNumerov), 4}};
 }
 
-class Prismatic : public testing::TestWithParam<Method> {};
+class Prismatic : public testing::TestWithParam<PrismaticMethod> {};
 
 double error_after(const Scene& scene, const Settings& settings, double seconds,
                    const std::function<double(const State&, double)>& error) {
@@ -73,7 +73,7 @@ double error_after(const Scene& scene, const Settings& settings, double seconds,
 
 /// The error after doubling the sub-steps: reduced at least by the method's order, or at the level
 /// of the iteration's or rounding's residual.
-void expect_order(const Scene& scene, const Method& method, double seconds, double floor,
+void expect_order(const Scene& scene, const PrismaticMethod& method, double seconds, double floor,
                   const std::function<double(const State&, double)>& error) {
   Settings finer = method.settings;
   finer.n *= 2;
@@ -98,7 +98,7 @@ TEST_P(Prismatic, SlidesDownAnInclinedRail) {
     return (state.x[0] - exact).norm() + state.q[0].angularDistance(attitude);
   };
   // There is no curvature: methods that are not of first order are exact.
-  const Method& method = GetParam();
+  const PrismaticMethod& method = GetParam();
   if (method.order > 1) {
     EXPECT_LT(error_after(scene, method.settings, 1.0, error), 1e-11);
   } else {
@@ -164,7 +164,7 @@ TEST_P(Prismatic, KeepsTheMomentaOfTwoFreeBodies) {
   EXPECT_LT(last_drift, std::max(1e-9, 1.3 * largest_drift / shrinks)) << largest_drift;
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryMethod, Prismatic, testing::ValuesIn(methods()),
+INSTANTIATE_TEST_SUITE_P(EveryMethod, Prismatic, testing::ValuesIn(prismatic_methods()),
                          [](const auto& method) { return method.param.name; });
 
 // A slider-crank: x = r cos(a) + sqrt(l^2 - r^2 sin(a)^2), a loop of three hinges and a prismatic

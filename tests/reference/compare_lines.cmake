@@ -1,11 +1,20 @@
-# Runs PROGRAM on SCENES and compares its lines with those of GOLDEN.
+# Runs PROGRAM on SCENES and compares its lines with those of GOLDEN; of each k-th case only if EACH is k.
 cmake_minimum_required(VERSION 3.25)
-execute_process(COMMAND ${PROGRAM} ${SCENES} OUTPUT_VARIABLE output RESULT_VARIABLE result)
+execute_process(COMMAND ${PROGRAM} ${SCENES} ${EACH} OUTPUT_VARIABLE output RESULT_VARIABLE result)
 if(NOT result EQUAL 0)
   message(FATAL_ERROR "${PROGRAM} ended with ${result}")
 endif()
 string(REGEX MATCHALL "[^\n]+" lines "${output}")
-file(STRINGS ${GOLDEN} golden REGEX "^[^#]")
+file(STRINGS ${GOLDEN} all REGEX "^[^#]")
+set(golden "")
+set(index 0)
+foreach(line IN LISTS all)
+  math(EXPR rest "${index} % ${EACH}")
+  if(rest EQUAL 0)
+    list(APPEND golden "${line}")
+  endif()
+  math(EXPR index "${index} + 1")
+endforeach()
 
 foreach(line IN LISTS lines)
   if(NOT line IN_LIST golden)

@@ -1,5 +1,5 @@
 // Prints a line per case with the hash of the state after its frames: the same on every build.
-//   state_hashes FOLDER_OF_SCENES
+//   state_hashes FOLDER_OF_SCENES [EACH_K-TH]
 
 #include <cinttypes>
 #include <cstdio>

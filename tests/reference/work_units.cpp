@@ -1,5 +1,5 @@
 // Prints a line per case with the work of 60 frames: the same on every build.
-//   work_units FOLDER_OF_SCENES
+//   work_units FOLDER_OF_SCENES [EACH_K-TH]
 
 #include <cinttypes>
 #include <cstdio>

@@ -13,13 +13,20 @@
 
 namespace substep::test {
 
+inline constexpr double kGravity = 9.81;  // [m/s^2]
+inline constexpr SolverKind kAllSolvers[] = {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd,
+                                             SolverKind::kNewton};
+
+inline std::shared_ptr<const Scene> shared(const Scene& scene) {
+  return std::make_shared<const Scene>(scene);
+}
 inline Simulator simulator_of(std::shared_ptr<const Scene> scene, const Settings& settings) {
   Simulator simulator(std::move(scene));
   simulator.set_settings(settings);
   return simulator;
 }
 inline Simulator simulator_of(const Scene& scene, const Settings& settings) {
-  return simulator_of(std::make_shared<const Scene>(scene), settings);
+  return simulator_of(shared(scene), settings);
 }
 
 struct Outcome {
@@ -58,18 +65,18 @@ using EveryFrame = std::function<void(const Simulator&, const FrameReport&)>;
 /// @param stop_when_failed false: a failed run continues to the end time
 inline Outcome run(const Scene& scene, const Settings& settings, double seconds,
                    const EveryFrame& every_frame = {}, bool stop_when_failed = true) {
-  const auto shared = std::make_shared<const Scene>(scene);
-  Simulator simulator = simulator_of(shared, settings);
+  const auto held = shared(scene);
+  Simulator simulator = simulator_of(held, settings);
   Outcome out;
   const FrameReport start = simulator.observe();
-  Verdict verdict(*shared, simulator.state(), start);
+  Verdict verdict(*held, simulator.state(), start);
   out.energy_start = start.energy;
   const auto tracked = static_cast<std::size_t>(scene.criteria.track.value_or(0));
   out.track.push_back(simulator.state().x[tracked]);
   const auto frames = static_cast<int>(seconds / scene.frame + 0.5);
   for (int frame = 0; frame < frames; ++frame) {
     const FrameReport report = simulator.step();
-    verdict.add(*shared, simulator.state(), report);
+    verdict.add(*held, simulator.state(), report);
     out.n.push_back(report.n_substeps);
     out.track.push_back(simulator.state().x[tracked]);
     out.constraint_error.push_back(report.constraint_error);

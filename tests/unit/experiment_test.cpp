@@ -9,14 +9,11 @@
 #include "core/io/scene_reader.hpp"
 #include "core/model/setting_fields.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/run.hpp"
 #include "tests/unit/unusual_settings.hpp"
 
 namespace substep::test {
 namespace {
-
-std::shared_ptr<const Scene> shared(const Scene& scene) {
-  return std::make_shared<const Scene>(scene);
-}
 
 TEST(Experiment, EverySettingOfTheTestDiffersFromItsDefault) {
   for (const SettingField& field : setting_fields()) {

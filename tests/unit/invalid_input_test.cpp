@@ -1,5 +1,5 @@
 // Random invalid scenes and states, generated from a seed: for any input the simulator returns a
-// status and reads nothing out of bounds, which the sanitizers of the preset dev check.
+// status and reads nothing out of bounds, which the preset sanitizers checks.
 
 #include <gtest/gtest.h>
 

@@ -8,13 +8,10 @@
 #include "core/io/result.hpp"
 #include "core/lab/experiment_run.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/run.hpp"
 
 namespace substep::test {
 namespace {
-
-std::shared_ptr<const Scene> shared(const Scene& scene) {
-  return std::make_shared<const Scene>(scene);
-}
 
 TEST(Metrics, MomentumIsMeasuredForAFreeTopAndNotForAPendulum) {
   const auto metrics = [](const Scene& scene) {

@@ -26,19 +26,19 @@ TEST(Turn, EqualsTheRotationOfTheQuaternion) {
 }
 
 /// Largest differences between moved rows and recomputed rows.
-struct Difference {
+struct RowDifference {
   double phi = 0.0;
   double J = 0.0;
 };
 
-Difference after(const Scene& scene, State state, const Rows& rows, double dt) {
+RowDifference after(const Scene& scene, State state, const Rows& rows, double dt) {
   Blocks start;
   rows(state, start);
   const std::vector<Vec6> u = state.u;
   integrate(whole(scene), dt, u, state);
   Blocks end;
   rows(state, end);
-  Difference difference;
+  RowDifference difference;
   EXPECT_EQ(start.size(), end.size());
   for (std::size_t i = 0; i < start.size(); ++i) {
     const Block& from = start.all()[i];
@@ -104,7 +104,7 @@ TEST(MovedRows, OfJointsMatchThoseOfTheEnd) {
     scene.joints = {hinge, ball, slider};
     State state = initial_state(scene);
     move_at_random(random, scene, state);
-    const Difference difference = after(scene, state, joint_rows(scene), 0.5);
+    const RowDifference difference = after(scene, state, joint_rows(scene), 0.5);
     EXPECT_LT(difference.phi, 1e-13);
     EXPECT_LT(difference.J, 1e-13);
   }
@@ -165,7 +165,7 @@ TEST(MovedRows, OfPointsOnFacesMatchThoseOfTheEnd) {
         touching(somewhere(random, moving(shape)), somewhere(random, fixed(Plane{})), false);
     State state = initial_state(scene);
     move_at_random(random, scene, state);
-    const Difference difference = after(scene, state, contact_rows(scene), 0.3);
+    const RowDifference difference = after(scene, state, contact_rows(scene), 0.3);
     EXPECT_LT(difference.phi, 1e-13);
     EXPECT_LT(difference.J, 1e-13);
   }
@@ -181,8 +181,8 @@ TEST(MovedRows, OfSpheresAreOfSecondOrder) {
     const Scene scene = touching(a, b, false);
     State state = initial_state(scene);
     move_at_random(random, scene, state);
-    const Difference whole = after(scene, state, contact_rows(scene), 2e-3);
-    const Difference half = after(scene, state, contact_rows(scene), 1e-3);
+    const RowDifference whole = after(scene, state, contact_rows(scene), 2e-3);
+    const RowDifference half = after(scene, state, contact_rows(scene), 1e-3);
     EXPECT_GT(whole.phi / half.phi, 7.5);
     EXPECT_GT(whole.J / half.J, 3.4);  // of the largest entry, which may change
   }

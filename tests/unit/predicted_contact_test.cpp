@@ -67,12 +67,12 @@ TEST(PredictedContacts, HaveEveryPairThatWillTouch) {
 }
 
 /// Largest difference between a moved contact row and a newly detected one.
-struct Difference {
+struct ContactDifference {
   double phi = 0.0;  // [m]
   double J = 0.0;
   double H = 0.0;  // [1/m]
 };
-Difference after_a_motion(const Body& a, const Body& b, double by, Random& random) {
+ContactDifference after_a_motion(const Body& a, const Body& b, double by, Random& random) {
   const Scene scene = pair_of(a, b);
   State state = initial_state(scene);
   ContactStage stage(scene);
@@ -88,7 +88,7 @@ Difference after_a_motion(const Body& a, const Body& b, double by, Random& rando
   EXPECT_TRUE(stage.append_predicted(scene, all, state, rotations(state), 0.01, carried));
   Blocks fresh;
   contact_rows(scene)(state, fresh);
-  Difference worst;
+  ContactDifference worst;
   EXPECT_EQ(fresh.size(), carried.size());
   for (std::size_t k = 0; k < std::min(fresh.size(), carried.size()); ++k) {
     const Block& x = fresh.all()[k];
@@ -112,7 +112,7 @@ TEST(CarriedContacts, OnPlanesMatchNewlyDetectedOnes) {
     body.position = {0.3, 0.5, -0.2};
     for (int trial = 0; trial < 20; ++trial) {
       body.orientation = random_rotation(random);
-      const Difference d = after_a_motion(body, fixed(Plane{}), 0.1, random);
+      const ContactDifference d = after_a_motion(body, fixed(Plane{}), 0.1, random);
       EXPECT_LT(d.phi, 1e-14);
       EXPECT_LT(d.J, 1e-14);
     }
@@ -128,7 +128,7 @@ TEST(CarriedContacts, OfSpheresAreOfSecondOrder) {
       Body a = moving(Sphere{0.3});
       Body b = moving(Sphere{0.2});
       b.position = 0.7 * random_vector(random).normalized();
-      const Difference d = after_a_motion(a, b, by, random);
+      const ContactDifference d = after_a_motion(a, b, by, random);
       EXPECT_LT(d.phi, 30.0 * by * by * by);
       EXPECT_LT(d.J, 30.0 * by * by);
       EXPECT_LT(d.H, 30.0 * by);

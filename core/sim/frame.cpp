@@ -85,7 +85,11 @@ void Simulator::Impl::begin_frame() {
   substeps_of_bodies = 0;
   first_block = first_force = 0;
   rotation_matrices(all.bodies, state, current.R_WB);
-  if (probe_due()) probe(report);  // the first frame has no lambda yet
+  index_of_last_frame.clear();
+  if (probe_due()) {  // the first frame has no lambda yet
+    probe(report);
+    index_of_last_frame.clear();
+  }
   if (heeds_rotation()) {
     rotation->remember(*scene, state);
   } else {

@@ -34,6 +34,8 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   solver->reserve(n, n_blocks);
   state.forces.reserve(n_blocks);
   forces.reserve(n_blocks);
+  index_of_last_frame.reserve(n_blocks);
+  index_of_part.reserve(n_blocks);
   state.k.reserve(n);
   if (effects.gyroscopic) resize_torques(state);
 }

@@ -17,6 +17,7 @@
 #include "core/solver/solver.hpp"
 #include "core/stepping/rotation_bound.hpp"
 #include "core/stepping/stiffness_bound.hpp"
+#include "core/stepping/stored_forces.hpp"
 #include "core/stepping/substep.hpp"
 #include "core/stepping/time_integrator.hpp"
 
@@ -80,7 +81,7 @@ struct Simulator::Impl {
   bool append_contacts(const Substep& sub);                 // false if there are too many
   void external_forces(Substep& sub, FrameReport& report);  // u := Mt^-1 (M u + dt f), Mt^-1
   bool solve(Substep& sub, FrameReport& report);
-  std::span<const StoredForce> seeds(const Substep& sub) const;
+  void seed(const Substep& sub);
   void set_bias(Substep& sub, FrameReport& report);
   bool propagate_impacts(Substep& sub, FrameReport& report);  // impacts.cpp
   void count_work(const Substep& sub, const SolveReport& solved, FrameReport& report);
@@ -158,7 +159,9 @@ struct Simulator::Impl {
   std::vector<StoredForce> forces;
   std::size_t first_block = 0;  // of the current part
   std::size_t first_force = 0;
-  std::int64_t substeps_of_bodies = 0;  // summed over moving bodies
+  StoredForceIndex index_of_last_frame;  // of state.forces during a frame
+  StoredForceIndex index_of_part;        // of the current part's forces
+  std::int64_t substeps_of_bodies = 0;   // summed over moving bodies
 
   Substep current;                      // the last one taken
   std::vector<InverseMass> rigid_mass;  // for impacts, in modes that replace M

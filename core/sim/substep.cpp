@@ -113,7 +113,7 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   set_softness(sub.rows, scene->regularisation, sub.dt);
   if (!propagate_impacts(sub, report)) return false;
-  if (forces_are_stored(sub)) seed_forces(sub, state, seeds(sub));
+  if (forces_are_stored(sub)) seed(sub);
   set_bias(sub, report);
   if (holds_grab(sub)) soften_grab(*grab, sub.dt, sub.rows.back());
   System system{sub.rows, sub.inverse_mass,     state.u, sub.u_before, sub.dt,
@@ -141,10 +141,13 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   return true;
 }
 
-// Of the last sub-step of the part.
-std::span<const StoredForce> Simulator::Impl::seeds(const Substep& sub) const {
-  if (sub.probing || schedule.clock().taken() == 0) return state.forces;
-  return std::span(forces).subspan(first_force);
+// By the forces of the last sub-step of the part.
+void Simulator::Impl::seed(const Substep& sub) {
+  if (sub.probing || schedule.clock().taken() == 0) {
+    seed_forces(sub, state, state.forces, index_of_last_frame);
+  } else {
+    seed_forces(sub, state, std::span(forces).subspan(first_force), index_of_part);
+  }
 }
 
 void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
@@ -197,6 +200,7 @@ void Simulator::Impl::keep_forces(const Substep& sub) {
   if (!forces_are_stored(sub)) return;
   forces.resize(first_force);
   store_forces(sub, state, forces);
+  index_of_part.clear();
 }
 
 bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report) {

@@ -30,7 +30,23 @@ bool forces_are_stored(const Substep& sub) {
          springs_are_stored(sub);
 }
 
-void seed_forces(const Substep& sub, const State& state, std::span<const StoredForce> of_last) {
+std::size_t StoredForceIndex::find(std::span<const StoredForce> forces, std::uint64_t id,
+                                   std::size_t from) {
+  if (!is_sorted_ || sorted_.size() != forces.size()) {  // an integrator may have appended
+    sorted_.clear();
+    for (std::size_t i = 0; i < forces.size(); ++i) sorted_.emplace_back(forces[i].id, i);
+    std::sort(sorted_.begin(), sorted_.end());
+    is_sorted_ = true;
+  }
+  for (const std::size_t least : {from, std::size_t{0}}) {
+    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(id, least));
+    if (found != sorted_.end() && found->first == id) return found->second;
+  }
+  return forces.size();
+}
+
+void seed_forces(const Substep& sub, const State& state, std::span<const StoredForce> of_last,
+                 StoredForceIndex& index) {
   std::size_t next = 0;  // blocks are mostly in the order of the last sub-step
   const bool of_joints = starts_from_last_forces(sub.settings) || springs_are_stored(sub);
   for (Block& block : sub.rows) {
@@ -43,13 +59,12 @@ void seed_forces(const Substep& sub, const State& state, std::span<const StoredF
     } else if (!of_joints) {
       continue;
     }
-    for (std::size_t tried = 0; tried < of_last.size(); ++tried) {
-      const StoredForce& force = of_last[next];
-      next = next + 1 < of_last.size() ? next + 1 : 0;
-      if (force.id != block.id) continue;
-      seed(sub, state, force, block);
-      break;
-    }
+    if (of_last.empty()) continue;
+    const bool in_order = of_last[next].id == block.id;
+    const std::size_t place = in_order ? next : index.find(of_last, block.id, next);
+    if (place == of_last.size()) continue;
+    seed(sub, state, of_last[place], block);
+    next = place + 1 < of_last.size() ? place + 1 : 0;
   }
 }
 

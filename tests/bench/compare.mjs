@@ -4,15 +4,27 @@
 //   node tests/bench/compare.mjs [ROUNDS, 3]
 
 import { execFile } from "node:child_process";
+import { copyFile, mkdtemp, rm } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
 import { promisify } from "node:util";
-import { open } from "../web/browser.mjs";
+import { serve } from "../../web/serve.mjs";
+import { chromiumPath, renderer } from "../web/browser.mjs";
 
-const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), "../..");
+// The browser tests' own package.
+const playwright = createRequire(new URL("../web/browser.mjs", import.meta.url))("playwright-core");
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const root = path.resolve(here, "../..");
 const native = path.join(root, "build/release/tests/bench/bench_twin");
 const twin = path.join(root, "build/web/tests/bench/bench_twin.js");
 const rounds = Number(process.argv[2] ?? 3);
+if (!Number.isInteger(rounds) || rounds < 1) {
+  console.error(`ROUNDS must be a whole number above 0, not "${process.argv[2]}"`);
+  process.exit(2);
+}
 
 async function run(...command) {
   const { stdout } = await promisify(execFile)(...command);
@@ -21,17 +33,9 @@ async function run(...command) {
 
 /** In the page: runs the program in a worker, without drawing. Resolves to its lines. */
 const inWorker = (address) => new Promise((resolve, reject) => {
-  const source = `
-    self.Module = {
-      arguments: ["scenes"],
-      print: (line) => postMessage({ line }),
-      printErr: (line) => postMessage({ error: line }),
-      onExit: (status) => postMessage({ status }),
-    };
-    importScripts(${JSON.stringify(address)});`;
-  const worker = new Worker(URL.createObjectURL(new Blob([source])));
+  const worker = new Worker(address);
   const lines = [];
-  worker.onerror = ({ message }) => reject(new Error(message));
+  worker.onerror = ({ message }) => reject(new Error(message ?? `${address} was not loaded`));
   worker.onmessage = ({ data }) => {
     if (data.line !== undefined) lines.push(data.line);
     if (data.error !== undefined || data.status > 0) reject(new Error(data.error ?? data.status));
@@ -39,17 +43,34 @@ const inWorker = (address) => new Promise((resolve, reject) => {
   };
 });
 
+/** A server of the program and its worker, under the policy of the page. */
+async function serveTwin() {
+  const folder = await mkdtemp(path.join(tmpdir(), "substep-bench-"));
+  await copyFile(twin, path.join(folder, "bench_twin.js"));
+  await copyFile(path.join(here, "bench_worker.js"), path.join(folder, "bench_worker.js"));
+  const server = await serve(folder);
+  return {
+    worker: `http://127.0.0.1:${server.address().port}/bench_worker.js`,
+    async close() {
+      server.close();
+      server.closeAllConnections();
+      await rm(folder, { recursive: true });
+    },
+  };
+}
+
 /** Opens a browser for the measurement only, so that it does not disturb the other platforms. */
 async function inChromium() {
-  const session = await open({ dist: path.dirname(twin) });
+  const server = await serveTwin();
+  const browser = await playwright.chromium.launch({ executablePath: chromiumPath(), args: renderer });
   try {
-    chromium.title = `Chromium ${session.browser.version()}`;
-    const page = await session.browser.newPage();
-    const address = `${session.address}${path.basename(twin)}`;
-    await page.goto(address); // a worker must have the same origin as its page
-    return await page.evaluate(inWorker, address);
+    chromium.title = `Chromium ${browser.version()}`;
+    const page = await browser.newPage();
+    await page.goto(server.worker); // a worker must have the same origin as its page
+    return await page.evaluate(inWorker, server.worker);
   } finally {
-    await session.close();
+    await browser.close();
+    await server.close();
   }
 }
 

@@ -40,3 +40,46 @@ export function code(text) {
   }
   return found.join("\n");
 }
+
+/**
+ * The code blocks of a page, fenced or indented by four spaces.
+ * @returns {line, language, lines}[]: the number of the first line of code, from 1; the word after the
+ *   fence, "" if there is none; the lines without their indentation
+ */
+export function blocks(text) {
+  const found = [];
+  let block = null;
+  let fenced = false;
+  text.split("\n").forEach((line, i) => {
+    const fence = /^\s*```\s*(\S*)/.exec(line);
+    const indented = /^ {4}/.test(line);
+    if (fence) {
+      block = fenced ? null : { line: i + 2, language: fence[1], lines: [] };
+      fenced = !fenced;
+      if (block) found.push(block);
+    } else if (fenced) {
+      block.lines.push(line);
+    } else if (indented) {
+      if (!block) found.push(block = { line: i + 1, language: "", lines: [] });
+      block.lines.push(line.slice(4));
+    } else {
+      block = null;
+    }
+  });
+  return found;
+}
+
+/** The code spans of a page outside its blocks: {line, text}[]. */
+export function spans(text) {
+  const found = [];
+  let number = 0;
+  let fence = false;
+  for (const line of text.split("\n")) {
+    ++number;
+    if (/^\s*```/.test(line)) fence = !fence;
+    else if (!fence && !/^ {4}/.test(line)) {
+      for (const [, span] of line.matchAll(/`([^`]+)`/g)) found.push({ line: number, text: span });
+    }
+  }
+  return found;
+}

@@ -2,6 +2,7 @@
 
 import initJolt from "jolt-physics";
 import { between, rotate } from "./rotation.mjs";
+import { foreignJoint } from "./scene.mjs";
 
 export const title = "Jolt";
 
@@ -14,6 +15,8 @@ export const ladder = {
   stack: [...iterate(10, 2, 8, 32), ...iterate(200, 50, 8)],
   in_space: [...iterate(10, 2, 4, 8, 16, 32)],
 };
+
+export const cannotState = (scene) => foreignJoint(scene, ["ball", "hinge", "prismatic"]);
 
 let Jolt;
 
@@ -100,18 +103,26 @@ function addBody(bodies, body, layer, gyroscopic) {
 }
 
 function addJoint(system, joint, at) {
-  const settings = joint.hinge
-    ? new Jolt.HingeConstraintSettings()
-    : new Jolt.PointConstraintSettings();
+  const settings = {
+    ball: () => new Jolt.PointConstraintSettings(),
+    hinge: () => new Jolt.HingeConstraintSettings(),
+    prismatic: () => new Jolt.SliderConstraintSettings(),
+  }[joint.type]();
   settings.mSpace = Jolt.EConstraintSpace_LocalToBodyCOM;
   position(joint.anchorA, (x) => (settings.mPoint1 = x));
   position(joint.anchorB, (x) => (settings.mPoint2 = x));
-  if (joint.hinge) {
+  if (joint.type === "hinge") {
     const normal = (axis) => rotate(between([0, 0, 1], axis), [1, 0, 0]);
     vector(joint.axisA, (v) => (settings.mHingeAxis1 = v));
     vector(joint.axisB, (v) => (settings.mHingeAxis2 = v));
     vector(normal(joint.axisA), (v) => (settings.mNormalAxis1 = v));
     vector(normal(joint.axisB), (v) => (settings.mNormalAxis2 = v));
+  } else if (joint.type === "prismatic") {
+    settings.mAutoDetectPoint = false;
+    vector(joint.axisA, (v) => (settings.mSliderAxis1 = v));
+    vector(joint.axisB, (v) => (settings.mSliderAxis2 = v));
+    vector(joint.acrossA, (v) => (settings.mNormalAxis1 = v));
+    vector(joint.acrossB, (v) => (settings.mNormalAxis2 = v));
   }
   system.AddConstraint(settings.Create(at(joint.a), at(joint.b)));
   Jolt.destroy(settings);

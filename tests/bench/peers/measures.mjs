@@ -1,6 +1,6 @@
 // Errors and verdicts of a run, from its poses only and the same for every engine.
 
-import { add, conjugate, length, rotate, subtract } from "./rotation.mjs";
+import { add, conjugate, dot, length, rotate, subtract } from "./rotation.mjs";
 
 const kNumbers = 7; // per pose: x y z, w x y z
 
@@ -29,11 +29,17 @@ function placed(poses, body, point) {
   return add(position(poses, body), rotate(orientation(poses, body), point));
 }
 
-/** Largest distance between the two anchors of a joint [m]. */
+const turned = (poses, body, v) => (body < 0 ? v : rotate(orientation(poses, body), v));
+
+/** Largest distance between the two anchors of a joint; of a prismatic one, across its axis [m]. */
 function jointGap(scene, poses) {
-  const gaps = scene.joints.map(({ a, b, anchorA, anchorB }) =>
-    length(subtract(placed(poses, a, anchorA), placed(poses, b, anchorB))),
-  );
+  const gaps = scene.joints.map(({ type, a, b, anchorA, anchorB, axisB }) => {
+    const gap = subtract(placed(poses, a, anchorA), placed(poses, b, anchorB));
+    if (type !== "prismatic") return length(gap);
+    const axis = turned(poses, b, axisB);
+    const along = dot(axis, gap);
+    return length(subtract(gap, axis.map((x) => along * x)));
+  });
   return Math.max(0, ...gaps);
 }
 

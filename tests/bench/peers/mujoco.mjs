@@ -2,8 +2,8 @@
 // in maximal ones (free bodies and equality constraints).
 
 import loadMujoco from "@mujoco/mujoco";
-import { collisionBits, jointTree, relativeTurn } from "./scene.mjs";
-import { between, conjugate, multiply, rotate, subtract } from "./rotation.mjs";
+import { collisionBits, foreignJoint, jointTree, relativeSlide, relativeTurn } from "./scene.mjs";
+import { between, conjugate, dot, multiply, rotate, subtract } from "./rotation.mjs";
 
 export const title = "MuJoCo";
 
@@ -47,6 +47,10 @@ export const ladder = {
   ],
 };
 
+/** Its equality constraints join points or hold all six coordinates: none leaves a direction free. */
+export const cannotState = (scene, { coordinates }) =>
+  foreignJoint(scene, coordinates === "reduced" ? ["ball", "hinge", "prismatic"] : ["ball", "hinge"]);
+
 const text = (numbers) => numbers.map((x) => x.toPrecision(17)).join(" ");
 
 function geom(body, collides) {
@@ -84,7 +88,11 @@ function nestedBody(scene, tree, link) {
   const back = conjugate(origin.q);
   const anchor = flipped ? joint.anchorB : joint.anchorA;
   const axis = flipped ? joint.axisB : joint.axisA;
-  const kind = joint.hinge ? `type="hinge" axis="${text(axis)}"` : `type="ball"`;
+  const kind = {
+    ball: () => `type="ball"`,
+    hinge: () => `type="hinge" axis="${text(axis)}"`,
+    prismatic: () => `type="slide" axis="${text(axis)}"`,
+  }[joint.type]();
   return `<body name="b${i}" pos="${text(rotate(back, subtract(body.x, origin.x)))}"
     quat="${text(multiply(back, body.q))}"><joint ${kind} pos="${text(anchor)}"/>
     ${inertial(body)}${geom(body, scene.collides)}
@@ -101,8 +109,8 @@ function reducedWorld(scene) {
 /** One point per ball joint, two points on the axis of a hinge. */
 function equalities(scene) {
   const name = (i) => (i < 0 ? "world" : `b${i}`);
-  return scene.joints.flatMap(({ hinge, a, b, anchorA, axisA }) =>
-    (hinge ? [-0.5, 0.5] : [0]).map((along) => {
+  return scene.joints.flatMap(({ type, a, b, anchorA, axisA }) =>
+    (type === "hinge" ? [-0.5, 0.5] : [0]).map((along) => {
       const point = anchorA.map((x, i) => x + along * (axisA?.[i] ?? 0));
       return `<connect body1="${name(a)}" body2="${name(b)}" anchor="${text(point)}"/>`;
     }),
@@ -140,10 +148,10 @@ function reducedStart(scene) {
   return jointTree(scene).map((link) => {
     const { body, joint, flipped } = link;
     if (!joint) return { body, qvel: freeVelocity(scene.bodies[body]) };
+    if (joint.type === "prismatic") return { body, qvel: [relativeSlide(scene, link)] };
     const turn = relativeTurn(scene, link);
-    if (!joint.hinge) return { body, qvel: turn };
-    const axis = flipped ? joint.axisB : joint.axisA;
-    return { body, qvel: [turn.reduce((sum, w, i) => sum + w * axis[i], 0)] };
+    if (joint.type === "ball") return { body, qvel: turn };
+    return { body, qvel: [dot(turn, flipped ? joint.axisB : joint.axisA)] };
   });
 }
 

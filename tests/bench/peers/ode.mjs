@@ -1,7 +1,11 @@
 // ODE: mainly its direct solver, with its Gauss-Seidel solver for comparison. The program is
 // ode_peer.cpp.
 
+import { foreignJoint } from "./scene.mjs";
+
 export const title = "ODE";
+
+export const cannotState = (scene) => foreignJoint(scene, ["ball", "hinge", "prismatic"]);
 
 const direct = (erp, ...counts) => counts.map((substeps) => ({ substeps, solver: "direct", erp }));
 const quick = (substeps, iterations) => ({ substeps, solver: "quick", iterations });

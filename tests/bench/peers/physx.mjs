@@ -4,8 +4,8 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import loadPhysX from "physx-js-webidl";
-import { collisionBits, jointTree, relativeTurn } from "./scene.mjs";
-import { between, conjugate, multiply, rotate } from "./rotation.mjs";
+import { collisionBits, foreignJoint, jointTree, relativeSlide, relativeTurn } from "./scene.mjs";
+import { add, between, conjugate, frameOf, multiply, rotate, subtract } from "./rotation.mjs";
 
 export const title = "PhysX";
 
@@ -20,6 +20,8 @@ export const ladder = {
   in_space: [...articulation(2, 4, 8, 16, 32), ...maximal("TGS", 32, 4, 8, 16)],
   stack: [...maximal("TGS", 32, 4, 16), ...maximal("PGS", 32, 16), ...maximal("TGS", 250, 8)],
 };
+
+export const cannotState = (scene) => foreignJoint(scene, ["ball", "hinge", "prismatic"]);
 
 let PhysX;
 let physics;
@@ -59,9 +61,12 @@ const kNoTurn = [1, 0, 0, 0];
 // PxRigidBodyFlag::eENABLE_GYROSCOPIC_FORCES, which the package does not export.
 const kGyroscopic = 1 << 10;
 
-/** PhysX joints rotate about x. @return the rotation from x to a joint's axis, if it has one */
-const axisFrame = (axis) => (axis ? between([1, 0, 0], axis) : kNoTurn);
-const frame = (anchor, axis) => transform(anchor, axisFrame(axis));
+/** PhysX joints rotate about x or slide along it, prismatic ones with y across. @return the rotation
+ *  from x, and y, to the axis of a joint and the direction across, if it has them */
+function axisFrame(axis, across) {
+  if (!axis) return kNoTurn;
+  return across ? frameOf(axis, across) : between([1, 0, 0], axis);
+}
 
 function geometry({ shape }) {
   if (shape.type === "sphere") return new PhysX.PxSphereGeometry(shape.radius);
@@ -114,31 +119,46 @@ function addJoints(world, rigid) {
   const top = PhysX.PxTopLevelFunctions.prototype;
   for (const joint of world.joints) {
     const at = (i) => (i < 0 ? null : rigid[i]);
-    const create = joint.hinge ? top.RevoluteJointCreate : top.SphericalJointCreate;
+    const create = {
+      ball: top.SphericalJointCreate,
+      hinge: top.RevoluteJointCreate,
+      prismatic: top.PrismaticJointCreate,
+    }[joint.type];
     create.call(
       top,
       physics,
       at(joint.a),
-      frame(joint.anchorA, joint.axisA),
+      transform(joint.anchorA, axisFrame(joint.axisA, joint.acrossA)),
       at(joint.b),
-      frame(joint.anchorB, joint.axisB),
+      transform(joint.anchorB, axisFrame(joint.axisB, joint.acrossB)),
     );
   }
 }
 
-function tuneJoint(inbound, joint, flipped, parentTurn, childTurn) {
+const kOrigin = { x: [0, 0, 0], q: kNoTurn };
+
+/** @param parent, child {x, q}: their poses at the start */
+function tuneJoint(inbound, joint, flipped, parent, child) {
   const { PxArticulationAxisEnum: axes, PxArticulationMotionEnum: motion } = PhysX;
-  const [parentAnchor, childAnchor] = flipped
+  const back = conjugate(parent.q);
+  const [own, childAnchor] = flipped
     ? [joint.anchorA, joint.anchorB]
     : [joint.anchorB, joint.anchorA];
-  // Joint angles are zero at the start: both frames have the same orientation in the world.
+  // Joint coordinates are zero at the start: both frames have the same orientation in the world, and
+  // those of a prismatic joint the same place.
+  const place = add(child.x, rotate(child.q, childAnchor));
+  const parentAnchor = joint.type === "prismatic" ? rotate(back, subtract(place, parent.x)) : own;
   const childFrame = axisFrame(flipped ? joint.axisB : joint.axisA);
-  const parentFrame = multiply(multiply(conjugate(parentTurn), childTurn), childFrame);
+  const parentFrame = multiply(multiply(back, child.q), childFrame);
   inbound.setParentPose(transform(parentAnchor, parentFrame));
   inbound.setChildPose(transform(childAnchor, childFrame));
   const types = PhysX.PxArticulationJointTypeEnum;
-  inbound.setJointType(joint.hinge ? types.eREVOLUTE : types.eSPHERICAL);
-  const free = joint.hinge ? [axes.eTWIST] : [axes.eTWIST, axes.eSWING1, axes.eSWING2];
+  const [type, ...free] = {
+    ball: [types.eSPHERICAL, axes.eTWIST, axes.eSWING1, axes.eSWING2],
+    hinge: [types.eREVOLUTE, axes.eTWIST],
+    prismatic: [types.ePRISMATIC, axes.eX],
+  }[joint.type];
+  inbound.setJointType(type);
   for (const axis of free) inbound.setMotion(axis, motion.eFREE);
   inbound.setFrictionCoefficient(0);
   inbound.setMaxJointVelocity(1e4);
@@ -148,10 +168,14 @@ function tuneJoint(inbound, joint, flipped, parentTurn, childTurn) {
 function startJoint(inbound, world, link) {
   const { joint, flipped } = link;
   const { PxArticulationAxisEnum: axes } = PhysX;
+  if (joint.type === "prismatic") {
+    inbound.setJointVelocity(axes.eX, relativeSlide(world, link));
+    return;
+  }
   const frame = axisFrame(flipped ? joint.axisB : joint.axisA);
   const [x, y, z] = rotate(conjugate(frame), relativeTurn(world, link));
   inbound.setJointVelocity(axes.eTWIST, x);
-  if (joint.hinge) return;
+  if (joint.type === "hinge") return;
   inbound.setJointVelocity(axes.eSWING1, y);
   inbound.setJointVelocity(axes.eSWING2, z);
 }
@@ -172,8 +196,8 @@ function addArticulation(scene, world, setting) {
     const { x, q } = world.bodies[body];
     links[body] = articulation.createLink(parent < 0 ? base : links[parent], transform(x, q));
     setMass(links[body], world.bodies[body], world.gyroscopic);
-    const parentTurn = parent < 0 ? kNoTurn : world.bodies[parent].q;
-    tuneJoint(links[body].getInboundJoint(), joint, flipped, parentTurn, q);
+    const from = parent < 0 ? kOrigin : world.bodies[parent];
+    tuneJoint(links[body].getInboundJoint(), joint, flipped, from, { x, q });
   }
   scene.addArticulation(articulation);
   for (const link of tree) startJoint(links[link.body].getInboundJoint(), world, link);

@@ -2,7 +2,8 @@
 // each of `inner` sweeps); joints as impulses or as multibodies (reduced coordinates).
 
 import RAPIER from "@dimforge/rapier3d-compat";
-import { collisionBits, jointTree } from "./scene.mjs";
+import { conjugate, frameOf, multiply, rotate } from "./rotation.mjs";
+import { collisionBits, foreignJoint, jointTree } from "./scene.mjs";
 
 export const title = "Rapier";
 
@@ -33,6 +34,21 @@ export const ladder = {
   ],
   stack: [impulse(1, 32, 8, 1000), impulse(8, 8, 8, 1000), impulse(16, 100, 8, 1000)],
 };
+
+/** The orientation of a relative to b, or to the world, that a prismatic joint holds. */
+const heldTurn = ({ axisA, acrossA, axisB, acrossB }) =>
+  multiply(frameOf(axisB, acrossB), conjugate(frameOf(axisA, acrossA)));
+
+/** Its prismatic joint has one axis and no direction across: both bodies have the same frame. */
+export function cannotState(scene, { joints }) {
+  const types = joints === "impulse" ? ["ball", "hinge", "prismatic"] : ["ball", "hinge"];
+  const foreign = foreignJoint(scene, types);
+  if (foreign) return foreign;
+  const turned = scene.joints.find(
+    (joint) => joint.type === "prismatic" && joint.b >= 0 && Math.abs(heldTurn(joint)[0]) < 1 - 1e-12,
+  );
+  return turned ? `no prismatic joint between bodies turned against each other (${turned.name})` : null;
+}
 
 const vector = ([x, y, z]) => ({ x, y, z });
 const quaternion = ([w, x, y, z]) => ({ w, x, y, z });
@@ -70,7 +86,8 @@ function addBody(world, body) {
 function jointData(joint, flipped) {
   const anchors = [joint.anchorB, joint.anchorA].map(vector);
   if (flipped) anchors.reverse();
-  if (!joint.hinge) return RAPIER.JointData.spherical(...anchors);
+  if (joint.type === "ball") return RAPIER.JointData.spherical(...anchors);
+  if (joint.type === "prismatic") return RAPIER.JointData.prismatic(...anchors, vector(joint.axisA));
   const axes = [joint.axisB, joint.axisA].map(vector);
   if (flipped) axes.reverse();
   return RAPIER.JointData.revoluteWithAxes(...anchors, ...axes);
@@ -95,12 +112,21 @@ function addTree(world, scene, rigid) {
   }
 }
 
+/** A fixed body with the orientation that a prismatic joint to the world holds, and the joint to it. */
+function turnedGround(world, joint) {
+  const turn = heldTurn(joint);
+  const ground = RAPIER.RigidBodyDesc.fixed().setRotation(quaternion(turn));
+  return [world.createRigidBody(ground), { ...joint, anchorB: rotate(conjugate(turn), joint.anchorB) }];
+}
+
 function addJoints(world, scene, rigid) {
-  const ground = world.createRigidBody(RAPIER.RigidBodyDesc.fixed());
-  const at = (i) => (i < 0 ? ground : rigid[i]);
+  const level = world.createRigidBody(RAPIER.RigidBodyDesc.fixed());
   for (const joint of scene.joints) {
+    const turns = joint.type === "prismatic" && joint.b < 0;
+    const [ground, own] = turns ? turnedGround(world, joint) : [level, joint];
+    const b = joint.b < 0 ? ground : rigid[joint.b];
     world
-      .createImpulseJoint(jointData(joint, false), at(joint.b), at(joint.a), true)
+      .createImpulseJoint(jointData(own, false), b, rigid[joint.a], true)
       .setContactsEnabled(scene.collides);
   }
 }

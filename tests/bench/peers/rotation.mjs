@@ -3,6 +3,7 @@
 export const add = (a, b) => a.map((x, i) => x + b[i]);
 export const subtract = (a, b) => a.map((x, i) => x - b[i]);
 export const length = (a) => Math.hypot(...a);
+export const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
 
 export function cross([a, b, c], [x, y, z]) {
   return [b * z - c * y, c * x - a * z, a * y - b * x];
@@ -27,7 +28,7 @@ export function rotate(q, v) {
 
 /** The shortest rotation that turns one unit vector into another. */
 export function between(from, to) {
-  const w = 1 + from.reduce((sum, x, i) => sum + x * to[i], 0);
+  const w = 1 + dot(from, to);
   if (w < 1e-12) {
     const other = Math.abs(from[0]) < 0.9 ? [1, 0, 0] : [0, 1, 0];
     const axis = cross(from, other);
@@ -36,4 +37,12 @@ export function between(from, to) {
   const q = [w, ...cross(from, to)];
   const norm = Math.hypot(...q);
   return q.map((x) => x / norm);
+}
+
+/** The rotation that turns x to a unit vector and y to another, perpendicular to it. */
+export function frameOf(axis, across) {
+  const q = between([1, 0, 0], axis);
+  const y = rotate(q, [0, 1, 0]);
+  const half = Math.atan2(dot(cross(y, across), axis), dot(y, across)) / 2;
+  return multiply([Math.cos(half), ...axis.map((x) => Math.sin(half) * x)], q);
 }

@@ -1,7 +1,7 @@
 // Reads a scene file of this project into plain numbers, from which every engine builds its world.
 
 import { readFileSync } from "node:fs";
-import { conjugate, rotate, subtract } from "./rotation.mjs";
+import { add, conjugate, cross, dot, rotate, subtract } from "./rotation.mjs";
 
 /** Principal moments of inertia of the solid shape [kg m^2]. */
 function solidInertia(mass, shape) {
@@ -48,21 +48,39 @@ export function readScene(path) {
     settings: file.settings,
     bodies: file.bodies.map(readBody),
     joints: (file.joints ?? []).map((joint) => ({
-      hinge: joint.type === "hinge",
+      name: joint.name,
+      type: joint.type, // ball, hinge or prismatic
       a: index.get(joint.a),
       b: index.get(joint.b),
       anchorA: joint.anchor_a,
       anchorB: joint.anchor_b,
       axisA: joint.axis_a,
       axisB: joint.axis_b,
+      acrossA: joint.across_a,
+      acrossB: joint.across_b,
     })),
   };
+}
+
+/** Why an engine cannot state a scene: its first joint of a type that is not in the list, or null. */
+export function foreignJoint(scene, types) {
+  const joint = scene.joints.find(({ type }) => !types.includes(type));
+  return joint ? `no ${joint.type} joint (${joint.name})` : null;
 }
 
 /** Initial angular velocity of a link relative to its parent, in the link's axes [rad/s]. */
 export function relativeTurn(scene, { body, parent }) {
   const { q, w } = scene.bodies[body];
   return rotate(conjugate(q), parent < 0 ? w : subtract(w, scene.bodies[parent].w));
+}
+
+/** Initial velocity of a link relative to its parent along a prismatic joint [m/s]. */
+export function relativeSlide(scene, { body, parent, joint, flipped }) {
+  const { x, q, v } = scene.bodies[body];
+  const axis = rotate(q, flipped ? joint.axisB : joint.axisA);
+  if (parent < 0) return dot(axis, v);
+  const base = scene.bodies[parent];
+  return dot(axis, subtract(v, add(base.v, cross(base.w, subtract(x, base.x)))));
 }
 
 /** For engines that filter pairs by bit and mask: one bit per group, bit 1 for bodies without group. */

@@ -33,7 +33,7 @@ function timedRow(entry) {
   ]);
 }
 
-/** Settings that hold, cheapest first within an engine, then those that fail. */
+/** Settings that hold, cheapest first within an engine, then those that were not run or fail. */
 export function sceneLines({ title, kind }, entries, best) {
   const columns = kColumns[kind].map((column) => `${column} mm`);
   const lines = ["", title, row(["engine", "ms per frame", ...columns, "setting"])];
@@ -41,12 +41,15 @@ export function sceneLines({ title, kind }, entries, best) {
   for (const engine of engines) {
     const own = best.filter((entry) => entry.engine === engine).sort((a, b) => a.ms - b.ms);
     lines.push(...own.map(timedRow));
-    if (own.length === 0) lines.push(row([engine.title, "none holds", "", "", ""]));
+    const tried = entries.some((entry) => entry.engine === engine && !entry.lacking);
+    if (!tried) lines.push(row([engine.title, "skipped", "", "", ""]));
+    else if (own.length === 0) lines.push(row([engine.title, "none holds", "", "", ""]));
   }
   for (const engine of engines) {
     const failed = entries.filter((entry) => entry.engine === engine && entry.failure);
-    for (const { setting, failure } of failed) {
-      lines.push(`  fails: ${engine.title}, ${settingText(setting)}: ${failure}`);
+    for (const { setting, failure, lacking } of failed) {
+      const how = lacking ? "skipped" : "fails";
+      lines.push(`  ${how}: ${engine.title}, ${settingText(setting)}: ${lacking ?? failure}`);
     }
   }
   return lines;
@@ -65,7 +68,7 @@ export function integratorLines(entries, best) {
   const engines = [...new Set(best.map(({ engine }) => engine))];
   return engines.flatMap((engine) => {
     const own = (list) => list.filter((entry) => entry.engine === engine);
-    const tried = new Set(own(entries).map(integrator));
+    const tried = new Set(own(entries).filter(({ lacking }) => !lacking).map(integrator));
     if (tried.size < 2) return [];
     const least = Math.min(...own(best).map(({ error }) => error));
     const alike = own(best).filter(({ error }) => error <= kAlike * least);

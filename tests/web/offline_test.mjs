@@ -5,7 +5,7 @@ import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { measure, total } from "../../web/sizes.mjs";
-import { call, drawn, open, openPage, quiet, save } from "./browser.mjs";
+import { call, drawn, leave, open, openPage, save } from "./browser.mjs";
 
 const mostBytes = 1.5e6; // of all files, packed with gzip
 
@@ -33,7 +33,7 @@ test("no file requests anything outside its folder", async () => {
   assert.ok(requests.length > 5);
   // Below the sub-path: it works from any folder of any server.
   for (const url of requests) assert.ok(url.startsWith(session.address), url);
-  await page.context().close();
+  await leave(page);
 });
 
 test("a failed download can be retried", async () => {

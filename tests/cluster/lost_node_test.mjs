@@ -4,7 +4,7 @@
 // without a cluster: the same runs, equal in all but their times.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { setTimeout as sleep } from "node:timers/promises";
 import { fileURLToPath } from "node:url";
@@ -39,6 +39,31 @@ function results(folder, file) {
   return readFileSync(name, "utf8").split("\n").slice(1, -1); // the first line names the format
 }
 
+/** The sweep that runs on a node. No program is called: that could take longer than the sweep. */
+function sweepOn(node) {
+  for (const pid of readdirSync("/proc").filter(name => /^\d+$/.test(name))) {
+    try {
+      if (readFileSync(`/proc/${pid}/comm`, "utf8") !== "substep\n") continue;
+      const environment = readFileSync(`/proc/${pid}/environ`, "utf8").split("\0");
+      const value = name => environment.find(entry => entry.startsWith(`${name}=`))?.slice(name.length + 1);
+      if (value("SLURM_CONF") !== process.env.SLURM_CONF || value("SLURMD_NODENAME") !== node) continue;
+      return { pid: Number(pid), task: value("SLURM_ARRAY_TASK_ID") };
+    } catch {
+      // It has ended.
+    }
+  }
+  return undefined;
+}
+
+/** @returns false if the process has ended */
+function signal(pid, name) {
+  try {
+    return process.kill(pid, name);
+  } catch {
+    return false;
+  }
+}
+
 function withoutTimes(line) {
   const { timing, ...rest } = JSON.parse(line);
   return rest;
@@ -71,15 +96,21 @@ const id = submitted(shell(submit));
 // Two tasks end without results, as if they had failed.
 shell(`scancel ${failing.map(task => `${id}_${task}`).join(" ")}`);
 
+// A task is stopped when it has some results, so that it cannot end before its node is lost.
+const finished = task => results("shared", `${out}/results.${task}-of-${parts}.jsonl`);
 let lost;
-const finished = () => results("shared", `${out}/results.${lost}-of-${parts}.jsonl`);
-await until("a task on n2 has some results", 200, () => {
-  if (queueIsEmpty()) assert.fail(`no task on n2 got that far:\n${shell("tail *.log")}`);
-  lost = shell("squeue --noheader --nodelist=n2 --states=running --format=%K");
-  return finished().length >= 3;
+let looks = 0;
+await until("a task on n2 has some results", 50, () => {
+  if (++looks % 200 === 0 && queueIsEmpty()) assert.fail(`no task was seen at work:\n${shell("tail *.log")}`);
+  const { pid, task } = sweepOn("n2") ?? {};
+  if (!task || finished(task).length < 3 || !signal(pid, "SIGSTOP")) return false;
+  if (finished(task).length < Math.floor(expected.length / parts)) lost = task;
+  else signal(pid, "SIGCONT"); // it has all of its results
+  return lost;
 });
 shell(`"${own}/two_nodes.sh" --lose n2`);
-const kept = finished();
+assert(!sweepOn("n2"), "n2 is not lost");
+const kept = finished(lost);
 console.log(`n2 is lost with task ${lost}, which had ${kept.length} results`);
 
 await until("the array ends", 2000, queueIsEmpty);

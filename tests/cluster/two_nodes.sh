@@ -94,7 +94,8 @@ MpiDefault=none
 SelectType=select/linear
 JobRequeue=0
 MinJobAge=86400
-SlurmdTimeout=20
+ReturnToService=2
+SlurmdTimeout=30
 NodeName=n[1-2] NodeHostname=$host NodeAddr=127.0.0.1 Port=[$((port + 1))-$((port + 2))] CPUs=1
 PartitionName=all Nodes=ALL Default=YES
 END

@@ -56,7 +56,7 @@ function colours(bytes, limit = 1000) {
   return seen.size;
 }
 
-/** A virtual screen. @returns {display, picture(), end()} */
+/** A virtual screen. @returns {display, folder, picture(), end()}: folder is removed at the end */
 async function screen() {
   const folder = mkdtempSync(join(tmpdir(), "substep-screen-"));
   const server = start("Xvfb", ["-displayfd", "1", "-screen", "0", "1280x800x24", "-fbdir", folder,
@@ -64,6 +64,7 @@ async function screen() {
   const number = await until("a virtual screen", () => /^(\d+)\n/m.exec(server.out)?.[1]);
   return {
     display: `:${number}`,
+    folder,
     picture: () => pixels(join(folder, "Xvfb_screen0")),
     async end() {
       end(server);
@@ -86,7 +87,7 @@ const trials = {
     const server = start("./dev", ["run", "--port", "0"]);
     try {
       const address = await until("the address", () => {
-        assert.ok(server.exitCode === null, server.out);
+        assert.ok(server.exitCode === null, `it has ended: ${server.out}`);
         return /http:\/\/localhost:\d+\//.exec(server.out)?.[0];
       }, 1200);
       const page = await fetch(address);
@@ -102,11 +103,13 @@ const trials = {
   },
 
   async native() {
-    const { display, picture, end: close } = await screen();
+    const { display, folder, picture, end: close } = await screen();
     try {
-      const window = start("./dev", ["native"], { env: { DISPLAY: display, LIBGL_ALWAYS_SOFTWARE: "1" } });
+      // The window stores its settings in XDG_CONFIG_HOME.
+      const window = start("./dev", ["native"],
+        { env: { DISPLAY: display, LIBGL_ALWAYS_SOFTWARE: "1", XDG_CONFIG_HOME: folder } });
       await until("a window that draws", () => {
-        assert.ok(window.exitCode === null, window.out);
+        assert.ok(window.exitCode === null, `it has ended: ${window.out}`);
         return colours(picture()) > 200;
       }, 1200);
       end(window);
@@ -124,7 +127,8 @@ const trials = {
   async bench() {
     const native = ["--benchmark_filter=^swinging_box/bpp$", "--benchmark_min_time=0.01"];
     const out = await dev(["bench", "--rounds", "1", ...native]);
-    assert.match(out, /^swinging_box\/bpp +[\d.]+ us .* allocations|^Benchmark.* allocations/m);
+    assert.match(out, /^Benchmark .* allocations per_substep$/m);
+    assert.match(out, /^swinging_box\/bpp +\S+ us +\S+ us +\d+ +\S+ +\S+s$/m);
     assert.match(out, /^Node\.js v\d+.*, Chromium \d+.*: the minimum of 1 interleaved runs$/m);
     // Time natively, in Node.js and in Chromium, two ratios, and allocations.
     assert.match(out, /^swinging_box\/bpp +us per sub-step( +[\d.e+-]+){6}$/m);
@@ -205,6 +209,6 @@ for (const [name, trial] of Object.entries(trials)) {
   test(`./dev ${name}`, async () => {
     const before = contents(root);
     await trial();
-    assert.deepEqual(changes(before, contents(root)), [], `./dev ${name} changed the tree`);
+    assert.deepEqual(changes(before, contents(root)), [], `files changed while ./dev ${name} ran`);
   });
 }

@@ -10,7 +10,7 @@ import { difference, part } from "./pixels.mjs";
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 const focused = (page) => page.evaluate(() =>

@@ -8,7 +8,7 @@ import { variance } from "./pixels.mjs";
 let session;
 let page;
 before(async () => {
-  session = await open();
+  session = await open({ rate: 15 });
   page = await openPage(session);
   await call(page, "pause");
 });

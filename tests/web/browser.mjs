@@ -43,10 +43,10 @@ export const renderer = ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--u
 
 /**
  * A browser with a software renderer, and a server of a copy of the page below a sub-path.
- * @param options {width, height} of pages
+ * @param options {rate}: the most pictures a second, of tests that do not look at motion
  * @returns {browser, server, folder, address, close}; folder is the copy, which a test may change
  */
-export async function open({ width = 1280, height = 720 } = {}) {
+export async function open({ rate } = {}) {
   const root = await mkdtemp(join(tmpdir(), "substep-web-"));
   const folder = join(root, "some/path");
   await cp(distFolder(), folder, { recursive: true });
@@ -59,7 +59,7 @@ export async function open({ width = 1280, height = 720 } = {}) {
     browser,
     server,
     folder,
-    size: { width, height },
+    rate,
     free: [], // tabs
     address: `http://127.0.0.1:${server.address().port}/some/path/`,
     async close() {
@@ -81,6 +81,31 @@ function leftFirstScreen() {
   } catch { /* about:blank has no storage */ }
 }
 
+/**
+ * In the page: it draws at most so many pictures a second. A software renderer takes all processors
+ * if it draws as many as it can, also from the tests that run beside this one.
+ */
+function drawAtMost(rate) {
+  const [next, cancel] = [window.requestAnimationFrame, window.cancelAnimationFrame];
+  const later = new Map(); // the current request of one that was put off
+  let frame = 0; // of the browser [ms]
+  let drawn = 0; // the last one that was not skipped [ms]
+  window.requestAnimationFrame = (draw) => {
+    const id = next(function tick(now) {
+      if (now !== frame && now - drawn > 1000 / rate) drawn = now;
+      frame = now;
+      if (now !== drawn) {
+        later.set(id, next(tick));
+      } else {
+        later.delete(id);
+        draw(now);
+      }
+    });
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => cancel(later.get(id) ?? id);
+}
+
 /** @param options of openPage() */
 async function makeTab(session, { touch, ratio, first, offline, before, context }) {
   const page = await (context ?? await session.browser.newContext({
@@ -100,6 +125,7 @@ async function makeTab(session, { touch, ratio, first, offline, before, context 
   });
   if (!first) await page.addInitScript(leftFirstScreen);
   if (before) await page.addInitScript(before);
+  if (session.rate) await page.addInitScript(drawAtMost, session.rate);
   return page;
 }
 
@@ -114,7 +140,7 @@ async function makeTab(session, { touch, ratio, first, offline, before, context 
  * @returns the page; page.complaints lists what it logged as warning or error
  */
 export async function openPage(session, options = {}) {
-  const { width, height, light, calm, path = "", fragment, ...tab } = { ...session.size, ...options };
+  const { width = 1280, height = 720, light, calm, path = "", fragment, ...tab } = options;
   const { touch = false, ratio = 1, first = false, ...own } = tab;
   const kind = Object.keys(own).length > 0 ? "own" : JSON.stringify([touch, ratio, first]);
   const at = session.free.findIndex((free) => free.kind === kind);

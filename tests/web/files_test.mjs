@@ -12,7 +12,7 @@ let page;
 let mine; // a user's scene, as text
 
 before(async () => {
-  session = await open();
+  session = await open({ rate: 15 });
   page = await openPage(session);
   await call(page, "set", { scene: "bridge" });
   await call(page, "pause");

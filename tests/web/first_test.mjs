@@ -7,7 +7,7 @@ import { all, call, click, drawn, leave, open, openPage, picture, reports, save 
 import { difference, part, variance } from "./pixels.mjs";
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 /** Waits until the first screen is shown or hidden. */

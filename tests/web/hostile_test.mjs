@@ -5,7 +5,7 @@ import { after, before, test } from "node:test";
 import { call, leave, open, openPage } from "./browser.mjs";
 
 let session;
-before(async () => { session = await open({ width: 640, height: 400 }); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 /** In the page: values that misbehave when they are read. */

@@ -12,7 +12,7 @@ const side = { x: 980, y: 60, width: 280, height: 560 };
 let session;
 let page;
 before(async () => {
-  session = await open();
+  session = await open({ rate: 15 });
   page = await openPage(session, { calm: true });
 });
 after(() => session?.close());

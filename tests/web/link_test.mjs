@@ -7,7 +7,7 @@ import { call, drawn, drop, leave, open, openMenu, openPage, packScene, pick, re
   save } from "./browser.mjs";
 
 let session;
-before(async () => { session = await open({ width: 640, height: 400 }); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 const fragmentOf = (link) => link.slice(link.indexOf("#") + 1);
@@ -115,7 +115,7 @@ test("contains thrown balls in compact form, and another browser throws them aga
   const page = await openPage(session);
   await call(page, "pause");
   await call(page, "reset");
-  await page.mouse.move(320, 120);
+  await page.mouse.move(620, 300);
   for (let i = 0; i < 3; ++i) { // tests/app/ui throws twenty
     await call(page, "step", 3);
     await page.keyboard.press("b");
@@ -153,7 +153,7 @@ test("that is invalid is reported, and the page runs", async () => {
 });
 
 test("and the command are copied from the menu", async () => {
-  const page = await openPage(session, { width: 1280, height: 720 });
+  const page = await openPage(session);
   await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
   await call(page, "set", { mode: "const", n: 9 });
   await call(page, "pause");

@@ -8,7 +8,7 @@ import { all, appears, call, click, drawn, dropPicked, find, leave, open, openPa
   place, read, save } from "./browser.mjs";
 
 let session;
-before(async () => { session = await open({ width: 640, height: 400 }); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 const shipped = async (name) =>

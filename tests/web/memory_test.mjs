@@ -6,7 +6,7 @@ import { call, drawn, leave, open, openPage } from "./browser.mjs";
 const slack = 64e3; // text kept until the next call, hash tables that grew a little [byte]
 
 let session;
-before(async () => { session = await open({ width: 640, height: 400 }); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 const used = async (page) => (await call(page, "memory")).used;

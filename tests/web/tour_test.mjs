@@ -10,7 +10,7 @@ const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.
 const steps = 8;
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 const tour = (page) => page.locator(".substep-tour");
@@ -76,10 +76,11 @@ for (const [width, height, light] of displays) {
     for (let step = 1; step <= steps; ++step) {
       await goTo(page, step);
       await assertFits(page, width, height);
-      assert.deepEqual(await findings(page), [], `step ${step}`);
+      // By day on the desktop only: access_test.mjs has a step on a phone.
+      if (all || width >= 900) assert.deepEqual(await findings(page), [], `step ${step}`);
       const labels = (await call(page, "widgets")).map((w) => w.label);
       assert.ok(!labels.includes("Next") && !labels.includes("Done"), "its card is in the canvas too");
-      await save(page, `tour-${width}-${light ? "light" : "dark"}-${step}`);
+      if (all) await save(page, `tour-${width}-${light ? "light" : "dark"}-${step}`);
     }
     await leave(page);
   });

@@ -73,7 +73,8 @@ export class Graphics {
     event.preventDefault(); // otherwise it is never restored
     if (this.state === "leaving") {
       this.state = "away";
-      if (this.seen) this.fetch();
+      // The browser refuses to restore a context until this handler has returned.
+      this.timer = setTimeout(() => { if (this.seen) this.fetch(); });
     } else {
       this.state = "taken";
       this.wasm.contextLost();

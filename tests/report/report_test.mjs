@@ -5,6 +5,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { paretoFront } from "../../app/report/pareto.mjs";
 import { launch, openFile } from "./browser.mjs";
 
@@ -33,6 +34,15 @@ test("the Pareto front equals that of a brute-force search", () => {
       assert.equal(front.has(p), !beaten);
     }
   }
+});
+
+test("its page is the one that this Node.js bundles", () => {
+  const source = join(folder, "page.cpp");
+  execFileSync(process.execPath, [fileURLToPath(new URL("../../app/report/build.mjs", import.meta.url)), source]);
+  const [head, tail] = [...readFileSync(source, "utf8").matchAll(/\{([-\d,\s]+)\}/g)]
+    .map(([, bytes]) => Buffer.from(bytes.split(",").map(Number)).toString());
+  const page = readFileSync(report, "utf8");
+  assert.ok(page.startsWith(head) && page.endsWith(tail));
 });
 
 for (const [name, options] of Object.entries({

@@ -1,15 +1,16 @@
-// Accessibility: node tests/web/access_test.mjs [BUILT PAGE]
+// Accessibility: node tests/web/access_test.mjs [FOLDER OF THE BUILT PAGE] [all]
+// Each size in one theme, or in both on request.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { after, before, describe, test } from "node:test";
-import { call, drawn, open, openPage, picture, quiet, reports, save } from "./browser.mjs";
+import { all, call, drawn, leave, open, openPage, picture, reports, save } from "./browser.mjs";
 import { difference, part } from "./pixels.mjs";
 
 const axe = await readFile(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 const focused = (page) => page.evaluate(() =>
@@ -22,24 +23,21 @@ async function findings(page) {
     .map((v) => `${v.id}: ${v.nodes.map((n) => n.html).join(" ")}`);
 }
 
-for (const light of [false, true]) {
-  for (const path of ["", "example/article.html"]) {
-    test(`axe finds nothing serious on ${path || "index.html"}, ${light ? "light" : "dark"}`, async () => {
-      const page = await openPage(session, { path, light, before: "1" });
-      await page.waitForFunction(() => window.substep ?? window.laboratories, null, { timeout: 60000 });
-      await page.evaluate(axe);
-      assert.deepEqual(await findings(page), []);
-      await page.locator("select").first().focus(); // shows the controls
-      assert.deepEqual(await findings(page), []);
-      quiet(page);
-      await page.context().close();
-    });
-  }
+for (const light of all ? [false, true] : [false]) {
+  test(`axe finds nothing serious in an article, ${light ? "light" : "dark"}`, async () => {
+    const page = await openPage(session, { path: "example/article.html", light });
+    await page.evaluate(axe);
+    assert.deepEqual(await findings(page), []);
+    await page.locator("select").first().focus(); // shows the controls
+    assert.deepEqual(await findings(page), []);
+    await leave(page);
+  });
 }
 
 // States of the page: in some the HTML has more content, in others it covers the canvas.
 const states = {
   "a run": (page) => call(page, "set", { mode: "adaptive" }),
+  "controls for the keyboard": (page) => page.locator("select").first().focus(),
   "a failure": async (page) => {
     await call(page, "set", { mode: "none" });
     await call(page, "step", 120);
@@ -56,31 +54,33 @@ const states = {
 };
 // Concurrently: they mostly wait until the HTML follows the canvas.
 describe("axe finds nothing serious in any state", { concurrency: true }, () => {
-  for (const [width, height] of [[1280, 720], [390, 844]]) {
-    for (const light of [false, true]) {
-      test(`${width}x${height}, ${light ? "light" : "dark"}`, async () => {
-        const page = await openPage(session, { width, height, light });
-        await call(page, "pause");
-        await page.evaluate(axe);
-        for (const [state, reach] of Object.entries(states)) {
-          await reach(page);
-          await page.waitForTimeout(1100); // until the HTML twin is updated
-          assert.deepEqual(await findings(page), [], state);
-        }
-        await page.context().close();
-      });
-    }
+  const displays = [[1280, 720, "dark"], [390, 844, "light"]];
+  if (all) displays.push([1280, 720, "light"], [390, 844, "dark"]);
+  for (const [width, height, theme] of displays) {
+    test(`${width}x${height}, ${theme}`, async () => {
+      const page = await openPage(session, { width, height, light: theme === "light" });
+      await call(page, "pause");
+      await page.evaluate(axe);
+      for (const [state, reach] of Object.entries(states)) {
+        await reach(page);
+        await page.waitForTimeout(1100); // until the HTML twin is updated
+        assert.deepEqual(await findings(page), [], state);
+      }
+      page.complaints = []; // of the browser, on the lost context
+      await leave(page);
+    });
   }
 });
 
 test("HTML mirrors the canvas, and announces only important changes", async () => {
   const page = await openPage(session);
   await page.evaluate(() => {
-    window.said = [];
-    const live = document.querySelector(".substep-twin [aria-live=polite]");
-    new MutationObserver(() => window.said.push(live.textContent)).observe(live, { childList: true });
+    const record = (list, element) =>
+      new MutationObserver(() => list.push(element.textContent)).observe(element, { childList: true });
+    record(window.said = [], document.querySelector(".substep-twin [aria-live=polite]"));
+    record(window.times = [], document.querySelector(".substep-twin [data-field=state]"));
   });
-  await page.waitForTimeout(4000);
+  await page.waitForFunction(() => window.times.length >= 3, null, { timeout: 20000 });
   const twin = await page.locator(".substep-twin").textContent();
   for (const word of ["Swinging box", "adaptive, bpp, euler", "playing at", "holds"]) {
     assert.ok(twin.includes(word), `"${word}" is not in: ${twin}`);
@@ -90,8 +90,7 @@ test("HTML mirrors the canvas, and announces only important changes", async () =
   await call(page, "set", { mode: "none" });
   await page.waitForFunction(() => window.said.some((text) => /none.*fails/.test(text)), null,
     { timeout: 20000 });
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("everything is operable by keyboard, and the focus can leave", async () => {
@@ -140,8 +139,7 @@ test("everything is operable by keyboard, and the focus can leave", async () => 
   assert.equal(await focused(page), "after", "the focus cannot leave");
   for (let i = 0; i < 8; ++i) await page.keyboard.press("Shift+Tab");
   assert.equal(await focused(page), "substep-view");
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("a ring shows the keyboard focus", async () => {
@@ -156,7 +154,7 @@ test("a ring shows the keyboard focus", async () => {
   await page.mouse.click(620, 300);
   await drawn(page);
   assert.ok(difference(before, await picture(page, edge)) < 0.1, "a ring after a click");
-  await page.context().close();
+  await leave(page);
 });
 
 test("keys work before the first click", async () => {
@@ -165,8 +163,7 @@ test("keys work before the first click", async () => {
   await call(page, "reset");
   await page.keyboard.press(".");
   await reports(page, "frame", 1);
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("prefers-reduced-motion is respected", async () => {
@@ -178,6 +175,5 @@ test("prefers-reduced-motion is respected", async () => {
   const there = await picture(page, { x: 300, y: 100, width: 600, height: 500 });
   await page.waitForTimeout(1000);
   assert.ok(difference(there, await picture(page, { x: 300, y: 100, width: 600, height: 500 })) < 0.001);
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });

@@ -2,13 +2,13 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { PNG } from "pngjs";
-import { call, drawn, open, openPage, picture, quiet, save } from "./browser.mjs";
+import { call, drawn, leave, open, openPage, picture, quiet, save } from "./browser.mjs";
 import { variance } from "./pixels.mjs";
 
 let session;
 let page;
 before(async () => {
-  session = await open();
+  session = await open({ rate: 15 });
   page = await openPage(session);
   await call(page, "pause");
 });
@@ -66,24 +66,24 @@ test("settings are returned with their allowed values", async () => {
 test("listeners receive frames and verdicts until they are removed", async () => {
   await call(page, "set", { scene: "swinging_box", mode: "none" });
   await call(page, "reset");
-  const heard = await page.evaluate(async () => {
-    const frames = [];
-    const verdicts = [];
-    const leave = window.substep.on("frame", (report) => frames.push(report.frame));
+  await page.evaluate(() => {
+    window.heard = { frames: [], verdicts: [] };
+    window.leave = window.substep.on("frame", (report) => window.heard.frames.push(report.frame));
     window.substep.on("frame", () => { throw new Error("on purpose"); })();
-    window.substep.on("verdict", (text) => verdicts.push(text));
+    window.substep.on("verdict", (text) => window.heard.verdicts.push(text));
     window.substep.play();
-    await new Promise((done) => { setTimeout(done, 4000); });
-    leave();
-    const count = frames.length;
+  });
+  await page.waitForFunction(() => window.heard.verdicts.some((text) => /^fails at/.test(text)));
+  const heard = await page.evaluate(async () => {
+    window.leave();
+    const count = window.heard.frames.length;
     window.substep.reset();
-    await new Promise((done) => { setTimeout(done, 500); });
-    return { frames, verdicts, later: frames.length - count };
+    await new Promise((done) => { window.substep.on("frame", done); });
+    return { ...window.heard, later: window.heard.frames.length - count };
   });
   assert.ok(heard.frames.length >= 3, `${heard.frames.length} frames`);
   assert.ok(heard.frames.every((f, i) => i === 0 || f > heard.frames[i - 1]));
   assert.equal(heard.later, 0);
-  assert.ok(heard.verdicts.some((text) => /^fails at/.test(text)), heard.verdicts.join("; "));
   quiet(page);
 });
 
@@ -109,27 +109,31 @@ test("the run continues from an earlier frame, bit for bit", async () => {
 });
 
 test("an unknown event is reported", async () => {
-  const other = await openPage(session);
-  await other.evaluate(() => window.substep.on("explosion", () => {}));
-  assert.match(other.complaints.join(), /the event must be frame or verdict/);
-  await other.context().close();
+  await page.evaluate(() => window.substep.on("explosion", () => {}));
+  assert.match(page.complaints.join(), /the event must be frame or verdict/);
+  page.complaints = [];
 });
 
 test("pictures and videos are returned as blobs", async () => {
-  const bytes = (name, options) => page.evaluate(async ([n, o]) => {
-    const blob = await window.substep[n](o);
-    return [blob.type, ...new Uint8Array(await blob.arrayBuffer())];
-  }, [name, options]);
-  const [type, ...png] = await bytes("screenshot", {});
+  const blob = async (name, options) => {
+    const url = await page.evaluate(async ([n, o]) => {
+      const reader = new FileReader();
+      reader.readAsDataURL(await window.substep[n](o));
+      await new Promise((done) => { reader.onload = done; });
+      return reader.result;
+    }, [name, options]);
+    const [, type, letters] = /^data:(.*);base64,(.*)$/.exec(url);
+    return [type, Buffer.from(letters, "base64")];
+  };
+  const [type, png] = await blob("screenshot", {});
   assert.equal(type, "image/png");
-  const whole = PNG.sync.read(Buffer.from(png));
+  const whole = PNG.sync.read(png);
   assert.deepEqual([whole.width, whole.height], [1280, 720]);
   assert.ok(variance(whole) > 60);
-  assert.equal((await bytes("screenshot", null))[0], "image/png", "as without options");
-  const [, ...view] = await bytes("screenshot", { part: "view" });
-  assert.ok(PNG.sync.read(Buffer.from(view)).width < 1280);
-  const [kind, ...video] = await bytes("record", { seconds: 1.5 });
-  assert.equal(kind, "video/webm");
+  assert.equal((await blob("screenshot", null))[0], "image/png", "as without options");
+  assert.ok(PNG.sync.read((await blob("screenshot", { part: "view" }))[1]).width < 1280);
+  const [kind, video] = await blob("record", { seconds: 1.5 });
+  assert.match(kind, /^video\/webm/);
   assert.ok(video.length > 5000, `${video.length} bytes`);
   quiet(page);
 });
@@ -145,7 +149,7 @@ test("the history is a table", async () => {
 });
 
 test("two laboratories in an article are independent", async () => {
-  const article = await openPage(session, { path: "example/article.html", before: "1", height: 900 });
+  const article = await openPage(session, { path: "example/article.html", height: 900 });
   await article.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
   const report = (which) => article.evaluate((w) => window.laboratories[w].report(), which);
   await article.waitForFunction(() => window.laboratories.none.report().time > 0.2, null,
@@ -186,12 +190,11 @@ test("two laboratories in an article are independent", async () => {
   await article.mouse.wheel(0, 200);
   await article.waitForTimeout(300);
   assert.equal(await article.evaluate(() => window.scrollY), top);
-  quiet(article);
-  await article.context().close();
+  await leave(article);
 });
 
 test("createSubstep reports a missing element, and can be removed", async () => {
-  const other = await openPage(session, { path: "example/article.html", before: "1" });
+  const other = await openPage(session, { path: "example/article.html" });
   await other.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
   const message = await other.evaluate(async () => {
     const { createSubstep } = await import("../substep.mjs");
@@ -208,6 +211,5 @@ test("createSubstep reports a missing element, and can be removed", async () => 
     return document.querySelector("#none").children.length;
   }), 0);
   await other.waitForTimeout(500);
-  quiet(other);
-  await other.context().close();
+  await leave(other);
 });

@@ -6,6 +6,7 @@ import { cp, mkdir, mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { deflateRawSync } from "node:zlib";
 import { chromium } from "playwright-core";
 import { PNG } from "pngjs";
 import { serve } from "../../web/serve.mjs";
@@ -21,6 +22,9 @@ export function distFolder() {
   }
   return folder;
 }
+
+/** Whether a suite tries all its cases: by night. */
+export const all = process.argv[3] === "all";
 
 export const screenshots = process.env.SUBSTEP_SCREENSHOTS ?? join(root, "build/artefacts/screenshots");
 
@@ -39,22 +43,24 @@ export const renderer = ["--no-sandbox", "--disable-gpu", "--use-gl=angle", "--u
 
 /**
  * A browser with a software renderer, and a server of a copy of the page below a sub-path.
- * @param options {flags}: additional browser flags
+ * @param options {rate}: the most pictures a second, of tests that do not look at motion
  * @returns {browser, server, folder, address, close}; folder is the copy, which a test may change
  */
-export async function open({ flags = [] } = {}) {
+export async function open({ rate } = {}) {
   const root = await mkdtemp(join(tmpdir(), "substep-web-"));
   const folder = join(root, "some/path");
   await cp(distFolder(), folder, { recursive: true });
   const server = await serve(root, 0);
   const browser = await chromium.launch({
     executablePath: chromiumPath(),
-    args: [...renderer, ...flags],
+    args: renderer,
   });
   return {
     browser,
     server,
     folder,
+    rate,
+    free: [], // tabs
     address: `http://127.0.0.1:${server.address().port}/some/path/`,
     async close() {
       await browser.close();
@@ -76,23 +82,35 @@ function leftFirstScreen() {
 }
 
 /**
- * A page with the application running in it.
- * @param options {width, height, ratio, fragment, light, touch, calm, context, path, before, first};
- *   before is a script that runs ahead of the page's own, and disables waiting; first simulates a
- *   first visit: otherwise an earlier visit went from the first screen to the Lab
- * @returns the page; page.complaints lists what it logged as warning or error
+ * In the page: it draws at most so many pictures a second. A software renderer takes all processors
+ * if it draws as many as it can, also from the tests that run beside this one.
  */
-export async function openPage(session, options = {}) {
-  const context = options.context ?? await session.browser.newContext({
-    serviceWorkers: options.offline ? "allow" : "block",
-    reducedMotion: options.calm ? "reduce" : "no-preference",
-    viewport: { width: options.width ?? 1280, height: options.height ?? 720 },
-    deviceScaleFactor: options.ratio ?? 1,
-    colorScheme: options.light ? "light" : "dark",
-    hasTouch: options.touch ?? false,
-  });
-  const page = await context.newPage();
-  page.complaints = [];
+function drawAtMost(rate) {
+  const [next, cancel] = [window.requestAnimationFrame, window.cancelAnimationFrame];
+  const later = new Map(); // the current request of one that was put off
+  let frame = 0; // of the browser [ms]
+  let drawn = 0; // the last one that was not skipped [ms]
+  window.requestAnimationFrame = (draw) => {
+    const id = next(function tick(now) {
+      if (now !== frame && now - drawn > 1000 / rate) drawn = now;
+      frame = now;
+      if (now !== drawn) {
+        later.set(id, next(tick));
+      } else {
+        later.delete(id);
+        draw(now);
+      }
+    });
+    return id;
+  };
+  window.cancelAnimationFrame = (id) => cancel(later.get(id) ?? id);
+}
+
+/** @param options of openPage() */
+async function makeTab(session, { touch, ratio, first, offline, before, context }) {
+  const page = await (context ?? await session.browser.newContext({
+    serviceWorkers: offline ? "allow" : "block", hasTouch: touch, deviceScaleFactor: ratio,
+  })).newPage();
   page.on("console", (message) => {
     // SwiftShader logs its own speed, and Playwright the requests that it blocks.
     const theirs = /GPU stall|GL Driver|blocked by Playwright/.test(message.text());
@@ -105,12 +123,50 @@ export async function openPage(session, options = {}) {
   page.on("response", (response) => {
     if (response.status() >= 400) page.complaints.push(`${response.status()}: ${response.url()}`);
   });
-  if (options.before) await page.addInitScript(options.before);
-  if (!options.first) await page.addInitScript(leftFirstScreen);
-  const fragment = options.fragment ? `#${options.fragment}` : "";
-  await page.goto(`${session.address}${options.path ?? ""}${fragment}`);
-  if (!options.before) await page.waitForFunction(() => window.substep, null, { timeout: 60000 });
+  if (!first) await page.addInitScript(leftFirstScreen);
+  if (before) await page.addInitScript(before);
+  if (session.rate) await page.addInitScript(drawAtMost, session.rate);
   return page;
+}
+
+/**
+ * A page with the application running in it. It takes a tab that leave() freed, if one fits: the
+ * browser keeps the compiled program in its tab, and compiling it is most of the cost of a page.
+ * @param options {width, height, light, calm, path, fragment}; path: "files.json" has no
+ *   laboratory. Options of the tab: {touch, ratio, first, offline, before, context}; first
+ *   simulates a first visit: otherwise an earlier visit went from the first screen to the Lab;
+ *   offline allows a service worker; before is a script that runs ahead of the page's own, and
+ *   disables waiting
+ * @returns the page; page.complaints lists what it logged as warning or error
+ */
+export async function openPage(session, options = {}) {
+  const { width = 1280, height = 720, light, calm, path = "", fragment, ...tab } = options;
+  const { touch = false, ratio = 1, first = false, ...own } = tab;
+  const kind = Object.keys(own).length > 0 ? "own" : JSON.stringify([touch, ratio, first]);
+  const at = session.free.findIndex((free) => free.kind === kind);
+  const page = at < 0 ? await makeTab(session, { touch, ratio, first, ...own }) : session.free.splice(at, 1)[0];
+  Object.assign(page, { session, kind, complaints: [] });
+  await page.setViewportSize({ width, height });
+  await page.emulateMedia({
+    colorScheme: light ? "light" : "dark", reducedMotion: calm ? "reduce" : "no-preference",
+  });
+  await page.goto(`${session.address}${path}${fragment ? `#${fragment}` : ""}`);
+  if (!own.before && path !== "files.json") {
+    await page.waitForFunction(() => window.substep ?? window.laboratories, null, { timeout: 60000 });
+  }
+  return page;
+}
+
+/** Asserts that a page logged no warning or error, and frees its tab, without what it stored. */
+export async function leave(page) {
+  quiet(page);
+  if (page.kind === "own") return page.context().close();
+  await page.goto("about:blank");
+  const tools = await page.context().newCDPSession(page);
+  await tools.send("Storage.clearDataForOrigin",
+    { origin: new URL(page.session.address).origin, storageTypes: "local_storage" });
+  await tools.detach();
+  return page.session.free.push(page);
 }
 
 /** Calls the page's API. */
@@ -119,6 +175,9 @@ export const call = (page, name, ...args) =>
 
 /** Asserts that no warning or error was logged. */
 export const quiet = (page) => assert.deepEqual(page.complaints, []);
+
+/** A scene in the format of a link's scene64. */
+export const packScene = (text) => deflateRawSync(text).toString("base64url");
 
 /** Waits until a field of the report has a value. */
 export const reports = (page, name, value) => page.waitForFunction(
@@ -131,14 +190,21 @@ export const pickUp = (page, name, bytes) => page.evaluateHandle(([n, b]) => {
   return data;
 }, [name, bytes]);
 
-/** Drops a file on the laboratory. @param bytes a text or an array of bytes */
-export const drop = async (page, name, bytes) => dropPicked(page, await pickUp(page, name, bytes));
+/** @param dataTransfer the result of pickUp() */
+export const dropPicked = (page, dataTransfer) =>
+  page.dispatchEvent(".substep-view", "drop", { dataTransfer });
 
-/** @param transfer the result of pickUp() */
-export async function dropPicked(page, transfer) {
-  await page.dispatchEvent(".substep-view", "drop", { dataTransfer: transfer });
-  await page.waitForTimeout(200);
-  await drawn(page);
+/** Waits until a scene was opened or refused. @param run that of the report before */
+export const read = (page, run) => page.waitForFunction((last) => {
+  const now = window.substep.report();
+  return now.run !== last || now.trouble !== "";
+}, run, { polling: 50, timeout: 20000 });
+
+/** Drops a file on the laboratory. @param bytes a text or an array of bytes */
+export async function drop(page, name, bytes) {
+  const { run } = await call(page, "report");
+  await dropPicked(page, await pickUp(page, name, bytes));
+  await read(page, run);
 }
 
 /**

@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { PNG } from "pngjs";
-import { appears, call, click, drawn, drop, open, openPage, pick, quiet, save } from "./browser.mjs";
+import { appears, call, click, drawn, drop, open, openPage, pick, quiet, reports,
+  save } from "./browser.mjs";
 import { variance } from "./pixels.mjs";
 
 let session;
@@ -11,7 +12,7 @@ let page;
 let mine; // a user's scene, as text
 
 before(async () => {
-  session = await open();
+  session = await open({ rate: 15 });
   page = await openPage(session);
   await call(page, "set", { scene: "bridge" });
   await call(page, "pause");
@@ -20,7 +21,15 @@ before(async () => {
 });
 after(() => session?.close());
 
-const read = async (download) => readFile(await download.path());
+const contents = async (download) => readFile(await download.path());
+
+/** Closes the card of a file that was refused. */
+async function dismiss() {
+  await drawn(page);
+  await page.keyboard.press("Escape");
+  await drawn(page);
+  assert.equal((await call(page, "report")).trouble, "");
+}
 
 test("a dropped scene file runs, and is available at the next visit", async () => {
   await drop(page, "mine.json", mine);
@@ -51,13 +60,13 @@ test("an invalid file is reported by name, and the run is unchanged", async () =
   };
   for (const [name, bytes] of Object.entries(files)) {
     await drop(page, name, bytes);
-    const report = await call(page, "report");
-    assert.equal(report.trouble, `${name} was not loaded`);
+    assert.equal((await call(page, "report")).trouble, `${name} was not loaded`);
     assert.equal(await call(page, "hash"), hash, name);
-    if (name === "mass.json") await save(page, "problems");
-    await page.keyboard.press("Escape");
-    await drawn(page);
-    assert.equal((await call(page, "report")).trouble, "");
+    if (name === "mass.json") {
+      await drawn(page);
+      await save(page, "problems");
+    }
+    await dismiss();
   }
   quiet(page);
 });
@@ -70,16 +79,14 @@ test("a huge file is rejected without being read", async () => {
     const event = new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true });
     document.querySelector(".substep-view").dispatchEvent(event);
   });
-  await page.waitForFunction(() => window.substep.report().trouble === "huge.json was not loaded");
-  await drawn(page);
+  await reports(page, "trouble", "huge.json was not loaded");
   assert.equal(await call(page, "hash"), hash);
+  await dismiss();
   // A file just below the size limit goes through the heap, not the stack.
   await drop(page, "large.json", `${" ".repeat(8e6)}{`);
   assert.equal((await call(page, "report")).trouble, "large.json was not loaded");
   assert.equal(await call(page, "hash"), hash);
-  await page.keyboard.press("Escape");
-  await page.waitForFunction(() => window.substep.report().trouble === "");
-  await drawn(page);
+  await dismiss();
   quiet(page);
 });
 
@@ -87,7 +94,7 @@ test("the menu opens a file", async () => {
   const [chooser] = await Promise.all([page.waitForEvent("filechooser"), pick(page, "Open scene …")]);
   await chooser.setFiles({ name: "chosen.json", mimeType: "application/json",
     buffer: Buffer.from(mine.replace('"mine"', '"chosen"')) });
-  await page.waitForFunction(() => window.substep.report().scene === "chosen");
+  await reports(page, "scene", "chosen");
   quiet(page);
 });
 
@@ -98,7 +105,7 @@ test("the current state is saved, and the run continues from its file", async ()
   await call(page, "step", 60);
   const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "Save scene as it is now")]);
   assert.equal(download.suggestedFilename(), "heavy_stack_at_1000ms.json");
-  const text = (await read(download)).toString();
+  const text = (await contents(download)).toString();
   assert.equal(text, await call(page, "saved"));
   const before = await call(page, "report");
   assert.deepEqual(await call(page, "load", text), { ok: true, problems: [] });
@@ -113,7 +120,7 @@ test("pictures of window and view equal the screen", async () => {
   for (const entry of ["window", "view"]) {
     const [download] = await Promise.all([page.waitForEvent("download"), pick(page, `Picture of the ${entry}`)]);
     assert.match(download.suggestedFilename(), /^heavy_stack.*\.png$/);
-    const png = PNG.sync.read(await read(download));
+    const png = PNG.sync.read(await contents(download));
     assert.ok(entry === "window" ? png.width === 1280 && png.height === 720 : png.width < 1280);
     assert.ok(variance(png) > 60);
   }
@@ -126,7 +133,7 @@ test("a figure is an SVG with texts, and with its settings inside", async () => 
   await appears(page, "SVG");
   const [download] = await Promise.all([page.waitForEvent("download"), click(page, "SVG")]);
   assert.equal(download.suggestedFilename(), "swinging_box-accuracy.svg");
-  const svg = (await read(download)).toString();
+  const svg = (await contents(download)).toString();
   const found = await page.evaluate((text) => {
     const parsed = new DOMParser().parseFromString(text, "image/svg+xml");
     return {
@@ -155,7 +162,7 @@ test("a video is recorded", async () => {
   await save(page, "recording");
   const [download] = await Promise.all([page.waitForEvent("download"), pick(page, "Stop the video")]);
   assert.match(download.suggestedFilename(), /\.webm$/);
-  const bytes = await read(download);
+  const bytes = await contents(download);
   assert.deepEqual([...bytes.subarray(0, 4)], [0x1a, 0x45, 0xdf, 0xa3]); // EBML
   assert.ok(bytes.length > 10000, `${bytes.length} bytes`);
   quiet(page);

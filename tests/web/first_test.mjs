@@ -1,12 +1,13 @@
 // A first visit: two chains on one clock, and the way into the laboratory:
-// node tests/web/first_test.mjs [FOLDER OF THE BUILT PAGE]
+// node tests/web/first_test.mjs [FOLDER OF THE BUILT PAGE] [all]
+// In two windows, or in all on request.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { call, click, drawn, open, openPage, picture, quiet, reports, save } from "./browser.mjs";
+import { all, call, click, drawn, leave, open, openPage, picture, reports, save } from "./browser.mjs";
 import { difference, part, variance } from "./pixels.mjs";
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 /** Waits until the first screen is shown or hidden. */
@@ -20,31 +21,29 @@ const torn = (page) => page.waitForFunction(
 const left = { x: 40, y: 140, width: 560, height: 360 };
 const right = { x: 680, y: 140, width: 560, height: 360 };
 
-for (const light of [false, true]) {
-  for (const [width, height] of [[1280, 720], [1920, 1080], [390, 844]]) {
-    test(`${width}x${height}, ${light ? "light" : "dark"}: one chain tears beside one that holds`, async () => {
-      const page = await openPage(session, { width, height, light, first: true });
-      await introduced(page, true);
-      await torn(page);
-      const { introduction, mode, verdict } = await call(page, "report");
-      assert.match(introduction.held, /^Adaptive: N sub-steps, now 1\d/);
-      assert.match(introduction.paper, /Adaptive Sub-stepping for Constrained.*Giles.*Andrews/);
-      assert.deepEqual([mode, verdict], ["adaptive", "holds"]);
+const visits = [[1280, 720, "dark"], [390, 844, "light"]];
+if (all) visits.push([1280, 720, "light"], [390, 844, "dark"], [1920, 1080, "dark"], [1920, 1080, "light"]);
+for (const [width, height, theme] of visits) {
+  test(`${width}x${height}, ${theme}: one chain tears beside one that holds`, async () => {
+    const page = await openPage(session, { width, height, light: theme === "light", first: true });
+    await introduced(page, true);
+    await torn(page);
+    const { introduction, mode, verdict } = await call(page, "report");
+    assert.match(introduction.held, /^Adaptive: N sub-steps, now 1\d/);
+    assert.match(introduction.paper, /Adaptive Sub-stepping for Constrained.*Giles.*Andrews/);
+    assert.deepEqual([mode, verdict], ["adaptive", "holds"]);
+    const now = await picture(page);
+    await save(page, `first-${width}-${theme}`, now);
+    if (width === 1280) {
+      assert.ok(variance(part(now, left)) > 40 && variance(part(now, right)) > 40, "a picture is blank");
       await page.waitForTimeout(1000);
-      await save(page, `first-${width}-${light ? "light" : "dark"}`);
-      if (width === 1280) {
-        const before = await picture(page);
-        assert.ok(variance(part(before, left)) > 40 && variance(part(before, right)) > 40, "a picture is blank");
-        await page.waitForTimeout(500);
-        const now = await picture(page);
-        for (const side of [left, right]) {
-          assert.ok(difference(part(before, side), part(now, side)) > 0.002, "a chain does not move");
-        }
+      const later = await picture(page);
+      for (const side of [left, right]) {
+        assert.ok(difference(part(now, side), part(later, side)) > 0.002, "a chain does not move");
       }
-      quiet(page);
-      await page.context().close();
-    });
-  }
+    }
+    await leave(page);
+  });
 }
 
 test("Try it opens the laboratory, also at later visits", async () => {
@@ -62,35 +61,34 @@ test("Try it opens the laboratory, also at later visits", async () => {
   await page.waitForFunction(() => window.substep, null, { timeout: 60000 });
   await drawn(page);
   await introduced(page, false);
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("Enter, Escape and a tap close it; Tour begins the tour", async () => {
-  for (const leave of [(p) => p.keyboard.press("Enter"), (p) => p.keyboard.press("Escape"),
-    (p) => p.mouse.click(320, 300), (p) => click(p, "Tour")]) {
-    const page = await openPage(session, { first: true });
+  const page = await openPage(session, { first: true });
+  for (const close of [() => page.keyboard.press("Enter"), () => page.keyboard.press("Escape"),
+    () => page.mouse.click(320, 300), () => click(page, "Tour")]) {
+    await call(page, "set", { introduction: "on" });
     await introduced(page, true);
     await drawn(page);
-    await leave(page);
+    await close();
     await introduced(page, false);
-    quiet(page);
-    await page.context().close();
   }
+  assert.equal((await call(page, "report")).tour, 1);
+  await leave(page);
 });
 
 test("a link and the API skip it", async () => {
   const linked = await openPage(session, { first: true, fragment: "scene=bridge&mode=none" });
   assert.equal((await call(linked, "report")).introduction, null);
   await reports(linked, "scene", "bridge");
-  await linked.context().close();
+  await leave(linked);
   const page = await openPage(session, { first: true });
   await introduced(page, true);
   await call(page, "set", { mode: "damping" });
   await introduced(page, false);
   assert.equal((await call(page, "report")).mode, "damping");
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("HTML has the same text and two buttons for the keyboard", async () => {
@@ -112,15 +110,13 @@ test("HTML has the same text and two buttons for the keyboard", async () => {
   await introduced(page, false);
   assert.equal(await page.evaluate(() => document.activeElement.name), "scene");
   assert.equal(await page.getByRole("button", { name: "Try it" }).count(), 0, "it is still there");
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("a laboratory in an article starts without it", async () => {
-  const page = await openPage(session, { path: "example/article.html", before: "1", first: true });
-  await page.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
+  const page = await openPage(session, { path: "example/article.html", first: true });
   const shown = await page.evaluate(() => Object.values(window.laboratories)
     .map((l) => l.report().introduction));
   assert.ok(shown.every((words) => words === null));
-  await page.context().close();
+  await leave(page);
 });

@@ -2,10 +2,10 @@
 // node tests/web/hostile_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { call, open, openPage, quiet } from "./browser.mjs";
+import { call, leave, open, openPage } from "./browser.mjs";
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 /** In the page: values that misbehave when they are read. */
@@ -105,7 +105,8 @@ test("no call throws for any argument", async () => {
   const empty = ["bare", "date", "evil", "toString", "json", "primitive", "element"];
   assert.deepEqual(accepted.filter((what) => !empty.some((name) => what === `set(${name})`)), []);
   assert.deepEqual([await call(page, "hash"), await call(page, "settings")], before);
-  await page.context().close();
+  page.complaints = []; // on() logs its problems
+  await leave(page);
 });
 
 test("changing a result does not affect other results", async () => {
@@ -115,13 +116,12 @@ test("changing a result does not affect other results", async () => {
     return window.substep.pause();
   });
   assert.deepEqual(second, { ok: true, problems: [] });
-  await page.context().close();
+  await leave(page);
 });
 
 /** An article with two laboratories, window.laboratories. */
 async function openArticle() {
-  const page = await openPage(session, { path: "example/article.html", before: "1" });
-  await page.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
+  const page = await openPage(session, { path: "example/article.html" });
   return page;
 }
 
@@ -148,7 +148,8 @@ test("calls after remove() report that the laboratory was removed", async () => 
     assert.match(problems[0].message, /was removed/, name);
   }
   assert.match(page.complaints.join(), /^error: substep\.on\("frame"\): [^,]*was removed[^,]*$/);
-  await page.context().close();
+  page.complaints = [];
+  await leave(page);
 });
 
 test("listeners and getters may remove the laboratory", async () => {
@@ -172,6 +173,5 @@ test("listeners and getters may remove the laboratory", async () => {
   assert.equal(answer.ok, false);
   assert.match(answer.problems[0].message, /was removed/);
   await page.waitForTimeout(500);
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });

@@ -1,8 +1,9 @@
-// Mouse and touch on the picture and the timeline:
+// Mouse and touch on the picture and the timeline, and typical visits by clicks:
 // node tests/web/interact_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { call, click, drawn, find, open, openPage, picture, place, quiet, save } from "./browser.mjs";
+import { appears, call, click, drawn, find, leave, open, openPage, pick, picture, place, quiet, reports,
+  save } from "./browser.mjs";
 import { difference, part } from "./pixels.mjs";
 
 // Positions at 1280 x 720.
@@ -11,7 +12,7 @@ const side = { x: 980, y: 60, width: 280, height: 560 };
 let session;
 let page;
 before(async () => {
-  session = await open();
+  session = await open({ rate: 15 });
   page = await openPage(session, { calm: true });
 });
 after(() => session?.close());
@@ -107,7 +108,7 @@ test("why this N has its own panel", async () => {
 });
 
 test("touches rotate, zoom and scroll", async () => {
-  const phone = await openPage(session, { width: 390, height: 844, ratio: 2, touch: true, calm: true });
+  const phone = await openPage(session, { width: 390, height: 844, touch: true, calm: true });
   await call(phone, "pause");
   await call(phone, "set", { scene: "heavy_stack" });
   await phone.waitForTimeout(1000);
@@ -125,24 +126,72 @@ test("touches rotate, zoom and scroll", async () => {
     await phone.waitForTimeout(600);
     await drawn(phone);
   };
-  const whole = async () => picture(phone);
-  const upper = { x: 0, y: 120, width: 780, height: 560 };
-  let before = await whole();
+  const upper = { x: 0, y: 60, width: 390, height: 280 };
+  let before = await picture(phone);
   await gesture([[40, 300], [160, 290]]);
-  let now = await whole();
+  let now = await picture(phone);
   assert.ok(difference(part(before, upper), part(now, upper)) > 0.03, "one finger did not turn");
   before = now;
   await gesture([[150, 200], [90, 140]], [[240, 200], [300, 260]]);
-  now = await whole();
+  now = await picture(phone);
   assert.ok(difference(part(before, upper), part(now, upper)) > 0.03, "two fingers did not zoom");
   assert.equal((await call(phone, "report")).selected, "", "a pinch is no click");
   before = now;
-  const lower = { x: 0, y: 1000, width: 780, height: 600 };
+  const lower = { x: 0, y: 500, width: 390, height: 300 };
   await gesture([[20, 700], [20, 500]]);
-  now = await whole();
+  now = await picture(phone);
   await save(phone, "phone-fingers", now);
   assert.ok(difference(part(before, lower), part(now, lower)) > 0.03, "the panel did not scroll");
   assert.deepEqual(await phone.evaluate(() => [window.scrollX, window.scrollY]), [0, 0]);
-  quiet(phone);
-  await phone.context().close();
+  await leave(phone);
+});
+
+test("none tears, adaptive holds, alpha changes N, the link is copied", async () => {
+  const page = await openPage(session);
+  await page.context().grantPermissions(["clipboard-read", "clipboard-write"]);
+  assert.equal((await call(page, "report")).mode, "adaptive");
+  await click(page, "none", "mode");
+  await call(page, "reset");
+  await page.waitForFunction(() => /^fails/.test(window.substep.report().verdict), null, { timeout: 60000 });
+  await appears(page, "Reset with adaptive sub-steps");
+  await save(page, "story-torn");
+  await click(page, "Reset with adaptive sub-steps");
+  const report = await call(page, "report");
+  assert.deepEqual([report.mode, report.verdict], ["adaptive", "holds"]);
+  assert.ok(report.playing, "the run does not continue");
+  await click(page, "What does accuracy cost?");
+  await appears(page, "Run again"); // the picture appears immediately
+  await pick(page, "Copy link");
+  await drawn(page);
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  assert.ok(link.startsWith(session.address), link);
+  assert.match(link, /scene=swinging_box.*mode=adaptive/);
+  await leave(page);
+});
+
+test("a diverging run pauses, explains, and returns to its last good state", async () => {
+  const page = await openPage(session, { fragment: "scene=spinning_top" });
+  await call(page, "reset");
+  // An explicit gyroscopic torque at this speed gains energy without bound.
+  const wild = JSON.parse(await call(page, "saved"));
+  for (const body of wild.bodies) body.angular_velocity = [300, 2000, 100];
+  Object.assign(wild.settings, { gyroscopic: "explicit", mode: "none" });
+  assert.deepEqual((await call(page, "load", wild)).problems, []);
+  await call(page, "play");
+  await reports(page, "stopped", true);
+  assert.equal((await call(page, "report")).playing, false);
+  await appears(page, "Last good state");
+  await save(page, "diverged");
+  const { time } = await call(page, "report");
+  assert.ok(Number.isFinite(time), `${time}`);
+  assert.equal((await call(page, "history")).includes("nan"), false);
+  await click(page, "Last good state");
+  const good = await call(page, "report");
+  assert.equal(good.stopped, false);
+  assert.ok(good.time <= time);
+  assert.ok(Number.isFinite(good.kinetic) && Number.isFinite(good.energy), `${good.kinetic}`);
+  await call(page, "set", { scene: "bridge" }); // nothing else failed
+  await call(page, "step", 10);
+  assert.equal((await call(page, "report")).verdict, "holds");
+  await leave(page);
 });

@@ -2,13 +2,24 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
-import { call, drawn, drop, open, openMenu, openPage, pick, quiet, reports, save } from "./browser.mjs";
+import { inflateRawSync } from "node:zlib";
+import { call, drawn, drop, leave, open, openMenu, openPage, packScene, pick, reports,
+  save } from "./browser.mjs";
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
-const fragmentOf = (page) => page.evaluate(() => location.hash);
+const fragmentOf = (link) => link.slice(link.indexOf("#") + 1);
+
+/** The hash of the run's state after some frames from its start. */
+async function hashAfter(page, frames) {
+  await call(page, "pause");
+  await call(page, "reset");
+  await call(page, "step", frames);
+  return call(page, "hash");
+}
+
 /** A user's scene: the pendulum with another frame length. */
 async function ownScene(name = "mine") {
   const scene = JSON.parse(await readFile(new URL("../../scenes/pendulum.json", import.meta.url), "utf8"));
@@ -24,8 +35,7 @@ test("is read when the page opens", async () => {
   await call(page, "pause");
   assert.equal((await call(page, "step", 60)).substeps, 12);
   await save(page, "bridge-light");
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("reproduces the run, bit for bit", async () => {
@@ -33,17 +43,13 @@ test("reproduces the run, bit for bit", async () => {
   await call(first, "set", { scene: "heavy_stack", solver: "pgs", mode: "capped", n_cap: 3,
     alpha: 0.0371, iterations: 11, warm_start: false, integrator: "leapfrog", drift: "soft" });
   await first.waitForURL(/n_cap=3/);
-  await call(first, "pause");
-  await call(first, "reset");
-  await call(first, "step", 50);
-  const second = await openPage(session, { fragment: (await fragmentOf(first)).slice(1) });
-  await call(second, "pause");
-  await call(second, "reset");
-  await call(second, "step", 50);
-  assert.equal(await call(second, "hash"), await call(first, "hash"));
-  await reports(second, "scene", "heavy_stack");
-  await first.context().close();
-  await second.context().close();
+  const hash = await hashAfter(first, 50);
+  const fragment = fragmentOf(first.url());
+  await leave(first);
+  const second = await openPage(session, { fragment });
+  assert.equal(await hashAfter(second, 50), hash);
+  assert.equal((await call(second, "report")).scene, "heavy_stack");
+  await leave(second);
 });
 
 test("supports back and forward between scenes", async () => {
@@ -65,8 +71,7 @@ test("supports back and forward between scenes", async () => {
   await page.goForward();
   await reports(page, "scene", "heavy_stack");
   await page.waitForFunction(() => /^Heavy stack/.test(document.title));
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("follows changes of the address", async () => {
@@ -74,8 +79,7 @@ test("follows changes of the address", async () => {
   await page.evaluate(() => { location.hash = "#scene=bridge&mode=damping"; });
   await reports(page, "scene", "bridge");
   assert.equal((await call(page, "report")).mode, "damping");
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("contains a user's scene, and another browser runs it", async () => {
@@ -85,19 +89,26 @@ test("contains a user's scene, and another browser runs it", async () => {
   await page.waitForURL(/scene64=/);
   const link = await call(page, "link");
   assert.ok(link.length < 2000, `${link.length} letters`);
-  await call(page, "pause");
-  await call(page, "reset");
-  await call(page, "step", 40);
-  const other = await openPage(session, { fragment: link.slice(link.indexOf("#") + 1) });
+  const hash = await hashAfter(page, 40);
+  await leave(page); // and what it stored
+  const other = await openPage(session, { fragment: fragmentOf(link) });
   const report = await call(other, "report");
   assert.deepEqual([report.scene, report.title, report.mode], ["mine", "My mine", "const"]);
-  await call(other, "pause");
-  await call(other, "reset");
-  await call(other, "step", 40);
-  assert.equal(await call(other, "hash"), await call(page, "hash"));
-  quiet(other);
-  await page.context().close();
-  await other.context().close();
+  assert.equal(await hashAfter(other, 40), hash);
+  await leave(other);
+});
+
+test("packs a scene in the format of the tests", async () => {
+  const page = await openPage(session);
+  const text = await ownScene();
+  const [packed, unpacked] = await page.evaluate(async ([scene, letters]) => {
+    const { pack, unpack } = await import(new URL("inline_scene.mjs", location.href).href);
+    return [await pack(scene), await unpack(letters)];
+  }, [text, packScene(text)]);
+  assert.match(packed, /^[\w-]+$/);
+  assert.equal(inflateRawSync(Buffer.from(packed, "base64url")).toString(), text);
+  assert.equal(unpacked, text);
+  await leave(page);
 });
 
 test("contains thrown balls in compact form, and another browser throws them again", async () => {
@@ -105,34 +116,31 @@ test("contains thrown balls in compact form, and another browser throws them aga
   await call(page, "pause");
   await call(page, "reset");
   await page.mouse.move(620, 300);
-  for (let i = 0; i < 20; ++i) {
+  for (let i = 0; i < 3; ++i) { // tests/app/ui throws twenty
     await call(page, "step", 3);
     await page.keyboard.press("b");
     await drawn(page);
   }
   await call(page, "step", 30);
   await page.waitForURL(/events=/);
-  const link = await call(page, "link");
-  assert.ok(link.length < 2000, `${link.length} letters`);
-  const frame = Math.round((await call(page, "report")).time * 60);
-  const other = await openPage(session, { fragment: link.slice(link.indexOf("#") + 1) });
-  await call(other, "pause");
-  await call(other, "reset");
-  await call(other, "step", frame);
-  assert.equal(await call(other, "hash"), await call(page, "hash"));
-  quiet(other);
-  await page.context().close();
-  await other.context().close();
+  const [link, hash] = [await call(page, "link"), await call(page, "hash")];
+  assert.ok(link.length < 500, `${link.length} letters`);
+  await leave(page);
+  const other = await openPage(session, { fragment: fragmentOf(link) });
+  assert.equal(await hashAfter(other, 39), hash);
+  await leave(other);
 });
 
 test("that is invalid is reported, and the page runs", async () => {
   const broken = ["mode=warp&alpha=7&%zz&=&scene=%00", "scene=no_such_scene", "scene64=AAAA",
     "scene64=%%%", "scene64=", "&&&", `scene64=${"A".repeat(5000)}`, "alpha=1e999&n=-3&solver="];
-  const page = await openPage(session);
+  const page = await openPage(session, { fragment: broken[0] });
+  assert.match((await call(page, "report")).trouble, /link/);
+  await drawn(page);
+  await save(page, "bad-link");
   for (const fragment of broken) {
     const before = await call(page, "report");
     const result = await call(page, "openLink", fragment);
-    await drawn(page);
     const now = await call(page, "report");
     assert.equal(now.scene, before.scene, fragment);
     if (fragment === "&&&") continue;
@@ -140,14 +148,8 @@ test("that is invalid is reported, and the page runs", async () => {
     assert.match(now.trouble, /link/, fragment);
     assert.ok(result.problems.every((p) => p.message.length > 5), JSON.stringify(result.problems));
   }
-  const opened = await openPage(session, { fragment: broken[0] });
-  await drawn(opened);
-  assert.match((await call(opened, "report")).trouble, /link/);
-  await save(opened, "bad-link");
-  quiet(page);
-  quiet(opened);
-  await page.context().close();
-  await opened.context().close();
+  await drawn(page);
+  await leave(page);
 });
 
 test("and the command are copied from the menu", async () => {
@@ -176,6 +178,5 @@ test("and the command are copied from the menu", async () => {
   assert.match((await call(page, "report")).notice, /Link copied/);
   assert.equal(await copied("Copy command"), "./dev cli run swinging_box --mode const --n 9");
   assert.equal(await call(page, "command"), "./dev cli run swinging_box --mode const --n 9");
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });

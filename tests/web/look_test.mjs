@@ -1,14 +1,14 @@
-// The appearance of the page: node tests/web/look_test.mjs [FOLDER OF THE BUILT PAGE]
-// Pictures of the window at common sizes are saved with the build artefacts. The 3D picture is
-// compared with those in tests/web/reference, within a visible difference; SUBSTEP_NEW_REFERENCE=1
-// rewrites them.
+// The appearance of the page: node tests/web/look_test.mjs [FOLDER OF THE BUILT PAGE] [all]
+// The 3D picture is compared with those in tests/web/reference, within a visible difference;
+// SUBSTEP_NEW_REFERENCE=1 rewrites them. On request, pictures of the window at common sizes are
+// saved with the build artefacts.
 import assert from "node:assert/strict";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import pixelmatch from "pixelmatch";
 import { PNG } from "pngjs";
-import { call, drawn, open, openPage, picture, quiet, save } from "./browser.mjs";
+import { all, call, drawn, leave, open, openPage, picture, save } from "./browser.mjs";
 import { variance } from "./pixels.mjs";
 
 const anew = process.env.SUBSTEP_NEW_REFERENCE === "1";
@@ -48,12 +48,11 @@ for (const [scene, frames, theme] of [
       { threshold: 0.12 });
     if (differing > 0) await save(page, `look-${scene}-differs`, marks);
     assert.ok(differing / (now.width * now.height) < allowed, `${differing} pixels differ`);
-    quiet(page);
-    await page.context().close();
+    await leave(page);
   });
 }
 
-for (const [name, options] of Object.entries({
+const windows = {
   "1280x720": { width: 1280, height: 720 },
   "1280x720-light": { width: 1280, height: 720, light: true },
   "1280x720-ratio-1.5": { width: 1280, height: 720, ratio: 1.5 },
@@ -61,7 +60,8 @@ for (const [name, options] of Object.entries({
   "390x844-ratio-2": { width: 390, height: 844, ratio: 2, touch: true },
   "390x844-light": { width: 390, height: 844, ratio: 2, touch: true, light: true },
   "844x390": { width: 844, height: 390, ratio: 2, touch: true },
-})) {
+};
+for (const [name, options] of all ? Object.entries(windows) : []) {
   test(`fills a window of ${name}`, async () => {
     const page = await openPage(session, { ...options, calm: true });
     await still(page, { scene: "bridge" }, 90);
@@ -73,7 +73,6 @@ for (const [name, options] of Object.entries({
     }), [Math.round(width * ratio), Math.round(height * ratio), width, height]);
     assert.ok(variance(await picture(page)) > 100);
     await save(page, `window-${name}`);
-    quiet(page);
-    await page.context().close();
+    await leave(page);
   });
 }

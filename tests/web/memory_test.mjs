@@ -1,12 +1,12 @@
 // Memory does not grow: node tests/web/memory_test.mjs [FOLDER OF THE BUILT PAGE]
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { call, drawn, open, openPage, quiet } from "./browser.mjs";
+import { call, drawn, leave, open, openPage } from "./browser.mjs";
 
 const slack = 64e3; // text kept until the next call, hash tables that grew a little [byte]
 
 let session;
-before(async () => { session = await open(); });
+before(async () => { session = await open({ rate: 15 }); });
 after(() => session?.close());
 
 const used = async (page) => (await call(page, "memory")).used;
@@ -44,8 +44,7 @@ test("panels, scenes, comparisons and sweeps release their memory", async () => 
   const now = await call(page, "memory");
   assert.ok(now.used - begin < slack, `${begin} bytes, then ${now.used}`);
   assert.equal(now.heap, heap);
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("the memory of a long run is bounded", async () => {
@@ -60,12 +59,11 @@ test("the memory of a long run is bounded", async () => {
   const once = await run();
   const again = await run();
   assert.ok(again - once < slack, `${once} bytes, then ${again}`);
-  quiet(page);
-  await page.context().close();
+  await leave(page);
 });
 
 test("removed laboratories are freed", async () => {
-  const page = await openPage(session, { path: "files.json", before: "1" }); // without a laboratory
+  const page = await openPage(session, { path: "files.json" }); // without a laboratory
   const count = 10;
   const devtools = await page.context().newCDPSession(page);
   /** Memories of WebAssembly that are alive. */
@@ -95,5 +93,5 @@ test("removed laboratories are freed", async () => {
   const left = await alive() - first;
   // A pending frame or promise may still hold the last ones.
   assert.ok(left <= 3, `${left} of ${count} are still there`);
-  await page.context().close();
+  await leave(page);
 });

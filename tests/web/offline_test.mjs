@@ -5,14 +5,15 @@ import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { measure, total } from "../../web/sizes.mjs";
-import { call, drawn, open, openPage, quiet, save } from "./browser.mjs";
+import { call, drawn, leave, open, openPage, save } from "./browser.mjs";
 
 const mostBytes = 1.5e6; // of all files, packed with gzip
 
 let folder; // served by the server; a copy that tests may change
 let session;
+let stored; // a page with a stored copy
 before(async () => {
-  session = await open();
+  session = await open({ rate: 15 });
   folder = session.folder;
 });
 after(() => session?.close());
@@ -33,35 +34,28 @@ test("no file requests anything outside its folder", async () => {
   assert.ok(requests.length > 5);
   // Below the sub-path: it works from any folder of any server.
   for (const url of requests) assert.ok(url.startsWith(session.address), url);
-  await page.context().close();
+  await leave(page);
 });
 
-test("a failed download can be retried", async () => {
-  const page = await openPage(session, { before: "1", fragment: "scene=bridge" });
+test("a failed download can be retried, and progress is shown while the program loads", async () => {
+  const page = await openPage(session, { fragment: "scene=bridge" });
   await page.route(/engine\.wasm/, (route) => route.abort());
   await page.reload();
   await page.locator(".substep-card button").waitFor();
   assert.match(await page.locator(".substep-card p").innerText(), /engine\.wasm.*network/);
   await save(page, "load-failed");
   await page.unroute(/engine\.wasm/);
-  await page.locator(".substep-card button").click();
-  await running(page);
-  assert.equal((await call(page, "report")).scene, "bridge");
-  await page.context().close();
-});
-
-test("progress is shown while the program loads", async () => {
-  const page = await openPage(session, { before: "1" });
   await page.route(/engine\.data/, async (route) => {
     await new Promise((done) => { setTimeout(done, 1500); });
     await route.continue();
   });
-  await page.reload();
+  await page.locator(".substep-card button").click();
   await page.waitForFunction(() => document.querySelector(".substep-card progress")?.value > 0.5);
   await save(page, "loading");
   await running(page);
   assert.ok(await page.locator(".substep-overlay").isHidden());
-  await page.context().close();
+  assert.equal((await call(page, "report")).scene, "bridge");
+  await page.context().close(); // it logged the failure
 });
 
 /** Names of the complete copies that are kept. */
@@ -141,6 +135,7 @@ test("a new version replaces the stored one", async () => {
 
 test("an incomplete download keeps the stored version", async () => {
   const page = await openPage(session, { offline: true });
+  stored = page;
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.waitForFunction(() => navigator.serviceWorker.controller);
   const list = join(folder, "files.json");
@@ -157,13 +152,11 @@ test("an incomplete download keeps the stored version", async () => {
   await running(page);
   assert.equal((await call(page, "report")).scene, "swinging_box");
   await writeFile(list, old);
-  await page.context().close();
 });
 
 // Must be last: it stops the server.
 test("a loaded page works without a network", async () => {
-  const page = await openPage(session, { offline: true });
-  await page.evaluate(() => navigator.serviceWorker.ready);
+  const page = stored;
   session.server.close();
   session.server.closeAllConnections();
   await page.goto(`${session.address}#scene=bridge&mode=none`);
@@ -173,5 +166,4 @@ test("a loaded page works without a network", async () => {
   assert.equal((await call(page, "report")).scene, "bridge");
   await page.goto(`${session.address}example/article.html`);
   await page.waitForFunction(() => window.laboratories, null, { timeout: 60000 });
-  await page.context().close();
 });

@@ -1,10 +1,13 @@
 // The server of ./dev run: node tests/web/serve_test.mjs
 import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { once } from "node:events";
 import { mkdir, mkdtemp, rm, symlink, writeFile } from "node:fs/promises";
 import { request } from "node:http";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
+import { fileURLToPath } from "node:url";
 import { serve } from "../../web/serve.mjs";
 
 let base; // contains the served folder and files beside it that must not be served
@@ -61,6 +64,24 @@ test("serves a folder that is itself a link", async () => {
   assert.equal((await ask("/below/", "GET", other.address().port)).body, "<p>below");
   other.close();
   other.closeAllConnections();
+});
+
+test("as a command takes the next free port and prints the address", async () => {
+  const taken = server.address().port;
+  const command = spawn(process.execPath, [fileURLToPath(new URL("../../web/serve.mjs", import.meta.url)),
+    join(base, "page"), "--port", taken]);
+  const [, port] = await new Promise((done) => {
+    let said = "";
+    command.stdout.setEncoding("utf8").on("data", (text) => {
+      said += text;
+      const address = /http:\/\/localhost:(\d+)\//.exec(said);
+      if (address) done(address);
+    });
+  });
+  assert.notEqual(Number(port), taken);
+  assert.equal((await ask("/below/", "GET", port)).body, "<p>below");
+  command.kill();
+  assert.deepEqual(await once(command, "exit"), [0, null]);
 });
 
 test("does not follow links out of the folder", async () => {

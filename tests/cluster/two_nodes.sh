@@ -37,6 +37,16 @@ if [ "${1:-}" = --lose ]; then
   exit
 fi
 
+if [ "${1:-}" = --clean ]; then  # when standard input ends
+  folder=$2
+  cat >/dev/null
+  kill_all marked
+  kill_all of_node n1
+  kill_all of_node n2
+  rm -rf "$folder"
+  exit
+fi
+
 # ------------------------------------------------------------------------------------- configuration
 missing=''
 for entry in munge:munged slurmctld:slurmctld slurmd:slurmd slurm-client:sbatch; do
@@ -49,15 +59,15 @@ host=$(uname -n)
 
 unset "${!SLURM@}" "${!SBATCH@}" "${!SQUEUE@}" "${!SINFO@}"  # of a job that this may run in
 folder=$(mktemp -d)  # a short path: that of a socket has at most 107 characters
+# A process of its own session cleans up, and so does even when this one is killed: it reads from
+# channel 9, which ends with this process, because no other has it.
+exec 9> >(exec setsid --fork bash "$0" --clean "$folder" >/dev/null 2>&1)
 finish() {
   local code=$?
   trap '' INT TERM HUP
   [[ $code =~ ^(0|77|129|130|143)$ ]] || tail -n 40 "$folder"/log/* >&2
-  exec 2>/dev/null  # no message of bash for each process
-  kill_all marked
-  kill_all of_node n1
-  kill_all of_node n2
-  rm -rf "$folder"
+  exec 2>/dev/null 9>&-  # no message of bash about each process
+  for _ in {1..300}; do [ -d "$folder" ] || break; sleep 0.1; done
 }
 trap finish EXIT
 trap 'exit 129' HUP
@@ -111,7 +121,7 @@ start() {
   (
     cd "$folder/$name" 2>/dev/null || cd "$folder"
     exec env SLURM_CONF="$folder/slurm.conf" "$@"
-  ) >"$folder/log/$name" 2>&1 &
+  ) >"$folder/log/$name" 2>&1 9>&- &
 }
 # until_true COMMAND...: fails if a daemon has ended, or after a minute.
 until_true() {
@@ -138,5 +148,5 @@ both_idle() {
 until_true both_idle
 
 # In the background, because bash handles a signal only after a command in the foreground has ended.
-SLURM_CONF="$folder/slurm.conf" "$@" <&0 &
+SLURM_CONF="$folder/slurm.conf" "$@" <&0 9>&- &
 wait $! 2>/dev/null  # no message of bash about a lost node

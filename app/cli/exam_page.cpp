@@ -11,7 +11,7 @@
 namespace substep::cli {
 namespace {
 
-constexpr const char* kHead = R"(<!doctype html>
+constexpr const char* kExamHead = R"(<!doctype html>
 <html lang="en">
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
@@ -98,7 +98,7 @@ std::string table(const ExamOutcome& outcome) {
 }  // namespace
 
 std::string exam_page(const std::vector<ExamOutcome>& outcomes) {
-  std::string html = kHead;
+  std::string html = kExamHead;
   html += "<div class=\"scroll\"><table><thead><tr><th>case<th>verdict</thead><tbody>\n";
   for (const ExamOutcome& outcome : outcomes) {
     html += "<tr><td><a href=\"#" + outcome.entry->name + "\">" + xml_text(outcome.entry->title) +

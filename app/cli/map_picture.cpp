@@ -12,10 +12,10 @@ namespace {
 // Pixels.
 constexpr int kCellWidth = 46;
 constexpr int kCellHeight = 26;
-constexpr int kLeft = 62;  // of each map, for the alpha labels
-constexpr int kTop = 64;   // of the picture, for its title
-constexpr int kHead = 26;  // of each map, for its title
-constexpr int kFoot = 54;  // of each map, for the value labels and their title
+constexpr int kLeft = 62;   // of each map, for the alpha labels
+constexpr int kTop = 64;    // of the picture, for its title
+constexpr int kTitle = 26;  // of each map, for its title
+constexpr int kFoot = 54;   // of each map, for the value labels and their title
 constexpr int kRight = 18;
 
 template <class Value, class Of>
@@ -108,11 +108,11 @@ std::string map_picture(const std::vector<MapCell>& cells) {
       std::copy_if(cells.begin(), cells.end(), std::back_inserter(own),
                    [&](const MapCell& c) { return c.map == map && solver_of(c) == solver; });
       if (own.empty()) continue;
-      svg += one_map(own, {x + kLeft, y + kHead});
+      svg += one_map(own, {x + kLeft, y + kTitle});
       const auto columns = values_of<double>(own, [](const MapCell& c) { return c.value; }).size();
       const auto rows = values_of<double>(own, alpha_of).size();
       x += kLeft + static_cast<int>(columns) * kCellWidth + kRight;
-      height = std::max(height, kHead + static_cast<int>(rows) * kCellHeight + kFoot);
+      height = std::max(height, kTitle + static_cast<int>(rows) * kCellHeight + kFoot);
     }
     width = std::max(width, x);
     y += height;

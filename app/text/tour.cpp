@@ -97,9 +97,9 @@ std::span<const TourStep> tour_steps() {
 }
 
 std::string_view scene_of(const TourStep& step) {
-  constexpr std::string_view kKey = "scene=";
+  constexpr std::string_view kSceneKey = "scene=";
   std::string_view link = step.link;
-  link.remove_prefix(link.find(kKey) + kKey.size());
+  link.remove_prefix(link.find(kSceneKey) + kSceneKey.size());
   return link.substr(0, link.find('&'));
 }
 

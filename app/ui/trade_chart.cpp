@@ -25,10 +25,10 @@ constexpr float kBetweenLoads = 8.0F;  // between loads
 constexpr float kFigures = 104.0F;     // N and the error, on the right
 
 void policy_row(const Look& look, Accuracy& accuracy) {
-  constexpr std::array<Choice, 2> kPolicies{
+  constexpr std::array<Choice, 2> kTradePolicies{
       {{"per frame", "Under every load that was run"},
        {"per sub-step", "Follows a sudden load at once; under the scene's own load only"}}};
-  choose(look, "N decided", kPolicies, accuracy.trade_policy,
+  choose(look, "N decided", kTradePolicies, accuracy.trade_policy,
          "When the number of sub-steps is set");
 }
 

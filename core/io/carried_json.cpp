@@ -15,7 +15,7 @@ namespace substep {
 namespace {
 
 constexpr std::string_view kSides = "-0+?";  // of StoredForce::active_set from -1 on; ?: not known
-constexpr std::size_t kRows = std::size(StoredForce{}.lambda);
+constexpr std::size_t kStoredRows = std::size(StoredForce{}.lambda);
 
 /// One item per body, with the numbers of an Item; matrices by columns.
 template <class Item>
@@ -89,8 +89,8 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
                         Presence presence) {
     const Json* list = in.member(key, presence);
     if (!list) return;
-    if (!list->is_array() || list->size() > kRows) {
-      in.problem(key, must_be("a list of at most " + std::to_string(kRows) + " numbers",
+    if (!list->is_array() || list->size() > kStoredRows) {
+      in.problem(key, must_be("a list of at most " + std::to_string(kStoredRows) + " numbers",
                               value_text(*list)));
     } else {
       in.numbers(key, range, numbers, list->size(), presence);
@@ -102,7 +102,7 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
   in.number("rate_age", not_negative(1.0, "s"), force.rate_age, kOptional);
   rows("elastic", kElasticRange, force.elastic, kOptional);
   std::string tight;
-  if (in.text("tight", kRows, tight, kOptional)) {
+  if (in.text("tight", kStoredRows, tight, kOptional)) {
     for (std::size_t row = 0; row < tight.size(); ++row) {
       const std::size_t side = kSides.find(tight[row]);
       if (side == std::string_view::npos) {
@@ -117,8 +117,8 @@ StoredForce read_force(const Json& json, const std::string& pointer, Problems& p
 }
 
 Json force_json(const StoredForce& force) {
-  const auto rows = [](const double(&numbers)[kRows]) {
-    std::size_t count = kRows;
+  const auto rows = [](const double(&numbers)[kStoredRows]) {
+    std::size_t count = kStoredRows;
     while (count > 0 && numbers[count - 1] == 0.0) --count;
     return std::vector(numbers, numbers + count);
   };

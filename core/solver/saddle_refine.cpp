@@ -10,10 +10,10 @@ namespace substep {
 
 namespace {
 
-constexpr int kMost = 3;             // corrections
-constexpr double kFalls = 0.5;       // required reduction of |w| per correction
-constexpr double kChange = 1e-2;     // largest relative change of velocities by a correction
-constexpr double kRounding = 1e-15;  // relative to the velocities: attainable accuracy
+constexpr int kMost = 3;               // corrections
+constexpr double kFalls = 0.5;         // required reduction of |w| per correction
+constexpr double kChange = 1e-2;       // largest relative change of velocities by a correction
+constexpr double kAttainable = 1e-15;  // relative to the velocities: attainable accuracy
 
 double largest_of(std::span<const Vec6> u) {
   double largest = 0.0;
@@ -76,7 +76,7 @@ void SaddleLdlt::refine(const System& system) {
     const double left = start_correction(system);
     const bool better = i == 0 || (left < kFalls * last && is_near(system.u, u_earlier_));
     if (!better) copy(u_earlier_, system.u);
-    const bool goes_on = better && i < kMost && !(left <= kRounding * largest_of(system.u));
+    const bool goes_on = better && i < kMost && !(left <= kAttainable * largest_of(system.u));
     if (goes_on) {
       copy(system.u, u_earlier_);
       read(blocks);

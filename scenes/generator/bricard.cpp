@@ -11,9 +11,9 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kMass = 1.0;      // of a rod [kg]
-constexpr double kGravity = 9.81;  // along -y [m/s^2]
-constexpr double kWidth = 0.1;     // of a rod [m]
+constexpr double kRodMass = 1.0;         // of a rod [kg]
+constexpr double kGravityAlongY = 9.81;  // along -y [m/s^2]
+constexpr double kRodWidth = 0.1;        // of a rod [m]
 
 struct Frame {
   Mat3 R = Mat3::Identity();
@@ -22,7 +22,7 @@ struct Frame {
 
 /// Frames of the rods, by products of rotations about the hinges' places at the start. The last is
 /// that of the ground, reached through all six hinges: the identity where the loop closes.
-struct Chain {
+struct RodChain {
   std::array<Frame, Bricard::kHinges> frames;
   std::array<Vec3, Bricard::kHinges> axes;    // of the hinges, world
   std::array<Vec3, Bricard::kHinges> points;  // of the hinges, world [m]
@@ -30,9 +30,9 @@ struct Chain {
 
 double beta_of(double alpha) { return std::asin(1.0 / (1.0 + std::sin(alpha)) - 1.0); }
 
-Chain chain_at(double alpha) {
+RodChain chain_at(double alpha) {
   const double beta = beta_of(alpha);
-  Chain chain;
+  RodChain chain;
   Frame frame;
   for (int i = 0; i < Bricard::kHinges; ++i) {
     const Vec3 P = Bricard::point(i);
@@ -47,7 +47,7 @@ Chain chain_at(double alpha) {
   return chain;
 }
 
-Vec3 centre_of(const Chain& chain, int rod) {
+Vec3 centre_of(const RodChain& chain, int rod) {
   const Vec3 start = 0.5 * (Bricard::point(rod) + Bricard::point(rod + 1));
   return chain.frames[index(rod)].R * start + chain.frames[index(rod)].t;
 }
@@ -59,7 +59,7 @@ struct Reduced {
 };
 
 Reduced reduced_at(double alpha) {
-  const Chain chain = chain_at(alpha);
+  const RodChain chain = chain_at(alpha);
   // d/d alpha of (1 + sin alpha)(1 + sin beta) = 1.
   const double s = 1.0 + std::sin(alpha);
   const double beta_rate = -std::cos(alpha) / (s * s * std::cos(beta_of(alpha)));
@@ -76,11 +76,11 @@ Reduced reduced_at(double alpha) {
     // A square rod: one moment along it, one across.
     const Vec3 along = (Bricard::point(rod + 1) - Bricard::point(rod)).normalized();
     const double lengthwise = w.dot(chain.frames[index(rod)].R * along);
-    const double across = kMass * (1.0 + kWidth * kWidth) / 12.0;
-    const double about = kMass * kWidth * kWidth / 6.0;
-    reduced.mass += kMass * v.squaredNorm() + across * w.squaredNorm() +
+    const double across = kRodMass * (1.0 + kRodWidth * kRodWidth) / 12.0;
+    const double about = kRodMass * kRodWidth * kRodWidth / 6.0;
+    reduced.mass += kRodMass * v.squaredNorm() + across * w.squaredNorm() +
                     (about - across) * lengthwise * lengthwise;
-    reduced.potential += kMass * kGravity * centre.y();
+    reduced.potential += kRodMass * kGravityAlongY * centre.y();
   }
   return reduced;
 }

@@ -9,15 +9,15 @@
 namespace substep::scenes {
 namespace {
 
-constexpr int kPlanks = 20;
-constexpr double kPitch = 0.5;       // distance of a plank's two pivots [m]
-constexpr double kLength = 0.48;     // of a plank along the bridge [m]
-constexpr double kThickness = 0.06;  // [m]
-constexpr double kLeftHeight = 5.5;  // of the left end [m]
-constexpr double kSpan = 9.9;        // of the convoy's bridge [m]
-constexpr double kDrop = -1.0;       // of the right end against the left one [m]
-constexpr double kRadius = 0.5;      // of the ball [m]
-constexpr double kMu = 0.8;          // Coulomb coefficient of every pair [-]
+constexpr int kBridgePlanks = 20;
+constexpr double kPlankPitch = 0.5;        // distance of a plank's two pivots [m]
+constexpr double kPlankLength = 0.48;      // of a plank along the bridge [m]
+constexpr double kPlankThickness = 0.06;   // [m]
+constexpr double kLeftHeight = 5.5;        // of the left end [m]
+constexpr double kSpan = 9.9;              // of the convoy's bridge [m]
+constexpr double kDrop = -1.0;             // of the right end against the left one [m]
+constexpr double kBridgeBallRadius = 0.5;  // of the ball [m]
+constexpr double kBridgeMu = 0.8;          // Coulomb coefficient of every pair [-]
 
 /// A ball on the road of the convoy.
 struct Load {
@@ -42,33 +42,33 @@ constexpr double kConvoySpeed = 3.0;  // [m/s]
 /// The two unknowns represent the force of one end. They follow from the position of the other end:
 ///   sum pitch / sqrt(1 + t_i^2) = span,   sum pitch t_i / sqrt(1 + t_i^2) = drop,
 /// two equations that Newton's method solves, starting from the solution of the shallow chain.
-std::array<double, kPlanks> hanging_slopes(double span) {
-  const double length = kPlanks * kPitch;
-  const auto place = [](int i) { return i - 0.5 * (kPlanks - 1); };
+std::array<double, kBridgePlanks> hanging_slopes(double span) {
+  const double length = kBridgePlanks * kPlankPitch;
+  const auto place = [](int i) { return i - 0.5 * (kBridgePlanks - 1); };
   // Shallow: cos = 1 - t^2/2, so the mean of t^2 is 2 (1 - span/length), and the mean of t is
   // drop/span. The mean of place^2 is (n^2 - 1)/12.
   double middle = kDrop / span;
-  double growth =
-      std::sqrt((2.0 * (1.0 - span / length) - middle * middle) * 12.0 / (kPlanks * kPlanks - 1));
+  double growth = std::sqrt((2.0 * (1.0 - span / length) - middle * middle) * 12.0 /
+                            (kBridgePlanks * kBridgePlanks - 1));
   for (int step = 0; step < 20; ++step) {
     double f_x = -span, f_y = -kDrop;                   // error of the right end [m]
     double x_m = 0.0, x_g = 0.0, y_m = 0.0, y_g = 0.0;  // derivatives by middle and growth
-    for (int i = 0; i < kPlanks; ++i) {
+    for (int i = 0; i < kBridgePlanks; ++i) {
       const double t = middle + growth * place(i);
       const double c = 1.0 / std::sqrt(1.0 + t * t);
-      f_x += kPitch * c;
-      f_y += kPitch * t * c;
-      x_m -= kPitch * t * c * c * c;
-      x_g -= kPitch * t * c * c * c * place(i);
-      y_m += kPitch * c * c * c;
-      y_g += kPitch * c * c * c * place(i);
+      f_x += kPlankPitch * c;
+      f_y += kPlankPitch * t * c;
+      x_m -= kPlankPitch * t * c * c * c;
+      x_g -= kPlankPitch * t * c * c * c * place(i);
+      y_m += kPlankPitch * c * c * c;
+      y_g += kPlankPitch * c * c * c * place(i);
     }
     const double determinant = x_m * y_g - x_g * y_m;
     middle -= (f_x * y_g - x_g * f_y) / determinant;
     growth -= (x_m * f_y - f_x * y_m) / determinant;
   }
-  std::array<double, kPlanks> slopes{};
-  for (int i = 0; i < kPlanks; ++i) {
+  std::array<double, kBridgePlanks> slopes{};
+  for (int i = 0; i < kBridgePlanks; ++i) {
     slopes[static_cast<std::size_t>(i)] = middle + growth * place(i);
   }
   return slopes;
@@ -85,16 +85,16 @@ Rest rest_on(const Body& plank, double x) {
   const Vec3 along = plank.orientation * Vec3::UnitX();
   const Vec3 up = plank.orientation * Vec3::UnitY();
   // On the top face: the centre is half a thickness and a radius above the plank's middle plane.
-  const Vec3 middle = plank.position + up * (0.5 * kThickness + kRadius);
+  const Vec3 middle = plank.position + up * (0.5 * kPlankThickness + kBridgeBallRadius);
   const double u = (x - middle.x()) / along.x();
-  if (std::abs(u) <= 0.5 * kLength) return {middle.y() + u * along.y(), up};
+  if (std::abs(u) <= 0.5 * kPlankLength) return {middle.y() + u * along.y(), up};
   // On the edge of the top face that is nearer.
-  const Vec3 edge =
-      world_point(plank, {u < 0.0 ? -0.5 * kLength : 0.5 * kLength, 0.5 * kThickness, 0.0});
+  const Vec3 edge = world_point(
+      plank, {u < 0.0 ? -0.5 * kPlankLength : 0.5 * kPlankLength, 0.5 * kPlankThickness, 0.0});
   const double dx = x - edge.x();
-  if (std::abs(dx) >= kRadius) return {};
-  const double dy = std::sqrt(kRadius * kRadius - dx * dx);
-  return {edge.y() + dy, Vec3{dx / kRadius, dy / kRadius, 0.0}};
+  if (std::abs(dx) >= kBridgeBallRadius) return {};
+  const double dy = std::sqrt(kBridgeBallRadius * kBridgeBallRadius - dx * dx);
+  return {edge.y() + dy, Vec3{dx / kBridgeBallRadius, dy / kBridgeBallRadius, 0.0}};
 }
 
 void add_planks(double span, Scene& scene) {
@@ -104,21 +104,22 @@ void add_planks(double span, Scene& scene) {
   for (const double slope : hanging_slopes(span)) {
     const double c = 1.0 / std::sqrt(1.0 + slope * slope);
     const Vec3 along{c, slope * c, 0.0};
-    Body plank = solid("plank_" + std::to_string(scene.bodies.size() - 1),
-                       box(kLength, kThickness, 2.0), 1.0, pivot + along * (0.5 * kPitch));
+    Body plank =
+        solid("plank_" + std::to_string(scene.bodies.size() - 1),
+              box(kPlankLength, kPlankThickness, 2.0), 1.0, pivot + along * (0.5 * kPlankPitch));
     plank.orientation = turn_about_z(along.x(), along.y());
-    plank.friction = kMu;
+    plank.friction = kBridgeMu;
     plank.collision_group = 0;
     scene.bodies.push_back(plank);
-    pivot += along * kPitch;
+    pivot += along * kPlankPitch;
   }
 
-  join_planks(kPlanks, kPitch, 0.9, left, right, scene);
+  join_planks(kBridgePlanks, kPlankPitch, 0.9, left, right, scene);
 }
 
 /// The static road that ends where the bridge begins, and the balls that roll along it.
 void add_convoy(Scene& scene) {
-  const double top = kLeftHeight + 0.5 * kThickness;
+  const double top = kLeftHeight + 0.5 * kPlankThickness;
   const double length = kConvoySpeed * kConvoy.back().arrives + 2.0;
   constexpr double kRoad = 0.3;  // thickness [m]
   Body road;
@@ -126,14 +127,14 @@ void add_convoy(Scene& scene) {
   road.is_static = true;
   road.shape = box(length, kRoad, 2.0);
   road.position = {-0.5 * kSpan - 0.5 * length, top - 0.5 * kRoad, 0.0};
-  road.friction = kMu;
+  road.friction = kBridgeMu;
   scene.bodies.push_back(std::move(road));
   for (const Load& load : kConvoy) {
     Body ball = solid(load.name, Sphere{load.radius}, load.mass,
                       {-0.5 * kSpan - kConvoySpeed * load.arrives, top + load.radius, 0.0});
     ball.velocity = {kConvoySpeed, 0.0, 0.0};
     ball.angular_velocity = {0.0, 0.0, -kConvoySpeed / load.radius};  // rolling
-    ball.friction = kMu;
+    ball.friction = kBridgeMu;
     ball.color = load.color;
     scene.bodies.push_back(std::move(ball));
   }
@@ -147,12 +148,12 @@ void add_ball(const BridgeOptions& options, Scene& scene) {
     const Rest here = rest_on(plank, options.ball_x);
     if (here.y > rest.y) rest = here;
   }
-  Body ball = solid("ball", Sphere{kRadius}, 1000.0, {options.ball_x, rest.y, 0.0});
+  Body ball = solid("ball", Sphere{kBridgeBallRadius}, 1000.0, {options.ball_x, rest.y, 0.0});
   ball.velocity = options.ball_speed * Vec3{rest.normal.y(), -rest.normal.x(), 0.0};
   // Rolling: the contact point is at rest, v + omega x (-radius n) = 0. Along +x that is about
   // -z.
-  ball.angular_velocity = {0.0, 0.0, -options.ball_speed / kRadius};
-  ball.friction = kMu;
+  ball.angular_velocity = {0.0, 0.0, -options.ball_speed / kBridgeBallRadius};
+  ball.friction = kBridgeMu;
   scene.criteria.track = static_cast<int>(scene.bodies.size());
   scene.bodies.push_back(ball);
 }
@@ -163,7 +164,7 @@ Scene hanging_bridge(double span) {
   scene.contact.compliance = 1e-7;
   scene.contact.friction_compliance = 1e-10;
   scene.bodies.push_back(floor_plane());
-  scene.bodies.back().friction = kMu;
+  scene.bodies.back().friction = kBridgeMu;
   add_planks(span, scene);
   return scene;
 }

@@ -7,20 +7,21 @@ namespace substep::scenes {
 namespace {
 
 // Cards ten times as long and wide as playing cards, and thicker: the picture is the same.
-constexpr double kLength = 0.88;      // [m]
-constexpr double kThickness = 0.012;  // [m]
-constexpr double kWidth = 0.63;       // [m]
-constexpr double kMass = 0.25;        // [kg]
-constexpr double kMu = 0.8;
+constexpr double kCardLength = 0.88;      // [m]
+constexpr double kCardThickness = 0.012;  // [m]
+constexpr double kCardWidth = 0.63;       // [m]
+constexpr double kCardMass = 0.25;        // [kg]
+constexpr double kCardMu = 0.8;
 // Cards lean 22.6 degrees: a triangle with sides 5, 12 and 13.
 constexpr double kSine = 5.0 / 13.0;
 constexpr double kCosine = 12.0 / 13.0;
-constexpr double kPitch = 0.70;  // from one pair of cards to the next [m]
+constexpr double kCardPitch = 0.70;  // from one pair of cards to the next [m]
 
 Body card(const Scene& scene, double length, const Vec3& position) {
-  Body body = solid("card_" + std::to_string(scene.bodies.size() - 1),
-                    box(length, kThickness, kWidth), kMass * length / kLength, position);
-  body.friction = kMu;
+  Body body =
+      solid("card_" + std::to_string(scene.bodies.size() - 1),
+            box(length, kCardThickness, kCardWidth), kCardMass * length / kCardLength, position);
+  body.friction = kCardMu;
   body.color = kPaper;
   return body;
 }
@@ -28,10 +29,10 @@ Body card(const Scene& scene, double length, const Vec3& position) {
 /// Two cards that lean on each other over x, standing at height y.
 void add_pair(double x, double y, Scene& scene) {
   // Half the extents of a leaning card. It touches its partner with the upper corner.
-  const double half_width = 0.5 * (kLength * kSine + kThickness * kCosine);
-  const double half_height = 0.5 * (kLength * kCosine + kThickness * kSine);
+  const double half_width = 0.5 * (kCardLength * kSine + kCardThickness * kCosine);
+  const double half_height = 0.5 * (kCardLength * kCosine + kCardThickness * kSine);
   for (const double side : {-1.0, 1.0}) {
-    Body body = card(scene, kLength, {x + side * half_width, y + half_height, 0.0});
+    Body body = card(scene, kCardLength, {x + side * half_width, y + half_height, 0.0});
     // The card's +x points up, towards its partner.
     body.orientation = turn_about_z(-side * kSine, kCosine);
     scene.bodies.push_back(body);
@@ -41,7 +42,7 @@ void add_pair(double x, double y, Scene& scene) {
 }  // namespace
 
 Scene card_house(int storeys) {
-  const double storey = kLength * kCosine + kThickness * kSine;
+  const double storey = kCardLength * kCosine + kCardThickness * kSine;
   Scene scene;
   scene.name = "card_house";
   scene.title = "Card house";
@@ -54,17 +55,17 @@ Scene card_house(int storeys) {
   // edges and creep.
   scene.settings.mode = Mode::kConst;
   scene.settings.n = 8;
-  add_ground(kMu, 0.004, scene);
+  add_ground(kCardMu, 0.004, scene);
   double y = 0.0;
   for (int pairs = storeys; pairs >= 1; --pairs) {
-    const double first = -0.5 * (pairs - 1) * kPitch;
-    for (int i = 0; i < pairs; ++i) add_pair(first + i * kPitch, y, scene);
+    const double first = -0.5 * (pairs - 1) * kCardPitch;
+    for (int i = 0; i < pairs; ++i) add_pair(first + i * kCardPitch, y, scene);
     y += storey;
     for (int i = 0; i + 1 < pairs; ++i) {  // horizontal cards: the floor of the next storey
-      scene.bodies.push_back(
-          card(scene, kPitch - 0.004, {first + (i + 0.5) * kPitch, y + 0.5 * kThickness, 0.0}));
+      scene.bodies.push_back(card(scene, kCardPitch - 0.004,
+                                  {first + (i + 0.5) * kCardPitch, y + 0.5 * kCardThickness, 0.0}));
     }
-    y += kThickness;
+    y += kCardThickness;
   }
   // The last card of the top pair.
   const int top = static_cast<int>(scene.bodies.size()) - 1;

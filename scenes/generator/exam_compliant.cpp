@@ -57,14 +57,14 @@ int SpringBounce::bounces_within(double t) const {
 namespace {
 
 constexpr SpringBounce kBounce{.mass = 0.1, .stiffness = 1e3, .height = 1.0, .gravity = 9.81};
-constexpr double kRadius = 0.1;  // [m]
+constexpr double kMarbleRadius = 0.1;  // [m]
 
 ExamMeasure measure_bounce() {
   int bounces = 0;
   bool falling = false;
   return [=](const ExamView& view, std::span<double> errors) mutable {
     const State& state = view.state;
-    const double gap = state.x[1].y() - kRadius;
+    const double gap = state.x[1].y() - kMarbleRadius;
     raise(errors[0], std::abs(gap - kBounce.gap_after(state.time)));
     const double v = velocity_of(state, 1).y();
     if (gap > 0.0) {
@@ -82,9 +82,9 @@ ExamMeasure measure_bounce() {
 
 // ---- clutter: spheres and cubes, tilted, fall into a box without a lid.
 
-constexpr int kLayers = 3;       // of 2 x 2 bodies
-constexpr double kEdge = 0.2;    // of a cube, and the diameter of a sphere [m]
-constexpr double kPitch = 0.28;  // of the grid that they start on: nothing overlaps [m]
+constexpr int kClutterLayers = 3;       // of 2 x 2 bodies
+constexpr double kEdge = 0.2;           // of a cube, and the diameter of a sphere [m]
+constexpr double kClutterPitch = 0.28;  // of the grid that they start on: nothing overlaps [m]
 
 void add_box_without_lid(Scene& scene) {
   constexpr double kInside = 0.7;
@@ -143,11 +143,12 @@ ExamCase clutter(const std::string& name, const std::string& title, double compl
   scene.camera.eye = {1.6, 1.8, 2.2};
   scene.camera.target = {0.0, 0.3, 0.0};
   add_box_without_lid(scene);
-  for (int i = 0; i < 4 * kLayers; ++i) {
+  for (int i = 0; i < 4 * kClutterLayers; ++i) {
     const int across = i % 2;
     const int deep = i / 2 % 2;
     const int layer = i / 4;
-    const Vec3 at{(across - 0.5) * kPitch, 0.3 + layer * kPitch, (deep - 0.5) * kPitch};
+    const Vec3 at{(across - 0.5) * kClutterPitch, 0.3 + layer * kClutterPitch,
+                  (deep - 0.5) * kClutterPitch};
     const bool is_cube = (across + deep + layer) % 2 == 0;  // never beside another cube
     const Shape shape = is_cube ? Shape(box(kEdge, kEdge, kEdge)) : Shape(Sphere{0.5 * kEdge});
     Body body = solid((is_cube ? "cube_" : "sphere_") + std::to_string(i + 1), shape, 1.0, at);
@@ -183,8 +184,8 @@ ExamCase exam_compliant_ball() {
   scene.camera.eye = {0.0, 0.8, 3.4};
   scene.camera.target = {0.0, 0.6, 0.0};
   scene.bodies.push_back(floor_plane());
-  scene.bodies.push_back(
-      solid("ball", Sphere{kRadius}, kBounce.mass, {0.0, kRadius + kBounce.height, 0.0}));
+  scene.bodies.push_back(solid("ball", Sphere{kMarbleRadius}, kBounce.mass,
+                               {0.0, kMarbleRadius + kBounce.height, 0.0}));
   scene.criteria.track = 1;
   exam.quantities = {{"height", "m", 1e-3, "the accuracy setting of their integrator"},
                      {"energy gained", "-", 1e-3,
@@ -196,7 +197,7 @@ ExamCase exam_compliant_ball() {
   exam.measure = measure_bounce;
   exam.motion = [] {
     return [](double t, std::vector<Vec3>& x, std::vector<Quat>&) {
-      x[1].y() = kRadius + kBounce.gap_after(t);
+      x[1].y() = kMarbleRadius + kBounce.gap_after(t);
     };
   };
   exam.methods = contact_methods(scene.settings, {16, 64, 256, 1024});

@@ -17,18 +17,20 @@ constexpr double kRightAngle = 0.5 * std::numbers::pi;
 //      with I about the centre and a the centre's distance, I + m a^2 = m a L, the rigid body moves
 //      as the point mass at L does. This avoids the limit of a body without inertia.
 
-constexpr double kLength = 1.0;  // L [m]
-constexpr double kGravity = 9.81;
+constexpr double kPendulumLength = 1.0;  // L [m]
+constexpr double kPendulumGravity = 9.81;
 constexpr double kBallRadius = 0.05;                              // [m]
 constexpr double kBallInertia = 0.4 * kBallRadius * kBallRadius;  // of 1 kg [kg m^2]
 
 double centre_distance() {
-  return 0.5 * (kLength + std::sqrt(kLength * kLength - 4.0 * kBallInertia));
+  return 0.5 *
+         (kPendulumLength + std::sqrt(kPendulumLength * kPendulumLength - 4.0 * kBallInertia));
 }
 
 ExamMeasure measure_simple_pendulum() {
-  const ExactPendulum exact = ExactPendulum::released(std::sqrt(kGravity / kLength), kRightAngle);
-  const Vec3 P_B{centre_distance() - kLength, 0.0, 0.0};
+  const ExactPendulum exact =
+      ExactPendulum::released(std::sqrt(kPendulumGravity / kPendulumLength), kRightAngle);
+  const Vec3 P_B{centre_distance() - kPendulumLength, 0.0, 0.0};
   const Vec3 published{-0.27508746258, -0.96141920510, 0.0};  // after 10 s
   return [=](const ExamView& view, std::span<double> errors) {
     const Vec3 P = view.state.x[0] + view.state.q[0] * P_B;
@@ -41,7 +43,8 @@ ExamMeasure measure_simple_pendulum() {
 }
 
 ExamMotion simple_pendulum_motion() {
-  const ExactPendulum exact = ExactPendulum::released(std::sqrt(kGravity / kLength), kRightAngle);
+  const ExactPendulum exact =
+      ExactPendulum::released(std::sqrt(kPendulumGravity / kPendulumLength), kRightAngle);
   return [exact](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
     const double angle = exact.at(t).angle;
     x[0] = -centre_distance() * Vec3(std::sin(angle), std::cos(angle), 0.0);
@@ -141,7 +144,7 @@ ExamCase exam_simple_pendulum() {
                 10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
-  scene.gravity = {0.0, -kGravity, 0.0};
+  scene.gravity = {0.0, -kPendulumGravity, 0.0};
   scene.camera.eye = {0.0, 0.0, 4.0};
   scene.camera.target = {0.0, -0.5, 0.0};
   Body ball = solid("ball", Sphere{kBallRadius}, 1.0, {-centre_distance(), 0.0, 0.0});
@@ -151,7 +154,7 @@ ExamCase exam_simple_pendulum() {
   hinge.anchor_a = {centre_distance(), 0.0, 0.0};
   scene.joints.emplace_back(hinge);
   scene.criteria.track = 0;
-  exam.quantities = {{"exact position", "m", six_digits(kLength), kSixDigits},
+  exam.quantities = {{"exact position", "m", six_digits(kPendulumLength), kSixDigits},
                      {"position after 10 s", "m", 1e-10,
                       "eleven decimals are published; sub-steps add rounding errors"}};
   exam.measure = measure_simple_pendulum;

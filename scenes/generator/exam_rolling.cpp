@@ -10,14 +10,14 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kGravity = 9.8;
-constexpr double kBoxMass = 10.0;  // [kg]
-constexpr double kBallMass = 1.0;  // [kg]
-constexpr double kRadius = 0.5;    // of a ball [m]
-constexpr int kSide = 5;           // balls along a side
-constexpr double kForce = 150.0;   // on the box [N]
-constexpr double kOnGround = 0.4;  // friction of box on ground [-]
-constexpr double kOnBox = 0.8;     // friction of balls on the box [-]
+constexpr double kRollingGravity = 9.8;
+constexpr double kBoxMass = 10.0;       // [kg]
+constexpr double kBallMass = 1.0;       // [kg]
+constexpr double kRollingRadius = 0.5;  // of a ball [m]
+constexpr int kRollingSide = 5;         // balls along a side
+constexpr double kForce = 150.0;        // on the box [N]
+constexpr double kOnGround = 0.4;       // friction of box on ground [-]
+constexpr double kOnBox = 0.8;          // friction of balls on the box [-]
 
 }  // namespace
 
@@ -26,8 +26,8 @@ constexpr double kOnBox = 0.8;     // friction of balls on the box [-]
 // f_2/m. With M a_1 = F - f_1 - n f_2:
 //   f_2 = (F - f_1)/M / (3.5/m + n/M).
 RollingAccelerations rolling_accelerations() {
-  constexpr int n = kSide * kSide;
-  const double sliding = kOnGround * (kBoxMass + n * kBallMass) * kGravity;
+  constexpr int n = kRollingSide * kRollingSide;
+  const double sliding = kOnGround * (kBoxMass + n * kBallMass) * kRollingGravity;
   const double on_ball = (kForce - sliding) / kBoxMass / (3.5 / kBallMass + n / kBoxMass);
   return {(kForce - sliding - n * on_ball) / kBoxMass, on_ball / kBallMass};
 }
@@ -59,7 +59,7 @@ ExamMotion rolling_motion(const Scene& scene, const Vec3& along) {
     const Vec3 axis = along.cross(Vec3::UnitY());
     for (std::size_t i = 2; i < x.size(); ++i) {
       x[i] = start[i] + half * exact.ball * along;
-      q[i] = Eigen::AngleAxisd(half * (exact.box - exact.ball) / kRadius, axis);
+      q[i] = Eigen::AngleAxisd(half * (exact.box - exact.ball) / kRollingRadius, axis);
     }
   };
 }
@@ -72,7 +72,7 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
                             "SimBenchmark, its closed form", 4.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
-  scene.gravity = {0.0, -kGravity, 0.0};
+  scene.gravity = {0.0, -kRollingGravity, 0.0};
   scene.settings.friction_cone = cone;
   scene.camera.eye = {14.0, 9.0, 18.0};
   scene.camera.target = {0.0, 0.5, 0.0};
@@ -83,10 +83,10 @@ ExamCase rolling(const std::string& name, const std::string& title, const Vec3& 
   slab.friction = kOnBox;
   pull(scene, slab, kForce * along);
   scene.bodies.push_back(slab);
-  for (int i = 0; i < kSide; ++i) {
-    for (int j = 0; j < kSide; ++j) {
-      Body ball = solid("ball_" + std::to_string(kSide * i + j + 1), Sphere{kRadius}, kBallMass,
-                        {2.0 * i - 4.0, 1.0 + kRadius, 2.0 * j - 4.0});
+  for (int i = 0; i < kRollingSide; ++i) {
+    for (int j = 0; j < kRollingSide; ++j) {
+      Body ball = solid("ball_" + std::to_string(kRollingSide * i + j + 1), Sphere{kRollingRadius},
+                        kBallMass, {2.0 * i - 4.0, 1.0 + kRollingRadius, 2.0 * j - 4.0});
       ball.friction = kOnBox;
       scene.bodies.push_back(ball);
     }

@@ -8,15 +8,15 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kGravity = 9.81;
-constexpr double kMass = 10.0;   // [kg]
-constexpr double kRadius = 0.1;  // [m]
+constexpr double kSphereGravity = 9.81;
+constexpr double kSphereMass = 10.0;   // [kg]
+constexpr double kSphereRadius = 0.1;  // [m]
 
 // ---- bouncing: 49 balls fall from the same height and lose no energy. They move alike and do
 //      not meet, so that one of them gives the sum.
 
-constexpr int kBalls = 49;
-constexpr double kHeight = 5.0;  // of their centres at the start [m]
+constexpr int kSphereCount = 49;
+constexpr double kSphereHeight = 5.0;  // of their centres at the start [m]
 
 ExamMeasure measure_energy(double at_start, double factor) {
   double sum = 0.0;
@@ -31,8 +31,8 @@ ExamMeasure measure_energy(double at_start, double factor) {
 
 // ---- 666: six by six by six spheres fall and spread.
 
-constexpr int kSide = 6;
-constexpr double kGap = 0.21;           // between centres [m]
+constexpr int kSphereSide = 6;
+constexpr double kSphereGap = 0.21;     // between centres [m]
 constexpr double kLowest = 1.101;       // centre of the lowest layer [m]
 constexpr double kPerturbation = 1e-3;  // [m]
 
@@ -40,11 +40,12 @@ Scene& add_spheres(Scene& scene, double restitution) {
   Random random(42);
   const auto aside = [&] { return kPerturbation * 0.5 * (1.0 + random.next()); };
   scene.bodies.push_back(floor_plane());
-  for (int i = 0; i < kSide * kSide * kSide; ++i) {
-    const Eigen::Vector3i cell(i % kSide, i / kSide % kSide, i / (kSide * kSide));
-    Vec3 at = kGap * cell.cast<double>() + Vec3(0.0, kLowest, 0.0);
+  for (int i = 0; i < kSphereSide * kSphereSide * kSphereSide; ++i) {
+    const Eigen::Vector3i cell(i % kSphereSide, i / kSphereSide % kSphereSide,
+                               i / (kSphereSide * kSphereSide));
+    Vec3 at = kSphereGap * cell.cast<double>() + Vec3(0.0, kLowest, 0.0);
     for (int axis = 0; axis < 3; ++axis) at[axis] += aside();
-    Body ball = solid("ball_" + std::to_string(i + 1), Sphere{kRadius}, kMass, at);
+    Body ball = solid("ball_" + std::to_string(i + 1), Sphere{kSphereRadius}, kSphereMass, at);
     ball.restitution = restitution;
     scene.bodies.push_back(ball);
   }
@@ -58,12 +59,12 @@ Scene& add_spheres(Scene& scene, double restitution) {
 double squared_overlaps(const State& state) {
   double sum = 0.0;
   for (std::size_t i = 1; i < state.x.size(); ++i) {
-    const double into_ground = std::max(0.0, kRadius - state.x[i].y());
+    const double into_ground = std::max(0.0, kSphereRadius - state.x[i].y());
     sum += into_ground * into_ground;
     for (std::size_t j = i + 1; j < state.x.size(); ++j) {
       const double squared = (state.x[i] - state.x[j]).squaredNorm();
-      if (squared >= 4.0 * kRadius * kRadius) continue;
-      const double overlap = 2.0 * kRadius - std::sqrt(squared);
+      if (squared >= 4.0 * kSphereRadius * kSphereRadius) continue;
+      const double overlap = 2.0 * kSphereRadius - std::sqrt(squared);
       sum += overlap * overlap;
     }
   }
@@ -98,23 +99,25 @@ ExamCase exam_bouncing() {
                             "SimBenchmark: constant energy; its 49 balls move alike", 20.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
-  scene.gravity = {0.0, -kGravity, 0.0};
+  scene.gravity = {0.0, -kSphereGravity, 0.0};
   scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.camera.eye = {0.0, 2.5, 10.0};
   scene.camera.target = {0.0, 2.5, 0.0};
   scene.bodies.push_back(floor_plane());
-  Body ball = solid("ball", Sphere{kRadius}, kMass, {0.0, kHeight, 0.0});
+  Body ball = solid("ball", Sphere{kSphereRadius}, kSphereMass, {0.0, kSphereHeight, 0.0});
   ball.restitution = 1.0;
   scene.bodies.push_back(ball);
   scene.criteria.track = 1;
   exam.quantities = {{"mean square energy error", "J^2", 0.0186,
                       "RaiSim's published figure at 1 ms, the best; ODE has 185, Bullet 75,000"}};
-  exam.measure = [] { return measure_energy(kMass * kGravity * kHeight, kBalls); };
+  exam.measure = [] {
+    return measure_energy(kSphereMass * kSphereGravity * kSphereHeight, kSphereCount);
+  };
   exam.motion = [] {
     return [](double t, std::vector<Vec3>& x, std::vector<Quat>&) {
-      const double fall = std::sqrt(2.0 * (kHeight - kRadius) / kGravity);  // [s]
+      const double fall = std::sqrt(2.0 * (kSphereHeight - kSphereRadius) / kSphereGravity);  // [s]
       const double since_top = std::remainder(t, 2.0 * fall);
-      x[1].y() = kHeight - 0.5 * kGravity * since_top * since_top;
+      x[1].y() = kSphereHeight - 0.5 * kSphereGravity * since_top * since_top;
     };
   };
   exam.methods = contact_methods(scene.settings, {10, 25, 100});  // 10, 4 and 1 ms
@@ -130,7 +133,7 @@ ExamCase exam_spheres() {
       2.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true};
-  scene.gravity = {0.0, -kGravity, 0.0};
+  scene.gravity = {0.0, -kSphereGravity, 0.0};
   add_spheres(scene, 0.0);
   exam.quantities = {{"mean squared overlaps", "m^2", 1.35e-4,
                       "RaiSim's published figure at 1 ms, the best; ODE has 1.5e-4, DART 2.8e-4, "
@@ -147,7 +150,7 @@ ExamCase exam_elastic_spheres() {
                 "SimBenchmark: constant energy; its runs take 10 s, these 2 s", 2.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
-  scene.gravity = {0.0, -kGravity, 0.0};
+  scene.gravity = {0.0, -kSphereGravity, 0.0};
   scene.contact.compliance = 1e-16;
   scene.contact.restitution_speed = 0.0;
   // The distance by which two spheres approach in 4 ms: contacts detected late are pushed apart.
@@ -155,7 +158,7 @@ ExamCase exam_elastic_spheres() {
   add_spheres(scene, 1.0);
   double energy = 0.0;
   for (const Body& body : scene.bodies) {
-    if (!body.is_static) energy += body.mass * kGravity * body.position.y();
+    if (!body.is_static) energy += body.mass * kSphereGravity * body.position.y();
   }
   exam.quantities = {{"mean square energy error", "J^2", 8.4,
                       "RaiSim's published figure at 1 ms, the best; ODE has 112, Bullet 41,000"}};

@@ -10,9 +10,9 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kLink = 0.4;     // length of a link [m]
-constexpr double kHeavy = 1e3;    // load of a chain [kg]
-constexpr Angle kFold{0.8, 0.6};  // of folded chains to the vertical
+constexpr double kHardLink = 0.4;  // length of a link [m]
+constexpr double kHeavy = 1e3;     // load of a chain [kg]
+constexpr Angle kFold{0.8, 0.6};   // of folded chains to the vertical
 
 Scene named(Scene scene, const std::string& name, double duration) {
   scene.name = name;
@@ -35,9 +35,9 @@ void forbid_gain(Scene& scene) {
 }
 
 /// A chain of bodies on ball joints in the plane z = 0, starting at a point of the world.
-class Chain {
+class LinkChain {
  public:
-  Chain(const Vec3& anchor, Scene& scene) : scene_(scene), end_(anchor), anchor_(anchor) {}
+  LinkChain(const Vec3& anchor, Scene& scene) : scene_(scene), end_(anchor), anchor_(anchor) {}
 
   /// Appends a body that reaches `length` along `direction`, a unit vector. @return its index
   int add(const std::string& name, const Shape& shape, double mass, double length,
@@ -54,7 +54,7 @@ class Chain {
     return index;
   }
   void links(int n, const Vec3& direction) {
-    for (int i = 0; i < n; ++i) add("link", box(kLink, 0.1, 0.1), 1.0, kLink, direction);
+    for (int i = 0; i < n; ++i) add("link", box(kHardLink, 0.1, 0.1), 1.0, kHardLink, direction);
   }
   /// Joins the end to the world at its position.
   void fix_end() { join(last_, last_end_, kWorld, end_); }
@@ -107,7 +107,7 @@ Scene swing_from(const Angle& angle) {
 /// A chain folded to six tenths of its length, with the box below: it falls and snaps taut.
 Scene slack(int links) {
   Scene scene = empty();
-  Chain chain({0.0, 12.0, 0.0}, scene);
+  LinkChain chain({0.0, 12.0, 0.0}, scene);
   for (int i = 0; i < links; ++i) {
     chain.links(1, {i % 2 == 0 ? kFold.sine : -kFold.sine, -kFold.cosine, 0.0});
   }
@@ -118,7 +118,7 @@ Scene slack(int links) {
 
 Scene two_boxes(double upper, double lower) {
   Scene scene = empty();
-  Chain chain({0.0, 12.0, 0.0}, scene);
+  LinkChain chain({0.0, 12.0, 0.0}, scene);
   const Vec3 direction{kFold.sine, -kFold.cosine, 0.0};
   chain.links(10, direction);
   chain.add("upper", box(0.8, 0.8, 0.8), upper, 0.8, direction);
@@ -132,7 +132,7 @@ Scene two_boxes(double upper, double lower) {
 /// swings.
 Scene both_ends() {
   Scene scene = empty();
-  Chain chain({-5.0, 10.0, 0.0}, scene);
+  LinkChain chain({-5.0, 10.0, 0.0}, scene);
   chain.links(12, {0.8, -0.6, 0.0});
   chain.add("weight", box(0.6, 0.6, 0.6), kHeavy, 0.6, {1.0, 0.0, 0.0});
   chain.links(12, {0.6, 0.8, 0.0});
@@ -144,21 +144,22 @@ Scene both_ends() {
 /// A closed ring of 24 links, suspended at one corner, with a weight at the opposite one.
 Scene ring() {
   Scene scene = empty();
-  Chain chain({0.0, 12.0, 0.0}, scene);
+  LinkChain chain({0.0, 12.0, 0.0}, scene);
   const int first = static_cast<int>(scene.bodies.size());
   chain.links(6, {0.8, -0.6, 0.0});
   chain.links(6, {-0.8, -0.6, 0.0});
   const int lowest = static_cast<int>(scene.bodies.size()) - 1;
   chain.links(6, {-0.8, 0.6, 0.0});
   chain.links(6, {0.8, 0.6, 0.0});
-  chain.join_end(first, {-0.5 * kLink, 0.0, 0.0});
-  Body weight = solid("weight", Sphere{0.3}, kHeavy, {0.0, 12.0 - 12.0 * 0.6 * kLink - 0.3, 0.0});
+  chain.join_end(first, {-0.5 * kHardLink, 0.0, 0.0});
+  Body weight =
+      solid("weight", Sphere{0.3}, kHeavy, {0.0, 12.0 - 12.0 * 0.6 * kHardLink - 0.3, 0.0});
   BallJoint joint;
   joint.name = "hook";
   joint.a = static_cast<int>(scene.bodies.size());
   joint.b = lowest;
   joint.anchor_a = {0.0, 0.3, 0.0};
-  joint.anchor_b = {0.5 * kLink, 0.0, 0.0};
+  joint.anchor_b = {0.5 * kHardLink, 0.0, 0.0};
   joint.compliance = 1e-10;
   scene.bodies.push_back(weight);
   scene.joints.emplace_back(joint);
@@ -171,7 +172,7 @@ Scene links_of(double height, double depth) {
   Scene scene = rope_of_n({});
   for (Body& body : scene.bodies) {
     if (!body.name.starts_with("link")) continue;
-    body.shape = box(kLink, height, depth);
+    body.shape = box(kHardLink, height, depth);
     body.inertia = solid_inertia(body.shape, body.mass);
   }
   forbid_gain(scene);

@@ -8,10 +8,10 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kRadius = 0.15;       // of a ball [m]
-constexpr double kPlate = 0.05;        // thickness of a plate [m]
-constexpr double kJitter = 0.002;      // of the balls in the stress stacks [m]
-constexpr std::uint64_t kSeed = 2024;  // of the jitter
+constexpr double kStackBallRadius = 0.15;  // of a ball [m]
+constexpr double kStackPlate = 0.05;       // thickness of a plate [m]
+constexpr double kJitter = 0.002;          // of the balls in the stress stacks [m]
+constexpr std::uint64_t kSeed = 2024;      // of the jitter
 
 void add_layer(int layer, double bottom, double jitter, Random& random, Scene& scene) {
   const std::string number = std::to_string(layer);
@@ -21,17 +21,18 @@ void add_layer(int layer, double bottom, double jitter, Random& random, Scene& s
       const double dx = jitter * random.next();
       const double dz = jitter * random.next();
       scene.bodies.push_back(solid("ball_" + number + "_" + std::to_string(corner++),
-                                   Sphere{kRadius}, 1.0, {x + dx, bottom + kRadius, z + dz}));
+                                   Sphere{kStackBallRadius}, 1.0,
+                                   {x + dx, bottom + kStackBallRadius, z + dz}));
     }
   }
-  scene.bodies.push_back(solid("plate_" + number, box(1.6, kPlate, 1.6), 1.0,
-                               {0.0, bottom + 2.0 * kRadius + 0.5 * kPlate, 0.0}));
+  scene.bodies.push_back(solid("plate_" + number, box(1.6, kStackPlate, 1.6), 1.0,
+                               {0.0, bottom + 2.0 * kStackBallRadius + 0.5 * kStackPlate, 0.0}));
 }
 
 }  // namespace
 
 Scene heavy_stack(const HeavyStackOptions& options) {
-  const double height = options.layers * (2.0 * kRadius + kPlate);
+  const double height = options.layers * (2.0 * kStackBallRadius + kStackPlate);
   const std::string layers = std::to_string(options.layers);
   const std::string tonnes = std::to_string(static_cast<int>(options.top_mass / 1000.0));
   Scene scene;
@@ -63,7 +64,8 @@ Scene heavy_stack(const HeavyStackOptions& options) {
   scene.bodies.push_back(floor_plane());
   Random random(kSeed);
   for (int i = 0; i < options.layers; ++i) {
-    add_layer(i, i * (2.0 * kRadius + kPlate), options.stress ? kJitter : 0.0, random, scene);
+    add_layer(i, i * (2.0 * kStackBallRadius + kStackPlate), options.stress ? kJitter : 0.0, random,
+              scene);
   }
   const int top = static_cast<int>(scene.bodies.size());
   scene.bodies.push_back(

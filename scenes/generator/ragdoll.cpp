@@ -6,7 +6,7 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kMu = 0.6;
+constexpr double kRagdollMu = 0.6;
 
 /// Builds one doll, upright with its arms out, then rotates it about its pelvis.
 class Doll {
@@ -22,7 +22,7 @@ class Doll {
   int part(const std::string& name, const Shape& shape, double mass, const Vec3& centre) {
     Body body = solid(prefix_ + name, shape, mass, at_ + turn_ * centre);
     body.orientation = turn_;
-    body.friction = kMu;
+    body.friction = kRagdollMu;
     body.color = color_;
     centres_.push_back(centre);
     scene_.bodies.push_back(body);
@@ -94,7 +94,7 @@ Scene ragdoll_drop() {
       "Joints and contacts together: a landing needs many sub-steps, tumbling needs few.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
-  add_ground(kMu, 0.01, scene);
+  add_ground(kRagdollMu, 0.01, scene);
   constexpr int kSteps = 4;
   for (int i = 0; i < kSteps; ++i) {
     const double height = 0.4 * (kSteps - i);
@@ -103,7 +103,7 @@ Scene ragdoll_drop() {
     step.shape = box(0.9, height, 3.6);
     step.position = {-2.0 + 0.9 * i, 0.5 * height, 0.0};
     step.is_static = true;
-    step.friction = kMu;
+    step.friction = kRagdollMu;
     scene.bodies.push_back(step);
   }
   const Quat upright = Quat::Identity();

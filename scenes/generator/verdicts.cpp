@@ -60,7 +60,7 @@ Expectation all_fail(SolverKind solver, double before, std::string why) {
   return {.solver = solver, .verdict = Expected::kFails, .before = before, .why = std::move(why)};
 }
 
-Expectations swinging_box() {
+Expectations verdicts_of_swinging_box() {
   Expectations rules{
       all_hold("Sub-steps that satisfy Eq. 5 are stable; damping makes longer ones satisfy it."),
       fails(kBpp, Mode::kNone, 1.0, "The step is seven times the stable one."),
@@ -75,7 +75,7 @@ Expectations swinging_box() {
   return rules;
 }
 
-Expectations bridge() {
+Expectations verdicts_of_bridge() {
   Expectations rules{
       all_hold("Sub-steps that satisfy Eq. 5 are stable; damping makes longer ones satisfy it."),
       fails(kBpp, Mode::kNone, 1.0, "The planks tear once the ball loads them."),
@@ -88,7 +88,7 @@ Expectations bridge() {
   return rules;
 }
 
-Expectations convoy() {
+Expectations verdicts_of_convoy() {
   Expectations rules{
       all_hold("Steps below the criterion of Eq. 5 are stable, and damping makes them so."),
       fails(kBpp, Mode::kNone, 2.0, "Ten kilograms are enough to tear the planks."),
@@ -103,14 +103,14 @@ Expectations convoy() {
   return rules;
 }
 
-Expectations heavy_stack() {
+Expectations verdicts_of_heavy_stack() {
   return {
       all_hold("Symmetric, and solved to double precision: the true constrained stiffness is 0."),
       all_fail(kPgs, 2.0, "25 sweeps do not converge for this mass on layers of 1 kg."),
       all_fail(kXpbd, 2.0, "25 sweeps do not converge for this mass on layers of 1 kg.")};
 }
 
-Expectations heavy_stack_stress() {
+Expectations verdicts_of_heavy_stack_stress() {
   Expectations rules{all_hold("Small sub-steps reduce the error of the regularisation."),
                      fails(kBpp, Mode::kNone, 1.5),
                      const_fails(kBpp, 4, 4.0),
@@ -129,7 +129,7 @@ Expectations heavy_stack_stress() {
   return rules;
 }
 
-Expectations heavy_stack_stress_tall() {
+Expectations verdicts_of_heavy_stack_stress_tall() {
   Expectations rules{
       all_hold("alpha = 0.05 just holds; 0.1 falls."),
       fails(kBpp, Mode::kNone, 1.5),
@@ -149,7 +149,7 @@ Expectations heavy_stack_stress_tall() {
   return rules;
 }
 
-Expectations swinging_box_authors() {
+Expectations verdicts_of_swinging_box_authors() {
   Expectations rules{
       all_hold("Sub-steps that satisfy Eq. 5 are stable; damping makes longer ones satisfy it."),
       fails(kBpp, Mode::kNone, 2.0,
@@ -164,7 +164,7 @@ Expectations swinging_box_authors() {
   return rules;
 }
 
-Expectations bridge_authors() {
+Expectations verdicts_of_bridge_authors() {
   Expectations rules{
       all_hold("Sub-steps that satisfy Eq. 5 are stable; damping makes longer ones satisfy it."),
       fails(kBpp, Mode::kNone, 2.0, "The planks tear once the ball loads them."),
@@ -177,14 +177,14 @@ Expectations bridge_authors() {
   return rules;
 }
 
-Expectations heavy_stack_authors() {
+Expectations verdicts_of_heavy_stack_authors() {
   return {
       all_hold("Symmetric, and solved to double precision: the true constrained stiffness is 0."),
       all_fail(kPgs, 5.0, "25 sweeps do not converge for twenty tonnes on four layers of 1 kg."),
       all_fail(kXpbd, 5.0, "25 sweeps do not converge for twenty tonnes on four layers of 1 kg.")};
 }
 
-Expectations wrecking_ball() {
+Expectations verdicts_of_wrecking_ball() {
   Expectations rules{
       all_hold("Sub-steps that satisfy Eq. 5 are stable; damping makes longer ones satisfy it."),
       fails(kBpp, Mode::kNone, 2.0, "The stable step is a sixth of a frame."),
@@ -210,7 +210,7 @@ Expectations wrecking_ball() {
   return rules;
 }
 
-Expectations ragdoll_drop() {
+Expectations verdicts_of_ragdoll_drop() {
   Expectations rules{
       all_hold("Masses of the same order; but at a landing a limb rotates far within a frame."),
       fails(kBpp, Mode::kNone, 2.0, "At a landing a limb rotates too far within a frame.")};
@@ -226,7 +226,7 @@ Expectations ragdoll_drop() {
   return rules;
 }
 
-Expectations card_house() {
+Expectations verdicts_of_card_house() {
   Expectations rules{
       all_hold("At rest: the stiffness allows one step per frame."),
       const_holds(kBpp, 8,
@@ -241,7 +241,7 @@ Expectations card_house() {
   return rules;
 }
 
-Expectations newtons_cradle() {
+Expectations verdicts_of_newtons_cradle() {
   Expectations rules{all_hold("Bodies that do not load each other; impacts add no energy.")};
   for (const SolverKind solver : {kBpp, kPgs}) {
     rules.push_back(const_holds(solver, 32, "The scene's own number of sub-steps."));
@@ -249,7 +249,7 @@ Expectations newtons_cradle() {
   return rules;
 }
 
-Expectations whirling_chain() {
+Expectations verdicts_of_whirling_chain() {
   Expectations rules{
       all_hold("Sub-steps that satisfy Eq. 5 are stable; damping makes longer ones satisfy it."),
       fails(kBpp, Mode::kNone, 1.0, "A frame is longer than the stable step of the links."),
@@ -263,20 +263,20 @@ Expectations whirling_chain() {
 }  // namespace
 
 Expectations verdicts_of(const std::string& name) {
-  if (name == "swinging_box") return swinging_box();
-  if (name == "bridge") return bridge();
-  if (name == "convoy") return convoy();
-  if (name == "heavy_stack" || name == "heavy_stack_tall") return heavy_stack();
-  if (name == "heavy_stack_stress") return heavy_stack_stress();
-  if (name == "heavy_stack_stress_tall") return heavy_stack_stress_tall();
-  if (name == "swinging_box_authors") return swinging_box_authors();
-  if (name == "bridge_authors") return bridge_authors();
-  if (name == "heavy_stack_authors") return heavy_stack_authors();
-  if (name == "wrecking_ball") return wrecking_ball();
-  if (name == "card_house") return card_house();
-  if (name == "ragdoll_drop") return ragdoll_drop();
-  if (name == "newtons_cradle") return newtons_cradle();
-  if (name == "whirling_chain") return whirling_chain();
+  if (name == "swinging_box") return verdicts_of_swinging_box();
+  if (name == "bridge") return verdicts_of_bridge();
+  if (name == "convoy") return verdicts_of_convoy();
+  if (name == "heavy_stack" || name == "heavy_stack_tall") return verdicts_of_heavy_stack();
+  if (name == "heavy_stack_stress") return verdicts_of_heavy_stack_stress();
+  if (name == "heavy_stack_stress_tall") return verdicts_of_heavy_stack_stress_tall();
+  if (name == "swinging_box_authors") return verdicts_of_swinging_box_authors();
+  if (name == "bridge_authors") return verdicts_of_bridge_authors();
+  if (name == "heavy_stack_authors") return verdicts_of_heavy_stack_authors();
+  if (name == "wrecking_ball") return verdicts_of_wrecking_ball();
+  if (name == "card_house") return verdicts_of_card_house();
+  if (name == "ragdoll_drop") return verdicts_of_ragdoll_drop();
+  if (name == "newtons_cradle") return verdicts_of_newtons_cradle();
+  if (name == "whirling_chain") return verdicts_of_whirling_chain();
   if (name == "wall")
     return {all_hold("There is no joint that could open: all numbers stay finite.")};
   return {all_hold("One body, or bodies that do not load each other.")};

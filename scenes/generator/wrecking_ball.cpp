@@ -7,10 +7,10 @@ namespace substep::scenes {
 namespace {
 
 constexpr int kLinks = 16;
-constexpr double kLink = 0.3;    // length of a link [m]
-constexpr double kRadius = 0.6;  // of the ball [m]
-constexpr double kCrate = 0.5;   // edge of a crate [m]
-constexpr double kMu = 0.5;
+constexpr double kWreckingLink = 0.3;    // length of a link [m]
+constexpr double kWreckingRadius = 0.6;  // of the ball [m]
+constexpr double kCrate = 0.5;           // edge of a crate [m]
+constexpr double kWreckingMu = 0.5;
 const Vec3 kAnchor{0.0, 6.3, 0.0};
 
 /// A taut chain of ball joints with the ball at its end, released at 53 degrees (sine 4/5).
@@ -19,7 +19,7 @@ void add_chain(Scene& scene) {
   const auto hang = [&](Body body, double centre, double half_length, double parent_half_length) {
     body.position = kAnchor + along * centre;
     body.orientation = turn_about_z(-along.x(), -along.y());
-    body.friction = kMu;
+    body.friction = kWreckingMu;
     body.color = kIron;
     BallJoint joint;
     joint.name = "pivot_" + std::to_string(scene.joints.size());
@@ -37,11 +37,11 @@ void add_chain(Scene& scene) {
     scene.joints.emplace_back(joint);
   };
   for (int i = 0; i < kLinks; ++i) {
-    hang(solid("link_" + std::to_string(i), box(kLink, 0.1, 0.1), 2.0, Vec3::Zero()),
-         kLink * (i + 0.5), 0.5 * kLink, 0.5 * kLink);
+    hang(solid("link_" + std::to_string(i), box(kWreckingLink, 0.1, 0.1), 2.0, Vec3::Zero()),
+         kWreckingLink * (i + 0.5), 0.5 * kWreckingLink, 0.5 * kWreckingLink);
   }
-  hang(solid("ball", Sphere{kRadius}, 1000.0, Vec3::Zero()), kLink * kLinks + kRadius, kRadius,
-       0.5 * kLink);
+  hang(solid("ball", Sphere{kWreckingRadius}, 1000.0, Vec3::Zero()),
+       kWreckingLink * kLinks + kWreckingRadius, kWreckingRadius, 0.5 * kWreckingLink);
   scene.criteria.track = static_cast<int>(scene.bodies.size()) - 1;
   scene.criteria.energy_scale = 21190.0;  // released by the fall of the ball
   scene.criteria.energy_gain = 2119.0;    // a tenth of it
@@ -61,7 +61,7 @@ Scene wrecking_ball() {
       "tower takes one. The islands merge when the ball hits and split when crates fly off.";
   scene.effects = {
       .gravity = true, .gyroscopic = true, .joints = true, .contact = true, .friction = true};
-  add_ground(kMu, 0.01, scene);
+  add_ground(kWreckingMu, 0.01, scene);
   add_chain(scene);
   for (int y = 0; y < 5; ++y) {
     for (int x = 0; x < 2; ++x) {
@@ -69,7 +69,7 @@ Scene wrecking_ball() {
         Body crate =
             solid("crate_" + std::to_string(6 * y + 3 * x + z), box(kCrate, kCrate, kCrate), 12.0,
                   {0.9 + kCrate * x, kCrate * (y + 0.5), kCrate * (z - 1)});
-        crate.friction = kMu;
+        crate.friction = kWreckingMu;
         crate.color = (x + y + z) % 2 == 0 ? kWood : kWoodDark;
         scene.bodies.push_back(crate);
       }

@@ -41,7 +41,8 @@ State with_ball(State state, const Ball& ball, std::size_t slot) {
   put(state.u_synchronised, u);
   if (!state.k.empty()) put(state.k, Vec6(Vec6::Zero()));
   if (!state.own.empty()) put(state.own, OwnSubstep{});
-  if (!state.rotation.empty()) put(state.rotation, RotationPeak{});
+  if (!state.rotation.empty()) put(state.rotation, RatePeak{});
+  if (!state.held.empty()) put(state.held, RatePeak{});
   if (!state.torque.empty()) put(state.torque, Vec3(Vec3::Zero()));
   if (!state.torque_change.empty()) put(state.torque_change, Vec3(Vec3::Zero()));
   if (!state.rest.empty()) put(state.rest, 0.0);

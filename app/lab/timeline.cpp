@@ -15,9 +15,10 @@ std::size_t held(const std::vector<T>& values) {
 std::size_t bytes_of(const Moment& m) {
   const State& s = m.state;
   return sizeof m + held(s.x) + held(s.q) + held(s.u) + held(s.k) + held(s.forces) + held(s.own) +
-         held(s.rest) + held(s.rotation) + held(s.acceleration) + held(s.acceleration_change) +
-         held(s.torque) + held(s.torque_change) + held(s.K_resisting) + held(s.u_synchronised) +
-         held(m.forces.joints) + held(m.forces.contacts);
+         held(s.rest) + held(s.rotation) + held(s.held) + held(s.acceleration) +
+         held(s.acceleration_change) + held(s.torque) + held(s.torque_change) +
+         held(s.K_resisting) + held(s.u_synchronised) + held(m.forces.joints) +
+         held(m.forces.contacts);
 }
 
 }  // namespace

@@ -29,12 +29,15 @@ constexpr std::array<Choice, 2> kPolicies{
       "Andrews 2024)."},
      {"sub-step",
       "dt is decided again after every sub-step, with a decaying memory of r. This project's."}}};
-constexpr std::array<Choice, 3> kDrifts{
+constexpr std::array<Choice, 4> kDrifts{
     {{"auto", "Soft with PGS, full with the others."},
      {"full", "The whole error is corrected in one step: bias phi/dt (Baumgarte 1972)."},
      {"soft",
       "The error decays with its own time constant: bias phi dt/tau², so that a change of dt adds "
-      "no energy. This project's."}}};
+      "no energy. This project's."},
+     {"exact",
+      "Joints hold at the end of every sub-step, by repeated solves (SHAKE, Ryckaert et al. 1977): "
+      "no correction stays in the velocities. With BPP."}}};
 
 constexpr std::array<Choice, 2> kContactStiffnesses{
     {{"paper",
@@ -203,6 +206,12 @@ void finer_points_of_mode(const Look& look, Settings& s) {
              "Share of r (Eq. 9) that is kept from one sub-step to the next: a force that dips for "
              "one sub-step does not lengthen the next one.");
     }
+    slider(look, "Hold N", s.hold, 1, 240, true,
+           "Frames that must need fewer sub-steps before their number falls: an N that follows the "
+           "motion up and down changes its energy. This project's.");
+    checkbox(look, "Take frames again", s.redo,
+             "A frame that turns out to need more sub-steps is taken again with them. This "
+             "project's.");
   }
   if (reads(s, "rotation_criterion")) {
     checkbox(look, "Rotation criterion", s.rotation_criterion,

@@ -43,6 +43,7 @@ struct PairNames {
 };
 constexpr PairNames kOwn{"own_dt_previous", "own_r"};
 constexpr PairNames kRotation{"rotation_before", "rotation_now"};
+constexpr PairNames kHeld{"held_before", "held_now"};
 
 template <class Item>
 void read_pairs(ObjectReader& in, const PairNames& names, const Range& first_range,
@@ -160,6 +161,8 @@ std::optional<Carried> read_carried(ObjectReader& scene, const std::vector<Body>
   read_pairs(in, kOwn, not_negative(1.0, "s"), n, carried.own);
   read_pairs(in, kRotation, kStiffnessOverMassRange, n, carried.rotation);
   in.number("rotation_age", not_negative(10.0, "s"), carried.rotation_age, kOptional);
+  read_pairs(in, kHeld, kStiffnessOverMassRange, n, carried.held);
+  in.integer("held_frames", 0, 10000, carried.held_frames, kOptional);
   for (const char* key : {"k", "k_resisting"}) {
     if (in.member(key, kOptional) && !in.member("r", kOptional)) in.problem(key, "requires r");
   }
@@ -202,6 +205,10 @@ Json carried_json(const Carried& carried, const std::vector<Body>& bodies) {
   if (!carried.rotation.empty()) {
     write_pairs(kRotation, carried.rotation, json);
     json["rotation_age"] = carried.rotation_age;
+  }
+  if (!carried.held.empty()) {
+    write_pairs(kHeld, carried.held, json);
+    json["held_frames"] = carried.held_frames;
   }
   if (!carried.acceleration.empty()) json["acceleration"] = items_json(carried.acceleration);
   if (!carried.acceleration_change.empty()) {

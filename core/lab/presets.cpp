@@ -53,6 +53,14 @@ std::span<const Preset> presets() {
              "Newton's method, implicit, with four sub-steps: holds all 49 hard scenes at three "
              "quarters of the operations of 32 constant sub-steps; damps motions slightly.",
              {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
+      Preset{"steady",
+             "Adaptive without a gain of energy: leapfrog, joints that hold exactly, an N that "
+             "falls after a second only, and frames taken again where it was too small.",
+             {.n_max = 256,
+              .hold = 60,
+              .redo = true,
+              .integrator = Integrator::kLeapfrog,
+              .drift = Drift::kExact}},
   };
   return all;
 }

@@ -25,9 +25,9 @@ struct OwnSubstep {
   double r = 0.0;            // as Carried::r, of this body [1/s^2]
 };
 
-/// Peak rotation rates of a body in two time windows, for the rotation criterion, so that N does
-/// not follow every swing (rotation_bound.hpp).
-struct RotationPeak {
+/// Peak rates of a body in two time windows, so that N does not follow every swing: of the rotation
+/// criterion (rotation_bound.hpp), and of r if N is held (held_stiffness.hpp).
+struct RatePeak {
   double before = 0.0;  // in the last complete window [1/s^2]
   double now = 0.0;     // in the current window [1/s^2]
 };
@@ -52,10 +52,12 @@ struct Carried {
   // as for the acceleration. Empty without the gyroscopic effect.
   std::vector<Vec3> torque;
   std::vector<Vec3> torque_change;
-  std::vector<OwnSubstep> own;         // per body; empty: dt_previous holds for all bodies
-  std::vector<RotationPeak> rotation;  // per body; empty: the criterion has no memory
-  double rotation_age = 0.0;           // age of the current window [s]
-  std::vector<double> rest;            // per body: time at low speed [s]; empty: not tracked
+  std::vector<OwnSubstep> own;     // per body; empty: dt_previous holds for all bodies
+  std::vector<RatePeak> rotation;  // per body; empty: the criterion has no memory
+  double rotation_age = 0.0;       // age of the current window [s]
+  std::vector<RatePeak> held;      // per body, of r; empty: N is not held
+  int held_frames = 0;             // in the current window
+  std::vector<double> rest;        // per body: time at low speed [s]; empty: not tracked
 
   /// The last sub-step of a body [s].
   [[nodiscard]] double dt_previous_of(std::size_t body) const {

@@ -35,7 +35,7 @@ enum class Integrator : std::uint8_t { kEuler, kLeapfrog, kStormer, kCount };
 enum class Tint : std::uint8_t { kBlue, kOrange, kTeal, kAmber, kPurple, kText, kDim };
 
 /// Names of the settings that a method reads, excluding those that all methods read.
-using SettingNames = std::array<std::string_view, 9>;
+using SettingNames = std::array<std::string_view, 11>;
 
 /// A function that an entry must state: leaving it out does not compile.
 template <class F>
@@ -216,7 +216,8 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .curve = "adaptive",
      .tint = Tint::kBlue,
      .corners = 0,
-     .reads = {"alpha", "n_max", "policy", "memory", "islands", "rotation_criterion", "probe"}},
+     .reads = {"alpha", "n_max", "policy", "memory", "hold", "redo", "islands",
+               "rotation_criterion", "probe"}},
     {.value = Mode::kCapped,
      .count = SubstepCount::kStableCapped,
      .mass = damped_mass,
@@ -230,7 +231,8 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .curve = "capped + damping",
      .tint = Tint::kAmber,
      .corners = 6,
-     .reads = {"alpha", "n_cap", "policy", "memory", "islands", "rotation_criterion", "probe"}},
+     .reads = {"alpha", "n_cap", "policy", "memory", "hold", "redo", "islands",
+               "rotation_criterion", "probe"}},
     {.value = Mode::kStiffness,
      .full_stiffness = true,
      .name = "stiffness",
@@ -260,8 +262,8 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .tint = Tint::kText,
      .corners = 3,
      .beyond_paper = true,
-     .reads = {"alpha", "n_cap", "alpha_m", "policy", "memory", "islands", "rotation_criterion",
-               "probe"}},
+     .reads = {"alpha", "n_cap", "alpha_m", "policy", "memory", "hold", "redo", "islands",
+               "rotation_criterion", "probe"}},
     {.value = Mode::kBlend,
      .count = SubstepCount::kStableCapped,
      .mass = stiffened_mass,
@@ -277,7 +279,7 @@ inline constexpr std::array<ModeEntry, kCountOf<Mode>> kModes{{
      .tint = Tint::kPurple,
      .corners = 6,
      .beyond_paper = true,
-     .reads = {"alpha", "n_cap", "alpha_m", "beta", "policy", "memory", "islands",
+     .reads = {"alpha", "n_cap", "alpha_m", "beta", "policy", "memory", "hold", "redo", "islands",
                "rotation_criterion", "probe"}},
 }};
 

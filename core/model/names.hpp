@@ -39,7 +39,7 @@ inline constexpr NameList<kCountOf<Integrator>> kNames<Integrator> = names_in(kI
 template <>
 inline constexpr NameList<2> kNames<Policy>{"frame", "substep"};
 template <>
-inline constexpr NameList<3> kNames<Drift>{"auto", "full", "soft"};
+inline constexpr NameList<4> kNames<Drift>{"auto", "full", "soft", "exact"};
 template <>
 inline constexpr NameList<2> kNames<ContactStiffness>{"paper", "exact"};
 template <>

@@ -47,6 +47,10 @@ constexpr std::array kFields{
     SettingField{"memory",
                  "share of r that is kept from one sub-step to the next in policy substep",
                  NumberSetting{&S::memory, {0.0, 1.0, false, true, "-"}}},
+    SettingField{"hold", "frames that must need fewer sub-steps before their number falls",
+                 CountSetting{&S::hold, 1, 10000}},
+    SettingField{"redo", "a frame that turns out to need more sub-steps is taken again with them",
+                 FlagSetting{&S::redo}},
     SettingField{
         "islands",
         "groups of bodies that nothing connects within a frame have their own number of sub-steps",
@@ -61,9 +65,11 @@ constexpr std::array kFields{
                  ChoiceSetting<Integrator>{&S::integrator}},
     SettingField{"gyroscopic", "how the gyroscopic torque is integrated",
                  ChoiceSetting<Gyroscopic>{&S::gyroscopic}},
-    SettingField{"drift",
-                 "law of the drift correction; auto is soft with pgs and full with the others",
-                 ChoiceSetting<Drift>{&S::drift}},
+    SettingField{
+        "drift",
+        "law of the drift correction; auto is soft with pgs and full with the others; exact "
+        "closes joints at the end of every sub-step, with bpp",
+        ChoiceSetting<Drift>{&S::drift}},
     SettingField{"tau", "time constant of the soft drift law",
                  NumberSetting{&S::drift_tau, {1e-6, 10.0, false, false, "s"}}},
     SettingField{

@@ -17,8 +17,9 @@ enum class Forces : std::uint8_t {
 };
 /// How often the number of sub-steps is decided.
 enum class Policy : std::uint8_t { kFrame, kSubstep };
-/// Law of the drift correction. kAuto is soft with PGS and full with the other solvers.
-enum class Drift : std::uint8_t { kAuto, kFull, kSoft };
+/// Law of the drift correction. kAuto is soft with PGS and full with the other solvers. kExact
+/// closes joints at the end of every sub-step, by repeated solves.
+enum class Drift : std::uint8_t { kAuto, kFull, kSoft, kExact };
 /// Which contact block enters K: the paper's (a modified ball-and-socket) or the true derivative.
 enum class ContactStiffness : std::uint8_t { kPaper, kExact };
 /// Friction bound mu times the normal force: on each tangential component (box), or on the length
@@ -48,6 +49,8 @@ struct Settings {
   double beta = 0.95;    // kBlend: undamped share of the velocity, in [0, 1] [-]
   Policy policy = Policy::kFrame;
   double memory = 0.9;   // decay of r per sub-step in policy kSubstep, in [0, 1) [-]
+  int hold = 1;          // N falls only after so many frames that need fewer sub-steps, >= 1
+  bool redo = false;     // a frame that turns out to need more sub-steps is taken again with them
   bool islands = false;  // each island has its own N, in modes that choose N
   bool sleep = false;    // islands at rest are not stepped
   bool probe = true;     // one solve before the first frame for the forces that determine N
@@ -79,8 +82,12 @@ inline bool follows_accelerations(const Settings& s) {
   return s.integrator == Integrator::kStormer && !entry_of(s.solver).at_end;
 }
 
-/// The drift law, with kAuto resolved by solver.
+/// The drift law, with kAuto resolved by solver. Only the direct solver closes joints exactly;
+/// Störmer's method aims at their end poses itself.
 inline Drift drift_law(const Settings& s) {
+  if (s.drift == Drift::kExact && (s.solver != SolverKind::kBpp || follows_accelerations(s))) {
+    return Drift::kFull;
+  }
   if (s.drift != Drift::kAuto) return s.drift;
   return entry_of(s.solver).soft_drift ? Drift::kSoft : Drift::kFull;
 }

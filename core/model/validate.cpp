@@ -127,7 +127,7 @@ class Lists {
   static bool finite(const OwnSubstep& item) {
     return is_not_negative(item.dt_previous) && is_not_negative(item.r);
   }
-  static bool finite(const RotationPeak& item) {
+  static bool finite(const RatePeak& item) {
     return is_not_negative(item.before) && is_not_negative(item.now);
   }
   static bool finite(const auto& item) { return item.allFinite(); }
@@ -167,6 +167,7 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
   lists.optional("torque_change", carried.torque_change);
   lists.optional("own", carried.own);
   lists.optional("rotation", carried.rotation);
+  lists.optional("held", carried.held);
   lists.optional("rest", carried.rest);
   const auto rest = std::find_if(carried.rest.begin(), carried.rest.end(),
                                  [](double seconds) { return seconds < 0.0; });

@@ -7,6 +7,7 @@
 #include "core/sim/conserved.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/effective_mass.hpp"
+#include "core/stepping/held_stiffness.hpp"
 #include "core/stepping/integrate.hpp"
 #include "core/stepping/stored_forces.hpp"
 
@@ -96,17 +97,35 @@ void Simulator::Impl::begin_frame() {
     state.rotation.clear();
     state.rotation_age = 0.0;
   }
+  if (settings.redo && chooses_substeps(settings.mode)) before_frame = state;
+  if (watches_substeps(settings)) r_in_frame.assign(state.q.size(), 0.0);
   schedule_substeps(report);
   blocks.clear();
   forces.clear();
   open = report;
 }
 
+void Simulator::Impl::begin_again_if_exceeded(FrameReport& report) {
+  if (schedule.running() || !schedule.exceeded()) return;
+  state = before_frame;
+  contacts_predicted = false;
+  first_block = first_force = 0;
+  rotation_matrices(all.bodies, state, current.R_WB);
+  index_of_last_frame.clear();
+  report.n_substeps = 0;
+  report.dt_min = report.dt_max = 0.0;
+  report.asleep = 0;
+  schedule_substeps(report);
+  blocks.clear();
+  forces.clear();
+  ++report.attempts;
+}
+
 void Simulator::Impl::schedule_substeps(FrameReport& report) {
   schedule.clear();
   if (!looks_for_islands(settings) || all.moving.empty()) {
     for (const OwnSubstep& own : state.own) state.r = std::max(state.r, own.r);
-    schedule.add(all, SubstepClock(settings, scene->frame, state.r, rotation_bound(all.moving).r));
+    schedule.add(all, clock_of(all.moving, state.r, rotation_bound(all.moving).r));
     return;
   }
   if (state.own.empty()) {
@@ -138,12 +157,21 @@ void Simulator::Impl::schedule_islands(FrameReport& report) {
     }
     // Islands without their own number of sub-steps form one part.
     if (!has_islands(settings)) return 1;
-    return SubstepClock(settings, scene->frame, r_of(bodies), rotation_bound(bodies).r).left();
+    return clock_of(bodies, r_of(bodies), rotation_bound(bodies).r).left();
   });
   for (const Part& one : islands->parts()) {
-    schedule.add(
-        one, SubstepClock(settings, scene->frame, r_of(one.moving), rotation_bound(one.bodies).r));
+    schedule.add(one, clock_of(one.moving, r_of(one.moving), rotation_bound(one.bodies).r));
   }
+}
+
+// N is not below what earlier frames and earlier attempts at this one need.
+SubstepClock Simulator::Impl::clock_of(std::span<const int> moving, double r,
+                                       double r_rotation) const {
+  double r_least = held_stiffness(state, moving);
+  if (watches_substeps(settings)) {
+    for (const int body : moving) r_least = std::max(r_least, r_in_frame[index(body)]);
+  }
+  return {settings, scene->frame, r, r_rotation, r_least};
 }
 
 bool Simulator::Impl::heeds_rotation() const {
@@ -154,8 +182,16 @@ RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const
   return heeds_rotation() ? rotation->bound(*scene, bodies, state) : RotationBound{};
 }
 
-double Simulator::Impl::r_rotation_again() const {
-  return decides_again(settings) ? rotation_bound(schedule.part().moving).r : 0.0;
+double Simulator::Impl::r_rotation_again() {
+  const std::vector<int>& moving = schedule.part().moving;
+  if (watches_substeps(settings) && heeds_rotation()) {
+    for (const int body : moving) {
+      double& most = r_in_frame[index(body)];
+      most = std::max(most, rotation_bound({&body, 1}).r);
+    }
+  }
+  const bool reads = decides_again(settings) || watches_substeps(settings);
+  return reads ? rotation_bound(moving).r : 0.0;
 }
 
 FrameReport Simulator::Impl::refusal() {
@@ -184,6 +220,10 @@ void Simulator::Impl::carry_to_next_frame(const FrameReport& report) {
   if (report.asleep > 0) keep_forces_at_rest();
   std::swap(state.forces, forces);
   state.r = schedule.r();
+  if (watches_substeps(settings))
+    hold_stiffness(settings, r_in_frame, state);
+  else if (!state.held.empty())
+    state.held.clear();
   state.stiffness_known = report.stages.stiffness;
   if (state.stiffness_known) return;
   state.k.clear();  // outdated

@@ -120,6 +120,7 @@ struct FrameReport {
   int islands = 0;      // 0 if islands are not detected
   int asleep = 0;       // bodies of sleeping islands, not stepped in this frame
   int n_wanted = 1;     // by Eq. 11 before the cap
+  int attempts = 1;     // at this frame: Settings::redo
   bool capped = false;  // n_wanted exceeded the cap
   double dt_min = 0.0;  // shortest sub-step [s]
   double dt_max = 0.0;  // longest sub-step [s]

@@ -56,6 +56,10 @@ class Schedule {
     return std::any_of(turns_.begin(), turns_.end(),
                        [](const Turn& turn) { return turn.clock.capped(); });
   }
+  [[nodiscard]] bool exceeded() const {
+    return std::any_of(turns_.begin(), turns_.end(),
+                       [](const Turn& turn) { return turn.clock.exceeded(); });
+  }
 
  private:
   struct Turn {

@@ -37,6 +37,9 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   index_of_last_frame.reserve(n_blocks);
   index_of_part.reserve(n_blocks);
   state.k.reserve(n);
+  u_star.resize(n);
+  motions.resize(n);
+  gaps.reserve(n_blocks);
   if (effects.gyroscopic) resize_torques(state);
 }
 

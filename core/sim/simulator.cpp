@@ -25,6 +25,7 @@ FrameReport Simulator::Impl::advance(Share share) {
     advance_poses(sub, report);
     spent += static_cast<double>(report.work.flops - before) + work_beside_solver(sub);
     schedule.advance(bound.r, r_rotation_again());  // re-evaluates N with policy substep
+    begin_again_if_exceeded(report);
   }
   return end(wall, share.whole());
 }

@@ -10,6 +10,7 @@
 
 #include "core/constraints/contact_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
+#include "core/constraints/moved_rows.hpp"
 #include "core/constraints/restitution_stage.hpp"
 #include "core/sim/islands.hpp"
 #include "core/sim/schedule.hpp"
@@ -62,6 +63,11 @@ class StageClock {
   Clock::time_point last_;
 };
 
+/// Errors of the rows of a joint at the end of a sub-step [m or rad].
+struct RowGaps {
+  double of[kMaxRows] = {};
+};
+
 struct Simulator::Impl {
   explicit Impl(std::shared_ptr<const Scene> scene_in);
 
@@ -83,6 +89,8 @@ struct Simulator::Impl {
   bool solve(Substep& sub, FrameReport& report);
   void seed(const Substep& sub);
   void set_bias(Substep& sub, FrameReport& report);
+  void close_joints(const Substep& sub, const System& system,
+                    SolveReport& solved);                     // close_joints.cpp
   bool propagate_impacts(Substep& sub, FrameReport& report);  // impacts.cpp
   void count_work(const Substep& sub, const SolveReport& solved, FrameReport& report);
   bool finite(const Substep& sub, FrameReport& report);
@@ -110,9 +118,12 @@ struct Simulator::Impl {
   void probe(FrameReport& report);
   void schedule_substeps(FrameReport& report);  // of the next frame
   void schedule_islands(FrameReport& report);
+  SubstepClock clock_of(std::span<const int> moving, double r, double r_rotation) const;
+  /// With Settings::redo, starts the frame again if one of its sub-steps was too long.
+  void begin_again_if_exceeded(FrameReport& report);
   bool heeds_rotation() const;                                      // true if N depends on rotation
   RotationBound rotation_bound(std::span<const int> bodies) const;  // zero if the setting is off
-  double r_rotation_again() const;  // of the part, if N is re-evaluated after every sub-step
+  double r_rotation_again();  // of the part, if it is needed after every sub-step
   bool is_at_rest(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
   void keep_forces_at_rest();
@@ -136,6 +147,8 @@ struct Simulator::Impl {
   std::optional<Grab> grab;
   std::optional<FrameReport> open;  // report of a frame in progress
   Schedule schedule;                // of the open frame
+  State before_frame;               // if it may be taken again
+  std::vector<double> r_in_frame;  // per body: largest r of the open frame, of all attempts [1/s^2]
   bool contacts_predicted = false;  // those of the open frame
   FrameReport stopped;              // the report of the frame that failed
 
@@ -165,6 +178,9 @@ struct Simulator::Impl {
 
   Substep current;                      // the last one taken
   std::vector<InverseMass> rigid_mass;  // for impacts, in modes that replace M
+  std::vector<Vec6> u_star;             // before the rows act, if solves are repeated
+  Motions motions;                      // of the sub-step, likewise
+  std::vector<RowGaps> gaps;            // likewise, per block
   StiffnessLeader bound;
   StageClock clock;
 };

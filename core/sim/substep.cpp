@@ -122,7 +122,10 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   system.limits = limits_of_solve(sub, report);
   sub.integrator->extend(system, sub, state);
   system.frame_share = sub.dt / scene->frame;
-  const SolveReport solved = solver->find_velocities(system, sub.settings);
+  const bool closes = drift_law(sub.settings) == Drift::kExact && joints && !sub.probing;
+  if (closes) copy(state.u, u_star);
+  SolveReport solved = solver->find_velocities(system, sub.settings);
+  if (closes) close_joints(sub, system, solved);
   if (solved.status == SolveStatus::kOverLimits) {
     refuse_solve(sub, solved, report);
     return false;
@@ -240,6 +243,12 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
 
 // r per body, because islands merge and split.
 void Simulator::Impl::remember_stiffness(const Part& part) {
+  if (watches_substeps(settings) && !r_in_frame.empty()) {
+    for (const int body : part.moving) {
+      double& most = r_in_frame[index(body)];
+      most = std::max(most, StiffnessStage::bound(*scene, {&body, 1}, state.k).r);
+    }
+  }
   if (state.own.empty()) return;
   for (const int body : part.bodies) {
     double& r = state.own[index(body)].r;

@@ -107,6 +107,18 @@ SolveReport Bpp::find_velocities(const System& system, const Settings& settings)
   return report;
 }
 
+SolveReport Bpp::find_velocities_again(const System& system, const Settings& settings) {
+  if (any_contact_ || ldlt_.held() || settings.refinements > 0) {
+    return find_velocities(system, settings);
+  }
+  SolveReport report;
+  const std::int64_t before = ldlt_.flops();
+  ldlt_.read(system.blocks);
+  ldlt_.solve(system);
+  report.flops = ldlt_.flops() - before;
+  return report;
+}
+
 // With the w of System, linear in the impulses z, the solution is where
 //   1/2 z (w(z) + w(0))   [J]
 // is minimal within the bounds; it is 0 at z = 0. A badly wrong active set increases it by orders

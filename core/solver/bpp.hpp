@@ -23,6 +23,8 @@ class Bpp final : public Solver {
  public:
   void reserve(std::size_t bodies, std::size_t blocks) override;
   SolveReport find_velocities(const System& system, const Settings& settings) override;
+  /// Without contacts the factor is used again.
+  SolveReport find_velocities_again(const System& system, const Settings& settings) override;
   void find_impulses(std::span<Block> blocks) override;
 
  private:

@@ -24,6 +24,10 @@ class Solver {
   }
   /// Computes velocities. Joint impulses on which no velocity depends may be left unset.
   virtual SolveReport find_velocities(const System& system, const Settings& settings) = 0;
+  /// Solves the last system again, with its u* in System::u and another bias.
+  virtual SolveReport find_velocities_again(const System& system, const Settings& settings) {
+    return find_velocities(system, settings);
+  }
   /// Computes those impulses for the blocks of the last solved system.
   virtual void find_impulses(std::span<Block> /*blocks*/) {}
 };

@@ -18,6 +18,15 @@ std::int64_t Euler::aim(const Substep& sub, State& /*state*/) {
   return 0;
 }
 
+void Euler::predict_motions(const Substep& sub, const State& state, Motions& motions) const {
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    Vec6 u = state.u[i];
+    if (gyroscopic_) u.tail<3>() = gyroscopic_->settled(sub, i, u.tail<3>());
+    motions[i] = motion(u, sub.dt);
+  }
+}
+
 void Euler::move_poses(const Substep& sub, State& state) {
   state.acceleration.clear();  // of another method, outdated
   state.acceleration_change.clear();

@@ -144,6 +144,20 @@ void GyroscopicStage::bend_rows(const Substep& sub) const {
   }
 }
 
+Vec3 GyroscopicStage::settled(const Substep& sub, std::size_t i, const Vec3& omega) const {
+  if (!tumbles(sub, i)) return omega;
+  const Vec3& I = sub.scene->bodies[i].inertia;
+  const Mat3& R = sub.R_WB[i];
+  const Spin& spin = spins_[i];
+  if (spin.damped) return omega;
+  const Vec3 omega_B = R.transpose() * omega;
+  const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.predicted);
+  if (turns_freely && !loops_bend_) return omega;
+  // From the stored momentum: rotating it back and forth would lose a digit every thousand steps.
+  const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - sub.u_before[i].tail<3>()));
+  return R * velocity_of_momentum(I, spin.momentum + pushed, sub.dt, omega_B);
+}
+
 void GyroscopicStage::settle(Substep& sub, State& state) const {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
@@ -158,14 +172,13 @@ void GyroscopicStage::settle(Substep& sub, State& state) const {
     if (spin.damped) continue;
     const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.predicted);
     if (turns_freely && !loops_bend_) continue;
-    // From the stored momentum: rotating it back and forth would lose a digit every thousand steps.
     const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - sub.u_before[i].tail<3>()));
     if (sub.smooth) {
       state.torque[i] = R * (1.0 / sub.impulse_time[i] * pushed);
     }
-    const Vec3 settled = R * velocity_of_momentum(I, spin.momentum + pushed, sub.dt, omega_B);
-    sub.u_before[i].tail<3>() += settled - omega;  // keeps the impulse unchanged
-    omega = settled;
+    const Vec3 settled_omega = settled(sub, i, omega);
+    sub.u_before[i].tail<3>() += settled_omega - omega;  // keeps the impulse unchanged
+    omega = settled_omega;
   }
 }
 

@@ -32,6 +32,8 @@ class GyroscopicStage {
   void begin(const Substep& sub, State& state);
   /// Sets up ("bends") rows of joints for the predicted rotation of their bodies.
   void bend_rows(const Substep& sub) const;
+  /// The angular velocity with the exact momentum. @param omega after the solve, world [rad/s]
+  [[nodiscard]] Vec3 settled(const Substep& sub, std::size_t body, const Vec3& omega) const;
   /// Solves for the angular velocity with the exact momentum, after the solve.
   void settle(Substep& sub, State& state) const;
   /// True if begin() found that a body does not rotate about a principal axis, and its momentum is

@@ -73,7 +73,7 @@ RotationBound RotationCriterion::bound(const Scene& scene, std::span<const int> 
     if (counts_[index(body)] == 0) continue;
     double r = rate_squared(scene.bodies[index(body)].inertia, angular_velocity_B(state, body));
     if (!state.rotation.empty()) {
-      const RotationPeak& peak = state.rotation[index(body)];
+      const RatePeak& peak = state.rotation[index(body)];
       r = std::max({r, peak.before, peak.now});
     }
     if (r > most.r) most = {r, body};
@@ -88,7 +88,7 @@ void RotationCriterion::remember(const Scene& scene, State& state) const {
   if (shift) state.rotation_age = 0.0;
   state.rotation_age += scene.frame;
   for (const Pendulum& pendulum : pendulums_) {
-    RotationPeak& peak = state.rotation[index(pendulum.body)];
+    RatePeak& peak = state.rotation[index(pendulum.body)];
     if (shift) peak = {peak.now, 0.0};
     const Vec3 omega_B = angular_velocity_B(state, pendulum.body);
     const double arm = square(kArmShare) * omega_B.cross(pendulum.arm).squaredNorm();

@@ -22,6 +22,10 @@ bool has_islands(const Settings& settings) {
 
 bool looks_for_islands(const Settings& settings) { return has_islands(settings) || settings.sleep; }
 
+bool watches_substeps(const Settings& settings) {
+  return chooses_substeps(settings.mode) && (settings.redo || settings.hold > 1);
+}
+
 int wanted_substeps(double h, double dt_max) {
   constexpr double kMost = 1e9;  // an impulsive force can require more than fits in an int
   const double n = std::ceil(h / dt_max);
@@ -36,8 +40,9 @@ double remembered(const Settings& settings, double now, double before) {
   return decides_again(settings) ? std::max(now, settings.memory * before) : now;
 }
 
-SubstepClock::SubstepClock(const Settings& settings, double h, double r, double r_rotation)
-    : settings_(settings), h_(h), rest_(h), r_(r), r_rotation_(r_rotation) {
+SubstepClock::SubstepClock(const Settings& settings, double h, double r, double r_rotation,
+                           double r_least)
+    : settings_(settings), h_(h), rest_(h), r_(r), r_rotation_(r_rotation), r_least_(r_least) {
   assert(settings.n >= 1 && settings.n_max >= 1 && settings.n_cap >= 1 && "a frame has a sub-step");
   decide();
 }
@@ -47,7 +52,7 @@ void SubstepClock::decide() {
   left_ = count == SubstepCount::kGiven ? settings_.n : 1;
   if (chooses_substeps(settings_.mode)) {
     const int limit = count == SubstepCount::kStable ? settings_.n_max : settings_.n_cap;
-    const double dt_max = stable_step(settings_.alpha, std::max(r_, r_rotation_));
+    const double dt_max = stable_step(settings_.alpha, std::max({r_, r_rotation_, r_least_}));
     const int wanted = wanted_substeps(h_, dt_max);
     n_wanted_ = std::max(n_wanted_, wanted);
     capped_ = capped_ || wanted > limit;
@@ -59,12 +64,18 @@ void SubstepClock::decide() {
 
 bool SubstepClock::needs_stiffness() const {
   if (changes_mass(settings_.mode)) return true;
-  if (decides_again(settings_)) return true;
+  if (decides_again(settings_) || watches_substeps(settings_)) return true;
   return left_ == 1 && (chooses_substeps(settings_.mode) || settings_.watch_stiffness);
 }
 
 void SubstepClock::advance(double r, double r_rotation) {
   r_rotation_ = r_rotation;
+  if (chooses_substeps(settings_.mode) && settings_.redo) {
+    constexpr double kRounding =
+        1e-9;  // else the same number of sub-steps could be asked for again
+    exceeded_ = exceeded_ ||
+                dt_ > (1.0 + kRounding) * stable_step(settings_.alpha, std::max(r, r_rotation));
+  }
   if (needs_stiffness()) r_ = remembered(settings_, r, r_);
   ++taken_;
   if (--left_ == 0) return;

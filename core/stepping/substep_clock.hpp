@@ -19,6 +19,9 @@ double stable_step(double alpha, double r);
 /// True if N is determined by r.
 bool chooses_substeps(Mode mode);
 
+/// True if every sub-step's r is needed: N is held, or a frame may be taken again.
+bool watches_substeps(const Settings& settings);
+
 /// True if N is re-evaluated after every sub-step.
 bool decides_again(const Settings& settings);
 
@@ -46,7 +49,9 @@ class SubstepClock {
  public:
   /// @param r largest k_i/M_ii at the start of the frame [1/s^2]
   /// @param r_rotation bound of the rotation criterion [1/s^2]
-  SubstepClock(const Settings& settings, double h, double r, double r_rotation = 0.0);
+  /// @param r_least held throughout the frame [1/s^2]
+  SubstepClock(const Settings& settings, double h, double r, double r_rotation = 0.0,
+               double r_least = 0.0);
 
   [[nodiscard]] bool running() const { return left_ > 0; }
   [[nodiscard]] double dt() const { return dt_; }   ///< [s]
@@ -62,6 +67,8 @@ class SubstepClock {
   [[nodiscard]] double r() const { return r_; }
   [[nodiscard]] int n_wanted() const { return n_wanted_; }
   [[nodiscard]] bool capped() const { return capped_; }
+  /// True if a sub-step was longer than its own r allows, and more sub-steps are possible.
+  [[nodiscard]] bool exceeded() const { return exceeded_ && !capped_; }
 
  private:
   void decide();
@@ -71,11 +78,13 @@ class SubstepClock {
   double rest_;  // unscheduled part of the frame [s]
   double r_;
   double r_rotation_;
+  double r_least_;
   double dt_ = 0.0;
   int left_ = 1;   // sub-steps planned for rest_
   int taken_ = 0;  // sub-steps taken in this frame
   int n_wanted_ = 1;
   bool capped_ = false;
+  bool exceeded_ = false;
 };
 
 }  // namespace substep

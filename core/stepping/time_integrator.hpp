@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "core/constraints/joint_stage.hpp"
+#include "core/constraints/moved_rows.hpp"
 #include "core/stepping/substep.hpp"
 
 namespace substep {
@@ -28,6 +29,8 @@ class TimeIntegrator {
   /// True if accelerations must not be extrapolated across the force of this contact. A resolved
   /// spring causes no impact.
   [[nodiscard]] virtual bool breaks_motion(const Block& contact) const;
+  /// The motions that move_poses() will make after this solve. @param motions out, per moving body
+  virtual void predict_motions(const Substep& sub, const State& state, Motions& motions) const = 0;
   /// Completes the velocities after the solve.
   virtual void settle(Substep& sub, State& state) = 0;
   /// Adds rates to a force that is stored for the next sub-step.

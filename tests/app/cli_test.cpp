@@ -294,7 +294,7 @@ TEST(CommandLine, EverySettingIsAFlag) {
       "--warm-start --forces mean --refinements 2 --pivots 4 "
       "--mode "
       "capped --alpha 0.2 --n 5 --n-max 6 --n-cap 7 --alpha-m 0.5 --beta 0.8 --policy substep "
-      "--memory 0.5 --islands --sleep --no-probe "
+      "--memory 0.5 --hold 9 --redo --islands --sleep --no-probe "
       "--integrator leapfrog --gyroscopic explicit --drift full --tau 0.01 --drift-order 2 "
       "--detection frame --contact-stiffness exact --no-rotation-criterion --friction-cone cone "
       "--watch-stiffness");
@@ -302,7 +302,7 @@ TEST(CommandLine, EverySettingIsAFlag) {
   const Json expected = Json::parse(
       R"({"solver": "pgs", "iterations": 3, "share_iterations": true,
           "warm_start": true, "forces": "mean", "refinements": 2, "pivots": 4, "mode": "capped", "alpha": 0.2, "n": 5, "n_max": 6, "n_cap": 7, "alpha_m": 0.5, "beta": 0.8,
-          "policy": "substep", "memory": 0.5, "islands": true, "sleep": true, "probe": false, "integrator": "leapfrog",
+          "policy": "substep", "memory": 0.5, "hold": 9, "redo": true, "islands": true, "sleep": true, "probe": false, "integrator": "leapfrog",
           "gyroscopic": "explicit", "drift": "full", "tau": 0.01, "drift_order": 2,
           "detection": "frame", "contact_stiffness": "exact", "rotation_criterion": false,
           "friction_cone": "cone", "watch_stiffness": true})");

@@ -194,7 +194,7 @@ TEST(Recommended, IsTheCheapestWithinTheError) {
 TEST(Recommended, IsThePresetOfItsScene) {
   const Scene scene = with_recommended(scenes::pendulum(), some_recommended());
   const auto presets = presets_for(scene);
-  ASSERT_EQ(presets.size(), 3U);
+  ASSERT_EQ(presets.size(), 4U);
   EXPECT_EQ(presets[1].settings, some_recommended().settings);
   EXPECT_EQ(presets[1].about,
             "For this scene: keeps the path within 1 mm over 2 s, for 1.2 thousand solver "

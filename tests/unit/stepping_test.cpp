@@ -5,6 +5,7 @@
 #include "core/stepping/drift.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/full_stiffness.hpp"
+#include "core/stepping/held_stiffness.hpp"
 #include "core/stepping/substep_clock.hpp"
 #include "core/stepping/time_integrator.hpp"
 #include "tests/unit/support.hpp"
@@ -91,6 +92,56 @@ TEST(SubstepClock, PerSubstepTheMemoryDecays) {
   EXPECT_GT(clock.dt(), first);
   clock.advance(8e5);
   EXPECT_DOUBLE_EQ(clock.r(), 8e5);
+}
+
+TEST(SubstepClock, HoldsTheLeastStiffnessThroughTheFrame) {
+  Settings settings;
+  settings.policy = Policy::kSubstep;
+  settings.memory = 0.0;
+  const double r = 4.0 * settings.alpha * 100.0 / (kFrame * kFrame);  // needs 10 sub-steps
+  SubstepClock clock(settings, kFrame, 0.0, 0.0, r);
+  int taken = 0;
+  for (; clock.running(); clock.advance(0.0)) ++taken;
+  EXPECT_EQ(taken, 10);
+}
+
+TEST(SubstepClock, ReportsASubstepThatWasTooLong) {
+  Settings settings;
+  settings.redo = true;
+  const double r = 4.0 * settings.alpha * 100.0 / (kFrame * kFrame);  // needs 10 sub-steps
+  const auto exceeded = [&](double at_start, double on_the_way) {
+    SubstepClock clock(settings, kFrame, at_start);
+    while (clock.running()) clock.advance(clock.taken() == 0 ? on_the_way : 0.0);
+    return clock.exceeded();
+  };
+  EXPECT_TRUE(exceeded(0.9 * 0.81 * r, r));
+  EXPECT_FALSE(exceeded(r, r));
+  settings.n_max = 5;  // more are not possible
+  EXPECT_FALSE(exceeded(r, 2.0 * r));
+  settings.n_max = 64;
+  settings.redo = false;
+  EXPECT_FALSE(exceeded(0.5 * r, r));
+}
+
+TEST(HeldStiffness, RisesAtOnceAndFallsAfterOneToTwoWindows) {
+  Settings settings;
+  settings.hold = 5;
+  State state;
+  const int body = 0;
+  const auto after = [&](double r) {
+    hold_stiffness(settings, std::span(&r, 1), state);
+    return held_stiffness(state, std::span(&body, 1));
+  };
+  EXPECT_EQ(after(3.0), 3.0);
+  EXPECT_EQ(after(7.0), 7.0);
+  int frames = 0;
+  while (after(2.0) == 7.0) ++frames;
+  EXPECT_GE(frames, 5);
+  EXPECT_LE(frames, 10);
+  EXPECT_EQ(held_stiffness(state, std::span(&body, 1)), 2.0);
+  EXPECT_EQ(after(9.0), 9.0);
+  settings.hold = 1;
+  EXPECT_EQ(after(1.0), 0.0);  // nothing is held
 }
 
 /// One body with a stiffness, as input of effective_mass().

@@ -23,6 +23,8 @@ inline Settings unusual() {
   s.beta = 0.9;
   s.policy = Policy::kSubstep;
   s.memory = 0.8;
+  s.hold = 12;
+  s.redo = true;
   s.islands = true;
   s.sleep = true;
   s.probe = false;

@@ -1,0 +1,65 @@
+// Joints that hold at the end of a sub-step (drift law exact).
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constraints/grab_rows.hpp"
+#include "core/sim/simulator_impl.hpp"
+
+namespace substep {
+namespace {
+
+constexpr int kMost = 30;  // solves; most sub-steps need two to five
+
+/// The size of a joint, below whose rounding its gap cannot be told from zero [m].
+double size_of(const Block& block) { return block.r_a.norm() + block.r_b.norm(); }
+
+}  // namespace
+
+// SHAKE (Ryckaert, Ciccotti and Berendsen 1977): impulses along the rows at the start of the
+// sub-step, such that joints hold at its end,
+//   phi(q + dt u+) = 0,   u+ = u* + Mt^-1 J^T impulse.
+// One linear solve leaves the gap dt^2/2 phi'' in the poses; its correction in the next sub-step
+// stays in the velocity, as that of a sub-step of another length if N changes. With leapfrog these
+// poses are those of RATTLE (Andersen 1983) for any sequence of lengths, because the projection of
+// the velocities acts along the same rows as the next impulse. This is Newton's method with the
+// matrix of the first solve.
+void Simulator::Impl::close_joints(const Substep& sub, const System& system, SolveReport& solved) {
+  const auto closes = [](const Block& block) { return !block.is_contact() && !is_grab(block); };
+  double last = std::numeric_limits<double>::infinity();
+  for (int solves = 1; solves < kMost && solved.status < SolveStatus::kUnsolved; ++solves) {
+    sub.integrator->predict_motions(sub, state, motions);
+    double largest = 0.0;  // relative to the joint's size, or angle
+    gaps.clear();
+    for (const Block& block : sub.rows) {
+      gaps.emplace_back();
+      if (!closes(block)) continue;
+      double gained[kMaxRows];
+      moved_errors(block, motions.of(block.a), motions.of(block.b), gained);
+      for (int row = 0; row < block.rows; ++row) {
+        if (block.C[row] > 0.0) continue;  // a spring yields
+        const double gap = block.phi[row] + gained[row];
+        gaps.back().of[row] = gap;
+        const double size = row < block.position_rows ? size_of(block) : 1.0;
+        largest = std::max(largest, size > 0.0 ? std::abs(gap) / size : 0.0);
+      }
+    }
+    constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
+    if (largest <= kRounding || !(largest < 0.5 * last)) return;
+    last = largest;
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+      Block& block = sub.rows[i];
+      if (!closes(block)) continue;
+      for (int row = 0; row < block.rows; ++row) block.bias[row] += gaps[i].of[row] / sub.dt;
+    }
+    copy(u_star, state.u);
+    const SolveReport again = solver->find_velocities_again(system, sub.settings);
+    solved.status = std::max(solved.status, again.status);
+    solved.pivots += again.pivots;
+    solved.passes += again.passes;
+    solved.factorisations += again.factorisations;
+    solved.flops += again.flops;
+  }
+}
+
+}  // namespace substep

@@ -12,7 +12,7 @@ constexpr std::size_t kMostCheckpoints = 200;
 
 void add_frame(Cost& cost, const FrameReport& report) {
   ++cost.frames;
-  cost.substeps += report.n_substeps;
+  cost.substeps += report.n_substeps + report.n_discarded;
   cost.seconds += report.times.total;
 }
 

@@ -56,7 +56,7 @@ class Run {
     if (exam_.needs_forces) report = look_ahead();
     // A frame with one sub-step is complete here.
     if (!exam_.needs_forces || simulator_.substeps_left() > 0) report = simulator_.step();
-    row_.substeps += report.n_substeps;
+    row_.substeps += report.n_substeps + report.n_discarded;
     row_.status = stop_text(exam_.scene, report);
     if (row_.status.empty() && !exam_.needs_forces) look(simulator_.state(), report, {});
   }

@@ -65,7 +65,7 @@ void Measure::add(const Scene& scene, const State& state, const FrameReport& rep
                   double seconds) {
   verdict_.add(scene, state, report);
   ++work_.frames;
-  work_.substeps += report.n_substeps;
+  work_.substeps += report.n_substeps + report.n_discarded;
   work_.solves += report.work.solves;
   work_.row_updates += report.work.row_updates;
   work_.factorisations += report.work.factorisations;

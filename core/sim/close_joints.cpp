@@ -45,12 +45,19 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
       }
     }
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
-    if (largest <= kRounding || !(largest < 0.5 * last)) return;
+    if (largest <= kRounding) return;
+    const bool goes_on = largest < 0.5 * last;
+    if (!goes_on && !(largest > last)) return;
+    // A rotation too large for Newton's method opens joints further: the solve before was better.
+    const double sign = goes_on ? 1.0 : -1.0;
+    if (goes_on) std::swap(gaps, corrected);
     last = largest;
-    for (std::size_t i = 0; i < gaps.size(); ++i) {
+    for (std::size_t i = 0; i < corrected.size(); ++i) {
       Block& block = sub.rows[i];
       if (!closes(block)) continue;
-      for (int row = 0; row < block.rows; ++row) block.bias[row] += gaps[i].of[row] / sub.dt;
+      for (int row = 0; row < block.rows; ++row) {
+        block.bias[row] += sign * corrected[i].of[row] / sub.dt;
+      }
     }
     copy(u_star, state.u);
     const SolveReport again = solver->find_velocities_again(system, sub.settings);
@@ -59,6 +66,9 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
     solved.passes += again.passes;
     solved.factorisations += again.factorisations;
     solved.flops += again.flops;
+    solved.memory_needed = again.memory_needed;
+    solved.work_needed = again.work_needed;
+    if (!goes_on) return;
   }
 }
 

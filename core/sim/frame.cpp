@@ -112,6 +112,7 @@ void Simulator::Impl::begin_again_if_exceeded(FrameReport& report) {
   first_block = first_force = 0;
   rotation_matrices(all.bodies, state, current.R_WB);
   index_of_last_frame.clear();
+  report.n_discarded += report.n_substeps;
   report.n_substeps = 0;
   report.dt_min = report.dt_max = 0.0;
   report.asleep = 0;

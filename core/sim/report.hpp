@@ -121,6 +121,7 @@ struct FrameReport {
   int asleep = 0;       // bodies of sleeping islands, not stepped in this frame
   int n_wanted = 1;     // by Eq. 11 before the cap
   int attempts = 1;     // at this frame: Settings::redo
+  int n_discarded = 0;  // sub-steps of all attempts but the last; maximum over islands of each
   bool capped = false;  // n_wanted exceeded the cap
   double dt_min = 0.0;  // shortest sub-step [s]
   double dt_max = 0.0;  // longest sub-step [s]

@@ -40,6 +40,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   u_star.resize(n);
   motions.resize(n);
   gaps.reserve(n_blocks);
+  corrected.reserve(n_blocks);
   if (effects.gyroscopic) resize_torques(state);
 }
 

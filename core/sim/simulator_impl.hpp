@@ -181,6 +181,7 @@ struct Simulator::Impl {
   std::vector<Vec6> u_star;             // before the rows act, if solves are repeated
   Motions motions;                      // of the sub-step, likewise
   std::vector<RowGaps> gaps;            // likewise, per block
+  std::vector<RowGaps> corrected;       // by the last of them
   StiffnessLeader bound;
   StageClock clock;
 };

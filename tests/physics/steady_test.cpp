@@ -207,8 +207,8 @@ TEST(Steady, KeepsTheEnergyOfMechanisms) {
 
 // A smaller alpha is no cure.
 TEST(Steady, ThePapersRuleGainsEnergyAtEveryAlpha) {
-  for (const Scene& scene : {crank_rocker(Quat::Identity()), thrown_rope(),
-                             chain_in_space({0.2, 0.2, 0.2}, 6)}) {
+  for (const Scene& scene :
+       {crank_rocker(Quat::Identity()), thrown_rope(), chain_in_space({0.2, 0.2, 0.2}, 6)}) {
     SCOPED_TRACE(scene.name);
     for (const double alpha : {0.1, 0.05, 0.025}) {
       Settings settings;
@@ -245,7 +245,7 @@ TEST(Steady, AFrameTakenAgainIsOneOfMoreSubsteps) {
     const FrameReport report = simulator.step();
     if (report.attempts == 1) continue;
     ++again;
-    EXPECT_GT(report.work.solves, report.n_substeps);
+    EXPECT_EQ(report.work.solves, report.n_substeps + report.n_discarded);
     Settings fixed = steady();
     fixed.mode = Mode::kConst;
     fixed.n = report.n_substeps;

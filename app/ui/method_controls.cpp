@@ -96,7 +96,7 @@ class MethodChoices {
   std::vector<Choice> choices_;
 };
 
-// Presets of all settings.
+// Presets of all settings, over the whole width: four do not fit beside a label.
 void preset_row(const Look& look, const Scene& scene, Settings& s) {
   const std::vector<Preset> presets = presets_for(scene);
   std::vector<Choice> choices;
@@ -107,7 +107,7 @@ void preset_row(const Look& look, const Scene& scene, Settings& s) {
     if (same == s) current = static_cast<int>(choices.size());
     choices.push_back({preset.name.data(), preset.about.c_str()});
   }
-  if (segmented_row(look, "Preset", choices, current, "All settings of the method at once.")) {
+  if (segmented(look, "Preset", choices, current, ImGui::GetContentRegionAvail().x)) {
     const bool watched = s.watch_stiffness;
     s = presets[static_cast<std::size_t>(current)].settings;
     s.watch_stiffness = watched;

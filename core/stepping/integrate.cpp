@@ -16,7 +16,9 @@ void integrate(const Part& part, double dt, std::span<const Vec6> u, State& stat
     const Vec3 v = q.vec();
     Eigen::Vector4d turned;  // x, y, z, w
     turned << (v + q.w() * half) + half.cross(v), q.w() - half.dot(v);
-    q.coeffs() = (1.0 / turned.norm()) * turned;
+    double length = turned.norm();
+    if (!std::isfinite(length)) length = turned.stableNorm();  // the squares overflow first
+    if (std::isfinite(length)) q.coeffs() = (1.0 / length) * turned;
   }
 }
 

@@ -89,11 +89,15 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
   if (work.solves - work.impacts > substeps + 1) return "a solve per sub-step, and the probe";
   if (work.impacts > 200 * substeps) return "impacts are bounded";
   if (!(report.n_mean <= report.n_substeps)) return "the mean N is no more than the largest";
-  // Newton solves with BPP in each of its iterations, and so does each refinement.
+  // Newton solves with BPP in each of its iterations, and so do each refinement and each of at most
+  // 30 solves that close joints. Impacts are solved with BPP, but with PGS by PGS.
+  const int of_bpp = 1 + settings.refinements;
+  const int of_joints = settings.drift == Drift::kExact ? 30 : 1;
   const int of_a_solve = settings.solver == SolverKind::kNewton ? settings.iterations
-                         : settings.solver == SolverKind::kBpp  ? 1 + settings.refinements
+                         : settings.solver == SolverKind::kBpp  ? of_joints * of_bpp
                                                                 : 1;
-  const std::int64_t linear = work.solves * of_a_solve;
+  const std::int64_t linear =
+      (work.solves - work.impacts) * of_a_solve + std::int64_t{work.impacts} * of_bpp;
   if (work.passes > 4 * linear) return "at most four passes a linear solve";
   // bpp.hpp: `pivots` block pivots a pass, then single ones, of which 51 end the solve.
   if (work.pivots > linear * (4L * settings.pivots + 51)) return "pivots are bounded";

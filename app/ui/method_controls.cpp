@@ -37,7 +37,7 @@ constexpr std::array<Choice, 4> kDrifts{
       "no energy. This project's."},
      {"exact",
       "Joints hold at the end of every sub-step, by repeated solves (SHAKE, Ryckaert et al. 1977): "
-      "no correction stays in the velocities. With BPP."}}};
+      "no correction stays in the velocities. BPP with Euler or leapfrog; others are full."}}};
 
 constexpr std::array<Choice, 2> kContactStiffnesses{
     {{"paper",
@@ -252,8 +252,9 @@ void finer_points(const Look& look, const Effects& effects, Settings& s) {
       s.drift_tau = 1e-3 * tau_ms;
     }
   }
-  // Störmer's joints target the end of the sub-step and need no correction.
-  const bool aimed = follows_accelerations(s) && drift_law(s) == Drift::kFull;
+  // Joints that hold at the end of the sub-step need no correction: exact ones, and Störmer's.
+  const bool aimed =
+      drift_law(s) == Drift::kExact || (follows_accelerations(s) && drift_law(s) == Drift::kFull);
   if (effects.joints && !aimed) {
     bool second = s.drift_order == 2;
     checkbox(look, "Correct for curvature", second,

@@ -157,6 +157,10 @@ void check_carried(const Carried& carried, const Scene& scene, const std::string
                pointer_to(pointer, "r"), problems);
   check_number(carried.rotation_age, not_negative(10.0, "s"), pointer_to(pointer, "rotation_age"),
                problems);
+  if (carried.held_frames < 0) {
+    problems.push_back({pointer_to(pointer, "held_frames"),
+                        must_be("at least 0", std::to_string(carried.held_frames))});
+  }
   Lists lists(pointer, scene.bodies.size(), problems);
   lists.required("u", carried.u);
   lists.optional("k", carried.k);

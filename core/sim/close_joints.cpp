@@ -9,7 +9,8 @@
 namespace substep {
 namespace {
 
-constexpr int kMost = 30;  // solves; most sub-steps need two to five
+constexpr int kMost = 30;                // solves
+constexpr double kNearRounding = 1e-12;  // of gaps, relative to the size of a joint
 
 /// The size of a joint, below whose rounding its gap cannot be told from zero [m].
 double size_of(const Block& block) { return block.r_a.norm() + block.r_b.norm(); }
@@ -46,7 +47,8 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
     }
     constexpr double kRounding = 8.0 * std::numeric_limits<double>::epsilon();
     if (largest <= kRounding) return;
-    const bool goes_on = largest < 0.5 * last;
+    // Near a singular pose it converges slowly; near rounding a small gain is noise.
+    const bool goes_on = largest < (largest > kNearRounding ? 0.9 : 0.5) * last;
     if (!goes_on && !(largest > last)) return;
     // A rotation too large for Newton's method opens joints further: the solve before was better.
     const double sign = goes_on ? 1.0 : -1.0;

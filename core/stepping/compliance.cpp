@@ -131,7 +131,7 @@ void set_springs(const Substep& sub, const State& state) {
   const bool averages = averages_springs(sub.settings);  // else plain Eq. 3
   const bool of_joints = sub.has_springs && (averages || springs_are_stored(sub));
   const bool of_contacts = averages && sub.scene->contact.compliance >= kSoftContact &&
-                           drift_law(sub.settings) == Drift::kFull;
+                           drift_law(sub.settings) != Drift::kSoft;
   if (!of_joints && !of_contacts) return;
   for (Block& block : sub.rows) {
     if (block.is_contact()) {

@@ -109,7 +109,7 @@ void spoil_joint(test::Random& random, Joint& joint) {
 }
 
 void spoil_settings(test::Random& random, Settings& settings) {
-  switch (whole_number(random, 0, 5)) {
+  switch (whole_number(random, 0, 6)) {
     case 0:
       settings.alpha = any_number(random);
       break;
@@ -124,6 +124,9 @@ void spoil_settings(test::Random& random, Settings& settings) {
       break;
     case 4:
       settings.memory = any_number(random);
+      break;
+    case 5:
+      settings.hold = whole_number(random, -3, 3);
       break;
     default:
       settings.drift_tau = any_number(random);
@@ -155,7 +158,7 @@ void spoil(test::Random& random, Scene& scene) {
 
 void spoil(test::Random& random, State& state) {
   const auto size = index(whole_number(random, 0, 9));
-  switch (whole_number(random, 0, 9)) {
+  switch (whole_number(random, 0, 11)) {
     case 0:
       state = State{};
       break;
@@ -182,6 +185,12 @@ void spoil(test::Random& random, State& state) {
       break;
     case 8:
       state.dt_previous = any_number(random);
+      break;
+    case 9:
+      state.held.resize(size);
+      break;
+    case 10:
+      state.held_frames = whole_number(random, -3, 3);
       break;
     default:
       state.torque.resize(size, Vec3::Zero());

@@ -55,6 +55,8 @@ constexpr FrameColumn kFrameColumns[] = {
     {"frame", "completed frames [-]", report<&FrameReport::frame>},
     {"time", "at the end of the frame [s]", report<&FrameReport::time>},
     {"substeps", "sub-steps N of this frame [-]", report<&FrameReport::n_substeps>},
+    {"discarded", "sub-steps of attempts at this frame that were discarded [-]",
+     report<&FrameReport::n_discarded>},
     {"substeps_mean", "mean of the sub-steps per body [-]", report<&FrameReport::n_mean>},
     {"islands", "number of islands; 0: not determined [-]", report<&FrameReport::islands>},
     {"asleep", "sleeping bodies, which no sub-step moves [-]", report<&FrameReport::asleep>},

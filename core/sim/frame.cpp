@@ -105,8 +105,7 @@ void Simulator::Impl::begin_frame() {
   open = report;
 }
 
-void Simulator::Impl::begin_again_if_exceeded(FrameReport& report) {
-  if (schedule.running() || !schedule.exceeded()) return;
+void Simulator::Impl::begin_again(FrameReport& report) {
   state = before_frame;
   contacts_predicted = false;
   first_block = first_force = 0;
@@ -183,16 +182,18 @@ RotationBound Simulator::Impl::rotation_bound(std::span<const int> bodies) const
   return heeds_rotation() ? rotation->bound(*scene, bodies, state) : RotationBound{};
 }
 
-double Simulator::Impl::r_rotation_again() {
-  const std::vector<int>& moving = schedule.part().moving;
-  if (watches_substeps(settings) && heeds_rotation()) {
-    for (const int body : moving) {
-      double& most = r_in_frame[index(body)];
-      most = std::max(most, rotation_bound({&body, 1}).r);
-    }
+double Simulator::Impl::watch_substep() {
+  const bool watches = watches_substeps(settings);
+  if (!watches && !decides_again(settings)) return 0.0;
+  double most = 0.0;
+  for (const int body : schedule.part().moving) {
+    const double r_rotation = rotation_bound({&body, 1}).r;
+    most = std::max(most, r_rotation);
+    if (!watches) continue;
+    double& r = r_in_frame[index(body)];
+    r = std::max({r, r_rotation, StiffnessStage::bound(*scene, {&body, 1}, state.k).r});
   }
-  const bool reads = decides_again(settings) || watches_substeps(settings);
-  return reads ? rotation_bound(moving).r : 0.0;
+  return most;
 }
 
 FrameReport Simulator::Impl::refusal() {
@@ -221,10 +222,7 @@ void Simulator::Impl::carry_to_next_frame(const FrameReport& report) {
   if (report.asleep > 0) keep_forces_at_rest();
   std::swap(state.forces, forces);
   state.r = schedule.r();
-  if (watches_substeps(settings))
-    hold_stiffness(settings, r_in_frame, state);
-  else if (!state.held.empty())
-    state.held.clear();
+  hold_stiffness(settings, r_in_frame, state);
   state.stiffness_known = report.stages.stiffness;
   if (state.stiffness_known) return;
   state.k.clear();  // outdated

@@ -33,6 +33,10 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   blocks.reserve(n_blocks);
   solver->reserve(n, n_blocks);
   state.forces.reserve(n_blocks);
+  before_frame.forces.reserve(n_blocks);
+  before_frame.k.reserve(n);
+  before_frame.own.reserve(n);
+  before_frame.held.reserve(n);
   forces.reserve(n_blocks);
   index_of_last_frame.reserve(n_blocks);
   index_of_part.reserve(n_blocks);

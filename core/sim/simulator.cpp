@@ -24,8 +24,8 @@ FrameReport Simulator::Impl::advance(Share share) {
     if (schedule.clock().needs_stiffness() && !evaluate_stiffness(sub, report)) break;
     advance_poses(sub, report);
     spent += static_cast<double>(report.work.flops - before) + work_beside_solver(sub);
-    schedule.advance(bound.r, r_rotation_again());  // re-evaluates N with policy substep
-    begin_again_if_exceeded(report);
+    schedule.advance(bound.r, watch_substep());  // re-evaluates N with policy substep
+    if (!schedule.running() && schedule.exceeded()) begin_again(report);  // with a larger N
   }
   return end(wall, share.whole());
 }

@@ -119,11 +119,12 @@ struct Simulator::Impl {
   void schedule_substeps(FrameReport& report);  // of the next frame
   void schedule_islands(FrameReport& report);
   SubstepClock clock_of(std::span<const int> moving, double r, double r_rotation) const;
-  /// With Settings::redo, starts the frame again if one of its sub-steps was too long.
-  void begin_again_if_exceeded(FrameReport& report);
-  bool heeds_rotation() const;                                      // true if N depends on rotation
+  void begin_again(FrameReport& report);  // the frame, with the N that r_in_frame requires
+  bool heeds_rotation() const;            // true if N depends on rotation
   RotationBound rotation_bound(std::span<const int> bodies) const;  // zero if the setting is off
-  double r_rotation_again();  // of the part, if it is needed after every sub-step
+  /// Updates r_in_frame after a sub-step. @return bound of the rotation criterion at its end, 0 if
+  /// nothing reads it [1/s^2]
+  double watch_substep();
   bool is_at_rest(std::span<const int> island) const;
   void put_to_rest(std::span<const int> island);
   void keep_forces_at_rest();

@@ -243,12 +243,6 @@ bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report
 
 // r per body, because islands merge and split.
 void Simulator::Impl::remember_stiffness(const Part& part) {
-  if (watches_substeps(settings) && !r_in_frame.empty()) {
-    for (const int body : part.moving) {
-      double& most = r_in_frame[index(body)];
-      most = std::max(most, StiffnessStage::bound(*scene, {&body, 1}, state.k).r);
-    }
-  }
   if (state.own.empty()) return;
   for (const int body : part.bodies) {
     double& r = state.own[index(body)].r;

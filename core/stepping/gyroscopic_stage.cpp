@@ -144,41 +144,44 @@ void GyroscopicStage::bend_rows(const Substep& sub) const {
   }
 }
 
-Vec3 GyroscopicStage::settled(const Substep& sub, std::size_t i, const Vec3& omega) const {
-  if (!tumbles(sub, i)) return omega;
+std::optional<Vec3> GyroscopicStage::pushed(const Substep& sub, std::size_t i,
+                                            const Vec3& omega) const {
+  if (!tumbles(sub, i) || spins_[i].damped) return std::nullopt;
   const Vec3& I = sub.scene->bodies[i].inertia;
+  const Vec3 omega_B = sub.R_WB[i].transpose() * omega;
+  const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spins_[i].predicted);
+  if (turns_freely && !loops_bend_) return std::nullopt;
+  return I.cwiseProduct(sub.R_WB[i].transpose() * (omega - sub.u_before[i].tail<3>()));
+}
+
+// From the stored momentum: rotating it back and forth would lose a digit every thousand steps.
+Vec3 GyroscopicStage::settled(const Substep& sub, std::size_t i, const Vec3& omega,
+                              const Vec3& pushed) const {
   const Mat3& R = sub.R_WB[i];
-  const Spin& spin = spins_[i];
-  if (spin.damped) return omega;
-  const Vec3 omega_B = R.transpose() * omega;
-  const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.predicted);
-  if (turns_freely && !loops_bend_) return omega;
-  // From the stored momentum: rotating it back and forth would lose a digit every thousand steps.
-  const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - sub.u_before[i].tail<3>()));
-  return R * velocity_of_momentum(I, spin.momentum + pushed, sub.dt, omega_B);
+  return R * velocity_of_momentum(sub.scene->bodies[i].inertia, spins_[i].momentum + pushed, sub.dt,
+                                  R.transpose() * omega);
+}
+
+Vec3 GyroscopicStage::settled(const Substep& sub, std::size_t i, const Vec3& omega) const {
+  const std::optional<Vec3> impulse = pushed(sub, i, omega);
+  return impulse ? settled(sub, i, omega, *impulse) : omega;
 }
 
 void GyroscopicStage::settle(Substep& sub, State& state) const {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
     if (!tumbles(sub, i)) continue;
-    const Vec3& I = sub.scene->bodies[i].inertia;
-    const Mat3& R = sub.R_WB[i];
-    const Spin& spin = spins_[i];
-    auto omega = state.u[i].tail<3>();
-    const Vec3 omega_B = R.transpose() * omega;
     state.torque[i].setZero();
     state.torque_change[i].setZero();
-    if (spin.damped) continue;
-    const bool turns_freely = is_zero(gyroscopic_torque(I, omega_B)) && is_zero(spin.predicted);
-    if (turns_freely && !loops_bend_) continue;
-    const Vec3 pushed = I.cwiseProduct(R.transpose() * (omega - sub.u_before[i].tail<3>()));
+    auto omega = state.u[i].tail<3>();
+    const std::optional<Vec3> impulse = pushed(sub, i, omega);
+    if (!impulse) continue;
     if (sub.smooth) {
-      state.torque[i] = R * (1.0 / sub.impulse_time[i] * pushed);
+      state.torque[i] = sub.R_WB[i] * (1.0 / sub.impulse_time[i] * *impulse);
     }
-    const Vec3 settled_omega = settled(sub, i, omega);
-    sub.u_before[i].tail<3>() += settled_omega - omega;  // keeps the impulse unchanged
-    omega = settled_omega;
+    const Vec3 exact = settled(sub, i, omega, *impulse);
+    sub.u_before[i].tail<3>() += exact - omega;  // keeps the impulse unchanged
+    omega = exact;
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/stepping/substep.hpp"
@@ -32,7 +33,7 @@ class GyroscopicStage {
   void begin(const Substep& sub, State& state);
   /// Sets up ("bends") rows of joints for the predicted rotation of their bodies.
   void bend_rows(const Substep& sub) const;
-  /// The angular velocity with the exact momentum. @param omega after the solve, world [rad/s]
+  /// The angular velocity that settle() will set. @param omega after the solve, world [rad/s]
   [[nodiscard]] Vec3 settled(const Substep& sub, std::size_t body, const Vec3& omega) const;
   /// Solves for the angular velocity with the exact momentum, after the solve.
   void settle(Substep& sub, State& state) const;
@@ -51,6 +52,12 @@ class GyroscopicStage {
     bool damped = false;            // its momentum is not kept
   };
   void predict(const Substep& sub, std::size_t body, bool damps, State& state);
+  /// Angular impulse since begin() about the principal axes [N m s], if the momentum determines the
+  /// rotation. @param omega after the solve, world [rad/s]
+  [[nodiscard]] std::optional<Vec3> pushed(const Substep& sub, std::size_t body,
+                                           const Vec3& omega) const;
+  [[nodiscard]] Vec3 settled(const Substep& sub, std::size_t body, const Vec3& omega,
+                             const Vec3& pushed) const;
 
   std::vector<Spin> spins_;  // per body, of what tumbles
   bool loops_bend_ = false;  // the rows of all joints are bent in this sub-step

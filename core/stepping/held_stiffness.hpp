@@ -6,6 +6,7 @@
 
 #include "core/model/settings.hpp"
 #include "core/model/state.hpp"
+#include "core/stepping/substep_clock.hpp"
 
 namespace substep {
 
@@ -25,9 +26,10 @@ inline double held_stiffness(const State& state, std::span<const int> bodies) {
   return most;
 }
 
-/// Stores the largest r of the frame that has ended. @param r per body [1/s^2]
+/// Stores the largest r of the frame that has ended; forgets all if N is not held. @param r per
+/// body [1/s^2]
 inline void hold_stiffness(const Settings& settings, std::span<const double> r, State& state) {
-  if (settings.hold == 1) {
+  if (settings.hold == 1 || !chooses_substeps(settings.mode)) {
     state.held.clear();
     state.held_frames = 0;
     return;

@@ -71,8 +71,7 @@ bool SubstepClock::needs_stiffness() const {
 void SubstepClock::advance(double r, double r_rotation) {
   r_rotation_ = r_rotation;
   if (chooses_substeps(settings_.mode) && settings_.redo) {
-    constexpr double kRounding =
-        1e-9;  // else the same number of sub-steps could be asked for again
+    constexpr double kRounding = 1e-9;  // without it the same N could be required again
     exceeded_ = exceeded_ ||
                 dt_ > (1.0 + kRounding) * stable_step(settings_.alpha, std::max(r, r_rotation));
   }

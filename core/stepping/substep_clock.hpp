@@ -19,7 +19,7 @@ double stable_step(double alpha, double r);
 /// True if N is determined by r.
 bool chooses_substeps(Mode mode);
 
-/// True if every sub-step's r is needed: N is held, or a frame may be taken again.
+/// True if the r of every sub-step is needed: N is held, or a frame may be taken again.
 bool watches_substeps(const Settings& settings);
 
 /// True if N is re-evaluated after every sub-step.

@@ -11,7 +11,6 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kLinkageGravity = 9.81;
 /// Both loops have redundant hinge rows: six in the planar four-bar, one in Bricard's mechanism.
 /// They are exact: a compliance of 1e-16 m/N, which would distribute the force among them, causes
 /// an error of 3e-6 m when the four-bar passes its singular pose.
@@ -43,7 +42,7 @@ Body rod(const std::string& name, int axis, const Vec3& centre) {
 //      rods follow without rotation: (3 (1/3) + 2) theta'' = (3/2 + 2) g sin theta.
 
 ExactPendulum four_bar_turn() {
-  return ExactPendulum::over_the_top(std::sqrt(3.5 * kLinkageGravity / 3.0), 1.0);
+  return ExactPendulum::over_the_top(std::sqrt(3.5 * kExamGravity / 3.0), 1.0);
 }
 
 ExamMotion four_bar_motion() {
@@ -115,7 +114,7 @@ ExamCase exam_four_bar() {
       10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
-  scene.gravity = {0.0, -kLinkageGravity, 0.0};
+  scene.gravity = {0.0, -kExamGravity, 0.0};
   scene.camera.eye = {1.0, 0.5, 6.0};
   scene.camera.target = {1.0, 0.0, 0.0};
   for (int i = 0; i < 3; ++i) {
@@ -161,7 +160,7 @@ ExamCase exam_bricard() {
       10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
-  scene.gravity = {0.0, -kLinkageGravity, 0.0};
+  scene.gravity = {0.0, -kExamGravity, 0.0};
   scene.camera.eye = {3.0, 1.5, 4.0};
   scene.camera.target = {0.5, -0.5, 0.5};
   for (int i = 0; i < Bricard::kRods; ++i) {

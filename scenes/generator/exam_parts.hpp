@@ -12,6 +12,8 @@
 
 namespace substep::scenes {
 
+inline constexpr double kExamGravity = 9.81;  // [m/s^2]
+
 /// A case and its empty scene, with the same name and texts.
 /// @param duration, frame [s]
 inline ExamCase exam_case(const std::string& name, const std::string& title,

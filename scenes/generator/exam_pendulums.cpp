@@ -17,8 +17,7 @@ constexpr double kRightAngle = 0.5 * std::numbers::pi;
 //      with I about the centre and a the centre's distance, I + m a^2 = m a L, the rigid body moves
 //      as the point mass at L does. This avoids the limit of a body without inertia.
 
-constexpr double kPendulumLength = 1.0;  // L [m]
-constexpr double kPendulumGravity = 9.81;
+constexpr double kPendulumLength = 1.0;                           // L [m]
 constexpr double kBallRadius = 0.05;                              // [m]
 constexpr double kBallInertia = 0.4 * kBallRadius * kBallRadius;  // of 1 kg [kg m^2]
 
@@ -29,7 +28,7 @@ double centre_distance() {
 
 ExamMeasure measure_simple_pendulum() {
   const ExactPendulum exact =
-      ExactPendulum::released(std::sqrt(kPendulumGravity / kPendulumLength), kRightAngle);
+      ExactPendulum::released(std::sqrt(kExamGravity / kPendulumLength), kRightAngle);
   const Vec3 P_B{centre_distance() - kPendulumLength, 0.0, 0.0};
   const Vec3 published{-0.27508746258, -0.96141920510, 0.0};  // after 10 s
   return [=](const ExamView& view, std::span<double> errors) {
@@ -44,7 +43,7 @@ ExamMeasure measure_simple_pendulum() {
 
 ExamMotion simple_pendulum_motion() {
   const ExactPendulum exact =
-      ExactPendulum::released(std::sqrt(kPendulumGravity / kPendulumLength), kRightAngle);
+      ExactPendulum::released(std::sqrt(kExamGravity / kPendulumLength), kRightAngle);
   return [exact](double t, std::vector<Vec3>& x, std::vector<Quat>& q) {
     const double angle = exact.at(t).angle;
     x[0] = -centre_distance() * Vec3(std::sin(angle), std::cos(angle), 0.0);
@@ -144,7 +143,7 @@ ExamCase exam_simple_pendulum() {
                 10.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
-  scene.gravity = {0.0, -kPendulumGravity, 0.0};
+  scene.gravity = {0.0, -kExamGravity, 0.0};
   scene.camera.eye = {0.0, 0.0, 4.0};
   scene.camera.target = {0.0, -0.5, 0.0};
   Body ball = solid("ball", Sphere{kBallRadius}, 1.0, {-centre_distance(), 0.0, 0.0});

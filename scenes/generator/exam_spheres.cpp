@@ -8,7 +8,6 @@
 namespace substep::scenes {
 namespace {
 
-constexpr double kSphereGravity = 9.81;
 constexpr double kSphereMass = 10.0;   // [kg]
 constexpr double kSphereRadius = 0.1;  // [m]
 
@@ -99,7 +98,7 @@ ExamCase exam_bouncing() {
                             "SimBenchmark: constant energy; its 49 balls move alike", 20.0, 0.1);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
-  scene.gravity = {0.0, -kSphereGravity, 0.0};
+  scene.gravity = {0.0, -kExamGravity, 0.0};
   scene.contact.compliance = 1e-16;  // compliance at an impact takes away speed
   scene.camera.eye = {0.0, 2.5, 10.0};
   scene.camera.target = {0.0, 2.5, 0.0};
@@ -111,13 +110,13 @@ ExamCase exam_bouncing() {
   exam.quantities = {{"mean square energy error", "J^2", 0.0186,
                       "RaiSim's published figure at 1 ms, the best; ODE has 185, Bullet 75,000"}};
   exam.measure = [] {
-    return measure_energy(kSphereMass * kSphereGravity * kSphereHeight, kSphereCount);
+    return measure_energy(kSphereMass * kExamGravity * kSphereHeight, kSphereCount);
   };
   exam.motion = [] {
     return [](double t, std::vector<Vec3>& x, std::vector<Quat>&) {
-      const double fall = std::sqrt(2.0 * (kSphereHeight - kSphereRadius) / kSphereGravity);  // [s]
+      const double fall = std::sqrt(2.0 * (kSphereHeight - kSphereRadius) / kExamGravity);  // [s]
       const double since_top = std::remainder(t, 2.0 * fall);
-      x[1].y() = kSphereHeight - 0.5 * kSphereGravity * since_top * since_top;
+      x[1].y() = kSphereHeight - 0.5 * kExamGravity * since_top * since_top;
     };
   };
   exam.methods = contact_methods(scene.settings, {10, 25, 100});  // 10, 4 and 1 ms
@@ -133,7 +132,7 @@ ExamCase exam_spheres() {
       2.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true};
-  scene.gravity = {0.0, -kSphereGravity, 0.0};
+  scene.gravity = {0.0, -kExamGravity, 0.0};
   add_spheres(scene, 0.0);
   exam.quantities = {{"mean squared overlaps", "m^2", 1.35e-4,
                       "RaiSim's published figure at 1 ms, the best; ODE has 1.5e-4, DART 2.8e-4, "
@@ -150,7 +149,7 @@ ExamCase exam_elastic_spheres() {
                 "SimBenchmark: constant energy; its runs take 10 s, these 2 s", 2.0, 0.016);
   Scene& scene = exam.scene;
   scene.effects = {.gravity = true, .contact = true, .restitution = true};
-  scene.gravity = {0.0, -kSphereGravity, 0.0};
+  scene.gravity = {0.0, -kExamGravity, 0.0};
   scene.contact.compliance = 1e-16;
   scene.contact.restitution_speed = 0.0;
   // The distance by which two spheres approach in 4 ms: contacts detected late are pushed apart.
@@ -158,7 +157,7 @@ ExamCase exam_elastic_spheres() {
   add_spheres(scene, 1.0);
   double energy = 0.0;
   for (const Body& body : scene.bodies) {
-    if (!body.is_static) energy += body.mass * kSphereGravity * body.position.y();
+    if (!body.is_static) energy += body.mass * kExamGravity * body.position.y();
   }
   exam.quantities = {{"mean square energy error", "J^2", 8.4,
                       "RaiSim's published figure at 1 ms, the best; ODE has 112, Bullet 41,000"}};

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/io/scene_reader.hpp"
+#include "core/lab/presets.hpp"
 #include "core/model/names.hpp"
 #include "core/sim/simulator.hpp"
 #include "scenes/generator/exam.hpp"
@@ -100,6 +101,17 @@ TEST(BodiesInSpaceLoopsAndCones, AllocateNothingAfterTheFirstFrame) {
     const Settings settings{.solver = solver, .friction_cone = FrictionCone::kCone};
     EXPECT_EQ(allocated("bridge", settings), 0) << name_of(solver);
   }
+}
+
+// Frames are taken again, joints are solved repeatedly, with contacts and islands as well.
+TEST(SteadySubsteps, AllocateNothingAfterTheFirstFrame) {
+  Settings settings = find_preset("steady")->settings;
+  for (const char* name : {"swinging_box", "whirling_chain", "bridge"}) {
+    EXPECT_EQ(allocated(name, settings), 0) << name;
+  }
+  settings.islands = true;
+  settings.policy = Policy::kSubstep;
+  EXPECT_EQ(allocated("bridge", settings), 0);
 }
 
 // Three clocks, and later two.

@@ -51,12 +51,17 @@ constexpr std::array<Choice, 2> kFrictionCones{
      {"cone",
       "Isotropic Coulomb friction: the length of the friction force is at most μ times the normal "
       "force."}}};
-constexpr std::array<Choice, 2> kDetections{
+constexpr std::array<Choice, 3> kDetections{
     {{"sub-step", "Detected before every sub-step."},
      {"frame",
       "Detected once per frame, as far ahead as bodies can travel, and moved with them (Macklin et "
       "al. 2019, Small steps). Fast bodies do not pass through, but changes of features within the "
-      "frame are detected late."}}};
+      "frame are detected late."},
+     {"continuous",
+      "Found along the motion of every sub-step: nothing passes through what it hits or touches "
+      "what "
+      "it misses, rebounds begin where and when bodies meet, and overlaps are parted without "
+      "speed."}}};
 constexpr std::array<Choice, 2> kGyroscopics{
     {{"explicit", "Explicit Euler, as in most engines: gains energy."},
      {"implicit",

@@ -195,6 +195,18 @@ bool edge_point(const EdgePair& edges, const Placed& a, const Vec3& half_a, cons
 
 }  // namespace
 
+BoxAxis separating_axis(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b) {
+  const Mat3 R_BA = b.R.transpose() * a.R;
+  const Vec3 d = a.x - b.x;
+  const Face on_b = best_face(b.R.transpose() * d, R_BA, box_b.half_extents, box_a.half_extents);
+  const Face on_a =
+      best_face(-(a.R.transpose() * d), R_BA.transpose(), box_a.half_extents, box_b.half_extents);
+  const EdgePair edges = best_edges(a, box_a.half_extents, b, box_b.half_extents);
+  if (edges.gap > std::max(on_a.gap, on_b.gap)) return {edges.n, edges.gap};
+  if (on_a.gap > on_b.gap) return {-on_a.sign * a.R.col(on_a.axis), on_a.gap};
+  return {on_b.sign * b.R.col(on_b.axis), on_b.gap};
+}
+
 void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
            ContactPoints& out) {
   const Mat3 R_BA = b.R.transpose() * a.R;

@@ -9,6 +9,12 @@ namespace substep {
 
 namespace {
 
+// Within these parts of a half width shapes touch: the smaller one if they move by more than
+// kSlow half widths in the sub-step, because the normal then turns on the way.
+constexpr double kTouchingSlowly = 1e-2;
+constexpr double kTouchingFast = 1e-4;
+constexpr double kSlow = 0.03;
+
 bool is_box(const Scene& scene, int body) {
   return std::holds_alternative<Box>(scene.bodies[index(body)].shape);
 }
@@ -30,6 +36,10 @@ Detector::Detector(const Scene& scene) : broad_phase_(scene) {
     }
     grounds_.push_back(std::move(ground));
   }
+  for (const Body& body : scene.bodies) {
+    half_width_.push_back(
+        std::visit([](const auto& shape) { return shape.half_width(); }, body.shape));
+  }
   points_.reserve(8 * scene.bodies.size() + 32);
   way_.reserve(scene.bodies.size());
   near_.reserve(12 * scene.bodies.size() + 32);
@@ -44,6 +54,11 @@ void Detector::look_ahead(const Scene& scene, const State& state, double ahead) 
 }
 
 double Detector::margin(const Scene& scene, int i, int j) const {
+  if (touching_) {
+    const double width = half_width(i, j);
+    const bool slow = way_[index(i)] + way_[index(j)] <= kSlow * width;
+    return (slow ? kTouchingSlowly : kTouchingFast) * width;
+  }
   return way_.empty() ? scene.contact.margin
                       : scene.contact.margin + way_[index(i)] + way_[index(j)];
 }
@@ -104,6 +119,41 @@ std::span<const ContactPoint> Detector::detect(const Scene& scene, const Part& p
   way_.clear();
   find(scene, part, state, R_WB, nullptr);
   return points_;
+}
+
+std::span<const ContactPoint> Detector::detect_touching(const Scene& scene, const Part& part,
+                                                        const State& state,
+                                                        std::span<const Mat3> R_WB, double dt) {
+  find_ways(scene, state.u, dt);
+  touching_ = true;
+  find(scene, part, state, R_WB, nullptr);
+  touching_ = false;
+  return points_;
+}
+
+void Detector::find_ways(const Scene& scene, std::span<const Vec6> w, double dt) {
+  way_.clear();
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    way_.push_back(body.is_static ? 0.0 : dt * fastest_point(body, w[i]));
+  }
+}
+
+std::span<const BroadPhase::Pair> Detector::may_meet(const Scene& scene, const Part& part,
+                                                     const State& state, std::span<const Mat3> R_WB,
+                                                     std::span<const Vec6> w, double dt) {
+  find_ways(scene, w, dt);
+  within_reach(scene, part, state, R_WB, way_);
+  for (const Ground& ground : grounds_) {
+    const Vec3 n = R_WB[index(ground.body)].col(1);
+    for (const int body : ground.solids) {
+      if (!part.holds(body)) continue;
+      const double height = n.dot(state.x[index(body)] - state.x[index(ground.body)]);
+      if (height <= broad_phase_.reach(body).dot(n.cwiseAbs()))
+        near_.push_back({body, ground.body});
+    }
+  }
+  return near_;
 }
 
 std::span<const ContactPoint> Detector::predict(const Scene& scene, const Part& part,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,19 @@ class Detector {
   std::span<const ContactPoint> detect_listed(const Scene& scene, const Part& part,
                                               const State& state, std::span<const Mat3> R_WB,
                                               double ahead);
+  /// Contacts with a gap that is small beside the narrower shape. @param dt the sub-step [s]
+  std::span<const ContactPoint> detect_touching(const Scene& scene, const Part& part,
+                                                const State& state, std::span<const Mat3> R_WB,
+                                                double dt);
+  /// Pairs that may meet within a sub-step; the second may be a plane. @param w per body:
+  /// velocities of the motion [m/s, rad/s]  @return valid until the next call
+  std::span<const BroadPhase::Pair> may_meet(const Scene& scene, const Part& part,
+                                             const State& state, std::span<const Mat3> R_WB,
+                                             std::span<const Vec6> w, double dt);
+  /// Half width of the narrower of two shapes [m].
+  [[nodiscard]] double half_width(int i, int j) const {
+    return std::min(half_width_[index(i)], half_width_[index(j)]);
+  }
   /// Per body: travel bound of its points in the look-ahead of the last call [m]; or empty.
   [[nodiscard]] std::span<const double> ways() const { return way_; }
   /// Contact margin of two bodies in the last call [m].
@@ -58,6 +72,7 @@ class Detector {
 
   using Pairs = std::vector<BroadPhase::Pair>;
 
+  void find_ways(const Scene& scene, std::span<const Vec6> w, double dt);
   void look_ahead(const Scene& scene, const State& state, double ahead);
   /// @param boxes out: pairs of boxes within reach, unless null
   void find(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,
@@ -68,7 +83,9 @@ class Detector {
   BroadPhase broad_phase_;
   std::size_t limit_ = static_cast<std::size_t>(Budget{}.contacts);
   std::vector<Ground> grounds_;
-  std::vector<double> way_;  // per body: travel bound of its points [m]; empty: zero
+  std::vector<double> way_;         // per body: travel bound of its points [m]; empty: zero
+  std::vector<double> half_width_;  // per body [m]; of a plane infinite
+  bool touching_ = false;           // only what touches is looked for
   ContactPoints points_;
   Pairs near_;
   Pairs listed_;

@@ -50,6 +50,13 @@ void touch(const Placed& a, const Box& box, const Placed& b, const Plane& plane,
 void touch(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b, double margin,
            ContactPoints& out);
 
+/// Of 15 axes, that along which two boxes are farthest apart.
+struct BoxAxis {
+  Vec3 n = Vec3::UnitY();  // unit, from b to a, world
+  double gap = 0.0;        // < 0 when overlapping [m]
+};
+BoxAxis separating_axis(const Placed& a, const Box& box_a, const Placed& b, const Box& box_b);
+
 /// @param a not a plane: planes are static, and static bodies do not collide with each other
 inline void touch_shapes(const Placed& a, const Shape& shape_a, const Placed& b,
                          const Shape& shape_b, double margin, ContactPoints& out) {

@@ -71,7 +71,8 @@ struct Block {
   Vec3 w = Vec3::Zero();
 
   // For compliant rows, compliance.hpp.
-  double elastic[kMaxRows] = {};       // elastic part of phi [m or rad]
+  double elastic[kMaxRows] = {};  // elastic part of phi [m or rad]
+  double curved = 0.0;            // contact: change of the gap in this sub-step beyond dt J u [m]
   double spring_ahead[kMaxRows] = {};  // w+, 0 if the row is not a spring
   double given[kMaxRows] = {};         // impulse prescribed before the solve [N s or N m s]
   double spring_rest[kMaxRows] = {};   // part of the mean stretch known before the solve [m or rad]

@@ -52,6 +52,15 @@ bool ContactStage::detect_and_append(const Scene& scene, const Part& part, const
   return true;
 }
 
+bool ContactStage::append_touching(const Scene& scene, const Part& part, const State& state,
+                                   std::span<const Mat3> R_WB, double dt, Blocks& blocks) {
+  const std::span<const ContactPoint> points =
+      detector_.detect_touching(scene, part, state, R_WB, dt);
+  if (detector_.too_many()) return false;
+  append(points, scene, state, blocks);
+  return true;
+}
+
 bool ContactStage::predict(const Scene& scene, const Part& part, const State& state,
                            std::span<const Mat3> R_WB, double ahead) {
   const std::span<const ContactPoint> points = detector_.predict(scene, part, state, R_WB, ahead);

@@ -15,6 +15,9 @@ class ContactStage {
   /// @return false if there are too many; then nothing is appended
   bool detect_and_append(const Scene& scene, const Part& part, const State& state,
                          std::span<const Mat3> R_WB, Blocks& blocks);
+  /// Only what touches. @param dt the sub-step [s]  @return as above
+  bool append_touching(const Scene& scene, const Part& part, const State& state,
+                       std::span<const Mat3> R_WB, double dt, Blocks& blocks);
   /// Finds contacts that may form within a time, stored for append_predicted().
   /// @param ahead [s]
   bool predict(const Scene& scene, const Part& part, const State& state, std::span<const Mat3> R_WB,

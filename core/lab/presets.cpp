@@ -55,12 +55,14 @@ std::span<const Preset> presets() {
              {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
       Preset{"steady",
              "Adaptive without a gain of energy: leapfrog, joints that hold exactly, an N that "
-             "falls after a second only, and frames taken again where it was too small.",
+             "falls after a second only, frames taken again where it was too small, and contacts "
+             "found along the motion.",
              {.n_max = 256,
               .hold = 60,
               .redo = true,
               .integrator = Integrator::kLeapfrog,
-              .drift = Drift::kExact}},
+              .drift = Drift::kExact,
+              .detection = Detection::kContinuous}},
   };
   return all;
 }

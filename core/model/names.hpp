@@ -49,7 +49,7 @@ inline constexpr NameList<3> kNames<Forces>{"end", "mean", "numerov"};
 template <>
 inline constexpr NameList<2> kNames<Gyroscopic>{"explicit", "implicit"};
 template <>
-inline constexpr NameList<2> kNames<Detection>{"substep", "frame"};
+inline constexpr NameList<3> kNames<Detection>{"substep", "frame", "continuous"};
 template <>
 inline constexpr NameList<3> kNames<StartPolicy>{"project", "keep", "refuse"};
 template <>

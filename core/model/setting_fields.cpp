@@ -77,8 +77,8 @@ constexpr std::array kFields{
         "2: joints are also corrected for the error that their rotation will cause in the sub-step",
         CountSetting{&S::drift_order, 1, 2}},
     SettingField{"detection",
-                 "contacts are detected before every sub-step, or once per frame within the "
-                 "distance that bodies can travel in it",
+                 "contacts are detected before every sub-step, once per frame within the distance "
+                 "that bodies can travel in it, or along the motion of every sub-step",
                  ChoiceSetting<Detection>{&S::detection}},
     SettingField{"contact_stiffness", "contact block in K (Eq. 1): the paper's or the derivative",
                  ChoiceSetting<ContactStiffness>{&S::contact_stiffness}},

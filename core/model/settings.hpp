@@ -26,9 +26,10 @@ enum class ContactStiffness : std::uint8_t { kPaper, kExact };
 /// (cone).
 enum class FrictionCone : std::uint8_t { kBox, kCone };
 enum class Gyroscopic : std::uint8_t { kExplicit, kImplicit };
-/// Contact detection: before every sub-step, or once per frame with a look-ahead over the frame;
-/// contacts then move with the bodies.
-enum class Detection : std::uint8_t { kSubstep, kFrame };
+/// Contact detection: before every sub-step; once per frame with a look-ahead over the frame,
+/// contacts then move with the bodies; or along the motion of every sub-step, so that nothing
+/// passes through what it hits or touches what it misses (sim/swept.cpp).
+enum class Detection : std::uint8_t { kSubstep, kFrame, kContinuous };
 
 /// All parameters that may change while a scene runs. The defaults are the paper's.
 struct Settings {

@@ -9,7 +9,7 @@
 namespace substep {
 namespace {
 
-constexpr int kMost = 30;                // solves
+constexpr int kMostClosings = 30;        // solves
 constexpr double kNearRounding = 1e-12;  // of gaps, relative to the size of a joint
 
 /// The size of a joint, below whose rounding its gap cannot be told from zero [m].
@@ -25,14 +25,15 @@ double size_of(const Block& block) { return block.r_a.norm() + block.r_b.norm();
 // poses are those of RATTLE (Andersen 1983) for any sequence of lengths, because the projection of
 // the velocities acts along the same rows as the next impulse. This is Newton's method with the
 // matrix of the first solve.
-void Simulator::Impl::close_joints(const Substep& sub, const System& system, SolveReport& solved) {
+void Simulator::Impl::close_joints(const Substep& sub, const System& system, Solver& by,
+                                   SolveReport& solved) {
   const auto closes = [](const Block& block) { return !block.is_contact() && !is_grab(block); };
   double last = std::numeric_limits<double>::infinity();
-  for (int solves = 1; solves < kMost && solved.status < SolveStatus::kUnsolved; ++solves) {
-    sub.integrator->predict_motions(sub, state, motions);
+  for (int solves = 1; solves < kMostClosings && solved.status < SolveStatus::kUnsolved; ++solves) {
+    predict_motions(sub);
     double largest = 0.0;  // relative to the joint's size, or angle
     gaps.clear();
-    for (const Block& block : sub.rows) {
+    for (const Block& block : system.blocks) {
       gaps.emplace_back();
       if (!closes(block)) continue;
       double gained[kMaxRows];
@@ -55,14 +56,14 @@ void Simulator::Impl::close_joints(const Substep& sub, const System& system, Sol
     if (goes_on) std::swap(gaps, corrected);
     last = largest;
     for (std::size_t i = 0; i < corrected.size(); ++i) {
-      Block& block = sub.rows[i];
+      Block& block = system.blocks[i];
       if (!closes(block)) continue;
       for (int row = 0; row < block.rows; ++row) {
         block.bias[row] += sign * corrected[i].of[row] / sub.dt;
       }
     }
-    copy(u_star, state.u);
-    const SolveReport again = solver->find_velocities_again(system, sub.settings);
+    copy(u_star, system.u);
+    const SolveReport again = by.find_velocities_again(system, sub.settings);
     solved.status = std::max(solved.status, again.status);
     solved.pivots += again.pivots;
     solved.passes += again.passes;

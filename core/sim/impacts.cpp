@@ -5,6 +5,14 @@
 
 namespace substep {
 
+Solver& Simulator::Impl::impact_solver() {
+  if (!impacts) {
+    impacts =
+        make_solver(settings.solver == SolverKind::kPgs ? SolverKind::kPgs : SolverKind::kBpp);
+  }
+  return *impacts;
+}
+
 // Newton's restitution law uses speeds before the impact. It cannot propagate an impact through
 // touching bodies: a ball striking a row of balls would carry the whole row along and lose most of
 // its energy. Impacts are therefore resolved in passes within the sub-step, all pending ones
@@ -12,13 +20,12 @@ namespace substep {
 // preserves symmetry (Smith et al., Reflections on simultaneous impact, 2012).
 bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   if (!restitution || sub.probing) return true;
-  const bool spreads = restitution->spreads(sub.u_before, sub.dt, sub.rows);
+  const bool sweeps = sweeps_contacts(sub);
+  restitution->begin(sweeps ? std::span<const Vec6>(gain) : std::span<const Vec6>());
+  const bool spreads = restitution->spreads(sub, sub.u_before, sub.rows);
+  sub.impacts_are_past = sweeps && spreads;
   sub.struck = restitution->struck();
   if (!spreads) return true;
-  if (!impacts) {
-    impacts =
-        make_solver(settings.solver == SolverKind::kPgs ? SolverKind::kPgs : SolverKind::kBpp);
-  }
   std::span<const InverseMass> masses = sub.inverse_mass;
   if (changes_mass(settings.mode)) {  // no time passes: no damping or geometric stiffness
     rigid_mass.resize(sub.inverse_mass.size());
@@ -29,17 +36,22 @@ bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   // Impacts among many bodies can continue indefinitely at decreasing speed. After this many passes
   // the rest is resolved at once, as a single impact.
   constexpr int kMostImpacts = 200;
-  for (int i = 0; restitution->set_impacts(sub.u_before, sub.dt, sub.rows) && i < kMostImpacts;
-       ++i) {
+  for (int i = 0; restitution->set_impacts(sub, sub.u_before, sub.rows) && i < kMostImpacts; ++i) {
+    if (sweeps) copy(sub.u_before, u_star);
     System system{sub.rows, masses, sub.u_before, {}, sub.dt, sub.R_WB, scene->regularisation};
     system.limits = limits_of_solve(sub, report);
-    const SolveReport solved = impacts->find_velocities(system, settings);
+    const SolveReport solved = impact_solver().find_velocities(system, settings);
     if (solved.status == SolveStatus::kOverLimits) {
       refuse_solve(sub, solved, report);
       return false;
     }
     count_work(sub, solved, report);
     ++report.work.impacts;
+    if (!sweeps) continue;
+    // The impulse moves the bodies only from the time of the impact on.
+    for (const int body : sub.part->moving) {
+      shift[index(body)] -= restitution->late() * (sub.u_before[index(body)] - u_star[index(body)]);
+    }
   }
   for (const int body : sub.part->moving) state.u[index(body)] += sub.u_before[index(body)];
   return true;

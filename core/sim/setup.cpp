@@ -42,6 +42,7 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   index_of_part.reserve(n_blocks);
   state.k.reserve(n);
   u_star.resize(n);
+  w.resize(n, Vec6::Zero());
   motions.resize(n);
   gaps.reserve(n_blocks);
   corrected.reserve(n_blocks);

@@ -11,11 +11,12 @@
 #include "core/constraints/contact_stage.hpp"
 #include "core/constraints/joint_stage.hpp"
 #include "core/constraints/moved_rows.hpp"
-#include "core/constraints/restitution_stage.hpp"
+#include "core/constraints/swept_contacts.hpp"
 #include "core/sim/islands.hpp"
 #include "core/sim/schedule.hpp"
 #include "core/sim/simulator.hpp"
 #include "core/solver/solver.hpp"
+#include "core/stepping/restitution_stage.hpp"
 #include "core/stepping/rotation_bound.hpp"
 #include "core/stepping/stiffness_bound.hpp"
 #include "core/stepping/stored_forces.hpp"
@@ -89,9 +90,23 @@ struct Simulator::Impl {
   bool solve(Substep& sub, FrameReport& report);
   void seed(const Substep& sub);
   void set_bias(Substep& sub, FrameReport& report);
-  void close_joints(const Substep& sub, const System& system,
+  bool solve_rows(Substep& sub, FrameReport& report);
+  /// Repeats a solve until joints hold at the end. @param system its u* is u_star, by: its solver
+  void close_joints(const Substep& sub, const System& system, Solver& by,
                     SolveReport& solved);                     // close_joints.cpp
   bool propagate_impacts(Substep& sub, FrameReport& report);  // impacts.cpp
+  Solver& impact_solver();
+  // swept.cpp
+  bool sweeps_contacts(const Substep& sub) const;
+  bool solve_swept(Substep& sub, FrameReport& report);
+  bool solve_softly(Substep& sub, FrameReport& report);
+  SweptContacts::Found sweep(Substep& sub);
+  bool find_shift(Substep& sub, FrameReport& report);
+  bool parts(const Block& block) const;  // true if an overlap is parted
+  /// True if a contact stops an approach that the forces of the sub-step do not explain: a body
+  /// reaches the surface in one sub-step and comes to rest in the next.
+  bool ends_impact(const Substep& sub, const Block& block) const;
+  void predict_motions(const Substep& sub);  // w, motions
   void count_work(const Substep& sub, const SolveReport& solved, FrameReport& report);
   bool finite(const Substep& sub, FrameReport& report);
   void stop(const Substep& sub, int body, FrameReport& report);  // body with a non-finite number
@@ -180,9 +195,21 @@ struct Simulator::Impl {
   Substep current;                      // the last one taken
   std::vector<InverseMass> rigid_mass;  // for impacts, in modes that replace M
   std::vector<Vec6> u_star;             // before the rows act, if solves are repeated
+  std::vector<Vec6> w;                  // velocities of the motion, likewise
   Motions motions;                      // of the sub-step, likewise
   std::vector<RowGaps> gaps;            // likewise, per block
   std::vector<RowGaps> corrected;       // by the last of them
+
+  // With contacts found along the motion.
+  std::unique_ptr<SweptContacts> swept;  // built on first use
+  std::vector<Vec6> u_forced;            // after the forces, before rows and impacts
+  std::vector<Vec6> u_unforced;          // before the forces and impacts
+  std::vector<Vec6> gain;                // by the forces of the sub-step
+  std::vector<Vec6> shift;               // of the motion beyond u: impacts, overlaps [m/s, rad/s]
+  double contact_softness = 0.0;         // of the mobility of a row [-]
+  SolveStatus last_solve = SolveStatus::kSolved;
+  Blocks parting;  // rows that part overlaps
+
   StiffnessLeader bound;
   StageClock clock;
 };

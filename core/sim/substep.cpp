@@ -81,6 +81,9 @@ void Simulator::Impl::drop_rows(Substep& sub) {
 }
 
 bool Simulator::Impl::append_contacts(const Substep& sub) {
+  if (settings.detection == Detection::kContinuous) {
+    return contact->append_touching(*scene, *sub.part, state, sub.R_WB, sub.dt, blocks);
+  }
   if (settings.detection == Detection::kSubstep || sub.probing) {
     return contact->detect_and_append(*scene, *sub.part, state, sub.R_WB, blocks);
   }
@@ -111,7 +114,26 @@ void Simulator::Impl::external_forces(Substep& sub, FrameReport& report) {
 }
 
 bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
+  sub.shift = sub.gain = {};
+  const bool solved = sweeps_contacts(sub) ? solve_swept(sub, report) : solve_rows(sub, report);
+  if (!solved) return false;
+  if (sub.outputs_needed || sub.probing || schedule.clock().needs_stiffness() ||
+      starts_from_last_forces(sub.settings) || springs_are_stored(sub)) {
+    solver->find_impulses(sub.rows);
+  }
+  sub.smooth = sub.struck.empty() &&
+               (!contact || std::none_of(sub.rows.begin(), sub.rows.end(), [&](const Block& block) {
+                 return block.is_contact() &&
+                        (sub.integrator->breaks_motion(block) || ends_impact(sub, block));
+               }));
+  if (!sub.probing) sub.integrator->settle(sub, state);
+  clock.lap(report.times.solve);
+  return true;
+}
+
+bool Simulator::Impl::solve_rows(Substep& sub, FrameReport& report) {
   set_softness(sub.rows, scene->regularisation, sub.dt);
+  if (sweeps_contacts(sub)) stiffen_contacts(sub, contact_softness);
   if (!propagate_impacts(sub, report)) return false;
   if (forces_are_stored(sub)) seed(sub);
   set_bias(sub, report);
@@ -125,22 +147,13 @@ bool Simulator::Impl::solve(Substep& sub, FrameReport& report) {
   const bool closes = drift_law(sub.settings) == Drift::kExact && joints && !sub.probing;
   if (closes) copy(state.u, u_star);
   SolveReport solved = solver->find_velocities(system, sub.settings);
-  if (closes) close_joints(sub, system, solved);
+  if (closes) close_joints(sub, system, *solver, solved);
   if (solved.status == SolveStatus::kOverLimits) {
     refuse_solve(sub, solved, report);
     return false;
   }
-  if (sub.outputs_needed || sub.probing || schedule.clock().needs_stiffness() ||
-      starts_from_last_forces(sub.settings) || springs_are_stored(sub)) {
-    solver->find_impulses(sub.rows);
-  }
-  sub.smooth = sub.struck.empty() &&
-               (!contact || std::none_of(sub.rows.begin(), sub.rows.end(), [&](const Block& block) {
-                 return block.is_contact() && sub.integrator->breaks_motion(block);
-               }));
-  if (!sub.probing) sub.integrator->settle(sub, state);
   count_work(sub, solved, report);
-  clock.lap(report.times.solve);
+  last_solve = solved.status;
   return true;
 }
 
@@ -156,9 +169,10 @@ void Simulator::Impl::seed(const Substep& sub) {
 void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
   if (sub.probing) return set_probe_bias(sub.rows, sub.dt);
   set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt);
+  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, gain, sub.dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
-  if (restitution) restitution->apply(sub.u_before, sub.dt, sub.rows);
+  if (restitution) restitution->apply(sub, sub.u_before, sub.rows);
   report.work.flops += sub.integrator->aim(sub, state);
 }
 
@@ -182,10 +196,14 @@ bool Simulator::Impl::finite(const Substep& sub, FrameReport& report) {
   double squares = 0.0;
   for (const int body : sub.part->bodies)  // static bodies are checked too
     squares += state.u[index(body)].squaredNorm();
+  if (!sub.shift.empty()) {
+    for (const int body : sub.part->moving) squares += sub.shift[index(body)].squaredNorm();
+  }
   if (std::isfinite(heaviest * squares)) return true;
   double sum = 0.0;
   for (const int body : sub.part->bodies) {  // look for a body that is too fast
     sum += most_kinetic(scene->bodies[index(body)], state.u[index(body)]);
+    if (!sub.shift.empty()) sum += most_kinetic(scene->bodies[index(body)], sub.shift[index(body)]);
     if (std::isfinite(sum)) continue;
     stop(sub, body, report);
     return false;
@@ -207,6 +225,7 @@ void Simulator::Impl::keep_forces(const Substep& sub) {
 }
 
 bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report) {
+  if (sweeps_contacts(sub) && !sub.smooth) return true;  // the forces of an impact do not last
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
   for (Block& block : sub.rows) find_lambda(sub, block, block.lambda);
   const bool full = entry_of(settings.mode).full_stiffness;

@@ -23,11 +23,26 @@ void give_force(Block& joint, int row, double impulse) {
   joint.softness[row] = kGivenForce;
 }
 
-namespace {
-
 // Smallest compliance of a contact treated as a spring [m/N]. Stiffer ones model rigid bodies,
 // which land without rebound: implicit Euler dissipates the energy of the impact.
 constexpr double kSoftContact = 1e-6;
+
+bool is_soft_contact(const Block& contact) { return contact.C[0] >= kSoftContact; }
+
+void stiffen_contacts(const Substep& sub, double share) {
+  for (Block& block : sub.rows) {
+    if (!block.is_contact()) continue;
+    for (int row = 0; row < block.rows; ++row) {
+      if (block.C[row] >= kSoftContact) continue;
+      const double mobility = mobility_on(block, row, true, sub.inverse_mass) +
+                              mobility_on(block, row, false, sub.inverse_mass);
+      block.softness[row] = share * mobility + sub.scene->regularisation;
+    }
+  }
+}
+
+namespace {
+
 // Largest kappa for which a contact spring is averaged: there its weights equal implicit Euler's to
 // 1e-3.
 constexpr double kResolvedContact = 100.0;

@@ -39,6 +39,14 @@ double spring_kappa(double dt_t, std::span<const InverseMass> inverse_mass, cons
                     int first, int end);
 inline constexpr double kResolved = 0.25;  ///< Störmer prescribes spring forces up to this kappa
 
+/// True if a contact is a spring: a stiffer one models rigid bodies.
+bool is_soft_contact(const Block& contact);
+
+/// Makes contacts that are not springs rigid, but for a softness that is small beside the mobility
+/// of each row: C/dt^2 would let bodies sink and rebound, the more the shorter the sub-step.
+/// @param share of the mobility [-]
+void stiffen_contacts(const Substep& sub, double share);
+
 /// Sets bias and softness of all compliant rows, after the drift correction. Block::elastic is the
 /// elastic part of phi; the rest is drift.
 void set_springs(const Substep& sub, const State& state);

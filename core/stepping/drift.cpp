@@ -1,5 +1,8 @@
 #include "core/stepping/drift.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/constraints/joint_rows.hpp"
 #include "core/stepping/compliance.hpp"
 
@@ -64,6 +67,31 @@ void set_acceleration_rows(std::span<Block> joints, std::span<const Vec6> u,
       block.impulse[row] = block.given[row] = 0.0;
       if (springs[row < block.position_rows ? 0 : 1])
         give_force(block, row, -block.phi[row] / block.C[row]);
+    }
+  }
+}
+
+double gained_speed(const Block& contact, std::span<const Vec6> gain) {
+  double speed = 0.0;
+  for (const int body : {contact.a, contact.b}) {
+    if (body >= 0) speed += gain[index(body)].head<3>().norm();
+  }
+  return speed;
+}
+
+void set_swept_bias(std::span<Block> blocks, std::span<const Vec6> gain, double dt) {
+  constexpr double kYields = 0.1;  // at most this part of the speed by the forces
+  constexpr double kRigid = 1e-4;  // but the softness not below this part of what it was
+  constexpr double kKept = 0.5;  // of the force: less than all, so that forces in a jam are bounded
+  for (Block& block : blocks) {
+    if (!block.is_contact() || is_soft_contact(block)) continue;
+    block.bias[0] = std::max(block.phi[0], 0.0) / dt;
+    if (!block.was_closed) continue;
+    const double yields = block.softness[0] * block.impulse[0];
+    const double share = std::clamp(kYields * gained_speed(block, gain) / yields, kRigid, 1.0);
+    for (int row = 0; row < block.rows; ++row) {
+      block.softness[row] *= share;
+      block.bias[row] -= kKept * block.softness[row] * block.impulse[row];
     }
   }
 }

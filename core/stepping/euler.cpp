@@ -7,6 +7,21 @@
 
 namespace substep {
 
+namespace {
+
+// How an impact acts on a body.
+constexpr std::uint8_t kHit = 1;
+constexpr std::uint8_t kArrives = 2;  // it still moves towards what it meets
+
+/// True if a body that was hit may rest on what hit it: it is not much faster than the forces of a
+/// sub-step make it.
+bool rests(std::uint8_t hit, const Vec6& u, const Vec6& gain) {
+  constexpr double kFast = 10.0;
+  return hit == kHit && u.head<3>().norm() < kFast * gain.head<3>().norm();
+}
+
+}  // namespace
+
 Euler::Euler(const Scene& scene) {
   hit_.resize(scene.bodies.size());
   bent_push_.resize(scene.bodies.size());
@@ -18,24 +33,23 @@ std::int64_t Euler::aim(const Substep& sub, State& /*state*/) {
   return 0;
 }
 
-void Euler::predict_motions(const Substep& sub, const State& state, Motions& motions) const {
+void Euler::predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const {
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
-    Vec6 u = state.u[i];
-    if (gyroscopic_) u.tail<3>() = gyroscopic_->settled(sub, i, u.tail<3>());
-    motions[i] = motion(u, sub.dt);
+    w[i] = state.u[i];
+    if (gyroscopic_) w[i].tail<3>() = gyroscopic_->settled(sub, i, w[i].tail<3>());
   }
 }
 
 void Euler::move_poses(const Substep& sub, State& state) {
   state.acceleration.clear();  // of another method, outdated
   state.acceleration_change.clear();
-  integrate(*sub.part, sub.dt, state.u, state);
+  integrate(*sub.part, sub.dt, state.u, state, sub.shift);
 }
 
-// Applies the forces of the sub-step for half of its length; bodies that were hit are skipped.
-// Joint forces are applied along the rows at the new poses, where they do no work and conserve the
-// angular momentum about a fixed anchor.
+// Applies the forces of the sub-step for half of its length; of those on bodies that were hit,
+// none, or the applied ones if a body cannot be at rest. Joint forces are applied along the rows at
+// the new poses, where they do no work and conserve the angular momentum about a fixed anchor.
 void Euler::synchronise(const Substep& sub, State& state) {
   // A solver that holds constraints at the end applies forces along rows at later poses.
   const bool turns_forces = sub.scene->effects.joints && !entry_of(sub.settings.solver).at_end;
@@ -43,10 +57,13 @@ void Euler::synchronise(const Substep& sub, State& state) {
   find_hit(sub);
   for (const int body : sub.part->moving) {
     const std::size_t i = index(body);
-    const double ahead = hit_[i] != 0 ? 0.0 : share_ahead(state.dt_previous_of(i), sub.dt);
+    const double share = share_ahead(state.dt_previous_of(i), sub.dt);
+    const double ahead = hit_[i] != 0 ? 0.0 : share;
     const Vec6 pushed = turns_forces ? Vec6(ahead * bent_push_[i]) : Vec6(Vec6::Zero());
     const Vec3 bent = pushed.tail<3>();
     state.u_synchronised[i] = state.u[i] + ahead * (state.u[i] - sub.u_before[i]);
+    if (hit_[i] != 0 && !sub.gain.empty() && !rests(hit_[i], state.u[i], sub.gain[i]))
+      state.u_synchronised[i] += share * sub.gain[i];
     state.u_synchronised[i].head<3>() += sub.inverse_mass[i].linear * pushed.head<3>();
     if (turns_otherwise(sub, i)) {
       synchronise_spin(sub, i, ahead, bent, state);
@@ -64,9 +81,13 @@ void Euler::find_hit(const Substep& sub) {
   for (std::size_t i = 0; i < sub.rows.size(); ++i) {
     const Block& block = sub.rows[i];
     const bool acts = !block.is_contact() || block.impulse[0] > 0.0 ||
-                      (!sub.struck.empty() && sub.struck[i] != 0);
+                      (!sub.struck.empty() && sub.struck[i] != 0 && !sub.impacts_are_past);
+    if (!acts) continue;
+    const bool arrives = !sub.gain.empty() && block.is_contact() && block.phi[0] > 0.0;
     for (const int body : {block.a, block.b}) {
-      if (acts && body >= 0) hit_[index(body)] = 1;
+      if (body < 0) continue;
+      std::uint8_t& hit = hit_[index(body)];
+      hit = arrives && hit != kHit ? kArrives : kHit;
     }
   }
 }

@@ -17,7 +17,7 @@ class Euler : public TimeIntegrator {
     if (gyroscopic_) gyroscopic_->begin(sub, state);
   }
   std::int64_t aim(const Substep& sub, State& state) override;
-  void predict_motions(const Substep& sub, const State& state, Motions& motions) const override;
+  void predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const override;
   void settle(Substep& sub, State& state) override {
     if (gyroscopic_) gyroscopic_->settle(sub, state);
   }

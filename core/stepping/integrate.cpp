@@ -5,14 +5,16 @@
 
 namespace substep {
 
-void integrate(const Part& part, double dt, std::span<const Vec6> u, State& state) {
+void integrate(const Part& part, double dt, std::span<const Vec6> u, State& state,
+               std::span<const Vec6> shift) {
   const double half_dt = 0.5 * dt;
   for (const int body : part.moving) {
     const std::size_t i = index(body);
-    state.x[i] += dt * u[i].head<3>();
+    const Vec6 w = shift.empty() ? u[i] : Vec6(u[i] + shift[i]);
+    state.x[i] += dt * w.head<3>();
     // (1, half) * q, world axes
     Quat& q = state.q[i];
-    const Vec3 half = half_dt * u[i].tail<3>();
+    const Vec3 half = half_dt * w.tail<3>();
     const Vec3 v = q.vec();
     Eigen::Vector4d turned;  // x, y, z, w
     turned << (v + q.w() * half) + half.cross(v), q.w() - half.dot(v);

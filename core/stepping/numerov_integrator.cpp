@@ -22,6 +22,7 @@ class Numerov : public Leapfrog {
   void begin(const Substep& sub, State& state) override;
   void seed(const StoredForce& of_last, const State& state, Block& block) const override;
   void extend(System& system, const Substep& sub, const State& state) override;
+  void predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const override;
   void settle(Substep& /*sub*/, State& /*state*/) override {}
   void store(const Substep& sub, const State& state, const Block& block,
              StoredForce& force) const override;
@@ -136,6 +137,11 @@ void Numerov::store(const Substep& sub, const State& state, const Block& block,
   force.rate_age = 0.5 * dt_previous;
 }
 
+void Numerov::predict_velocities(const Substep& sub, const State& /*state*/,
+                                 std::span<Vec6> w) const {
+  for (const int body : sub.part->moving) w[index(body)] = courses_[index(body)].move_by;
+}
+
 void Numerov::move_poses(const Substep& sub, State& state) {
   state.acceleration_change.clear();  // of another method, outdated
   state.acceleration.resize(state.u.size(), Vec6::Zero());
@@ -148,7 +154,7 @@ void Numerov::move_poses(const Substep& sub, State& state) {
       state.acceleration[i] = (1.0 / sub.impulse_time[i]) * (state.u[i] - sub.u_before[i]);
     }
   }
-  integrate(*sub.part, sub.dt, w_, state);
+  integrate(*sub.part, sub.dt, w_, state, sub.shift);
   settle_momentum(sub, state);
 }
 

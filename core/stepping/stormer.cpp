@@ -39,6 +39,7 @@ class Stormer : public Leapfrog {
   std::int64_t aim(const Substep& sub, State& state) override;
   /// The change of acceleration is unknown when a contact with a resolved spring opens or closes.
   [[nodiscard]] bool breaks_motion(const Block& contact) const override;
+  void predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const override;
   void settle(Substep& sub, State& state) override;
   void move_poses(const Substep& sub, State& state) override;
   void synchronise(const Substep& sub, State& state) override;
@@ -251,6 +252,18 @@ void Stormer::settle(Substep& sub, State& /*state*/) {
   }
 }
 
+// As move_poses(), of which it does not know yet whether the sub-step is smooth: with contacts,
+// poses are taken to move by the velocities.
+void Stormer::predict_velocities(const Substep& sub, const State& state, std::span<Vec6> w) const {
+  const bool smooth = std::none_of(sub.rows.begin(), sub.rows.end(),
+                                   [](const Block& block) { return block.is_contact(); });
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    const bool known = smooth && !state.acceleration.empty();
+    w[i] = known ? pose_velocity(sub, state, i, state.u[i]) : state.u[i];
+  }
+}
+
 // In a sub-step with an impact poses move by the velocities.
 void Stormer::move_poses(const Substep& sub, State& state) {
   for (auto* of_bodies : {&state.acceleration, &state.acceleration_change, &w_}) {
@@ -269,7 +282,7 @@ void Stormer::move_poses(const Substep& sub, State& state) {
     store_changes(sub, i, a, state);
     state.acceleration[i] = a;
   }
-  integrate(*sub.part, sub.dt, w_, state);
+  integrate(*sub.part, sub.dt, w_, state, sub.shift);
   settle_momentum(sub, state);
 }
 

@@ -29,8 +29,10 @@ class TimeIntegrator {
   /// True if accelerations must not be extrapolated across the force of this contact. A resolved
   /// spring causes no impact.
   [[nodiscard]] virtual bool breaks_motion(const Block& contact) const;
-  /// The motions that move_poses() will make after this solve. @param motions out, per moving body
-  virtual void predict_motions(const Substep& sub, const State& state, Motions& motions) const = 0;
+  /// The velocities with which move_poses() will move the bodies after this solve.
+  /// @param w out, per moving body [m/s, rad/s]
+  virtual void predict_velocities(const Substep& sub, const State& state,
+                                  std::span<Vec6> w) const = 0;
   /// Completes the velocities after the solve.
   virtual void settle(Substep& sub, State& state) = 0;
   /// Adds rates to a force that is stored for the next sub-step.

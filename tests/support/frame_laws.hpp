@@ -86,8 +86,14 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
   const SolverWork& work = report.work;
   // Islands take separate sub-steps; islands with the same number are stepped together.
   const std::int64_t substeps = std::int64_t{report.n_substeps} * std::max(1, report.islands);
-  if (work.solves - work.impacts > substeps + 1) return "a solve per sub-step, and the probe";
-  if (work.impacts > 200 * substeps) return "impacts are bounded";
+  // Contacts found along the motion: at most 8 solves, each with three softnesses, and 4 for
+  // shifts.
+  const bool sweeps = settings.detection == Detection::kContinuous;
+  const std::int64_t most_solves = sweeps ? 8 * 3 + 4 : 1;
+  if (work.solves - work.impacts > most_solves * substeps + 1) {
+    return "solves of a sub-step are bounded";
+  }
+  if (work.impacts > 200 * most_solves * substeps) return "impacts are bounded";
   if (!(report.n_mean <= report.n_substeps)) return "the mean N is no more than the largest";
   // Newton solves with BPP in each of its iterations, and so do each refinement and each of at most
   // 30 solves that close joints. Impacts are solved with BPP, but with PGS by PGS.
@@ -95,6 +101,7 @@ inline std::string broken_law(const Scene& scene, const Settings& settings, cons
   const int of_joints = settings.drift == Drift::kExact ? 30 : 1;
   const int of_a_solve = settings.solver == SolverKind::kNewton ? settings.iterations
                          : settings.solver == SolverKind::kBpp  ? of_joints * of_bpp
+                         : sweeps                               ? of_joints * of_bpp
                                                                 : 1;
   const std::int64_t linear =
       (work.solves - work.impacts) * of_a_solve + std::int64_t{work.impacts} * of_bpp;

@@ -1,0 +1,169 @@
+// Contacts found along the motion of a sub-step (detection continuous).
+//
+// The sub-step is solved with the contacts that touch at its start. If the motion then closes
+// others, their rows are added and the sub-step is solved again. Velocities and poses are corrected
+// apart, as in Moreau's scheme with projection (Acary 2013): the motion is dt (u+ + shift), and the
+// shift, which no velocity sees,
+//   - begins a rebound where and when the contact closes: an impulse after the time t of a sub-step
+//     moves the body for dt - t only;
+//   - keeps shapes apart that a curved motion would overlap;
+//   - parts shapes that overlap at the start, at a bounded speed.
+// Rows of velocities therefore never push bodies apart but to rebound: they add no energy.
+
+#include <algorithm>
+
+#include "core/sim/simulator_impl.hpp"
+#include "core/stepping/compliance.hpp"
+#include "core/stepping/drift.hpp"
+
+namespace substep {
+namespace {
+
+constexpr int kMostSolves = 8;   // for velocities, in a sub-step
+constexpr int kMostShifts = 4;   // for shifts
+constexpr double kRigid = 1e-5;  // softness of contacts, of the mobility of their rows
+
+// Of shapes that overlap at the start.
+constexpr double kFastestParting = 1.0;  // half widths of the narrower shape per second
+constexpr double kPartRate = 0.2;        // of the overlap in a sub-step
+
+}  // namespace
+
+bool Simulator::Impl::sweeps_contacts(const Substep& sub) const {
+  return contact && sub.settings.detection == Detection::kContinuous && !sub.probing;
+}
+
+void Simulator::Impl::predict_motions(const Substep& sub) {
+  sub.integrator->predict_velocities(sub, state, w);
+  for (const int body : sub.part->moving) {
+    const std::size_t i = index(body);
+    if (!sub.shift.empty()) w[i] += sub.shift[i];
+    motions[i] = motion(w[i], sub.dt);
+  }
+}
+
+// Appends what the motion closes, with friction.
+SweptContacts::Found Simulator::Impl::sweep(Substep& sub) {
+  predict_motions(sub);
+  const std::size_t known = blocks.size();
+  const SweptContacts::Found found = swept->append({*scene, *sub.part, state, sub.R_WB, w, sub.dt},
+                                                   contact->detector(), first_block, blocks);
+  if (friction) friction->append(*scene, sub.R_WB, blocks.from(known));
+  sub.rows = blocks.from(first_block);
+  return found;
+}
+
+bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
+  if (!swept) {
+    swept = std::make_unique<SweptContacts>();
+    swept->reserve(blocks.capacity());
+    parting.reserve(blocks.capacity());
+    impact_solver().reserve(state.u.size(), blocks.capacity());
+  }
+  u_forced.assign(state.u.begin(), state.u.end());
+  u_unforced.assign(sub.u_before.begin(), sub.u_before.end());
+  gain.resize(state.u.size());
+  for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = u_forced[i] - u_unforced[i];
+  sub.gain = gain;
+  SweptContacts::Found found = SweptContacts::Found::kContacts;
+  std::size_t solved = 0;  // blocks
+  for (int solves = 0; solves < kMostSolves && found == SweptContacts::Found::kContacts; ++solves) {
+    if (solves > 0 && !within_budget(sub, report)) return false;
+    if (!solve_softly(sub, report)) return false;
+    solved = blocks.size();
+    found = sweep(sub);
+  }
+  const auto overlaps = [&](const Block& block) { return parts(block); };
+  bool shifts = found != SweptContacts::Found::kNothing ||
+                std::any_of(sub.rows.begin(), sub.rows.end(), overlaps);
+  for (int shifted = 0; shifts; ++shifted) {
+    const bool found_shift = shifted < kMostShifts && find_shift(sub, report);
+    if (report.status != StepStatus::kOk) return false;
+    if (!found_shift) {  // the bodies stop where they meet
+      const double rest = 1.0 - swept->earliest() / sub.dt;
+      for (const int body : sub.part->moving) shift[index(body)] -= rest * w[index(body)];
+      break;
+    }
+    shifts = sweep(sub) != SweptContacts::Found::kNothing;
+  }
+  blocks.keep(solved);  // those found since have no forces
+  sub.rows = blocks.from(first_block);
+  return true;
+}
+
+// Solves with rigid contacts; if the solver finds no solution, as can be where many touch at once,
+// with softer ones: what BPP then falls back to could add energy.
+bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
+  for (const double softness : {kRigid, 100.0 * kRigid, 1e4 * kRigid}) {
+    contact_softness = softness;
+    const std::int64_t unsolved = report.work.unsolved;
+    copy(u_forced, state.u);
+    copy(u_unforced, sub.u_before);
+    shift.assign(state.u.size(), Vec6::Zero());
+    sub.shift = shift;
+    if (!solve_rows(sub, report)) return false;
+    if (last_solve < SolveStatus::kUnsolved) break;
+    if (softness < 1e4 * kRigid) report.work.unsolved = unsolved;
+  }
+  return true;
+}
+
+bool Simulator::Impl::parts(const Block& block) const {
+  const auto width = [&] { return contact->detector().half_width(block.body_a, block.body_b); };
+  return block.is_contact() && !is_soft_contact(block) &&
+         block.phi[0] < -SweptContacts::kAllowedOverlap * width();
+}
+
+bool Simulator::Impl::ends_impact(const Substep& sub, const Block& block) const {
+  if (!sweeps_contacts(sub) || !(block.impulse[0] > 0.0)) return false;
+  double before[kMaxRows];
+  row_speeds(block, sub.u_before, before);
+  return -before[0] > gained_speed(block, gain);
+}
+
+// The smallest change of the shift that keeps shapes apart at the end, and joints. Returns false if
+// none is found.
+bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
+  parting.clear();
+  predict_motions(sub);
+  for (const Block& row : sub.rows) {
+    Block& block = parting.append();
+    block = row;
+    for (int i = 0; i < kMaxRows; ++i) {
+      block.bias[i] = block.impulse[i] = block.given[i] = 0.0;
+      if (!block.is_contact()) block.softness[i] = scene->regularisation;
+    }
+    if (!block.is_contact()) continue;
+    block.rows = 1;  // without friction
+    std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
+    double moving[kMaxRows];
+    double shifting[kMaxRows];
+    row_speeds(block, w, moving);
+    row_speeds(block, shift, shifting);
+    const double speed = moving[0] - shifting[0];
+    block.bias[0] = speed + (std::max(row.phi[0], 0.0) + row.curved) / sub.dt;
+    if (!parts(row)) continue;
+    const double width = contact->detector().half_width(row.body_a, row.body_b);
+    block.bias[0] -= std::min(-kPartRate * row.phi[0] / sub.dt, kFastestParting * width);
+  }
+  Solver& by = impact_solver();
+  System system{parting.all(), sub.inverse_mass,     shift, {}, sub.dt,
+                sub.R_WB,      scene->regularisation};
+  system.limits = limits_of_solve(sub, report);
+  copy(shift, u_star);
+  SolveReport solved = by.find_velocities(system, sub.settings);
+  if (drift_law(sub.settings) == Drift::kExact && joints) {
+    close_joints(sub, system, by, solved);
+  }
+  if (solved.status == SolveStatus::kOverLimits) {
+    refuse_solve(sub, solved, report);
+    return false;
+  }
+  count_work(sub, solved, report);
+  if (solved.status < SolveStatus::kUnsolved) return true;
+  copy(u_star, shift);
+  predict_motions(sub);
+  return false;
+}
+
+}  // namespace substep

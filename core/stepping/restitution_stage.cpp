@@ -1,0 +1,132 @@
+#include "core/stepping/restitution_stage.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+namespace substep {
+namespace {
+
+// Bias of an open contact: no impact can close it [m/s].
+constexpr double kOpen = 1e30;
+
+/// Speed along the normal, positive when the bodies separate [m/s].
+double normal_speed(const Block& block, std::span<const Vec6> u) {
+  double speed = 0.0;
+  for (int j = 0; j < 6; ++j) {
+    if (block.a >= 0) speed += block.J_a[0][j] * u[index(block.a)][j];
+    if (block.b >= 0) speed += block.J_b[0][j] * u[index(block.b)][j];
+  }
+  return speed;
+}
+
+}  // namespace
+
+double RestitutionStage::restitution_of(const Block& contact) const {
+  return std::max(scene_.bodies[index(contact.body_a)].restitution,
+                  scene_.bodies[index(contact.body_b)].restitution);
+}
+
+// The velocity u is that of the middle of the last sub-step, which leapfrog's forces have acted on
+// for the time t when this one is half over. A contact that closes at the time c of this sub-step
+// is approached by J (u + g), g the gain, and J a = J g/t until the middle of the sub-step.
+RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<const Vec6> u,
+                                                  const Block& block) const {
+  if (!block.is_contact() || restitution_of(block) == 0.0) return {};
+  const double least = scene_.contact.restitution_speed;
+  const double before = normal_speed(block, u);
+  if (gain_.empty()) {
+    const bool closes = block.phi[0] + before * sub.dt < 0.0;
+    return closes && before <= -least ? Impact{.speed = -before} : Impact{};
+  }
+  const double gained = normal_speed(block, gain_);
+  const double middle = before + gained;
+  if (!(middle < 0.0) || !(block.phi[0] + middle * sub.dt < 0.0)) return {};
+  const double time = std::max(block.phi[0], 0.0) / -middle;
+  const double duration = impulse_time_of(sub, block);
+  const double acceleration = gained / duration;
+  const double kick = acceleration * (time + duration - 0.5 * sub.dt);
+  const double speed = -(before + kick);
+  // What returns within the sub-step rests.
+  const bool returns = restitution_of(block) * speed <= -acceleration * sub.dt;
+  const double change = restitution_of(block) * speed - kick - before;
+  return speed >= least && !returns ? Impact{speed, kick, time, change, acceleration} : Impact{};
+}
+
+void RestitutionStage::apply(const Substep& sub, std::span<const Vec6> u_before,
+                             std::span<Block> blocks) const {
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Block& block = blocks[i];
+    const auto gained = [&] { return gain_.empty() ? 0.0 : normal_speed(block, gain_); };
+    const Impact hit = impact(sub, u_before, block);
+    if (hit.speed > 0.0) {
+      block.bias[0] =
+          std::min(block.bias[0], -restitution_of(block) * hit.speed + hit.kick - gained());
+    }
+    if (struck_.empty() || struck_[i] == 0) continue;
+    const double separation = normal_speed(block, u_before) + gained();
+    // It separates anyway: redundant rows must not share forces of rounding.
+    const double least = gain_.empty() ? separation : (1.0 - 1e-6) * separation;
+    block.bias[0] = std::min(block.bias[0], -least);
+  }
+}
+
+bool RestitutionStage::spreads(const Substep& sub, std::span<const Vec6> u,
+                               std::span<const Block> blocks) {
+  struck_.clear();
+  std::fill(impact_.begin(), impact_.end(), 0.0);
+  bool any = false;
+  for (const Block& block : blocks) {
+    const double speed = impact(sub, u, block).speed;
+    if (speed == 0.0) continue;
+    any = true;
+    for (const int body : {block.a, block.b}) {
+      if (body < 0) continue;
+      double& most = impact_[index(body)];
+      most = std::max(most, speed);
+    }
+  }
+  if (!any) return false;
+  const bool spread =
+      !gain_.empty() || std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+        if (!block.is_contact() || restitution_of(block) == 0.0) return false;
+        if (impact(sub, u, block).speed > 0.0) return false;
+        double change = 0.0;  // each body's speed changes by at most twice its fastest impact
+        for (const int body : {block.a, block.b}) {
+          if (body >= 0) change += 2.0 * impact_[index(body)];
+        }
+        return change > 0.0 && block.phi[0] + (normal_speed(block, u) - change) * sub.dt < 0.0;
+      });
+  if (spread) struck_.assign(blocks.size(), 0);
+  since_ = 0.0;
+  return spread;
+}
+
+bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u,
+                                   std::span<Block> blocks) {
+  bool any = false;
+  double first = 1.0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    Block& block = blocks[i];
+    std::fill(std::begin(block.bias), std::end(block.bias), 0.0);
+    std::fill(std::begin(block.impulse), std::end(block.impulse), 0.0);
+    if (!block.is_contact()) continue;
+    const Impact hit = impact(sub, u, block);
+    if (hit.speed > 0.0) {
+      any = true;
+      struck_[i] = 1;
+      const double part = hit.time / sub.dt;
+      if (part < first) {
+        first = part;
+        late_ = part - 0.5 * part * (1.0 - part) * sub.dt * hit.acceleration / hit.change;
+      }
+    }
+    block.bias[0] = hit.speed > 0.0 ? -restitution_of(block) * hit.speed + hit.kick : kOpen;
+    std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
+  }
+  // An impact that another one causes is not before it.
+  if (first < since_) late_ = since_;
+  since_ = std::max(since_, first);
+  return any;
+}
+
+}  // namespace substep

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/constraints/block.hpp"
+#include "core/model/scene.hpp"
+#include "core/stepping/substep.hpp"
+
+namespace substep {
+
+/// Restitution: a contact that closes in this sub-step faster than ContactModel::restitution_speed
+/// separates at no less than e times its approach speed (Newton):
+///   w = J u+ + bias >= 0   with   bias <= e J u-.
+/// With contacts found along the motion, u- is the velocity where and when the contact closes,
+/// forces until then included, and those after it act on the rebound: heights are right at any N.
+class RestitutionStage {
+ public:
+  explicit RestitutionStage(const Scene& scene) : scene_(scene), impact_(scene.bodies.size()) {}
+
+  /// To be called before each solve. @param gain per body: velocity by the forces of the sub-step,
+  /// if contacts are found along the motion, else empty; outlives the solve [m/s, rad/s]
+  void begin(std::span<const Vec6> gain) { gain_ = gain; }
+
+  /// Modifies the bias set by the drift law. A contact already struck in this sub-step separates at
+  /// least as fast as after its impacts.
+  /// @param u_before per body: velocities before the forces of this sub-step [m/s, rad/s]
+  void apply(const Substep& sub, std::span<const Vec6> u_before, std::span<Block> blocks) const;
+
+  /// True if an impact closes another contact of one of its bodies within this sub-step that does
+  /// not rebound itself, or if there is any impact and contacts are found along the motion.
+  bool spreads(const Substep& sub, std::span<const Vec6> u, std::span<const Block> blocks);
+
+  /// Per block: 1 if an impact of this sub-step was propagated there. Empty if none was propagated.
+  [[nodiscard]] std::span<const std::uint8_t> struck() const { return struck_; }
+
+  /// Sets up the rows of all pending impacts as one simultaneous impact without forces: contacts
+  /// that do not rebound are open, joints are rigid. @param u as above  @return true if there are
+  /// any
+  bool set_impacts(const Substep& sub, std::span<const Vec6> u, std::span<Block> blocks);
+  /// The part of the velocity change by these impacts that does not move the bodies in this
+  /// sub-step: the first of them closes after this part of it, or those before. Second order.
+  [[nodiscard]] double late() const { return late_; }
+
+ private:
+  struct Impact {
+    double speed = 0.0;         // approach when the contact closes, 0 if it does not rebound [m/s]
+    double kick = 0.0;          // change of the normal speed by forces until then [m/s]
+    double time = 0.0;          // when it closes, if known [s]
+    double change = 0.0;        // of the normal speed by the impact [m/s]
+    double acceleration = 0.0;  // along the normal, by forces [m/s^2]
+  };
+  /// Of a pair: the maximum.
+  [[nodiscard]] double restitution_of(const Block& contact) const;
+  [[nodiscard]] Impact impact(const Substep& sub, std::span<const Vec6> u,
+                              const Block& block) const;
+
+  const Scene& scene_;
+  std::span<const Vec6> gain_;
+  std::vector<double> impact_;        // per body: fastest impact [m/s]
+  std::vector<std::uint8_t> struck_;  // per block, if impacts were propagated; else empty
+  double since_ = 0.0;                // part of the sub-step
+  double late_ = 0.0;
+};
+
+}  // namespace substep

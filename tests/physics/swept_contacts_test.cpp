@@ -1,0 +1,401 @@
+// Contacts that are found along the motion of a sub-step (detection continuous): drops, shots,
+// misses and overlaps, of spheres and boxes, with preset `steady` and fixed numbers of sub-steps.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/io/saved_scene.hpp"
+#include "core/io/scene_reader.hpp"
+#include "core/io/scene_writer.hpp"
+#include "core/lab/presets.hpp"
+#include "core/model/names.hpp"
+#include "core/model/scene_builder.hpp"
+#include "scenes/generator/scenes.hpp"
+#include "tests/support/run.hpp"
+
+namespace substep::test {
+namespace {
+
+constexpr double kHalf = 0.1;  // radius, or half an edge [m]
+
+Settings steady_at(int n) {
+  Settings settings = find_preset("steady")->settings;
+  settings.mode = Mode::kConst;
+  settings.n = n;
+  return settings;
+}
+
+const Shape kBall = Sphere{kHalf};
+const Shape kCube = Box{{kHalf, kHalf, kHalf}};
+
+struct Drop {
+  Shape shape = kBall;
+  double height = 1.0;  // [m]
+  double mass = 1.0;    // [kg]
+  double e = 0.0;
+  double compliance = 1e-10;  // [m/N]
+  Vec3 up = Vec3::UnitY();    // normal of the floor, against gravity
+};
+
+std::shared_ptr<const Scene> scene_of(const Drop& drop) {
+  SceneBuilder builder("drop");
+  const int floor = builder.add_fixed(Plane{}, Vec3::Zero());
+  const Quat turn = Quat::FromTwoVectors(Vec3::UnitY(), drop.up);
+  builder.body(floor).orientation = turn;
+  const int body = builder.add_body(drop.shape, drop.mass, (drop.height + kHalf) * drop.up);
+  builder.body(body).orientation = turn;
+  builder.body(body).restitution = drop.e;
+  builder.scene().gravity = -kGravity * drop.up;
+  builder.scene().contact.compliance = drop.compliance;
+  return builder.build();
+}
+
+struct Flight {
+  double lowest = 0.0;   // gap [m]
+  double rebound = 0.0;  // by the energy after the first impact, above the floor [m]
+};
+
+/// @param seconds after the impact
+Flight flight_of(const Drop& drop, const Settings& settings, double seconds) {
+  const double falls = std::sqrt(2.0 * drop.height / kGravity);
+  Flight flight;
+  bool hit = false;
+  double last = 0.0;
+  const EveryFrame every = [&](const Simulator& simulator, const FrameReport& report) {
+    const double gap = simulator.state().x[1].dot(drop.up) - kHalf;
+    const double speed = simulator.state().u_synchronised[1].head<3>().dot(drop.up);
+    hit = hit || speed > last + 1e-9 || (gap < 1e-9 && report.time > falls);
+    last = speed;
+    flight.lowest = std::min(flight.lowest, gap);
+    if (hit)
+      flight.rebound = std::max(flight.rebound, gap + 0.5 * speed * std::abs(speed) / kGravity);
+    EXPECT_EQ(report.status, StepStatus::kOk);
+  };
+  run(*scene_of(drop), settings, falls + seconds, every, false);
+  EXPECT_TRUE(hit);
+  return flight;
+}
+
+std::string text_of(const Drop& drop, int n) {
+  return (std::holds_alternative<Sphere>(drop.shape) ? "ball" : "cube") + std::string(" from ") +
+         std::to_string(drop.height) + " m, " + std::to_string(drop.mass) + " kg, n " +
+         std::to_string(n) + ", compliance exponent " + std::to_string(std::log10(drop.compliance));
+}
+
+constexpr int kSubsteps[] = {1, 4, 64, 600};
+
+TEST(SweptContacts, WithoutRestitutionBodiesStayDown) {
+  for (const Shape& shape : {kBall, kCube}) {
+    for (const int n : kSubsteps) {
+      for (const Drop& drop :
+           {Drop{shape, 0.1, 1e-3, 0.0, 1e-8}, Drop{shape, 1.0, 1.0, 0.0, 1e-14},
+            Drop{shape, 10.0, 1e4, 0.0, 1e-10}, Drop{shape, 100.0, 1.0, 0.0, 1e-8},
+            Drop{shape, 10.0, 1.0, 0.0, 1e-10, Vec3{0.3, 0.8, -0.4}.normalized()}}) {
+        SCOPED_TRACE(text_of(drop, n));
+        const Flight flight = flight_of(drop, steady_at(n), 1.0);
+        EXPECT_LT(flight.rebound, 1e-6 * drop.height);
+        EXPECT_GT(flight.lowest, -1e-3 * 2.0 * kHalf);
+      }
+    }
+  }
+}
+
+TEST(SweptContacts, ReboundsReachTheHeightThatRestitutionSays) {
+  for (const Shape& shape : {kBall, kCube}) {
+    for (const double e : {1.0, 0.5}) {
+      for (const int n : kSubsteps) {
+        for (const Drop& drop :
+             {Drop{shape, 0.1, 1.0, e, 1e-8}, Drop{shape, 10.0, 1e-3, e, 1e-14},
+              Drop{shape, 10.0, 1e4, e, 1e-10}, Drop{shape, 100.0, 1.0, e, 1e-10}}) {
+          SCOPED_TRACE(text_of(drop, n));
+          const Flight flight = flight_of(drop, steady_at(n), 0.1);
+          EXPECT_NEAR(flight.rebound / (e * e * drop.height), 1.0, 0.01);
+          EXPECT_GT(flight.lowest, -1e-3 * 2.0 * kHalf);
+        }
+      }
+    }
+  }
+}
+
+// With detection per sub-step a body rebounds although its restitution is 0.
+TEST(SweptContacts, DetectionPerSubstepLetsAPlasticBodyRebound) {
+  Settings settings;
+  settings.n = 1;
+  settings.mode = Mode::kConst;
+  EXPECT_GT(flight_of({kBall, 10.0}, settings, 1.0).rebound, 1.0);
+}
+
+TEST(SweptContacts, HoldWithEverySolverModeAndIntegrator) {
+  const auto check = [](const Settings& settings, double tolerance) {
+    for (const Shape& shape : {kBall, kCube}) {
+      EXPECT_LT(flight_of({shape, 1.0}, settings, 1.0).rebound, tolerance);
+      const double rebound = flight_of({shape, 1.0, 1.0, 0.5}, settings, 0.1).rebound;
+      const bool euler = settings.integrator == Integrator::kEuler;  // of first order
+      EXPECT_NEAR(rebound / 0.25, 1.0, euler ? 0.03 : 0.01);
+    }
+  };
+  for (const Integrator integrator : {Integrator::kEuler, Integrator::kLeapfrog}) {
+    for (const SolverKind solver :
+         {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd, SolverKind::kNewton}) {
+      SCOPED_TRACE(std::string(name_of(integrator)) + " " + std::string(name_of(solver)));
+      Settings settings = steady_at(4);
+      settings.integrator = integrator;
+      settings.solver = solver;
+      check(settings, 1e-6);
+    }
+  }
+  for (const Mode mode : {Mode::kNone, Mode::kAdaptive, Mode::kStiffness, Mode::kBlend}) {
+    SCOPED_TRACE(name_of(mode));
+    Settings settings = steady_at(4);
+    settings.mode = mode;
+    check(settings, 1e-6);
+  }
+}
+
+/// A body shot at a wall of 0.1 m, or past its upper edge.
+std::shared_ptr<const Scene> shot(const Shape& shape, double speed, double y, const Vec3& omega) {
+  SceneBuilder builder("shot");
+  builder.add_fixed(Box{{0.05, 2.0, 2.0}}, Vec3::Zero());
+  const int body = builder.add_body(shape, 1.0, {-3.0, y, 0.3});
+  builder.body(body).velocity = {speed, 0.0, 0.0};
+  builder.body(body).angular_velocity = omega;
+  builder.scene().gravity.setZero();
+  return builder.build();
+}
+
+TEST(SweptContacts, NothingPassesThroughAWall) {
+  for (const Shape& shape : {kBall, kCube}) {
+    for (const double speed : {60.0, 300.0}) {
+      for (const int n : kSubsteps) {
+        for (const Vec3& omega : {Vec3{0.0, 0.0, 0.0}, Vec3{3.0, 20.0, 7.0}}) {
+          SCOPED_TRACE(std::to_string(speed) + " m/s, n " + std::to_string(n));
+          Simulator simulator = simulator_of(shot(shape, speed, 0.1, omega), steady_at(n));
+          double energy = 0.0;
+          for (int i = 0; i < 20; ++i) {
+            const FrameReport report = simulator.step();
+            ASSERT_EQ(report.status, StepStatus::kOk);
+            EXPECT_LT(simulator.state().x[1].x(), -0.05 - 0.99 * kHalf);
+            if (i > 0) {
+              EXPECT_LE(report.energy, energy + 1e-9 * speed * speed);
+            }
+            energy = report.energy;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(SweptContacts, WhatMissesIsNotTouched) {
+  for (const Shape& shape : {kBall, kCube}) {
+    for (const double speed : {6.0, 60.0, 300.0}) {
+      for (const int n : {1, 2, 3, 4, 16, 64, 600}) {
+        SCOPED_TRACE(std::to_string(speed) + " m/s, n " + std::to_string(n));
+        const auto scene = shot(shape, speed, 2.0 + kHalf + 1e-3, Vec3::Zero());
+        Simulator simulator = simulator_of(scene, steady_at(n));
+        for (int i = 0; i < 60; ++i) simulator.step();
+        EXPECT_GT(simulator.state().x[1].x(), 0.5);
+        EXPECT_EQ(simulator.state().u[1], initial_state(*scene).u[1]);
+      }
+    }
+  }
+}
+
+TEST(SweptContacts, PartOverlapsWithoutSpeed) {
+  for (const int n : kSubsteps) {
+    SCOPED_TRACE(n);
+    SceneBuilder builder("overlap");
+    builder.add_fixed(Plane{}, Vec3::Zero());
+    builder.add_body(kCube, 1.0, {0.0, kHalf, 0.0});
+    builder.add_body(kCube, 100.0, {0.02, 2.2 * kHalf, 0.01});  // 0.08 m deep
+    for (int body = 0; body < 3; ++body) builder.body(body).friction = 0.5;
+    Simulator simulator = simulator_of(builder.build(), steady_at(n));
+    double last = simulator.state().x[2].y();
+    for (int i = 0; i < 120; ++i) {
+      const FrameReport report = simulator.step();
+      EXPECT_LT(report.kinetic, 1e-3) << i;
+      const double y = simulator.state().x[2].y();
+      EXPECT_LT(std::abs(y - last), 1.5 * kHalf / 60.0);  // a half width per second, from either
+      last = y;
+    }
+    EXPECT_NEAR(last, 3.0 * kHalf, 1e-3 * kHalf);
+  }
+}
+
+TEST(SweptContacts, ALightBodyUnderAHeavyOneStaysWhole) {
+  for (const int n : kSubsteps) {
+    SCOPED_TRACE(n);
+    SceneBuilder builder("heavy_on_light");
+    builder.add_fixed(Plane{}, Vec3::Zero());
+    builder.add_body(kCube, 1.0, {0.0, kHalf, 0.0});
+    builder.add_body(kCube, 1000.0, {0.0, 3.0 * kHalf + 10.0, 0.0});
+    Simulator simulator = simulator_of(builder.build(), steady_at(n));
+    double highest = 0.0;
+    for (int i = 0; i < 150; ++i) {
+      const FrameReport report = simulator.step();
+      EXPECT_LT(report.penetration, 1e-3 * 2.0 * kHalf) << i;
+      if (report.time > 1.5) highest = std::max(highest, simulator.state().x[2].y());
+    }
+    EXPECT_LT(highest, 3.0 * kHalf + 1e-3);
+  }
+}
+
+// Passive scenes with default e: the energy never rises.
+TEST(SweptContacts, PassiveScenesGainNoEnergy) {
+  for (const Scene& scene : {scenes::wall(), scenes::wrecking_ball(), scenes::bouncing_balls(),
+                             scenes::card_house(), scenes::heavy_stack()}) {
+    SCOPED_TRACE(scene.name);
+    double lowest = std::numeric_limits<double>::infinity();
+    double rise = 0.0;
+    double kinetic = 0.0;
+    double weight = 0.0;  // times a metre
+    for (const Body& body : scene.bodies) weight += body.is_static ? 0.0 : kGravity * body.mass;
+    const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+      EXPECT_EQ(report.status, StepStatus::kOk);
+      lowest = std::min(lowest, report.energy);
+      rise = std::max(rise, report.energy - lowest);
+      kinetic = std::max(kinetic, report.kinetic);
+    };
+    run(scene, find_preset("steady")->settings, 3.0, every, false);
+    // Parting the overlap that is allowed lifts what lies on it.
+    EXPECT_LT(rise, std::max(0.01 * kinetic, 1e-5 * weight));
+  }
+}
+
+/// Spheres and boxes of different size, mass and friction that fall onto a floor, tumbling.
+Scene random_pile(unsigned seed) {
+  std::mt19937_64 random(seed);
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * static_cast<double>(random() >> 11) * 0x1p-53;
+  };
+  const auto vector = [&](double most) {
+    const double x = between(-most, most);
+    const double y = between(-most, most);
+    return Vec3{x, y, between(-most, most)};
+  };
+  SceneBuilder builder("pile");
+  builder.body(builder.add_fixed(Plane{}, Vec3::Zero())).friction = 0.5;
+  const int count = 4 + static_cast<int>(seed % 10);
+  for (int i = 0; i < count; ++i) {
+    const Vec3 half = Vec3::Constant(0.25) + vector(0.15);
+    const Shape shape = between(0.0, 1.0) < 0.5 ? Shape(Sphere{half.x()}) : Shape(Box{half});
+    const double density = std::pow(10.0, between(2.0, 4.0));
+    const Vec3 at = vector(0.5);
+    const int body =
+        builder.add_body(shape, density * half.prod(), {at.x(), 1.0 + 0.9 * i, at.z()});
+    const Vec3 axis = vector(1.0);
+    builder.body(body).orientation = Quat(between(-1.0, 1.0), axis.x(), axis.y(), axis.z());
+    builder.body(body).orientation.normalize();
+    builder.body(body).velocity = vector(1.0) - Vec3{0.0, 1.5, 0.0};
+    builder.body(body).angular_velocity = vector(5.0);
+    builder.body(body).friction = between(0.0, 0.8);
+  }
+  return *builder.build();
+}
+
+/// The rise of the energy over its lowest value so far, in parts of the largest kinetic energy.
+double rise_of(const Scene& scene, const Settings& settings, double seconds) {
+  double lowest = std::numeric_limits<double>::infinity();
+  double rise = 0.0;
+  double kinetic = 0.0;
+  const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+    EXPECT_EQ(report.status, StepStatus::kOk);
+    lowest = std::min(lowest, report.energy);
+    rise = std::max(rise, report.energy - lowest);
+    kinetic = std::max(kinetic, report.kinetic);
+  };
+  run(scene, settings, seconds, every, false);
+  return rise / kinetic;
+}
+
+// With the paper's contacts most of them do.
+TEST(SweptContacts, RandomPilesGainNoEnergy) {
+  int gains = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Scene scene = random_pile(seed);
+    EXPECT_LT(rise_of(scene, find_preset("steady")->settings, 4.0), 0.01) << seed;
+    if (rise_of(scene, Settings{}, 4.0) > 0.01) ++gains;
+  }
+  EXPECT_GT(gains, 20);
+}
+
+TEST(SweptContacts, ARowOfBallsPassesAnImpactOn) {
+  SceneBuilder builder("row");
+  for (int i = 0; i < 5; ++i) {
+    const int ball = builder.add_body(kBall, 1.0, {i == 0 ? -1.0 : 2.0 * kHalf * i, 0.0, 0.0});
+    builder.body(ball).restitution = 1.0;
+  }
+  builder.body(0).velocity = {5.0, 0.0, 0.0};
+  builder.scene().gravity.setZero();
+  for (const int n : kSubsteps) {
+    SCOPED_TRACE(n);
+    Simulator simulator = simulator_of(builder.build(), steady_at(n));
+    for (int i = 0; i < 30; ++i) simulator.step();
+    for (std::size_t i = 0; i < 5; ++i) {
+      EXPECT_NEAR(simulator.state().u[i].x(), i == 4 ? 5.0 : 0.0, 5e-3) << i;
+    }
+    // No time is lost on the way of 1 m to the row and from there on.
+    EXPECT_NEAR(simulator.state().x[4].x(), 8.0 * kHalf + 5.0 * (0.5 - 1.0 / 5.0), 1e-3);
+  }
+}
+
+// The wrecking ball hits the crates at 1 s; balls bounce from 0.6 s on.
+TEST(SweptContacts, ContinueBitForBit) {
+  for (const Scene& of : {scenes::wrecking_ball(), scenes::bouncing_balls()}) {
+    SCOPED_TRACE(of.name);
+    const auto scene = shared(of);
+    const Settings& settings = find_preset("steady")->settings;
+    Simulator whole = simulator_of(scene, settings);
+    Simulator parts = simulator_of(scene, settings);
+    for (int i = 0; i < 66; ++i) {
+      whole.step();
+      do parts.step_some(1.0);
+      while (parts.substeps_left() > 0);
+      ASSERT_EQ(state_hash(whole.state()), state_hash(parts.state())) << i;
+    }
+    Simulator rest = simulator_of(scene, settings);
+    rest.set_state(whole.state());
+    const Scene saved = saved_scene(whole.scene(), whole.state(), whole.settings());
+    SceneResult read = read_scene(write_scene(saved));
+    for (const Problem& problem : read.problems) ADD_FAILURE() << to_string(problem);
+    Simulator reopened(read.scene);
+    for (int i = 0; i < 30; ++i) {
+      whole.step();
+      rest.step();
+      reopened.step();
+      ASSERT_EQ(state_hash(whole.state()), state_hash(rest.state())) << i;
+      for (std::size_t body = 0; body < whole.state().x.size(); ++body) {
+        ASSERT_EQ(whole.state().x[body], reopened.state().x[body]) << i;
+        ASSERT_EQ(whole.state().u[body], reopened.state().u[body]) << i;
+      }
+    }
+  }
+}
+
+// With both solved for, a joint does not push a body into a contact.
+TEST(SweptContacts, HoldTogetherWithExactJoints) {
+  SceneBuilder builder("pendulum_on_floor");
+  builder.add_fixed(Plane{}, {0.0, -0.8, 0.0});
+  const int rod = builder.add_body(Box{{0.5, 0.05, 0.05}}, 1.0, {0.5, 0.0, 0.0});
+  const int ball = builder.add_body(Sphere{0.2}, 10.0, {1.2, 0.0, 0.0});
+  builder.add_ball_joint(rod, kWorld, Vec3::Zero());
+  builder.add_ball_joint(ball, rod, {1.0, 0.0, 0.0});
+  const Settings& settings = find_preset("steady")->settings;
+  double deepest = 0.0;
+  double gap = 0.0;
+  const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+    EXPECT_EQ(report.status, StepStatus::kOk);
+    deepest = std::max(deepest, report.penetration);
+    gap = std::max(gap, report.joint_gap);
+  };
+  run(*builder.build(), settings, 5.0, every, false);
+  EXPECT_LT(deepest, 1e-3 * 0.2);
+  EXPECT_LT(gap, 1e-9);
+}
+
+}  // namespace
+}  // namespace substep::test

@@ -9,11 +9,12 @@ namespace substep {
 namespace {
 
 // Parts of the half width of the narrower shape.
-constexpr double kTouching = 1e-6;  // shapes that are closer touch
-constexpr double kSamePlace = 0.1;  // of two rows
-constexpr double kAlike = 0.9;      // cosine of the angle of their normals
-constexpr double kDeep = 0.02;      // overlaps on the way are looked for from here on
-constexpr double kManifold = 0.1;   // further points of a pair where it meets
+constexpr double kTouching = 1e-6;     // shapes that are closer touch
+constexpr double kSamePlace = 0.1;     // of two rows
+constexpr double kAlike = 0.9;         // cosine of the angle of their normals
+constexpr double kDeep = 0.02;         // overlaps on the way are looked for from here on
+constexpr double kExtrapolated = 4.0;  // a curvature is extrapolated by no more than this
+constexpr double kManifold = 0.1;      // further points of a pair where it meets
 
 std::uint64_t id_of_pair(int i, int j) { return contact_id(std::min(i, j), std::max(i, j), 0); }
 
@@ -115,9 +116,10 @@ SweptContacts::Found SweptContacts::correct(const Sweep& sweep, const BroadPhase
       append_row(sweep, point, (in_order ? on_a : on_b).x, (in_order ? on_b : on_a).x, time,
                  blocks);
       found = Found::kContacts;
-    } else {  // quadratic in time
+    } else {  // quadratic in time, as far as it may be extrapolated
       const double curved = point.gap - (row->phi[0] + time * speed_of_row(*row, sweep.w));
-      row->curved = curved * (sweep.dt / time) * (sweep.dt / time);
+      const double longer = sweep.dt / time;
+      row->curved = curved * std::min(longer * longer, kExtrapolated);
       found = std::max(found, Found::kOverlaps);
     }
   }

@@ -120,6 +120,44 @@ TEST(BoxBox, GradientAndStiffnessMatchFiniteDifferencesOnAFace) {
   }
 }
 
+// Faces that overhang each other on any side touch at the corners of their common part.
+TEST(BoxBox, OverhangingFacesTouchInTheirCommonPart) {
+  Random random(7);
+  const Vec3 half[2] = {{0.3, 0.4, 0.5}, {0.35, 0.45, 0.55}};
+  for (int trial = 0; trial < 48; ++trial) {
+    const int axis = trial % 3;
+    const double side = trial % 2 == 0 ? 1.0 : -1.0;
+    Vec3 offset{trial % 4 < 2 ? 0.2 : -0.2, trial % 8 < 4 ? 0.25 : -0.25,
+                trial % 16 < 8 ? 0.3 : -0.3};
+    offset[axis] = side * (half[0][axis] + half[1][axis] - 0.001);
+    Scene scene = pair_of(moving(Box{half[0]}), moving(Box{half[1]}));
+    scene.contact.margin = 0.02;
+    const Quat q = random_rotation(random);
+    scene.bodies[0].orientation = scene.bodies[1].orientation = q;
+    scene.bodies[0].position = q * offset;
+    Blocks blocks;
+    contact_rows(scene)(initial_state(scene), blocks);
+    ASSERT_EQ(blocks.size(), 4U) << trial;
+    unsigned found = 0;  // corners
+    for (const Block& block : blocks.all()) {
+      const Vec3 at = q.conjugate() *
+                      (scene.bodies[static_cast<std::size_t>(block.body_a)].position + block.r_a);
+      unsigned corner = 0;
+      for (int along = 0, bit = 0; along < 3; ++along) {
+        if (along == axis) continue;
+        const double low = std::max(offset[along] - half[0][along], -half[1][along]);
+        const double high = std::min(offset[along] + half[0][along], half[1][along]);
+        const bool is_high = at[along] > 0.5 * (low + high);
+        EXPECT_NEAR(at[along], is_high ? high : low, 1e-12) << trial;
+        if (is_high) corner |= 1U << bit;
+        ++bit;
+      }
+      found |= 1U << corner;
+    }
+    EXPECT_EQ(found, 15U) << trial;
+  }
+}
+
 TEST(BoxBox, AFaceOnAFaceHasFourPointsInEveryArrangement) {
   Random random(6);
   for (int trial = 0; trial < 60; ++trial) {

@@ -312,7 +312,7 @@ double rise_of(const Scene& scene, const Settings& settings, double seconds) {
   return rise / kinetic;
 }
 
-// With the paper's contacts most of them do.
+// With the paper's contacts many of them do.
 TEST(SweptContacts, RandomPilesGainNoEnergy) {
   int gains = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {

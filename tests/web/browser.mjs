@@ -213,8 +213,13 @@ export async function drop(page, name, bytes) {
  * @param group the row of choices: "tabs", "Method"; "body" for a body
  */
 export async function find(page, label, group) {
-  const all = await call(page, "widgets");
-  const found = all.find((w) => w.label === label && (group === undefined || w.group === group));
+  let all;
+  let found;
+  for (let tries = 0; !found && tries < 20; ++tries) { // panels are drawn from the second picture on
+    if (tries > 0) await page.waitForTimeout(100);
+    all = await call(page, "widgets");
+    found = all.find((w) => w.label === label && (group === undefined || w.group === group));
+  }
   assert.ok(found, `there is no "${label}" among: ${all.map((w) => w.label).join(", ")}`);
   return found;
 }

@@ -59,8 +59,7 @@ constexpr std::array<Choice, 3> kDetections{
       "frame are detected late."},
      {"continuous",
       "Found along the motion of every sub-step: nothing passes through what it hits or touches "
-      "what "
-      "it misses, rebounds begin where and when bodies meet, and overlaps are parted without "
+      "what it misses. Rebounds begin where and when bodies meet; overlaps are parted without "
       "speed."}}};
 constexpr std::array<Choice, 2> kGyroscopics{
     {{"explicit", "Explicit Euler, as in most engines: gains energy."},

@@ -1,6 +1,7 @@
 #include "core/collision/time_of_impact.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "core/math/turn.hpp"
 

@@ -31,6 +31,15 @@ void contact_row(const ContactPoint& point, const ContactModel& model, const Vec
   set_row(block, 0, point.n);
 }
 
+double normal_speed(const Block& contact, std::span<const Vec6> u) {
+  double speed = 0.0;
+  for (int j = 0; j < 6; ++j) {
+    if (contact.a >= 0) speed += contact.J_a[0][j] * u[index(contact.a)][j];
+    if (contact.b >= 0) speed += contact.J_b[0][j] * u[index(contact.b)][j];
+  }
+  return speed;
+}
+
 void friction_rows(const ContactModel& model, double mu, const Vec3& along, Block& block) {
   block.t1 = (along - block.n * block.n.dot(along)).normalized();
   block.t2 = block.n.cross(block.t1);

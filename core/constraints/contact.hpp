@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "core/collision/contact_point.hpp"
 #include "core/constraints/block.hpp"
@@ -12,6 +13,9 @@ namespace substep {
 /// Row 0: phi = gap along n, n from b to a [m].
 void contact_row(const ContactPoint& point, const ContactModel& model, const Vec3& x_a,
                  const Vec3& x_b, Block& block);
+
+/// J u of row 0: positive when the bodies separate [m/s]. @param u per body [m/s, rad/s]
+double normal_speed(const Block& contact, std::span<const Vec6> u);
 
 /// Rows 1 and 2: no sliding along t1, t2.
 /// @param along t1 its component normal to n gives t1, world

@@ -23,15 +23,6 @@ Travel travel_of(const SweptContacts::Sweep& sweep, int body) {
   return {body, sweep.scene.bodies[i].shape, sweep.state.x[i], sweep.R_WB[i], sweep.w[i]};
 }
 
-double speed_of_row(const Block& block, std::span<const Vec6> w) {
-  double speed = 0.0;
-  for (int j = 0; j < 6; ++j) {
-    if (block.a >= 0) speed += block.J_a[0][j] * w[index(block.a)][j];
-    if (block.b >= 0) speed += block.J_b[0][j] * w[index(block.b)][j];
-  }
-  return speed;
-}
-
 }  // namespace
 
 void SweptContacts::reserve(std::size_t rows) {
@@ -72,7 +63,7 @@ void SweptContacts::append_row(const Sweep& sweep, const ContactPoint& point, co
   block.a = sweep.scene.bodies[index(point.a)].is_static ? -1 : point.a;
   block.b = sweep.scene.bodies[index(point.b)].is_static ? -1 : point.b;
   contact_row(point, sweep.scene.contact, x_a, x_b, block);
-  block.phi[0] -= time * speed_of_row(block, sweep.w);
+  block.phi[0] -= time * normal_speed(block, sweep.w);
 }
 
 // The row of a point, or one of other features of the pair that acts in the same place.
@@ -117,7 +108,7 @@ SweptContacts::Found SweptContacts::correct(const Sweep& sweep, const BroadPhase
                  blocks);
       found = Found::kContacts;
     } else {  // quadratic in time, as far as it may be extrapolated
-      const double curved = point.gap - (row->phi[0] + time * speed_of_row(*row, sweep.w));
+      const double curved = point.gap - (row->phi[0] + time * normal_speed(*row, sweep.w));
       const double longer = sweep.dt / time;
       row->curved = curved * std::min(longer * longer, kExtrapolated);
       found = std::max(found, Found::kOverlaps);

@@ -21,9 +21,7 @@ Solver& Simulator::Impl::impact_solver() {
 bool Simulator::Impl::propagate_impacts(Substep& sub, FrameReport& report) {
   if (!restitution || sub.probing) return true;
   const bool sweeps = sweeps_contacts(sub);
-  restitution->begin(sweeps ? std::span<const Vec6>(gain) : std::span<const Vec6>());
   const bool spreads = restitution->spreads(sub, sub.u_before, sub.rows);
-  sub.impacts_are_past = sweeps && spreads;
   sub.struck = restitution->struck();
   if (!spreads) return true;
   std::span<const InverseMass> masses = sub.inverse_mass;

@@ -101,6 +101,7 @@ struct Simulator::Impl {
   bool solve_swept(Substep& sub, FrameReport& report);
   bool solve_softly(Substep& sub, FrameReport& report);
   SweptContacts::Found sweep(Substep& sub);
+  bool too_many_swept() const;
   bool find_shift(Substep& sub, FrameReport& report);
   bool parts(const Block& block) const;  // true if an overlap is parted
   /// True if a contact stops an approach that the forces of the sub-step do not explain: a body

@@ -169,7 +169,7 @@ void Simulator::Impl::seed(const Substep& sub) {
 void Simulator::Impl::set_bias(Substep& sub, FrameReport& report) {
   if (sub.probing) return set_probe_bias(sub.rows, sub.dt);
   set_drift_bias(sub.rows, drift_law(sub.settings), sub.settings.drift_tau, sub.dt);
-  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, gain, sub.dt);
+  if (sweeps_contacts(sub)) set_swept_bias(sub.rows, sub.gain, sub.dt);
   set_springs(sub, state);
   if (sub.settings.drift_order == 2) add_curvature_bias(sub.rows, sub.u_start, sub.dt);
   if (restitution) restitution->apply(sub, sub.u_before, sub.rows);
@@ -225,10 +225,12 @@ void Simulator::Impl::keep_forces(const Substep& sub) {
 }
 
 bool Simulator::Impl::evaluate_stiffness(const Substep& sub, FrameReport& report) {
-  if (sweeps_contacts(sub) && !sub.smooth) return true;  // the forces of an impact do not last
+  const bool full = entry_of(settings.mode).full_stiffness;
+  const bool known = !state.k.empty() && (!full || !state.K_resisting.empty());
+  // The forces of an impact do not last.
+  if (sweeps_contacts(sub) && !sub.smooth && known) return true;
   if (!stiffness) stiffness = std::make_unique<StiffnessStage>(*scene);
   for (Block& block : sub.rows) find_lambda(sub, block, block.lambda);
-  const bool full = entry_of(settings.mode).full_stiffness;
   const ContactTerms terms = full ? ContactTerms::kNormal
                              : settings.contact_stiffness == ContactStiffness::kExact
                                  ? ContactTerms::kExact

@@ -72,6 +72,12 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
     if (!solve_softly(sub, report)) return false;
     solved = blocks.size();
     found = sweep(sub);
+    if (too_many_swept()) {
+      report.status = StepStatus::kTooManyContacts;
+      report.overrun.budget = budget.contacts;
+      drop_rows(sub);
+      return false;
+    }
   }
   const auto overlaps = [&](const Block& block) { return parts(block); };
   bool shifts = found != SweptContacts::Found::kNothing ||
@@ -108,6 +114,12 @@ bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
   return true;
 }
 
+bool Simulator::Impl::too_many_swept() const {
+  const std::size_t others = joints ? scene->joints.size() + 1 : 1;  // and a grab
+  const auto most = static_cast<double>(others) + budget.contacts;
+  return contact->detector().too_many() || static_cast<double>(blocks.size() - first_block) > most;
+}
+
 bool Simulator::Impl::parts(const Block& block) const {
   const auto width = [&] { return contact->detector().half_width(block.body_a, block.body_b); };
   return block.is_contact() && !is_soft_contact(block) &&
@@ -116,9 +128,7 @@ bool Simulator::Impl::parts(const Block& block) const {
 
 bool Simulator::Impl::ends_impact(const Substep& sub, const Block& block) const {
   if (!sweeps_contacts(sub) || !(block.impulse[0] > 0.0)) return false;
-  double before[kMaxRows];
-  row_speeds(block, sub.u_before, before);
-  return -before[0] > gained_speed(block, gain);
+  return -normal_speed(block, sub.u_before) > gained_speed(block, sub.gain);
 }
 
 // The smallest change of the shift that keeps shapes apart at the end, and joints. Returns false if
@@ -136,11 +146,7 @@ bool Simulator::Impl::find_shift(Substep& sub, FrameReport& report) {
     if (!block.is_contact()) continue;
     block.rows = 1;  // without friction
     std::fill(std::begin(block.active_set), std::end(block.active_set), kUnknownSet);
-    double moving[kMaxRows];
-    double shifting[kMaxRows];
-    row_speeds(block, w, moving);
-    row_speeds(block, shift, shifting);
-    const double speed = moving[0] - shifting[0];
+    const double speed = normal_speed(block, w) - normal_speed(block, shift);
     block.bias[0] = speed + (std::max(row.phi[0], 0.0) + row.curved) / sub.dt;
     if (!parts(row)) continue;
     const double width = contact->detector().half_width(row.body_a, row.body_b);

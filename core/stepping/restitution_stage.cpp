@@ -3,21 +3,13 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/constraints/contact.hpp"
+
 namespace substep {
 namespace {
 
 // Bias of an open contact: no impact can close it [m/s].
 constexpr double kOpen = 1e30;
-
-/// Speed along the normal, positive when the bodies separate [m/s].
-double normal_speed(const Block& block, std::span<const Vec6> u) {
-  double speed = 0.0;
-  for (int j = 0; j < 6; ++j) {
-    if (block.a >= 0) speed += block.J_a[0][j] * u[index(block.a)][j];
-    if (block.b >= 0) speed += block.J_b[0][j] * u[index(block.b)][j];
-  }
-  return speed;
-}
 
 }  // namespace
 
@@ -34,11 +26,11 @@ RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<
   if (!block.is_contact() || restitution_of(block) == 0.0) return {};
   const double least = scene_.contact.restitution_speed;
   const double before = normal_speed(block, u);
-  if (gain_.empty()) {
+  if (sub.gain.empty()) {
     const bool closes = block.phi[0] + before * sub.dt < 0.0;
     return closes && before <= -least ? Impact{.speed = -before} : Impact{};
   }
-  const double gained = normal_speed(block, gain_);
+  const double gained = normal_speed(block, sub.gain);
   const double middle = before + gained;
   if (!(middle < 0.0) || !(block.phi[0] + middle * sub.dt < 0.0)) return {};
   const double time = std::max(block.phi[0], 0.0) / -middle;
@@ -56,7 +48,7 @@ void RestitutionStage::apply(const Substep& sub, std::span<const Vec6> u_before,
                              std::span<Block> blocks) const {
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     Block& block = blocks[i];
-    const auto gained = [&] { return gain_.empty() ? 0.0 : normal_speed(block, gain_); };
+    const auto gained = [&] { return sub.gain.empty() ? 0.0 : normal_speed(block, sub.gain); };
     const Impact hit = impact(sub, u_before, block);
     if (hit.speed > 0.0) {
       block.bias[0] =
@@ -65,7 +57,7 @@ void RestitutionStage::apply(const Substep& sub, std::span<const Vec6> u_before,
     if (struck_.empty() || struck_[i] == 0) continue;
     const double separation = normal_speed(block, u_before) + gained();
     // It separates anyway: redundant rows must not share forces of rounding.
-    const double least = gain_.empty() ? separation : (1.0 - 1e-6) * separation;
+    const double least = sub.gain.empty() ? separation : (1.0 - 1e-6) * separation;
     block.bias[0] = std::min(block.bias[0], -least);
   }
 }
@@ -87,7 +79,7 @@ bool RestitutionStage::spreads(const Substep& sub, std::span<const Vec6> u,
   }
   if (!any) return false;
   const bool spread =
-      !gain_.empty() || std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
+      !sub.gain.empty() || std::any_of(blocks.begin(), blocks.end(), [&](const Block& block) {
         if (!block.is_contact() || restitution_of(block) == 0.0) return false;
         if (impact(sub, u, block).speed > 0.0) return false;
         double change = 0.0;  // each body's speed changes by at most twice its fastest impact

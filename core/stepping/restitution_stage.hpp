@@ -18,10 +18,6 @@ class RestitutionStage {
  public:
   explicit RestitutionStage(const Scene& scene) : scene_(scene), impact_(scene.bodies.size()) {}
 
-  /// To be called before each solve. @param gain per body: velocity by the forces of the sub-step,
-  /// if contacts are found along the motion, else empty; outlives the solve [m/s, rad/s]
-  void begin(std::span<const Vec6> gain) { gain_ = gain; }
-
   /// Modifies the bias set by the drift law. A contact already struck in this sub-step separates at
   /// least as fast as after its impacts.
   /// @param u_before per body: velocities before the forces of this sub-step [m/s, rad/s]
@@ -56,10 +52,9 @@ class RestitutionStage {
                               const Block& block) const;
 
   const Scene& scene_;
-  std::span<const Vec6> gain_;
   std::vector<double> impact_;        // per body: fastest impact [m/s]
   std::vector<std::uint8_t> struck_;  // per block, if impacts were propagated; else empty
-  double since_ = 0.0;                // part of the sub-step
+  double since_ = 0.0;                // part of the sub-step after which the last impacts close
   double late_ = 0.0;
 };
 

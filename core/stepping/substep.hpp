@@ -46,11 +46,10 @@ struct Substep {
   std::vector<Vec6> u_before;             // after the gyroscopic torque, before forces and rows
   std::vector<InverseMass> inverse_mass;  // Mt^-1
   std::span<const std::uint8_t> struck;   // per block, if impacts were propagated; else empty
-  bool impacts_are_past = false;          // u_before is after the impacts
-  std::span<const Vec6> gain;             // per body: velocity by the forces [m/s, rad/s]; or empty
-  std::span<const Vec6>
-      shift;           // per body, of the motion beyond u: swept.cpp [m/s, rad/s]; or empty
-  bool smooth = true;  // no contact closed
+  // With contacts found along the motion (sim/swept.cpp), else empty; per body [m/s, rad/s].
+  std::span<const Vec6> gain;   // velocity by the forces
+  std::span<const Vec6> shift;  // of the motion beyond u
+  bool smooth = true;           // no contact closed
 };
 
 /// u += time M^-1 f for the applied forces of the moving bodies. @param time per body [s]

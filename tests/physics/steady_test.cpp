@@ -9,14 +9,12 @@
 #include <numbers>
 #include <random>
 
-#include "core/io/saved_scene.hpp"
-#include "core/io/scene_reader.hpp"
-#include "core/io/scene_writer.hpp"
 #include "core/lab/presets.hpp"
 #include "core/model/names.hpp"
 #include "core/model/scene_builder.hpp"
 #include "scenes/generator/exam.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/continues.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {
@@ -290,22 +288,7 @@ TEST(Steady, ContinuesFromASnapshotAndAFileBitForBit) {
     const auto scene = shared(thrown_rope());
     Simulator whole = simulator_of(scene, settings);
     for (int i = 0; i < 40; ++i) whole.step();
-    Simulator rest = simulator_of(scene, settings);
-    rest.set_state(whole.state());
-    const Scene saved = saved_scene(whole.scene(), whole.state(), whole.settings());
-    SceneResult read = read_scene(write_scene(saved));
-    for (const Problem& problem : read.problems) ADD_FAILURE() << to_string(problem);
-    Simulator reopened(read.scene);
-    for (int i = 0; i < 120; ++i) {
-      whole.step();
-      rest.step();
-      reopened.step();
-      ASSERT_EQ(state_hash(whole.state()), state_hash(rest.state())) << i;
-      for (std::size_t body = 0; body < whole.state().x.size(); ++body) {
-        ASSERT_EQ(whole.state().x[body], reopened.state().x[body]) << i;
-        ASSERT_EQ(whole.state().u[body], reopened.state().u[body]) << i;
-      }
-    }
+    expect_continues(whole, 120);
   }
 }
 

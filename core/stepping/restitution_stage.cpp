@@ -40,8 +40,7 @@ RestitutionStage::Impact RestitutionStage::impact(const Substep& sub, std::span<
   const double speed = -(before + kick);
   // What returns within the sub-step rests.
   const bool returns = restitution_of(block) * speed <= -acceleration * sub.dt;
-  const double change = restitution_of(block) * speed - kick - before;
-  return speed >= least && !returns ? Impact{speed, kick, time, change, acceleration} : Impact{};
+  return speed >= least && !returns ? Impact{speed, kick, time, acceleration} : Impact{};
 }
 
 void RestitutionStage::apply(const Substep& sub, std::span<const Vec6> u_before,
@@ -109,7 +108,8 @@ bool RestitutionStage::set_impacts(const Substep& sub, std::span<const Vec6> u,
       const double part = hit.time / sub.dt;
       if (part < first) {
         first = part;
-        late_ = part - 0.5 * part * (1.0 - part) * sub.dt * hit.acceleration / hit.change;
+        const double change = (1.0 + restitution_of(block)) * hit.speed;
+        late_ = part - 0.5 * part * (1.0 - part) * sub.dt * hit.acceleration / change;
       }
     }
     block.bias[0] = hit.speed > 0.0 ? -restitution_of(block) * hit.speed + hit.kick : kOpen;

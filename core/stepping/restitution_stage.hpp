@@ -43,7 +43,6 @@ class RestitutionStage {
     double speed = 0.0;         // approach when the contact closes, 0 if it does not rebound [m/s]
     double kick = 0.0;          // change of the normal speed by forces until then [m/s]
     double time = 0.0;          // when it closes, if known [s]
-    double change = 0.0;        // of the normal speed by the impact [m/s]
     double acceleration = 0.0;  // along the normal, by forces [m/s^2]
   };
   /// Of a pair: the maximum.

@@ -114,7 +114,7 @@ TEST(MovedRows, ASubsetOfRowsMatchesAllRows) {
   Random random(36);
   static_assert(kJointKinds == 3);
   for (int trial = 0; trial < 40; ++trial) {
-    Block start;
+    Block start{};
     const int kind = trial % 4;
     start.kind = kind == 3 ? BlockKind::kContact : static_cast<BlockKind>(kind);
     start.has_point_rows = kind < 2;

@@ -24,16 +24,21 @@ std::vector<Candidate> candidates() {
   const auto add = [&](const char* name, Settings settings) { all.push_back({name, settings}); };
   const Integrator leapfrog = Integrator::kLeapfrog;
   const Drift soft = Drift::kSoft;
-  add("adaptive 0.1, soft", {.drift = soft});
-  add("adaptive 0.3, leapfrog, soft", {.alpha = 0.3, .integrator = leapfrog, .drift = soft});
+  add("adaptive 0.1, soft", PaperSettings{.drift = soft});
+  add("adaptive 0.3, leapfrog, soft",
+      PaperSettings{.alpha = 0.3, .integrator = leapfrog, .drift = soft});
   add("capped 16 + damping, 0.3, soft",
-      {.mode = Mode::kCapped, .alpha = 0.3, .n_cap = 16, .drift = soft});
+      PaperSettings{.mode = Mode::kCapped, .alpha = 0.3, .n_cap = 16, .drift = soft});
   add("inertia from 8, 0.3, leapfrog, soft",
-      {.mode = Mode::kInertia, .alpha = 0.3, .n_cap = 8, .integrator = leapfrog, .drift = soft});
-  add("damping", {.mode = Mode::kDamping});
-  add("newton, one step", {.solver = SolverKind::kNewton, .mode = Mode::kNone});
-  add("const 16", {.mode = Mode::kConst, .n = 16});
-  add("const 32", {.mode = Mode::kConst, .n = 32});
+      PaperSettings{.mode = Mode::kInertia,
+                    .alpha = 0.3,
+                    .n_cap = 8,
+                    .integrator = leapfrog,
+                    .drift = soft});
+  add("damping", PaperSettings{.mode = Mode::kDamping});
+  add("newton, one step", PaperSettings{.solver = SolverKind::kNewton, .mode = Mode::kNone});
+  add("const 16", PaperSettings{.mode = Mode::kConst, .n = 16});
+  add("const 32", PaperSettings{.mode = Mode::kConst, .n = 32});
   return all;
 }
 

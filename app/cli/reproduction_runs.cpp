@@ -9,7 +9,7 @@
 namespace substep::cli {
 
 Settings direct(Mode mode, int n, double alpha) {
-  Settings settings;
+  PaperSettings settings;
   settings.mode = n == 1 && mode == Mode::kConst ? Mode::kNone : mode;
   settings.n = n;
   settings.alpha = alpha;

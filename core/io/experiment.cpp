@@ -40,6 +40,7 @@ std::uint64_t scene_hash(const Scene& scene) {
   Json content = Json::parse(write_scene(bare), nullptr, false);
   content.erase("settings");
   content.erase("camera");
+  content["version"] = 1;  // later versions write the same content
   return text_hash(content.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -56,11 +57,11 @@ Experiment experiment_of(const Scene& scene, const Settings& settings, int seed)
 
 std::string experiment_id(const Experiment& experiment) {
   std::string text = experiment.scene + ' ' + hex_text(experiment.scene_hash);
-  const Settings defaults;
   for (const SettingField& field : setting_fields()) {
     if (field.name == "watch_stiffness") continue;  // display only
     const std::string value = setting_text(field, experiment.settings);
-    if (value == setting_text(field, defaults)) continue;
+    // The paper's never change, so that ids stay the same when the defaults do.
+    if (value == setting_text(field, kPaperSettings)) continue;
     text += ' ';
     text += field.name;
     text += '=' + value;
@@ -97,6 +98,8 @@ ExperimentInput read_experiment(const Json& json, const SceneFinder& find, Probl
     if (!input.scene) in.problem("scene", "no scene is called " + value_text(experiment.scene));
   }
   if (input.scene) experiment = experiment_of(*input.scene, input.scene->settings);
+  // The program wrote lines with an id, and all settings that there were then.
+  if (in.member("id", kOptional)) experiment.settings = kPaperSettings;
   read_settings(in, experiment.settings, problems);
   in.number("seconds", kDurationRange, experiment.duration, kOptional);
   in.number("load", kLoadRange, experiment.load, kOptional);

@@ -15,11 +15,12 @@ Json recommended_json(const Recommended& recommended) {
   json["operations"] = recommended.operations;
   json["seconds"] = recommended.seconds;
   if (!recommended.why.empty()) json["why"] = recommended.why;
-  json["settings"] = settings_json(recommended.settings);
+  json["settings"] = scene_settings_json(recommended.settings);
   return json;
 }
 
-Recommended read_recommended(const Json& json, const std::string& pointer, Problems& problems) {
+Recommended read_recommended(const Json& json, const std::string& pointer, int version,
+                             Problems& problems) {
   ObjectReader in(json, pointer, problems);
   Recommended recommended;
   if (!in.is_object()) return recommended;
@@ -33,7 +34,9 @@ Recommended read_recommended(const Json& json, const std::string& pointer, Probl
   in.number("operations", kOperationsRange, recommended.operations, kRequired);
   in.number("seconds", kDurationRange, recommended.seconds, kRequired);
   in.text("why", kMaxProse, recommended.why, kOptional);
-  if (in.member("settings", kRequired)) read_settings(in, recommended.settings, problems);
+  if (in.member("settings", kRequired)) {
+    read_scene_settings(in, version, recommended.settings, problems);
+  }
   in.finish();
   return recommended;
 }

@@ -11,7 +11,8 @@ namespace substep {
 /// The member "recommended" of a scene file.
 Json recommended_json(const Recommended& recommended);
 
-/// Reads it back. Omitted settings are the defaults.
-Recommended read_recommended(const Json& json, const std::string& pointer, Problems& problems);
+/// Reads it back. @param version of the file
+Recommended read_recommended(const Json& json, const std::string& pointer, int version,
+                             Problems& problems);
 
 }  // namespace substep

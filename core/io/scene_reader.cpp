@@ -86,7 +86,8 @@ void SceneReading::Impl::parse() {
 void SceneReading::Impl::read_head() {
   in.emplace(json, "", found);
   next = nullptr;
-  if (!in->is_object() || !read_version(*in, found)) return;
+  const std::optional<int> version = in->is_object() ? read_version(*in, found) : std::nullopt;
+  if (!version) return;
   next = &Impl::read_bodies;
   read_about(*in, *scene);
   read_camera(*in, *scene, found);
@@ -97,9 +98,10 @@ void SceneReading::Impl::read_head() {
   in->number("regularisation", kRegularisationRange, scene->regularisation, kOptional);
   read_start(*in, *scene);
   const bool has_settings = in->member("settings", kOptional) != nullptr;
-  read_settings(*in, scene->settings, found);
+  read_scene_settings(*in, *version, scene->settings, found);
   if (const Json* recommended = in->member("recommended", kOptional)) {
-    scene->recommended = read_recommended(*recommended, in->pointer("recommended"), found);
+    scene->recommended =
+        read_recommended(*recommended, in->pointer("recommended"), *version, found);
     if (!has_settings) scene->settings = scene->recommended->settings;
   }
   bodies = in->list("bodies", kMaxBodies, kRequired);

@@ -9,16 +9,15 @@
 
 namespace substep {
 
-bool read_version(ObjectReader& in, Problems& problems) {
+std::optional<int> read_version(ObjectReader& in, Problems& problems) {
   const std::size_t before = problems.size();
   std::string format;
   if (in.text("format", kMaxProse, format, kRequired) && format != "substep-scene") {
     in.problem("format", must_be("\"substep-scene\"", value_text(format)));
   }
-  if (const Json* version = in.member("version", kRequired); version && *version != 1) {
-    in.problem("version", must_be("1, the only known version", value_text(*version)));
-  }
-  return problems.size() == before;
+  int version = 0;
+  in.integer("version", 1, kSceneVersion, version, kRequired);
+  return problems.size() == before ? std::optional(version) : std::nullopt;
 }
 
 void read_about(ObjectReader& in, Scene& scene) {

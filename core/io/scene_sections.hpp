@@ -1,14 +1,16 @@
 #pragma once
 // The sections of a scene file, apart from its bodies and joints.
 
+#include <optional>
+
 #include "core/io/body_names.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
 
-/// True if the version is supported. If not, no further problems are reported.
-bool read_version(ObjectReader& in, Problems& problems);
+/// The version of the file, or nothing if it is not supported: no further problems are reported then.
+std::optional<int> read_version(ObjectReader& in, Problems& problems);
 /// Name, title, group and descriptive texts.
 void read_about(ObjectReader& in, Scene& scene);
 void read_camera(ObjectReader& in, Scene& scene, Problems& problems);

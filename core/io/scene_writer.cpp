@@ -115,7 +115,7 @@ Json criteria_json(const Scene& scene) {
 Json scene_json(const Scene& scene) {
   Json json;
   json["format"] = "substep-scene";
-  json["version"] = 1;
+  json["version"] = kSceneVersion;
   json["name"] = scene.name;
   json["title"] = scene.title;
   json["group"] = scene.group;
@@ -141,7 +141,7 @@ Json scene_json(const Scene& scene) {
   if (scene.start != StartPolicy::kProject) json["start"] = name_of(scene.start);
   // A scene without settings starts with the recommended ones.
   if (!scene.recommended || scene.settings != scene.recommended->settings) {
-    json["settings"] = settings_json(scene.settings);
+    json["settings"] = scene_settings_json(scene.settings);
   }
   if (scene.recommended) json["recommended"] = recommended_json(*scene.recommended);
   json["criteria"] = criteria_json(scene);

@@ -6,7 +6,7 @@
 
 namespace substep {
 
-/// The scene as a file of format version 1; read_scene returns an equal scene. The bytes are the
+/// The scene as a file of the newest version; read_scene returns an equal scene. The bytes are the
 /// same on every machine; arrays of numbers are on one line.
 std::string write_scene(const Scene& scene);
 

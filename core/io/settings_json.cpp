@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "core/model/names.hpp"
 #include "core/model/number_text.hpp"
 #include "core/model/setting_fields.hpp"
 
@@ -43,10 +44,23 @@ Json settings_json(const Settings& settings) {
   return json;
 }
 
+Json scene_settings_json(const Settings& settings) {
+  const Json all = settings_json(settings);
+  const Json paper = settings_json(kPaperSettings);
+  Json json{{"preset", name_of(Defaults::kPaper)}};
+  for (const auto& [name, value] : all.items()) {
+    if (value != paper[name]) json[name] = value;
+  }
+  return json;
+}
+
 void read_settings(ObjectReader& parent, Settings& settings, Problems& problems) {
   const Json* json = parent.member("settings", kOptional);
   if (!json) return;
   ObjectReader in(*json, parent.pointer("settings"), problems);
+  if (const auto preset = in.choice<Defaults>("preset", kOptional)) {
+    settings = *preset == Defaults::kPaper ? kPaperSettings : Settings{};
+  }
   for (const SettingField& field : setting_fields()) {
     const Json* value = in.member(field.name, kOptional);
     if (!value) continue;
@@ -56,6 +70,14 @@ void read_settings(ObjectReader& parent, Settings& settings, Problems& problems)
     }
   }
   in.finish();
+}
+
+void read_scene_settings(ObjectReader& parent, int version, Settings& settings,
+                         Problems& problems) {
+  const Json* json = parent.member("settings", kOptional);
+  // An empty block chooses nothing.
+  if (json && !json->empty()) settings = version == 1 ? kPaperSettings : Settings{};
+  read_settings(parent, settings, problems);
 }
 
 }  // namespace substep

@@ -44,25 +44,21 @@ std::string about(const Recommended& r) {
 
 std::span<const Preset> presets() {
   static const std::array all{
-      Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once per frame.", {}},
+      Preset{"paper", "As in the paper: adaptive, alpha 0.1, N decided once per frame.",
+             kPaperSettings},
       Preset{kRecommended,
              "Up to four sub-steps, then damping: holds 48 of the 49 hard scenes at 15 % of the "
              "operations of 32 constant sub-steps; damps motions slightly.",
-             {.mode = Mode::kCapped, .n_cap = 4}},
+             PaperSettings{.mode = Mode::kCapped, .n_cap = 4}},
       Preset{"robust",
              "Newton's method, implicit, with four sub-steps: holds all 49 hard scenes at three "
              "quarters of the operations of 32 constant sub-steps; damps motions slightly.",
-             {.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
+             PaperSettings{.solver = SolverKind::kNewton, .mode = Mode::kConst, .n = 4}},
       Preset{"steady",
-             "Adaptive without a gain of energy: leapfrog, joints that hold exactly, an N that "
-             "falls after a second only, frames taken again where it was too small, and contacts "
-             "found along the motion.",
-             {.n_max = 256,
-              .hold = 60,
-              .redo = true,
-              .integrator = Integrator::kLeapfrog,
-              .drift = Drift::kExact,
-              .detection = Detection::kContinuous}},
+             "The default of scenes without settings. Adaptive without a gain of energy: leapfrog, "
+             "joints that hold exactly, an N that falls after a second only, frames taken again "
+             "where it was too small, contacts found along the motion, and isotropic friction.",
+             {}},
   };
   return all;
 }

@@ -157,6 +157,8 @@ Settings base_of(const Scene& scene) {
   base.share_iterations = false;
   base.refinements = 0;
   base.detection = Detection::kSubstep;
+  base.hold = 1;
+  base.redo = false;
   base.islands = false;
   base.sleep = false;
   return base;

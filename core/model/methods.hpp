@@ -13,7 +13,14 @@
 
 namespace substep {
 
-struct Settings;
+/// Whose values settings have where nothing is chosen.
+enum class Defaults : std::uint8_t {
+  kSteady,  // of this program: no gain of energy, contacts found along the motion
+  kPaper,   // of Giles and Andrews, and of scene files before version 2
+};
+template <Defaults kDefaults>
+struct BasicSettings;
+using Settings = BasicSettings<Defaults::kSteady>;
 class Solver;
 
 // Each value is described by its entry below.

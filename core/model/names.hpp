@@ -37,6 +37,8 @@ inline constexpr NameList<kCountOf<Mode>> kNames<Mode> = names_in(kModes);
 template <>
 inline constexpr NameList<kCountOf<Integrator>> kNames<Integrator> = names_in(kIntegrators);
 template <>
+inline constexpr NameList<2> kNames<Defaults>{"steady", "paper"};
+template <>
 inline constexpr NameList<2> kNames<Policy>{"frame", "substep"};
 template <>
 inline constexpr NameList<4> kNames<Drift>{"auto", "full", "soft", "exact"};

@@ -76,19 +76,22 @@ inline bool is_fixed(const Scene& scene, int body) {
   return body == kWorld || scene.bodies[index(body)].is_static;
 }
 
-/// The scene's own settings: the defaults if it starts with its recommendation. Sweeps start from
+/// The scene's own settings: the paper's if it starts with its recommendation. Sweeps start from
 /// these, independent of earlier recommendations.
 inline Settings own_settings(const Scene& scene) {
   if (!scene.recommended) return scene.settings;
   Settings recommended = scene.recommended->settings;
   recommended.watch_stiffness = scene.settings.watch_stiffness;  // display only
-  return scene.settings == recommended ? Settings{} : scene.settings;
+  return scene.settings == recommended ? kPaperSettings : scene.settings;
 }
 
 /// The scene with a recommendation. It replaces the initial settings, unless the scene has its own
-/// (own_settings()) and they are not the defaults.
+/// (own_settings()) and they are neither the defaults nor the paper's.
 inline Scene with_recommended(Scene scene, Recommended recommended) {
-  if (own_settings(scene) == Settings{}) scene.settings = recommended.settings;
+  const Settings own = own_settings(scene);
+  if (own == Settings{} || own == kPaperSettings) {
+    scene.settings = recommended.settings;
+  }
   scene.recommended = std::move(recommended);
   return scene;
 }

@@ -8,6 +8,7 @@
 
 namespace substep {
 
+inline constexpr int kSceneVersion = 2;  // of the format; version 1 is read too
 inline constexpr std::size_t kMaxBodies = 20000;
 inline constexpr std::size_t kMaxJoints = 20000;
 inline constexpr std::size_t kMaxForces = 1'000'000;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <string_view>
 
@@ -31,8 +32,12 @@ enum class Gyroscopic : std::uint8_t { kExplicit, kImplicit };
 /// passes through what it hits or touches what it misses (sim/swept.cpp).
 enum class Detection : std::uint8_t { kSubstep, kFrame, kContinuous };
 
-/// All parameters that may change while a scene runs. The defaults are the paper's.
-struct Settings {
+/// All parameters that may change while a scene runs. Settings{} and PaperSettings{} differ in
+/// their defaults alone and convert to each other with all values kept.
+template <Defaults kDefaults>
+struct BasicSettings {
+  static constexpr bool kPaper = kDefaults == Defaults::kPaper;
+
   SolverKind solver = SolverKind::kBpp;
   int iterations = 25;  // per sub-step: sweeps of PGS and XPBD, maximum of Newton steps, >= 1
   bool share_iterations = false;  // sweeps are per frame, divided among its sub-steps
@@ -44,31 +49,45 @@ struct Settings {
   Mode mode = Mode::kAdaptive;
   double alpha = 0.1;    // stability threshold of Eq. 5, in (0, 1] [-]; N ~ alpha^-1/2
   int n = 16;            // sub-steps per frame in mode kConst, >= 1
-  int n_max = 64;        // maximum sub-steps per frame in mode kAdaptive, >= 1
+  int n_max = kPaper ? 64 : 256;  // maximum sub-steps per frame in mode kAdaptive, >= 1
   int n_cap = 4;         // maximum sub-steps per frame in modes kCapped, kInertia and kBlend, >= 1
   double alpha_m = 0.7;  // kInertia, kBlend: upper bound on dt^2 k/(4 Mt), in (0, 1) [-]
   double beta = 0.95;    // kBlend: undamped share of the velocity, in [0, 1] [-]
   Policy policy = Policy::kFrame;
   double memory = 0.9;   // decay of r per sub-step in policy kSubstep, in [0, 1) [-]
-  int hold = 1;          // N falls only after so many frames that need fewer sub-steps, >= 1
-  bool redo = false;     // a frame that turns out to need more sub-steps is taken again with them
+  int hold = kPaper ? 1 : 60;  // N falls only after so many frames that need fewer sub-steps, >= 1
+  bool redo = !kPaper;  // a frame that turns out to need more sub-steps is taken again with them
   bool islands = false;  // each island has its own N, in modes that choose N
   bool sleep = false;    // islands at rest are not stepped
   bool probe = true;     // one solve before the first frame for the forces that determine N
 
-  Integrator integrator = Integrator::kEuler;
+  Integrator integrator = kPaper ? Integrator::kEuler : Integrator::kLeapfrog;
   Gyroscopic gyroscopic = Gyroscopic::kImplicit;
-  Drift drift = Drift::kAuto;
+  Drift drift = kPaper ? Drift::kAuto : Drift::kExact;
   double drift_tau = 1.0 / 480.0;  // time constant of the soft drift law, > 0 [s]
   int drift_order = 1;             // 2: includes the curvature of joint rows, drift.hpp
-  Detection detection = Detection::kSubstep;
+  Detection detection = kPaper ? Detection::kSubstep : Detection::kContinuous;
   ContactStiffness contact_stiffness = ContactStiffness::kPaper;
   bool rotation_criterion = true;  // N also depends on the rotation and gyroscopic rates of bodies
-  FrictionCone friction_cone = FrictionCone::kBox;
+  FrictionCone friction_cone = kPaper ? FrictionCone::kBox : FrictionCone::kCone;
   bool watch_stiffness = false;  // evaluate K for display even if the mode does not need it
 
-  friend bool operator==(const Settings&, const Settings&) = default;
+  // NOLINTNEXTLINE(google-explicit-constructor): the same settings, whatever their defaults
+  template <Defaults kOther>
+    requires(kOther != kDefaults)
+  constexpr operator BasicSettings<kOther>() const {
+    return std::bit_cast<BasicSettings<kOther>>(*this);
+  }
+  friend bool operator==(const BasicSettings&, const BasicSettings&) = default;
+  template <Defaults kOther>
+    requires(kOther != kDefaults)
+  friend bool operator==(const BasicSettings& a, const BasicSettings<kOther>& b) {
+    return a == BasicSettings(b);
+  }
 };
+
+using PaperSettings = BasicSettings<Defaults::kPaper>;
+inline constexpr Settings kPaperSettings = PaperSettings{};
 
 /// True if all impulses, including those of joints, are seeded with the forces of the last
 /// sub-step.

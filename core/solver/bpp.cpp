@@ -26,6 +26,14 @@ bool has_known_set(const Block& block) {
                      [](std::int8_t t) { return -1 <= t && t <= 1; });
 }
 
+/// True if a contact sticks and its friction is within the cone.
+bool sticks(const Block& block) {
+  const double bound = block.mu * std::max(0.0, block.impulse[0]);
+  const double* f = block.impulse + 1;
+  return block.active_set[1] == 0 && block.active_set[2] == 0 &&
+         f[0] * f[0] + f[1] * f[1] <= bound * bound;
+}
+
 double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
 
 }  // namespace
@@ -209,9 +217,14 @@ void Bpp::start_active_set(const System& system) {
 }
 
 // Sliding contact: the bisector of its force and the direction opposing the sliding, which halves
-// their angle per pass. Sticking contact: its force. Before the first solve: the sliding due to
-// external forces.
+// their angle per pass. Before the first solve: the sliding due to external forces. A contact that
+// sticks can take force in both tangents: with the box pointed along its force it would be free to
+// slide across it, and a house of cards would creep and fall. Beyond the cone: along its force.
 void Bpp::turn_cone(const System& system, bool first, Block& block) const {
+  if (sticks(block)) {
+    block.share[0] = block.share[1] = 1.0;
+    return;
+  }
   double speed[kMaxRows];
   row_speeds(block, system.u, speed);
   double along[2] = {};
@@ -251,7 +264,7 @@ bool Bpp::bounds_settled(const System& system, bool cone) const {
     if (block.rows != 3 || !block.is_contact()) continue;
     const double bound = block.mu * std::max(0.0, block.impulse[0]);
     const double room = tolerance(bound);
-    if (cone) {
+    if (cone && !sticks(block)) {
       Block turned = block;
       turn_cone(system, false, turned);
       const double off = block.share[0] * turned.share[1] - block.share[1] * turned.share[0];

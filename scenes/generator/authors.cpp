@@ -17,7 +17,7 @@ Scene swinging_box_authors() {
   constexpr int kLinks = 18;
   constexpr double kLength = 1.5;  // of a link [m]
   constexpr double kBox = 4.0;     // [m]
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "swinging_box_authors";
   scene.title = "Swinging box, authors' constants";
   scene.group = "authors";
@@ -68,7 +68,7 @@ Scene bridge_authors() {
   constexpr double kPitch = 0.6;   // distance of two planks [m]
   constexpr double kHeight = 6.0;  // [m]
   constexpr double kMu = 0.8;
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "bridge_authors";
   scene.title = "Bridge, authors' constants";
   scene.group = "authors";
@@ -112,7 +112,7 @@ Scene heavy_stack_authors() {
   constexpr int kLayers = 4;
   constexpr double kRadius = 0.5;  // of a ball [m]
   constexpr double kPlate = 0.5;   // thickness [m]
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "heavy_stack_authors";
   scene.title = "Heavy stack, authors' constants";
   scene.group = "authors";

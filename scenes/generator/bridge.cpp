@@ -159,7 +159,7 @@ void add_ball(const BridgeOptions& options, Scene& scene) {
 }
 
 Scene hanging_bridge(double span) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.effects = {.gravity = true, .joints = true, .contact = true, .friction = true};
   scene.contact.compliance = 1e-7;
   scene.contact.friction_compliance = 1e-10;

@@ -43,7 +43,7 @@ void add_pair(double x, double y, Scene& scene) {
 
 Scene card_house(int storeys) {
   const double storey = kCardLength * kCosine + kCardThickness * kSine;
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "card_house";
   scene.title = "Card house";
   scene.group = "playground";

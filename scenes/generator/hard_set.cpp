@@ -81,7 +81,7 @@ class LinkChain {
 };
 
 Scene empty() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.effects = {.gravity = true, .gyroscopic = true, .joints = true};
   return scene;
 }
@@ -223,7 +223,7 @@ Scene landing_on_bridge() {
 
 /// A crate of 1000 kg lands at 30 m/s on a light plank that lies on two supports.
 Scene landing_on_plank() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.effects = {.gravity = true, .gyroscopic = true, .contact = true, .friction = true};
   scene.contact.compliance = 1e-8;
   scene.bodies.push_back(floor_plane());

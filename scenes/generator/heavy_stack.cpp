@@ -35,7 +35,7 @@ Scene heavy_stack(const HeavyStackOptions& options) {
   const double height = options.layers * (2.0 * kStackBallRadius + kStackPlate);
   const std::string layers = std::to_string(options.layers);
   const std::string tonnes = std::to_string(static_cast<int>(options.top_mass / 1000.0));
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "heavy_stack";
   scene.title = "Heavy stack";
   scene.group = "paper";

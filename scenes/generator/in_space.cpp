@@ -27,7 +27,7 @@ void spin_about(const Vec3& omega, const Vec3& arm, Body& body) {
 }
 
 Scene in_space(std::string name, std::string title) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = std::move(name);
   scene.title = std::move(title);
   scene.group = "exact";

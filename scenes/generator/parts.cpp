@@ -5,6 +5,12 @@
 
 namespace substep::scenes {
 
+Scene paper_scene() {
+  Scene scene;
+  scene.settings = kPaperSettings;
+  return scene;
+}
+
 Body solid(std::string name, const Shape& shape, double mass, const Vec3& position) {
   Body body;
   body.name = std::move(name);

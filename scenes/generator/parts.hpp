@@ -8,6 +8,9 @@
 
 namespace substep::scenes {
 
+/// An empty scene with the paper's settings.
+Scene paper_scene();
+
 /// A moving body with the inertia of its solid shape, at rest.
 Body solid(std::string name, const Shape& shape, double mass, const Vec3& position);
 

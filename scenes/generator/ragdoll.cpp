@@ -85,7 +85,7 @@ void add_doll(int number, std::uint32_t color, const Vec3& at, const Quat& turn,
 }  // namespace
 
 Scene ragdoll_drop() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "ragdoll_drop";
   scene.title = "Ragdolls";
   scene.group = "playground";

@@ -6,6 +6,7 @@
 
 #include "core/io/json_text.hpp"
 #include "core/io/recommended_json.hpp"
+#include "core/model/scene_limits.hpp"
 
 namespace substep::scenes {
 
@@ -58,7 +59,8 @@ std::map<std::string, Recommended> recommendations(Problems& problems) {
   const auto json = parse_json(kRecommendedText, problems);
   if (!json) return all;
   for (const auto& item : json->items()) {
-    all.emplace(item.key(), read_recommended(item.value(), pointer_to("", item.key()), problems));
+    all.emplace(item.key(), read_recommended(item.value(), pointer_to("", item.key()),
+                                             kSceneVersion, problems));
   }
   return all;
 }

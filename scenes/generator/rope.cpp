@@ -55,7 +55,7 @@ double fall(const Scene& scene, const RopeOptions& options) {
 
 Scene rope_of_n(const RopeOptions& options) {
   const double length = options.n * options.link_length + options.box_size;
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "rope_of_" + std::to_string(options.n);
   scene.title = "Rope of " + std::to_string(options.n);
   scene.group = "playground";
@@ -72,7 +72,7 @@ Scene rope_of_n(const RopeOptions& options) {
 }
 
 Scene swinging_box(const SwingingBoxOptions& options) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "swinging_box";
   scene.title = "Swinging box";
   scene.group = "paper";

@@ -8,7 +8,7 @@
 namespace substep::scenes {
 
 Scene pendulum() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "pendulum";
   scene.title = "Pendulum";
   scene.group = "exact";
@@ -38,7 +38,7 @@ Scene pendulum() {
 }
 
 Scene spinning_top() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "spinning_top";
   scene.title = "Spinning top";
   scene.group = "exact";
@@ -57,7 +57,7 @@ Scene spinning_top() {
 }
 
 Scene bouncing_balls() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "bouncing_balls";
   scene.title = "Bouncing balls";
   scene.group = "exact";
@@ -94,7 +94,7 @@ Scene newtons_cradle() {
   constexpr double kPitch = 2.0 * kRadius + kGap;
   constexpr double kTop = 1.25;
 
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "newtons_cradle";
   scene.title = "Newton's cradle";
   scene.group = "exact";
@@ -148,7 +148,7 @@ Scene sliding_box(const SlopeOptions& options) {
   const Vec3 middle{0.0, 1.0, 0.0};
   const double edge = 0.5;
 
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "sliding_box";
   scene.title = "Sliding box";
   scene.group = "exact";
@@ -175,7 +175,7 @@ Scene sliding_box(const SlopeOptions& options) {
 }
 
 Scene free_fall() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "free_fall";
   scene.title = "Free fall";
   scene.group = "exact";

@@ -24,7 +24,7 @@ void add_brick(double x, double y, double length, Scene& scene) {
 }  // namespace
 
 Scene wall(const WallOptions& options) {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "wall";
   scene.title = "Wall";
   scene.group = "playground";

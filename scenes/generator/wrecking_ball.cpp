@@ -50,7 +50,7 @@ void add_chain(Scene& scene) {
 }  // namespace
 
 Scene wrecking_ball() {
-  Scene scene;
+  Scene scene = paper_scene();
   scene.name = "wrecking_ball";
   scene.title = "Wrecking ball";
   scene.group = "playground";

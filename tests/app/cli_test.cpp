@@ -239,7 +239,7 @@ TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
   ASSERT_NE(scene, nullptr);
   ASSERT_TRUE(scene->recommended.has_value());
   EXPECT_EQ(scene->settings, scene->recommended->settings);
-  EXPECT_NE(scene->settings, Settings{});
+  EXPECT_NE(scene->settings, PaperSettings{});
   EXPECT_LE(scene->recommended->reached, 1e-3);
   EXPECT_EQ(scene->recommended->seconds, 1.0);
 
@@ -268,7 +268,7 @@ TEST(CommandLine, RecommendWritesTheSceneThatStartsWithIt) {
   EXPECT_EQ(substep("recommend " + rope + " --error 1e-3 --seconds 1 --out -").out, before);
   // The scene's own settings remain the start.
   Scene own = *scene;
-  own.settings = {.mode = Mode::kConst, .n = 5};
+  own.settings = PaperSettings{.mode = Mode::kConst, .n = 5};
   own.recommended.reset();
   std::ofstream(folder() / "own.json") << write_scene(own);
   const Outcome kept = substep("recommend \"" + (folder() / "own.json").string() +
@@ -373,7 +373,8 @@ TEST(CommandLine, CheckComparesWithTheExpectedVerdict) {
   EXPECT_EQ(substep("check pendulum free_fall").exit_code, 0);
   const fs::path path = folder() / "fails.json";
   std::string text = text_of(SUBSTEP_SOURCE_DIR "/scenes/swinging_box.json");
-  text.replace(text.find("\"mode\": \"adaptive\""), 18, "\"mode\": \"none\"");
+  const std::string paper = R"("preset": "paper")";
+  text.replace(text.find(paper), paper.size(), paper + R"(, "mode": "none")");
   std::ofstream(path) << text;
   const Outcome unexpected = substep("check --own pendulum \"" + path.string() + "\"");
   EXPECT_EQ(unexpected.exit_code, 1);

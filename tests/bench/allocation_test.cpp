@@ -63,7 +63,7 @@ TEST(SolversOfTheWholeSubstep, AllocateNothingAfterTheFirstFrame) {
   for (const char* name : {"swinging_box", "bridge"}) {
     for (const SolverKind solver : {SolverKind::kXpbd, SolverKind::kNewton}) {
       for (const Forces forces : {Forces::kEnd, Forces::kMean}) {
-        const Settings settings{.solver = solver, .forces = forces, .mode = Mode::kConst};
+        const PaperSettings settings{.solver = solver, .forces = forces, .mode = Mode::kConst};
         EXPECT_EQ(allocated(name, settings), 0) << name << ", " << name_of(solver);
       }
     }
@@ -75,7 +75,7 @@ TEST(SmallStepsAndRefinements, AllocateNothingAfterTheFirstFrame) {
   for (const auto& [name, solver] :
        {std::pair{"bridge", SolverKind::kPgs}, std::pair{"bridge", SolverKind::kBpp},
         std::pair{"heavy_stack_stress", SolverKind::kBpp}}) {
-    const Settings settings{.solver = solver,
+    const PaperSettings settings{.solver = solver,
                             .share_iterations = true,
                             .refinements = 2,
                             .mode = Mode::kConst,
@@ -89,16 +89,16 @@ TEST(BodiesInSpaceLoopsAndCones, AllocateNothingAfterTheFirstFrame) {
   for (const char* name : {"spherical_pendulum", "heavy_top", "whirling_chain"}) {
     for (const Integrator integrator :
          {Integrator::kEuler, Integrator::kLeapfrog, Integrator::kStormer}) {
-      EXPECT_EQ(allocated(name, {.integrator = integrator}), 0)
+      EXPECT_EQ(allocated(name, PaperSettings{.integrator = integrator}), 0)
           << name << ", " << name_of(integrator);
     }
   }
   for (const Integrator integrator : {Integrator::kLeapfrog, Integrator::kStormer}) {
-    const Settings settings{.mode = Mode::kConst, .integrator = integrator};
+    const PaperSettings settings{.mode = Mode::kConst, .integrator = integrator};
     EXPECT_EQ(allocated(scenes::exam_bricard().scene, settings), 0) << name_of(integrator);
   }
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs, SolverKind::kXpbd}) {
-    const Settings settings{.solver = solver, .friction_cone = FrictionCone::kCone};
+    const PaperSettings settings{.solver = solver, .friction_cone = FrictionCone::kCone};
     EXPECT_EQ(allocated("bridge", settings), 0) << name_of(solver);
   }
 }
@@ -123,7 +123,7 @@ TEST(IslandsWithClocksOfTheirOwn, AllocateNothingAfterTheFirstFrame) {
       {aside(scenes::swinging_box(), -30.0), scenes::bridge(), aside(scenes::pendulum(), 30.0)});
   for (const SolverKind solver : {SolverKind::kBpp, SolverKind::kPgs}) {
     for (const Detection detection : {Detection::kSubstep, Detection::kFrame}) {
-      const Settings settings{.solver = solver, .islands = true, .detection = detection};
+      const PaperSettings settings{.solver = solver, .islands = true, .detection = detection};
       EXPECT_EQ(allocated(scene, settings), 0) << name_of(solver) << ", " << name_of(detection);
     }
   }

@@ -13,12 +13,13 @@
 #include "core/io/scene_writer.hpp"
 #include "core/lab/presets.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {
 namespace {
 
-const Settings& recommended() { return find_preset("recommended")->settings; }
+Settings recommended() { return find_preset("recommended")->settings; }
 
 TEST(HardSet, EveryCaseIsAValidScene) {
   std::set<std::string> names;

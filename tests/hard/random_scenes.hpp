@@ -14,6 +14,7 @@
 #include "core/model/names.hpp"
 #include "core/model/scene.hpp"
 #include "core/model/setting_fields.hpp"
+#include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
 

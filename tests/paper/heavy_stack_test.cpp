@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

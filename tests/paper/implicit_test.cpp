@@ -10,6 +10,7 @@
 #include "core/lab/planar_chain.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/paper/exact_swing.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

@@ -9,6 +9,7 @@
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/paper/exact_swing.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

@@ -42,7 +42,7 @@ class AtOnePoint : public testing::TestWithParam<int> {};
 
 TEST_P(AtOnePoint, SpheresAreRefusedByTheSizeOfTheirFactor) {
   const int n = GetParam();
-  const FrameReport report = first_frame(spheres(n, 0.0), Settings{});
+  const FrameReport report = first_frame(spheres(n, 0.0), PaperSettings{});
   ASSERT_EQ(report.status, StepStatus::kOverBudget);
   EXPECT_EQ(report.overrun.contacts, n * (n - 1) / 2);
   EXPECT_EQ(report.overrun.bodies, n);
@@ -56,7 +56,7 @@ TEST_P(AtOnePoint, SpheresAreRefusedByTheSizeOfTheirFactor) {
 INSTANTIATE_TEST_SUITE_P(Counts, AtOnePoint, testing::Values(200, 300, 600));
 
 TEST(Budget, ReportsWhatNeedsHowMuch) {
-  const FrameReport report = first_frame(spheres(300, 0.0), Settings{});
+  const FrameReport report = first_frame(spheres(300, 0.0), PaperSettings{});
   EXPECT_EQ(overrun_text(report.overrun),
             "44850 contacts of 300 bodies would need 2.4 GiB for the direct solver; the budget is "
             "512 MiB");
@@ -65,7 +65,7 @@ TEST(Budget, ReportsWhatNeedsHowMuch) {
 TEST(Budget, AMarginThatReachesAllBodiesIsRefusedLikeOverlaps) {
   Scene scene = spheres(300, 0.01);
   scene.contact.margin = 10.0;
-  const FrameReport report = first_frame(scene, Settings{});
+  const FrameReport report = first_frame(scene, PaperSettings{});
   ASSERT_EQ(report.status, StepStatus::kOverBudget);
   EXPECT_EQ(report.overrun.contacts, 44850);
   EXPECT_GT(report.overrun.memory, Budget{}.memory);
@@ -73,7 +73,7 @@ TEST(Budget, AMarginThatReachesAllBodiesIsRefusedLikeOverlaps) {
 
 TEST(Budget, AFrameMustFitIntoIt) {
   const Scene scene = spheres(40, 0.0);
-  const Settings settings;
+  const PaperSettings settings;
   EXPECT_EQ(first_frame(scene, settings).status, StepStatus::kOk);
   EXPECT_EQ(first_frame(scene, settings, {4.0 * kMebibyte, 2e10}).status, StepStatus::kOverBudget);
   EXPECT_EQ(first_frame(scene, settings, {16.0 * kMebibyte, 2e10}).status, StepStatus::kOk);
@@ -81,7 +81,7 @@ TEST(Budget, AFrameMustFitIntoIt) {
 
 /// A ball on a floor whose frame has a small budget and many sweeps.
 Settings long_sweeps(SolverKind solver) {
-  Settings settings;
+  PaperSettings settings;
   settings.solver = solver;
   settings.iterations = 100000;
   settings.mode = Mode::kConst;
@@ -96,7 +96,7 @@ TEST(Budget, TheRequirementIncludesTheWorkOfBodies) {
     builder.add_body(Sphere{0.1}, 1.0, {0.3 * i, 0, 0});
     builder.add_ball_joint(i, i - 1, {0.3 * i - 0.15, 0, 0});
   }
-  Settings settings;
+  PaperSettings settings;
   settings.mode = Mode::kConst;
   settings.n = 10000;
   const FrameReport report = first_frame(*builder.build(), settings);
@@ -145,7 +145,7 @@ TEST(Budget, TheForecastOfSweepsIsTheirWork) {
 TEST(Budget, ManyFreeBodiesInManySubstepsAreRefusedToo) {
   Scene scene = spheres(3000, 1.0);
   scene.effects.contact = false;
-  Settings settings;
+  PaperSettings settings;
   settings.mode = Mode::kConst;
   settings.n = 10000;
   const FrameReport report = first_frame(scene, settings, {kMebibyte, 1e9});
@@ -155,7 +155,7 @@ TEST(Budget, ManyFreeBodiesInManySubstepsAreRefusedToo) {
 }
 
 TEST(Budget, ADirectSolveStopsWhenItsPivotsHaveUsedItUp) {
-  Settings settings;
+  PaperSettings settings;
   settings.mode = Mode::kConst;
   settings.n = 100;
   const FrameReport report = first_frame(spheres(40, 0.0), settings, {64.0 * kMebibyte, 1e6});
@@ -165,7 +165,7 @@ TEST(Budget, ADirectSolveStopsWhenItsPivotsHaveUsedItUp) {
 }
 
 TEST(Budget, IsKeptByNewtonToo) {
-  Settings settings;
+  PaperSettings settings;
   settings.solver = SolverKind::kNewton;
   const FrameReport report = first_frame(spheres(200, 0.0), settings);
   EXPECT_EQ(report.status, StepStatus::kOverBudget);
@@ -175,7 +175,7 @@ TEST(Budget, IsKeptByNewtonToo) {
 TEST(Budget, AFrameContinuesFromTheLastStateWithAnotherSolver) {
   Simulator simulator(std::make_shared<const Scene>(spheres(200, 0.0)));
   ASSERT_EQ(simulator.step().status, StepStatus::kOverBudget);
-  Settings settings;
+  PaperSettings settings;
   settings.solver = SolverKind::kPgs;
   settings.mode = Mode::kNone;
   settings.iterations = 1;

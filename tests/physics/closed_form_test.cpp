@@ -8,6 +8,7 @@
 #include "core/constraints/contact_stage.hpp"
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

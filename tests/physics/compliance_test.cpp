@@ -36,7 +36,7 @@ Scene weight_on_a_spring(double compliance) {
 }
 
 Settings settings_of(SolverKind solver, int n, Integrator integrator, Drift drift) {
-  Settings settings;
+  PaperSettings settings;
   settings.solver = solver;
   settings.mode = Mode::kConst;
   settings.n = n;

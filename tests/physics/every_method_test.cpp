@@ -11,6 +11,7 @@
 #include "core/io/experiment.hpp"
 #include "core/lab/axes.hpp"
 #include "core/lab/sweep.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/tumbling_chain.hpp"
 

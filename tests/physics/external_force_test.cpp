@@ -8,6 +8,7 @@
 #include "core/lab/planar_chain.hpp"
 #include "core/sim/conserved.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

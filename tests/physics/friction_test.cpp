@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/model/names.hpp"
+#include "scenes/generator/scenes.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep {
@@ -49,7 +50,7 @@ Scene block_on_a_slope(double yaw, bool ground_first, const Vec3& velocity = Vec
 }
 
 Settings settings_of(SolverKind solver, FrictionCone cone) {
-  Settings settings;
+  PaperSettings settings;
   settings.solver = solver;
   settings.friction_cone = cone;
   settings.mode = Mode::kConst;
@@ -116,6 +117,21 @@ TEST(Friction, OfTheConeOpposesTheSliding) {
     settings.friction_cone = FrictionCone::kBox;
     EXPECT_GT((way_of(scene, settings) - x).norm(), 0.05 * x.norm())
         << name_of(solver) << ": the box bounds each tangent separately";
+  }
+}
+
+// A sticking contact holds in both tangents. The box of the cone once pointed along its force and
+// left it free to slide across: a house of cards crept, and fell after a second.
+TEST(Friction, OfTheConeHoldsAHouseOfCardsStill) {
+  for (const int n : {1, 2, 8}) {
+    const Settings settings{.mode = Mode::kConst, .n = n};
+    ASSERT_EQ(settings.friction_cone, FrictionCone::kCone);
+    double kinetic = 0.0;
+    const test::EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+      if (report.time > 1.0) kinetic = std::max(kinetic, report.kinetic);
+    };
+    EXPECT_TRUE(test::run(scenes::card_house(), settings, 2.0, every, false).holds) << n;
+    EXPECT_LT(kinetic, 1e-3) << n;  // J; a falling card has 0.1
   }
 }
 

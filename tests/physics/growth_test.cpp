@@ -8,6 +8,7 @@
 
 #include "core/sim/simulator.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "core/model/grab.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

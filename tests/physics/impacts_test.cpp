@@ -36,7 +36,7 @@ class Balls {
 
   /// Where they are after some frames, which take one sub-step each.
   State after(int frames, SolverKind solver) {
-    Settings settings;
+    PaperSettings settings;
     settings.mode = Mode::kNone;
     settings.solver = solver;
     settings.iterations = 200;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/placed.hpp"
 #include "tests/support/run.hpp"
 #include "tests/support/tumbling_chain.hpp"

@@ -9,6 +9,7 @@
 #include "core/sim/islands.hpp"
 #include "scenes/generator/hard_set.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/placed.hpp"
 #include "tests/support/run.hpp"
 

@@ -113,7 +113,7 @@ double error_of(const Scene& scene, const BallChain& end, const Settings& settin
 
 struct MethodInSpace {
   std::string name;
-  Settings settings;
+  PaperSettings settings;
   double order;
   int n = 16;  // the least of them
   double alpha = 2e-4;
@@ -237,7 +237,7 @@ TEST(LongRunInSpace, AThinBoxKeepsItsMomentumAndItsEnergy) {
   const Scene scene = start.scene();
   for (const Integrator integrator :
        {Integrator::kEuler, Integrator::kLeapfrog, Integrator::kStormer}) {
-    Settings settings;
+    PaperSettings settings;
     settings.integrator = integrator;
     double most_kinetic = 0.0;
     const auto momentum = [](const Simulator& simulator) {
@@ -308,7 +308,7 @@ TEST(RotationCriterion, KeepsATopUprightWithoutStiffness) {
     exact.advance(0.01, 100);
     y_exact = std::min(y_exact, exact.centre(0).y());
   }
-  Settings settings;
+  PaperSettings settings;
   int n = 0;
   EXPECT_NEAR(lowest(settings, n), y_exact, 0.003);
   EXPECT_EQ(n, 6);
@@ -328,7 +328,7 @@ TEST(RotationCriterion, TopsOfEveryShapeGainNoEnergy) {
         top.to_centre = top.to_next = {0.0, arm, 0.0};
         top.q = Quat(1.0, 0.3, 0.0, 0.1).normalized();
         top.omega = top.q * Vec3(0.0, 60.0, 0.0);
-        Settings settings;
+        PaperSettings settings;
         settings.integrator = integrator;
         double kinetic = 0.0;
         double start = 0.0;

@@ -24,7 +24,7 @@ constexpr double kFrame = 1.0 / 60.0;
 
 struct PrismaticMethod {
   const char* name;
-  Settings settings;
+  PaperSettings settings;
   int order;  // of the integration
 };
 
@@ -32,7 +32,7 @@ void PrintTo(const PrismaticMethod& method, std::ostream* out) { *out << method.
 
 Settings settings_of(SolverKind solver, Integrator integrator, int n,
                      Forces forces = Forces::kEnd) {
-  Settings settings;
+  PaperSettings settings;
   settings.mode = Mode::kConst;
   settings.solver = solver;
   settings.integrator = integrator;

@@ -9,6 +9,7 @@
 #include "core/collision/contact_point.hpp"
 #include "core/model/names.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/placed.hpp"
 #include "tests/support/run.hpp"
 

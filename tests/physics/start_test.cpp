@@ -12,6 +12,7 @@
 #include "core/sim/start_projection.hpp"
 #include "scenes/generator/hard_set.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

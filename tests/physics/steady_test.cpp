@@ -15,12 +15,13 @@
 #include "scenes/generator/exam.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/continues.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {
 namespace {
 
-const Settings& steady() { return find_preset("steady")->settings; }
+Settings steady() { return substep::Settings{}; }
 
 const Vec3 kOrigin = Vec3::Zero();
 

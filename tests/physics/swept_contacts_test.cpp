@@ -13,6 +13,7 @@
 #include "core/model/scene_builder.hpp"
 #include "scenes/generator/scenes.hpp"
 #include "tests/support/continues.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

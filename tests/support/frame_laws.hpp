@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/sim/simulator.hpp"
+#include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
 

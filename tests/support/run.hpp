@@ -10,6 +10,7 @@
 
 #include "core/lab/verdict.hpp"
 #include "core/sim/simulator.hpp"
+#include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
 

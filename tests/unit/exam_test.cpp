@@ -175,7 +175,7 @@ ExamCase made_up(double power, std::optional<double> order) {
       if (view.report.n_substeps > 0) errors[0] = std::pow(view.report.n_substeps, -power);
     };
   };
-  Settings settings;
+  PaperSettings settings;
   settings.mode = Mode::kConst;
   exam.methods = {{"made up", settings, {2, 8, 32}, order}};
   exam.most_for_order = 1.0;
@@ -240,7 +240,7 @@ TEST(Exam, MotionsMatchTheScenes) {
     const ExamCase exam = entry.build();
     if (!exam.motion) continue;
     ++seen;
-    Settings settings;
+    PaperSettings settings;
     settings.mode = Mode::kConst;
     settings.n = 256;
     settings.integrator = Integrator::kLeapfrog;

@@ -9,6 +9,7 @@
 #include "core/io/scene_reader.hpp"
 #include "core/model/setting_fields.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/unit/unusual_settings.hpp"
 
@@ -76,7 +77,7 @@ TEST(Experiment, IdDependsOnlyOnWhatAffectsTheRun) {
   EXPECT_EQ(id.size(), 16U);
   std::set<std::string> ids{id};
   for (const SettingField& field : setting_fields()) {
-    Settings settings;
+    substep::Settings settings = kPaperSettings;
     if (field.name == "watch_stiffness") continue;
     EXPECT_FALSE(set_setting(field, setting_text(field, unusual()), settings));
     EXPECT_TRUE(ids.insert(experiment_id(experiment_of(scene, settings))).second) << field.name;

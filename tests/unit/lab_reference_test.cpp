@@ -10,6 +10,7 @@
 #include "core/lab/planar_chain.hpp"
 #include "core/lab/reference.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 #include "tests/unit/tree_scenes.hpp"
 

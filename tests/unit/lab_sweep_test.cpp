@@ -8,6 +8,7 @@
 #include "core/io/experiment.hpp"
 #include "core/lab/sweep.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
 namespace {

@@ -49,7 +49,7 @@ TEST(Methods, CaptionsNameSettingsThatTheModeReads) {
       for (std::size_t open = caption.find('{'); open != std::string_view::npos;
            open = caption.find('{', open + 1)) {
         const std::string_view name = caption.substr(open + 1, caption.find('}', open) - open - 1);
-        EXPECT_TRUE(reads(Settings{.mode = mode.value}, name)) << caption;
+        EXPECT_TRUE(reads(PaperSettings{.mode = mode.value}, name)) << caption;
       }
     }
   }
@@ -62,7 +62,7 @@ TEST(Methods, EverySolverOfTheTableCanBeMadeAndIsListedOnce) {
   for (const SolverEntry& entry : kSolvers) {
     EXPECT_NE(make_solver(entry.value), nullptr) << entry.title;
     EXPECT_EQ(value_of<SolverKind>(entry.name), entry.value);
-    EXPECT_EQ(entry.iterations > 0, reads(Settings{.solver = entry.value}, "iterations"));
+    EXPECT_EQ(entry.iterations > 0, reads(PaperSettings{.solver = entry.value}, "iterations"));
   }
 }
 

@@ -8,6 +8,7 @@
 #include "core/io/result.hpp"
 #include "core/lab/experiment_run.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/support/run.hpp"
 
 namespace substep::test {

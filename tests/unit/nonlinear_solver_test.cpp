@@ -4,6 +4,7 @@
 #include "core/model/names.hpp"
 #include "core/solver/solver.hpp"
 #include "core/stepping/integrate.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {

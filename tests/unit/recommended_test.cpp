@@ -32,7 +32,7 @@ const std::string kRecommended =
      "seconds": 2, "why": "It is cheap.", "settings": {"mode": "const", "n": 7}})";
 
 Recommended some_recommended() {
-  return {.settings = {.mode = Mode::kConst, .n = 7},
+  return {.settings = PaperSettings{.mode = Mode::kConst, .n = 7},
           .of = ErrorAxis::kTrajectory,
           .within = 0.001,
           .reached = 0.0005,
@@ -51,7 +51,7 @@ TEST(Recommended, IsTheStartOfASceneWithoutSettings) {
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->recommended, some_recommended());
   EXPECT_EQ(scene->settings, some_recommended().settings);
-  EXPECT_EQ(own_settings(*scene), Settings{});
+  EXPECT_EQ(own_settings(*scene), PaperSettings{});
 }
 
 TEST(Recommended, DoesNotReplaceTheSettingsOfAScene) {
@@ -59,10 +59,10 @@ TEST(Recommended, DoesNotReplaceTheSettingsOfAScene) {
   const auto scene = scene_of(with(kSettings, own + kRecommended));
   ASSERT_NE(scene, nullptr);
   EXPECT_EQ(scene->recommended, some_recommended());
-  EXPECT_EQ(scene->settings, Settings{.solver = SolverKind::kPgs})
+  EXPECT_EQ(scene->settings, PaperSettings{.solver = SolverKind::kPgs})
       << "omitted settings have the default, not the recommended value";
   EXPECT_EQ(own_settings(*scene), scene->settings);
-  // Explicit settings equal to the defaults are a choice too: the paper's.
+  // An empty block is a choice too: the defaults.
   EXPECT_EQ(scene_of(with(kSettings, R"("settings": {}, )" + kRecommended))->settings, Settings{});
 }
 
@@ -129,7 +129,7 @@ TEST(Recommended, DoesNotChangeTheSweep) {
   Scene plain = scenes::bridge();
   plain.verdicts = {Expectation{}};
   Recommended recommended = some_recommended();
-  recommended.settings = {.solver = SolverKind::kPgs,
+  recommended.settings = PaperSettings{.solver = SolverKind::kPgs,
                           .iterations = 64,
                           .share_iterations = true,
                           .alpha = 0.7,
@@ -163,11 +163,11 @@ Result run_of(const Settings& settings, double flops, double error, bool holds =
 }
 
 TEST(Recommended, IsTheCheapestWithinTheError) {
-  const Settings leapfrog{.mode = Mode::kConst, .n = 3, .integrator = Integrator::kLeapfrog};
+  const PaperSettings leapfrog{.mode = Mode::kConst, .n = 3, .integrator = Integrator::kLeapfrog};
   std::vector<Result> results{
-      run_of({.alpha = 0.1}, 50.0, 2e-3), run_of({.alpha = 0.05}, 6512.3, 8e-4),
-      run_of(leapfrog, 100.049, 4.1234e-4), run_of({.mode = Mode::kNone}, 10.0, 1e-5, false),
-      run_of({.alpha = 0.2, .contact_stiffness = ContactStiffness::kExact}, 600.0, 8e-4)};
+      run_of(PaperSettings{.alpha = 0.1}, 50.0, 2e-3), run_of(PaperSettings{.alpha = 0.05}, 6512.3, 8e-4),
+      run_of(leapfrog, 100.049, 4.1234e-4), run_of(PaperSettings{.mode = Mode::kNone}, 10.0, 1e-5, false),
+      run_of(PaperSettings{.alpha = 0.2, .contact_stiffness = ContactStiffness::kExact}, 600.0, 8e-4)};
   auto found = recommended_of(results, ErrorAxis::kTrajectory, 1e-3);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->settings, leapfrog);
@@ -200,7 +200,7 @@ TEST(Recommended, IsThePresetOfItsScene) {
             "For this scene: keeps the path within 1 mm over 2 s, for 1.2 thousand solver "
             "operations per frame. It is cheap.");
   EXPECT_EQ(settings_for(*find_preset("recommended"), scene), some_recommended().settings);
-  EXPECT_EQ(settings_for(*find_preset("paper"), scene), Settings{});
+  EXPECT_EQ(settings_for(*find_preset("paper"), scene), PaperSettings{});
   const auto generic = presets_for(scenes::pendulum());
   EXPECT_EQ(generic[1].settings, find_preset("recommended")->settings);
   EXPECT_EQ(generic[1].about, find_preset("recommended")->about);

@@ -7,6 +7,7 @@
 #include "core/io/experiment.hpp"
 #include "core/io/result.hpp"
 #include "scenes/generator/scenes.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/unit/scene_schema_validator.hpp"
 #include "tests/unit/unusual_settings.hpp"
 

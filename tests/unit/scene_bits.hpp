@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/model/scene.hpp"
+#include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
 

@@ -5,6 +5,7 @@
 #include "core/constraints/moved_rows.hpp"
 #include "core/model/names.hpp"
 #include "core/solver/solver.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {

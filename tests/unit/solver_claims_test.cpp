@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/solver/solver.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {

@@ -8,6 +8,7 @@
 
 #include "core/math/across.hpp"
 #include "core/solver/bpp.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {

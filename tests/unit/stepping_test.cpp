@@ -8,6 +8,7 @@
 #include "core/stepping/held_stiffness.hpp"
 #include "core/stepping/substep_clock.hpp"
 #include "core/stepping/time_integrator.hpp"
+#include "tests/support/paper_settings.hpp"
 #include "tests/unit/support.hpp"
 
 namespace substep::test {

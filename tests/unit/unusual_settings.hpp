@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/model/settings.hpp"
+#include "tests/support/paper_settings.hpp"
 
 namespace substep::test {
 

@@ -243,12 +243,12 @@ TEST(Simulator, RefusesStatesOfOtherScenesAndKeepsItsOwn) {
 
 TEST(Simulator, RefusesSettingsOutOfRangeUntilTheyAreReplaced) {
   Simulator simulator(std::make_shared<const Scene>(sound_scene()));
-  Settings settings;
+  PaperSettings settings;
   settings.alpha = 0.0;
   simulator.set_settings(settings);
   EXPECT_EQ(simulator.step().status, StepStatus::kInvalid);
   EXPECT_EQ(texts(simulator.problems()), "settings.alpha: must be above 0 and at most 1, not 0\n");
-  EXPECT_EQ(simulator.settings().alpha, Settings{}.alpha);
+  EXPECT_EQ(simulator.settings().alpha, PaperSettings{}.alpha);
   EXPECT_EQ(simulator.state().frame, 0);
   settings.alpha = 0.2;
   simulator.set_settings(settings);

@@ -112,11 +112,11 @@ TEST(Compare, InvalidOverridesAddNoRun) {
 }
 
 TEST(Compare, SolversAreCalledByTheirNames) {
-  EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}, Settings{}), "Newton, none");
-  EXPECT_EQ(overrides_title({{"solver", "xpbd"}}, Settings{}), "XPBD");
-  EXPECT_EQ(overrides_title({{"mode", "const"}, {"n", "6"}}, Settings{}), "constant 6");
-  EXPECT_EQ(overrides_title({{"mode", "const"}}, Settings{}), "const");
-  EXPECT_EQ(overrides_title({{"mode", "damping"}, {"n", "6"}}, Settings{}), "damping");
+  EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}, PaperSettings{}), "Newton, none");
+  EXPECT_EQ(overrides_title({{"solver", "xpbd"}}, PaperSettings{}), "XPBD");
+  EXPECT_EQ(overrides_title({{"mode", "const"}, {"n", "6"}}, PaperSettings{}), "constant 6");
+  EXPECT_EQ(overrides_title({{"mode", "const"}}, PaperSettings{}), "const");
+  EXPECT_EQ(overrides_title({{"mode", "damping"}, {"n", "6"}}, PaperSettings{}), "damping");
 }
 
 TEST(Compare, TitlesNameOnlyWhatARunReads) {

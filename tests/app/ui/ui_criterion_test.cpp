@@ -37,7 +37,7 @@ class TwoTerms : public testing::Test {
   Headless h;
   State state;
   FrameReport report;
-  Settings settings;
+  PaperSettings settings;
 };
 
 TEST_F(TwoTerms, StiffnessAloneSetsNByThePapersRule) {

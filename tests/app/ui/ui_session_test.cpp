@@ -252,7 +252,7 @@ TEST(Hand, EnergyFromItIsNoFailure) {
 
 // A frame of 400 sub-steps, in slices that end after some of them.
 Settings long_frames() {
-  Settings settings;
+  PaperSettings settings;
   settings.mode = Mode::kConst;
   settings.n = 400;
   settings.solver = SolverKind::kPgs;
@@ -297,13 +297,13 @@ TEST(Slices, OfAnAbandonedFrameChangeNothing) {
   session.pause();
   session.go_to(3);
   begin();
-  session.set_settings(Settings{});  // the frame restarts with them
+  session.set_settings(PaperSettings{});  // the frame restarts with them
   EXPECT_FALSE(session.slices().open());
   EXPECT_EQ(session.hash(), before);
   session.step();
   Session other(shipped("swinging_box"));
   take(other, 3);
-  other.set_settings(Settings{});
+  other.set_settings(PaperSettings{});
   take(other, 1);
   EXPECT_EQ(session.hash(), other.hash());
 }

@@ -49,13 +49,30 @@ std::string forecast_line(const Scene& scene, const Settings& settings) {
   return text;
 }
 
-/// "remedies     adaptive sub-steps (--mode adaptive)", one line per remedy.
-std::string remedy_lines(const Settings& settings, const FrameReport& failed) {
+/// "remedies     adaptive sub-steps (--mode adaptive): holds for 10 s", one line per remedy.
+std::string remedy_lines(const Simulator& failing, const FrameReport& failed,
+                         std::int64_t frames) {
+  const auto scene = std::make_shared<const Scene>(failing.scene());
+  const Settings& settings = failing.settings();
+  const std::atomic<bool>& cancelled = cancel_on_signal();
+  const TriedRemedies tried =
+      try_remedies(scene, settings, failed,
+                   {.frames = frames, .budget = failing.budget(), .cancelled = [&] {
+                      return cancelled.load();
+                    }});
+  const std::string duration = number_text(static_cast<double>(frames) * scene->frame) + " s";
   std::string text;
-  for (const Remedy& remedy : remedies(settings, failed)) {
+  for (const Remedy& remedy : tried.hold) {
+    const std::string flags = remedy.settings == Settings{}
+                                  ? "--preset steady"
+                                  : setting_flags(remedy.settings, settings).substr(1);
     text += (text.empty() ? "remedies     " : "             ") + remedy.text +
             (remedy.why.empty() ? "" : "; " + remedy.why) + " (" +
-            setting_flags(remedy.settings, settings).substr(1) + ")\n";
+            flags + "): holds for " + duration + "\n";
+  }
+  if (tried.count > 0 && tried.hold.empty()) {
+    text = "remedies     none of the " + std::to_string(tried.count) + " that were tried holds for " +
+           duration + "\n";
   }
   return text;
 }
@@ -116,7 +133,7 @@ int run(const RunOptions& options) {
   if (!options.quiet) {
     std::fprintf(words, "%s%s",
                  report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str(),
-                 failed ? remedy_lines(simulator.settings(), *failed).c_str() : "");
+                 failed ? remedy_lines(simulator, *failed, frames).c_str() : "");
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());
   return verdict.stopped() ? kNotFinite : kOk;

@@ -47,10 +47,13 @@ std::optional<Failure> failure_of(const Scene& scene, const Poses& poses, const 
     if (report.failed_body >= 0) failure = failed_body(scene, poses, report.failed_body);
     return failure;
   }
-  if (exceeded && exceeded->what == Exceeded::What::kJointGap && report.joint_gap_joint >= 0) {
-    failure = torn_joint(scene, poses, report.joint_gap_joint);
+  if (exceeded && exceeded->what == Exceeded::What::kJointGap && report.torn_joint >= 0) {
+    failure = torn_joint(scene, poses, report.torn_joint);
   } else if (exceeded && exceeded->what == Exceeded::What::kMoved) {
     failure = failed_body(scene, poses, criteria.displacement->body);
+  } else if (exceeded && exceeded->what == Exceeded::What::kOverlap && report.penetration_a >= 0) {
+    const bool a_moves = !is_fixed(scene, report.penetration_a);
+    failure = failed_body(scene, poses, a_moves ? report.penetration_a : report.penetration_b);
   }
   if (failure && exceeded) failure->exceeded = *exceeded;
   return failure;

@@ -37,6 +37,8 @@ std::string exceeded_label(const Exceeded& e) {
       return "energy gain " + value;
     case Exceeded::What::kMoved:
       return "moved " + value;
+    case Exceeded::What::kOverlap:
+      return "overlap " + value;
   }
   return "";
 }
@@ -49,9 +51,12 @@ std::string exceeded_sentence(const Exceeded& e) {
     case Exceeded::What::kJointGap:
       return e.name + " has a gap of " + value + ". Above " + limit + " a joint counts as torn.";
     case Exceeded::What::kEnergyGain:
-      return "The total energy has grown by " + value + ". The scene allows " + limit + ".";
+      return "The total energy has grown by " + value + ". The limit is " + limit + ".";
     case Exceeded::What::kMoved:
       return e.name + " has moved by " + value + ". The scene allows " + limit + ".";
+    case Exceeded::What::kOverlap:
+      return e.name + ": they overlap by " + value + ". Above " + limit +
+             " bodies count as inside each other.";
   }
   return "";
 }

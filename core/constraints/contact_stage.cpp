@@ -118,13 +118,15 @@ bool ContactStage::append_predicted(const Scene& scene, const Part& part, const 
   return true;
 }
 
-double penetration(Detector& detector, const Scene& scene, const Part& part, const State& state,
-                   std::span<const Mat3> R_WB) {
-  double deepest = 0.0;
+Overlaps overlaps(Detector& detector, const Scene& scene, const Part& part, const State& state,
+                  std::span<const Mat3> R_WB) {
+  Overlaps found;
   for (const ContactPoint& point : detector.detect(scene, part, state, R_WB)) {
-    deepest = std::max(deepest, -point.gap);
+    if (!(point.gap < 0.0)) continue;
+    found.squares += point.gap * point.gap;
+    if (-point.gap > found.deepest) found = {-point.gap, point.a, point.b, found.squares};
   }
-  return deepest;
+  return found;
 }
 
 FrictionStage::FrictionStage(const Scene& scene) {

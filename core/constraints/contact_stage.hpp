@@ -44,9 +44,15 @@ class ContactStage {
   std::vector<double> way_;  // per body: travel of its points covered by the prediction [m]
 };
 
-/// Largest overlap at a state, >= 0 [m].
-double penetration(Detector& detector, const Scene& scene, const Part& part, const State& state,
-                   std::span<const Mat3> R_WB);
+/// Overlaps at a state.
+struct Overlaps {
+  double deepest = 0.0;  // [m]
+  int a = -1;            // the bodies of that contact
+  int b = -1;
+  double squares = 0.0;  // sum over all contact points [m^2]
+};
+Overlaps overlaps(Detector& detector, const Scene& scene, const Part& part, const State& state,
+                  std::span<const Mat3> R_WB);
 
 /// Adds two friction rows to every contact between bodies that both have friction.
 class FrictionStage {

@@ -10,6 +10,7 @@ JointStage::JointStage(const Scene& scene) : scene_(scene) {
     placed.body_a = base(joint).a;
     placed.body_b = base(joint).b;
     placed.kind = kind_of(joint);
+    placed.largest_gap = largest_gap(scene, base(joint));
     with_joint_rows(joint,
                     [&](auto rows, const auto& own) { placed.geometry = rows.geometry(own); });
   }
@@ -48,6 +49,20 @@ void JointStage::append(const Part& part, const State& state, std::span<const Ma
   for (const int joint : part.joints) fill(state, R_WB, index(joint), blocks.append());
 }
 
+void JointStage::set_springs(std::size_t joint, bool positions, bool angles) {
+  joints_[joint].spring = positions;
+  joints_[joint].turns = angles;
+  has_springs_ = has_springs_ || positions || angles;
+}
+
+double JointStage::elastic(std::size_t joint, const Block& block) const {
+  double energy = 0.0;
+  for (int row = 0; row < block.rows; ++row) {
+    if (is_spring(joint, row, block)) energy += 0.5 * block.phi[row] * block.phi[row] / block.C[row];
+  }
+  return energy;
+}
+
 JointErrors JointStage::errors(const State& state, std::span<const Mat3> R_WB) const {
   JointErrors errors;
   Block block;
@@ -60,6 +75,12 @@ JointErrors JointStage::errors(const State& state, std::span<const Mat3> R_WB) c
     if (gap > errors.gap) {
       errors.gap = gap;
       errors.joint = static_cast<int>(i);
+    }
+    errors.elastic += elastic(i, block);
+    const double torn = gap / joints_[i].largest_gap;
+    if (torn > errors.torn) {
+      errors.torn = torn;
+      errors.torn_joint = static_cast<int>(i);
     }
   }
   return errors;

@@ -16,6 +16,9 @@ struct JointErrors {
   double sum = 0.0;  // 1-norms of phi over all joints [m, rad]
   double gap = 0.0;  // largest distance between two anchors [m]
   int joint = -1;    // the joint with that gap
+  double torn = 0.0;    // largest gap of a joint without compliance, of largest_gap() [-]
+  int torn_joint = -1;  // that joint
+  double elastic = 0.0;  // energy of the joints that are springs [J]
 };
 
 /// phi and J of the joints of a scene, in file order.
@@ -26,6 +29,13 @@ class JointStage {
               Blocks& blocks) const;
   [[nodiscard]] JointErrors errors(const State& state, std::span<const Mat3> R_WB) const;
 
+  /// Rows of a joint that are springs, for the elastic energy: holding_rows() in sim/.
+  void set_springs(std::size_t joint, bool positions, bool angles);
+  [[nodiscard]] bool has_springs() const { return has_springs_; }
+  [[nodiscard]] bool is_spring(std::size_t joint, int row, const Block& block) const {
+    return row < block.position_rows ? joints_[joint].spring : joints_[joint].turns;
+  }
+
  private:
   /// Packed joint data for a sub-step.
   struct Placed {
@@ -33,7 +43,12 @@ class JointStage {
     int body_b = kWorld;
     BlockKind kind = BlockKind::kFirstJoint;
     JointGeometry geometry;
+    bool spring = false;       // in its position rows
+    bool turns = false;        // a spring in its angular rows
+    double largest_gap = 0.0;  // largest_gap() [m]
   };
+  /// phi^2 / 2C of the rows that are springs [J].
+  [[nodiscard]] double elastic(std::size_t joint, const Block& block) const;
   /// The constant part of a joint's block.
   void begin(std::size_t joint, Block& block) const;
   [[gnu::always_inline]] inline void fill(const State& state, std::span<const Mat3> R_WB,
@@ -41,6 +56,7 @@ class JointStage {
 
   const Scene& scene_;
   std::vector<Placed> joints_;
+  bool has_springs_ = false;
 };
 
 }  // namespace substep

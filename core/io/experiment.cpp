@@ -40,7 +40,13 @@ std::uint64_t scene_hash(const Scene& scene) {
   Json content = Json::parse(write_scene(bare), nullptr, false);
   content.erase("settings");
   content.erase("camera");
-  content["version"] = 1;  // later versions write the same content
+  // The same content as in version 1, which did not judge the energy unless the scene stated a gain.
+  content["version"] = 1;
+  if (scene.criteria.energy_gain == kAnyEnergy) {
+    content["criteria"].erase("energy_gain");
+  } else if (!scene.criteria.energy_gain) {
+    content["criteria"]["energy_gain"] = nullptr;
+  }
   return text_hash(content.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 

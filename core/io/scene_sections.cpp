@@ -65,8 +65,12 @@ void read_criteria(ObjectReader& parent, const BodyNames& names, Scene& scene, P
   Criteria& criteria = scene.criteria;
   double value = 0.0;
   in.number("duration", kDurationRange, criteria.duration, kOptional);
-  in.number("joint_gap", kDistanceRange, criteria.joint_gap, kOptional);
-  if (in.number("energy_gain", kEnergyRange, value, kOptional)) criteria.energy_gain = value;
+  if (in.number("joint_gap", kDistanceRange, value, kOptional)) criteria.joint_gap = value;
+  if (const Json* gain = in.member("energy_gain", kOptional); gain && *gain == kAnyGain) {
+    criteria.energy_gain = kAnyEnergy;
+  } else if (in.number("energy_gain", kEnergyRange, value, kOptional)) {
+    criteria.energy_gain = value;
+  }
   if (in.number("energy_scale", kEnergyRange, value, kOptional)) criteria.energy_scale = value;
   if (in.number("window", kDurationRange, value, kOptional)) criteria.window = value;
   const auto read_body_name = [&](ObjectReader& reader, std::string_view key, Presence presence) {

@@ -2,12 +2,16 @@
 // The sections of a scene file, apart from its bodies and joints.
 
 #include <optional>
+#include <string_view>
 
 #include "core/io/body_names.hpp"
 #include "core/io/object_reader.hpp"
 #include "core/model/scene.hpp"
 
 namespace substep {
+
+/// In criteria: the energy is not judged.
+inline constexpr std::string_view kAnyGain = "any";
 
 /// The version of the file, or nothing if it is not supported: no further problems are reported then.
 std::optional<int> read_version(ObjectReader& in, Problems& problems);

@@ -99,8 +99,12 @@ Json criteria_json(const Scene& scene) {
   const Criteria& c = scene.criteria;
   Json json;
   json["duration"] = c.duration;
-  json["joint_gap"] = c.joint_gap;
-  if (c.energy_gain) json["energy_gain"] = *c.energy_gain;
+  if (c.joint_gap) json["joint_gap"] = *c.joint_gap;
+  if (c.energy_gain == kAnyEnergy) {
+    json["energy_gain"] = kAnyGain;
+  } else if (c.energy_gain) {
+    json["energy_gain"] = *c.energy_gain;
+  }
   if (c.energy_scale) json["energy_scale"] = *c.energy_scale;
   if (c.displacement) {
     json["displacement"] = {{"body", name_of_body(scene, c.displacement->body)},

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "core/lab/verdict.hpp"
 #include "core/model/format_text.hpp"
+#include "core/sim/simulator.hpp"
 
 namespace substep {
 namespace {
@@ -58,7 +60,37 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   if (adaptive && settings.policy == Policy::kFrame) {
     add("a decision after every sub-step").policy = Policy::kSubstep;
   }
+  Settings ours;
+  ours.watch_stiffness = settings.watch_stiffness;  // display only
+  if (settings != ours) {
+    add("the default settings", "they keep the energy and find contacts in time") = ours;
+  }
   return all;
+}
+
+TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Settings& settings,
+                           const FrameReport& failed, const Trial& trial) {
+  TriedRemedies tried;
+  for (Remedy& remedy : remedies(settings, failed)) {
+    if (tried.hold.size() == trial.enough || trial.cancelled()) break;
+    ++tried.count;
+    Simulator simulator(scene);
+    simulator.set_settings(remedy.settings);
+    simulator.set_budget(trial.budget);
+    simulator.set_measures({.stages = false});
+    Verdict verdict(*scene, simulator.state(), simulator.observe());
+    double work = 0.0;
+    std::int64_t frame = 0;
+    for (; frame < trial.frames && verdict.holds() && work < trial.most_work; ++frame) {
+      if (trial.cancelled()) return tried;
+      const FrameReport report = simulator.step();
+      verdict.add(*scene, simulator.state(), report);
+      work += static_cast<double>(report.n_substeps + report.n_discarded) *
+              static_cast<double>(scene->bodies.size());
+    }
+    if (verdict.holds() && frame == trial.frames) tried.hold.push_back(std::move(remedy));
+  }
+  return tried;
 }
 
 }  // namespace substep

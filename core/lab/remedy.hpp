@@ -1,14 +1,18 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "core/model/settings.hpp"
+#include "core/model/budget.hpp"
+#include "core/model/scene.hpp"
 #include "core/sim/report.hpp"
 
 namespace substep {
 
-/// A change of settings that should help a run that failed.
+/// A change of settings that may help a run that failed.
 struct Remedy {
   std::string text;  // "a smaller alpha, 0.05"
   std::string why;   // the reason: "43 were required"; or ""
@@ -17,8 +21,27 @@ struct Remedy {
 
 /// Suggestions, the most likely first: the implicit gyroscopic torque instead of the explicit one,
 /// adaptive sub-steps if not used, a larger cap if it was reached, the direct solver instead of
-/// Gauss-Seidel, the soft drift law for impacts on joints, a smaller alpha. @param last the report
-/// of the failed frame @return empty if no setting would help
+/// Gauss-Seidel, the soft drift law for impacts on joints, a smaller alpha, the default settings.
+/// None has been tried. @param last the report of the failed frame @return empty if no setting
+/// would help
 std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last);
+
+/// How remedies are tried.
+struct Trial {
+  std::int64_t frames = 0;  // of the run that failed: as many must hold
+  Budget budget = {};
+  std::size_t enough = 2;   // remedies that hold
+  double most_work = 3e6;   // of one remedy [sub-steps times bodies]; one that needs more is left
+  std::function<bool()> cancelled = [] { return false; };
+};
+
+struct TriedRemedies {
+  std::vector<Remedy> hold;  // for the whole run
+  int count = 0;             // tried
+};
+
+/// Runs the scene from its start with each remedy.
+TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Settings& settings,
+                           const FrameReport& failed, const Trial& trial);
 
 }  // namespace substep

@@ -5,6 +5,7 @@
 
 #include "core/lab/stop_text.hpp"
 #include "core/model/format_text.hpp"
+#include "core/stepping/compliance.hpp"
 
 namespace substep {
 
@@ -17,16 +18,84 @@ std::string text_of(const Exceeded& e) {
   const char* unit = e.what == What::kEnergyGain ? "J" : "m";
   const char* what = e.what == What::kJointGap     ? "joint gap"
                      : e.what == What::kEnergyGain ? "energy gain"
+                     : e.what == What::kOverlap    ? "overlap"
                                                    : "moved";
   const std::string text = format_text("%s %.4g %s > %.4g %s", what, e.value, unit, e.limit, unit);
   return e.name.empty() ? text : text + " (" + e.name + ")";
 }
 
+constexpr double kPeriod = 0.5;          // [s]
+constexpr double kMostSustained = 0.01;  // of the energy exchanged
+constexpr double kMostNow = 0.1;
+constexpr double kMostAtFirst = 0.5;
+constexpr double kNoise = 1e-5;        // of the weight times the size
+constexpr double kMostOverlap = 0.25;  // of the width of the smaller body
+
+double total(const FrameReport& report) {
+  return report.kinetic + report.potential + report.elastic;  // [J]
+}
+
+bool has_torque(const Scene& scene) {
+  return scene.effects.external &&
+         std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
+           return !body.is_static && !body.torque.isZero(0.0);
+         });
+}
+
+/// The largest overlap of two bodies [m].
+double largest_overlap(const Scene& scene, int a, int b) {
+  const auto width = [&](int body) { return 2.0 * half_width(scene.bodies[index(body)].shape); };
+  return kMostOverlap * std::min(width(a), width(b));
+}
+
 }  // namespace
 
+EnergyWatch::EnergyWatch(const Scene& scene, const FrameReport& start)
+    : lowest_(total(start)),
+      period_lowest_(lowest_),
+      kinetic_(start.kinetic),
+      potential_{start.potential, start.potential},
+      elastic_{start.elastic, start.elastic} {
+  for (const Body& body : scene.bodies) {
+    if (body.is_static || !scene.effects.gravity) continue;
+    besides_ += kNoise * body.mass * scene.gravity.norm() * radius_around(body.shape);
+  }
+}
+
+void EnergyWatch::Span::add(double value) {
+  least = std::min(least, value);
+  most = std::max(most, value);
+}
+
+void EnergyWatch::add(const FrameReport& report) {
+  parting_ += report.parting;
+  const double energy = total(report) - parting_;
+  const auto period = static_cast<std::int64_t>(report.time / kPeriod);
+  if (period != period_) {
+    sustained_ = std::max(sustained_, period_lowest_ - lowest_);
+    lowest_ = std::min(lowest_, period_lowest_);
+    period_ = period;
+    period_lowest_ = energy;
+  }
+  period_lowest_ = std::min(period_lowest_, energy);
+  rise_ = energy - std::min(lowest_, period_lowest_);
+  kinetic_ = std::max(kinetic_, report.kinetic);
+  potential_.add(report.potential);
+  elastic_.add(report.elastic);
+}
+
+EnergyWatch::Rise EnergyWatch::worst() const {
+  const double scale = std::max({kinetic_, potential_.width(), elastic_.width()});
+  const Rise now{rise_, (period_ == 0 ? kMostAtFirst : kMostNow) * scale + besides_};
+  const Rise sustained{sustained_, kMostSustained * scale + besides_};
+  return now.rise * sustained.limit > sustained.rise * now.limit ? now : sustained;
+}
+
 Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& start)
-    : energy_at_start_(start.energy) {
-  if (start.status == StepStatus::kInvalid || !scene.criteria.displacement) return;
+    : energy_at_start_(start.energy), overlap_at_start_(start.penetration) {
+  if (start.status == StepStatus::kInvalid) return;
+  if (!scene.criteria.energy_gain && !has_torque(scene)) energy_.emplace(scene, start);
+  if (!scene.criteria.displacement) return;
   watched_start_ = state.x[index(scene.criteria.displacement->body)];
 }
 
@@ -42,14 +111,26 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
     why = text_of(*exceeded_);
   };
   stopped_ = report.status != StepStatus::kOk;
-  if (report.joint_gap_joint >= 0) {
-    const auto joint = index(report.joint_gap_joint);
-    judge(What::kJointGap, report.joint_gap, criteria.joint_gap, base(scene.joints[joint]).name);
+  if (report.torn_joint >= 0) {
+    const JointBase& joint = base(scene.joints[index(report.torn_joint)]);
+    const double limit = largest_gap(scene, joint);
+    judge(What::kJointGap, report.torn * limit, limit, joint.name);
   }
   // An invalid scene has no state.
   const bool judged = !disturbed_ && report.status != StepStatus::kInvalid;
-  if (judged && criteria.energy_gain) {
+  if (judged && energy_) {
+    energy_->add(report);
+    const EnergyWatch::Rise worst = energy_->worst();
+    judge(What::kEnergyGain, worst.rise, worst.limit, {});
+  } else if (judged && criteria.energy_gain) {
     judge(What::kEnergyGain, report.energy - energy_at_start_, *criteria.energy_gain, {});
+  }
+  if (judged && energy_ && report.penetration_a >= 0 && !is_soft_contact(scene.contact)) {
+    const int a = report.penetration_a;
+    const int b = report.penetration_b;
+    judge(What::kOverlap, report.penetration,
+          std::max(overlap_at_start_, largest_overlap(scene, a, b)),
+          scene.bodies[index(a)].name + ", " + scene.bodies[index(b)].name);
   }
   if (judged && criteria.displacement) {
     const auto body = index(criteria.displacement->body);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -9,17 +10,63 @@
 
 namespace substep {
 
-/// A criterion of the scene and the value that exceeds it.
+/// A limit and the value that exceeds it.
 struct Exceeded {
-  enum class What { kJointGap, kEnergyGain, kMoved };
+  enum class What { kJointGap, kEnergyGain, kMoved, kOverlap };
   What what = What::kJointGap;
   double value = 0.0;  // [m], of an energy [J]
   double limit = 0.0;  // in the same unit
-  std::string name;    // of the joint or body, empty for an energy
+  std::string name;    // of the joint, body or bodies, empty for an energy
 };
 
-/// Checks a run against its scene's criteria: the single implementation for browser, command line
-/// and tests.
+/// The energy of a run against its own scale, the energy that the motion has exchanged so far: the
+/// largest kinetic energy, or the range of the potential or of the elastic energy.
+/// Over its lowest value the energy may rise by at most 10 % of that scale, and by at most 1 % for
+/// half a second: every integrator makes the energy oscillate, and what counts is a gain that stays.
+/// In the first half second, before there is such a scale, half of it counts as a gain. Work of
+/// parting overlaps is no gain. At rest there is noise: 1e-5 of the weight times the size of the
+/// bodies is allowed besides.
+class EnergyWatch {
+ public:
+  EnergyWatch(const Scene& scene, const FrameReport& start);
+  void add(const FrameReport& report);
+  /// A rise and its limit [J].
+  struct Rise {
+    double rise = 0.0;
+    double limit = 0.0;
+  };
+  /// Of the two, that which is closer to its limit or further beyond it.
+  [[nodiscard]] Rise worst() const;
+
+ private:
+  /// The values of an energy so far [J].
+  struct Span {
+    double least = 0.0;
+    double most = 0.0;
+
+    void add(double value);
+    [[nodiscard]] double width() const { return most - least; }
+  };
+
+  double lowest_;         // before this period of half a second [J]
+  double period_lowest_;  // in it [J]
+  std::int64_t period_ = 0;
+  double rise_ = 0.0;       // now [J]
+  double sustained_ = 0.0;  // largest rise of the lowest energy of a period [J]
+  double parting_ = 0.0;    // sum of FrameReport::parting [J]
+  double kinetic_ = 0.0;    // largest so far [J]
+  Span potential_;
+  Span elastic_;
+  double besides_ = 0.0;  // [J]
+};
+
+/// Checks a run: the single implementation for browser, command line and tests. The limits are the
+/// scene's criteria. Where the scene states none, they follow from its sizes and energies:
+///
+/// - a joint without compliance is torn at a gap of a tenth of its size, largest_gap();
+/// - the energy may rise as EnergyWatch says, unless a constant torque does work;
+/// - bodies without a spring between them may overlap by a quarter of the width of the smaller, or
+///   by as much as they did at the start.
 class Verdict {
  public:
   /// @param start report of the initial state of the run (Simulator::observe)
@@ -51,6 +98,8 @@ class Verdict {
   double failed_at_ = 0.0;
   double utilisation_ = 0.0;
   double energy_at_start_ = 0.0;
+  std::optional<EnergyWatch> energy_;  // if the scene states no limit
+  double overlap_at_start_ = 0.0;      // [m]
   Vec3 watched_start_ = Vec3::Zero();
   std::optional<Exceeded> exceeded_;
   std::string text_ = "holds";

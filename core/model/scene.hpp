@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,11 +25,15 @@ struct ContactModel {
   double restitution_speed = 0.1;      // slower approaches do not bounce [m/s]
 };
 
-/// Failure criteria of a run, and the scale of its errors.
+/// An energy gain that is not judged [J].
+inline constexpr double kAnyEnergy = std::numeric_limits<double>::infinity();
+
+/// Failure criteria of a run, and the scale of its errors. Limits that are not stated follow from
+/// the sizes, masses and energies of the run: core/lab/verdict.hpp.
 struct Criteria {
   double duration = 10.0;              // simulated by `check` [s]
-  double joint_gap = 0.1;              // a larger gap of any joint fails [m]
-  std::optional<double> energy_gain;   // more energy than at the start by this fails [J]
+  std::optional<double> joint_gap;     // a larger gap of any joint fails [m]
+  std::optional<double> energy_gain;   // more energy than at the start by this fails, or kAnyEnergy [J]
   std::optional<double> energy_scale;  // energy that the motion exchanges: 100 % of the drift [J]
   struct Displacement {
     int body = 0;           // index into Scene::bodies
@@ -74,6 +79,22 @@ struct Scene {
 /// True for the world and static bodies, which never move. @param body index, or kWorld
 inline bool is_fixed(const Scene& scene, int body) {
   return body == kWorld || scene.bodies[index(body)].is_static;
+}
+
+/// Reference length for a joint's gap: both arms plus the radius of body a [m].
+inline double size_of_joint(const Scene& scene, const JointBase& joint) {
+  // A world anchor is a position, not an arm.
+  const double arm_b = joint.b == kWorld ? 0.0 : joint.anchor_b.norm();
+  return joint.anchor_a.norm() + arm_b + radius_around(scene.bodies[index(joint.a)].shape);
+}
+
+/// The gap at which a joint counts as torn [m]: infinite for a joint that yields, whose stretch is
+/// part of the motion, unless the scene states one.
+inline double largest_gap(const Scene& scene, const JointBase& joint) {
+  constexpr double kTorn = 0.1;  // of its size
+  const bool yields = joint.compliance > 0.0;
+  return scene.criteria.joint_gap.value_or(yields ? std::numeric_limits<double>::infinity()
+                                                  : kTorn * size_of_joint(scene, joint));
 }
 
 /// The scene's own settings: the paper's if it starts with its recommendation. Sweeps start from

@@ -62,7 +62,9 @@ void check_criteria(const Scene& scene, Problems& problems) {
   const Criteria& criteria = scene.criteria;
   check_number(criteria.duration, kDurationRange, "/criteria/duration", problems);
   check_number(criteria.joint_gap, kDistanceRange, "/criteria/joint_gap", problems);
-  check_number(criteria.energy_gain, kEnergyRange, "/criteria/energy_gain", problems);
+  if (criteria.energy_gain != kAnyEnergy) {
+    check_number(criteria.energy_gain, kEnergyRange, "/criteria/energy_gain", problems);
+  }
   check_number(criteria.energy_scale, kEnergyRange, "/criteria/energy_scale", problems);
   check_number(criteria.window, kDurationRange, "/criteria/window", problems);
   const auto check_index = [&](int body, const char* pointer) {

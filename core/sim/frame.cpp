@@ -6,6 +6,7 @@
 #include "core/constraints/grab_rows.hpp"
 #include "core/sim/conserved.hpp"
 #include "core/sim/simulator_impl.hpp"
+#include "core/stepping/compliance.hpp"
 #include "core/stepping/effective_mass.hpp"
 #include "core/stepping/held_stiffness.hpp"
 #include "core/stepping/integrate.hpp"
@@ -112,6 +113,7 @@ void Simulator::Impl::begin_again(FrameReport& report) {
   rotation_matrices(all.bodies, state, current.R_WB);
   index_of_last_frame.clear();
   report.n_discarded += report.n_substeps;
+  report.parting = 0.0;
   report.n_substeps = 0;
   report.dt_min = report.dt_max = 0.0;
   report.asleep = 0;
@@ -255,8 +257,24 @@ void Simulator::Impl::close(FrameReport& report) {
 }
 
 void Simulator::Impl::look(FrameReport& report) {
-  if (measures.errors) rotation_matrices(all.bodies, state, current.R_WB);
+  if (measures.errors || measures.energies) rotation_matrices(all.bodies, state, current.R_WB);
   observe(measures, current.R_WB, contact ? &contact->detector() : nullptr, report);
+}
+
+// The gap of a stiff row is mostly error, so its energy follows from the force: C lambda^2 / 2.
+double Simulator::Impl::stiff_elastic() const {
+  double energy = 0.0;
+  double lambda[kMaxRows];
+  for (const Block& block : blocks.all()) {
+    const bool is_joint = !block.is_contact() && block.id < scene->joints.size();
+    if (!is_joint && (!block.is_contact() || is_soft_contact(block))) continue;
+    find_lambda(current, block, lambda);
+    for (int row = 0; row < block.rows; ++row) {
+      if (is_joint && joints->is_spring(index(static_cast<int>(block.id)), row, block)) continue;
+      energy += 0.5 * block.C[row] * lambda[row] * lambda[row];
+    }
+  }
+  return energy;
 }
 
 void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes, Detector* detector,
@@ -273,18 +291,29 @@ void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes,
   if (asked.energies) energies = energies_of(*scene, state);
   report.kinetic = energies.kinetic;
   report.potential = energies.potential;
-  report.energy = energies.sum();
-  if (!asked.errors) {
-    report.constraint_error = report.joint_gap = report.penetration = kNotMeasured;
-    return;
-  }
-  if (joints) {
+  report.springs = asked.energies ? 0.0 : kNotMeasured;
+  const bool soft = is_soft_contact(scene->contact);
+  if (joints && (asked.errors || (asked.energies && joints->has_springs()))) {
     const JointErrors errors = joints->errors(state, axes);
     report.constraint_error = errors.sum;
     report.joint_gap = errors.gap;
     report.joint_gap_joint = errors.joint;
+    report.torn = errors.torn;
+    report.torn_joint = errors.torn_joint;
+    report.springs += errors.elastic;
   }
-  if (detector != nullptr) report.penetration = penetration(*detector, *scene, all, state, axes);
+  if (detector != nullptr && (asked.errors || (asked.energies && soft))) {
+    const Overlaps found = overlaps(*detector, *scene, all, state, axes);
+    report.penetration = found.deepest;
+    report.penetration_a = found.a;
+    report.penetration_b = found.b;
+    if (soft) report.springs += 0.5 * found.squares / scene->contact.compliance;
+  }
+  report.energy = energies.sum() + report.springs;
+  report.elastic = report.springs + (asked.energies ? stiff_elastic() : 0.0);
+  if (!asked.errors) {
+    report.constraint_error = report.joint_gap = report.torn = report.penetration = kNotMeasured;
+  }
 }
 
 }  // namespace substep

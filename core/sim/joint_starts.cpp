@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/constraints/joint_stage.hpp"
+#include "core/model/joint_fields.hpp"
 #include "core/stepping/effective_mass.hpp"
 
 namespace substep {
@@ -90,12 +91,6 @@ void keep_larger(double& most, int& whose, double value, std::size_t joint) {
 
 }  // namespace
 
-double size_of_joint(const Scene& scene, const JointBase& joint) {
-  // A world anchor is a position, not an arm.
-  const double arm_b = joint.b == kWorld ? 0.0 : joint.anchor_b.norm();
-  return joint.anchor_a.norm() + arm_b + radius_around(scene.bodies[index(joint.a)].shape);
-}
-
 HoldingRows holding_rows(const Block& block, std::span<const InverseMass> inverse_mass, double h) {
   const auto yields = [&](int first, int last) {
     return block.C[first] > 0.0 &&
@@ -105,19 +100,42 @@ HoldingRows holding_rows(const Block& block, std::span<const InverseMass> invers
   return {!yields(0, positions), block.rows > positions && !yields(positions, block.rows)};
 }
 
-std::vector<JointStart> joint_starts(const Scene& scene, const State& state) {
-  std::vector<JointStart> starts;
-  if (!scene.effects.joints) return starts;
+namespace {
+
+/// Calls `visit(block, holding rows)` for every joint.
+void for_each_joint(const Scene& scene, const State& state, const JointStage& joints,
+                    const auto& visit) {
   std::vector<Mat3> R_WB;
   for (const Quat& q : state.q) R_WB.push_back(q.toRotationMatrix());
   Blocks blocks;
-  JointStage(scene).append(whole(scene), state, R_WB, blocks);
+  joints.append(whole(scene), state, R_WB, blocks);
   std::vector<InverseMass> inverse(scene.bodies.size());
   inverse_mass(inertia_inverses(scene), whole(scene), R_WB, inverse);
   for (const Block& block : blocks.all()) {
-    starts.push_back(measured(scene, state, block, holding_rows(block, inverse, scene.frame)));
+    visit(block, holding_rows(block, inverse, scene.frame));
   }
+}
+
+}  // namespace
+
+std::vector<JointStart> joint_starts(const Scene& scene, const State& state) {
+  std::vector<JointStart> starts;
+  if (!scene.effects.joints) return starts;
+  for_each_joint(scene, state, JointStage(scene), [&](const Block& block, HoldingRows holds) {
+    starts.push_back(measured(scene, state, block, holds));
+  });
   return starts;
+}
+
+void mark_springs(const Scene& scene, const State& state, JointStage& joints) {
+  const auto yields = [](const Joint& joint) {
+    return base(joint).compliance > 0.0 || angular_compliance_of(joint).value_or(0.0) > 0.0;
+  };
+  if (std::none_of(scene.joints.begin(), scene.joints.end(), yields)) return;
+  for_each_joint(scene, state, joints, [&](const Block& block, HoldingRows holds) {
+    joints.set_springs(static_cast<std::size_t>(block.id), !holds.anchors,
+                       block.rows > block.position_rows && !holds.axes);
+  });
 }
 
 StartErrors start_errors(const Scene& scene, const State& state) {

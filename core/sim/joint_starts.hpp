@@ -11,6 +11,8 @@
 
 namespace substep {
 
+class JointStage;
+
 /// Initial-state errors that exceed the tolerance.
 struct StartFaults {
   bool gap = false;
@@ -41,6 +43,9 @@ struct JointStart {
 /// 1e-9 m/s, and that perturbation must not be projected away.
 std::vector<JointStart> joint_starts(const Scene& scene, const State& state);
 
+/// Tells the stage which rows are springs, by holding_rows() at a state.
+void mark_springs(const Scene& scene, const State& state, JointStage& joints);
+
 /// The largest errors over all joints, with the joint's index into Scene::joints (-1: none).
 struct StartErrors {
   double gap = 0.0;  // [m]
@@ -67,8 +72,5 @@ struct HoldingRows {
 /// the rows: the stretch is then part of the motion, not an initial error. Stiffer rows model an
 /// exact joint.
 HoldingRows holding_rows(const Block& block, std::span<const InverseMass> inverse_mass, double h);
-
-/// Reference length for a joint's gap: both arms plus the radius of body a [m].
-double size_of_joint(const Scene& scene, const JointBase& joint);
 
 }  // namespace substep

@@ -15,7 +15,10 @@ Simulator::Impl::Impl(std::shared_ptr<const Scene> scene_in)
   state = std::move(begun.state);
   start = begun.report;
   const Effects& effects = scene->effects;
-  if (effects.joints) joints = std::make_unique<JointStage>(*scene);
+  if (effects.joints) {
+    joints = std::make_unique<JointStage>(*scene);
+    mark_springs(*scene, state, *joints);
+  }
   if (effects.contact) contact = std::make_unique<ContactStage>(*scene);
   if (effects.friction) friction = std::make_unique<FrictionStage>(*scene);
   if (effects.restitution) restitution = std::make_unique<RestitutionStage>(*scene);

@@ -103,6 +103,10 @@ struct Simulator::Impl {
   SweptContacts::Found sweep(Substep& sub);
   bool too_many_swept() const;
   bool find_shift(Substep& sub, FrameReport& report);
+  /// Of the last sub-step's rows that are not springs [J].
+  [[nodiscard]] double stiff_elastic() const;
+  /// The potential energy that the shift adds [J].
+  [[nodiscard]] double lift_by_shift(const Substep& sub) const;
   bool parts(const Block& block) const;  // true if an overlap is parted
   /// True if a contact stops an approach that the forces of the sub-step do not explain: a body
   /// reaches the surface in one sub-step and comes to rest in the next.

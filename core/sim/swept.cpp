@@ -12,6 +12,7 @@
 
 #include <algorithm>
 
+#include "core/forces/applied_forces.hpp"
 #include "core/sim/simulator_impl.hpp"
 #include "core/stepping/compliance.hpp"
 #include "core/stepping/drift.hpp"
@@ -82,6 +83,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
   const auto overlaps = [&](const Block& block) { return parts(block); };
   bool shifts = found != SweptContacts::Found::kNothing ||
                 std::any_of(sub.rows.begin(), sub.rows.end(), overlaps);
+  const double before = lift_by_shift(sub);
   for (int shifted = 0; shifts; ++shifted) {
     const bool found_shift = shifted < kMostShifts && find_shift(sub, report);
     if (report.status != StepStatus::kOk) return false;
@@ -92,6 +94,7 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
     }
     shifts = sweep(sub) != SweptContacts::Found::kNothing;
   }
+  report.parting += lift_by_shift(sub) - before;
   blocks.keep(solved);  // those found since have no forces
   sub.rows = blocks.from(first_block);
   return true;
@@ -112,6 +115,18 @@ bool Simulator::Impl::solve_softly(Substep& sub, FrameReport& report) {
     if (softness < 1e4 * kRigid) report.work.unsolved = unsolved;
   }
   return true;
+}
+
+// The potentials are linear in the position.
+double Simulator::Impl::lift_by_shift(const Substep& sub) const {
+  double lift = 0.0;
+  for (const int i : sub.part->moving) {
+    const Vec3 way = sub.dt * shift[index(i)].head<3>();
+    for_each_force(scene->effects, [&](auto force) {
+      lift += force.potential(*scene, scene->bodies[index(i)], way);
+    });
+  }
+  return lift;
 }
 
 bool Simulator::Impl::too_many_swept() const {

@@ -27,6 +27,7 @@ void give_force(Block& joint, int row, double impulse) {
 // which land without rebound: implicit Euler dissipates the energy of the impact.
 constexpr double kSoftContact = 1e-6;
 
+bool is_soft_contact(const ContactModel& model) { return model.compliance >= kSoftContact; }
 bool is_soft_contact(const Block& contact) { return contact.C[0] >= kSoftContact; }
 
 void stiffen_contacts(const Substep& sub, double share) {

@@ -8,6 +8,8 @@ namespace substep::scenes {
 Scene paper_scene() {
   Scene scene;
   scene.settings = kPaperSettings;
+  scene.criteria.joint_gap = 0.1;
+  scene.criteria.energy_gain = kAnyEnergy;
   return scene;
 }
 

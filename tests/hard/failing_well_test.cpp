@@ -148,7 +148,31 @@ TEST(Remedies, TheImplicitTorqueHelpsATopThatExplodes) {
 
 TEST(Remedies, AreEmptyWhenNoSettingIsLeftToChange) {
   const Settings settings{.alpha = 1e-3, .policy = Policy::kSubstep};
-  EXPECT_TRUE(remedies(settings, {}).empty());
+  const auto all = remedies(settings, {});
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].settings, substep::Settings{});
+  FrameReport over_budget;
+  over_budget.status = StepStatus::kOverBudget;
+  EXPECT_TRUE(remedies(settings, over_budget).empty());
+}
+
+// What is offered as tried has held; what has not is left out.
+TEST(Remedies, ThatAreTriedHoldForTheWholeRun) {
+  const Scene scene = scenes::swinging_box();
+  const Settings settings{.mode = Mode::kNone};
+  FrameReport failed;
+  run(scene, settings, 10.0,
+      [&](const Simulator&, const FrameReport& report) { failed = report; });
+  const TriedRemedies tried =
+      try_remedies(shared(scene), settings, failed, {.frames = 600, .enough = 10});
+  EXPECT_EQ(tried.count, static_cast<int>(remedies(settings, failed).size()));
+  ASSERT_GE(tried.hold.size(), 2U);
+  for (const Remedy& remedy : tried.hold) {
+    EXPECT_TRUE(run(scene, remedy.settings, 10.0).holds) << remedy.text;
+  }
+  const TriedRemedies costly =
+      try_remedies(shared(scene), settings, failed, {.frames = 600, .most_work = 1000.0});
+  EXPECT_TRUE(costly.hold.empty());
 }
 
 TEST(Remedies, AreEmptyForTooManyContacts) {

@@ -58,7 +58,7 @@ TEST(Compliance, SagsEquallyAtAnyNumberOfSubsteps) {
         for (const int n : {1, 8, 64, 256}) {
           Scene scene = weight_on_a_spring(C);
           scene.bodies[0].position.y() = -sag;
-          const auto run = test::run(scene, settings_of(solver, n, integrator, drift), 2.0);
+          const auto run = test::run(scene, settings_of(solver, n, integrator, drift), 2.0, {}, false);
           EXPECT_NEAR(-run.end.x[0].y(), sag, 0.005 * sag)
               << name_of(solver) << ", " << name_of(drift) << ", " << name_of(integrator) << ", n "
               << n;
@@ -103,6 +103,54 @@ TEST(Compliance, SwingsWithTheOrderOfTheIntegrator) {
     if (error[1] < 1e-9) continue;
     EXPECT_GT(std::log2(error[0] / error[1]), method.order) << name;
   }
+}
+
+// The energy of a spring belongs to the energy, and its stretch is no gap: a weight on a spring
+// holds without limits of the scene. Kinetic and potential energy alone change by all there is.
+TEST(Compliance, TheEnergyIncludesThatOfSprings) {
+  for (const double C : {1e-3, 1e-4}) {
+    Scene scene = weight_on_a_spring(C);
+    scene.criteria.joint_gap.reset();
+    double most = 0.0;
+    double alone = 0.0;
+    double exchanged = 0.0;
+    const test::EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+      EXPECT_EQ(report.energy, report.kinetic + report.potential + report.springs);
+      EXPECT_EQ(report.elastic, report.springs);
+      most = std::max(most, std::abs(report.energy));
+      alone = std::max(alone, std::abs(report.kinetic + report.potential));
+      exchanged = std::max(exchanged, report.kinetic);
+    };
+    const Settings settings = settings_of(SolverKind::kBpp, 16, Integrator::kLeapfrog, Drift::kFull);
+    EXPECT_EQ(test::run(scene, settings, 3.0, every).verdict, "holds");
+    EXPECT_LT(most, 0.01 * exchanged) << C;
+    EXPECT_GT(alone, exchanged) << C;
+  }
+}
+
+// A ball on a soft contact comes back: all of its energy is in the spring for a while.
+TEST(Compliance, TheEnergyIncludesThatOfSoftContacts) {
+  Scene scene;
+  scene.effects.gravity = scene.effects.contact = true;
+  scene.contact.compliance = 1e-3;
+  Body ball;
+  ball.name = "ball";
+  ball.shape = Sphere{0.5};
+  ball.mass = 1.0;
+  ball.inertia = Vec3::Constant(0.1);
+  ball.position.y() = 1.0;
+  Body floor;
+  floor.name = "floor";
+  floor.is_static = true;
+  floor.shape = Plane{};
+  scene.bodies = {floor, ball};
+  double springs = 0.0;
+  const test::EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+    springs = std::max(springs, report.springs);
+  };
+  const Settings settings = settings_of(SolverKind::kBpp, 64, Integrator::kLeapfrog, Drift::kFull);
+  EXPECT_EQ(test::run(scene, settings, 3.0, every).verdict, "holds");
+  EXPECT_GT(springs, 0.9 * kGravity * 0.5);
 }
 
 // Nothing grows, from resolved springs to unresolved ones.

@@ -114,7 +114,8 @@ Scene in_units(Scene scene, double mass, double length, double time) {
   scene.settings.drift_tau *= time;
   Criteria criteria;
   criteria.duration = scene.criteria.duration;
-  criteria.joint_gap = scene.criteria.joint_gap * length;
+  criteria.energy_gain = scene.criteria.energy_gain;
+  if (scene.criteria.joint_gap) criteria.joint_gap = *scene.criteria.joint_gap * length;
   criteria.track = scene.criteria.track;
   scene.criteria = criteria;
   for (Body& body : scene.bodies) {

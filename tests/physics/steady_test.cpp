@@ -220,6 +220,21 @@ TEST(Steady, ThePapersRuleGainsEnergyAtEveryAlpha) {
   }
 }
 
+// No scene here states a limit.
+TEST(Steady, AVerdictNeedsNoLimitsOfTheScene) {
+  for (const Scene& scene :
+       {crank_rocker(Quat::Identity()), thrown_rope(), chain_in_space({0.2, 0.2, 0.2}, 6)}) {
+    SCOPED_TRACE(scene.name);
+    const std::string paper = run(scene, Settings{}, 10.0).verdict;
+    EXPECT_NE(paper.find("energy gain"), std::string::npos) << paper;
+    EXPECT_EQ(run(scene, steady(), 10.0).verdict, "holds");
+  }
+  const Scene torn = chain_in_space({0.2, 0.2, 0.2}, 6);
+  const Settings loose{.solver = SolverKind::kPgs, .iterations = 1, .mode = Mode::kNone};
+  const std::string verdict = run(torn, loose, 10.0).verdict;
+  EXPECT_NE(verdict.find("joint gap"), std::string::npos) << verdict;
+}
+
 TEST(Steady, NeedsExactJointsAndTheHold) {
   const Scene scene = crank_rocker(Quat::Identity());
   Settings drifts = steady();

@@ -311,6 +311,34 @@ TEST(SweptContacts, ALightBodyUnderAHeavyOneStaysWhole) {
   }
 }
 
+// Parting lifts the upper cube; its work is reported, and is no gain of energy.
+TEST(SweptContacts, TheVerdictTellsPartingFromAGain) {
+  SceneBuilder builder("overlap");
+  builder.add_fixed(Plane{}, Vec3::Zero());
+  builder.add_body(kCube, 1.0, {0.0, kHalf, 0.0});
+  const int upper = builder.add_body(kCube, 100.0, {0.0, 2.2 * kHalf, 0.0});
+  const Scene scene = *builder.build();
+  double parting = 0.0;
+  const EveryFrame every = [&](const Simulator&, const FrameReport& report) {
+    parting += report.parting;
+  };
+  const Outcome ours = run(scene, find_preset("steady")->settings, 2.0, every);
+  EXPECT_EQ(ours.verdict, "holds");
+  const double lifted = ours.end.x[static_cast<std::size_t>(upper)].y() - 2.2 * kHalf;
+  EXPECT_GT(lifted, 0.7 * kHalf);
+  EXPECT_NEAR(parting, 100.0 * kGravity * lifted, 0.02 * parting);
+  const std::string paper = run(scene, Settings{}, 2.0).verdict;
+  EXPECT_NE(paper.find("energy gain"), std::string::npos) << paper;
+}
+
+TEST(SweptContacts, TheVerdictNamesWhoIsInsideWhom) {
+  const std::shared_ptr<const Scene> scene = scene_of({kBall, 10.0});
+  EXPECT_EQ(run(*scene, find_preset("steady")->settings, 3.0).verdict, "holds");
+  const std::string paper = run(*scene, Settings{.mode = Mode::kConst, .n = 1}, 3.0).verdict;
+  EXPECT_NE(paper.find("overlap"), std::string::npos) << paper;
+  EXPECT_NE(paper.find("(body_1, body_0)"), std::string::npos) << paper;
+}
+
 // Passive scenes with default e: the energy never rises.
 TEST(SweptContacts, PassiveScenesGainNoEnergy) {
   for (const Scene& scene : {scenes::wall(), scenes::wrecking_ball(), scenes::bouncing_balls(),

@@ -22,7 +22,7 @@ TEST(VerdictWords, NameTheValueTheLimitAndWhatTheyMean) {
   EXPECT_EQ(exceeded_sentence({What::kJointGap, 0.1067, 0.1, "hinge_7"}),
             "hinge_7 has a gap of 0.107 m. Above 0.1 m a joint counts as torn.");
   EXPECT_EQ(exceeded_sentence({What::kEnergyGain, 36921.0, 5150.0, ""}),
-            "The total energy has grown by 36.9 kJ. The scene allows 5.15 kJ.");
+            "The total energy has grown by 36.9 kJ. The limit is 5.15 kJ.");
   EXPECT_EQ(exceeded_sentence({What::kMoved, 0.31, 0.25, "box"}),
             "box has moved by 0.31 m. The scene allows 0.25 m.");
   EXPECT_EQ(exceeded_sentence({What::kMoved, 0.1003, 0.1, "box"}),

@@ -30,11 +30,8 @@ std::vector<Candidate> candidates() {
   add("capped 16 + damping, 0.3, soft",
       PaperSettings{.mode = Mode::kCapped, .alpha = 0.3, .n_cap = 16, .drift = soft});
   add("inertia from 8, 0.3, leapfrog, soft",
-      PaperSettings{.mode = Mode::kInertia,
-                    .alpha = 0.3,
-                    .n_cap = 8,
-                    .integrator = leapfrog,
-                    .drift = soft});
+      PaperSettings{
+          .mode = Mode::kInertia, .alpha = 0.3, .n_cap = 8, .integrator = leapfrog, .drift = soft});
   add("damping", PaperSettings{.mode = Mode::kDamping});
   add("newton, one step", PaperSettings{.solver = SolverKind::kNewton, .mode = Mode::kNone});
   add("const 16", PaperSettings{.mode = Mode::kConst, .n = 16});

@@ -50,16 +50,14 @@ std::string forecast_line(const Scene& scene, const Settings& settings) {
 }
 
 /// "remedies     adaptive sub-steps (--mode adaptive): holds for 10 s", one line per remedy.
-std::string remedy_lines(const Simulator& failing, const FrameReport& failed,
-                         std::int64_t frames) {
+std::string remedy_lines(const Simulator& failing, const FrameReport& failed, std::int64_t frames) {
   const auto scene = std::make_shared<const Scene>(failing.scene());
   const Settings& settings = failing.settings();
   const std::atomic<bool>& cancelled = cancel_on_signal();
-  const TriedRemedies tried =
-      try_remedies(scene, settings, failed,
-                   {.frames = frames, .budget = failing.budget(), .cancelled = [&] {
-                      return cancelled.load();
-                    }});
+  const TriedRemedies tried = try_remedies(
+      scene, settings, failed, {.frames = frames, .budget = failing.budget(), .cancelled = [&] {
+                                  return cancelled.load();
+                                }});
   const std::string duration = number_text(static_cast<double>(frames) * scene->frame) + " s";
   std::string text;
   for (const Remedy& remedy : tried.hold) {
@@ -67,12 +65,12 @@ std::string remedy_lines(const Simulator& failing, const FrameReport& failed,
                                   ? "--preset steady"
                                   : setting_flags(remedy.settings, settings).substr(1);
     text += (text.empty() ? "remedies     " : "             ") + remedy.text +
-            (remedy.why.empty() ? "" : "; " + remedy.why) + " (" +
-            flags + "): holds for " + duration + "\n";
+            (remedy.why.empty() ? "" : "; " + remedy.why) + " (" + flags + "): holds for " +
+            duration + "\n";
   }
   if (tried.count > 0 && tried.hold.empty()) {
-    text = "remedies     none of the " + std::to_string(tried.count) + " that were tried holds for " +
-           duration + "\n";
+    text = "remedies     none of the " + std::to_string(tried.count) +
+           " that were tried holds for " + duration + "\n";
   }
   return text;
 }

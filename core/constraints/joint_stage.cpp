@@ -58,7 +58,8 @@ void JointStage::set_springs(std::size_t joint, bool positions, bool angles) {
 double JointStage::elastic(std::size_t joint, const Block& block) const {
   double energy = 0.0;
   for (int row = 0; row < block.rows; ++row) {
-    if (is_spring(joint, row, block)) energy += 0.5 * block.phi[row] * block.phi[row] / block.C[row];
+    if (is_spring(joint, row, block))
+      energy += 0.5 * block.phi[row] * block.phi[row] / block.C[row];
   }
   return energy;
 }

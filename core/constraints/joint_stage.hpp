@@ -13,11 +13,11 @@ namespace substep {
 
 /// Errors of all joints at a state.
 struct JointErrors {
-  double sum = 0.0;  // 1-norms of phi over all joints [m, rad]
-  double gap = 0.0;  // largest distance between two anchors [m]
-  int joint = -1;    // the joint with that gap
-  double torn = 0.0;    // largest gap of a joint without compliance, of largest_gap() [-]
-  int torn_joint = -1;  // that joint
+  double sum = 0.0;      // 1-norms of phi over all joints [m, rad]
+  double gap = 0.0;      // largest distance between two anchors [m]
+  int joint = -1;        // the joint with that gap
+  double torn = 0.0;     // largest gap of a joint without compliance, of largest_gap() [-]
+  int torn_joint = -1;   // that joint
   double elastic = 0.0;  // energy of the joints that are springs [J]
 };
 

@@ -40,7 +40,8 @@ std::uint64_t scene_hash(const Scene& scene) {
   Json content = Json::parse(write_scene(bare), nullptr, false);
   content.erase("settings");
   content.erase("camera");
-  // The same content as in version 1, which did not judge the energy unless the scene stated a gain.
+  // The same content as in version 1, which did not judge the energy unless the scene stated a
+  // gain.
   content["version"] = 1;
   if (scene.criteria.energy_gain == kAnyEnergy) {
     content["criteria"].erase("energy_gain");

@@ -13,7 +13,8 @@ namespace substep {
 /// In criteria: the energy is not judged.
 inline constexpr std::string_view kAnyGain = "any";
 
-/// The version of the file, or nothing if it is not supported: no further problems are reported then.
+/// The version of the file, or nothing if it is not supported: no further problems are reported
+/// then.
 std::optional<int> read_version(ObjectReader& in, Problems& problems);
 /// Name, title, group and descriptive texts.
 void read_about(ObjectReader& in, Scene& scene);

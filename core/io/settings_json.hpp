@@ -17,8 +17,8 @@ Json scene_settings_json(const Settings& settings);
 /// "preset", or unchanged without one.
 void read_settings(ObjectReader& parent, Settings& settings, Problems& problems);
 
-/// The same in a scene file. Settings that a block omits are the defaults; in version 1 they are the
-/// paper's, which were the defaults then. @param version of the file
+/// The same in a scene file. Settings that a block omits are the defaults; in version 1 they are
+/// the paper's, which were the defaults then. @param version of the file
 void read_scene_settings(ObjectReader& parent, int version, Settings& settings, Problems& problems);
 
 }  // namespace substep

@@ -30,8 +30,8 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last);
 struct Trial {
   std::int64_t frames = 0;  // of the run that failed: as many must hold
   Budget budget = {};
-  std::size_t enough = 2;   // remedies that hold
-  double most_work = 3e6;   // of one remedy [sub-steps times bodies]; one that needs more is left
+  std::size_t enough = 2;  // remedies that hold
+  double most_work = 3e6;  // of one remedy [sub-steps times bodies]; one that needs more is left
   std::function<bool()> cancelled = [] { return false; };
 };
 

@@ -37,9 +37,8 @@ double total(const FrameReport& report) {
 
 bool has_torque(const Scene& scene) {
   return scene.effects.external &&
-         std::any_of(scene.bodies.begin(), scene.bodies.end(), [](const Body& body) {
-           return !body.is_static && !body.torque.isZero(0.0);
-         });
+         std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                     [](const Body& body) { return !body.is_static && !body.torque.isZero(0.0); });
 }
 
 /// The largest overlap of two bodies [m].

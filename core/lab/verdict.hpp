@@ -22,9 +22,9 @@ struct Exceeded {
 /// The energy of a run against its own scale, the energy that the motion has exchanged so far: the
 /// largest kinetic energy, or the range of the potential or of the elastic energy.
 /// Over its lowest value the energy may rise by at most 10 % of that scale, and by at most 1 % for
-/// half a second: every integrator makes the energy oscillate, and what counts is a gain that stays.
-/// In the first half second, before there is such a scale, half of it counts as a gain. Work of
-/// parting overlaps is no gain. At rest there is noise: 1e-5 of the weight times the size of the
+/// half a second: every integrator makes the energy oscillate, and what counts is a gain that
+/// stays. In the first half second, before there is such a scale, half of it counts as a gain. Work
+/// of parting overlaps is no gain. At rest there is noise: 1e-5 of the weight times the size of the
 /// bodies is allowed besides.
 class EnergyWatch {
  public:

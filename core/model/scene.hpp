@@ -31,9 +31,10 @@ inline constexpr double kAnyEnergy = std::numeric_limits<double>::infinity();
 /// Failure criteria of a run, and the scale of its errors. Limits that are not stated follow from
 /// the sizes, masses and energies of the run: core/lab/verdict.hpp.
 struct Criteria {
-  double duration = 10.0;              // simulated by `check` [s]
-  std::optional<double> joint_gap;     // a larger gap of any joint fails [m]
-  std::optional<double> energy_gain;   // more energy than at the start by this fails, or kAnyEnergy [J]
+  double duration = 10.0;           // simulated by `check` [s]
+  std::optional<double> joint_gap;  // a larger gap of any joint fails [m]
+  std::optional<double>
+      energy_gain;  // more energy than at the start by this fails, or kAnyEnergy [J]
   std::optional<double> energy_scale;  // energy that the motion exchanges: 100 % of the drift [J]
   struct Displacement {
     int body = 0;           // index into Scene::bodies

@@ -47,16 +47,16 @@ struct BasicSettings {
   int pivots = 20;      // block pivoting steps of BPP before its single-pivot fallback, >= 1
 
   Mode mode = Mode::kAdaptive;
-  double alpha = 0.1;    // stability threshold of Eq. 5, in (0, 1] [-]; N ~ alpha^-1/2
-  int n = 16;            // sub-steps per frame in mode kConst, >= 1
+  double alpha = 0.1;             // stability threshold of Eq. 5, in (0, 1] [-]; N ~ alpha^-1/2
+  int n = 16;                     // sub-steps per frame in mode kConst, >= 1
   int n_max = kPaper ? 64 : 256;  // maximum sub-steps per frame in mode kAdaptive, >= 1
   int n_cap = 4;         // maximum sub-steps per frame in modes kCapped, kInertia and kBlend, >= 1
   double alpha_m = 0.7;  // kInertia, kBlend: upper bound on dt^2 k/(4 Mt), in (0, 1) [-]
   double beta = 0.95;    // kBlend: undamped share of the velocity, in [0, 1] [-]
   Policy policy = Policy::kFrame;
-  double memory = 0.9;   // decay of r per sub-step in policy kSubstep, in [0, 1) [-]
+  double memory = 0.9;         // decay of r per sub-step in policy kSubstep, in [0, 1) [-]
   int hold = kPaper ? 1 : 60;  // N falls only after so many frames that need fewer sub-steps, >= 1
-  bool redo = !kPaper;  // a frame that turns out to need more sub-steps is taken again with them
+  bool redo = !kPaper;   // a frame that turns out to need more sub-steps is taken again with them
   bool islands = false;  // each island has its own N, in modes that choose N
   bool sleep = false;    // islands at rest are not stepped
   bool probe = true;     // one solve before the first frame for the forces that determine N
@@ -74,14 +74,13 @@ struct BasicSettings {
 
   // NOLINTNEXTLINE(google-explicit-constructor): the same settings, whatever their defaults
   template <Defaults kOther>
-    requires(kOther != kDefaults)
-  constexpr operator BasicSettings<kOther>() const {
+  requires(kOther != kDefaults) constexpr operator BasicSettings<kOther>() const {
     return std::bit_cast<BasicSettings<kOther>>(*this);
   }
   friend bool operator==(const BasicSettings&, const BasicSettings&) = default;
   template <Defaults kOther>
-    requires(kOther != kDefaults)
-  friend bool operator==(const BasicSettings& a, const BasicSettings<kOther>& b) {
+  requires(kOther != kDefaults) friend bool operator==(const BasicSettings& a,
+                                                       const BasicSettings<kOther>& b) {
     return a == BasicSettings(b);
   }
 };

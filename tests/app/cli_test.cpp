@@ -61,19 +61,19 @@ TEST(CommandLine, CsvHasTheColumnsOfTheScenesEffects) {
       "frame,time,substeps,discarded,substeps_mean,islands,asleep,substeps_wanted,capped,dt_min,dt_"
       "max,dt_"
       "stable,r,leader,leader_dof,"
-      "kinetic,potential,energy,px,py,pz,lx,ly,lz,constraint_error,joint_gap,joint_rows,iterations,"
+      "kinetic,potential,elastic,energy,px,py,pz,lx,ly,lz,constraint_error,joint_gap,joint_rows,iterations,"
       "pivots,"
       "unsolved,residual,x,y,z,ms");
   EXPECT_EQ(header("spinning_top"),
             "frame,time,substeps,discarded,substeps_mean,islands,asleep,substeps_wanted,capped,dt_"
             "min,dt_max,dt_"
             "stable,r,leader,leader_dof,"
-            "kinetic,energy,px,py,pz,lx,ly,lz,iterations,pivots,unsolved,residual,x,y,z,ms");
+            "kinetic,elastic,energy,px,py,pz,lx,ly,lz,iterations,pivots,unsolved,residual,x,y,z,ms");
   EXPECT_EQ(header("heavy_stack"),
             "frame,time,substeps,discarded,substeps_mean,islands,asleep,substeps_wanted,capped,dt_"
             "min,dt_max,dt_"
             "stable,r,leader,leader_dof,"
-            "kinetic,potential,energy,px,py,pz,lx,ly,lz,penetration,contact_rows,iterations,pivots,"
+            "kinetic,potential,elastic,energy,parting,px,py,pz,lx,ly,lz,penetration,contact_rows,iterations,pivots,"
             "unsolved,residual,"
             "x,y,z,ms");
   EXPECT_NE(header("bridge").find("contact_rows,friction_rows,"), std::string::npos);

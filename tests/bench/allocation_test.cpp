@@ -76,10 +76,10 @@ TEST(SmallStepsAndRefinements, AllocateNothingAfterTheFirstFrame) {
        {std::pair{"bridge", SolverKind::kPgs}, std::pair{"bridge", SolverKind::kBpp},
         std::pair{"heavy_stack_stress", SolverKind::kBpp}}) {
     const PaperSettings settings{.solver = solver,
-                            .share_iterations = true,
-                            .refinements = 2,
-                            .mode = Mode::kConst,
-                            .detection = Detection::kFrame};
+                                 .share_iterations = true,
+                                 .refinements = 2,
+                                 .mode = Mode::kConst,
+                                 .detection = Detection::kFrame};
     EXPECT_EQ(allocated(name, settings), 0) << name << ", " << name_of(solver);
   }
 }

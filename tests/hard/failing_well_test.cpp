@@ -161,8 +161,7 @@ TEST(Remedies, ThatAreTriedHoldForTheWholeRun) {
   const Scene scene = scenes::swinging_box();
   const Settings settings{.mode = Mode::kNone};
   FrameReport failed;
-  run(scene, settings, 10.0,
-      [&](const Simulator&, const FrameReport& report) { failed = report; });
+  run(scene, settings, 10.0, [&](const Simulator&, const FrameReport& report) { failed = report; });
   const TriedRemedies tried =
       try_remedies(shared(scene), settings, failed, {.frames = 600, .enough = 10});
   EXPECT_EQ(tried.count, static_cast<int>(remedies(settings, failed).size()));

@@ -58,7 +58,8 @@ TEST(Compliance, SagsEquallyAtAnyNumberOfSubsteps) {
         for (const int n : {1, 8, 64, 256}) {
           Scene scene = weight_on_a_spring(C);
           scene.bodies[0].position.y() = -sag;
-          const auto run = test::run(scene, settings_of(solver, n, integrator, drift), 2.0, {}, false);
+          const auto run =
+              test::run(scene, settings_of(solver, n, integrator, drift), 2.0, {}, false);
           EXPECT_NEAR(-run.end.x[0].y(), sag, 0.005 * sag)
               << name_of(solver) << ", " << name_of(drift) << ", " << name_of(integrator) << ", n "
               << n;
@@ -121,7 +122,8 @@ TEST(Compliance, TheEnergyIncludesThatOfSprings) {
       alone = std::max(alone, std::abs(report.kinetic + report.potential));
       exchanged = std::max(exchanged, report.kinetic);
     };
-    const Settings settings = settings_of(SolverKind::kBpp, 16, Integrator::kLeapfrog, Drift::kFull);
+    const Settings settings =
+        settings_of(SolverKind::kBpp, 16, Integrator::kLeapfrog, Drift::kFull);
     EXPECT_EQ(test::run(scene, settings, 3.0, every).verdict, "holds");
     EXPECT_LT(most, 0.01 * exchanged) << C;
     EXPECT_GT(alone, exchanged) << C;

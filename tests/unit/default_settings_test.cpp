@@ -12,7 +12,8 @@
 namespace substep::test {
 namespace {
 
-const std::string kChosen = R"("settings": {"solver": "bpp", "alpha": 0.1, "n": 16, "probe": true},)";
+const std::string kChosen =
+    R"("settings": {"solver": "bpp", "alpha": 0.1, "n": 16, "probe": true},)";
 const std::string kVersion1 = R"("version": 1,)";
 const std::string kVersion2 = R"("version": 2,)";
 
@@ -92,8 +93,8 @@ TEST(DefaultSettings, AreNotThoseOfAnEarlierResult) {
   Json line = experiment_json(experiment_of(*scene, PaperSettings{.n = 3}));
   for (const char* later : {"hold", "redo"}) line["settings"].erase(later);
   Problems problems;
-  const ExperimentInput read =
-      read_experiment(line, [&](const std::string&) { return scene; }, problems);
+  const ExperimentInput read = read_experiment(
+      line, [&](const std::string&) { return scene; }, problems);
   ASSERT_TRUE(read.experiment) << (problems.empty() ? "" : to_string(problems[0]));
   EXPECT_EQ(read.experiment->settings, PaperSettings{.n = 3});
 }

@@ -130,12 +130,12 @@ TEST(Recommended, DoesNotChangeTheSweep) {
   plain.verdicts = {Expectation{}};
   Recommended recommended = some_recommended();
   recommended.settings = PaperSettings{.solver = SolverKind::kPgs,
-                          .iterations = 64,
-                          .share_iterations = true,
-                          .alpha = 0.7,
-                          .n_cap = 9,
-                          .integrator = Integrator::kLeapfrog,
-                          .detection = Detection::kFrame};
+                                       .iterations = 64,
+                                       .share_iterations = true,
+                                       .alpha = 0.7,
+                                       .n_cap = 9,
+                                       .integrator = Integrator::kLeapfrog,
+                                       .detection = Detection::kFrame};
   Scene scene = with_recommended(plain, recommended);
   ASSERT_EQ(scene.settings, recommended.settings);
   scene.settings.watch_stiffness = true;  // display only
@@ -165,9 +165,11 @@ Result run_of(const Settings& settings, double flops, double error, bool holds =
 TEST(Recommended, IsTheCheapestWithinTheError) {
   const PaperSettings leapfrog{.mode = Mode::kConst, .n = 3, .integrator = Integrator::kLeapfrog};
   std::vector<Result> results{
-      run_of(PaperSettings{.alpha = 0.1}, 50.0, 2e-3), run_of(PaperSettings{.alpha = 0.05}, 6512.3, 8e-4),
-      run_of(leapfrog, 100.049, 4.1234e-4), run_of(PaperSettings{.mode = Mode::kNone}, 10.0, 1e-5, false),
-      run_of(PaperSettings{.alpha = 0.2, .contact_stiffness = ContactStiffness::kExact}, 600.0, 8e-4)};
+      run_of(PaperSettings{.alpha = 0.1}, 50.0, 2e-3),
+      run_of(PaperSettings{.alpha = 0.05}, 6512.3, 8e-4), run_of(leapfrog, 100.049, 4.1234e-4),
+      run_of(PaperSettings{.mode = Mode::kNone}, 10.0, 1e-5, false),
+      run_of(PaperSettings{.alpha = 0.2, .contact_stiffness = ContactStiffness::kExact}, 600.0,
+             8e-4)};
   auto found = recommended_of(results, ErrorAxis::kTrajectory, 1e-3);
   ASSERT_TRUE(found.has_value());
   EXPECT_EQ(found->settings, leapfrog);

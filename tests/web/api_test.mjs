@@ -63,6 +63,20 @@ test("settings are returned with their allowed values", async () => {
   assert.ok(settings.alpha.help.length > 10);
 });
 
+test("a scene without settings starts with the defaults, one that names the paper with the paper's", async () => {
+  const values = async (settings) => {
+    const scene = { format: "substep-scene", version: 2, name: "own", title: "Own", ...settings,
+      bodies: [{ name: "ball", shape: { type: "sphere", radius: 0.1 }, mass: 1, position: [0, 1, 0] }] };
+    assert.equal((await call(page, "load", scene)).ok, true);
+    const all = Object.fromEntries((await call(page, "settings")).map((s) => [s.name, s.value]));
+    return [all.integrator, all.drift, all.detection, all.friction_cone, String(all.hold)];
+  };
+  const ours = ["leapfrog", "exact", "continuous", "cone", "60"];
+  assert.deepEqual(await values({}), ours);
+  assert.deepEqual(await values({ settings: {} }), ours);
+  assert.deepEqual(await values({ settings: { preset: "paper" } }), ["euler", "auto", "substep", "box", "1"]);
+});
+
 test("listeners receive frames and verdicts until they are removed", async () => {
   await call(page, "set", { scene: "swinging_box", mode: "none" });
   await call(page, "reset");

@@ -112,7 +112,8 @@ TEST(Compare, InvalidOverridesAddNoRun) {
 }
 
 TEST(Compare, SolversAreCalledByTheirNames) {
-  EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}, PaperSettings{}), "Newton, none");
+  EXPECT_EQ(overrides_title({{"solver", "newton"}, {"mode", "none"}}, PaperSettings{}),
+            "Newton, none");
   EXPECT_EQ(overrides_title({{"solver", "xpbd"}}, PaperSettings{}), "XPBD");
   EXPECT_EQ(overrides_title({{"mode", "const"}, {"n", "6"}}, PaperSettings{}), "constant 6");
   EXPECT_EQ(overrides_title({{"mode", "const"}}, PaperSettings{}), "const");

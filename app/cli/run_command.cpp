@@ -50,14 +50,16 @@ std::string forecast_line(const Scene& scene, const Settings& settings) {
 }
 
 /// "remedies     adaptive sub-steps (--mode adaptive): holds for 10 s", one line per remedy.
-std::string remedy_lines(const Simulator& failing, const FrameReport& failed, std::int64_t frames) {
+std::string remedy_lines(const Simulator& failing, const Verdict& verdict,
+                         const FrameReport& failed, std::int64_t frames) {
   const auto scene = std::make_shared<const Scene>(failing.scene());
   const Settings& settings = failing.settings();
   const std::atomic<bool>& cancelled = cancel_on_signal();
-  const TriedRemedies tried = try_remedies(
-      scene, settings, failed, {.frames = frames, .budget = failing.budget(), .cancelled = [&] {
-                                  return cancelled.load();
-                                }});
+  const TriedRemedies tried =
+      try_remedies(scene, settings, failed, verdict.exceeded(),
+                   {.frames = frames, .budget = failing.budget(), .cancelled = [&] {
+                      return cancelled.load();
+                    }});
   const std::string duration = number_text(static_cast<double>(frames) * scene->frame) + " s";
   std::string text;
   for (const Remedy& remedy : tried.hold) {
@@ -131,7 +133,7 @@ int run(const RunOptions& options) {
   if (!options.quiet) {
     std::fprintf(words, "%s%s",
                  report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str(),
-                 failed ? remedy_lines(simulator, *failed, frames).c_str() : "");
+                 failed ? remedy_lines(simulator, verdict, *failed, frames).c_str() : "");
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());
   return verdict.stopped() ? kNotFinite : kOk;

@@ -17,7 +17,8 @@ namespace {
 std::vector<Remedy> remedies_of(const Session& session, std::size_t most) {
   const Timeline& timeline = session.timeline();
   const Moment& then = timeline[timeline.at_time(session.verdict().failed_at())];
-  auto all = remedies(then.settings, session.stopped() ? session.report() : then.report);
+  auto all = remedies(then.settings, session.stopped() ? session.report() : then.report,
+                      session.verdict().exceeded());
   all.resize(std::min(all.size(), most));
   return all;
 }

@@ -19,7 +19,8 @@ int larger(int cap, int wanted) {
 
 }  // namespace
 
-std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) {
+std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
+                             const std::optional<Exceeded>& exceeded) {
   std::vector<Remedy> all;
   if (last.status == StepStatus::kTooManyContacts ||  // not due to the settings
       last.status == StepStatus::kOverBudget || last.status == StepStatus::kInvalid) {
@@ -28,6 +29,15 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   const auto add = [&](const std::string& text, const std::string& why = {}) -> Settings& {
     return all.emplace_back(Remedy{text, why, settings}).settings;
   };
+  const bool gains = exceeded && exceeded->what == Exceeded::What::kEnergyGain;
+  const auto add_defaults = [&] {
+    Settings ours;
+    ours.watch_stiffness = settings.watch_stiffness;  // display only
+    if (settings != ours) {
+      add("the default settings", "they keep the energy and find contacts in time") = ours;
+    }
+  };
+  if (gains) add_defaults();
   if (last.stages.gyroscopic && settings.gyroscopic == Gyroscopic::kExplicit) {
     add("an implicit gyroscopic torque").gyroscopic = Gyroscopic::kImplicit;
   }
@@ -53,6 +63,8 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
         "impacts change N, and short steps then correct errors of long ones too fast")
         .drift = Drift::kSoft;
   }
+  // Neither of these stops an adaptive N from pumping energy.
+  if (gains && adaptive) return all;
   if (adaptive && !last.capped && settings.alpha > kLeastOffered) {
     const double alpha = std::max(kLeastOffered, 0.5 * settings.alpha);
     add(format_text("a smaller alpha, %.3g", alpha)).alpha = alpha;
@@ -60,18 +72,15 @@ std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last) 
   if (adaptive && settings.policy == Policy::kFrame) {
     add("a decision after every sub-step").policy = Policy::kSubstep;
   }
-  Settings ours;
-  ours.watch_stiffness = settings.watch_stiffness;  // display only
-  if (settings != ours) {
-    add("the default settings", "they keep the energy and find contacts in time") = ours;
-  }
+  if (!gains) add_defaults();
   return all;
 }
 
 TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Settings& settings,
-                           const FrameReport& failed, const Trial& trial) {
+                           const FrameReport& failed, const std::optional<Exceeded>& exceeded,
+                           const Trial& trial) {
   TriedRemedies tried;
-  for (Remedy& remedy : remedies(settings, failed)) {
+  for (Remedy& remedy : remedies(settings, failed, exceeded)) {
     if (tried.hold.size() == trial.enough || trial.cancelled()) break;
     ++tried.count;
     Simulator simulator(scene);

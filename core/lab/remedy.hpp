@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/lab/verdict.hpp"
 #include "core/model/budget.hpp"
 #include "core/model/scene.hpp"
 #include "core/sim/report.hpp"
@@ -22,9 +23,11 @@ struct Remedy {
 /// Suggestions, the most likely first: the implicit gyroscopic torque instead of the explicit one,
 /// adaptive sub-steps if not used, a larger cap if it was reached, the direct solver instead of
 /// Gauss-Seidel, the soft drift law for impacts on joints, a smaller alpha, the default settings.
-/// None has been tried. @param last the report of the failed frame @return empty if no setting
-/// would help
-std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last);
+/// For a gain of energy the default settings come first, and a smaller alpha is none. None has been
+/// tried. @param last the report of the failed frame @param exceeded Verdict::exceeded()
+/// @return empty if no setting would help
+std::vector<Remedy> remedies(const Settings& settings, const FrameReport& last,
+                             const std::optional<Exceeded>& exceeded);
 
 /// How remedies are tried.
 struct Trial {
@@ -42,6 +45,7 @@ struct TriedRemedies {
 
 /// Runs the scene from its start with each remedy.
 TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Settings& settings,
-                           const FrameReport& failed, const Trial& trial);
+                           const FrameReport& failed, const std::optional<Exceeded>& exceeded,
+                           const Trial& trial);
 
 }  // namespace substep

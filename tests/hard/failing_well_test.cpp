@@ -90,7 +90,7 @@ void expect_helped(const Scene& scene, const Settings& settings) {
   const Outcome before = run(scene, settings, scene.criteria.duration,
                              [&](const Simulator&, const FrameReport& report) { failed = report; });
   ASSERT_FALSE(before.holds) << scene.name;
-  const auto all = remedies(settings, failed);
+  const auto all = remedies(settings, failed, {});
   ASSERT_FALSE(all.empty());
   const Outcome after = run(scene, all.front().settings, scene.criteria.duration);
   EXPECT_TRUE(after.holds) << scene.name << ": " << all.front().text << ": " << after.verdict;
@@ -132,7 +132,7 @@ TEST(Remedies, TheSoftDriftLawHelpsSweeps) {
 
 TEST(Remedies, TheDirectSolverIsOneWhereSweepsAreNotEnough) {
   Settings settings{.solver = SolverKind::kPgs};
-  const auto all = remedies(settings, {});
+  const auto all = remedies(settings, {}, {});
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Remedy& remedy) {
     return remedy.settings.solver == SolverKind::kBpp;
   }));
@@ -148,12 +148,21 @@ TEST(Remedies, TheImplicitTorqueHelpsATopThatExplodes) {
 
 TEST(Remedies, AreEmptyWhenNoSettingIsLeftToChange) {
   const Settings settings{.alpha = 1e-3, .policy = Policy::kSubstep};
-  const auto all = remedies(settings, {});
+  const auto all = remedies(settings, {}, {});
   ASSERT_EQ(all.size(), 1U);
   EXPECT_EQ(all[0].settings, substep::Settings{});
   FrameReport over_budget;
   over_budget.status = StepStatus::kOverBudget;
-  EXPECT_TRUE(remedies(settings, over_budget).empty());
+  EXPECT_TRUE(remedies(settings, over_budget, {}).empty());
+}
+
+TEST(Remedies, AgainstAGainOfEnergyAreNoSmallerAlpha) {
+  Exceeded gain;
+  gain.what = Exceeded::What::kEnergyGain;
+  const auto all = remedies(Settings{}, {}, gain);
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].settings, substep::Settings{});
+  for (const Remedy& remedy : all) EXPECT_EQ(remedy.settings.alpha, 0.1) << remedy.text;
 }
 
 // What is offered as tried has held; what has not is left out.
@@ -163,21 +172,21 @@ TEST(Remedies, ThatAreTriedHoldForTheWholeRun) {
   FrameReport failed;
   run(scene, settings, 10.0, [&](const Simulator&, const FrameReport& report) { failed = report; });
   const TriedRemedies tried =
-      try_remedies(shared(scene), settings, failed, {.frames = 600, .enough = 10});
-  EXPECT_EQ(tried.count, static_cast<int>(remedies(settings, failed).size()));
+      try_remedies(shared(scene), settings, failed, {}, {.frames = 600, .enough = 10});
+  EXPECT_EQ(tried.count, static_cast<int>(remedies(settings, failed, {}).size()));
   ASSERT_GE(tried.hold.size(), 2U);
   for (const Remedy& remedy : tried.hold) {
     EXPECT_TRUE(run(scene, remedy.settings, 10.0).holds) << remedy.text;
   }
   const TriedRemedies costly =
-      try_remedies(shared(scene), settings, failed, {.frames = 600, .most_work = 1000.0});
+      try_remedies(shared(scene), settings, failed, {}, {.frames = 600, .most_work = 1000.0});
   EXPECT_TRUE(costly.hold.empty());
 }
 
 TEST(Remedies, AreEmptyForTooManyContacts) {
   FrameReport failed;
   failed.status = StepStatus::kTooManyContacts;
-  EXPECT_TRUE(remedies({}, failed).empty());
+  EXPECT_TRUE(remedies({}, failed, {}).empty());
 }
 
 }  // namespace

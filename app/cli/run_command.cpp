@@ -70,8 +70,8 @@ std::string remedy_lines(const Simulator& failing, const Verdict& verdict,
             (remedy.why.empty() ? "" : "; " + remedy.why) + " (" + flags + "): holds for " +
             duration + "\n";
   }
-  if (tried.count > 0 && tried.hold.empty()) {
-    text = "remedies     none of the " + std::to_string(tried.count) +
+  if (tried.failed > 0 && tried.hold.empty()) {
+    text = "remedies     none of the " + std::to_string(tried.failed) +
            " that were tried holds for " + duration + "\n";
   }
   return text;
@@ -131,9 +131,11 @@ int run(const RunOptions& options) {
   }
 
   if (!options.quiet) {
-    std::fprintf(words, "%s%s",
-                 report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str(),
-                 failed ? remedy_lines(simulator, verdict, *failed, frames).c_str() : "");
+    std::fprintf(words, "%s",
+                 report.summary(measure.metrics(simulator.scene(), simulator.state())).c_str());
+    std::fflush(words);
+    const std::string lines = failed ? remedy_lines(simulator, verdict, *failed, frames) : "";
+    if (!cancelled) std::fprintf(words, "%s", lines.c_str());
   }
   std::fprintf(words, "%s\n", verdict.text().c_str());
   return verdict.stopped() ? kNotFinite : kOk;

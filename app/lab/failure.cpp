@@ -51,9 +51,9 @@ std::optional<Failure> failure_of(const Scene& scene, const Poses& poses, const 
     failure = torn_joint(scene, poses, report.torn_joint);
   } else if (exceeded && exceeded->what == Exceeded::What::kMoved) {
     failure = failed_body(scene, poses, criteria.displacement->body);
-  } else if (exceeded && exceeded->what == Exceeded::What::kOverlap && report.penetration_a >= 0) {
-    const bool a_moves = !is_fixed(scene, report.penetration_a);
-    failure = failed_body(scene, poses, a_moves ? report.penetration_a : report.penetration_b);
+  } else if (exceeded && exceeded->what == Exceeded::What::kOverlap && report.inside_a >= 0) {
+    const bool a_moves = !is_fixed(scene, report.inside_a);
+    failure = failed_body(scene, poses, a_moves ? report.inside_a : report.inside_b);
   }
   if (failure && exceeded) failure->exceeded = *exceeded;
   return failure;

@@ -124,7 +124,12 @@ Overlaps overlaps(Detector& detector, const Scene& scene, const Part& part, cons
   for (const ContactPoint& point : detector.detect(scene, part, state, R_WB)) {
     if (!(point.gap < 0.0)) continue;
     found.squares += point.gap * point.gap;
-    if (-point.gap > found.deepest) found = {-point.gap, point.a, point.b, found.squares};
+    found.deepest = std::max(found.deepest, -point.gap);
+    const double inside = -point.gap / (2.0 * detector.half_width(point.a, point.b));
+    if (inside <= found.inside) continue;
+    found.inside = inside;
+    found.a = point.a;
+    found.b = point.b;
   }
   return found;
 }

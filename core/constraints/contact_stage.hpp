@@ -47,7 +47,8 @@ class ContactStage {
 /// Overlaps at a state.
 struct Overlaps {
   double deepest = 0.0;  // [m]
-  int a = -1;            // the bodies of that contact
+  double inside = 0.0;   // largest overlap of a pair, of the width of the smaller body [-]
+  int a = -1;            // that pair
   int b = -1;
   double squares = 0.0;  // sum over all contact points [m^2]
 };

@@ -1,6 +1,7 @@
 #include "core/constraints/joint_stage.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace substep {
 
@@ -52,6 +53,9 @@ void JointStage::append(const Part& part, const State& state, std::span<const Ma
 void JointStage::set_springs(std::size_t joint, bool positions, bool angles) {
   joints_[joint].spring = positions;
   joints_[joint].turns = angles;
+  if (positions && !scene_.criteria.joint_gap) {
+    joints_[joint].largest_gap = std::numeric_limits<double>::infinity();
+  }
   has_springs_ = has_springs_ || positions || angles;
 }
 

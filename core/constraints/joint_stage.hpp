@@ -16,7 +16,7 @@ struct JointErrors {
   double sum = 0.0;      // 1-norms of phi over all joints [m, rad]
   double gap = 0.0;      // largest distance between two anchors [m]
   int joint = -1;        // the joint with that gap
-  double torn = 0.0;     // largest gap of a joint without compliance, of largest_gap() [-]
+  double torn = 0.0;     // largest gap of a joint that is no spring, of largest_gap() [-]
   int torn_joint = -1;   // that joint
   double elastic = 0.0;  // energy of the joints that are springs [J]
 };
@@ -45,7 +45,7 @@ class JointStage {
     JointGeometry geometry;
     bool spring = false;       // in its position rows
     bool turns = false;        // a spring in its angular rows
-    double largest_gap = 0.0;  // largest_gap() [m]
+    double largest_gap = 0.0;  // at which it is torn [m]
   };
   /// phi^2 / 2C of the rows that are springs [J].
   [[nodiscard]] double elastic(std::size_t joint, const Block& block) const;

@@ -97,7 +97,8 @@ void SceneReading::Impl::read_head() {
   read_contact(*in, *scene, found);
   in->number("regularisation", kRegularisationRange, scene->regularisation, kOptional);
   read_start(*in, *scene);
-  const bool has_settings = in->member("settings", kOptional) != nullptr;
+  const Json* settings = in->member("settings", kOptional);
+  const bool has_settings = settings != nullptr && !settings->empty();
   read_scene_settings(*in, *version, scene->settings, found);
   if (const Json* recommended = in->member("recommended", kOptional)) {
     scene->recommended =

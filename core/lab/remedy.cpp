@@ -82,7 +82,6 @@ TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Sett
   TriedRemedies tried;
   for (Remedy& remedy : remedies(settings, failed, exceeded)) {
     if (tried.hold.size() == trial.enough || trial.cancelled()) break;
-    ++tried.count;
     Simulator simulator(scene);
     simulator.set_settings(remedy.settings);
     simulator.set_budget(trial.budget);
@@ -97,6 +96,7 @@ TriedRemedies try_remedies(const std::shared_ptr<const Scene>& scene, const Sett
       work += static_cast<double>(report.n_substeps + report.n_discarded) *
               static_cast<double>(scene->bodies.size());
     }
+    if (!verdict.holds()) ++tried.failed;
     if (verdict.holds() && frame == trial.frames) tried.hold.push_back(std::move(remedy));
   }
   return tried;

@@ -40,7 +40,7 @@ struct Trial {
 
 struct TriedRemedies {
   std::vector<Remedy> hold;  // for the whole run
-  int count = 0;             // tried
+  int failed = 0;            // that do not hold; those that need too much work are not counted
 };
 
 /// Runs the scene from its start with each remedy.

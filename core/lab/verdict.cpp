@@ -28,12 +28,9 @@ constexpr double kPeriod = 0.5;          // [s]
 constexpr double kMostSustained = 0.01;  // of the energy exchanged
 constexpr double kMostNow = 0.1;
 constexpr double kMostAtFirst = 0.5;
-constexpr double kNoise = 1e-5;        // of the weight times the size
-constexpr double kMostOverlap = 0.25;  // of the width of the smaller body
-
-double total(const FrameReport& report) {
-  return report.kinetic + report.potential + report.elastic;  // [J]
-}
+constexpr double kRounding = 1e-12;   // of the energy of a body's size per frame
+constexpr double kNoise = 1e-5;       // of the weight times the size
+constexpr double kMostInside = 0.25;  // of the width of the smaller body
 
 bool has_torque(const Scene& scene) {
   return scene.effects.external &&
@@ -41,23 +38,28 @@ bool has_torque(const Scene& scene) {
                      [](const Body& body) { return !body.is_static && !body.torque.isZero(0.0); });
 }
 
-/// The largest overlap of two bodies [m].
-double largest_overlap(const Scene& scene, int a, int b) {
-  const auto width = [&](int body) { return 2.0 * half_width(scene.bodies[index(body)].shape); };
-  return kMostOverlap * std::min(width(a), width(b));
+/// Of two bodies [m].
+double smaller_width(const Scene& scene, int a, int b) {
+  return 2.0 * std::min(half_width(scene.bodies[index(a)].shape),
+                        half_width(scene.bodies[index(b)].shape));
 }
 
 }  // namespace
 
 EnergyWatch::EnergyWatch(const Scene& scene, const FrameReport& start)
-    : lowest_(total(start)),
+    : lowest_(start.energy),
       period_lowest_(lowest_),
       kinetic_(start.kinetic),
       potential_{start.potential, start.potential},
       elastic_{start.elastic, start.elastic} {
   for (const Body& body : scene.bodies) {
-    if (body.is_static || !scene.effects.gravity) continue;
-    besides_ += kNoise * body.mass * scene.gravity.norm() * radius_around(body.shape);
+    if (body.is_static) continue;
+    const double size = radius_around(body.shape);
+    const double speed = size / scene.frame;
+    const double gravity = scene.effects.gravity ? scene.gravity.norm() : 0.0;
+    const double force = scene.effects.external ? body.force.norm() : 0.0;
+    besides_ +=
+        kNoise * (body.mass * gravity + force) * size + kRounding * body.mass * speed * speed;
   }
 }
 
@@ -68,7 +70,8 @@ void EnergyWatch::Span::add(double value) {
 
 void EnergyWatch::add(const FrameReport& report) {
   parting_ += report.parting;
-  const double energy = total(report) - parting_;
+  const double energy = report.energy - parting_;
+  stiff_ = std::max(stiff_, report.elastic - report.springs);
   const auto period = static_cast<std::int64_t>(report.time / kPeriod);
   if (period != period_) {
     sustained_ = std::max(sustained_, period_lowest_ - lowest_);
@@ -85,14 +88,16 @@ void EnergyWatch::add(const FrameReport& report) {
 
 EnergyWatch::Rise EnergyWatch::worst() const {
   const double scale = std::max({kinetic_, potential_.width(), elastic_.width()});
-  const Rise now{rise_, (period_ == 0 ? kMostAtFirst : kMostNow) * scale + besides_};
-  const Rise sustained{sustained_, kMostSustained * scale + besides_};
+  const double besides = besides_ + stiff_;
+  const Rise now{rise_, (period_ == 0 ? kMostAtFirst : kMostNow) * scale + besides};
+  const Rise sustained{sustained_, kMostSustained * scale + besides};
   return now.rise * sustained.limit > sustained.rise * now.limit ? now : sustained;
 }
 
 Verdict::Verdict(const Scene& scene, const State& state, const FrameReport& start)
-    : energy_at_start_(start.energy), overlap_at_start_(start.penetration) {
+    : energy_at_start_(start.energy), inside_at_start_(start.inside) {
   if (start.status == StepStatus::kInvalid) return;
+  judges_overlaps_ = !scene.criteria.energy_gain && !is_soft_contact(scene.contact);
   if (!scene.criteria.energy_gain && !has_torque(scene)) energy_.emplace(scene, start);
   if (!scene.criteria.displacement) return;
   watched_start_ = state.x[index(scene.criteria.displacement->body)];
@@ -124,12 +129,12 @@ void Verdict::add(const Scene& scene, const State& state, const FrameReport& rep
   } else if (judged && criteria.energy_gain) {
     judge(What::kEnergyGain, report.energy - energy_at_start_, *criteria.energy_gain, {});
   }
-  if (judged && energy_ && report.penetration_a >= 0 && !is_soft_contact(scene.contact)) {
-    const int a = report.penetration_a;
-    const int b = report.penetration_b;
-    judge(What::kOverlap, report.penetration,
-          std::max(overlap_at_start_, largest_overlap(scene, a, b)),
-          scene.bodies[index(a)].name + ", " + scene.bodies[index(b)].name);
+  if (judged && judges_overlaps_ && report.inside_a >= 0) {
+    const double width = smaller_width(scene, report.inside_a, report.inside_b);
+    inside_at_start_ = std::min(inside_at_start_, report.inside);
+    judge(What::kOverlap, report.inside * width, std::max(inside_at_start_, kMostInside) * width,
+          scene.bodies[index(report.inside_a)].name + ", " +
+              scene.bodies[index(report.inside_b)].name);
   }
   if (judged && criteria.displacement) {
     const auto body = index(criteria.displacement->body);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -89,13 +90,17 @@ inline double size_of_joint(const Scene& scene, const JointBase& joint) {
   return joint.anchor_a.norm() + arm_b + radius_around(scene.bodies[index(joint.a)].shape);
 }
 
-/// The gap at which a joint counts as torn [m]: infinite for a joint that yields, whose stretch is
-/// part of the motion, unless the scene states one.
+/// The gap at which a joint counts as torn, unless it is a spring, whose stretch is part of the
+/// motion [m].
 inline double largest_gap(const Scene& scene, const JointBase& joint) {
   constexpr double kTorn = 0.1;  // of its size
-  const bool yields = joint.compliance > 0.0;
-  return scene.criteria.joint_gap.value_or(yields ? std::numeric_limits<double>::infinity()
-                                                  : kTorn * size_of_joint(scene, joint));
+  return scene.criteria.joint_gap.value_or(kTorn * size_of_joint(scene, joint));
+}
+
+/// A larger gap at the start is an error of the scene [m].
+inline double largest_gap_at_start(const Scene& scene, const JointBase& joint) {
+  constexpr double kLeast = 0.1;  // [m]
+  return scene.criteria.joint_gap.value_or(std::max(kLeast, largest_gap(scene, joint)));
 }
 
 /// The scene's own settings: the paper's if it starts with its recommendation. Sweeps start from

@@ -56,10 +56,10 @@ void check_joint_starts(const Scene& scene, const SoundParts& sound, Problems& p
     const Pose b = pose(scene, j.b);
     const Vec3 apart = a.x + a.q * j.anchor_a - b.x - b.q * j.anchor_b;
     const double gap = gap_of(scene.joints[i], apart, b.q).norm();
-    if (gap > largest_gap(scene, j)) {
+    if (gap > largest_gap_at_start(scene, j)) {
       problems.push_back({pointer_to("/joints", i),
                           "the anchors start " + number_text(gap) + " apart, which is more than " +
-                              number_text(largest_gap(scene, j)) + " (m)"});
+                              number_text(largest_gap_at_start(scene, j)) + " (m)"});
     }
     const auto check_parallel = [&](const std::optional<JointAxes>& pair, const char* what) {
       if (!pair) return;

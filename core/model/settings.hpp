@@ -102,12 +102,10 @@ inline bool follows_accelerations(const Settings& s) {
 }
 
 /// The drift law, with kAuto resolved by solver. Only the direct solver closes joints exactly;
-/// Störmer's method aims at their end poses itself.
+/// Störmer's method aims at their end poses itself. Otherwise exact is auto.
 inline Drift drift_law(const Settings& s) {
-  if (s.drift == Drift::kExact && (s.solver != SolverKind::kBpp || follows_accelerations(s))) {
-    return Drift::kFull;
-  }
-  if (s.drift != Drift::kAuto) return s.drift;
+  const bool closes = s.solver == SolverKind::kBpp && !follows_accelerations(s);
+  if (s.drift != Drift::kAuto && (s.drift != Drift::kExact || closes)) return s.drift;
   return entry_of(s.solver).soft_drift ? Drift::kSoft : Drift::kFull;
 }
 

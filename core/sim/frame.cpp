@@ -267,10 +267,10 @@ double Simulator::Impl::stiff_elastic() const {
   double lambda[kMaxRows];
   for (const Block& block : blocks.all()) {
     const bool is_joint = !block.is_contact() && block.id < scene->joints.size();
-    if (!is_joint && (!block.is_contact() || is_soft_contact(block))) continue;
+    if (!is_joint) continue;
     find_lambda(current, block, lambda);
     for (int row = 0; row < block.rows; ++row) {
-      if (is_joint && joints->is_spring(index(static_cast<int>(block.id)), row, block)) continue;
+      if (joints->is_spring(index(static_cast<int>(block.id)), row, block)) continue;
       energy += 0.5 * block.C[row] * lambda[row] * lambda[row];
     }
   }
@@ -305,14 +305,16 @@ void Simulator::Impl::observe(const Measures& asked, std::span<const Mat3> axes,
   if (detector != nullptr && (asked.errors || (asked.energies && soft))) {
     const Overlaps found = overlaps(*detector, *scene, all, state, axes);
     report.penetration = found.deepest;
-    report.penetration_a = found.a;
-    report.penetration_b = found.b;
+    report.inside = found.inside;
+    report.inside_a = found.a;
+    report.inside_b = found.b;
     if (soft) report.springs += 0.5 * found.squares / scene->contact.compliance;
   }
   report.energy = energies.sum() + report.springs;
   report.elastic = report.springs + (asked.energies ? stiff_elastic() : 0.0);
   if (!asked.errors) {
-    report.constraint_error = report.joint_gap = report.torn = report.penetration = kNotMeasured;
+    report.constraint_error = report.joint_gap = report.torn = report.penetration = report.inside =
+        kNotMeasured;
   }
 }
 

@@ -133,20 +133,21 @@ struct FrameReport {
   double r_rotation = 0.0;   // rotation and gyroscopic rate of the fastest-spinning body [1/s^2]
   int rotation_body = -1;    // that body; -1 if none spins or the setting is off
 
-  double kinetic = 0.0;           // synchronised with the positions [J]
-  double potential = 0.0;         // gravity and constant forces [J]
-  double elastic = 0.0;           // in compliant joints and contacts [J]
-  double springs = 0.0;           // of it, in those whose oscillation a frame resolves [J]
-  double energy = 0.0;            // kinetic + potential + springs [J]
-  double parting = 0.0;           // potential energy added in this frame by parting overlaps [J]
+  double kinetic = 0.0;    // synchronised with the positions [J]
+  double potential = 0.0;  // gravity and constant forces [J]
+  double elastic = 0.0;    // in compliant joints of the last sub-step, and in soft contacts [J]
+  double springs = 0.0;    // of it, in those whose oscillation a frame resolves [J]
+  double energy = 0.0;     // kinetic + potential + springs [J]
+  double parting = 0.0;    // potential energy added in this frame by parting overlaps [J]
   double constraint_error = 0.0;  // sum over joints of the 1-norm of phi [m, rad]
   double joint_gap = 0.0;         // largest distance between the anchors of a joint [m]
   int joint_gap_joint = -1;       // index of that joint
   double torn = 0.0;              // largest gap of a joint, of the gap at which it is torn [-]
   int torn_joint = -1;            // index of that joint
   double penetration = 0.0;       // largest overlap of a contact, >= 0 [m]
-  int penetration_a = -1;         // the two bodies of that contact
-  int penetration_b = -1;
+  double inside = 0.0;            // largest overlap of a pair, of the width of the smaller body [-]
+  int inside_a = -1;              // that pair
+  int inside_b = -1;
 
   int joint_rows = 0;     // in the last sub-step
   int contact_rows = 0;   // normals, in the last sub-step

@@ -83,9 +83,10 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
   const auto overlaps = [&](const Block& block) { return parts(block); };
   bool shifts = found != SweptContacts::Found::kNothing ||
                 std::any_of(sub.rows.begin(), sub.rows.end(), overlaps);
-  const double before = lift_by_shift(sub);
   for (int shifted = 0; shifts; ++shifted) {
+    const double before = lift_by_shift(sub);
     const bool found_shift = shifted < kMostShifts && find_shift(sub, report);
+    if (found_shift) report.parting += lift_by_shift(sub) - before;
     if (report.status != StepStatus::kOk) return false;
     if (!found_shift) {  // the bodies stop where they meet
       const double rest = 1.0 - swept->earliest() / sub.dt;
@@ -94,7 +95,6 @@ bool Simulator::Impl::solve_swept(Substep& sub, FrameReport& report) {
     }
     shifts = sweep(sub) != SweptContacts::Found::kNothing;
   }
-  report.parting += lift_by_shift(sub) - before;
   blocks.keep(solved);  // those found since have no forces
   sub.rows = blocks.from(first_block);
   return true;

@@ -7,11 +7,11 @@ namespace substep {
 
 namespace {
 
-constexpr double kTolerance = 1e-10;     // on bounds and complementarity, times 1 + |impulse|
-constexpr double kConeTolerance = 1e-4;  // on the direction of friction [rad]
-constexpr int kPasses = 4;               // refreshes of the friction bounds, the first included
-constexpr int kSinglePivots = 50;        // per solve: Murty's rule terminates; this bounds its time
-constexpr int kSweeps = 100;             // sweeps of the fallback: 25 do not hold a house of cards
+constexpr double kTolerance = 1e-10;    // on bounds and complementarity, times 1 + |impulse|
+constexpr double kLeastSliding = 1e-6;  // of the normal speed: slower has no direction [-]
+constexpr int kPasses = 4;              // refreshes of the friction bounds, the first included
+constexpr int kSinglePivots = 50;       // per solve: Murty's rule terminates; this bounds its time
+constexpr int kSweeps = 100;            // sweeps of the fallback: 25 do not hold a house of cards
 
 bool any_tight(const Block& block) {
   return std::any_of(block.active_set, block.active_set + block.rows,
@@ -24,14 +24,6 @@ bool has_known_set(const Block& block) {
     return false;  // a normal has no upper bound
   return std::all_of(block.active_set + 1, block.active_set + block.rows,
                      [](std::int8_t t) { return -1 <= t && t <= 1; });
-}
-
-/// True if a contact sticks and its friction is within the cone.
-bool sticks(const Block& block) {
-  const double bound = block.mu * std::max(0.0, block.impulse[0]);
-  const double* f = block.impulse + 1;
-  return block.active_set[1] == 0 && block.active_set[2] == 0 &&
-         f[0] * f[0] + f[1] * f[1] <= bound * bound;
 }
 
 double tolerance(double impulse) { return kTolerance * (1.0 + std::abs(impulse)); }
@@ -52,11 +44,10 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
     over_limits(system, report);
     return;
   }
-  const bool cone = settings.friction_cone == FrictionCone::kCone;
   int single_pivots = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     ++report.passes;
-    set_friction_bounds(system, cone, pass == 0);
+    set_friction_bounds(system);
     for (int step = 0;; ++step) {
       solve_active_set(system);
       if (over_limits(system, report)) return;
@@ -67,7 +58,7 @@ void Bpp::find_active_set(const System& system, const Settings& settings, SolveR
       go_on_with_gauss_seidel(system, settings, report);
       return;
     }
-    if (bounds_settled(system, cone)) return;
+    if (bounds_settled(system)) return;
   }
   report.status = SolveStatus::kUnsettled;
 }
@@ -86,6 +77,7 @@ void Bpp::centre(const System& system) {
 }
 
 SolveReport Bpp::find_velocities(const System& system, const Settings& settings) {
+  if (settings.friction_cone == FrictionCone::kCone) align_tangents(system);
   if (!ldlt_.begin(system)) {
     return {.status = SolveStatus::kOverLimits, .memory_needed = ldlt_.needed_memory()};
   }
@@ -216,64 +208,58 @@ void Bpp::start_active_set(const System& system) {
   }
 }
 
-// Sliding contact: the bisector of its force and the direction opposing the sliding, which halves
-// their angle per pass. Before the first solve: the sliding due to external forces. A contact that
-// sticks can take force in both tangents: with the box pointed along its force it would be free to
-// slide across it, and a house of cards would creep and fall. Beyond the cone: along its force.
-void Bpp::turn_cone(const System& system, bool first, Block& block) const {
-  if (sticks(block)) {
-    block.share[0] = block.share[1] = 1.0;
-    return;
+// With the cone, the first tangent points along the sliding that the bodies would have without
+// friction. A contact that slides then takes mu times its normal force against it, whatever its
+// direction, and one that sticks takes as much before it slides. Pointing the box itself at the
+// force instead would leave a contact that sticks free to slide across its force.
+void Bpp::align_tangents(const System& system) {
+  for (Block& block : system.blocks) {
+    if (block.rows != 3 || !block.is_contact()) continue;
+    double speed[kMaxRows];
+    row_speeds(block, system.u, speed);
+    const double length = std::sqrt(speed[1] * speed[1] + speed[2] * speed[2]);
+    if (!(length > kLeastSliding * std::abs(speed[0]))) continue;
+    const double c = speed[1] / length;
+    const double s = speed[2] / length;
+    const auto turn = [&](double& along_t1, double& along_t2) {
+      const double first = c * along_t1 + s * along_t2;
+      along_t2 = c * along_t2 - s * along_t1;
+      along_t1 = first;
+    };
+    for (int j = 0; j < 6; ++j) {
+      turn(block.J_a[1][j], block.J_a[2][j]);
+      turn(block.J_b[1][j], block.J_b[2][j]);
+    }
+    for (int j = 0; j < 3; ++j) turn(block.t1[j], block.t2[j]);
+    turn(block.bias[1], block.bias[2]);
+    turn(block.given[1], block.given[2]);
+    turn(block.impulse[1], block.impulse[2]);
   }
-  double speed[kMaxRows];
-  row_speeds(block, system.u, speed);
-  double along[2] = {};
-  double length = 0.0;
-  for (int k = 0; k < 2; ++k) {
-    along[k] = first || block.active_set[1 + k] != 0 ? -speed[1 + k] : 0.0;
-    length += along[k] * along[k];
-  }
-  length = std::sqrt(length);
-  const double bound = block.mu * std::max(0.0, block.impulse[0]);
-  for (int k = 0; k < 2; ++k) {
-    if (length > 0.0) along[k] *= first ? 1.0 : bound / length;
-    if (!first) along[k] += block.impulse[1 + k];
-  }
-  point_cone(block, along[0], along[1]);
 }
 
-void Bpp::set_friction_bounds(const System& system, bool cone, bool first) {
+void Bpp::set_friction_bounds(const System& system) {
   const std::span<Block> blocks = system.blocks;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     Block& block = blocks[i];
     if (block.rows != 3 || !block.is_contact()) continue;
-    if (cone) turn_cone(system, first, block);
     friction_bound_[i] = block.mu * std::max(0.0, block.impulse[0]);
     for (int row = 1; row < 3; ++row) {  // zero bound: never free
-      if (friction_bound_[i] * block.share[row - 1] > 0.0 || block.active_set[row] != 0) continue;
+      if (friction_bound_[i] > 0.0 || block.active_set[row] != 0) continue;
       block.active_set[row] = -1;
       ldlt_.touch(i);
     }
   }
 }
 
-bool Bpp::bounds_settled(const System& system, bool cone) const {
+bool Bpp::bounds_settled(const System& system) const {
   const std::span<const Block> blocks = system.blocks;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const Block& block = blocks[i];
     if (block.rows != 3 || !block.is_contact()) continue;
     const double bound = block.mu * std::max(0.0, block.impulse[0]);
     const double room = tolerance(bound);
-    if (cone && !sticks(block)) {
-      Block turned = block;
-      turn_cone(system, false, turned);
-      const double off = block.share[0] * turned.share[1] - block.share[1] * turned.share[0];
-      if (bound * std::abs(off) > kConeTolerance * bound + room) return false;
-    }
     for (int row = 1; row < 3; ++row) {
-      const double free_bound = bound * block.share[row - 1];
-      if (block.active_set[row] == 0 && std::abs(block.impulse[row]) > free_bound + room)
-        return false;
+      if (block.active_set[row] == 0 && std::abs(block.impulse[row]) > bound + room) return false;
       if (block.active_set[row] != 0 && std::abs(bound - friction_bound_[i]) > room) return false;
     }
   }
@@ -286,8 +272,7 @@ void Bpp::solve_active_set(const System& system) {
     if (!block.is_contact()) continue;
     for (int row = 0; row < block.rows; ++row) {
       if (block.active_set[row] != 0)
-        block.impulse[row] =
-            row == 0 ? 0.0 : block.active_set[row] * (friction_bound_[i] * block.share[row - 1]);
+        block.impulse[row] = row == 0 ? 0.0 : block.active_set[row] * friction_bound_[i];
     }
   }
   ldlt_.solve(system);
@@ -309,7 +294,7 @@ int Bpp::pivot(const System& system, bool one_only) {
     double speed[kMaxRows];
     if (any_tight(block)) row_speeds(block, system.u, speed);
     for (int row = 0; row < block.rows; ++row) {
-      const double hi = row == 0 ? kUnbounded : friction_bound_[i] * block.share[row - 1];
+      const double hi = row == 0 ? kUnbounded : friction_bound_[i];
       const double lo = row == 0 ? 0.0 : -hi;
       if (hi == lo) continue;
       const double x = block.impulse[row];

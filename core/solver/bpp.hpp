@@ -38,11 +38,11 @@ class Bpp final : public Solver {
     std::int8_t set = 0;
   };
   void start_active_set(const System& system);
-  void set_friction_bounds(const System& system, bool cone, bool first);
-  /// Rotates a contact's friction box to oppose its sliding. @param first true in the first pass
-  void turn_cone(const System& system, bool first, Block& block) const;
+  /// Rotates the tangents of contacts, with their rows, to the direction of sliding.
+  static void align_tangents(const System& system);
+  void set_friction_bounds(const System& system);
   /// True if the solution stays valid under the friction bounds it implies.
-  [[nodiscard]] bool bounds_settled(const System& system, bool cone) const;
+  [[nodiscard]] bool bounds_settled(const System& system) const;
   void solve_active_set(const System& system);
   /// Moves infeasible rows to the correct set. @param one_only only the last such row @return
   /// number of infeasible rows

@@ -62,8 +62,9 @@ TEST(Recommended, DoesNotReplaceTheSettingsOfAScene) {
   EXPECT_EQ(scene->settings, PaperSettings{.solver = SolverKind::kPgs})
       << "omitted settings have the default, not the recommended value";
   EXPECT_EQ(own_settings(*scene), scene->settings);
-  // An empty block is a choice too: the defaults.
-  EXPECT_EQ(scene_of(with(kSettings, R"("settings": {}, )" + kRecommended))->settings, Settings{});
+  // An empty block chooses nothing.
+  EXPECT_EQ(scene_of(with(kSettings, R"("settings": {}, )" + kRecommended))->settings,
+            some_recommended().settings);
 }
 
 TEST(Recommended, IsWrittenBackToTheSameBytes) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <string_view>
 
@@ -75,7 +74,7 @@ struct BasicSettings {
   // NOLINTNEXTLINE(google-explicit-constructor): the same settings, whatever their defaults
   template <Defaults kOther>
   requires(kOther != kDefaults) constexpr operator BasicSettings<kOther>() const {
-    return std::bit_cast<BasicSettings<kOther>>(*this);
+    return __builtin_bit_cast(BasicSettings<kOther>, *this);  // libc++ 14 has no std::bit_cast
   }
   friend bool operator==(const BasicSettings&, const BasicSettings&) = default;
   template <Defaults kOther>
